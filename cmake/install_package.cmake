@@ -1,0 +1,18 @@
+# find_package(flinch COMPONENTS ...): each library is a component that brings its own dependencies.
+include(CMakePackageConfigHelpers)
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/flinch)
+get_property(libraries GLOBAL PROPERTY flinch_libraries)
+foreach(name IN LISTS libraries)
+  install(EXPORT flinch-targets-${name} NAMESPACE flinch:: DESTINATION ${package_dir})
+endforeach()
+
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/flinch-config.cmake.in flinch-config.cmake
+  INSTALL_DESTINATION ${package_dir} NO_SET_AND_CHECK_MACRO)
+write_basic_package_version_file(flinch-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES
+  ${CMAKE_CURRENT_BINARY_DIR}/flinch-config.cmake
+  ${CMAKE_CURRENT_BINARY_DIR}/flinch-config-version.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/FindHDF5Serial.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/FindBulletFloat64.cmake
+  DESTINATION ${package_dir})

@@ -1,0 +1,42 @@
+# What can be switched, and the flags that every target of the project is compiled with.
+
+option(FLINCH_BUILD_PLANT "Simulated robot (needs SUNDIALS and Bullet)" ON)
+option(FLINCH_BUILD_APPS "The flinch program and the examples" ${PROJECT_IS_TOP_LEVEL})
+option(FLINCH_BUILD_TESTS "Tests and benchmarks" ${PROJECT_IS_TOP_LEVEL})
+option(FLINCH_DEVELOPER "Warnings are errors" ${PROJECT_IS_TOP_LEVEL})
+option(FLINCH_ASSERTIONS "assert(), Eigen's and the standard library's checks, in every build type" OFF)
+set(FLINCH_SANITIZE "" CACHE STRING "Sanitizers to compile with, e.g. address,undefined or thread")
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+
+if(PROJECT_IS_TOP_LEVEL)
+  set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+  if(NOT CMAKE_BUILD_TYPE)
+    set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+  endif()
+  set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
+  set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O2 -g1")
+
+  find_program(FLINCH_CCACHE ccache)
+  if(FLINCH_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+    # The sloppiness lets ccache serve files that use a precompiled header.
+    set(CMAKE_CXX_COMPILER_LAUNCHER
+      ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${FLINCH_CCACHE})
+  endif()
+endif()
+
+# No contraction into fused multiply-add: results are the same bits whichever compiler built them.
+add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)
+if(FLINCH_DEVELOPER)
+  add_compile_options(-Wall -Wextra -Wconversion -Wshadow -Werror)
+endif()
+if(FLINCH_ASSERTIONS)
+  add_compile_options(-UNDEBUG)
+  add_compile_definitions(_GLIBCXX_ASSERTIONS)
+endif()
+if(FLINCH_SANITIZE)
+  add_compile_options(-fsanitize=${FLINCH_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${FLINCH_SANITIZE})
+endif()
