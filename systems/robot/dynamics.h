@@ -1,0 +1,18 @@
+#pragma once
+
+#include "systems/robot/vectors.h"
+
+namespace flinch {
+
+/// Equations of motion in platform coordinates, [SafePR] (4):
+///   M_x ddx + C_x dx + g_x + F_fr_x = F_a + F_ext.
+/// C_x is the Christoffel matrix, so that dM_x/dt = C_x + C_x^T. Planar units: rows 1, 2 in N, row 3 in Nm.
+struct Dynamics {
+  PlatformMatrix M_x;
+  PlatformMatrix C_x;
+  PlatformVector g_x;     ///< Gravity wrench that the drives must hold.
+  PlatformVector F_fr_x;  ///< Friction of active and passive joints.
+  bool valid = false;     ///< The pose was reachable and all entries are finite. Otherwise they are zero.
+};
+
+}  // namespace flinch
