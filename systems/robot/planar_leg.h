@@ -1,0 +1,70 @@
+#pragma once
+
+#include <Eigen/Core>
+
+/// One leg of a planar 3-RRR: a base joint, a first link, an elbow (the passive joint), a second link, and
+/// the coupling joint on the platform. Base frame, m and rad; u1, u2 are the directions of the links, theta1
+/// and theta2 their angles, qp = theta2 - theta1, d the arm from the platform origin to the coupling joint.
+namespace flinch {
+
+/// Constant geometry of a leg.
+struct PlanarLegGeometry {
+  Eigen::Vector2d base_joint;            ///< a
+  Eigen::Vector2d base_direction;        ///< u(psi), from which the drive angle is measured.
+  Eigen::Vector2d coupling_in_platform;  ///< r_c u(beta), in frame E.
+  double link1_length = 0.0;
+  double link2_length = 0.0;
+};
+
+/// A leg closed at a pose of the platform.
+struct PlanarLeg {
+  Eigen::Vector2d base_joint, passive_joint, coupling_joint;
+  Eigen::Vector2d arm;     ///< d
+  Eigen::Vector2d u1, u2;  ///< Unit vectors along the links, towards the platform.
+  double sin_qp = 0.0;
+  double cos_qp = 0.0;
+  bool reachable = false;  ///< Otherwise no other entry but joints at base and coupling means anything.
+};
+
+/// How a leg moves with the platform. Rows map platform velocity (dx, dy, dphi) to joint rates.
+struct PlanarLegMotion {
+  PlanarLeg leg;
+  Eigen::RowVector3d J_qa;      ///< To the rate of the first link, which is the drive's.
+  Eigen::RowVector3d J_theta2;  ///< To the absolute rate of the second link.
+  double qa_rate = 0.0;         ///< [rad/s]
+  double theta2_rate = 0.0;     ///< [rad/s]
+};
+
+/// Time derivatives of the rows of PlanarLegMotion.
+struct PlanarLegJacobianRate {
+  Eigen::RowVector3d dJ_qa;
+  Eigen::RowVector3d dJ_theta2;
+};
+
+/// a x b in the plane.
+inline double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// v turned by +90 degrees.
+inline Eigen::Vector2d normal(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
+
+/// v, given in a frame whose x axis points along the unit vector `axis`, in the frame of `axis`.
+inline Eigen::Vector2d rotate(const Eigen::Vector2d& axis, const Eigen::Vector2d& v) {
+  return v.x() * axis + v.y() * normal(axis);
+}
+
+/// Closes a leg by intersecting the circles of its two links; `elbow_sign` is the sign of sin qp. The
+/// platform has its origin at `origin` and its x axis along the unit vector `axis`.
+PlanarLeg close_leg(const PlanarLegGeometry& geometry, const Eigen::Vector2d& origin,
+                    const Eigen::Vector2d& axis, double elbow_sign) noexcept;
+
+/// Jacobian rows and rates of a reachable leg. Robot theory, "Differential kinematics".
+PlanarLegMotion leg_motion(const PlanarLegGeometry& geometry, const PlanarLeg& leg,
+                           const Eigen::Vector3d& velocity) noexcept;
+
+/// Time derivatives of the Jacobian rows; `phi_rate` is the platform's [rad/s].
+PlanarLegJacobianRate leg_jacobian_rate(const PlanarLegGeometry& geometry, const PlanarLegMotion& motion,
+                                        double phi_rate) noexcept;
+
+}  // namespace flinch

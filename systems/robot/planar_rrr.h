@@ -1,0 +1,90 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+
+#include "systems/robot/parallel_robot.h"
+#include "systems/robot/planar_motion.h"
+#include "systems/robot/planar_rrr_parameters.h"
+
+namespace flinch {
+
+/// The planar 3-RRR of [SafePR], [ICRA23]: n = 3, platform coordinates (x, y, phi), singularities where a leg
+/// is stretched or folded (type I) or the lines of the second links meet in one point or are parallel (type
+/// II).
+class PlanarRrr final : public ParallelRobot {
+ public:
+  /// Throws SetupError with all `problems(parameters)`.
+  explicit PlanarRrr(const PlanarRrrParameters& parameters);
+
+  const PlanarRrrParameters& parameters() const noexcept { return parameters_; }
+
+  const std::string& name() const noexcept override { return parameters_.name; }
+  int dof() const noexcept override { return 3; }
+  int legs() const noexcept override { return 3; }
+  int space_dimension() const noexcept override { return 2; }
+  Eigen::Vector3d gravity() const noexcept override { return parameters_.gravity; }
+  double platform_hull_radius() const noexcept override { return parameters_.platform_hull_radius; }
+  double link_radius() const noexcept override { return parameters_.link_radius; }
+  double link_length(BodyId body) const noexcept override;
+  PlatformVector home_pose() const noexcept override { return parameters_.home_pose; }
+  WorkingMode home_working_mode() const noexcept override;
+
+  PlatformVector difference(const PlatformVector& a, const PlatformVector& b) const noexcept override;
+  InverseSolution inverse_kinematics(const PlatformVector& pose,
+                                     const WorkingMode& mode) const noexcept override;
+  ForwardSolution forward_kinematics(const JointVector& active, const PlatformVector& start,
+                                     const WorkingMode& mode) const noexcept override;
+  PlatformVector start_pose(const JointVector& active, const JointVector& passive) const noexcept override;
+  WorkingMode working_mode(const JointVector& passive) const noexcept override;
+  double chain_closure_error(const JointVector& active, const JointVector& passive,
+                             const PlatformVector& pose) const noexcept override;
+
+  using ParallelRobot::kinematics;
+  void kinematics(const PlatformVector& pose, const PlatformVector& velocity, const WorkingMode& mode,
+                  Kinematics& out) const noexcept override;
+  void dynamics(const Kinematics& kinematics, Dynamics& out) const noexcept override;
+  CartesianVector point_on_body(const Kinematics& kinematics, BodyId body,
+                                const CartesianVector& point_in_body) const noexcept override;
+  ContactJacobian contact_jacobian(const Kinematics& kinematics, BodyId body,
+                                   const CartesianVector& point_in_body) const noexcept override;
+
+  // ------------------------------------------------ fixed-size path for simulation, home working mode
+
+  /// Legs closed at a pose, their Jacobians and rates.
+  PlanarMotion motion(const Eigen::Vector3d& pose, const Eigen::Vector3d& velocity) const noexcept;
+
+  /// Forward dynamics [m/s^2, m/s^2, rad/s^2] of a reachable motion under `drive_torques` [Nm] and an
+  /// external platform wrench [N, N, Nm]. Regular at type-II singularities too.
+  Eigen::Vector3d acceleration(const PlanarMotion& motion, const Eigen::Vector3d& drive_torques,
+                               const Eigen::Vector3d& external_wrench) const noexcept;
+
+  /// The same from pose and velocity; nothing if the pose is out of reach or not finite.
+  std::optional<Eigen::Vector3d> acceleration(const Eigen::Vector3d& pose, const Eigen::Vector3d& velocity,
+                                              const Eigen::Vector3d& drive_torques,
+                                              const Eigen::Vector3d& external_wrench) const noexcept;
+
+  /// Kinetic energy of a reachable motion, summed over links, rotors and platform [J].
+  double kinetic_energy(const PlanarMotion& motion) const noexcept;
+
+  /// Power that friction takes from a reachable motion [W], never negative.
+  double friction_power(const PlanarMotion& motion) const noexcept;
+
+ private:
+  using ElbowSigns = std::array<double, 3>;
+
+  std::array<PlanarLeg, 3> close_legs(const Eigen::Vector3d& pose, const ElbowSigns& signs) const noexcept;
+  PlanarMotion motion(const Eigen::Vector3d& pose, const Eigen::Vector3d& velocity,
+                      const ElbowSigns& signs) const noexcept;
+  JointAngles joint_angles(const std::array<PlanarLeg, 3>& legs, double phi) const noexcept;
+  double active_angle(int leg, const PlanarLeg& closed) const noexcept;
+  Eigen::Vector2d chain_tip(int leg, double active, double passive) const noexcept;
+
+  PlanarRrrParameters parameters_;
+  std::array<PlanarLegGeometry, 3> geometry_;
+  ElbowSigns home_signs_;
+};
+
+}  // namespace flinch
