@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+
+#include "systems/control/brake_command.h"
+#include "systems/control/torque_command.h"
+#include "systems/framework/port.h"
+#include "systems/sensors/drive_reading.h"
+#include "systems/sensors/force_torque_reading.h"
+#include "systems/sensors/imu_reading.h"
+#include "systems/sensors/joint_reading.h"
+#include "systems/sensors/station_status.h"
+
+namespace flinch {
+
+/// The contract of whatever stands for the robot, simulated, real or recorded: the ports of a nested diagram.
+/// A reading that is not there, late or broken is marked invalid; it is never zero instead.
+struct Station {
+  InputPort<TorqueCommand> torque_command;
+  InputPort<BrakeCommand> brake;
+
+  OutputPort<JointReading> joints;
+  OutputPort<DriveReading> drives;
+  OutputPort<ImuReading> imu;
+  OutputPort<StationStatus> status;
+  std::optional<OutputPort<ForceTorqueReading>> force_torque;  ///< where the instrument is mounted
+};
+
+}  // namespace flinch

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "systems/framework/port.h"
+#include "systems/framework/time.h"
+
+namespace flinch {
+
+class Diagram;
+class Layout;
+
+/// Where one value lies in every Context of a diagram: Diagram::slot() finds it once, Context::operator[] is then one
+/// addition.
+template <class T>
+struct Slot {
+  std::uint32_t offset = 0;
+};
+
+/// Everything of a running diagram that changes: the time, every port value and every state, in one block of memory,
+/// apart from the diagram, which is const and can be shared. Copy it to snapshot, to rewind or to run a thousand
+/// trials side by side, each in its own thread. Assigning between Contexts of one diagram does not allocate. The
+/// diagram must outlive its Contexts.
+class Context {
+ public:
+  explicit Context(const Diagram& diagram);
+  Context(const Context& other);
+  Context(Context&& other) noexcept;
+  Context& operator=(const Context& other);
+  Context& operator=(Context&& other) noexcept;
+  ~Context();
+
+  Time time() const { return *reinterpret_cast<const Time*>(memory_.get()); }
+  void set_time(Time time) { *reinterpret_cast<Time*>(memory_.get()) = time; }
+
+  const Diagram& diagram() const { return *diagram_; }
+
+  /// The value of a port or state. Input ports show the value of the output that they are connected to.
+  template <class Port>
+  const typename Port::Value& get(Port port) const {
+    return *reinterpret_cast<const typename Port::Value*>(memory_.get() + offset_of(port.id));
+  }
+
+  /// Sets an input of the diagram itself, before a tick. Throws SetupError for any other input.
+  template <class T>
+  void set(InputPort<T> input, const T& value) {
+    *reinterpret_cast<T*>(memory_.get() + offset_of_external(input.id)) = value;
+  }
+
+  /// Overwrites a state.
+  template <class T>
+  void set(State<T> state, const T& value) {
+    set_state(state.id, &value);
+  }
+
+  template <class T>
+  const T& operator[](Slot<T> slot) const {
+    return *reinterpret_cast<const T*>(memory_.get() + slot.offset);
+  }
+  template <class T>
+  T& operator[](Slot<T> slot) {
+    return *reinterpret_cast<T*>(memory_.get() + slot.offset);
+  }
+
+  std::byte* memory() { return memory_.get(); }
+  const std::byte* memory() const { return memory_.get(); }
+
+ private:
+  struct FreeMemory {
+    void operator()(std::byte* memory) const;
+  };
+
+  std::uint32_t offset_of(PortId port) const;
+  std::uint32_t offset_of_external(PortId port) const;
+  void set_state(PortId state, const void* value);
+  void destroy_values();
+
+  const Diagram* diagram_;
+  std::unique_ptr<std::byte, FreeMemory> memory_;
+};
+
+}  // namespace flinch

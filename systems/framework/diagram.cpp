@@ -1,0 +1,111 @@
+#include "systems/framework/diagram.h"
+
+#include <algorithm>
+
+#include "systems/foundation/nearest_name.h"
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+
+Diagram::~Diagram() = default;
+
+void Diagram::run(const std::vector<Call>& calls, std::byte* memory) const {
+  const std::uint32_t* offsets = offsets_.data();
+  for (const Call& call : calls) call.function(*call.block, memory, offsets + call.first_offset);
+}
+
+void Diagram::evaluate(Context& context) const { run(outputs_in_order_, context.memory()); }
+
+void Diagram::update(Context& context) const {
+  std::byte* memory = context.memory();
+  const Time now = context.time();
+  for (const UpdateGroup& group : update_groups_) {
+    if (group.every.due(now)) run(group.calls, memory);
+  }
+  for (const UpdateGroup& group : update_groups_) {
+    if (!group.every.due(now)) continue;
+    for (const StateCell& cell : group.written) cell.type->copy_assign(memory + cell.current, memory + cell.next);
+  }
+}
+
+void Diagram::get_continuous(const Context& context, std::span<double> numbers) const {
+  auto to = numbers.begin();
+  for (const StateCell& cell : continuous_cells_) {
+    auto* memory = const_cast<std::byte*>(context.memory() + cell.current);  // numbers() only looks
+    const std::span<const double> value = cell.type->numbers(memory);
+    to = std::copy(value.begin(), value.end(), to);
+  }
+}
+
+void Diagram::set_continuous(Context& context, std::span<const double> numbers) const {
+  auto from = numbers.begin();
+  for (const StateCell& cell : continuous_cells_) {
+    const std::span<double> value = cell.type->numbers(context.memory() + cell.current);
+    std::copy_n(from, value.size(), value.begin());
+    from += static_cast<std::ptrdiff_t>(value.size());
+  }
+}
+
+void Diagram::begin_step(Context& context) const { run(constant_in_step_, context.memory()); }
+
+void Diagram::derivatives(Context& context, std::span<double> rates) const {
+  run(varying_in_step_, context.memory());
+  run(derivative_calls_, context.memory());
+  auto to = rates.begin();
+  for (const StateCell& cell : continuous_cells_) {
+    const std::span<double> rate = cell.type->numbers(context.memory() + cell.next);
+    to = std::copy(rate.begin(), rate.end(), to);
+  }
+}
+
+std::uint32_t Diagram::offset(PortId port) const {
+  if (!layout_.contains(port)) {
+    throw SetupError("a port of a block that is not in the diagram '" + name() + "' was asked for");
+  }
+  return layout_.offset(port);
+}
+
+void Diagram::collect_taps(const Diagram& diagram, const std::string& prefix, std::vector<Tap>& taps) const {
+  for (std::size_t i = 0; i < diagram.outputs().size(); ++i) {
+    const PortId port{&diagram, PortId::Kind::output, static_cast<int>(i)};
+    taps.push_back({prefix + diagram.outputs()[i].name, port, diagram.outputs()[i].type, offset(port)});
+  }
+  for (const auto& child : diagram.children_) {
+    const std::string inner = prefix + child->name() + "/";
+    if (const auto* nested = dynamic_cast<const Diagram*>(child.get())) {
+      collect_taps(*nested, inner, taps);
+      continue;
+    }
+    for (std::size_t i = 0; i < child->outputs().size(); ++i) {
+      const PortId port{child.get(), PortId::Kind::output, static_cast<int>(i)};
+      taps.push_back({inner + child->outputs()[i].name, port, child->outputs()[i].type, offset(port)});
+    }
+  }
+}
+
+std::vector<Diagram::Tap> Diagram::taps() const {
+  std::vector<Tap> taps;
+  for (std::size_t i = 0; i < inputs().size(); ++i) {
+    const PortId port{this, PortId::Kind::input, static_cast<int>(i)};
+    taps.push_back({inputs()[i].name, port, inputs()[i].type, offset(port)});
+  }
+  collect_taps(*this, "", taps);
+  return taps;
+}
+
+Diagram::Tap Diagram::tap(const std::string& path) const {
+  std::vector<std::string> paths;
+  for (Tap& tap : taps()) {
+    if (tap.path == path) return tap;
+    paths.push_back(std::move(tap.path));
+  }
+  throw SetupError("the diagram '" + name() + "' has no port '" + path + "'" + did_you_mean(path, paths));
+}
+
+std::string Diagram::schedule() const {
+  std::string text;
+  for (const std::string& line : schedule_lines_) text += line + "\n";
+  return text;
+}
+
+}  // namespace flinch

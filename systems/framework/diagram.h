@@ -1,0 +1,134 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "systems/framework/block_function.h"
+#include "systems/framework/context.h"
+#include "systems/framework/layout.h"
+#include "systems/framework/system.h"
+
+namespace flinch {
+
+/// Blocks wired together, checked and put in order by DiagramBuilder::build(). A diagram is itself a System: it exports
+/// ports and nests. It never changes; what changes lives in Contexts, so threads may share it.
+///
+/// Its meaning, tick by tick, with tick period T and t_k = k T:
+///
+///   x     := initial value of every state
+///   for k = 0, 1, 2, ...
+///     u   := the diagram's input ports, as set from outside before the tick
+///     y   := every output, from x, u and t_k, each once, in an order in which what is read comes first
+///     recorders see y and u
+///     x_d := every update that is due at t_k, all computed from the old x and from y, then all written at once
+///     x_c := the continuous states integrated from t_k to t_{k+1}, with u and the new x_d held; inside that step only
+///            the outputs that a derivative depends on are computed again
+///
+/// So a state that an update writes at t_k acts from t_k on: a value held by it is a zero-order hold without delay in
+/// continuous time, and one tick of delay between discrete blocks.
+class Diagram : public System {
+ public:
+  ~Diagram() override;
+
+  /// A Context with every state at its initial value. Outputs are valid after the first evaluate().
+  Context make_context() const { return Context(*this); }
+
+  /// The time from one tick to the next.
+  Time tick() const { return tick_; }
+
+  /// y: computes every output. Never allocates.
+  void evaluate(Context& context) const;
+  /// x_d: runs the updates that are due at the context's time. Needs evaluate() before. Never allocates.
+  void update(Context& context) const;
+
+  /// How many numbers the continuous states have together.
+  std::size_t continuous_size() const { return continuous_size_; }
+  void get_continuous(const Context& context, std::span<double> numbers) const;
+  void set_continuous(Context& context, std::span<const double> numbers) const;
+  /// Computes what the derivatives depend on and what stays constant during a step: once before derivatives().
+  void begin_step(Context& context) const;
+  /// The time derivative [per second] of the continuous states in `context`.
+  void derivatives(Context& context, std::span<double> rates) const;
+
+  /// Where the value of `port` lies, for repeated access.
+  template <class Port>
+  Slot<typename Port::Value> slot(Port port) const {
+    return {offset(port.id)};
+  }
+
+  /// The blocks directly inside, in the order in which they were added.
+  const std::vector<std::unique_ptr<System>>& children() const { return children_; }
+
+  /// A port of any block inside, by its path: "station/encoders/joints"; inputs and outputs, exported ones as well.
+  struct Tap {
+    std::string path;
+    PortId port;
+    const ValueType* type;
+    std::uint32_t offset;
+  };
+  /// All output ports and inputs of the diagram itself, in the order in which they are declared.
+  std::vector<Tap> taps() const;
+  /// The tap called `path`. Throws SetupError naming the nearest existing path.
+  Tap tap(const std::string& path) const;
+
+  /// The diagram drawn in Graphviz' DOT language: nested diagrams as clusters, ports as rows of their blocks.
+  std::string graphviz() const;
+  /// The order in which everything runs, one line a function: for people who debug a diagram.
+  std::string schedule() const;
+
+  // For Context and tools: the memory plan.
+  struct Wire {
+    PortId from;
+    PortId to;
+  };
+  struct StateCell {
+    PortId state;
+    const ValueType* type;
+    std::uint32_t current;
+    std::uint32_t next;  ///< where the update writes, or the derivative
+  };
+  const Layout& layout() const { return layout_; }
+  const std::vector<Wire>& wires() const { return wires_; }
+  const std::vector<StateCell>& state_cells() const { return state_cells_; }
+  std::uint32_t offset(PortId port) const;
+
+ private:
+  friend class DiagramBuilder;
+  friend class Scheduler;
+  Diagram() = default;
+
+  struct Call {
+    const System* block;
+    BlockFunction function;
+    std::uint32_t first_offset;  ///< into offsets_
+  };
+  struct UpdateGroup {
+    Every every;
+    std::vector<Call> calls;
+    std::vector<StateCell> written;
+  };
+
+  void run(const std::vector<Call>& calls, std::byte* memory) const;
+  void collect_taps(const Diagram& diagram, const std::string& prefix, std::vector<Tap>& taps) const;
+
+  Time tick_{};
+  std::vector<std::unique_ptr<System>> children_;
+  std::vector<Wire> wires_;
+
+  Layout layout_;
+  std::vector<std::uint32_t> offsets_;
+  std::vector<Call> outputs_in_order_;
+  std::vector<UpdateGroup> update_groups_;
+  std::vector<Call> constant_in_step_;
+  std::vector<Call> varying_in_step_;
+  std::vector<Call> derivative_calls_;
+  std::vector<StateCell> state_cells_;
+  std::vector<StateCell> continuous_cells_;
+  std::size_t continuous_size_ = 0;
+  std::vector<std::string> schedule_lines_;
+};
+
+}  // namespace flinch

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "systems/framework/diagram.h"
+
+namespace flinch {
+
+/// Adds blocks, wires them, and builds the Diagram.
+///
+///   DiagramBuilder builder("loop", 1ms);
+///   auto& encoders = builder.add<Encoders>("encoders", settings);
+///   auto& observer = builder.add<MomentumObserver>("observer", robot, gains);
+///   builder.connect(encoders.joints, observer.joints);   // compiles only where the types are the same
+///   auto wrench = builder.export_output("wrench", observer.wrench);
+///   std::unique_ptr<Diagram> loop = builder.build();
+class DiagramBuilder {
+ public:
+  /// `tick` is the period at which the outputs are evaluated; every update's period and offset must be multiples of it.
+  /// A nested diagram runs at the tick of the outermost one.
+  explicit DiagramBuilder(std::string name = "diagram", Time tick = 1ms);
+
+  /// Adds a Block made from `arguments`. The reference lives as long as the diagram.
+  template <class Block, class... Arguments>
+  Block& add(std::string name, Arguments&&... arguments) {
+    auto block = std::make_unique<Block>(std::forward<Arguments>(arguments)...);
+    Block& reference = *block;
+    add_child(std::move(name), std::move(block));
+    return reference;
+  }
+
+  /// Nests a diagram, under its own name.
+  Diagram& add(std::unique_ptr<Diagram> diagram);
+
+  /// Lets `to`, an input of a block in this diagram, read `from`, an output of a block in it.
+  template <class T>
+  void connect(OutputPort<T> from, InputPort<T> to) {
+    add_wire(from.id, to.id);
+  }
+  /// The same from an input of the diagram itself, made by input() or export_input().
+  template <class T>
+  void connect(InputPort<T> from, InputPort<T> to) {
+    add_wire(from.id, to.id);
+  }
+
+  /// Gives the diagram an input.
+  template <PortValue T>
+  InputPort<T> input(std::string name) {
+    return diagram_->input<T>(std::move(name));
+  }
+  /// Gives the diagram an input which `inner` reads.
+  template <class T>
+  InputPort<T> export_input(std::string name, InputPort<T> inner) {
+    const InputPort<T> own = input<T>(std::move(name));
+    connect(own, inner);
+    return own;
+  }
+  /// Gives the diagram an output that shows `inner`.
+  template <class T>
+  OutputPort<T> export_output(std::string name, OutputPort<T> inner) {
+    diagram_->outputs_.push_back({std::move(name), &value_type<T>, nullptr, {inner.id}});
+    return {{diagram_.get(), PortId::Kind::output, static_cast<int>(diagram_->outputs_.size()) - 1}};
+  }
+
+  /// Checks the wiring and fixes the order in which everything runs. Throws SetupError with all that is wrong, each
+  /// with full path names: inputs not connected or connected twice, names used twice, algebraic loops port by port,
+  /// periods that do not divide. The builder is empty afterwards.
+  std::unique_ptr<Diagram> build();
+
+ private:
+  void add_child(std::string name, std::unique_ptr<System> block);
+  void add_wire(PortId from, PortId to);
+  bool is_child(const System* block) const;
+  std::string path(PortId port) const;
+  void find_unconnected(std::vector<std::string>& problems) const;
+  void find_duplicates(std::vector<std::string>& problems) const;
+  void find_foreign_exports(std::vector<std::string>& problems) const;
+
+  std::unique_ptr<Diagram> diagram_;
+  std::vector<std::string> problems_;
+};
+
+}  // namespace flinch

@@ -1,0 +1,231 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <chrono>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace flinch {
+
+/// A value says of what it consists, once, so that it can be recorded, replayed and documented:
+///
+///   struct JointReading {
+///     Time acquired{};
+///     JointVector active;
+///     template <class Self, class Visit>
+///     static void fields(Self& self, Visit&& visit) {
+///       visit("acquired", "ns", self.acquired);
+///       visit("active", "rad", self.active);  // a fourth argument names the frame
+///     }
+///   };
+///
+/// Fields are numbers, bool, enumerations, durations, Eigen matrices of bounded size, std::array of these, and
+/// other values with fields.
+template <class T>
+concept HasFields = requires(T& value) { T::fields(value, [](const auto&...) {}); };
+
+namespace internal {
+
+template <class T>
+concept Duration = requires { typename T::period; } && std::same_as<T, std::chrono::nanoseconds>;
+
+template <class T>
+concept Scalar = std::is_arithmetic_v<T> || std::is_enum_v<T> || Duration<T>;
+
+template <class T>
+concept BoundedMatrix = std::derived_from<T, Eigen::PlainObjectBase<T>> && (T::MaxSizeAtCompileTime > 0);
+
+template <class T>
+inline constexpr bool is_std_array = false;
+template <class T, std::size_t size>
+inline constexpr bool is_std_array<std::array<T, size>> = true;
+
+}  // namespace internal
+
+/// A type whose values can be recorded and replayed.
+template <class T>
+concept Recordable = HasFields<T> || internal::Scalar<T> || internal::BoundedMatrix<T>;
+
+/// One column of a recorded value.
+struct Field {
+  enum class Kind : std::uint8_t { real, integer, boolean };
+  std::string name;   ///< nested fields are joined by '.', e.g. "wrench.force"
+  std::string unit;   ///< SI; "" for a number without unit
+  std::string frame;  ///< "" where the value has none
+  Kind kind{};
+  int capacity = 1;       ///< most numbers that it can hold
+  bool resizable = false; ///< whether rows and columns may differ from sample to sample
+};
+
+/// How a value of one type is laid out in a row of a recording: each field is `capacity` numbers of 8 bytes, and two
+/// more (rows, columns) before them where it is resizable.
+struct RowLayout {
+  std::vector<Field> fields;
+  std::size_t numbers = 0;  ///< 8-byte numbers in a row
+};
+
+namespace internal {
+
+/// Calls leaf(name, unit, frame, scalar or matrix) for every leaf of `value`.
+template <class T, class Leaf>
+void visit_leaves(const std::string& name, const char* unit, const char* frame, T& value, Leaf&& leaf) {
+  using Value = std::remove_const_t<T>;
+  const auto joined = [&name](const std::string& part) { return name.empty() ? part : name + "." + part; };
+  if constexpr (HasFields<Value>) {
+    Value::fields(value, [&](const char* part, const char* part_unit, auto& member, const char* part_frame = "") {
+      visit_leaves(joined(part), part_unit, part_frame, member, leaf);
+    });
+  } else if constexpr (is_std_array<Value>) {
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      visit_leaves(joined(std::to_string(i)), unit, frame, value[i], leaf);
+    }
+  } else {
+    static_assert(Scalar<Value> || BoundedMatrix<Value>, "a field must be a number, a bounded matrix or have fields");
+    leaf(name.empty() ? std::string("value") : name, unit, frame, value);
+  }
+}
+
+/// As visit_leaves, but without building names: for the loop.
+template <class T, class Leaf>
+void for_each_leaf(T& value, Leaf& leaf) {
+  using Value = std::remove_const_t<T>;
+  if constexpr (HasFields<Value>) {
+    Value::fields(value, [&leaf](const char*, const char*, auto& member, const char* = "") {
+      for_each_leaf(member, leaf);
+    });
+  } else if constexpr (is_std_array<Value>) {
+    for (auto& element : value) for_each_leaf(element, leaf);
+  } else {
+    leaf(value);
+  }
+}
+
+template <class T>
+constexpr Field::Kind kind_of() {
+  if constexpr (std::is_same_v<T, bool>) return Field::Kind::boolean;
+  if constexpr (std::is_floating_point_v<T>) return Field::Kind::real;
+  return Field::Kind::integer;
+}
+
+template <class T>
+Field field_of(const T&) {
+  Field field;
+  if constexpr (Scalar<T>) {
+    field.kind = kind_of<T>();
+  } else {
+    static_assert(std::is_same_v<typename T::Scalar, double>);
+    field.kind = Field::Kind::real;
+    field.capacity = T::MaxSizeAtCompileTime;
+    field.resizable = T::SizeAtCompileTime == Eigen::Dynamic;
+  }
+  return field;
+}
+
+/// Eight bytes of a row: a real or an integer, as the field's kind says.
+union Number {
+  double real;
+  std::int64_t integer;
+};
+static_assert(sizeof(Number) == 8);
+
+template <class T>
+void scalar_to_number(const T& value, Number& number) {
+  if constexpr (std::is_floating_point_v<T>) {
+    number.real = static_cast<double>(value);
+  } else if constexpr (Duration<T>) {
+    number.integer = value.count();
+  } else {
+    number.integer = static_cast<std::int64_t>(value);
+  }
+}
+
+template <class T>
+void number_to_scalar(const Number& number, T& value) {
+  if constexpr (std::is_floating_point_v<T>) {
+    value = static_cast<T>(number.real);
+  } else if constexpr (Duration<T>) {
+    value = T(number.integer);
+  } else {
+    value = static_cast<T>(number.integer);
+  }
+}
+
+/// Writes the leaves of a value one after the other into a row.
+struct RowWriter {
+  Number* next;
+
+  template <class T>
+  void operator()(const T& value) {
+    if constexpr (Scalar<T>) {
+      scalar_to_number(value, *next++);
+    } else {
+      if constexpr (T::SizeAtCompileTime == Eigen::Dynamic) {
+        (next++)->integer = value.rows();
+        (next++)->integer = value.cols();
+      }
+      for (Eigen::Index i = 0; i < value.size(); ++i) next[i].real = value.data()[i];
+      for (Eigen::Index i = value.size(); i < T::MaxSizeAtCompileTime; ++i) next[i].real = 0.0;
+      next += T::MaxSizeAtCompileTime;
+    }
+  }
+};
+
+/// The inverse of RowWriter.
+struct RowReader {
+  const Number* next;
+
+  template <class T>
+  void operator()(T& value) {
+    if constexpr (Scalar<T>) {
+      number_to_scalar(*next++, value);
+    } else {
+      if constexpr (T::SizeAtCompileTime == Eigen::Dynamic) {
+        const std::int64_t rows = (next++)->integer;
+        const std::int64_t columns = (next++)->integer;
+        value.resize(rows, columns);
+      }
+      for (Eigen::Index i = 0; i < value.size(); ++i) value.data()[i] = next[i].real;
+      next += T::MaxSizeAtCompileTime;
+    }
+  }
+};
+
+}  // namespace internal
+
+/// The layout of a row that holds a T.
+template <Recordable T>
+RowLayout row_layout() {
+  RowLayout layout;
+  T value{};
+  internal::visit_leaves("", "", "", value,
+                         [&](std::string name, const char* unit, const char* frame, const auto& leaf) {
+                           Field field = internal::field_of(leaf);
+                           field.name = std::move(name);
+                           field.unit = unit;
+                           field.frame = frame;
+                           layout.numbers += static_cast<std::size_t>(field.capacity) + (field.resizable ? 2U : 0U);
+                           layout.fields.push_back(std::move(field));
+                         });
+  return layout;
+}
+
+/// Writes `value` into a row of row_layout<T>().numbers numbers. Never allocates.
+template <Recordable T>
+void write_row(const T& value, internal::Number* row) {
+  internal::RowWriter writer{row};
+  internal::for_each_leaf(value, writer);
+}
+
+/// Reads back what write_row wrote, bit for bit.
+template <Recordable T>
+void read_row(const internal::Number* row, T& value) {
+  internal::RowReader reader{row};
+  internal::for_each_leaf(value, reader);
+}
+
+}  // namespace flinch

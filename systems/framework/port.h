@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+
+#include "systems/framework/time.h"
+
+namespace flinch {
+
+class System;
+
+/// Names one input, output or state of one System.
+struct PortId {
+  enum class Kind : std::uint8_t { clock, input, output, state };
+  const System* owner = nullptr;
+  Kind kind = Kind::clock;
+  int index = 0;
+
+  friend bool operator==(const PortId&, const PortId&) = default;
+};
+
+/// Handles: small values, copied at will, valid as long as their System. Only System makes them; the type T is that
+/// of the value, so that wiring different types does not compile.
+template <class T>
+struct InputPort {
+  using Value = T;
+  PortId id;
+};
+
+/// See InputPort.
+template <class T>
+struct OutputPort {
+  using Value = T;
+  PortId id;
+};
+
+/// A value that lasts from tick to tick: written by one update, or integrated along one derivative. Private to its block.
+template <class T>
+struct State {
+  using Value = T;
+  PortId id;
+};
+
+/// The time of the tick, for functions that read it.
+struct Clock {
+  using Value = Time;
+  PortId id;
+};
+
+/// What update<...>() and derivative<...>() return, so that both can be declared as members.
+struct Update {};
+struct Derivative {};
+
+}  // namespace flinch

@@ -1,0 +1,69 @@
+#include "systems/framework/recorder.h"
+
+#include <algorithm>
+
+#include "systems/foundation/setup_error.h"
+#include "systems/framework/diagram.h"
+
+namespace flinch {
+
+Recorder::Recorder(const Diagram& diagram, const std::vector<std::string>& paths, std::size_t capacity, Every every)
+    : every_(every), capacity_(capacity) {
+  if (every_.period == Time::zero()) every_.period = diagram.tick();
+  std::vector<std::string> problems;
+  for (const std::string& path : paths) {
+    try {
+      const Diagram::Tap tap = diagram.tap(path);
+      if (tap.type->layout == nullptr) {
+        problems.push_back("the port '" + path + "' cannot be recorded: its type has no fields (see fields.h)");
+        continue;
+      }
+      Channel channel{tap.offset, tap.type, {path, tap.type->layout(), {}}};
+      channel.signal.rows.resize(capacity * channel.signal.layout.numbers);
+      channels_.push_back(std::move(channel));
+    } catch (const SetupError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  throw_if_any(std::move(problems));
+  time_ns_.reserve(capacity);
+}
+
+void Recorder::record(const Context& context) {
+  if (!every_.due(context.time())) return;
+  if (time_ns_.size() == capacity_) {
+    ++dropped_;
+    return;
+  }
+  const std::size_t sample = time_ns_.size();
+  time_ns_.push_back(context.time().count());
+  for (Channel& channel : channels_) {
+    internal::Number* row = channel.signal.rows.data() + sample * channel.signal.layout.numbers;
+    channel.type->to_row(context.memory() + channel.offset, row);
+  }
+}
+
+void Recorder::clear() {
+  time_ns_.clear();
+  dropped_ = 0;
+}
+
+Recording Recorder::recording(std::map<std::string, std::string> attributes) const {
+  Recording recording{every_.period, time_ns_, std::move(attributes), {}};
+  for (const Channel& channel : channels_) {
+    const auto used = static_cast<std::ptrdiff_t>(samples() * channel.signal.layout.numbers);
+    recording.signals.push_back({channel.signal.path, channel.signal.layout,
+                                 {channel.signal.rows.begin(), channel.signal.rows.begin() + used}});
+  }
+  return recording;
+}
+
+std::vector<std::string> recordable_paths(const Diagram& diagram) {
+  std::vector<std::string> paths;
+  for (Diagram::Tap& tap : diagram.taps()) {
+    if (tap.type->layout != nullptr) paths.push_back(std::move(tap.path));
+  }
+  return paths;
+}
+
+}  // namespace flinch

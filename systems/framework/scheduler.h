@@ -1,0 +1,69 @@
+#pragma once
+
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "systems/framework/diagram.h"
+
+namespace flinch {
+
+/// Flattens a diagram, with all that is nested in it, into lists of function calls in an order that works. Used by
+/// DiagramBuilder::build() only.
+class Scheduler {
+ public:
+  explicit Scheduler(Diagram& root) : root_(root) {}
+
+  /// Appends what is wrong to `problems`; when nothing is, and nothing was, completes the diagram's schedule.
+  void check_and_schedule(std::vector<std::string>& problems);
+
+ private:
+  struct Leaf {
+    const System* block;
+    std::string path;
+  };
+  /// One output of one leaf: a node of the graph of what must run before what.
+  struct Node {
+    PortId port;
+    std::vector<std::size_t> reads;  ///< nodes that must run before
+    bool varies_in_step = false;     ///< depends on the time or on a continuous state
+    bool needed_in_step = false;     ///< a derivative depends on it
+  };
+
+  void collect(const Diagram& diagram, const std::string& path);
+  void make_nodes();
+  /// The leaf output or input of the root that `port` finally shows; an unconnected input shows itself.
+  PortId source(PortId port) const;
+  std::vector<std::size_t> nodes_read(const std::vector<PortId>& reads) const;
+  std::string path(PortId port) const;
+
+  void find_loops(std::vector<std::string>& problems);
+  std::vector<std::size_t> cycle_through(std::size_t start, const std::vector<bool>& placed) const;
+  std::string describe_cycle(const std::vector<std::size_t>& cycle) const;
+  void check_periods(std::vector<std::string>& problems) const;
+  void check_states(std::vector<std::string>& problems) const;
+
+  void lay_out();
+  void add_outputs();
+  void add_updates();
+  void add_continuous();
+  void mark_step_nodes();
+  bool reads_varying(const std::vector<PortId>& reads) const;
+  Diagram::Call make_call(const System& block, BlockFunction function, const std::vector<PortId>& reads,
+                          std::uint32_t result);
+  void add_line(const std::string& what, const std::vector<PortId>& reads, const std::string& target);
+
+  const System::Output& output_of(const Node& node) const {
+    return node.port.owner->outputs()[static_cast<std::size_t>(node.port.index)];
+  }
+
+  Diagram& root_;
+  std::vector<Leaf> leaves_;
+  std::unordered_map<const System*, std::string> paths_;
+  std::unordered_map<PortId, PortId, PortIdHash> wired_to_;  ///< input -> what it is connected to, one level
+  std::vector<Node> nodes_;
+  std::unordered_map<PortId, std::size_t, PortIdHash> node_of_;
+  std::vector<std::size_t> order_;
+};
+
+}  // namespace flinch

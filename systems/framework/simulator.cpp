@@ -1,0 +1,56 @@
+#include "systems/framework/simulator.h"
+
+#include "systems/framework/diagram.h"
+#include "systems/framework/recorder.h"
+#include "systems/framework/runge_kutta.h"
+
+namespace flinch {
+
+/// The diagram's continuous part during one tick.
+class Simulator::Step final : public DifferentialEquation {
+ public:
+  Step(const Diagram& diagram, Context& context) : diagram_(diagram), context_(context), start_(context.time()) {
+    diagram_.begin_step(context_);
+  }
+
+  void rates(double t, std::span<const double> y, std::span<double> rates) override {
+    context_.set_time(start_ + from_seconds(t));
+    diagram_.set_continuous(context_, y);
+    diagram_.derivatives(context_, rates);
+  }
+
+ private:
+  const Diagram& diagram_;
+  Context& context_;
+  Time start_;
+};
+
+Simulator::Simulator(const Diagram& diagram, std::unique_ptr<Integrator> integrator)
+    : diagram_(diagram),
+      integrator_(integrator ? std::move(integrator) : std::make_unique<RungeKutta>()),
+      continuous_(diagram.continuous_size()) {
+  integrator_->prepare(continuous_.size());
+}
+
+Simulator::~Simulator() = default;
+
+void Simulator::step(Context& context) {
+  const Time next = context.time() + diagram_.tick();
+  diagram_.evaluate(context);
+  for (Recorder* recorder : recorders_) recorder->record(context);
+  diagram_.update(context);
+  if (!continuous_.empty()) {
+    Step equation(diagram_, context);
+    diagram_.get_continuous(context, continuous_);
+    if (!integrator_->advance(equation, to_seconds(diagram_.tick()), continuous_)) ++inaccurate_steps_;
+    diagram_.set_continuous(context, continuous_);
+  }
+  context.set_time(next);
+}
+
+void Simulator::advance_to(Context& context, Time end) {
+  while (context.time() < end) step(context);
+  diagram_.evaluate(context);
+}
+
+}  // namespace flinch

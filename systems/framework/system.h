@@ -1,0 +1,152 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "systems/framework/block_function.h"
+#include "systems/framework/port.h"
+#include "systems/framework/time.h"
+#include "systems/framework/value_type.h"
+
+namespace flinch {
+
+/// A block: pure functions between typed ports. A block declares its ports and states as members; every output, update
+/// and derivative is a const member function that takes exactly the values which its declaration names, in that
+/// order, and nothing else:
+///
+///   class LowPass final : public System {
+///     State<double> filtered_ = state<double>("filtered", 0.0);            // above its readers
+///    public:
+///     InputPort<double>  raw    = input<double>("raw");
+///     OutputPort<double> smooth = output<&LowPass::read>("smooth", filtered_);
+///    private:
+///     Update filter_ = update<&LowPass::filter>(filtered_, filtered_, raw);  // writes the first, reads the others
+///     double read(double filtered) const { return filtered; }
+///     double filter(double filtered, double raw) const { return 0.9 * filtered + 0.1 * raw; }
+///   };
+///
+/// A function returns its result or takes it as last argument, `Result&` (which holds the previous value). So what an
+/// output depends on is its argument list, and a block is tested by calling a function. Nothing that a function of a
+/// block does may allocate, lock, throw or block; what it cannot compute it says in its result (`valid`).
+class System {
+ public:
+  virtual ~System() = default;
+  System(const System&) = delete;
+  System& operator=(const System&) = delete;
+
+  /// The name under which it was added to a diagram; unique there.
+  const std::string& name() const { return name_; }
+
+  struct Input {
+    std::string name;
+    const ValueType* type;
+  };
+  struct Output {
+    std::string name;
+    const ValueType* type;
+    BlockFunction function;     ///< null for the outputs of a diagram
+    std::vector<PortId> reads;  ///< its arguments; for a diagram the one inner output which it exports
+  };
+  struct StateVariable {
+    std::string name;
+    const ValueType* type;
+    std::shared_ptr<const void> initial;
+  };
+  struct Change {  ///< an update or a derivative
+    PortId state;
+    BlockFunction function;
+    std::vector<PortId> reads;
+    std::optional<Every> every;  ///< none: at every tick (updates), always (derivatives)
+  };
+
+  const std::vector<Input>& inputs() const { return inputs_; }
+  const std::vector<Output>& outputs() const { return outputs_; }
+  const std::vector<StateVariable>& states() const { return states_; }
+  const std::vector<Change>& updates() const { return updates_; }
+  const std::vector<Change>& derivatives() const { return derivatives_; }
+
+  /// The name of a port or state of this block.
+  const std::string& port_name(PortId port) const;
+
+ protected:
+  System() = default;
+
+  /// Declares an input.
+  template <PortValue T>
+  InputPort<T> input(std::string name) {
+    inputs_.push_back({std::move(name), &value_type<T>});
+    return {{this, PortId::Kind::input, static_cast<int>(inputs_.size()) - 1}};
+  }
+
+  /// Declares a state with its value at time zero.
+  template <PortValue T>
+  State<T> state(std::string name, T initial = T{}) {
+    states_.push_back({std::move(name), &value_type<T>, std::make_shared<const T>(std::move(initial))});
+    return {{this, PortId::Kind::state, static_cast<int>(states_.size()) - 1}};
+  }
+
+  /// Declares an output that `function` computes from `reads`: inputs, states, other outputs, `clock`.
+  template <auto function, class... Reads>
+  auto output(std::string name, Reads... reads) {
+    using Value = typename internal::Signature<function>::Result;
+    internal::check_arguments<function, typename Reads::Value...>();
+    outputs_.push_back({std::move(name), &value_type<Value>, internal::call<function>, own({reads.id...})});
+    return OutputPort<Value>{{this, PortId::Kind::output, static_cast<int>(outputs_.size()) - 1}};
+  }
+
+  /// Declares that at every tick `function`, evaluated from `reads`, becomes the next value of `written`.
+  template <auto function, class T, class... Reads>
+  Update update(State<T> written, Reads... reads) {
+    return add_update<function, T, typename Reads::Value...>(std::nullopt, written.id, {reads.id...});
+  }
+
+  /// The same, but only when due.
+  template <auto function, class T, class... Reads>
+  Update update(Every every, State<T> written, Reads... reads) {
+    return add_update<function, T, typename Reads::Value...>(every, written.id, {reads.id...});
+  }
+
+  /// Declares that `function`, evaluated from `reads`, is the time derivative of `integrated` [per second].
+  template <auto function, ContinuousValue T, class... Reads>
+  Derivative derivative(State<T> integrated, Reads... reads) {
+    internal::check_result<function, T>();
+    internal::check_arguments<function, typename Reads::Value...>();
+    own({integrated.id});
+    derivatives_.push_back({integrated.id, internal::call<function>, own({reads.id...}), std::nullopt});
+    return {};
+  }
+
+  /// The time of the tick, as an argument of functions.
+  static constexpr Clock clock{};
+
+ private:
+  friend class Diagram;
+  friend class DiagramBuilder;
+
+  template <auto function, class T, class... Values>
+  Update add_update(std::optional<Every> every, PortId written, std::vector<PortId> reads) {
+    internal::check_result<function, T>();
+    internal::check_arguments<function, Values...>();
+    own({written});
+    updates_.push_back({written, internal::call<function>, own(std::move(reads)), every});
+    return {};
+  }
+
+  /// Returns `ports` when all are declared and of this block; throws SetupError otherwise.
+  std::vector<PortId> own(std::vector<PortId> ports) const;
+  bool declared(PortId port) const;
+
+  std::string name_;
+  std::vector<Input> inputs_;
+  std::vector<Output> outputs_;
+  std::vector<StateVariable> states_;
+  std::vector<Change> updates_;
+  std::vector<Change> derivatives_;
+};
+
+}  // namespace flinch

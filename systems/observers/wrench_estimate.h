@@ -1,0 +1,24 @@
+#pragma once
+
+#include "systems/framework/time.h"
+#include "systems/robot/vectors.h"
+
+namespace flinch {
+
+/// An estimated external wrench: what the surroundings do to the robot, as acting on the platform.
+struct WrenchEstimate {
+  Time acquired{};
+  bool valid = false;             ///< also false while an observer settles after a reset
+  PlatformVector wrench_in_base;  ///< F_ext, moment about the platform origin [N, N, Nm]
+  JointVector drive_torque;       ///< the same seen by the drives, tau_a,ext = J_x,qa^T F_ext [Nm]
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("acquired", "ns", self.acquired);
+    visit("valid", "", self.valid);
+    visit("wrench_in_base", "N, N, Nm", self.wrench_in_base, "base");
+    visit("drive_torque", "Nm", self.drive_torque);
+  }
+};
+
+}  // namespace flinch

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "systems/framework/time.h"
+#include "systems/robot/vectors.h"
+
+namespace flinch {
+
+/// Drive angles with their estimated rates, one entry per leg.
+struct JointMotion {
+  Time acquired{};
+  bool valid = false;
+  JointVector position;  ///< q_a [rad]
+  JointVector velocity;  ///< its filtered derivative [rad/s]
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("acquired", "ns", self.acquired);
+    visit("valid", "", self.valid);
+    visit("position", "rad", self.position);
+    visit("velocity", "rad/s", self.velocity);
+  }
+};
+
+}  // namespace flinch

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+
+#include "systems/framework/time.h"
+#include "systems/robot/vectors.h"
+
+namespace flinch {
+
+/// Pose and velocity of the platform as the encoders tell them.
+struct PlatformMotion {
+  enum class Status : std::uint8_t {
+    valid,
+    no_data,        ///< the joint reading was not valid
+    not_converged,  ///< forward kinematics found no pose
+    implausible,    ///< active and passive encoders contradict each other
+    singular,       ///< the pose is too near to a singularity to compute a velocity
+  };
+  Time acquired{};
+  Status status = Status::no_data;
+  PlatformVector pose;      ///< x, in the base frame [m, m, rad]
+  PlatformVector velocity;  ///< [m/s, m/s, rad/s]
+
+  bool valid() const { return status == Status::valid; }
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("acquired", "ns", self.acquired);
+    visit("status", "", self.status);
+    visit("pose", "m, m, rad", self.pose, "base");
+    visit("velocity", "m/s, m/s, rad/s", self.velocity, "base");
+  }
+};
+
+}  // namespace flinch
