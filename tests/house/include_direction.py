@@ -1,0 +1,57 @@
+"""A floor includes only floors below it: the dependency arrows of docs/architecture.md."""
+import re
+import tree
+
+FOUNDATION = ["systems/foundation"]
+FRAMEWORK = ["systems/framework", *FOUNDATION]
+ROBOT = ["systems/robot", *FOUNDATION]
+BLOCKS = ["systems/sensors", "systems/observers", "systems/contact", "systems/control", *FRAMEWORK, *ROBOT]
+DIAGRAMS = ["diagrams", *BLOCKS]
+
+MAY_INCLUDE = {
+    "systems/foundation": FOUNDATION,
+    "systems/framework": FRAMEWORK,
+    "systems/robot": ROBOT,
+    "systems/config": ["systems/config", *ROBOT],
+    "systems/sensors": BLOCKS,
+    "systems/observers": BLOCKS,
+    "systems/contact": BLOCKS,
+    "systems/control": BLOCKS,
+    "diagrams": DIAGRAMS,
+    "plant": ["plant", *DIAGRAMS],
+}
+ABOVE_ALL = ("apps", "tests")  # may include everything below them, and tests the apps
+INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"')
+
+
+def within(path, folder):
+    return str(path).startswith(folder + "/")
+
+
+def floor_of(path):
+    return next((floor for floor in MAY_INCLUDE if within(path, floor)), None)
+
+
+def problem_with(path, included):
+    if not (tree.ROOT / included).is_file():
+        return f'"{included}" is no path from the root of the tree'
+    if within(path, "tests"):
+        return None
+    if within(path, "apps"):
+        return "programs do not include tests" if within(included, "tests") else None
+    floor = floor_of(path)
+    if floor is None:
+        return f"no floor owns this file; name its folder in {__file__}"
+    if not any(within(included, allowed) for allowed in MAY_INCLUDE[floor]):
+        return f"{floor} must not include {included}"
+    return None
+
+
+problems = []
+for path in tree.sources():
+    for number, text in tree.lines(path):
+        match = INCLUDE.match(text)
+        problem = problem_with(path, match.group(1)) if match else None
+        if problem:
+            problems.append(f"{path}:{number}: {problem}")
+tree.report(len(tree.sources()), problems)
