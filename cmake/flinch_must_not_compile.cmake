@@ -12,13 +12,13 @@ function(flinch_must_not_compile file)
 
   cmake_path(RELATIVE_PATH file OUTPUT_VARIABLE name)
   string(REGEX REPLACE "\\.must_not_compile\\.cpp$" "" name ${name})
+  list(TRANSFORM ARGN REPLACE "(.+)" "$<TARGET_PROPERTY:\\1,INTERFACE_INCLUDE_DIRECTORIES>"
+       OUTPUT_VARIABLE folders)
+  set(includes "-I$<JOIN:$<REMOVE_DUPLICATES:${folders}>,;-I>")
   set(compile ${CMAKE_CXX_COMPILER} -std=c++20 -fsyntax-only)
-  foreach(library IN LISTS ARGN)
-    list(APPEND compile "-I$<JOIN:$<TARGET_PROPERTY:${library},INTERFACE_INCLUDE_DIRECTORIES>,;-I>")
-  endforeach()
 
-  add_test(NAME ${name}/is_refused COMMAND ${compile} ${file} COMMAND_EXPAND_LISTS)
+  add_test(NAME ${name}/is_refused COMMAND ${compile} "${includes}" ${file} COMMAND_EXPAND_LISTS)
   set_tests_properties(${name}/is_refused PROPERTIES PASS_REGULAR_EXPRESSION "error: .*${diagnostic}")
   add_test(NAME ${name}/control_case_compiles
-           COMMAND ${compile} -DFLINCH_CONTROL_CASE ${file} COMMAND_EXPAND_LISTS)
+           COMMAND ${compile} "${includes}" -DFLINCH_CONTROL_CASE ${file} COMMAND_EXPAND_LISTS)
 endfunction()
