@@ -75,10 +75,9 @@ class PlanarRrr final : public ParallelRobot {
  private:
   using ElbowSigns = std::array<double, 3>;
 
-  std::array<PlanarLeg, 3> close_legs(const Eigen::Vector3d& pose, const ElbowSigns& signs) const noexcept;
   PlanarMotion motion(const Eigen::Vector3d& pose, const Eigen::Vector3d& velocity,
                       const ElbowSigns& signs) const noexcept;
-  JointAngles joint_angles(const std::array<PlanarLeg, 3>& legs, double phi) const noexcept;
+  JointAngles joint_angles(const PlanarMotion& motion) const noexcept;
   double active_angle(int leg, const PlanarLeg& closed) const noexcept;
   Eigen::Vector2d chain_tip(int leg, double active, double passive) const noexcept;
 

@@ -1,0 +1,89 @@
+#include "systems/robot/link_segments.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace flinch {
+namespace {
+
+using Point = Eigen::Vector3d;
+
+Point in_space(const CartesianVector& v) { return {v[0], v[1], v.size() == 3 ? v[2] : 0.0}; }
+
+// Fraction along a segment of the point closest to another one, from the projection and the squared length.
+double clamped_fraction(double projection, double squared_length) {
+  return squared_length > 0.0 ? std::clamp(projection / squared_length, 0.0, 1.0) : 0.0;
+}
+
+// Minimises |r + s d_a - t d_b| over 0 <= s, t <= 1: the free minimum over s, then t for that s; where t had
+// to be clamped, s again for that t.
+SegmentDistance closest_points(const Point& begin_a, const Point& end_a, const Point& begin_b,
+                               const Point& end_b) {
+  const Point d_a = end_a - begin_a;
+  const Point d_b = end_b - begin_b;
+  const Point r = begin_a - begin_b;
+  const double aa = d_a.squaredNorm();
+  const double bb = d_b.squaredNorm();
+  const double ab = d_a.dot(d_b);
+  const double ar = d_a.dot(r);
+  const double br = d_b.dot(r);
+
+  // The determinant vanishes for parallel segments; any s on segment a then serves as a start.
+  const double determinant = aa * bb - ab * ab;
+  const bool parallel = determinant <= std::numeric_limits<double>::epsilon() * aa * bb;
+  SegmentDistance result;
+  result.fraction_a = parallel ? 0.0 : std::clamp((ab * br - ar * bb) / determinant, 0.0, 1.0);
+  result.fraction_b = clamped_fraction(ab * result.fraction_a + br, bb);
+  result.fraction_a = clamped_fraction(ab * result.fraction_b - ar, aa);
+  result.distance = (r + result.fraction_a * d_a - result.fraction_b * d_b).norm();
+  return result;
+}
+
+struct LegInSpace {
+  std::array<Point, 3> joints;
+};
+
+double distance_of_legs(const LegInSpace& a, const LegInSpace& b) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t j = 0; j < 2; ++j) {
+      const double distance =
+          closest_points(a.joints[i], a.joints[i + 1], b.joints[j], b.joints[j + 1]).distance;
+      smallest = std::min(smallest, distance);
+    }
+  }
+  return smallest;
+}
+
+}  // namespace
+
+SegmentDistance segment_distance(const Segment& a, const Segment& b) noexcept {
+  return closest_points(in_space(a.begin), in_space(a.end), in_space(b.begin), in_space(b.end));
+}
+
+Segment link_segment(const Kinematics& kinematics, BodyId link) noexcept {
+  const LegPoints& leg = kinematics.legs[static_cast<std::size_t>(link.leg())];
+  if (link.is_link1()) return {leg.base_joint, leg.passive_joint};
+  return {leg.passive_joint, leg.coupling_joint};
+}
+
+double self_collision_distance(const Kinematics& kinematics) noexcept {
+  if (!kinematics.reachable) return 0.0;
+  const auto count = static_cast<std::size_t>(leg_count(kinematics));
+  std::array<LegInSpace, max_dof> legs;
+  for (std::size_t i = 0; i < count; ++i) {
+    const LegPoints& leg = kinematics.legs[i];
+    legs[i].joints = {in_space(leg.base_joint), in_space(leg.passive_joint), in_space(leg.coupling_joint)};
+  }
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = i + 1; j < count; ++j)
+      smallest = std::min(smallest, distance_of_legs(legs[i], legs[j]));
+  }
+  return smallest;
+}
+
+}  // namespace flinch

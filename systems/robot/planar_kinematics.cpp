@@ -1,0 +1,108 @@
+#include "systems/robot/planar_kinematics.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace flinch {
+namespace {
+
+// Beyond this, inverting J_qa_x leaves less than ten digits.
+constexpr double largest_condition_number = 1e6;
+
+// cond_2 of J, hence also of its inverse; infinite if J is singular to working precision.
+double condition_number(const Eigen::Matrix3d& J) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> squared(J.transpose() * J, Eigen::EigenvaluesOnly);
+  const double smallest = squared.eigenvalues()[0];
+  const double largest = squared.eigenvalues()[2];
+  const bool regular = smallest > std::numeric_limits<double>::epsilon() * largest;
+  return regular ? std::sqrt(largest / smallest) : std::numeric_limits<double>::infinity();
+}
+
+void set_points_and_rates(const PlanarMotion& motion, Kinematics& out) {
+  out.rates.active.resize(3);
+  out.rates.passive.resize(3);
+  out.rates.coupling.resize(3);
+  for (int i = 0; i < 3; ++i) {
+    const PlanarLegMotion& leg = motion.legs[static_cast<std::size_t>(i)];
+    out.rates.active[i] = leg.qa_rate;
+    out.rates.passive[i] = leg.theta2_rate - leg.qa_rate;
+    out.rates.coupling[i] = motion.velocity.z() - leg.theta2_rate;
+    out.legs[static_cast<std::size_t>(i)] = {leg.leg.base_joint, leg.leg.passive_joint,
+                                             leg.leg.coupling_joint};
+  }
+}
+
+// delta_red,i = |c_i - elbow_i|^2 - l2^2: rows 2 l2 [e^T, d x e] by pose and -2 l1 l2 sin qp by drive angle.
+void set_determinants(const std::array<PlanarLegGeometry, 3>& geometry, const PlanarMotion& motion,
+                      const Eigen::Matrix3d& J_qa, Kinematics& out) {
+  out.det_B = 1.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    out.det_B *= -2.0 * geometry[i].link1_length * geometry[i].link2_length * motion.legs[i].leg.sin_qp;
+  }
+  out.det_A = -out.det_B * J_qa.determinant();  // A = -B J_qa
+}
+
+}  // namespace
+
+Eigen::Matrix3d stacked_rows(const PlanarMotion& motion, Eigen::RowVector3d PlanarLegMotion::*row) noexcept {
+  Eigen::Matrix3d rows;
+  rows << motion.legs[0].*row, motion.legs[1].*row, motion.legs[2].*row;
+  return rows;
+}
+
+void differential_kinematics(const std::array<PlanarLegGeometry, 3>& geometry, const PlanarMotion& motion,
+                             Kinematics& out) noexcept {
+  const Eigen::Matrix3d J_qa = stacked_rows(motion, &PlanarLegMotion::J_qa);
+  const Eigen::Matrix3d J_theta2 = stacked_rows(motion, &PlanarLegMotion::J_theta2);
+  Eigen::Matrix3d dJ_qa;
+  Eigen::Matrix3d dJ_theta2;
+  for (int i = 0; i < 3; ++i) {
+    const auto leg = static_cast<std::size_t>(i);
+    const PlanarLegJacobianRate rate =
+        leg_jacobian_rate(geometry[leg], motion.legs[leg], motion.velocity.z());
+    dJ_qa.row(i) = rate.dJ_qa;
+    dJ_theta2.row(i) = rate.dJ_theta2;
+  }
+
+  out.pose = motion.pose;
+  out.velocity = motion.velocity;
+  set_points_and_rates(motion, out);
+  out.J_qa_x = J_qa;
+  out.J_qp_x = J_theta2 - J_qa;
+  out.J_qc_x = -J_theta2;
+  out.J_qc_x.col(2).array() += 1.0;
+  out.dJ_qa_x = dJ_qa;
+  out.dJ_qp_x = dJ_theta2 - dJ_qa;
+  out.dJ_qc_x = -dJ_theta2;
+
+  set_determinants(geometry, motion, J_qa, out);
+  out.sigma_kappa = condition_number(J_qa);
+  out.reachable = true;
+  out.valid = out.sigma_kappa < largest_condition_number;
+  const Eigen::Matrix3d J_x = out.valid ? Eigen::Matrix3d(J_qa.inverse()) : Eigen::Matrix3d::Zero();
+  out.J_x_qa = J_x;
+  out.dJ_x_qa = -J_x * dJ_qa * J_x;
+}
+
+void set_unreachable(Kinematics& out) noexcept {
+  out = Kinematics();
+  for (JointVector* vector :
+       {&out.pose, &out.velocity, &out.joints.active, &out.joints.passive, &out.joints.coupling,
+        &out.rates.active, &out.rates.passive, &out.rates.coupling}) {
+    vector->setZero(3);
+  }
+  for (PlatformMatrix* matrix : {&out.J_qa_x, &out.J_qp_x, &out.J_qc_x, &out.J_x_qa, &out.dJ_qa_x,
+                                 &out.dJ_qp_x, &out.dJ_qc_x, &out.dJ_x_qa}) {
+    matrix->setZero(3, 3);
+  }
+  for (LegPoints& leg : out.legs) {
+    leg.base_joint.setZero(2);
+    leg.passive_joint.setZero(2);
+    leg.coupling_joint.setZero(2);
+  }
+}
+
+}  // namespace flinch

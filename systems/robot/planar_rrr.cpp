@@ -1,0 +1,210 @@
+#include "systems/robot/planar_rrr.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "systems/foundation/setup_error.h"
+#include "systems/robot/angles.h"
+#include "systems/robot/planar_kinematics.h"
+
+namespace flinch {
+namespace {
+
+constexpr int max_iterations = 10;
+constexpr double converged_within = 1e-10;  // [rad]
+
+Eigen::Vector2d unit(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+bool usable(const PlatformVector& v) { return v.size() == 3 && v.allFinite(); }
+
+// Working mode as numbers; nothing unless it has three entries of +1 or -1.
+std::optional<std::array<double, 3>> elbow_signs(const WorkingMode& mode) {
+  if (mode.size() != 3 || (mode.array().abs() != 1).any()) return std::nullopt;
+  return std::array{static_cast<double>(mode[0]), static_cast<double>(mode[1]), static_cast<double>(mode[2])};
+}
+
+PlanarLegGeometry leg_geometry(const PlanarRrrLeg& leg, double coupling_radius) {
+  const Eigen::Vector2d base_direction = unit(leg.base_angle);
+  return {.base_joint = -leg.base_radius * normal(base_direction),
+          .base_direction = base_direction,
+          .coupling_in_platform = coupling_radius * unit(leg.coupling_angle),
+          .link1_length = leg.link1_length,
+          .link2_length = leg.link2_length};
+}
+
+}  // namespace
+
+PlanarRrr::PlanarRrr(const PlanarRrrParameters& parameters) : parameters_(parameters) {
+  throw_if_any(problems(parameters));
+  for (std::size_t i = 0; i < 3; ++i) {
+    geometry_[i] = leg_geometry(parameters.legs[i], parameters.coupling_radius);
+    home_signs_[i] = parameters.legs[i].elbow_sign;
+  }
+}
+
+double PlanarRrr::link_length(BodyId body) const noexcept {
+  if (body.is_platform() || body.leg() >= 3) return 0.0;
+  const PlanarLegGeometry& geometry = geometry_[static_cast<std::size_t>(body.leg())];
+  return body.is_link1() ? geometry.link1_length : geometry.link2_length;
+}
+
+WorkingMode PlanarRrr::home_working_mode() const noexcept {
+  WorkingMode mode(3);
+  for (int i = 0; i < 3; ++i) mode[i] = parameters_.legs[static_cast<std::size_t>(i)].elbow_sign;
+  return mode;
+}
+
+PlatformVector PlanarRrr::difference(const PlatformVector& a, const PlatformVector& b) const noexcept {
+  if (a.size() != 3 || b.size() != 3) return PlatformVector::Zero(3);
+  PlatformVector difference = a - b;
+  difference[2] = wrap_angle(difference[2]);
+  return difference;
+}
+
+// ---------------------------------------------------------------- legs
+
+PlanarMotion PlanarRrr::motion(const Eigen::Vector3d& pose, const Eigen::Vector3d& velocity,
+                               const ElbowSigns& signs) const noexcept {
+  PlanarMotion motion;
+  motion.pose = pose;
+  motion.velocity = velocity;
+  motion.reachable = true;
+  const Eigen::Vector2d origin = pose.head<2>();
+  const Eigen::Vector2d axis = unit(pose.z());
+  for (std::size_t i = 0; i < 3 && motion.reachable; ++i) {
+    const PlanarLeg leg = close_leg(geometry_[i], origin, axis, signs[i]);
+    motion.reachable = leg.reachable;
+    if (leg.reachable) motion.legs[i] = leg_motion(geometry_[i], leg, velocity);
+  }
+  return motion;
+}
+
+PlanarMotion PlanarRrr::motion(const Eigen::Vector3d& pose, const Eigen::Vector3d& velocity) const noexcept {
+  return motion(pose, velocity, home_signs_);
+}
+
+double PlanarRrr::active_angle(int leg, const PlanarLeg& closed) const noexcept {
+  const Eigen::Vector2d& from = geometry_[static_cast<std::size_t>(leg)].base_direction;
+  return std::atan2(cross(from, closed.u1), from.dot(closed.u1));
+}
+
+JointAngles PlanarRrr::joint_angles(const PlanarMotion& motion) const noexcept {
+  JointAngles angles{JointVector(3), JointVector(3), JointVector(3)};
+  for (int i = 0; i < 3; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    const PlanarLeg& leg = motion.legs[index].leg;
+    angles.active[i] = active_angle(i, leg);
+    angles.passive[i] = std::atan2(leg.sin_qp, leg.cos_qp);
+    const double theta2 = parameters_.legs[index].base_angle + angles.active[i] + angles.passive[i];
+    angles.coupling[i] = wrap_angle(motion.pose.z() - theta2);
+  }
+  return angles;
+}
+
+Eigen::Vector2d PlanarRrr::chain_tip(int leg, double active, double passive) const noexcept {
+  const auto i = static_cast<std::size_t>(leg);
+  const PlanarLegGeometry& geometry = geometry_[i];
+  const double theta1 = parameters_.legs[i].base_angle + active;
+  return geometry.base_joint + geometry.link1_length * unit(theta1) +
+         geometry.link2_length * unit(theta1 + passive);
+}
+
+// ---------------------------------------------------------------- inverse and forward kinematics
+
+InverseSolution PlanarRrr::inverse_kinematics(const PlatformVector& pose,
+                                              const WorkingMode& mode) const noexcept {
+  const auto zero = JointVector::Zero(3);
+  InverseSolution solution{{zero, zero, zero}, false};
+  const auto signs = elbow_signs(mode);
+  if (!signs || !usable(pose)) return solution;
+  const PlanarMotion closed = motion(pose, Eigen::Vector3d::Zero(), *signs);
+  solution.reachable = closed.reachable;
+  if (closed.reachable) solution.joints = joint_angles(closed);
+  return solution;
+}
+
+// Newton's method on the drive angles: x <- x + J_x,qa(x) (qa - IK(x)).
+ForwardSolution PlanarRrr::forward_kinematics(const JointVector& active, const PlatformVector& start,
+                                              const WorkingMode& mode) const noexcept {
+  ForwardSolution solution{home_pose(), 0, false};
+  const auto signs = elbow_signs(mode);
+  if (!signs || !usable(active) || !usable(start)) return solution;
+
+  Eigen::Vector3d pose = start;
+  while (pose.allFinite()) {
+    solution.pose = pose;
+    const PlanarMotion closed = motion(pose, Eigen::Vector3d::Zero(), *signs);
+    if (!closed.reachable) break;
+    Eigen::Vector3d error;
+    for (int i = 0; i < 3; ++i) {
+      error[i] = wrap_angle(active[i] - active_angle(i, closed.legs[static_cast<std::size_t>(i)].leg));
+    }
+    solution.converged = error.lpNorm<Eigen::Infinity>() < converged_within;
+    if (solution.converged || solution.iterations == max_iterations) break;
+    pose += stacked_rows(closed, &PlanarLegMotion::J_qa).inverse() * error;
+    ++solution.iterations;
+  }
+  solution.pose[2] = wrap_angle(solution.pose[2]);
+  return solution;
+}
+
+// Rigid fit of the coupling joints, given in the platform frame, to the tips of the legs.
+PlatformVector PlanarRrr::start_pose(const JointVector& active, const JointVector& passive) const noexcept {
+  if (!usable(active) || !usable(passive)) return home_pose();
+  std::array<Eigen::Vector2d, 3> tips;
+  Eigen::Vector2d mean_tip = Eigen::Vector2d::Zero();
+  Eigen::Vector2d mean_coupling = Eigen::Vector2d::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const auto leg = static_cast<std::size_t>(i);
+    tips[leg] = chain_tip(i, active[i], passive[i]);
+    mean_tip += tips[leg] / 3.0;
+    mean_coupling += geometry_[leg].coupling_in_platform / 3.0;
+  }
+  double sine = 0.0;
+  double cosine = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Eigen::Vector2d from = geometry_[i].coupling_in_platform - mean_coupling;
+    const Eigen::Vector2d to = tips[i] - mean_tip;
+    sine += cross(from, to);
+    cosine += from.dot(to);
+  }
+  const double phi = std::atan2(sine, cosine);
+  const Eigen::Vector2d origin = mean_tip - rotate(unit(phi), mean_coupling);
+  return Eigen::Vector3d(origin.x(), origin.y(), phi);
+}
+
+WorkingMode PlanarRrr::working_mode(const JointVector& passive) const noexcept {
+  if (!usable(passive)) return home_working_mode();
+  return (passive.array() < 0.0).select(WorkingMode::Constant(3, -1), WorkingMode::Constant(3, 1));
+}
+
+double PlanarRrr::chain_closure_error(const JointVector& active, const JointVector& passive,
+                                      const PlatformVector& pose) const noexcept {
+  if (!usable(active) || !usable(passive) || !usable(pose)) return std::numeric_limits<double>::infinity();
+  const Eigen::Vector2d origin = pose.head<2>();
+  const Eigen::Vector2d axis = unit(pose[2]);
+  double error = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector2d& coupling = geometry_[static_cast<std::size_t>(i)].coupling_in_platform;
+    const Eigen::Vector2d miss = chain_tip(i, active[i], passive[i]) - origin - rotate(axis, coupling);
+    error = std::max(error, miss.lpNorm<Eigen::Infinity>());
+  }
+  return error;
+}
+
+// ---------------------------------------------------------------- differential kinematics
+
+void PlanarRrr::kinematics(const PlatformVector& pose, const PlatformVector& velocity,
+                           const WorkingMode& mode, Kinematics& out) const noexcept {
+  const auto signs = elbow_signs(mode);
+  if (!signs || !usable(pose) || !usable(velocity)) return set_unreachable(out);
+  const PlanarMotion closed = motion(pose, velocity, *signs);
+  if (!closed.reachable) return set_unreachable(out);
+  out.joints = joint_angles(closed);
+  differential_kinematics(geometry_, closed, out);
+}
+
+}  // namespace flinch
