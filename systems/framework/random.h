@@ -36,9 +36,10 @@ class RandomGenerator {
   std::uint64_t state_;
 };
 
-/// An independent seed for the consumer called `name`, derived from the seed of the run (FNV-1a, then mixed).
+/// An independent seed for the consumer called `name`, derived from the seed of the run (FNV-1a
+/// from the mixed seed, then mixed again).
 constexpr std::uint64_t derive_seed(std::uint64_t seed, std::string_view name) {
-  std::uint64_t hash = 0xcbf29ce484222325U ^ seed;
+  std::uint64_t hash = 0xcbf29ce484222325U ^ RandomGenerator(seed)();
   for (const char letter : name) hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3U;
   return RandomGenerator(hash)();
 }

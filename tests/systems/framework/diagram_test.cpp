@@ -1,0 +1,350 @@
+#include "systems/framework/diagram.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "systems/foundation/setup_error.h"
+#include "systems/framework/diagram_builder.h"
+#include "systems/framework/random.h"
+#include "systems/framework/recorder.h"
+#include "systems/framework/runge_kutta.h"
+#include "systems/framework/simulator.h"
+#include "tests/support/allocations.h"
+#include "tests/support/blocks.h"
+
+namespace flinch {
+namespace {
+
+using test::Adder;
+using test::Counter;
+using test::Decay;
+using test::Delay;
+using test::Gain;
+
+/// An accumulator with a gain in its loop, driven by noise: enough of everything to compare bits.
+class Noise final : public System {
+  State<RandomGenerator> generator_;
+  State<double> value_ = state<double>("value", 0.0);
+
+ public:
+  explicit Noise(std::uint64_t seed) : generator_(state<RandomGenerator>("generator", RandomGenerator(seed))) {
+    update<&Noise::advance>(generator_, generator_);
+    update<&Noise::draw>(value_, generator_);
+  }
+  OutputPort<double> value = output<&Noise::read>("value", value_);
+
+ private:
+  RandomGenerator advance(RandomGenerator generator) const {
+    generator();
+    return generator;
+  }
+  double draw(RandomGenerator generator) const { return generator.normal(); }
+  double read(double drawn) const { return drawn; }
+};
+
+struct Loop {
+  std::unique_ptr<Diagram> diagram;
+  OutputPort<double> sum;
+};
+
+/// noise -> sum -> (delay -> gain -> sum) and an integrator pushed by the delay.
+Loop flat_loop() {
+  DiagramBuilder builder("loop");
+  auto& noise = builder.add<Noise>("noise", 7);
+  auto& adder = builder.add<Adder>("adder");
+  auto& delay = builder.add<Delay>("delay");
+  auto& gain = builder.add<Gain>("gain", 0.5);
+  auto& decay = builder.add<Decay>("decay", -30.0, 1.0);
+  auto& mix = builder.add<Adder>("mix");
+  builder.connect(noise.value, mix.a);
+  builder.connect(decay.x, mix.b);
+  builder.connect(mix.sum, adder.a);
+  builder.connect(gain.out, adder.b);
+  builder.connect(adder.sum, delay.in);
+  builder.connect(delay.out, gain.in);
+  builder.connect(delay.out, decay.push);
+  const auto sum = builder.export_output("sum", adder.sum);
+  return {builder.build(), sum};
+}
+
+/// The same, with delay and gain nested, the gain twice.
+Loop nested_loop() {
+  DiagramBuilder inner("feedback");
+  auto& delay = inner.add<Delay>("delay");
+  DiagramBuilder innermost("amplifier");
+  auto& gain = innermost.add<Gain>("gain", 0.5);
+  const auto gain_in = innermost.export_input("in", gain.in);
+  const auto gain_out = innermost.export_output("out", gain.out);
+  inner.add(innermost.build());
+  const auto back_in = inner.export_input("in", delay.in);
+  inner.connect(delay.out, gain_in);
+  const auto back_out = inner.export_output("out", gain_out);
+  const auto delayed = inner.export_output("delayed", delay.out);
+
+  DiagramBuilder builder("loop");
+  auto& adder = builder.add<Adder>("adder");
+  builder.add(inner.build());
+  auto& mix = builder.add<Adder>("mix");
+  auto& decay = builder.add<Decay>("decay", -30.0, 1.0);
+  auto& noise = builder.add<Noise>("noise", 7);
+  builder.connect(noise.value, mix.a);
+  builder.connect(decay.x, mix.b);
+  builder.connect(mix.sum, adder.a);
+  builder.connect(back_out, adder.b);
+  builder.connect(adder.sum, back_in);
+  builder.connect(delayed, decay.push);
+  const auto sum = builder.export_output("sum", adder.sum);
+  return {builder.build(), sum};
+}
+
+std::vector<double> run(const Loop& loop, Context context, int ticks) {
+  Simulator simulator(*loop.diagram);
+  std::vector<double> sums;
+  for (int k = 0; k < ticks; ++k) {
+    simulator.step(context);
+    sums.push_back(context.get(loop.sum));
+  }
+  return sums;
+}
+
+std::vector<std::string> problems_of(DiagramBuilder& builder) {
+  try {
+    builder.build();
+  } catch (const SetupError& error) {
+    return error.problems();
+  }
+  return {};
+}
+
+// ---------------------------------------------------------------- laws
+
+TEST(Diagram, GivesTheSameBitsNestedAndFlat) {
+  const Loop flat = flat_loop();
+  const Loop nested = nested_loop();
+  EXPECT_EQ(run(flat, flat.diagram->make_context(), 2000), run(nested, nested.diagram->make_context(), 2000));
+}
+
+TEST(Diagram, GivesTheSameBitsInTwoThreadsThatShareIt) {
+  const Loop loop = flat_loop();
+  const Context start = loop.diagram->make_context();
+  const std::vector<double> alone = run(loop, start, 2000);
+  std::vector<double> first, second;
+  std::thread one([&] { first = run(loop, start, 2000); });
+  std::thread two([&] { second = run(loop, start, 2000); });
+  one.join();
+  two.join();
+  EXPECT_EQ(first, alone);
+  EXPECT_EQ(second, alone);
+}
+
+TEST(Diagram, NeverAllocatesInATick) {
+  const Loop loop = nested_loop();
+  Simulator simulator(*loop.diagram);
+  Recorder recorder(*loop.diagram, recordable_paths(*loop.diagram), 2000);
+  simulator.record(recorder);
+  Context context = loop.diagram->make_context();
+  simulator.step(context);
+  const test::AllocationCounter counter;
+  for (int k = 0; k < 1000; ++k) simulator.step(context);
+  EXPECT_EQ(counter.count(), 0);
+}
+
+TEST(Context, RewindsToACopy) {
+  const Loop loop = flat_loop();
+  Context context = loop.diagram->make_context();
+  run(loop, context, 10);
+  Simulator simulator(*loop.diagram);
+  simulator.advance_to(context, 100ms);
+  const Context snapshot = context;
+  const std::vector<double> first = run(loop, context, 500);
+  simulator.advance_to(context, 300ms);
+  const test::AllocationCounter counter;
+  context = snapshot;
+  EXPECT_EQ(counter.count(), 0);
+  EXPECT_EQ(context.time(), Time(100ms));
+  EXPECT_EQ(run(loop, context, 500), first);
+}
+
+// ---------------------------------------------------------------- meaning of a tick
+
+TEST(Diagram, WritesAllDueUpdatesAtOnceFromTheOldStates) {
+  // Two delays in a row: after the tick at t_k, the second holds what the first held before.
+  DiagramBuilder builder;
+  auto& counter = builder.add<Counter>("counter");
+  auto& first = builder.add<Delay>("first");
+  auto& second = builder.add<Delay>("second");
+  builder.connect(counter.count, first.in);
+  builder.connect(first.out, second.in);
+  const auto diagram = builder.build();
+  Context context = diagram->make_context();
+  Simulator(*diagram).advance_to(context, 10ms);
+  EXPECT_EQ(context.get(counter.count), 10.0);
+  EXPECT_EQ(context.get(first.out), 9.0);
+  EXPECT_EQ(context.get(second.out), 8.0);
+}
+
+TEST(Diagram, RunsUpdatesAtTheirPeriodAndOffset) {
+  DiagramBuilder builder;
+  auto& counter = builder.add<Counter>("counter");
+  auto& slow = builder.add<Delay>("slow", Every{4ms, 1ms});
+  builder.connect(counter.count, slow.in);
+  const auto diagram = builder.build();
+  Context context = diagram->make_context();
+  Simulator simulator(*diagram);
+  std::vector<double> seen;
+  for (int k = 0; k < 10; ++k) {
+    simulator.step(context);
+    seen.push_back(context.get(slow.out));
+  }
+  // Written at 1, 5 and 9 ms; seen from the tick after on.
+  EXPECT_EQ(seen, (std::vector<double>{0, 0, 1, 1, 1, 1, 5, 5, 5, 5}));
+}
+
+TEST(Diagram, HoldsADiscreteStateWithoutDelayForContinuousOnes) {
+  // x' = count: after the tick at t_k the counter shows k + 1, and acts from t_k on.
+  DiagramBuilder builder;
+  auto& counter = builder.add<Counter>("counter");
+  auto& integral = builder.add<Decay>("integral", 0.0, 0.0);
+  builder.connect(counter.count, integral.push);
+  const auto diagram = builder.build();
+  Context context = diagram->make_context();
+  Simulator(*diagram).advance_to(context, 3ms);
+  EXPECT_NEAR(context.get(integral.x), (1 + 2 + 3) * 1e-3, 1e-15);
+}
+
+TEST(Diagram, TakesInputsOnlyFromOutsideTheTick) {
+  DiagramBuilder builder;
+  auto& gain = builder.add<Gain>("gain", 3.0);
+  const auto in = builder.export_input("in", gain.in);
+  const auto diagram = builder.build();
+  Context context = diagram->make_context();
+  context.set(in, 2.0);
+  diagram->evaluate(context);
+  EXPECT_EQ(context.get(gain.out), 6.0);
+  EXPECT_EQ(context.get(gain.in), 2.0);
+  EXPECT_THROW(context.set(gain.in, 1.0), SetupError);
+}
+
+TEST(Simulator, IntegratesLikeTheClosedForm) {
+  DiagramBuilder builder;
+  auto& decay = builder.add<Decay>("decay", -2.0, 1.5);
+  const auto push = builder.export_input("push", decay.push);
+  const auto diagram = builder.build();
+  Context context = diagram->make_context();
+  context.set(push, 0.7);
+  Simulator(*diagram, std::make_unique<RungeKutta>(4)).advance_to(context, 1s);
+  const double exact = 0.35 + (1.5 - 0.35) * std::exp(-2.0);
+  EXPECT_NEAR(context.get(decay.x), exact, 1e-14);
+}
+
+// ---------------------------------------------------------------- what build() finds
+
+TEST(DiagramBuilder, ReportsAllWiringErrorsAtOnceWithFullPaths) {
+  DiagramBuilder builder("robot");
+  auto& one = builder.add<Adder>("sum");
+  auto& two = builder.add<Adder>("sum");
+  auto& fast = builder.add<Delay>("fast", Every{1500us});
+  auto& late = builder.add<Delay>("late", Every{2ms, 300us});
+  builder.connect(one.sum, two.a);
+  builder.connect(two.sum, one.a);
+  builder.connect(one.sum, fast.in);
+  builder.connect(two.sum, fast.in);
+  builder.connect(one.sum, late.in);
+  const std::vector<std::string> expected = {
+      "robot/fast/in is connected twice: to robot/sum/sum and to robot/sum/sum",
+      "robot/sum: two blocks have this name",
+      "robot/sum/b is not connected",
+      "robot/sum/b is not connected",
+      "algebraic loop: robot/sum/sum -> robot/sum/a -> robot/sum/sum -> robot/sum/a -> robot/sum/sum; let one of these "
+      "outputs read a state instead of an input",
+      "the update of robot/fast/held has the period 1500000 ns, which is no multiple of the tick, 1000000 ns",
+      "the update of robot/late/held has the offset 300000 ns, which is no multiple of the tick, 1000000 ns"};
+  EXPECT_EQ(problems_of(builder), expected);
+}
+
+TEST(DiagramBuilder, ListsALoopThroughNestedDiagramsPortByPort) {
+  DiagramBuilder inner("inner");
+  auto& gain = inner.add<Gain>("gain", 2.0);
+  const auto in = inner.export_input("in", gain.in);
+  const auto out = inner.export_output("out", gain.out);
+  DiagramBuilder builder("outer");
+  builder.add(inner.build());
+  auto& adder = builder.add<Adder>("adder");
+  auto& counter = builder.add<Counter>("counter");
+  auto& after = builder.add<Gain>("after", 1.0);
+  builder.connect(out, adder.a);
+  builder.connect(counter.count, adder.b);
+  builder.connect(adder.sum, in);
+  builder.connect(adder.sum, after.in);
+  const std::vector<std::string> problems = problems_of(builder);
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems[0],
+            "algebraic loop: outer/adder/sum -> outer/inner/gain/in -> outer/inner/gain/out -> outer/adder/a -> "
+            "outer/adder/sum; let one of these outputs read a state instead of an input");
+}
+
+TEST(DiagramBuilder, ReportsTwoSeparateLoopsOnce) {
+  DiagramBuilder builder("two");
+  for (const std::string name : {"a", "b"}) {
+    auto& forth = builder.add<Gain>(name + "1", 1.0);
+    auto& back = builder.add<Gain>(name + "2", 1.0);
+    builder.connect(forth.out, back.in);
+    builder.connect(back.out, forth.in);
+  }
+  EXPECT_EQ(problems_of(builder).size(), 2U);
+}
+
+TEST(DiagramBuilder, RefusesToWireIntoANestedDiagram) {
+  DiagramBuilder inner("inner");
+  auto& gain = inner.add<Gain>("gain", 2.0);
+  inner.export_input("in", gain.in);
+  DiagramBuilder builder("outer");
+  builder.add(inner.build());
+  auto& counter = builder.add<Counter>("counter");
+  builder.connect(counter.count, gain.in);
+  const std::vector<std::string> problems = problems_of(builder);
+  ASSERT_EQ(problems.size(), 2U);
+  EXPECT_NE(problems[0].find("which is not in 'outer'"), std::string::npos) << problems[0];
+  EXPECT_EQ(problems[1], "outer/inner/in is not connected");
+}
+
+TEST(System, RefusesAFunctionThatReadsAStateDeclaredBelowIt) {
+  class Late final : public System {
+   public:
+    Late() {
+      State<double> foreign{{nullptr, PortId::Kind::state, 0}};
+      output<&Late::read>("out", foreign);
+    }
+    double read(double value) const { return value; }
+  };
+  EXPECT_THROW(Late(), SetupError);
+}
+
+TEST(Diagram, NamesTheNearestPortWhenATapIsUnknown) {
+  const Loop loop = nested_loop();
+  EXPECT_EQ(loop.diagram->tap("feedback/amplifier/gain/out").path, "feedback/amplifier/gain/out");
+  try {
+    loop.diagram->tap("feedback/amplifier/gain/our");
+    FAIL();
+  } catch (const SetupError& error) {
+    EXPECT_NE(std::string(error.what()).find("did you mean 'feedback/amplifier/gain/out'?"), std::string::npos);
+  }
+}
+
+TEST(Diagram, DrawsItself) {
+  const std::string dot = nested_loop().diagram->graphviz();
+  EXPECT_NE(dot.find("label=\"feedback\""), std::string::npos);
+  EXPECT_NE(dot.find("<b>gain</b>"), std::string::npos);
+  EXPECT_EQ(dot, nested_loop().diagram->graphviz());
+}
+
+TEST(Diagram, ListsItsScheduleInAnOrderInWhichWhatIsReadComesFirst) {
+  const std::string schedule = flat_loop().diagram->schedule();
+  EXPECT_LT(schedule.find("output     loop/delay/out"), schedule.find("output     loop/gain/out"));
+  EXPECT_LT(schedule.find("output     loop/gain/out"), schedule.find("output     loop/adder/sum"));
+  EXPECT_NE(schedule.find("derivative loop/decay/x  <- loop/decay/x, loop/delay/out"), std::string::npos) << schedule;
+}
+
+}  // namespace
+}  // namespace flinch

@@ -1,0 +1,223 @@
+#include "systems/framework/recording.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "systems/foundation/setup_error.h"
+#include "systems/framework/diagram_builder.h"
+#include "systems/framework/player.h"
+#include "systems/framework/random.h"
+#include "systems/framework/recorder.h"
+#include "systems/framework/simulator.h"
+
+namespace flinch {
+namespace {
+
+enum class Mood : std::uint8_t { calm, alarmed };
+
+using Bounded = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
+
+/// One of everything that can be recorded.
+struct Sample {
+  Time when{};
+  bool good = false;
+  Mood mood = Mood::calm;
+  int count = 0;
+  double real = 0.0;
+  Eigen::Vector3d fixed{0.0, 0.0, 0.0};
+  Bounded bounded;
+  std::array<double, 2> pair{};
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("when", "ns", self.when);
+    visit("good", "", self.good);
+    visit("mood", "", self.mood);
+    visit("count", "", self.count);
+    visit("real", "N", self.real);
+    visit("fixed", "m", self.fixed, "base");
+    visit("bounded", "rad", self.bounded);
+    visit("pair", "A", self.pair);
+  }
+};
+
+/// Draws a new sample each tick; sizes, infinities and NaN included.
+class Source final : public System {
+  State<RandomGenerator> generator_ = state<RandomGenerator>("generator", RandomGenerator(3));
+
+ public:
+  OutputPort<Sample> sample = output<&Source::draw>("sample", clock, generator_);
+
+ private:
+  Update advance_ = update<&Source::advance>(generator_, generator_);
+  RandomGenerator advance(RandomGenerator generator) const {
+    generator();
+    return generator;
+  }
+  void draw(Time now, RandomGenerator generator, Sample& drawn) const {
+    drawn.when = now;
+    drawn.good = generator.uniform(0, 1) > 0.5;
+    drawn.mood = generator.uniform(0, 1) > 0.5 ? Mood::alarmed : Mood::calm;
+    drawn.count = static_cast<int>(generator.uniform(-1000, 1000));
+    drawn.real = generator.uniform(0, 1) > 0.9 ? std::numeric_limits<double>::quiet_NaN() : generator.normal();
+    drawn.fixed = Eigen::Vector3d(generator.normal(), -0.0, std::numeric_limits<double>::infinity());
+    drawn.bounded = Bounded::Constant(static_cast<int>(generator.uniform(0, 6.99)), generator.normal());
+    drawn.pair = {generator.normal(), generator.normal()};
+  }
+};
+
+/// Something downstream whose every bit depends on the samples.
+class Digest final : public System {
+  State<double> sum_ = state<double>("sum", 0.0);
+
+ public:
+  InputPort<Sample> sample = input<Sample>("sample");
+  OutputPort<double> sum = output<&Digest::read>("sum", sum_);
+
+ private:
+  Update add_ = update<&Digest::add>(sum_, sum_, sample);
+  double read(double value) const { return value; }
+  double add(double value, const Sample& seen) const {
+    const double real = std::isnan(seen.real) ? 0.25 : seen.real;
+    return 0.9 * value + real + seen.fixed.x() + seen.bounded.sum() * (seen.good ? 1.0 : 3.0) + seen.pair[1] +
+           1e-9 * static_cast<double>(seen.when.count()) + (seen.mood == Mood::alarmed ? 0.1 : 0.2) + seen.count;
+  }
+};
+
+Recording record_source(int ticks) {
+  DiagramBuilder builder("original");
+  auto& source = builder.add<Source>("source");
+  auto& digest = builder.add<Digest>("digest");
+  builder.connect(source.sample, digest.sample);
+  const auto diagram = builder.build();
+  Recorder recorder(*diagram, recordable_paths(*diagram), static_cast<std::size_t>(ticks));
+  Simulator simulator(*diagram);
+  simulator.record(recorder);
+  Context context = diagram->make_context();
+  simulator.advance_to(context, ticks * Time(1ms));
+  return recorder.recording({{"seed", "3"}, {"scenario", "name: text\nsecond: line\n"}, {"empty", ""}});
+}
+
+class RecordingFile : public testing::Test {
+ protected:
+  void SetUp() override { std::filesystem::create_directories(folder_); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::filesystem::path file(const std::string& name) const { return folder_ / name; }
+  static std::string bytes(const std::filesystem::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+
+ private:
+  std::filesystem::path folder_ =
+      std::filesystem::path(testing::TempDir()) /
+      ("flinch_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+};
+
+TEST_F(RecordingFile, ReplaysToIdenticalBitsDownstream) {
+  const Recording original = record_source(500);
+  write_recording(original, file("a.h5"));
+  const Recording read = read_recording(file("a.h5"));
+
+  DiagramBuilder builder("replay");
+  auto& player = builder.add<Player<Sample>>("player", read, "source/sample");
+  auto& digest = builder.add<Digest>("digest");
+  builder.connect(player.played, digest.sample);
+  const auto diagram = builder.build();
+  Recorder recorder(*diagram, {"digest/sum"}, 500);
+  Simulator simulator(*diagram);
+  simulator.record(recorder);
+  Context context = diagram->make_context();
+  simulator.advance_to(context, 500ms);
+  EXPECT_EQ(recorder.recording().column("digest/sum", "value"), original.column("digest/sum", "value"));
+}
+
+TEST_F(RecordingFile, HoldsEveryBitAndAttribute) {
+  const Recording original = record_source(200);
+  write_recording(original, file("a.h5"));
+  const Recording read = read_recording(file("a.h5"));
+  EXPECT_EQ(read.attributes, original.attributes);
+  EXPECT_EQ(read.period, original.period);
+  EXPECT_EQ(read.time_ns, original.time_ns);
+  ASSERT_EQ(read.signals.size(), original.signals.size());
+  for (std::size_t i = 0; i < read.signals.size(); ++i) {
+    ASSERT_EQ(read.signals[i].rows.size(), original.signals[i].rows.size());
+    for (std::size_t k = 0; k < read.signals[i].rows.size(); ++k) {
+      ASSERT_EQ(read.signals[i].rows[k].integer, original.signals[i].rows[k].integer) << read.signals[i].path << k;
+    }
+    for (std::size_t f = 0; f < read.signals[i].layout.fields.size(); ++f) {
+      EXPECT_EQ(read.signals[i].layout.fields[f].unit, original.signals[i].layout.fields[f].unit);
+      EXPECT_EQ(read.signals[i].layout.fields[f].frame, original.signals[i].layout.fields[f].frame);
+    }
+  }
+}
+
+TEST_F(RecordingFile, IsTheSameFileForTheSameRun) {
+  write_recording(record_source(300), file("a.h5"));
+  write_recording(record_source(300), file("b.h5"));
+  EXPECT_EQ(bytes(file("a.h5")), bytes(file("b.h5")));
+}
+
+TEST_F(RecordingFile, TellsWhenItIsTruncatedAndNamesTheFile) {
+  write_recording(record_source(300), file("a.h5"));
+  const std::string whole = bytes(file("a.h5"));
+  for (const std::size_t size : {std::size_t{0}, std::size_t{100}, whole.size() / 2, whole.size() - 100}) {
+    std::ofstream(file("cut.h5"), std::ios::binary) << whole.substr(0, size);
+    try {
+      read_recording(file("cut.h5"));
+      ADD_FAILURE() << "a recording cut to " << size << " bytes was read";
+    } catch (const SetupError& error) {
+      EXPECT_NE(std::string(error.what()).find("cut.h5: this is no whole flinch recording"), std::string::npos);
+    }
+  }
+  EXPECT_THROW(read_recording(file("missing.h5")), SetupError);
+}
+
+TEST_F(RecordingFile, KeepsTheOldFileWhenTheNewOneCannotBeWritten) {
+  const std::filesystem::path nowhere = file("no_folder") / "a.h5";
+  EXPECT_THROW(write_recording(record_source(3), nowhere), SetupError);
+  EXPECT_FALSE(std::filesystem::exists(nowhere));
+}
+
+TEST_F(RecordingFile, CanBeEmpty) {
+  write_recording(record_source(0), file("empty.h5"));
+  EXPECT_EQ(read_recording(file("empty.h5")).samples(), 0U);
+}
+
+TEST(Recorder, CountsWhatDoesNotFit) {
+  DiagramBuilder builder;
+  builder.add<Source>("source");
+  const auto diagram = builder.build();
+  Recorder recorder(*diagram, {"source/sample"}, 5, Every{2ms});
+  Simulator simulator(*diagram);
+  simulator.record(recorder);
+  Context context = diagram->make_context();
+  simulator.advance_to(context, 20ms);
+  EXPECT_EQ(recorder.samples(), 5U);
+  EXPECT_EQ(recorder.dropped(), 5);
+}
+
+TEST(Player, IsNotValidBeforeAndAfterTheRecording) {
+  Recording recording = record_source(10);
+  DiagramBuilder builder;
+  auto& player = builder.add<Player<Sample>>("player", recording, "source/sample");
+  const auto diagram = builder.build();
+  Context context = diagram->make_context();
+  context.set_time(50ms);
+  diagram->evaluate(context);
+  EXPECT_EQ(context.get(player.played).when, Time(0));
+  EXPECT_EQ(context.get(player.played).bounded.size(), 0);
+}
+
+TEST(Player, RefusesAnotherTypeThanWasRecorded) {
+  const Recording recording = record_source(10);
+  EXPECT_THROW(Player<double>(recording, "source/sample"), SetupError);
+  EXPECT_THROW(Player<Sample>(recording, "source/simple"), SetupError);
+}
+
+}  // namespace
+}  // namespace flinch
