@@ -31,8 +31,8 @@ class HoldPose final : public flinch::System {
 /// Holds the bench at home and checks that forward kinematics finds the way back.
 int main() {
   using namespace flinch;
-  const auto robot = std::make_shared<const PlanarRrr>(
-      bench_robot(BenchGeometry::individual, BenchFriction::test_bench));
+  const auto robot =
+      std::make_shared<const PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::test_bench));
 
   DiagramBuilder builder;
   auto& home = builder.add<Constant<PlatformVector>>("home", robot->home_pose());
@@ -42,8 +42,8 @@ int main() {
 
   auto context = diagram->make_context();
   Simulator(*diagram).advance_to(context, 10ms);
-  const auto found = robot->forward_kinematics(context.get(hold.drives), robot->home_pose(),
-                                               robot->home_working_mode());
+  const auto found =
+      robot->forward_kinematics(context.get(hold.drives), robot->home_pose(), robot->home_working_mode());
   const double miss = robot->difference(found.pose, robot->home_pose()).norm();
   std::printf("forward kinematics misses the home pose by %.1e\n", miss);
   return found.converged && miss < 1e-9 ? 0 : 1;
