@@ -1,0 +1,125 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace flinch {
+
+/// A point or vector in the plane of the robot, base frame.
+using ReportPoint = std::array<double, 2>;
+
+/// One contact of an experiment, from the plant's ground truth and the robot's own detector.
+/// What did not happen or was not measured has no value: a contact that was never noticed has no `detected`.
+struct ReportContact {
+  std::string body;                 ///< Touched body as a reader says it: "platform", "second link of leg 1".
+  std::string isolated_body;        ///< Body that the robot took it for; empty: it did not say.
+  std::string object;               ///< What it touched: "pylon".
+  double start = 0.0;               ///< t_c: true contact force leaves zero [s].
+  std::optional<double> detected;   ///< t_det: first tick with the detector's flag [s].
+  std::optional<double> removed;    ///< t_rem: true contact force is back at zero [s].
+  std::optional<double> speed;      ///< Of the platform when it touched [m/s].
+  double peak_force = 0.0;          ///< f_c,max: largest true contact force [N].
+  std::optional<double> peak_time;  ///< When [s].
+  std::optional<double> force_limit;  ///< That the peak is judged against [N].
+  std::string limit_name;             ///< Where the limit comes from: "ISO/TS 15066, transient, hand".
+  bool within_limit = false;          ///< The verdict on `peak_force`.
+};
+
+/// A number of the verdict table other than the contacts: observer error, tracking error, loop closure.
+struct ReportMeasure {
+  std::string name;  ///< "Observer error, force"
+  double value = 0.0;
+  std::string unit;             ///< Of value and bound; empty for a count.
+  std::optional<double> bound;  ///< Largest value that is still good.
+  std::optional<bool> good;     ///< The verdict on `value`; none: the number is only told.
+  std::string note;             ///< How it was measured: "largest, before the first contact".
+};
+
+/// One leg as it is drawn: base joint, first link of length `proximal` at angle `angle + qa`, second link to
+/// the coupling joint, which sits at `coupling` in the platform frame.
+struct ReportLeg {
+  ReportPoint base{};      ///< Active joint in the base frame [m].
+  double angle = 0.0;      ///< psi: direction from which the drive angle counts [rad].
+  double proximal = 0.0;   ///< Length of the first link [m].
+  ReportPoint coupling{};  ///< Coupling joint in the platform frame [m].
+};
+
+/// A planar robot as it is drawn.
+struct ReportRobot {
+  std::vector<ReportLeg> legs;
+  double link_radius = 0.0;      ///< Half the width of a link [m].
+  double platform_radius = 0.0;  ///< Hull of the platform about its origin [m].
+};
+
+/// A round thing that stands in the robot's plane.
+struct ReportObstacle {
+  std::string name;
+  ReportPoint centre{};  ///< Base frame [m].
+  double radius = 0.0;   ///< [m]
+};
+
+/// A line across a chart: threshold or limit. `chart` is the id of a chart as listed in report/README.md.
+struct ReportBound {
+  std::string chart;
+  std::string name;    ///< "reaction threshold"
+  double value = 0.0;  ///< SI, as the chart's columns.
+};
+
+/// A quantity with named states over time, such as the control mode; one entry in `state` per sample.
+struct ReportLane {
+  std::string name;                 ///< "mode"
+  std::vector<std::string> states;  ///< Names by index. By convention index 0 is the quiet state.
+  std::vector<int> state;           ///< Index into `states` per sample; negative: no data.
+};
+
+/// A parameter as it took effect.
+struct ReportParameter {
+  std::string group;  ///< "observer"
+  std::string name;   ///< "gain"
+  std::string value;  ///< As text: it may be a list or a word.
+  std::string unit;
+  std::string note;  ///< What it does, or where it comes from.
+};
+
+/// A text that belongs to the run, shown as it is: the scenario file, the robot file.
+struct ReportText {
+  std::string title;
+  std::string text;
+};
+
+/// Everything that the page of one simulated experiment shows. What is left empty is left out of the page.
+struct Report {
+  std::string title;
+  std::string subtitle;  ///< What was tried, in one sentence: which observer, which reaction.
+  std::string note;      ///< A caveat to be read before anything else; empty: none.
+  bool good = false;
+  std::vector<ReportContact> contacts;
+  std::vector<ReportMeasure> measures;
+
+  std::optional<ReportRobot> robot;
+  std::vector<ReportObstacle> obstacles;
+
+  double start = 0.0;   ///< Time of the first sample [s].
+  double period = 0.0;  ///< Of the samples [s], > 0 where there are any.
+  /// Signals by name, one value per sample, SI; NaN is "no data". The names that the page knows are listed
+  /// in report/README.md.
+  std::map<std::string, std::vector<double>> columns;
+  std::vector<ReportLane> lanes;
+  std::vector<ReportBound> bounds;
+
+  std::vector<ReportParameter> parameters;  ///< Seeds among them.
+  std::vector<ReportParameter> provenance;  ///< Version, command line, files, seed, times; `group` is unused.
+  std::vector<ReportText> texts;
+
+  size_t sample_count() const;  ///< Of the first column, or of the first lane.
+};
+
+/// Throws SetupError with everything that does not fit: columns or lanes of different lengths, a column or
+/// chart that the page does not know, a state without a name, samples without a period.
+void check_report(const Report& report);
+
+}  // namespace flinch

@@ -1,0 +1,64 @@
+"use strict";
+// What the charts show, in order. A chart without columns in the report is left out.
+//
+// symbol: letter and index. series: label, values, colour (a variable of page.css) and wide: true for the true or commanded value,
+// over which the estimated or applied one is drawn thin. scale: from SI to the unit shown.
+// least: smallest span of the value axis, so that noise is not blown up. reach: bounds that the axis always includes.
+
+const degrees = 180 / Math.PI;
+
+function one(name, label, colour, wide = false) {
+  return has(name) ? [{ label, values: report.columns[name], colour, wide }] : [];
+}
+
+function derived(values, label, colour, wide = false) {
+  return values ? [{ label, values, colour, wide }] : [];
+}
+
+/** One pair of commanded and applied torque for each leg. */
+function torques() {
+  const legs = Math.max(columnCount("torque_commanded_"), columnCount("torque_applied_"));
+  return Array.from({ length: legs }, (_, i) => i + 1).flatMap((leg) => [
+    ...one(`torque_commanded_${leg}`, `${leg} commanded`, `--leg-${leg}`, true),
+    ...one(`torque_applied_${leg}`, `${leg} applied`, `--leg-${leg}`),
+  ]);
+}
+
+/** Decimals that show three significant digits of the largest value, but at least one. */
+function decimalsFor(values) {
+  const largest = values.reduce((size, value) => Math.max(size, Math.abs(value ?? 0)), 0);
+  return largest > 0 ? Math.min(6, Math.max(1, 2 - Math.floor(Math.log10(largest)))) : 1;
+}
+
+function chartList() {
+  const list = [
+    { id: "contact_force", title: "Contact force", unit: "N", least: 20, reach: true, fromZero: true, series: [
+      ...one("contact_force", "true", "--true", true),
+      ...derived(magnitude("estimated_force_x", "estimated_force_y"), "estimated, on the platform", "--estimate")] },
+    { id: "force", title: "External force on the platform", unit: "N", least: 24, series: [
+      ...one("external_force_x", "x true", "--leg-2", true), ...one("estimated_force_x", "x estimated", "--leg-2"),
+      ...one("external_force_y", "y true", "--leg-1", true), ...one("estimated_force_y", "y estimated", "--leg-1")] },
+    { id: "moment", title: "External moment on the platform", unit: "Nm", least: 2.4, series: [
+      ...one("external_moment", "true", "--true", true), ...one("estimated_moment", "estimated", "--estimate")] },
+    { id: "speed", title: "Speed of the platform", unit: "m/s", least: 0.05, fromZero: true, series: [
+      ...one("speed", "speed", "--plain")] },
+    { id: "position_error", title: "Tracking error, position", unit: "mm", scale: 1000, least: 0.1, fromZero: true,
+      series: one("position_error", "error", "--plain") },
+    { id: "orientation_error", title: "Tracking error, orientation", unit: "°", scale: degrees, least: 0.01, fromZero: true,
+      series: one("orientation_error", "error", "--plain") },
+    { id: "torque", title: "Drive torques", unit: "Nm", least: 2, series: torques() },
+    { id: "sigma_kappa", title: "Condition number", symbol: ["σ", "κ"], unit: "", least: 0.5, series: one("sigma_kappa", "σκ", "--plain") },
+    { id: "sigma_sc", title: "Self-collision distance", symbol: ["σ", "sc"], unit: "mm", scale: 1000, least: 2,
+      series: one("sigma_sc", "σsc", "--plain") },
+  ];
+  for (const chart of list) {
+    chart.scale ??= 1;
+    chart.bounds = report.bounds.filter((bound) => bound.chart === chart.id)
+      .map((bound) => ({ name: bound.name, value: bound.value * chart.scale }));
+    for (const series of chart.series) {
+      if (chart.scale !== 1) series.values = series.values.map((value) => (value === null ? null : value * chart.scale));
+    }
+    chart.decimals = decimalsFor(chart.series.flatMap((series) => series.values));
+  }
+  return list.filter((chart) => chart.series.length > 0);
+}

@@ -1,0 +1,76 @@
+"use strict";
+// The report's data and what follows from it.
+
+const report = JSON.parse(byId("data").textContent);
+const lastSample = Math.max(0, report.count - 1);
+const wholeRun = [report.start, report.start + lastSample * report.period];
+
+function timeOf(sample) {
+  return report.start + sample * report.period;
+}
+
+/** Sample nearest to a time, within the run. */
+function sampleAt(time) {
+  return Math.min(lastSample, Math.max(0, Math.round((time - report.start) / report.period)));
+}
+
+function has(...names) {
+  return names.every((name) => name in report.columns);
+}
+
+/** Value of a column at a sample; null where there is none. */
+function valueOf(name, sample) {
+  return report.columns[name]?.[sample] ?? null;
+}
+
+/** Length of the vector whose components are two columns; null where one is missing. */
+function magnitude(x, y) {
+  if (!has(x, y)) return null;
+  return report.columns[x].map((value, sample) => {
+    const other = report.columns[y][sample];
+    return value === null || other === null ? null : Math.hypot(value, other);
+  });
+}
+
+/** Number of columns that are called `prefix` 1, 2, ... */
+function columnCount(prefix) {
+  let count = 0;
+  while (has(`${prefix}${count + 1}`)) count += 1;
+  return count;
+}
+
+/** State of a lane at a sample. */
+function stateOf(lane, sample) {
+  let state = -1;
+  for (const [from, value] of lane.changes) {
+    if (from > sample) break;
+    state = value;
+  }
+  return state;
+}
+
+/** A lane as [{from, to, state}], times in seconds. */
+function laneSpans(lane) {
+  return lane.changes.map(([sample, state], i) => ({
+    state,
+    from: timeOf(sample),
+    to: i + 1 < lane.changes.length ? timeOf(lane.changes[i + 1][0]) : wholeRun[1],
+  }));
+}
+
+/** The contact that a time belongs to: the last that has begun, else the first; null without contacts. */
+function contactAt(time) {
+  const begun = report.contacts.filter((contact) => contact.start <= time + 1e-9);
+  return begun.at(-1) ?? report.contacts[0] ?? null;
+}
+
+/** When a contact is over for the reader: removed, or the end of the run. */
+function contactEnd(contact) {
+  return contact.removed ?? wholeRun[1];
+}
+
+/** The contact that is closest to, or furthest above, its limit. */
+function worstContact() {
+  const severity = (contact) => contact.peak_force / (contact.force_limit ?? Infinity);
+  return report.contacts.reduce((worst, next) => (!worst || severity(next) > severity(worst) ? next : worst), null);
+}

@@ -1,0 +1,23 @@
+"use strict";
+// Starts the parts. The page opens at the moment that the first contact was noticed.
+
+showVerdict();
+showStory();
+showAppendix();
+scene.start();
+player.start();
+charts.start();
+lanes.start();
+
+// Paper is light and cannot be unfolded.
+for (const [event, printing] of [["beforeprint", true], ["afterprint", false]]) {
+  addEventListener(event, () => {
+    document.documentElement.classList.toggle("printing", printing);
+    for (const box of document.querySelectorAll("#appendix details")) box.open = printing;
+    charts.recolour();
+  });
+}
+
+const opening = report.contacts[0];
+clock.seekTime(opening ? opening.detected ?? opening.start : wholeRun[0]);
+charts.zoomTo("contact");

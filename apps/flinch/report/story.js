@@ -1,0 +1,69 @@
+"use strict";
+// The run told in plain language, event by event.
+
+/** Events as {time, text, kind}, in order of time. */
+function storyEvents() {
+  const events = report.contacts.flatMap(contactEvents);
+  for (const lane of report.lanes.filter((each) => each.name === "mode")) events.push(...laneEvents(lane));
+  events.sort((a, b) => a.time - b.time);
+  return events;
+}
+
+function contactEvents(contact) {
+  const events = [{ time: contact.start, kind: "contact", text: touched(contact) }];
+  if (contact.detected !== null) events.push({ time: contact.detected, kind: "detected", text: detection(contact) });
+  if (contact.peak_time !== null) {
+    events.push({ time: contact.peak_time, kind: "peak", text: pressed(contact) });
+  }
+  if (contact.removed !== null) events.push({ time: contact.removed, kind: "removed", text: removal(contact) });
+  return events;
+}
+
+function detection(contact) {
+  const taken = contact.isolated_body ? ` and takes it for a contact of the ${contact.isolated_body}` : "";
+  return `The robot notices${taken}.`;
+}
+
+function removal(contact) {
+  const reaction = contact.detected === null ? "" : `, ${milliseconds(contact.removed - contact.detected)} after it was noticed`;
+  return `The contact is removed${reaction}.`;
+}
+
+function laneEvents(lane) {
+  return laneSpans(lane).slice(1).filter((span) => span.state >= 0).map((span) =>
+    ({ time: span.from, kind: "state", text: `${capitalised(lane.name)}: ${lane.states[span.state]}.` }));
+}
+
+/** Time since the contact that the event belongs to, as a reader says it. */
+function sinceContact(time) {
+  const contact = contactAt(time);
+  if (!contact) return "";
+  const gap = Math.round(1000 * (time - contact.start));
+  if (gap === 0) return "contact";
+  return gap > 0 ? `contact + ${gap} ms` : `contact − ${-gap} ms`;
+}
+
+function showStory() {
+  const events = storyEvents();
+  byId("story").hidden = events.length === 0;
+  const buttons = events.map((event) => {
+    const button = element("button", { type: "button", class: event.kind },
+      element("span", { class: "when" }, `${fixed(event.time, 3)} s`),
+      element("span", { class: "since" }, sinceContact(event.time)),
+      element("span", { class: "what" }, event.text));
+    button.addEventListener("click", () => clock.seekTime(event.time));
+    return button;
+  });
+  byId("events").replaceChildren(...buttons.map((button) => element("li", {}, button)));
+  clock.follow((sample) => markCurrent(events, buttons, sample));
+}
+
+/** Marks the event that the clock stands at or has passed last. */
+function markCurrent(events, buttons, sample) {
+  const passed = events.filter((event) => sampleAt(event.time) <= sample).length;
+  buttons.forEach((button, i) => {
+    button.classList.toggle("passed", i < passed);
+    if (i === passed - 1) button.setAttribute("aria-current", "step");
+    else button.removeAttribute("aria-current");
+  });
+}

@@ -1,0 +1,130 @@
+"use strict";
+// The verdict: headline, figures, contacts, measures.
+
+function showHeadline() {
+  document.title = `${report.title} · flinch`;
+  byId("title").textContent = report.title;
+  byId("subtitle").textContent = report.subtitle;
+  byId("note").textContent = report.note;
+  byId("note").hidden = !report.note;
+  byId("summary").textContent = summary();
+  const mark = byId("verdict-mark");
+  mark.textContent = report.good ? "✓ Passed" : "✗ Not passed";
+  mark.classList.add(report.good ? "good" : "bad");
+}
+
+/** The run in plain sentences. */
+function summary() {
+  const contact = worstContact();
+  if (!contact) return "Nothing was touched.";
+  const others = report.contacts.length - 1;
+  const more = others === 0 ? "" : ` The table tells of ${others} more contact${others > 1 ? "s" : ""}.`;
+  return [touched(contact), noticed(contact), pressed(contact)].join(" ") + more;
+}
+
+function touched(contact) {
+  const speed = contact.speed === null ? "" : ` at ${fixed(contact.speed, 2)} m/s`;
+  return `The ${contact.body} ran into the ${contact.object || "obstacle"}${speed}.`;
+}
+
+function noticed(contact) {
+  if (contact.detected === null) return "The robot did not notice.";
+  const after = milliseconds(contact.detected - contact.start);
+  if (contact.removed === null) return `The robot noticed ${after} later, but was still in contact at the end.`;
+  return `The robot noticed ${after} later and was clear of it after ${milliseconds(contact.removed - contact.start)}.`;
+}
+
+function pressed(contact) {
+  const peak = `The force peaked at ${fixed(contact.peak_force, 0)} N`;
+  if (contact.force_limit === null) return `${peak}.`;
+  const limit = `${fixed(contact.force_limit, 0)} N`;
+  return contact.within_limit ? `${peak}, within the limit of ${limit}.` : `${peak}: more than the limit of ${limit}.`;
+}
+
+/** Four large numbers of the worst contact. */
+function showFigures() {
+  const contact = worstContact();
+  byId("figures").hidden = !contact;
+  if (!contact) return;
+  const since = (time) => (time === null ? none : fixed(1000 * (time - contact.start), 0));
+  const figures = [
+    [contact.speed === null ? none : fixed(contact.speed, 2), "m/s", "when it touched"],
+    [since(contact.detected), "ms", contact.detected === null ? "never noticed" : "to notice"],
+    [since(contact.removed), "ms", contact.removed === null ? "never removed" : "until removed"],
+    [fixed(contact.peak_force, 0), "N", contact.force_limit === null ? "at most" : `of ${fixed(contact.force_limit, 0)} N allowed`],
+  ];
+  byId("figures").replaceChildren(...figures.map(([value, unit, caption]) =>
+    element("p", { class: "figure" },
+      element("span", { class: "figure-value" }, value, element("span", { class: "figure-unit" }, ` ${unit}`)),
+      element("span", { class: "figure-caption" }, caption))));
+}
+
+function judgement(good) {
+  if (good === null) return element("td", {}, "");
+  return element("td", { class: good ? "good" : "bad" }, good ? "✓ yes" : "✗ no");
+}
+
+function tableHead(titles) {
+  return element("thead", {}, element("tr", {}, ...titles.map(([title, style]) =>
+    element("th", { scope: "col", class: style ?? "" }, title))));
+}
+
+function showContacts() {
+  byId("contacts").hidden = report.contacts.length === 0;
+  byId("contacts").replaceChildren(element("table", { "aria-label": "Contacts" },
+    tableHead([["Body"], ["At", "n"], ["Speed", "n"], ["Detected after", "n"], ["Removed after", "n"],
+      ["Peak force and limit"], ["Within limit"]]),
+    element("tbody", {}, ...report.contacts.map(contactRow))));
+}
+
+function contactRow(contact) {
+  const since = (time) => milliseconds(time === null ? null : time - contact.start);
+  const go = element("button", { type: "button", class: "link", title: "Go to this contact" }, fixed(contact.start, 3) + " s");
+  go.addEventListener("click", () => clock.seekTime(contact.start));
+  return element("tr", {},
+    element("th", { scope: "row" }, capitalised(contact.body), isolation(contact)),
+    element("td", { class: "n" }, go),
+    element("td", { class: "n" }, contact.speed === null ? none : `${fixed(contact.speed, 2)} m/s`),
+    element("td", { class: contact.detected === null ? "n bad" : "n" },
+      contact.detected === null ? "not detected" : since(contact.detected)),
+    element("td", { class: contact.removed === null ? "n bad" : "n" },
+      contact.removed === null ? "not removed" : since(contact.removed)),
+    element("td", {}, forceBar(contact)),
+    judgement(contact.force_limit === null ? null : contact.within_limit));
+}
+
+/** What the robot took the body for, where it said so. */
+function isolation(contact) {
+  if (!contact.isolated_body) return "";
+  const right = contact.isolated_body === contact.body;
+  return element("small", { class: right ? "" : "bad" }, right ? "isolated correctly" : `taken for the ${contact.isolated_body}`);
+}
+
+/** Peak force as a bar against the limit, which is a tick at a fixed place. */
+function forceBar(contact) {
+  if (contact.force_limit === null) return `${fixed(contact.peak_force, 0)} N`;
+  const share = Math.min(1, contact.peak_force / contact.force_limit / 1.25);
+  const bar = element("span", { class: contact.within_limit ? "bar" : "bar over", "aria-hidden": "true" });
+  bar.style.setProperty("--share", `${100 * share}%`);
+  const text = `${fixed(contact.peak_force, 0)} N of ${fixed(contact.force_limit, 0)} N`;
+  return element("span", { class: "force" }, text, bar, element("small", {}, contact.limit_name));
+}
+
+function showMeasures() {
+  byId("measures").hidden = report.measures.length === 0;
+  const rows = report.measures.map((measure) => element("tr", {},
+    element("th", { scope: "row" }, measure.name),
+    element("td", { class: "n" }, quantity(measure.value, measure.unit)),
+    element("td", { class: "n soft" }, measure.bound === null ? "" : quantity(measure.bound, measure.unit, chosen)),
+    judgement(measure.good),
+    element("td", { class: "soft" }, measure.note)));
+  byId("measure-table").replaceChildren(
+    tableHead([["Measure"], ["Value", "n"], ["At most", "n"], ["Good"], ["Note"]]), element("tbody", {}, ...rows));
+}
+
+function showVerdict() {
+  showHeadline();
+  showFigures();
+  showContacts();
+  showMeasures();
+}
