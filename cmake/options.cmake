@@ -31,6 +31,8 @@ endif()
 add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)
 if(FLINCH_DEVELOPER)
   add_compile_options(-Wall -Wextra -Wconversion -Wshadow -Werror)
+  # Blocks declare what updates their states as members that nobody reads.
+  add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,Clang>:-Wno-unused-private-field>)
 endif()
 if(FLINCH_ASSERTIONS)
   add_compile_options(-UNDEBUG)

@@ -30,32 +30,30 @@ def compile_command(entry):
     return [word for word in words[:end] if word != "-c"]
 
 
-def checks_of(path, entry, build_dir):
-    compiler = compile_command(entry)
-    yield [*compiler, "-fsyntax-only", entry["file"]]
-    if not path.startswith(COMPILER_ONLY):
-        yield ["clang-tidy", "--quiet", "-p", str(build_dir), entry["file"]]
+def check_of(path, entry, build_dir):
+    if path.startswith(COMPILER_ONLY):
+        return [*compile_command(entry), "-fsyntax-only", entry["file"]]
+    return ["clang-tidy", "--quiet", "-p", str(build_dir), entry["file"]]  # the compiler's warnings are among them
 
 
-def fingerprint(commands, entry):
+def fingerprint(check, entry):
     """Hash of all that the outcome depends on: the text with its comments (NOLINT), the rules, the flags."""
     compiler = compile_command(entry)
     preprocessed = run([*compiler, "-E", "-C", entry["file"]], cwd=entry["directory"])
     rules = (tree.ROOT / ".clang-tidy").read_text()
-    text = preprocessed.stdout + rules + repr(commands)
+    text = preprocessed.stdout + rules + repr(check)
     return hashlib.sha256(text.encode()).hexdigest() if preprocessed.returncode == 0 else None
 
 
 def problems_of(path, entry, build_dir):
-    commands = list(checks_of(path, entry, build_dir))
-    mark = fingerprint(commands, entry)
+    check = check_of(path, entry, build_dir)
+    mark = fingerprint(check, entry)
     clean = build_dir / "clean" / str(mark)
     if mark and clean.exists():
         return ""
-    for command in commands:
-        result = run(command, cwd=entry["directory"])
-        if result.returncode != 0:
-            return result.stdout + result.stderr
+    result = run(check, cwd=entry["directory"])
+    if result.returncode != 0:
+        return result.stdout + result.stderr
     clean.parent.mkdir(exist_ok=True)
     clean.touch()
     return ""

@@ -1,7 +1,7 @@
 """Tests mirror the tree: a folder of tests has a folder that it tests, and no source is without a test.
 
-A source counts as tested when its header is among what some test includes, directly or through other headers; that
-it is tested well is for people to see.
+A source counts as tested when some test includes its header, or one whose implementation does, and so on; that it is
+tested well is for people to see.
 """
 import re
 import tree
@@ -21,7 +21,7 @@ while to_visit:
     header = to_visit.pop()
     if header not in reached:
         reached.add(header)
-        to_visit += includes[header]
+        to_visit += includes[header] | includes.get(header.removesuffix(".h") + ".cpp", set())
 
 problems = [f"{test}: there is no folder {'/'.join(test.parts[1:-1])} to test"
             for test in tests
