@@ -57,8 +57,9 @@ const charts = {
     };
   },
 
-  /** Gives all charts the same stretch of time. */
-  setWindow([from, to]) {
+  /** Gives all charts the same stretch of time; `name` is that of the button that asked for it. */
+  setWindow([from, to], name = "") {
+    for (const button of byId("windows").children) button.setAttribute("aria-pressed", String(button.id === `window-${name}`));
     const least = 4 * report.period;
     const middle = (from + to) / 2;
     if (to - from < least) [from, to] = [middle - least / 2, middle + least / 2];
@@ -76,11 +77,11 @@ const charts = {
   zoomTo(name) {
     const contact = contactAt(timeOf(clock.sample));
     if (name === "whole" || !contact) {
-      this.setWindow(wholeRun);
+      this.setWindow(wholeRun, "whole");
     } else if (name === "contact") {
-      this.setWindow([contact.start - 0.06, contactEnd(contact) + 0.12]);
+      this.setWindow([contact.start - 0.06, (contact.removed ?? contact.start + 0.5) + 0.12], name);
     } else {
-      this.setWindow([contact.start - 0.01, (contact.detected ?? contact.start + 0.05) + 0.015]);
+      this.setWindow([contact.start - 0.01, (contact.detected ?? contact.start + 0.05) + 0.015], name);
     }
   },
 
@@ -239,5 +240,9 @@ function drawBound(canvas, area, y, name, baseline) {
   canvas.setLineDash([]);
   canvas.font = "11px system-ui, sans-serif";
   canvas.textAlign = "right";
+  canvas.strokeStyle = colour("--paper");
+  canvas.lineWidth = 4;
+  canvas.lineJoin = "round";
+  canvas.strokeText(name, area.x + area.w - 6, baseline);
   canvas.fillText(name, area.x + area.w - 6, baseline);
 }

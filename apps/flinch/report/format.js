@@ -32,12 +32,12 @@ function chosen(value) {
   return size !== 0 && size < 1e-4 ? number(value, 2) : String(Number(value.toPrecision(6))).replace("-", "−");
 }
 
-/** An SI value in the unit that reads best: lengths below 0.1 m in mm, angles in degrees. */
+/** An SI value in the unit that reads best: lengths below 0.1 m in mm, angles in degrees; a count as it is. */
 function quantity(value, unit, format = number) {
   if (value === null || value === undefined) return none;
   if (unit === "m" && Math.abs(value) < 0.1 && Math.abs(value) >= 1e-6) return `${format(1000 * value)} mm`;
   if (unit === "rad") return `${format((value * 180) / Math.PI)}°`;
-  return unit ? `${format(value)} ${unit}` : format(value);
+  return unit ? `${format(value)} ${unit}` : chosen(value);
 }
 
 /** A duration in whole milliseconds. */

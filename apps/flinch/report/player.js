@@ -7,7 +7,10 @@ const player = {
     if (lastSample === 0) return;
     this.slider = byId("time");
     this.slider.max = String(lastSample);
-    this.slider.addEventListener("input", () => clock.seek(Number(this.slider.value)));
+    this.slider.addEventListener("input", () => {
+      clock.pause();
+      clock.seek(Number(this.slider.value));
+    });
     byId("play").addEventListener("click", () => clock.toggle());
     byId("back").addEventListener("click", () => clock.step(-1));
     byId("forward").addEventListener("click", () => clock.step(1));

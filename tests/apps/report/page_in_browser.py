@@ -16,7 +16,7 @@ import tempfile
 
 from browser import Browser
 
-LOOKS = [(1400, 900, "light"), (1400, 900, "dark"), (800, 1000, "light"), (800, 1000, "dark"), (390, 800, "light")]
+LOOKS = [(1400, 900, "light"), (1400, 900, "dark"), (1240, 768, "light"), (1100, 800, "light"), (800, 1000, "light"), (800, 1000, "dark"), (390, 800, "light")]
 
 
 class Page:
@@ -177,6 +177,9 @@ def fits_every_window(page, pictures):
         page.open()
         over = page.value("document.documentElement.scrollWidth - innerWidth")
         page.expect(over <= 0, f"at a width of {width} the page is {over} pixels too wide")
+        if width >= 800:
+            cut = page.value("[...document.querySelectorAll('.scroll')].filter(e => e.scrollWidth > e.clientWidth).length")
+            page.expect(cut == 0, f"at a width of {width}, {cut} tables are cut off")
         page.expect_silence(f"{width} pixels, {scheme}")
         if pictures:
             page.browser.screenshot(pictures / f"{width}_{scheme}.png")

@@ -199,6 +199,8 @@ void add_verdict(const Experiment& experiment, Report& report) {
       {"Tracking error, position", 0.00081, "m", 0.01, true, "largest, contact-free"},
       {"Tracking error, orientation", 0.00062, "rad", {}, {}, "largest, contact-free"},
       {"Loop closure", 3.1e-13, "m", 1e-9, true, "largest gap of the simulated legs"},
+      {"Simulated time", 2.6, "s", {}, {}, "in 0.21 s of wall time"},
+      {"Seed", 1.0, "", {}, {}, ""},
   };
 }
 
