@@ -18,14 +18,14 @@ PlatformMatrix symmetric_root(const PlatformMatrix& matrix) {
   return V * roots(system.eigenvalues()).asDiagonal() * V.transpose();
 }
 
-double smallest_eigenvalue(const PlatformMatrix& matrix) {
-  return Eigensystem(matrix, Eigen::EigenvaluesOnly).eigenvalues()[0];
+bool positive_definite(const PlatformMatrix& symmetric) {
+  return Eigen::LLT<PlatformMatrix>(symmetric).info() == Eigen::Success;
 }
 
 bool admissible(const PlatformMatrix& M, const PlatformMatrix& K, const PlatformVector& xi) {
   const Eigen::Index n = M.rows();
   const bool sizes = n > 0 && M.cols() == n && K.rows() == n && K.cols() == n && xi.size() == n;
-  return sizes && M.allFinite() && K.allFinite() && xi.allFinite() && smallest_eigenvalue(M) > 0.0;
+  return sizes && M.allFinite() && K.allFinite() && xi.allFinite() && positive_definite(M);
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ ImpedanceDamping impedance_damping(const PlatformMatrix& M, const PlatformMatrix
                                    const PlatformVector& xi) noexcept {
   if (!admissible(M, K, xi)) return {PlatformMatrix::Zero(M.rows(), M.rows()), DampingDesign::none};
   ImpedanceDamping damping{factorisation_damping(M, K, xi), DampingDesign::factorisation};
-  if (smallest_eigenvalue(damping.D) > 0.0) return damping;
+  if (positive_definite(damping.D)) return damping;
   return {modal_damping(M, K, xi), DampingDesign::generalised_eigenvalue};
 }
 

@@ -59,7 +59,7 @@ inline Eigen::Vector2d rotate(const Eigen::Vector2d& axis, const Eigen::Vector2d
 PlanarLeg close_leg(const PlanarLegGeometry& geometry, const Eigen::Vector2d& origin,
                     const Eigen::Vector2d& axis, double elbow_sign) noexcept;
 
-/// Jacobian rows and rates of a reachable leg. Robot theory, "Differential kinematics".
+/// Jacobian rows and rates of a reachable leg. [SafePR] (1) in closed form.
 PlanarLegMotion leg_motion(const PlanarLegGeometry& geometry, const PlanarLeg& leg,
                            const Eigen::Vector3d& velocity) noexcept;
 

@@ -14,7 +14,8 @@ namespace flinch {
 namespace {
 
 constexpr int max_iterations = 10;
-constexpr double converged_within = 1e-10;  // [rad]
+constexpr double largest_angle_error = 1e-10;  // [rad]
+constexpr double largest_last_step = 1e-8;     // [m, rad]
 
 Eigen::Vector2d unit(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
@@ -91,6 +92,15 @@ double PlanarRrr::active_angle(int leg, const PlanarLeg& closed) const noexcept 
   return std::atan2(cross(from, closed.u1), from.dot(closed.u1));
 }
 
+Eigen::Vector3d PlanarRrr::active_error(const JointVector& active,
+                                        const PlanarMotion& motion) const noexcept {
+  Eigen::Vector3d error;
+  for (int i = 0; i < 3; ++i) {
+    error[i] = wrap_angle(active[i] - active_angle(i, motion.legs[static_cast<std::size_t>(i)].leg));
+  }
+  return error;
+}
+
 JointAngles PlanarRrr::joint_angles(const PlanarMotion& motion) const noexcept {
   JointAngles angles{JointVector(3), JointVector(3), JointVector(3)};
   for (int i = 0; i < 3; ++i) {
@@ -126,7 +136,8 @@ InverseSolution PlanarRrr::inverse_kinematics(const PlatformVector& pose,
   return solution;
 }
 
-// Newton's method on the drive angles: x <- x + J_x,qa(x) (qa - IK(x)).
+// Newton's method on the drive angles: x <- x + J_x,qa(x) (qa - IK(x)). A small error alone does not prove
+// convergence: near a singularity it still allows a long step.
 ForwardSolution PlanarRrr::forward_kinematics(const JointVector& active, const PlatformVector& start,
                                               const WorkingMode& mode) const noexcept {
   ForwardSolution solution{home_pose(), 0, false};
@@ -134,20 +145,19 @@ ForwardSolution PlanarRrr::forward_kinematics(const JointVector& active, const P
   if (!signs || !usable(active) || !usable(start)) return solution;
 
   Eigen::Vector3d pose = start;
-  while (pose.allFinite()) {
-    solution.pose = pose;
+  while (!solution.converged && solution.iterations < max_iterations) {
     const PlanarMotion closed = motion(pose, Eigen::Vector3d::Zero(), *signs);
     if (!closed.reachable) break;
-    Eigen::Vector3d error;
-    for (int i = 0; i < 3; ++i) {
-      error[i] = wrap_angle(active[i] - active_angle(i, closed.legs[static_cast<std::size_t>(i)].leg));
-    }
-    solution.converged = error.lpNorm<Eigen::Infinity>() < converged_within;
-    if (solution.converged || solution.iterations == max_iterations) break;
-    pose += stacked_rows(closed, &PlanarLegMotion::J_qa).inverse() * error;
+    const Eigen::Vector3d error = active_error(active, closed);
+    const Eigen::Vector3d step = stacked_rows(closed, &PlanarLegMotion::J_qa).inverse() * error;
+    if (!step.allFinite()) break;
+    pose += step;
     ++solution.iterations;
+    solution.converged = error.lpNorm<Eigen::Infinity>() < largest_angle_error &&
+                         step.lpNorm<Eigen::Infinity>() < largest_last_step;
   }
-  solution.pose[2] = wrap_angle(solution.pose[2]);
+  pose[2] = wrap_angle(pose[2]);
+  solution.pose = pose;
   return solution;
 }
 

@@ -78,6 +78,7 @@ class PlanarRrr final : public ParallelRobot {
   PlanarMotion motion(const Eigen::Vector3d& pose, const Eigen::Vector3d& velocity,
                       const ElbowSigns& signs) const noexcept;
   JointAngles joint_angles(const PlanarMotion& motion) const noexcept;
+  Eigen::Vector3d active_error(const JointVector& active, const PlanarMotion& motion) const noexcept;
   double active_angle(int leg, const PlanarLeg& closed) const noexcept;
   Eigen::Vector2d chain_tip(int leg, double active, double passive) const noexcept;
 
