@@ -1,0 +1,128 @@
+#include <limits>
+
+#include "systems/robot/angles.h"
+#include "tests/systems/robot/random_motion.h"
+#include "tests/systems/robot/reference_3rrr.h"
+#include "tests/systems/robot/residual.h"
+
+namespace flinch::testing {
+namespace {
+
+class ForwardKinematics : public BothGeometries {
+ protected:
+  JointAngles joints_at(const Eigen::Vector3d& pose) const {
+    return robot.inverse_kinematics(pose, robot.home_working_mode()).joints;
+  }
+};
+FLINCH_FOR_BOTH_GEOMETRIES(ForwardKinematics);
+
+TEST_P(ForwardKinematics, StartPoseIsExactForExactAngles) {
+  Residual residual("start pose from exact angles [m, rad]", 1e-14);
+  for (const auto& [pose, velocity] : motions) {
+    const JointAngles joints = joints_at(pose);
+    residual.add(robot.difference(robot.start_pose(joints.active, joints.passive), pose),
+                 Eigen::Vector3d(0, 0, 0));
+  }
+}
+
+TEST_P(ForwardKinematics, RecoversThePoseFromRoughPassiveAnglesWithinFourIterations) {
+  std::mt19937 generator(7);
+  std::normal_distribution<double> noise(0.0, 0.1 * std::numbers::pi / 180.0);
+  Residual residual("pose, started from passive angles with 0.1 deg noise", 1e-13);
+  Residual iterations("iterations", 4);
+  for (const auto& [pose, velocity] : motions) {
+    JointAngles joints = joints_at(pose);
+    for (double& angle : joints.passive) angle += noise(generator);
+    const ForwardSolution solution = robot.forward_kinematics(
+        joints.active, robot.start_pose(joints.active, joints.passive), robot.working_mode(joints.passive));
+    ASSERT_TRUE(solution.converged);
+    residual.add(robot.difference(solution.pose, pose), Eigen::Vector3d(0, 0, 0));
+    iterations.add(solution.iterations);
+  }
+}
+
+TEST_P(ForwardKinematics, RecoversThePoseFromActiveAnglesAndThePreviousPose) {
+  Residual residual("pose, started one millisecond earlier", 1e-13);
+  Residual iterations("iterations", 4);
+  for (const auto& [pose, velocity] : motions) {
+    const Eigen::Vector3d previous = pose - 1e-3 * velocity;
+    const ForwardSolution solution =
+        robot.forward_kinematics(joints_at(pose).active, previous, robot.home_working_mode());
+    ASSERT_TRUE(solution.converged);
+    residual.add(robot.difference(solution.pose, pose), Eigen::Vector3d(0, 0, 0));
+    iterations.add(solution.iterations);
+  }
+}
+
+TEST_P(ForwardKinematics, DependsOnTheActiveAnglesOnly) {
+  Residual residual("pose from two different starts [m, rad]", 1e-13);
+  for (const auto& [pose, velocity] : motions) {
+    const JointVector active = joints_at(pose).active;
+    const auto from = [&](const Eigen::Vector3d& start) {
+      return robot.forward_kinematics(active, start, robot.home_working_mode());
+    };
+    const ForwardSolution a = from(pose + Eigen::Vector3d(0.004, -0.003, 0.01));
+    const ForwardSolution b = from(pose - Eigen::Vector3d(0.004, -0.003, 0.01));
+    ASSERT_TRUE(a.converged && b.converged);
+    residual.add(robot.difference(a.pose, b.pose), Eigen::Vector3d(0, 0, 0));
+  }
+}
+
+TEST_P(ForwardKinematics, ConvergedMeansThatTheDriveAnglesAreReproduced) {
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> angle(-0.6, 2.6);
+  const auto legs = reference_legs(GetParam());
+  int converged = 0;
+  Residual residual("drive angles at the pose found [rad]", 1e-13);
+  for (int trial = 0; trial < 3000; ++trial) {
+    const Eigen::Vector3d active(angle(generator), angle(generator), angle(generator));
+    const ForwardSolution solution =
+        robot.forward_kinematics(active, robot.home_pose(), robot.home_working_mode());
+    ASSERT_TRUE(solution.pose.allFinite());
+    ASSERT_LE(solution.iterations, 10);
+    if (!solution.converged) continue;
+    ++converged;
+    for (int i = 0; i < 3; ++i) {
+      const double found = legs[static_cast<std::size_t>(i)].joints(solution.pose)[0];
+      residual.add(wrap_angle(found - active[i]));
+    }
+  }
+  EXPECT_GT(converged, 100);
+  EXPECT_LT(converged, 3000);
+}
+
+TEST_P(ForwardKinematics, SaysSoWhenThereIsNoPoseOrNoUsableInput) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const WorkingMode mode = robot.home_working_mode();
+  const PlatformVector home = robot.home_pose();
+  for (const ForwardSolution& solution :
+       {robot.forward_kinematics(Eigen::Vector3d(2.6, 2.6, -0.6), home, mode),
+        robot.forward_kinematics(Eigen::Vector3d(nan, 0.4, 0.4), home, mode),
+        robot.forward_kinematics(Eigen::Vector3d(0.4, 0.4, 0.4), Eigen::Vector3d(nan, 0.0, 0.0), mode),
+        robot.forward_kinematics(Eigen::Vector3d(0.4, 0.4, 0.4), Eigen::Vector3d(9.0, 0.0, 0.0), mode),
+        robot.forward_kinematics(JointVector::Zero(6), home, mode)}) {
+    EXPECT_FALSE(solution.converged);
+    EXPECT_TRUE(solution.pose.allFinite());
+    EXPECT_EQ(solution.pose.size(), 3);
+  }
+}
+
+TEST_P(ForwardKinematics, ChainClosureErrorShowsABadEncoder) {
+  for (const auto& [pose, velocity] : motions) {
+    JointAngles joints = joints_at(pose);
+    EXPECT_LT(robot.chain_closure_error(joints.active, joints.passive, pose), 1e-14);
+    joints.passive[1] += 0.03;  // moves the tip by 0.03 rad times the length of the second link
+    const double error = robot.chain_closure_error(joints.active, joints.passive, pose);
+    EXPECT_GT(error, 0.0185 / std::numbers::sqrt2 - 1e-4);
+    EXPECT_LT(error, 0.0187);
+  }
+  const Eigen::Vector3d bad(0.0, std::numeric_limits<double>::quiet_NaN(), 0.0);
+  EXPECT_EQ(robot.chain_closure_error(bad, bad, robot.home_pose()), std::numeric_limits<double>::infinity());
+}
+
+TEST_P(ForwardKinematics, WorkingModeIsTheSignOfThePassiveAngles) {
+  EXPECT_EQ(robot.working_mode(Eigen::Vector3d(2.0, -0.1, 0.0)), (WorkingMode{{1, -1, 1}}));
+}
+
+}  // namespace
+}  // namespace flinch::testing

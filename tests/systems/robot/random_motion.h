@@ -1,0 +1,71 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <random>
+#include <vector>
+
+#include "systems/robot/planar_rrr.h"
+#include "systems/robot/planar_rrr_presets.h"
+
+namespace flinch::testing {
+
+struct PoseAndVelocity {
+  Eigen::Vector3d pose;
+  Eigen::Vector3d velocity;
+};
+
+/// Poses within `radius` and 35 degrees of home that the robot may work at (|det A| >= 0.2), velocities up to
+/// 1 m/s and 3 rad/s. The same for the same seed.
+inline std::vector<PoseAndVelocity> random_motions(const PlanarRrr& robot, int count, unsigned seed = 1,
+                                                   double radius = 0.25) {
+  std::mt19937 generator(seed);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const auto draw = [&](double scale) { return scale * uniform(generator); };
+  std::vector<PoseAndVelocity> motions;
+  while (static_cast<int>(motions.size()) < count) {
+    const Eigen::Vector3d pose(draw(radius), draw(radius), draw(0.61));
+    const Eigen::Vector3d velocity(draw(1.0), draw(1.0), draw(3.0));
+    Kinematics kinematics;
+    robot.kinematics(pose, velocity, kinematics);
+    if (pose.head<2>().norm() > radius || !kinematics.valid || std::abs(kinematics.det_A) < 0.2) continue;
+    motions.push_back({pose, velocity});
+  }
+  return motions;
+}
+
+/// Tests that run for both published geometries, with the friction of the test bench.
+class BothGeometries : public ::testing::TestWithParam<BenchGeometry> {
+ protected:
+  PlanarRrr robot{bench_robot(GetParam(), BenchFriction::test_bench)};
+  std::vector<PoseAndVelocity> motions = random_motions(robot, 300);
+
+  Kinematics kinematics_at(const Eigen::Vector3d& pose, const Eigen::Vector3d& velocity) const {
+    Kinematics kinematics;
+    robot.kinematics(pose, velocity, kinematics);
+    return kinematics;
+  }
+  Dynamics dynamics_at(const Eigen::Vector3d& pose, const Eigen::Vector3d& velocity) const {
+    Dynamics dynamics;
+    robot.dynamics(kinematics_at(pose, velocity), dynamics);
+    return dynamics;
+  }
+};
+
+inline std::string geometry_name(const ::testing::TestParamInfo<BenchGeometry>& info) {
+  return info.param == BenchGeometry::individual ? "Individual" : "Nominal";
+}
+
+/// Derivative of `f` at 0 by fourth-order central differences.
+template <class F>
+auto derivative(F f, double step = 1e-3) {
+  using Value = std::decay_t<decltype(f(0.0))>;
+  return Value((8.0 * (f(step) - f(-step)) - (f(2.0 * step) - f(-2.0 * step))) / (12.0 * step));
+}
+
+}  // namespace flinch::testing
+
+#define FLINCH_FOR_BOTH_GEOMETRIES(suite) \
+  INSTANTIATE_TEST_SUITE_P(               \
+      Bench, suite, ::testing::Values(BenchGeometry::individual, BenchGeometry::nominal), geometry_name)
