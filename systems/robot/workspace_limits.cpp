@@ -1,0 +1,54 @@
+#include "systems/robot/workspace_limits.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "systems/robot/link_segments.h"
+#include "systems/robot/parallel_robot.h"
+
+namespace flinch {
+namespace {
+
+// Collects sentences about limits that do not allow what the robot does at home. NaN allows nothing.
+class Findings {
+ public:
+  void least(const char* field, double limit, double at_home, const char* unit) {
+    if (!(limit <= at_home)) add(field, limit, unit, "it must be at most that at the home pose, ", at_home);
+  }
+  void most(const char* field, double limit, double at_home, const char* unit) {
+    if (!(limit >= at_home)) add(field, limit, unit, "it must be at least that at the home pose, ", at_home);
+  }
+  std::vector<std::string> take() { return std::move(sentences_); }
+
+ private:
+  void add(const char* field, double limit, const char* unit, const char* expectation, double at_home) {
+    std::ostringstream sentence;
+    sentence << field << " is " << limit << unit << "; " << expectation << at_home << unit;
+    sentences_.push_back(sentence.str());
+  }
+
+  std::vector<std::string> sentences_;
+};
+
+}  // namespace
+
+std::vector<std::string> problems(const WorkspaceLimits& limits, const ParallelRobot& robot) {
+  const PlatformVector pose = robot.home_pose();
+  Kinematics home;
+  robot.kinematics(pose, PlatformVector::Zero(robot.dof()), home);
+  const int translations = robot.space_dimension();
+
+  Findings findings;
+  findings.most("max_distance", limits.max_distance, pose.head(translations).norm(), " m");
+  const double rotation = translations == 2 && robot.dof() == 3 ? std::abs(pose[2]) : 0.0;
+  findings.most("max_rotation", limits.max_rotation, rotation, " rad");
+  findings.least("min_abs_det_A", limits.min_abs_det_A, std::abs(home.det_A), "");
+  findings.least("min_abs_det_B", limits.min_abs_det_B, std::abs(home.det_B), "");
+  findings.least("min_self_collision_distance", limits.min_self_collision_distance,
+                 self_collision_distance(home), " m");
+  findings.least("min_active_angle", limits.min_active_angle, home.joints.active.minCoeff(), " rad");
+  findings.most("max_active_angle", limits.max_active_angle, home.joints.active.maxCoeff(), " rad");
+  return findings.take();
+}
+
+}  // namespace flinch

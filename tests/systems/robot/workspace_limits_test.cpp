@@ -1,0 +1,55 @@
+#include "systems/robot/workspace_limits.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "systems/robot/planar_rrr.h"
+#include "systems/robot/planar_rrr_presets.h"
+
+namespace flinch {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const PlanarRrr bench(bench_robot(BenchGeometry::individual, BenchFriction::none));
+
+TEST(WorkspaceLimits, AllowEverythingByDefault) {
+  EXPECT_THAT(problems(WorkspaceLimits{}, bench), IsEmpty());
+}
+
+// At home: |det A| 0.4519, |det B| 0.2216, sigma_sc 0.18533 m, drives at 24.379 to 25.963 degrees.
+TEST(WorkspaceLimits, MayLieJustOutsideTheHomePose) {
+  const WorkspaceLimits limits{.max_distance = 0.0,
+                               .max_rotation = 0.0,
+                               .min_abs_det_A = 0.4518,
+                               .min_abs_det_B = 0.2215,
+                               .min_self_collision_distance = 0.1853,
+                               .min_active_angle = 0.4254,
+                               .max_active_angle = 0.4532};
+  EXPECT_THAT(problems(limits, bench), IsEmpty());
+}
+
+TEST(WorkspaceLimits, MustNotExcludeTheHomePose) {
+  const WorkspaceLimits limits{.max_distance = -0.1,
+                               .max_rotation = std::nan(""),
+                               .min_abs_det_A = 0.4520,
+                               .min_abs_det_B = 0.2217,
+                               .min_self_collision_distance = 0.1854,
+                               .min_active_angle = 0.4256,
+                               .max_active_angle = 0.4531};
+  EXPECT_THAT(
+      problems(limits, bench),
+      ElementsAre(
+          "max_distance is -0.1 m; it must be at least that at the home pose, 0 m",
+          "max_rotation is nan rad; it must be at least that at the home pose, 0 rad",
+          HasSubstr("min_abs_det_A is 0.452; it must be at most that at the home pose, 0.45185"),
+          HasSubstr("min_abs_det_B is 0.2217;"), HasSubstr("min_self_collision_distance is 0.1854 m;"),
+          HasSubstr("min_active_angle is 0.4256 rad;"), HasSubstr("max_active_angle is 0.4531 rad;")));
+}
+
+}  // namespace
+}  // namespace flinch
