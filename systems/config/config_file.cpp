@@ -1,0 +1,77 @@
+#include "systems/config/config_file.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+#include "systems/foundation/nearest_name.h"
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t most_bytes = 1'000'000;
+
+std::vector<std::string> yaml_files_in(const fs::path& folder) {
+  std::error_code error;
+  std::vector<std::string> names;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const fs::path extension = entry->path().extension();
+    if (extension == ".yaml" || extension == ".yml") names.push_back(entry->path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+// "; did you mean 'planar_3rrr.yaml'?", endings left out of the comparison; otherwise all files that are
+// there.
+std::string similar_files(const fs::path& file, const std::vector<std::string>& present) {
+  std::vector<std::string> stems;
+  for (const std::string& name : present) stems.push_back(fs::path(name).stem().string());
+  const auto nearest = std::find(stems.begin(), stems.end(), nearest_name(file.stem().string(), stems));
+  if (nearest != stems.end()) {
+    return "; did you mean '" + present[static_cast<std::size_t>(nearest - stems.begin())] + "'?";
+  }
+  std::string list;
+  for (const std::string& name : present) list += (list.empty() ? "" : ", ") + name;
+  return list.empty() ? "" : "; its folder has " + list;
+}
+
+std::string missing(const fs::path& file) {
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) return "no such file, for there is no folder " + folder.string();
+  return "no such file" + similar_files(file, yaml_files_in(folder));
+}
+
+}  // namespace
+
+std::string problem_with_file(const fs::path& file) {
+  if (file.empty()) return "the name is empty; it must be the name of a file";
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (status.type() == fs::file_type::not_found) return missing(file);
+  if (status.type() == fs::file_type::directory) return "is a folder; it must be a file";
+  if (status.type() != fs::file_type::regular) return "is no regular file; it must be one";
+  if (!std::ifstream(file)) return "cannot be opened; reading it must be permitted";
+  return "";
+}
+
+std::string read_config_file(const fs::path& file) {
+  const std::string problem = problem_with_file(file);
+  if (!problem.empty()) throw SetupError(file.string() + ": " + problem);
+  std::error_code error;
+  const std::uintmax_t bytes = fs::file_size(file, error);
+  if (error || bytes > most_bytes) {
+    throw SetupError(file.string() + ": has " + std::to_string(bytes) +
+                     " bytes; a file of settings has at most " + std::to_string(most_bytes));
+  }
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+}  // namespace flinch

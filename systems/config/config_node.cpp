@@ -1,0 +1,124 @@
+#include "systems/config/config_node.h"
+
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/yaml.h>
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+using Kind = ConfigNode::Kind;
+
+constexpr std::size_t deepest = 50;  // lists and mappings within one another
+
+/// Builds the nodes of one document from what the parser tells.
+class NodeBuilder final : public YAML::EventHandler {
+ public:
+  std::shared_ptr<const ConfigNode> root() const { return root_; }
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    add(mark, make(Kind::empty, mark, anchor));
+  }
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                const std::string& value) override {
+    const auto node = make(Kind::scalar, mark, anchor);
+    node->scalar = value;
+    node->quoted = tag == "!" || tag == "tag:yaml.org,2002:str";
+    add(mark, node);
+  }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    const auto node = anchored_.at(anchor);
+    for (const Open& open : open_) {
+      if (open.node == node) throw YAML::ParserException(mark, "an alias inside its own anchor");
+    }
+    add(mark, node);
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    begin(mark, make(Kind::list, mark, anchor));
+  }
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
+    begin(mark, make(Kind::mapping, mark, anchor));
+  }
+  void OnSequenceEnd() override { open_.pop_back(); }
+  void OnMapEnd() override { open_.pop_back(); }
+
+ private:
+  /// A list or mapping whose end has not come yet.
+  struct Open {
+    std::shared_ptr<ConfigNode> node;
+    std::optional<ConfigNode::Entry> entry;  ///< Of a mapping: its key has come, its value has not.
+  };
+
+  std::shared_ptr<ConfigNode> make(Kind kind, const YAML::Mark& mark, YAML::anchor_t anchor) {
+    auto node = std::make_shared<ConfigNode>();
+    node->kind = kind;
+    node->line = mark.line + 1;
+    if (anchor != YAML::NullAnchor) anchored_[anchor] = node;
+    return node;
+  }
+
+  void begin(const YAML::Mark& mark, const std::shared_ptr<ConfigNode>& node) {
+    if (open_.size() == deepest) throw YAML::ParserException(mark, "nested too deeply");
+    add(mark, node);
+    open_.push_back({node, std::nullopt});
+  }
+
+  void add(const YAML::Mark& mark, const std::shared_ptr<ConfigNode>& node) {
+    if (open_.empty()) {
+      root_ = node;
+      return;
+    }
+    Open& open = open_.back();
+    if (open.node->kind == Kind::list) {
+      open.node->items.push_back(node);
+    } else if (open.entry) {
+      open.entry->value = node;
+      open.node->entries.push_back(*std::exchange(open.entry, std::nullopt));
+    } else if (node->kind == Kind::scalar) {
+      open.entry = ConfigNode::Entry{node->scalar, mark.line + 1, nullptr};
+    } else {
+      throw YAML::ParserException(mark, "a key that is no word");
+    }
+  }
+
+  std::shared_ptr<ConfigNode> root_ = std::make_shared<ConfigNode>();
+  std::vector<Open> open_;
+  std::map<YAML::anchor_t, std::shared_ptr<ConfigNode>> anchored_;
+};
+
+std::string position(const YAML::Mark& mark) {
+  if (mark.is_null()) return "";
+  return ":" + std::to_string(mark.line + 1) + ":" + std::to_string(mark.column + 1);
+}
+
+}  // namespace
+
+std::shared_ptr<const ConfigNode> parse_yaml(std::string_view text, const std::string& file) {
+  std::istringstream stream{std::string(text)};
+  try {
+    YAML::Parser parser(stream);
+    NodeBuilder first;
+    if (!parser.HandleNextDocument(first)) return first.root();
+    NodeBuilder second;
+    if (!parser.HandleNextDocument(second)) return first.root();
+    throw SetupError(file + ":" + std::to_string(second.root()->line) +
+                     ": a second YAML document begins; a file must hold only one, without '---' inside");
+  } catch (const YAML::Exception& error) {
+    throw SetupError(file + position(error.mark) + ": is not valid YAML: " + error.msg +
+                     "; check indentation, colons, quotes and brackets here and just above");
+  }
+}
+
+}  // namespace flinch

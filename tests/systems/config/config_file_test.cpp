@@ -1,0 +1,68 @@
+#include "systems/config/config_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/systems/config/problems_of.h"
+
+namespace flinch {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::EndsWith;
+using testing::Problems;
+using testing::problems_of;
+using testing::TemporaryFolder;
+
+Problems problems_of_file(const std::filesystem::path& file) {
+  return problems_of([&] { read_config_file(file); });
+}
+
+TEST(ReadingAFile, GivesItsTextAsItIs) {
+  const TemporaryFolder folder("config_file_text");
+  EXPECT_EQ(read_config_file(folder.write("a.yaml", "a: 1\r\n\n")), "a: 1\r\n\n");
+}
+
+TEST(MissingFile, IsToldWithTheNearestNameInItsFolder) {
+  const TemporaryFolder folder("config_file_nearest");
+  folder.write("planar_3rrr.yaml", "");
+  folder.write("hexapod.yml", "");
+  folder.write("planar_3rr.txt", "");
+  EXPECT_THAT(problems_of_file(folder / "planar_3rr.yaml"),
+              ElementsAre((folder / "planar_3rr.yaml").string() +
+                          ": no such file; did you mean 'planar_3rrr.yaml'?"));
+  EXPECT_THAT(problems_of_file(folder / "hexpod.yaml"), ElementsAre(EndsWith("did you mean 'hexapod.yml'?")));
+}
+
+TEST(MissingFile, IsToldWithAllThatAreThereIfNoneIsNear) {
+  const TemporaryFolder folder("config_file_all");
+  EXPECT_THAT(problems_of_file(folder / "delta.yaml"), ElementsAre(EndsWith("no such file")));
+  folder.write("planar_3rrr.yaml", "");
+  folder.write("hexapod.yml", "");
+  EXPECT_THAT(problems_of_file(folder / "scara.yaml"),
+              ElementsAre(EndsWith("no such file; its folder has hexapod.yml, planar_3rrr.yaml")));
+}
+
+TEST(MissingFile, MayMissItsFolderToo) {
+  const TemporaryFolder folder("config_file_folder");
+  EXPECT_THAT(problems_of_file(folder / "robots/a.yaml"),
+              ElementsAre(EndsWith("no such file, for there is no folder " + (folder / "robots").string())));
+}
+
+TEST(UnreadableFile, IsRefused) {
+  const TemporaryFolder folder("config_file_unreadable");
+  EXPECT_THAT(problems_of_file(folder / ""), ElementsAre(EndsWith(": is a folder; it must be a file")));
+  EXPECT_THAT(problems_of_file("/dev/zero"), ElementsAre("/dev/zero: is no regular file; it must be one"));
+  EXPECT_THAT(problems_of_file(""),
+              ElementsAre(EndsWith("the name is empty; it must be the name of a file")));
+}
+
+TEST(UnreadableFile, MayBeTooLarge) {
+  const TemporaryFolder folder("config_file_large");
+  EXPECT_TRUE(problems_of_file(folder.write("a.yaml", std::string(1'000'000, '#'))).empty());
+  EXPECT_THAT(problems_of_file(folder.write("a.yaml", std::string(1'000'001, '#'))),
+              ElementsAre(EndsWith("has 1000001 bytes; a file of settings has at most 1000000")));
+}
+
+}  // namespace
+}  // namespace flinch
