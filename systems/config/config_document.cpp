@@ -1,0 +1,233 @@
+#include "systems/config/config_document.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "systems/foundation/nearest_name.h"
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+// "mass" asked for and "mass", "mass_m" or "mass_g" written: the same value, whatever its unit.
+bool is_same_value(const WantedKey& wanted, std::string_view written) {
+  if (written == wanted.name) return true;
+  if (!written.starts_with(wanted.name + "_")) return false;
+  return find_key_unit(written.substr(wanted.name.size() + 1)) != nullptr;
+}
+
+// What was meant by a key that nobody asked for: the longest name of a value not found so far.
+WantedKey* meant_by(std::string_view written, std::vector<WantedKey>& wanted) {
+  WantedKey* meant = nullptr;
+  for (WantedKey& candidate : wanted) {
+    if (candidate.found || !is_same_value(candidate, written)) continue;
+    if (meant == nullptr || candidate.name.size() > meant->name.size()) meant = &candidate;
+  }
+  return meant;
+}
+
+std::vector<std::string> known_keys(const std::vector<WantedKey>& wanted) {
+  std::vector<std::string> keys;
+  for (const WantedKey& key : wanted) keys.push_back(key.with_si_unit());
+  return keys;
+}
+
+// The value that a misspelt key stands for, which then is not missing; the key itself if there is none.
+std::string mistaken_for(const std::string& written, std::vector<WantedKey>& wanted) {
+  const std::string nearest = nearest_name(written, known_keys(wanted));
+  for (WantedKey& candidate : wanted) {
+    if (candidate.found || candidate.with_si_unit() != nearest) continue;
+    candidate.found = true;
+    return candidate.name;
+  }
+  return written;
+}
+
+std::string complaint_about_unit(std::string_view written, const WantedKey& meant) {
+  const std::string right = "; write " + possible_keys(meant.name, meant.unit);
+  if (written == meant.name) return "has no unit" + right;
+  const std::string unit(written.substr(meant.name.size() + 1));
+  if (meant.unit == unit::none) return "has a unit, " + unit + right;
+  return "has the wrong unit, " + unit + right;
+}
+
+// A key may be asked for more than once.
+void note_wanted(std::vector<WantedKey>& wanted, WantedKey key) {
+  const auto known = std::find_if(wanted.begin(), wanted.end(), [&key](const WantedKey& earlier) {
+    return earlier.name == key.name && earlier.unit == key.unit;
+  });
+  if (known == wanted.end()) {
+    wanted.push_back(std::move(key));
+  } else {
+    known->required = known->required || key.required;
+  }
+}
+
+std::string parent_of(const std::string& key) {
+  const std::size_t end = key.find_last_of(".[");
+  return end == std::string::npos ? "" : key.substr(0, end);
+}
+
+bool is_within(std::string_view key, std::string_view section) {
+  if (!key.starts_with(section)) return false;
+  return key.size() == section.size() || section.empty() || key[section.size()] == '.' ||
+         key[section.size()] == '[';
+}
+
+}  // namespace
+
+std::string ConfigSection::path_of(std::string_view key) const {
+  if (path.empty()) return std::string(key);
+  return key.empty() ? path : path + "." + std::string(key);
+}
+
+ConfigDocument::ConfigDocument(std::string file, std::shared_ptr<const ConfigNode> root)
+    : file_(std::move(file)), root_(std::move(root)) {
+  add_section(root_.get(), "", root_->line);
+}
+
+ConfigSection& ConfigDocument::add_section(const ConfigNode* node, std::string path, int line) {
+  for (ConfigSection& section : sections_) {
+    if (section.path == path) return section;
+  }
+  places_.push_back({path, path, line});
+  ConfigSection& section = sections_.emplace_back();
+  section.node = node;
+  section.path = std::move(path);
+  section.line = line;
+  if (node != nullptr) section.taken.resize(node->entries.size());
+  report_repeated(section);
+  return section;
+}
+
+FoundValue ConfigDocument::find(ConfigSection& section, std::string_view name, const Unit& unit,
+                                bool required) {
+  FoundValue found;
+  found.key = section.path_of(name);
+  found.written = found.key;
+  found.line = section.line;
+  if (section.node == nullptr) return found;
+
+  const auto& entries = section.node->entries;
+  for (const KeyUnit& written : key_units(unit)) {
+    const std::string key = key_with_unit(name, written.key);
+    const auto entry =
+        std::find_if(entries.begin(), entries.end(), [&](const auto& e) { return e.key == key; });
+    if (entry == entries.end()) continue;
+    const bool is_new =
+        !std::exchange(section.taken[static_cast<std::size_t>(entry - entries.begin())], true);
+    if (found.node == nullptr) {
+      found = {entry->value.get(), &written, found.key, section.path_of(key), entry->line};
+    } else if (is_new) {
+      add(entry->line, found.key, section.path_of(key),
+          "means the same as " + found.written + " on line " + std::to_string(found.line) +
+              "; keep one of them");
+    }
+  }
+  note_wanted(section.wanted, {std::string(name), unit, required, found.node != nullptr});
+  if (required && found.node == nullptr) incomplete_ = true;
+  return found;
+}
+
+void ConfigDocument::add_value(const FoundValue& found, std::string value, const Unit& unit) {
+  places_.push_back({found.key, found.written, found.line});
+  values_.push_back({found.key, std::move(value), std::string(unit.symbol), found.node != nullptr});
+}
+
+void ConfigDocument::add_problem(const FoundValue& found, const std::string& complaint) {
+  add(found.line, found.key, found.written, complaint);
+}
+
+void ConfigDocument::add_consequence(const std::string& key, const std::string& complaint) {
+  const Place place = place_of(key);
+  add(place.line, key, place.written, complaint, true);
+}
+
+void ConfigDocument::add_foreign(const std::vector<std::string>& problems) {
+  foreign_.insert(foreign_.end(), problems.begin(), problems.end());
+  incomplete_ = incomplete_ || !problems.empty();
+}
+
+std::vector<ReadValue> ConfigDocument::finish() {
+  for (ConfigSection& section : sections_) {
+    report_left_over(section);
+    report_missing(section);
+  }
+  std::vector<Problem> told;
+  for (const Problem& problem : problems_) {
+    if (!problem.consequence || !is_explained(problem)) told.push_back(problem);
+  }
+  std::stable_sort(told.begin(), told.end(),
+                   [](const Problem& a, const Problem& b) { return a.line < b.line; });
+  std::vector<std::string> sentences;
+  for (Problem& problem : told) sentences.push_back(std::move(problem.text));
+  sentences.insert(sentences.end(), foreign_.begin(), foreign_.end());
+  throw_if_any(std::move(sentences));
+  return std::move(values_);
+}
+
+// ---------------------------------------------------------------- problems
+
+void ConfigDocument::add(int line, std::string key, const std::string& written, const std::string& complaint,
+                         bool consequence) {
+  std::string text = file_ + ":" + std::to_string(line) + ": ";
+  if (!written.empty()) text += written + ": ";
+  problems_.push_back({line, std::move(key), text + complaint, consequence});
+}
+
+void ConfigDocument::report_repeated(ConfigSection& section) {
+  if (section.node == nullptr) return;
+  const auto& entries = section.node->entries;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const auto first = std::find_if(entries.begin(), entries.end(), [&](const ConfigNode::Entry& entry) {
+      return entry.key == entries[i].key;
+    });
+    if (first == entries.begin() + static_cast<std::ptrdiff_t>(i)) continue;
+    section.taken[i] = true;
+    const std::string path = section.path_of(entries[i].key);
+    add(entries[i].line, path, path,
+        "is given already on line " + std::to_string(first->line) + "; keep one of them");
+  }
+}
+
+void ConfigDocument::report_left_over(ConfigSection& section) {
+  for (std::size_t i = 0; i < section.taken.size(); ++i) {
+    if (section.taken[i]) continue;
+    const ConfigNode::Entry& entry = section.node->entries[i];
+    const std::string written = section.path_of(entry.key);
+    WantedKey* meant = meant_by(entry.key, section.wanted);
+    if (meant != nullptr) {
+      meant->found = true;
+      add(entry.line, section.path_of(meant->name), written, complaint_about_unit(entry.key, *meant));
+      continue;
+    }
+    add(entry.line, section.path_of(mistaken_for(entry.key, section.wanted)), written,
+        "is not a known key" + did_you_mean(entry.key, known_keys(section.wanted)));
+  }
+}
+
+void ConfigDocument::report_missing(const ConfigSection& section) {
+  for (const WantedKey& wanted : section.wanted) {
+    if (!wanted.required || wanted.found) continue;
+    add(section.line, section.path_of(wanted.name), section.path_of(wanted.with_si_unit()),
+        "is missing; it must be given");
+  }
+}
+
+// Where a value or section stands, or the nearest section around it that was read.
+ConfigDocument::Place ConfigDocument::place_of(std::string key) const {
+  for (;; key = parent_of(key)) {
+    for (const Place& place : places_) {
+      if (place.key == key) return place;
+    }
+  }
+}
+
+bool ConfigDocument::is_explained(const Problem& consequence) const {
+  return std::any_of(problems_.begin(), problems_.end(), [&](const Problem& cause) {
+    return !cause.consequence &&
+           (is_within(cause.key, consequence.key) || is_within(consequence.key, cause.key));
+  });
+}
+
+}  // namespace flinch

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "systems/config/config_node.h"
+#include "systems/config/read_value.h"
+#include "systems/config/unit.h"
+
+namespace flinch {
+
+/// A key that a reader asked for.
+struct WantedKey {
+  std::string name;
+  Unit unit;
+  bool required = false;
+  bool found = false;
+
+  std::string with_si_unit() const { return key_with_unit(name, unit.key); }
+};
+
+/// A mapping while it is read: what was asked for, and which entries that took.
+struct ConfigSection {
+  const ConfigNode* node = nullptr;  ///< Null: the file does not have it, and nothing in it is required.
+  std::string path;                  ///< "legs[1]"; empty for the whole file.
+  int line = 1;
+  std::vector<WantedKey> wanted;
+  std::vector<char> taken;  ///< One for each entry: 1 once it was asked for.
+
+  std::string path_of(std::string_view key) const;
+};
+
+/// Where the value of a key stands.
+struct FoundValue {
+  const ConfigNode* node = nullptr;  ///< Null: not in the file.
+  const KeyUnit* unit = nullptr;     ///< In which it was written.
+  std::string key;                   ///< Path without unit.
+  std::string written;               ///< Path as in the file.
+  int line = 0;
+};
+
+/// A file while it is read: its sections, the values that were read, and all problems so far. The engine
+/// behind ConfigReader.
+class ConfigDocument {
+ public:
+  ConfigDocument(std::string file, std::shared_ptr<const ConfigNode> root);
+
+  const std::string& file() const { return file_; }
+  ConfigSection& root() { return sections_.front(); }
+  /// The mapping at a path, null for one that is not in the file. Its address stays the same.
+  ConfigSection& add_section(const ConfigNode* node, std::string path, int line);
+
+  /// Finds and takes the value called `name`, in any unit of that quantity. Absent and required is a problem.
+  FoundValue find(ConfigSection& section, std::string_view name, const Unit& unit, bool required);
+
+  void add_value(const FoundValue& found, std::string value, const Unit& unit);
+  void add_problem(const FoundValue& found, const std::string& complaint);
+  /// A problem of the value or section called `key`, told unless that has a problem of its own.
+  void add_consequence(const std::string& key, const std::string& complaint);
+  void add_foreign(const std::vector<std::string>& problems);
+
+  bool good() const { return problems_.empty() && !incomplete_; }
+  /// Throws SetupError with all problems in order of lines; otherwise the values in order of reading.
+  std::vector<ReadValue> finish();
+
+ private:
+  struct Problem {
+    int line = 0;
+    std::string key;   ///< Without unit.
+    std::string text;  ///< With file, line and key.
+    bool consequence = false;
+  };
+  struct Place {
+    std::string key;
+    std::string written;
+    int line = 0;
+  };
+
+  void add(int line, std::string key, const std::string& written, const std::string& complaint,
+           bool consequence = false);
+  void report_repeated(ConfigSection& section);
+  void report_left_over(ConfigSection& section);
+  void report_missing(const ConfigSection& section);
+  Place place_of(std::string key) const;
+  bool is_explained(const Problem& consequence) const;
+
+  std::string file_;
+  std::shared_ptr<const ConfigNode> root_;
+  std::deque<ConfigSection> sections_;
+  std::vector<ReadValue> values_;
+  std::vector<Place> places_;
+  std::vector<Problem> problems_;
+  std::vector<std::string> foreign_;
+  bool incomplete_ = false;  ///< A required key was not found.
+};
+
+}  // namespace flinch
