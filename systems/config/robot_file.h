@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "systems/config/read_value.h"
+#include "systems/robot/planar_rrr_parameters.h"
+#include "systems/robot/workspace_limits.h"
+
+namespace flinch {
+
+class ParallelRobot;
+
+/// What a robot file says: see apps/robots/planar_3rrr.yaml for one with every key explained.
+struct RobotFile {
+  std::shared_ptr<const ParallelRobot> robot;
+  WorkspaceLimits limits;
+  std::vector<ReadValue> values;  ///< Every parameter, defaults included.
+};
+
+/// Each throws SetupError with all that is wrong with the file, also physically: masses that are not
+/// positive, inertia that is not positive definite, a home pose out of reach or outside the workspace limits.
+RobotFile read_robot_file(const std::filesystem::path& file);
+std::shared_ptr<const ParallelRobot> load_robot(const std::filesystem::path& file);
+/// The file's `kind` must be planar_3rrr.
+PlanarRrrParameters load_planar_rrr(const std::filesystem::path& file);
+
+}  // namespace flinch
