@@ -23,7 +23,8 @@ function summary() {
 }
 
 function touched(contact) {
-  const speed = contact.speed === null ? "" : ` at ${fixed(contact.speed, 2)} m/s`;
+  const how = contact.body === "platform" ? " at" : ", the platform moving at";
+  const speed = contact.speed === null ? "" : `${how} ${fixed(contact.speed, 2)} m/s`;
   return `The ${contact.body} ran into the ${contact.object || "obstacle"}${speed}.`;
 }
 
@@ -48,14 +49,14 @@ function showFigures() {
   if (!contact) return;
   const since = (time) => (time === null ? none : fixed(1000 * (time - contact.start), 0));
   const figures = [
-    [contact.speed === null ? none : fixed(contact.speed, 2), "m/s", "when it touched"],
+    [contact.speed === null ? none : fixed(contact.speed, 2), "m/s", "platform, at contact"],
     [since(contact.detected), "ms", contact.detected === null ? "never noticed" : "to notice"],
     [since(contact.removed), "ms", contact.removed === null ? "never removed" : "until removed"],
     [fixed(contact.peak_force, 0), "N", contact.force_limit === null ? "at most" : `of ${fixed(contact.force_limit, 0)} N allowed`],
   ];
   byId("figures").replaceChildren(...figures.map(([value, unit, caption]) =>
     element("p", { class: "figure" },
-      element("span", { class: "figure-value" }, value, element("span", { class: "figure-unit" }, ` ${unit}`)),
+      element("span", { class: "figure-value" }, value, element("span", { class: "figure-unit" }, value === none ? "" : ` ${unit}`)),
       element("span", { class: "figure-caption" }, caption))));
 }
 

@@ -81,6 +81,11 @@ class Browser:
         actions = [move[0], {"type": "pointerDown", "button": 0}, move[1], {"type": "pointerUp", "button": 0}]
         self._post("/actions", {"actions": [{"type": "pointer", "id": "mouse", "actions": actions}]})
 
+    def hover(self, point):
+        """Moves the mouse to `point` (x, y in the window)."""
+        move = {"type": "pointerMove", "x": round(point[0]), "y": round(point[1]), "duration": 50}
+        self._post("/actions", {"actions": [{"type": "pointer", "id": "mouse", "actions": [move]}]})
+
     def console_errors(self):
         """What the page has complained about since the last call."""
         log = self._post("/se/log", {"type": "browser"})

@@ -111,12 +111,31 @@ def keys_step(page):
     page.expect_silence("stepping and playing")
 
 
+def first_plot(page):
+    """A function that gives the window's coordinates of a place in the first chart, 0 ... 1 from its left."""
+    page.browser.run("document.querySelector('.plot').scrollIntoView({block: 'center'})")
+    x, y, width, height = page.value("(({x, y, width, height}) => [x, y, width, height])"
+                                     "(document.querySelector('.plot').getBoundingClientRect())")
+    return lambda share: (x + share * width, y + 0.5 * height)
+
+
+def charts_read_under_the_mouse(page):
+    page.browser.click("#window-whole")
+    place = first_plot(page)
+    page.browser.run("clock.seek(0); window.readAt = []; const read = charts.read;"
+                     "charts.read = function (sample) { window.readAt.push(sample); read.call(charts, sample); }")
+    page.browser.hover(place(0.75))
+    page.expect(page.value("window.readAt.at(-1) > 0.5 * lastSample"), "the readings do not follow the mouse")
+    page.expect(page.value("clock.sample") == 0, "the mouse moves the time")
+    page.browser.hover((2, 2))
+    page.expect(page.value("window.readAt.at(-1)") == 0, "the readings do not return to the time shown")
+    page.expect_silence("hovering over a chart")
+
+
 def charts_zoom_together(page):
     page.browser.click("#window-whole")
-    page.browser.run("document.querySelector('.plot').scrollIntoView({block: 'center'})")
-    box = page.value("(({x, y, width, height}) => [x, y, width, height])(document.querySelector('.plot').getBoundingClientRect())")
-    x, y, width, height = box
-    page.browser.drag((x + 0.4 * width, y + 0.5 * height), (x + 0.6 * width, y + 0.5 * height))
+    place = first_plot(page)
+    page.browser.drag(place(0.4), place(0.6))
     windows = page.value("charts.all.map(({graph}) => graph.xAxisRange())")
     page.expect(all(window == windows[0] for window in windows), f"the charts show different windows: {windows}")
     share = page.value("(charts.window[1] - charts.window[0]) / (wholeRun[1] - wholeRun[0])")
@@ -208,6 +227,7 @@ def use(page, pictures):
     if page.value("lastSample") > 100:
         slider_moves_everything(page)
         keys_step(page)
+        charts_read_under_the_mouse(page)
         charts_zoom_together(page)
         charts_keep_peaks(page)
         buttons_do_what_they_say(page)
