@@ -46,7 +46,9 @@ TEST_P(Contact, PointsMoveWithTheirBody) {
 
 TEST_P(Contact, JacobianIsTheDerivativeOfThePoint) {
   Residual translation("contact J against central differences", 5e-10);
-  for (const auto& [pose, velocity] : motions) {
+  for (const PoseAndVelocity& motion : motions) {
+    const auto& pose = motion.pose;
+    const auto& velocity = motion.velocity;
     const Kinematics k = kinematics_at(pose, velocity);
     for (const BodyId body : all_bodies) {
       const ContactJacobian contact = robot.contact_jacobian(k, body, point);
@@ -66,7 +68,9 @@ TEST_P(Contact, JacobianIsTheDerivativeOfThePoint) {
 TEST_P(Contact, JacobianRateIsTheDerivativeOfTheJacobianAlongTheMotion) {
   Residual residual("contact dJ/dt against central differences", 1e-9);
   Residual joints("contact dJ_xc,qa/dt against central differences", 1e-8);
-  for (const auto& [pose, velocity] : motions) {
+  for (const PoseAndVelocity& motion : motions) {
+    const auto& pose = motion.pose;
+    const auto& velocity = motion.velocity;
     const Kinematics k = kinematics_at(pose, velocity);
     for (const BodyId body : all_bodies) {
       const auto at = [&](double h) {

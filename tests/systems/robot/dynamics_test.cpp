@@ -46,7 +46,9 @@ TEST_P(EquationsOfMotion, MassMatrixIsTheSumOverAllBodies) {
 
 TEST_P(EquationsOfMotion, MassMatrixChangesByCoriolisMatrixPlusItsTranspose) {
   Residual residual("dM_x/dt = C_x + C_x^T", 3e-9);
-  for (const auto& [pose, velocity] : motions) {
+  for (const PoseAndVelocity& motion : motions) {
+    const auto& pose = motion.pose;
+    const auto& velocity = motion.velocity;
     const Eigen::Matrix3d C = dynamics_at(pose, velocity).C_x;
     const auto M_along = [&](double h) -> Eigen::Matrix3d {
       return dynamics_at(pose + h * velocity, velocity).M_x;
@@ -57,7 +59,9 @@ TEST_P(EquationsOfMotion, MassMatrixChangesByCoriolisMatrixPlusItsTranspose) {
 
 TEST_P(EquationsOfMotion, CoriolisMatrixIsTheChristoffelMatrix) {
   Residual residual("C_x against numeric Christoffel symbols", 3e-9);
-  for (const auto& [pose, velocity] : motions) {
+  for (const PoseAndVelocity& motion : motions) {
+    const auto& pose = motion.pose;
+    const auto& velocity = motion.velocity;
     std::array<Eigen::Matrix3d, 3> dM;
     for (int k = 0; k < 3; ++k) {
       dM[static_cast<std::size_t>(k)] = derivative(
@@ -129,7 +133,9 @@ TEST_P(EquationsOfMotion, RotorInertiaAddsToItsOwnDrive) {
 TEST_P(EquationsOfMotion, JointSpaceFormHasTheSameSolution) {
   Residual acceleration("accelerations from both forms, relative", 1e-12);
   Residual passivity("dM_qa/dt = C_qa + C_qa^T", 3e-9);
-  for (const auto& [pose, velocity] : motions) {
+  for (const PoseAndVelocity& motion : motions) {
+    const auto& pose = motion.pose;
+    const auto& velocity = motion.velocity;
     const Kinematics k = kinematics_at(pose, velocity);
     const Dynamics dynamics = dynamics_at(pose, velocity);
     const JointSpaceDynamics joints = joint_space_dynamics(k, dynamics);

@@ -70,7 +70,9 @@ TEST_P(ForwardDynamics, KineticEnergyIsThatOfTheMassMatrix) {
 
 TEST_P(ForwardDynamics, EnergyChangesByThePowerOfDrivesForcesAndFriction) {
   Residual residual("power balance [W]", 1e-8);
-  for (const auto& [pose, velocity] : motions) {
+  for (const PoseAndVelocity& motion : motions) {
+    const auto& pose = motion.pose;
+    const auto& velocity = motion.velocity;
     const Eigen::Vector3d a = *uneven.acceleration(pose, velocity, torque, wrench);
     const double energy_rate = derivative(
         [&](double h) {

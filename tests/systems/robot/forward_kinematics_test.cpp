@@ -56,7 +56,8 @@ TEST_P(ForwardKinematics, RecoversThePoseFromActiveAnglesAndThePreviousPose) {
 
 TEST_P(ForwardKinematics, DependsOnTheActiveAnglesOnly) {
   Residual residual("pose from two different starts [m, rad]", 1e-13);
-  for (const auto& [pose, velocity] : motions) {
+  for (const PoseAndVelocity& motion : motions) {
+    const auto& pose = motion.pose;
     const JointVector active = joints_at(pose).active;
     const auto from = [&](const Eigen::Vector3d& start) {
       return robot.forward_kinematics(active, start, robot.home_working_mode());

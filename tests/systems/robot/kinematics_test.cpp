@@ -19,7 +19,9 @@ FLINCH_FOR_BOTH_GEOMETRIES(DifferentialKinematics);
 
 TEST_P(DifferentialKinematics, JacobiansAreTheDerivativesOfTheJointAngles) {
   Residual residual("J_q,x against central differences", 2e-9);
-  for (const auto& [pose, velocity] : motions) {
+  for (const PoseAndVelocity& motion : motions) {
+    const auto& pose = motion.pose;
+    const auto& velocity = motion.velocity;
     const Kinematics k = kinematics_at(pose, velocity);
     const PlatformMatrix* const jacobians[] = {&k.J_qa_x, &k.J_qp_x, &k.J_qc_x};
     for (int which = 0; which < 3; ++which) {
@@ -36,7 +38,9 @@ TEST_P(DifferentialKinematics, JacobiansAreTheDerivativesOfTheJointAngles) {
 
 TEST_P(DifferentialKinematics, JacobianRatesAreTheDerivativesOfTheJacobiansAlongTheMotion) {
   Residual residual("dJ/dt against central differences", 3e-9);
-  for (const auto& [pose, velocity] : motions) {
+  for (const PoseAndVelocity& motion : motions) {
+    const auto& pose = motion.pose;
+    const auto& velocity = motion.velocity;
     const Kinematics k = kinematics_at(pose, velocity);
     const auto rate = [&](PlatformMatrix Kinematics::*J) {
       return derivative(
