@@ -1,0 +1,47 @@
+#include "plant/hunt_crossley.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flinch {
+namespace {
+
+// ln((1 - e a) / (1 + a)) + a (1 + e): zero where a = c v and the restitution e belong together, positive for
+// smaller and negative for larger values of either.
+double impact_balance(double a, double e) { return std::log1p(-e * a) - std::log1p(a) + a * (1.0 + e); }
+
+// The root between `low`, where `f` is positive, and `high`, to the last bit.
+template <class Function>
+double bisect(Function f, double low, double high) {
+  while (true) {
+    const double middle = 0.5 * (low + high);
+    if (middle <= low || middle >= high) return middle;
+    (f(middle) > 0.0 ? low : high) = middle;
+  }
+}
+
+}  // namespace
+
+HuntCrossley::HuntCrossley(const ContactMaterial& material)
+    : stiffness_(material.stiffness),
+      dissipation_(dissipation_for(material.restitution, material.restitution_speed)),
+      friction_(material.friction),
+      friction_velocity_(material.friction_velocity) {}
+
+double HuntCrossley::friction_force(double normal_force, double speed) const {
+  return friction_ == 0.0 ? 0.0 : -friction_ * normal_force * std::tanh(speed / friction_velocity_);
+}
+
+double HuntCrossley::dissipation_for(double e, double v) {
+  if (e >= 1.0) return 0.0;
+  const double leading_order = 1.5 * (1.0 - e * e) / (1.0 + e * e * e);
+  return bisect([e](double a) { return impact_balance(a, e); }, 0.5 * leading_order, 1.0 / e) / v;
+}
+
+double HuntCrossley::restitution_at(double v) const {
+  const double a = dissipation_ * v;
+  if (a <= 0.0) return 1.0;
+  return bisect([a](double e) { return impact_balance(a, e); }, 0.0, std::min(1.0, 1.0 / a));
+}
+
+}  // namespace flinch
