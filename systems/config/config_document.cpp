@@ -43,6 +43,13 @@ std::string mistaken_for(const std::string& written, std::vector<WantedKey>& wan
   return written;
 }
 
+std::string complaint_about_key(const std::string& written, const std::vector<WantedKey>& wanted) {
+  const std::vector<std::string> known = known_keys(wanted);
+  const bool looked_for = std::find(known.begin(), known.end(), written) != known.end();
+  return looked_for ? "has no effect here; leave it out"
+                    : "is not a known key" + did_you_mean(written, known);
+}
+
 std::string complaint_about_unit(std::string_view written, const WantedKey& meant) {
   const std::string right = "; write " + possible_keys(meant.name, meant.unit);
   if (written == meant.name) return "has no unit" + right;
@@ -129,6 +136,15 @@ FoundValue ConfigDocument::find(ConfigSection& section, std::string_view name, c
   return found;
 }
 
+bool ConfigDocument::has(ConfigSection& section, std::string_view name) {
+  if (section.node == nullptr) return false;
+  const auto& entries = section.node->entries;
+  const bool there =
+      std::any_of(entries.begin(), entries.end(), [name](const auto& entry) { return entry.key == name; });
+  note_wanted(section.wanted, {std::string(name), unit::none, false, there});
+  return there;
+}
+
 void ConfigDocument::add_value(const FoundValue& found, std::string value, const Unit& unit) {
   places_.push_back({found.key, found.written, found.line});
   values_.push_back({found.key, std::move(value), std::string(unit.symbol), found.node != nullptr});
@@ -201,8 +217,8 @@ void ConfigDocument::report_left_over(ConfigSection& section) {
       add(entry.line, section.path_of(meant->name), written, complaint_about_unit(entry.key, *meant));
       continue;
     }
-    add(entry.line, section.path_of(mistaken_for(entry.key, section.wanted)), written,
-        "is not a known key" + did_you_mean(entry.key, known_keys(section.wanted)));
+    const std::string complaint = complaint_about_key(entry.key, section.wanted);
+    add(entry.line, section.path_of(mistaken_for(entry.key, section.wanted)), written, complaint);
   }
 }
 

@@ -57,6 +57,9 @@ class ConfigDocument {
   /// Finds and takes the value called `name`, in any unit of that quantity. Absent and required is a problem.
   FoundValue find(ConfigSection& section, std::string_view name, const Unit& unit, bool required);
 
+  /// Whether there is such a key, without a unit; it is known from now on, but not taken.
+  bool has(ConfigSection& section, std::string_view name);
+
   void add_value(const FoundValue& found, std::string value, const Unit& unit);
   void add_problem(const FoundValue& found, const std::string& complaint);
   /// A problem of the value or section called `key`, told unless that has a problem of its own.

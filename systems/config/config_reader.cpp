@@ -78,6 +78,16 @@ void ConfigReader::number(std::string_view name, const Unit& unit, double& value
   document_->add_value(found, exact_text(value), unit);
 }
 
+void ConfigReader::number(std::string_view name, const Unit& unit, std::optional<double>& value,
+                          const Range& range) {
+  const FoundValue found = document_->find(*section_, name, unit, required_);
+  if (found.node != nullptr) {
+    const Parsed<double> parsed = parse_number(*found.node, *found.unit, range);
+    accept<std::optional<double>>(*document_, found, {parsed.value, parsed.complaint}, value);
+  }
+  document_->add_value(found, value ? exact_text(*value) : "none", unit);
+}
+
 void ConfigReader::numbers(std::string_view name, const Unit& unit, std::span<double> values,
                            const Range& range) {
   std::vector<double> list(values.begin(), values.end());
@@ -180,11 +190,7 @@ std::optional<std::size_t> ConfigReader::choose(std::string_view name, const std
 
 // ---------------------------------------------------------------- sections
 
-bool ConfigReader::has(std::string_view name) const {
-  if (section_->node == nullptr) return false;
-  const auto& entries = section_->node->entries;
-  return std::any_of(entries.begin(), entries.end(), [name](const auto& entry) { return entry.key == name; });
-}
+bool ConfigReader::has(std::string_view name) const { return document_->has(*section_, name); }
 
 std::string_view ConfigReader::one_of(std::initializer_list<std::string_view> names) {
   std::string list;

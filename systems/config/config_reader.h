@@ -54,6 +54,9 @@ class ConfigReader {
 
   /// A finite number, written in any unit of the quantity whose SI unit is `unit`.
   void number(std::string_view name, const Unit& unit, double& value, const Range& range = any_number);
+  /// The same for a quantity that may have no value at all; "none" in the list of values.
+  void number(std::string_view name, const Unit& unit, std::optional<double>& value,
+              const Range& range = any_number);
   /// A list of exactly as many numbers as `values` has.
   void numbers(std::string_view name, const Unit& unit, std::span<double> values,
                const Range& range = any_number);
@@ -79,7 +82,7 @@ class ConfigReader {
 
   /// Whether the key is there, without a unit: a section, a list of sections or a word.
   bool has(std::string_view name) const;
-  /// The one key of these that is there; a problem, and the first of them, if none or several are.
+  /// The one key of these that is there. None is a problem and gives "", several are and give the first.
   std::string_view one_of(std::initializer_list<std::string_view> names);
 
   /// A mapping within this one. Where it is absent or no mapping, all in it reads as absent and optional.

@@ -103,6 +103,14 @@ TEST(UnknownKey, IsFoundInSections) {
               ElementsAre("a.yaml:4: legs[1].bogus: is not a known key; known are: mass_kg"));
 }
 
+TEST(UnknownKey, IsToldWithOneThatWasOnlyLookedFor) {
+  const auto look = [](ConfigReader& reader) { reader.has("contact"); };
+  EXPECT_THAT(problems_of("contcat: 1", look),
+              ElementsAre("a.yaml:1: contcat: is not a known key; did you mean 'contact'?"));
+  EXPECT_THAT(problems_of("contact: 1", look),
+              ElementsAre("a.yaml:1: contact: has no effect here; leave it out"));
+}
+
 TEST(MissingKey, IsToldWhereItsSectionBegins) {
   EXPECT_THAT(problems_with_number("{}"), ElementsAre("a.yaml:1: mass_kg: is missing; it must be given"));
   EXPECT_THAT(problems_of("a: 1\nlegs:\n  - b: 1\n  - b: 2\n",

@@ -6,6 +6,7 @@
 #include <array>
 #include <chrono>
 #include <numbers>
+#include <optional>
 
 #include "tests/systems/config/problems_of.h"
 
@@ -47,6 +48,17 @@ TEST(ReadingNumbers, GivesTheDoubleNearestToTheText) {
 
 TEST(ReadingNumbers, LeavesTheDefaultWhereTheFileIsSilent) {
   EXPECT_EQ(read_number("{}", unit::kg, 7.0), 7.0);
+}
+
+TEST(ReadingNumbers, KnowsQuantitiesThatMayHaveNoValue) {
+  std::optional<double> bound, limit;
+  ConfigReader reader = reader_of("bound_mm: 2");
+  reader.number("bound", unit::m, bound, positive);
+  reader.number("limit", unit::N, limit, positive);
+  const std::vector<ReadValue> values = reader.finish();
+  EXPECT_EQ(bound, 0.002);
+  EXPECT_EQ(limit, std::nullopt);
+  EXPECT_EQ(values[1].value, "none");
 }
 
 TEST(ReadingLists, FillsExactlyWhatIsThere) {
