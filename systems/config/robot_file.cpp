@@ -147,18 +147,24 @@ PlanarRrrFile read_planar_rrr(ConfigReader file) {
   return result;
 }
 
-PlanarRrrFile read_file(const std::filesystem::path& path) {
-  ConfigReader file = ConfigReader::open(path);
+PlanarRrrFile read_any(const ConfigReader& file) {
   RobotKind kind = RobotKind::planar_3rrr;
   file.required().choice("kind", kind, {{"planar_3rrr", RobotKind::planar_3rrr}});
   return read_planar_rrr(file);
 }
 
+PlanarRrrFile read_file(const std::filesystem::path& path) { return read_any(ConfigReader::open(path)); }
+
+RobotFile of_any_kind(PlanarRrrFile read) {
+  return {std::move(read.robot), read.limits, std::move(read.values)};
+}
+
 }  // namespace
 
-RobotFile read_robot_file(const std::filesystem::path& file) {
-  PlanarRrrFile read = read_file(file);
-  return {std::move(read.robot), read.limits, std::move(read.values)};
+RobotFile read_robot_file(const std::filesystem::path& file) { return of_any_kind(read_file(file)); }
+
+RobotFile parse_robot_file(std::string_view text, const std::string& file) {
+  return of_any_kind(read_any(ConfigReader::parse(text, file)));
 }
 
 std::shared_ptr<const ParallelRobot> load_robot(const std::filesystem::path& file) {

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "systems/config/read_value.h"
@@ -22,6 +24,8 @@ struct RobotFile {
 /// Each throws SetupError with all that is wrong with the file, also physically: masses that are not
 /// positive, inertia that is not positive definite, a home pose out of reach or outside the workspace limits.
 RobotFile read_robot_file(const std::filesystem::path& file);
+/// The same for text that came from `file`.
+RobotFile parse_robot_file(std::string_view text, const std::string& file);
 std::shared_ptr<const ParallelRobot> load_robot(const std::filesystem::path& file);
 /// The file's `kind` must be planar_3rrr.
 PlanarRrrParameters load_planar_rrr(const std::filesystem::path& file);

@@ -161,6 +161,15 @@ TEST_F(ChangedRobotFile, TakesBodiesInPlaceOfBaseParameters) {
   EXPECT_NEAR(robot.legs[1].inertia.p1, robot.legs[0].inertia.p1, 1e-4);
 }
 
+TEST_F(ChangedRobotFile, ReadsTheSameFromItsTextAlone) {
+  const RobotFile from_text = parse_robot_file(text_, "recorded.yaml");
+  EXPECT_EQ(from_text.limits.max_distance, 0.35);
+  EXPECT_EQ(from_text.values.size(), read_robot_file(file()).values.size());
+  replace("link_radius_m: 0.03", "link_radius_m: 0");
+  EXPECT_THAT(problems_of([this] { parse_robot_file(text_, "recorded.yaml"); }),
+              ElementsAre("recorded.yaml:25: link_radius_m: is 0 m; it must be positive"));
+}
+
 TEST_F(ChangedRobotFile, HasNoLimitsUnlessItSaysSo) {
   replace("workspace_limits:\n  max_distance_m: 0.35\n", "");
   const WorkspaceLimits limits = read_robot_file(file()).limits;
