@@ -10,7 +10,7 @@ namespace flinch {
 struct StationStatus {
   Time acquired{};
   bool valid = false;
-  bool enabled = false;  ///< torque commands are acted upon
+  bool enabled = false;  ///< the drives are powered and act upon valid torque commands
   bool braked = false;   ///< the brakes are closed
   bool fault = false;    ///< a drive reports a fault
 

@@ -1,0 +1,104 @@
+#include "apps/flinch/command_line.h"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+void add_common(CLI::App& verb, CommonOptions& common) {
+  verb.add_flag("--json", common.json, "Print one JSON object on stdout; messages go to stderr");
+  verb.add_flag("--quiet", common.quiet, "Print nothing but results and errors");
+}
+
+std::string typed(int argc, const char* const* argv) {
+  std::string text = "flinch";
+  for (int i = 1; i < argc; ++i) text += std::string(" ") + argv[i];
+  return text;
+}
+
+void complain(const SetupError& error, const CommonOptions& common) {
+  if (common.json) {
+    fmt::print("{}\n", nlohmann::ordered_json{{"error", error.problems()}}.dump());
+  }
+  for (const std::string& problem : error.problems()) fmt::print(stderr, "error: {}\n", problem);
+}
+
+/// The verbs and their options.
+struct Verbs {
+  RunOptions run;
+  ReportOptions report;
+  GraphOptions graph;
+  CheckOptions check;
+  std::function<ExitStatus()> chosen;
+  CommonOptions* common = nullptr;
+
+  template <class Options>
+  CLI::App& add(CLI::App& app, const char* name, const char* help, const char* example, Options& options,
+                ExitStatus (*verb)(const Options&)) {
+    CLI::App& sub = *app.add_subcommand(name, help);
+    sub.footer(std::string("Example:\n  ") + example);
+    add_common(sub, options.common);
+    sub.callback([this, &options, verb] {
+      common = &options.common;
+      chosen = [&options, verb] { return verb(options); };
+    });
+    return sub;
+  }
+};
+
+void add_verbs(CLI::App& app, Verbs& verbs) {
+  CLI::App& run_verb = verbs.add(app, "run", "Run one experiment in simulation: verdict, recording, report",
+                                 "flinch run apps/scenarios/platform_collision.yaml --out out/demo", verbs.run, &run);
+  run_verb.add_option("scenario", verbs.run.scenario, "Scenario file (YAML)")->required()->type_name("SCENARIO.yaml");
+  run_verb.add_option("--out", verbs.run.out, "Folder for run.h5 and report.html [out/NAME]")->type_name("DIR");
+  run_verb.add_option("--seed", verbs.run.seed, "Seed of all noise, instead of the scenario's")->type_name("N");
+
+  CLI::App& report_verb = verbs.add(app, "report", "Make the report page of a recording",
+                                    "flinch report out/demo/run.h5", verbs.report, &report);
+  report_verb.add_option("recording", verbs.report.recording, "Recording (HDF5) of flinch run")
+      ->required()
+      ->type_name("RUN.h5");
+  report_verb.add_option("--out", verbs.report.out, "The page [report.html beside the recording]")->type_name("PAGE.html");
+
+  CLI::App& graph_verb = verbs.add(app, "graph", "Draw the diagram of a scenario's closed loop",
+                                   "flinch graph apps/scenarios/platform_collision.yaml --out loop.svg", verbs.graph, &graph);
+  graph_verb.add_option("scenario", verbs.graph.scenario, "Scenario file (YAML)")->required()->type_name("SCENARIO.yaml");
+  graph_verb.add_option("--out", verbs.graph.out, "A .svg or .dot file [DOT on stdout]")->type_name("FILE");
+
+  CLI::App& check_verb = verbs.add(app, "check", "Say all that is wrong with a scenario, robot or recording file",
+                                   "flinch check apps/robots/planar_3rrr.yaml", verbs.check, &check);
+  check_verb.add_option("file", verbs.check.file, "Scenario (YAML), robot (YAML) or recording (HDF5)")
+      ->required()
+      ->type_name("FILE");
+}
+
+}  // namespace
+
+int run_command_line(int argc, const char* const* argv) {
+  CLI::App app("flinch: contact detection and reaction for parallel robots. Not a certified safety function.", "flinch");
+  app.set_version_flag("--version", std::string("flinch ") + FLINCH_VERSION);
+  app.require_subcommand(1);
+  app.footer("Exit status: 0 done, 1 the verdict is bad, 2 bad input or usage, 3 a fault stopped the run.");
+  Verbs verbs;
+  add_verbs(app, verbs);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? static_cast<int>(ExitStatus::done) : static_cast<int>(ExitStatus::bad_input);
+  }
+  verbs.common->command_line = typed(argc, argv);
+  try {
+    return static_cast<int>(verbs.chosen());
+  } catch (const SetupError& error) {
+    complain(error, *verbs.common);
+    return static_cast<int>(ExitStatus::bad_input);
+  }
+}
+
+}  // namespace flinch

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace flinch {
+
+/// How a program ends.
+enum class ExitStatus : int {
+  done = 0,
+  bad_verdict = 1,  ///< the run was fine, what it showed is not
+  bad_input = 2,    ///< a file or the command line; nothing was written
+  fault = 3,        ///< the torque gate closed
+};
+
+/// What every verb understands.
+struct CommonOptions {
+  bool json = false;
+  bool quiet = false;
+  std::string command_line;  ///< as typed, for the record
+};
+
+struct RunOptions {
+  CommonOptions common;
+  std::filesystem::path scenario;
+  std::filesystem::path out;  ///< empty: out/NAME
+  std::optional<std::uint64_t> seed;
+};
+
+struct ReportOptions {
+  CommonOptions common;
+  std::filesystem::path recording;
+  std::filesystem::path out;  ///< empty: beside the recording
+};
+
+struct GraphOptions {
+  CommonOptions common;
+  std::filesystem::path scenario;
+  std::filesystem::path out;  ///< a .svg or .dot file; empty: DOT on stdout
+};
+
+struct CheckOptions {
+  CommonOptions common;
+  std::filesystem::path file;
+};
+
+/// The verbs. Each throws SetupError for bad input.
+ExitStatus run(const RunOptions& options);
+ExitStatus report(const ReportOptions& options);
+ExitStatus graph(const GraphOptions& options);
+ExitStatus check(const CheckOptions& options);
+
+/// Parses the command line, carries out its verb and returns the exit status of the program.
+int run_command_line(int argc, const char* const* argv);
+
+}  // namespace flinch

@@ -1,0 +1,20 @@
+#pragma once
+
+namespace flinch {
+
+class ConfigReader;
+class ParallelRobot;
+struct ContactControlSettings;
+struct WorkspaceLimits;
+
+/// Lets the robot's own limits bound the control path.
+void apply_limits(const WorkspaceLimits& limits, ContactControlSettings& control);
+
+/// Reads the section `control` of a scenario.
+void read_control(ConfigReader control, ContactControlSettings& settings);
+
+/// Reads the section `motion` of a scenario into the nominal motion. Throws SetupError for a motion that the robot
+/// cannot make, with the line of the section.
+void read_motion(ConfigReader motion, const ParallelRobot& robot, ContactControlSettings& settings);
+
+}  // namespace flinch

@@ -1,0 +1,213 @@
+#include "apps/flinch/verdict.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "systems/control/fault_table.h"
+#include "systems/control/reaction_state.h"
+#include "systems/framework/recording.h"
+#include "systems/robot/body_id.h"
+
+namespace flinch {
+namespace {
+
+/// The columns of a recording that a verdict rests on, one entry a sample.
+struct Samples {
+  explicit Samples(const Recording& recording)
+      : period(to_seconds(recording.period)),
+        force_x(recording.column("contact", "strongest.force_in_base", 0)),
+        force_y(recording.column("contact", "strongest.force_in_base", 1)),
+        body(recording.column("contact", "strongest.body")),
+        clamping(recording.column("contact", "clamping")),
+        onset_ns(recording.column("contact", "onset")),
+        level(recording.column("detection", "level")),
+        mode(recording.column("reaction", "mode")),
+        estimate_valid(recording.column("wrench", "valid")),
+        reference_valid(recording.column("reference", "valid")),
+        loop_closure(recording.column("truth", "loop_closure_error")),
+        fault(recording.column("gate", "fault")) {
+    for (int i = 0; i < 3; ++i) {
+      pose.push_back(recording.column("truth", "pose", i));
+      velocity.push_back(recording.column("truth", "velocity", i));
+      external.push_back(recording.column("truth", "wrench_in_base", i));
+      estimate.push_back(recording.column("wrench", "wrench_in_base", i));
+      reference.push_back(recording.column("reference", "pose", i));
+    }
+    for (const std::int64_t ns : recording.time_ns) time.push_back(1e-9 * static_cast<double>(ns));
+  }
+
+  std::size_t size() const { return time.size(); }
+  double force(std::size_t k) const { return std::hypot(force_x[k], force_y[k]); }
+  bool touched(std::size_t k) const {
+    return force(k) > Verdict::contact_force || std::hypot(external[0][k], external[1][k]) > Verdict::contact_force;
+  }
+
+  double period;
+  std::vector<double> time;
+  std::vector<double> force_x, force_y, body, clamping, onset_ns, level, mode;
+  std::vector<double> estimate_valid, reference_valid, loop_closure, fault;
+  std::vector<std::vector<double>> pose, velocity, external, estimate, reference;
+};
+
+/// First and last sample with force of each contact.
+struct Span {
+  std::size_t first;
+  std::size_t last;
+};
+
+std::vector<Span> contact_spans(const Samples& samples) {
+  std::vector<Span> spans;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    if (!(samples.force(k) > Verdict::contact_force)) continue;
+    const bool same = !spans.empty() && samples.time[k] - samples.time[spans.back().last] < Verdict::same_contact;
+    if (same) {
+      spans.back().last = k;
+    } else {
+      spans.push_back({k, k});
+    }
+  }
+  return spans;
+}
+
+/// The body that is touched: a leg's clamping where that happens during the span, else the body with the peak force.
+std::string touched_body(const Samples& samples, const Span& span, std::size_t peak) {
+  for (std::size_t k = span.first; k <= span.last; ++k) {
+    if (samples.clamping[k] == 0.0) continue;
+    return "leg" + std::to_string(BodyId::from_index(static_cast<int>(samples.body[k])).leg() + 1) + "_clamping";
+  }
+  return body_name(BodyId::from_index(static_cast<int>(samples.body[peak])));
+}
+
+void limit_force(const ForceLimits& limits, double end, ContactVerdict& contact) {
+  const bool transient = end - contact.onset <= limits.transient_duration;
+  contact.limit = transient ? limits.transient : limits.quasi_static;
+  contact.limit_name = transient ? "transient" : "quasi-static";
+  contact.within_limit = contact.peak_force <= contact.limit;
+}
+
+ContactVerdict judge_contact(const Samples& samples, const Span& span, const ForceLimits& limits) {
+  ContactVerdict contact;
+  std::size_t peak = span.first;
+  for (std::size_t k = span.first; k <= span.last; ++k) {
+    if (samples.force(k) > samples.force(peak)) peak = k;
+    if (!contact.detected && samples.level[k] > 0.0) contact.detected = samples.time[k];
+  }
+  const double grace_end = samples.time[span.last] + Verdict::same_contact;
+  for (std::size_t k = span.last; !contact.detected && k < samples.size() && samples.time[k] < grace_end; ++k) {
+    if (samples.level[k] > 0.0) contact.detected = samples.time[k];
+  }
+  contact.body = touched_body(samples, span, peak);
+  contact.onset = 1e-9 * samples.onset_ns[span.first];
+  contact.peak_force = samples.force(peak);
+  contact.peak_time = samples.time[peak];
+  contact.speed = std::hypot(samples.velocity[0][span.first], samples.velocity[1][span.first]);
+  if (samples.time.back() - samples.time[span.last] >= Verdict::same_contact) {
+    contact.removed = samples.time[span.last] + samples.period;
+  }
+  limit_force(limits, samples.time[span.last], contact);
+  return contact;
+}
+
+int count_false_detections(const Samples& samples) {
+  int count = 0;
+  double last_touched = -Verdict::same_contact;
+  for (std::size_t k = 1; k < samples.size(); ++k) {
+    if (samples.touched(k)) last_touched = samples.time[k];
+    const bool rises = samples.level[k] > 0.0 && samples.level[k - 1] == 0.0;
+    if (rises && samples.time[k] - last_touched >= Verdict::same_contact) ++count;
+  }
+  return count;
+}
+
+/// The largest errors before anything touches the robot.
+void measure_errors(const Samples& samples, Verdict& verdict) {
+  for (std::size_t k = 0; k < samples.size() && !samples.touched(k); ++k) {
+    if (samples.estimate_valid[k] != 0.0) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        double& largest = i < 2 ? verdict.max_observer_error_force : verdict.max_observer_error_moment;
+        largest = std::max(largest, std::abs(samples.estimate[i][k] - samples.external[i][k]));
+      }
+    }
+    const bool nominal = samples.mode[k] == static_cast<double>(ReactionMode::nominal);
+    if (nominal && samples.reference_valid[k] != 0.0) {
+      const double distance = std::hypot(samples.pose[0][k] - samples.reference[0][k],
+                                         samples.pose[1][k] - samples.reference[1][k]);
+      const double angle = std::remainder(samples.pose[2][k] - samples.reference[2][k], 2.0 * M_PI);
+      verdict.max_tracking_error = std::max(verdict.max_tracking_error, distance);
+      verdict.max_orientation_error = std::max(verdict.max_orientation_error, std::abs(angle));
+    }
+  }
+}
+
+std::string first_fault(const Samples& samples) {
+  for (const double fault : samples.fault) {
+    if (fault == 0.0) continue;
+    for (const FaultRow& row : fault_table()) {
+      if (static_cast<double>(row.fault) == fault) return row.description;
+    }
+  }
+  return "";
+}
+
+void expect_contact(const Verdict& verdict, const Expectations& expected, std::vector<std::string>& failures) {
+  if (!expected.contact) return;
+  if (*expected.contact == "none") {
+    if (!verdict.contacts.empty()) failures.push_back("there was a contact, though none was expected");
+    return;
+  }
+  if (verdict.contacts.empty()) {
+    failures.push_back("nothing was touched, though a contact with " + *expected.contact + " was expected");
+  } else if (verdict.contacts.front().body != *expected.contact) {
+    failures.push_back(verdict.contacts.front().body + " was touched instead of " + *expected.contact);
+  }
+}
+
+void judge_contacts(const Verdict& verdict, const Expectations& expected, std::vector<std::string>& failures) {
+  for (const ContactVerdict& contact : verdict.contacts) {
+    if (!contact.detected) {
+      failures.push_back("the contact with " + contact.body + " was not detected");
+    } else if (expected.detection_time && *contact.detected - contact.onset > *expected.detection_time) {
+      failures.push_back(fmt::format("the contact with {} was detected after {:.1f} ms, later than {:.1f} ms", contact.body,
+                                     1e3 * (*contact.detected - contact.onset), 1e3 * *expected.detection_time));
+    }
+    if (!contact.within_limit) {
+      failures.push_back(fmt::format("the force on {} reached {:.0f} N, above the {} limit of {:.0f} N", contact.body,
+                                     contact.peak_force, contact.limit_name, contact.limit));
+    }
+  }
+}
+
+void expect_at_most(const char* what, double value, std::optional<double> bound, const char* unit, double scale,
+                    std::vector<std::string>& failures) {
+  if (!bound || value <= *bound) return;
+  failures.push_back(fmt::format("the {} reached {:.3g} {}, above {:.3g} {}", what, scale * value, unit, scale * *bound, unit));
+}
+
+}  // namespace
+
+Verdict judge(const Recording& recording, const Expectations& expected, const ForceLimits& limits) {
+  const Samples samples(recording);
+  Verdict verdict;
+  for (const Span& span : contact_spans(samples)) verdict.contacts.push_back(judge_contact(samples, span, limits));
+  verdict.false_detections = count_false_detections(samples);
+  measure_errors(samples, verdict);
+  for (const double miss : samples.loop_closure) verdict.loop_closure = std::max(verdict.loop_closure, miss);
+  verdict.fault = first_fault(samples);
+  verdict.simulated = samples.period * static_cast<double>(samples.size());
+
+  expect_contact(verdict, expected, verdict.failures);
+  judge_contacts(verdict, expected, verdict.failures);
+  if (verdict.false_detections > 0) verdict.failures.push_back("a contact was detected where there was none");
+  if (!verdict.fault.empty()) verdict.failures.push_back("the torque gate closed: " + verdict.fault);
+  expect_at_most("observer error", verdict.max_observer_error_force, expected.observer_error, "N", 1.0, verdict.failures);
+  expect_at_most("observer error", verdict.max_observer_error_moment, expected.observer_error_moment, "Nm", 1.0,
+                 verdict.failures);
+  expect_at_most("tracking error", verdict.max_tracking_error, expected.tracking_error, "mm", 1e3, verdict.failures);
+  expect_at_most("loop closure error", verdict.loop_closure, expected.loop_closure, "m", 1.0, verdict.failures);
+  return verdict;
+}
+
+}  // namespace flinch
