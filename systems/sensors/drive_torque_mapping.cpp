@@ -1,0 +1,73 @@
+#include "systems/sensors/drive_torque_mapping.h"
+
+#include <string>
+#include <vector>
+
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+std::vector<std::string> problems(const DriveTorqueSettings& settings, int drives) {
+  std::vector<std::string> found;
+  const JointVector& constants = settings.torque_constant;
+  if (constants.size() != drives) {
+    found.push_back("torque_constant has " + std::to_string(constants.size()) + " entries; the robot has " +
+                    std::to_string(drives) + " drives");
+  }
+  if (!constants.allFinite() || (constants.array() <= 0.0).any()) {
+    found.emplace_back("torque_constant has an entry that is not positive [Nm/A]");
+  }
+  if (settings.low_pass) {
+    for (std::string& problem : problems(*settings.low_pass)) found.push_back(std::move(problem));
+  }
+  return found;
+}
+
+}  // namespace
+
+DriveTorqueMapping::DriveTorqueMapping(std::shared_ptr<const ParallelRobot> robot,
+                                       const DriveTorqueSettings& settings)
+    : torque_constant_(settings.torque_constant), sampling_(settings.sampling) {
+  throw_if_any(problems(settings, robot->legs()));
+  if (settings.low_pass) low_pass_.emplace(*settings.low_pass);
+  update<&DriveTorqueMapping::keep>(Every{sampling_.period}, memory_, next_);
+}
+
+bool DriveTorqueMapping::is_usable(const DriveReading& reading) const {
+  return reading.valid && reading.current.size() == torque_constant_.size() && reading.current.allFinite();
+}
+
+JointVector DriveTorqueMapping::torque_of(const DriveReading& reading) const {
+  return torque_constant_.cwiseProduct(reading.current);
+}
+
+void DriveTorqueMapping::advance(const DriveReading& reading, const DriveTorqueMemory& memory, Time now,
+                                 DriveTorqueMemory& next) const {
+  if (!low_pass_) return;
+  const bool is_new = is_usable(reading) && (!memory.torque.started || reading.acquired > memory.acquired);
+  if (!is_new) {
+    next = sampling_.expired(memory.arrived, now) ? DriveTorqueMemory() : memory;
+    return;
+  }
+  const bool interrupted = sampling_.interrupted(memory.acquired, reading.acquired);
+  const double interval = to_seconds(reading.acquired - memory.acquired);
+  next.acquired = reading.acquired;
+  next.arrived = now;
+  next.torque = low_pass_->next(interrupted ? LowPassMemory() : memory.torque, torque_of(reading), interval);
+}
+
+void DriveTorqueMapping::read(const DriveReading& reading, const DriveTorqueMemory& next,
+                              DriveTorque& result) const {
+  result.acquired = reading.acquired;
+  result.valid = is_usable(reading);
+  if (!result.valid) {
+    result.torque.setZero(torque_constant_.size());
+  } else if (low_pass_) {
+    result.torque = next.torque.output;
+  } else {
+    result.torque = torque_of(reading);
+  }
+}
+
+}  // namespace flinch

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "systems/framework/system.h"
+#include "systems/robot/parallel_robot.h"
+#include "systems/sensors/drive_reading.h"
+#include "systems/sensors/drive_torque.h"
+#include "systems/sensors/first_order_low_pass.h"
+#include "systems/sensors/sampling.h"
+
+namespace flinch {
+
+struct DriveTorqueSettings {
+  JointVector torque_constant;  ///< k_t of each drive [Nm/A]
+  /// Aligns the torque with the velocity: that of the velocity filter. None: the torque as it is.
+  std::optional<LowPassSettings> low_pass;
+  Sampling sampling;
+};
+
+/// What the mapping remembers: its last sample.
+struct DriveTorqueMemory {
+  Time acquired{};
+  Time arrived{};  ///< tick at which it was read
+  LowPassMemory torque;
+};
+
+/// tau_a = k_t i, each drive with its own constant. [SafePR] V-A
+///
+/// Aligned, the torque lags exactly as the velocity does. The current that is read at t_k tells the torque of
+/// the interval (t_{k-1}, t_k], over which the drive held it: its mean m_k there. The velocity filter sees
+/// the mean velocity d_k of the same interval. Under piecewise constant acceleration a_k,
+///   (d_k - d_{k-1}) / T = (a_k + a_{k-1}) / 2,
+/// so that both, sent through the same filter, still obey it: the change of the filtered momentum over a step
+/// is the mean of the filtered torques at its two ends (`TorqueTiming::sampled` of the momentum observers).
+///
+/// Not valid where the reading is not, or is not finite or of the wrong size. Nothing is held: what may live
+/// on old torques decides so itself. Only the low pass outlives missing samples, for the longest hold.
+class DriveTorqueMapping final : public System {
+  State<DriveTorqueMemory> memory_ = state<DriveTorqueMemory>("memory");
+
+ public:
+  /// Throws SetupError unless there is a positive torque constant for each drive.
+  DriveTorqueMapping(std::shared_ptr<const ParallelRobot> robot, const DriveTorqueSettings& settings);
+
+  InputPort<DriveReading> drives = input<DriveReading>("drives");
+
+ private:
+  OutputPort<DriveTorqueMemory> next_ = output<&DriveTorqueMapping::advance>("next", drives, memory_, clock);
+
+ public:
+  OutputPort<DriveTorque> torque = output<&DriveTorqueMapping::read>("torque", drives, next_);
+
+ private:
+  void advance(const DriveReading& reading, const DriveTorqueMemory& memory, Time now,
+               DriveTorqueMemory& next) const;
+  void read(const DriveReading& reading, const DriveTorqueMemory& next, DriveTorque& result) const;
+  void keep(const DriveTorqueMemory& next, DriveTorqueMemory& memory) const { memory = next; }
+  bool is_usable(const DriveReading& reading) const;
+  JointVector torque_of(const DriveReading& reading) const;
+
+  JointVector torque_constant_;
+  Sampling sampling_;
+  std::optional<FirstOrderLowPass> low_pass_;
+};
+
+}  // namespace flinch

@@ -1,0 +1,186 @@
+#include "systems/sensors/drive_torque_mapping.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "systems/foundation/setup_error.h"
+#include "systems/framework/random.h"
+#include "systems/robot/planar_rrr.h"
+#include "systems/robot/planar_rrr_presets.h"
+#include "systems/sensors/velocity_filter.h"
+#include "tests/support/allocations.h"
+#include "tests/support/ticking.h"
+
+namespace flinch {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double T = 1e-3;
+
+std::shared_ptr<const PlanarRrr> bench() {
+  return std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::nominal, BenchFriction::none));
+}
+
+DriveTorqueSettings unit_drives(std::optional<LowPassForm> form) {
+  DriveTorqueSettings settings;
+  settings.torque_constant = JointVector::Ones(3);
+  if (form) settings.low_pass = LowPassSettings{30.0, *form};
+  return settings;
+}
+
+struct Mapping {
+  explicit Mapping(const DriveTorqueSettings& settings)
+      : block(builder.add<DriveTorqueMapping>("mapping", bench(), settings)),
+        drives(builder.export_input("drives", block.drives)),
+        ticking(builder) {}
+
+  const DriveTorque& see(const DriveReading& reading) {
+    ticking.set(drives, reading);
+    ticking.tick();
+    return ticking.get(block.torque);
+  }
+  const DriveTorque& see(const JointVector& current) { return see({ticking.now(), true, current}); }
+  const DriveTorque& miss() { return see({ticking.now(), false, JointVector::Constant(3, nan)}); }
+
+  DiagramBuilder builder;
+  DriveTorqueMapping& block;
+  InputPort<DriveReading> drives;
+  test::Ticking ticking;
+};
+
+TEST(DriveTorqueMapping, MultipliesEachCurrentByTheConstantOfItsDrive) {
+  DriveTorqueSettings settings;
+  settings.torque_constant = JointVector{{6.021, 6.6116, 6.7315}};
+  Mapping mapping(settings);
+  mapping.miss();
+  const DriveTorque& torque = mapping.see(JointVector{{1.0, -2.0, 0.5}});
+  EXPECT_TRUE(torque.valid);
+  EXPECT_EQ(torque.acquired, 1ms);
+  EXPECT_LT((torque.torque - JointVector{{6.021, -13.2232, 3.36575}}).norm(), 1e-14);
+}
+
+TEST(DriveTorqueMapping, IsNotValidWhereTheReadingIsNot) {
+  for (const auto form : {std::optional<LowPassForm>(), std::optional(LowPassForm::tustin)}) {
+    Mapping mapping(unit_drives(form));
+    mapping.see(JointVector::Ones(3));
+    const DriveReading unusable[] = {{1ms, false, JointVector::Ones(3)},
+                                     {1ms, true, JointVector::Constant(3, nan)},
+                                     {1ms, true, JointVector::Ones(2)},
+                                     {1ms, true, JointVector()}};
+    for (const DriveReading& reading : unusable) {
+      const DriveTorque& torque = mapping.see(reading);
+      EXPECT_FALSE(torque.valid);
+      EXPECT_EQ(torque.torque, JointVector::Zero(3));
+    }
+  }
+}
+
+class AlignedTorque : public testing::TestWithParam<LowPassForm> {};
+INSTANTIATE_TEST_SUITE_P(DriveTorqueMapping, AlignedTorque,
+                         testing::Values(LowPassForm::tustin, LowPassForm::backward_difference));
+
+// Drives whose rates over the intervals happen to be the torques: what comes out must be the same numbers.
+TEST_P(AlignedTorque, LagsAsTheVelocityDoes) {
+  DiagramBuilder builder("both");
+  auto& velocity =
+      builder.add<VelocityFilter>("velocity", bench(), VelocityFilterSettings{{30.0, GetParam()}, {}});
+  auto& mapping = builder.add<DriveTorqueMapping>("mapping", bench(), unit_drives(GetParam()));
+  const auto joints = builder.export_input("joints", velocity.joints);
+  const auto drives = builder.export_input("drives", mapping.drives);
+  test::Ticking ticking(builder);
+
+  RandomGenerator random(1);
+  JointVector position = JointVector::Zero(3);
+  for (int k = 0; k < 500; ++k) {
+    const JointVector rate = JointVector::NullaryExpr(3, [&] { return random.uniform(-3.0, 3.0); });
+    const Time now = ticking.now();
+    if (k > 0) position += T * rate;
+    ticking.set(joints, {now, true, false, position, {}});
+    ticking.set(drives, {now, k > 0, rate});
+    ticking.tick();
+    if (k > 0) {
+      ASSERT_LT((ticking.get(velocity.motion).velocity - ticking.get(mapping.torque).torque).norm(), 1e-11);
+    }
+  }
+}
+
+// A unit mass, pushed by torques that are held from tick to tick.
+TEST_P(AlignedTorque, ExplainsTheChangeOfTheFilteredMomentumAsTheMeanOfItsTwoEnds) {
+  DiagramBuilder builder("mass");
+  auto& velocity =
+      builder.add<VelocityFilter>("velocity", bench(), VelocityFilterSettings{{30.0, GetParam()}, {}});
+  auto& mapping = builder.add<DriveTorqueMapping>("mapping", bench(), unit_drives(GetParam()));
+  const auto joints = builder.export_input("joints", velocity.joints);
+  const auto drives = builder.export_input("drives", mapping.drives);
+  test::Ticking ticking(builder);
+
+  RandomGenerator random(2);
+  JointVector torque = JointVector::Zero(3);
+  JointVector q = JointVector::Zero(3);
+  JointVector dq = JointVector::Zero(3);
+  JointVector last_momentum = JointVector::Zero(3);
+  JointVector last_torque = JointVector::Zero(3);
+  for (int k = 0; k < 500; ++k) {
+    ticking.set(joints, {ticking.now(), true, false, q, {}});
+    ticking.set(drives, {ticking.now(), true, torque});
+    ticking.tick();
+    const JointVector momentum = ticking.get(velocity.motion).velocity;
+    const JointVector filtered = ticking.get(mapping.torque).torque;
+    if (k > 0) {
+      const JointVector change = (momentum - last_momentum) / T;
+      ASSERT_LT((change - 0.5 * (filtered + last_torque)).norm(), 1e-8) << k;
+    }
+    last_momentum = momentum;
+    last_torque = filtered;
+    if (k > 3) torque = JointVector::NullaryExpr(3, [&] { return random.uniform(-20.0, 20.0); });
+    q += T * dq + 0.5 * T * T * torque;
+    dq += T * torque;
+  }
+}
+
+TEST_P(AlignedTorque, GoesOnAcrossAShortGapAndStartsAnewAfterAnInterruption) {
+  for (int missing = 1; missing <= 4; ++missing) {
+    Mapping mapping(unit_drives(GetParam()));
+    for (int k = 0; k < 5; ++k) mapping.see(JointVector::Ones(3));
+    for (int k = 0; k < missing; ++k) EXPECT_FALSE(mapping.miss().valid);
+    const DriveTorque& torque = mapping.see(JointVector::Constant(3, 5.0));
+    EXPECT_TRUE(torque.valid);
+    if (missing > 2) {
+      EXPECT_EQ(torque.torque, JointVector::Constant(3, 5.0));
+    } else {
+      EXPECT_GT(torque.torque[0], 1.0);
+      EXPECT_LT(torque.torque[0], 4.0);
+    }
+  }
+}
+
+TEST_P(AlignedTorque, DoesNotTakeTheSameReadingTwice) {
+  Mapping mapping(unit_drives(GetParam()));
+  mapping.see(JointVector::Zero(3));
+  const JointVector once = mapping.see({1ms, true, JointVector::Ones(3)}).torque;
+  EXPECT_EQ(mapping.see({1ms, true, JointVector::Ones(3)}).torque, once);
+}
+
+TEST(DriveTorqueMapping, DoesNotAllocate) {
+  Mapping mapping(unit_drives(LowPassForm::tustin));
+  const test::AllocationCounter allocations;
+  for (int k = 0; k < 20; ++k) mapping.see(JointVector::Ones(3));
+  mapping.miss();
+  EXPECT_EQ(allocations.count(), 0);
+}
+
+TEST(DriveTorqueMapping, SaysAllThatIsWrongWithItsSettings) {
+  DriveTorqueSettings settings;
+  settings.torque_constant = JointVector{{6.1, 0.0}};
+  settings.low_pass = LowPassSettings{0.0, LowPassForm::tustin};
+  try {
+    DriveTorqueMapping mapping(bench(), settings);
+    FAIL();
+  } catch (const SetupError& error) {
+    EXPECT_EQ(error.problems().size(), 3U) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace flinch
