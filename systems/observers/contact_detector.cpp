@@ -30,7 +30,7 @@ PlatformVector components(const WrenchThreshold& threshold, const ParallelRobot&
 
 }  // namespace
 
-ContactDetector::ContactDetector(std::shared_ptr<const ParallelRobot> robot,
+ContactDetector::ContactDetector(const std::shared_ptr<const ParallelRobot>& robot,
                                  const ContactDetectorSettings& settings)
     : reaction_(components(settings.reaction, *robot)), hard_(components(settings.hard, *robot)) {
   throw_if_any(problems(settings));

@@ -31,7 +31,7 @@ class ContactDetector final : public System {
 
  public:
   /// Throws SetupError for thresholds that are not positive or a hard one below that of the reaction.
-  explicit ContactDetector(std::shared_ptr<const ParallelRobot> robot,
+  explicit ContactDetector(const std::shared_ptr<const ParallelRobot>& robot,
                            const ContactDetectorSettings& settings = {});
 
   InputPort<WrenchEstimate> wrench = input<WrenchEstimate>("wrench");

@@ -26,7 +26,7 @@ std::vector<std::string> problems(const DriveTorqueSettings& settings, int drive
 
 }  // namespace
 
-DriveTorqueMapping::DriveTorqueMapping(std::shared_ptr<const ParallelRobot> robot,
+DriveTorqueMapping::DriveTorqueMapping(const std::shared_ptr<const ParallelRobot>& robot,
                                        const DriveTorqueSettings& settings)
     : torque_constant_(settings.torque_constant), sampling_(settings.sampling) {
   throw_if_any(problems(settings, robot->legs()));

@@ -42,7 +42,7 @@ class DriveTorqueMapping final : public System {
 
  public:
   /// Throws SetupError unless there is a positive torque constant for each drive.
-  DriveTorqueMapping(std::shared_ptr<const ParallelRobot> robot, const DriveTorqueSettings& settings);
+  DriveTorqueMapping(const std::shared_ptr<const ParallelRobot>& robot, const DriveTorqueSettings& settings);
 
   InputPort<DriveReading> drives = input<DriveReading>("drives");
 
