@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+
+namespace flinch {
+
+/// Why the torque gate closes, from causes to consequences: where several come at once, the first is
+/// reported.
+enum class GateFault : std::uint8_t {
+  none,
+  station_silent,
+  station_fault,
+  station_disabled,
+  joints_invalid,
+  joints_stale,
+  velocity_invalid,
+  drives_invalid,
+  drives_stale,
+  forward_kinematics,
+  encoders_implausible,
+  type_1_singularity,
+  type_2_singularity,
+  workspace_radius,
+  orientation,
+  joint_range,
+  joint_speed,
+  self_collision,
+  contact_unmonitored,
+  control_error,
+  command_invalid,
+  command_stale,
+  command_not_finite,
+  torque_jump,
+};
+
+/// What the torque gate does about a fault, in order of severity.
+enum class GateReaction : std::uint8_t {
+  none,
+  controlled_stop,  ///< the torques of ControlledStop: the robot comes to rest and can be pushed by hand
+  zero_torque_and_brake,  ///< no torque, brakes closed
+};
+
+/// A set of faults, one bit each: bit i stands for the fault with number i.
+using FaultMask = std::uint32_t;
+
+constexpr FaultMask fault_bit(GateFault fault) { return FaultMask{1} << static_cast<unsigned>(fault); }
+
+/// Which faults are present at a tick.
+struct FaultReport {
+  bool valid = false;     ///< they have been looked for
+  FaultMask present = 0;  ///< set of GateFault
+
+  bool none() const { return valid && present == 0; }
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("valid", "", self.valid);
+    visit("present", "", self.present);
+  }
+};
+
+}  // namespace flinch
