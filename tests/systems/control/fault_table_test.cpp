@@ -1,0 +1,387 @@
+#include "systems/control/fault_table.h"
+
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "systems/control/fault_monitor.h"
+#include "systems/control/torque_gate.h"
+#include "systems/foundation/setup_error.h"
+#include "systems/framework/diagram_builder.h"
+#include "tests/support/allocations.h"
+#include "tests/support/ticking.h"
+#include "tests/systems/control/planar_bench.h"
+
+namespace flinch {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double degree = std::numbers::pi / 180.0;
+
+/// All that monitor and gate see at a tick. Healthy by default: the bench at rest at home.
+struct Inputs {
+  Inputs(const ParallelRobot& robot, Time now)
+      : posture(robot, PlatformVector::Zero(3), PlatformVector::Zero(3), now) {
+    const JointVector zero = JointVector::Zero(3);
+    station = {.acquired = now, .valid = true, .enabled = true, .braked = false, .fault = false};
+    drives = {.acquired = now, .valid = true, .current = zero};
+    detection = {.valid = true, .wrench_in_base = {}};
+    reference = {true, true, posture.platform.pose, zero, zero};
+    command = {.computed = now, .valid = true, .torque = zero};
+  }
+
+  test::Posture posture;
+  StationStatus station;
+  DriveReading drives;
+  ContactDetection detection;
+  PlatformReference reference;
+  TorqueCommand command;
+  Time last_seen = 10ms;  ///< for what hangs: the last tick of open()
+};
+
+/// Fault monitor and torque gate, wired as in the pipeline.
+struct Safety {
+  void tick(const Inputs& inputs, bool reset_now = false) {
+    ticking.set(station, inputs.station);
+    ticking.set(joints, inputs.posture.joints);
+    ticking.set(drives, inputs.drives);
+    ticking.set(motion, inputs.posture.motion);
+    ticking.set(platform, inputs.posture.platform);
+    ticking.set(measures, inputs.posture.measures);
+    ticking.set(detection, inputs.detection);
+    ticking.set(reference, inputs.reference);
+    ticking.set(command, inputs.command);
+    ticking.set(stop, {.computed = ticking.now(), .valid = true, .torque = Eigen::Vector3d(7.0, 8.0, 9.0)});
+    ticking.set(reset, {.reset = reset_now});
+    ticking.tick();
+  }
+  void tick(bool reset_now = false) { tick(Inputs(*robot, ticking.now()), reset_now); }
+  FaultMask present() const { return ticking.get(monitor.faults).present; }
+  const GateStatus& status() const { return ticking.get(gate.status); }
+
+  std::shared_ptr<const PlanarRrr> robot = test::planar_bench();
+  DiagramBuilder builder;
+  FaultMonitor& monitor = builder.add<FaultMonitor>("monitor", robot, FaultLimits());
+  TorqueGate& gate =
+      builder.add<TorqueGate>("gate", TorqueGateSettings{.max_torque = 100.0, .max_torque_rate = 1e9});
+  InputPort<TorqueCommand> command = connect();
+  InputPort<StationStatus> station = builder.export_input("station", monitor.station);
+  InputPort<JointReading> joints = builder.export_input("joints", monitor.joints);
+  InputPort<DriveReading> drives = builder.export_input("drives", monitor.drives);
+  InputPort<JointMotion> motion = builder.export_input("motion", monitor.motion);
+  InputPort<PlatformMotion> platform = builder.export_input("platform", monitor.platform);
+  InputPort<WorkspaceMeasures> measures = builder.export_input("measures", monitor.measures);
+  InputPort<ContactDetection> detection = builder.export_input("detection", monitor.detection);
+  InputPort<PlatformReference> reference = builder.export_input("reference", monitor.reference);
+  InputPort<TorqueCommand> stop = builder.export_input("stop", gate.stop);
+  InputPort<ResetCommand> reset = builder.export_input("reset", gate.reset);
+  test::Ticking ticking{builder};
+
+ private:
+  InputPort<TorqueCommand> connect() {
+    const auto asked = builder.export_input("command", monitor.command);
+    builder.connect(asked, gate.command);
+    builder.connect(monitor.faults, gate.faults);
+    return asked;
+  }
+};
+
+/// What brings a fault about, and what is as bad as it can be without doing so.
+struct Cause {
+  std::function<void(Inputs&)> fault;
+  std::function<void(Inputs&)> just_not = [](Inputs&) {};
+};
+
+/// A pose whose legs are about `angle` away from home at most.
+PlatformVector pose_at_drive_error(const ParallelRobot& robot, double angle) {
+  const auto active = [&robot](double y) {
+    return robot.inverse_kinematics(Eigen::Vector3d(0.0, y, 0.0), robot.home_working_mode()).joints.active;
+  };
+  double y = 0.0;
+  while ((active(y) - active(0.0)).lpNorm<Eigen::Infinity>() < angle) y += 1e-4;
+  return Eigen::Vector3d(0.0, y, 0.0);
+}
+
+const std::map<GateFault, Cause>& causes() {
+  using Status = PlatformMotion::Status;
+  static const std::map<GateFault, Cause> all{
+      {GateFault::station_silent, {[](Inputs& in) { in.station.valid = false; }}},
+      {GateFault::station_fault, {[](Inputs& in) { in.station.fault = true; }}},
+      {GateFault::station_disabled, {[](Inputs& in) { in.station.enabled = false; }}},
+      {GateFault::joints_invalid, {[](Inputs& in) { in.posture.joints.valid = false; }}},
+      {GateFault::joints_stale, {[](Inputs& in) { in.posture.joints.acquired = in.last_seen; }}},
+      {GateFault::velocity_invalid, {[](Inputs& in) { in.posture.motion.valid = false; }}},
+      {GateFault::drives_invalid, {[](Inputs& in) { in.drives.valid = false; }}},
+      {GateFault::drives_stale, {[](Inputs& in) { in.drives.acquired = in.last_seen; }}},
+      {GateFault::forward_kinematics,
+       {[](Inputs& in) { in.posture.platform.status = Status::not_converged; }}},
+      {GateFault::encoders_implausible,
+       {[](Inputs& in) { in.posture.platform.status = Status::implausible; }}},
+      {GateFault::type_1_singularity,
+       {[](Inputs& in) { in.posture.measures.det_B = 0.1499; },
+        [](Inputs& in) { in.posture.measures.det_B = 0.15; }}},
+      {GateFault::type_2_singularity,
+       {[](Inputs& in) { in.posture.measures.det_A = -0.1999; },
+        [](Inputs& in) { in.posture.measures.det_A = -0.2; }}},
+      {GateFault::workspace_radius,
+       {[](Inputs& in) { in.posture.platform.pose = Eigen::Vector3d(0.25, 0.246, 0.0); },
+        [](Inputs& in) { in.posture.platform.pose = Eigen::Vector3d(0.25, 0.244, 0.0); }}},
+      {GateFault::orientation,
+       {[](Inputs& in) { in.posture.platform.pose[2] = -29.01 * degree; },
+        [](Inputs& in) { in.posture.platform.pose[2] = -28.99 * degree; }}},
+      {GateFault::joint_range,
+       {[](Inputs& in) { in.reference.valid = false, in.posture.motion.position[1] = -35.01 * degree; },
+        [](Inputs& in) { in.reference.valid = false, in.posture.motion.position[1] = 149.99 * degree; }}},
+      {GateFault::joint_speed,
+       {[](Inputs& in) { in.posture.motion.velocity[2] = -8.01; },
+        [](Inputs& in) { in.posture.motion.velocity[2] = -8.0; }}},
+      {GateFault::self_collision,
+       {[](Inputs& in) { in.posture.measures.sigma_sc = 0.0499; },
+        [](Inputs& in) { in.posture.measures.sigma_sc = 0.05; }}},
+      {GateFault::contact_unmonitored, {[](Inputs& in) { in.detection.valid = false; }}},
+      {GateFault::control_error,
+       {[](Inputs& in) { in.reference.pose = pose_at_drive_error(*test::planar_bench(), 25.2 * degree); },
+        [](Inputs& in) { in.reference.pose = pose_at_drive_error(*test::planar_bench(), 24.8 * degree); }}},
+      {GateFault::command_invalid, {[](Inputs& in) { in.command.valid = false; }}},
+      {GateFault::command_stale, {[](Inputs& in) { in.command.computed = in.last_seen; }}},
+      {GateFault::command_not_finite, {[](Inputs& in) { in.command.torque[0] = nan; }}},
+      {GateFault::torque_jump,
+       {[](Inputs& in) { in.command.torque[1] = -40.01; }, [](Inputs& in) { in.command.torque[1] = -40.0; }}},
+  };
+  return all;
+}
+
+class EveryFault : public testing::TestWithParam<FaultRow> {
+ protected:
+  const FaultRow& row() const { return GetParam(); }
+
+  /// The pipeline after ten healthy milliseconds.
+  void open() {
+    for (int k = 0; k < 11; ++k) safety_.tick();
+    ASSERT_EQ(safety_.status().phase, GatePhase::open);
+  }
+  void tick_with(const std::function<void(Inputs&)>& change) {
+    Inputs inputs(*safety_.robot, safety_.ticking.now());
+    change(inputs);
+    safety_.tick(inputs);
+  }
+
+  Safety safety_;
+};
+
+/// "the laws' torques jump" as TheLawsTorquesJump.
+std::string in_one_word(const std::string& sentence) {
+  std::string word;
+  bool first = true;
+  for (const char letter : sentence) {
+    const auto code = static_cast<unsigned char>(letter);
+    if (std::isalnum(code) != 0) word += static_cast<char>(first ? std::toupper(code) : code);
+    first = letter == ' ';
+  }
+  return word;
+}
+
+INSTANTIATE_TEST_SUITE_P(FaultTable, EveryFault,
+                         testing::ValuesIn(fault_table().begin(), fault_table().end()),
+                         [](const auto& row) { return in_one_word(row.param.description); });
+
+TEST_P(EveryFault, ClosesTheGateInTimeWithItsReaction) {
+  ASSERT_TRUE(causes().contains(row().fault)) << "no test brings this fault about: " << row().description;
+  open();
+  for (int tick = 0; tick < row().latency; ++tick) {
+    tick_with(causes().at(row().fault).fault);
+    ASSERT_EQ(safety_.status().phase, GatePhase::open) << "earlier than its latency: state the smaller one";
+  }
+  tick_with(causes().at(row().fault).fault);
+  ASSERT_EQ(safety_.status().phase, GatePhase::closed) << row().description;
+  EXPECT_EQ(safety_.status().fault, row().fault);
+  EXPECT_EQ(safety_.status().reaction, row().reaction);
+  const TorqueCommand& torque = safety_.ticking.get(safety_.gate.torque_command);
+  if (row().reaction == GateReaction::controlled_stop) {
+    EXPECT_TRUE(torque.valid);
+    EXPECT_EQ(torque.torque, Eigen::Vector3d(7.0, 8.0, 9.0));
+  } else {
+    EXPECT_FALSE(torque.valid);
+    EXPECT_TRUE(safety_.ticking.get(safety_.gate.brake).engage);
+  }
+}
+
+TEST_P(EveryFault, LatchesUntilResetAndKeepsTheGateClosedWhileItLasts) {
+  ASSERT_TRUE(causes().contains(row().fault));
+  open();
+  for (int tick = 0; tick <= row().latency; ++tick) tick_with(causes().at(row().fault).fault);
+  safety_.tick();
+  safety_.tick();
+  EXPECT_EQ(safety_.status().phase, GatePhase::closed) << "latched";
+  EXPECT_EQ(safety_.status().fault, row().fault);
+  safety_.tick(true);
+  EXPECT_EQ(safety_.status().phase, GatePhase::open);
+}
+
+TEST_P(EveryFault, IsNotSeenAtItsLimit) {
+  ASSERT_TRUE(causes().contains(row().fault));
+  open();
+  tick_with(causes().at(row().fault).just_not);
+  EXPECT_EQ(safety_.present(), FaultMask{0});
+}
+
+TEST_P(EveryFault, KeepsTheGateFromOpeningAtTheStart) {
+  if (row().fault == GateFault::torque_jump) return;  // there is no torque yet to jump from
+  ASSERT_TRUE(causes().contains(row().fault));
+  for (int tick = 0; tick < 20; ++tick) {
+    tick_with([this](Inputs& inputs) {
+      inputs.last_seen = -10ms;
+      causes().at(row().fault).fault(inputs);
+    });
+    ASSERT_EQ(safety_.status().phase, GatePhase::waiting);
+  }
+}
+
+TEST_P(EveryFault, IsDescribedAndPromisesAReaction) {
+  EXPECT_NE(std::string(row().description), "");
+  EXPECT_NE(row().reaction, GateReaction::none);
+  EXPECT_GE(row().latency, 0);
+  EXPECT_EQ(first_fault(fault_bit(row().fault)), row().fault);
+  EXPECT_EQ(worst_reaction(fault_bit(row().fault)), row().reaction);
+}
+
+// ---------------------------------------------------------------- the table as a whole
+
+TEST(FaultTable, NamesEveryFaultOnce) {
+  std::set<GateFault> named;
+  for (const FaultRow& row : fault_table()) named.insert(row.fault);
+  EXPECT_EQ(named.size(), fault_table().size());
+  EXPECT_EQ(causes().size(), fault_table().size());
+  EXPECT_LT(fault_table().size(), 32U) << "a set of faults has 32 bits, the first for none";
+}
+
+TEST(FaultTable, IsEmptyForTheHealthyRobot) {
+  Safety safety;
+  for (int k = 0; k < 20; ++k) {
+    safety.tick();
+    EXPECT_EQ(safety.present(), FaultMask{0});
+  }
+}
+
+TEST(FaultTable, HasNoFirstFaultAndNoReactionForTheEmptySet) {
+  EXPECT_EQ(first_fault(0), GateFault::none);
+  EXPECT_EQ(worst_reaction(0), GateReaction::none);
+}
+
+TEST(FaultMonitor, ToleratesTwoMissingSamples) {
+  Safety safety;
+  safety.tick();
+  for (int missing = 0; missing < 2; ++missing) {
+    Inputs inputs(*safety.robot, safety.ticking.now());
+    inputs.station.valid = inputs.posture.joints.valid = inputs.drives.valid = false;
+    safety.tick(inputs);
+    EXPECT_EQ(safety.status().phase, GatePhase::open);
+  }
+  safety.tick();
+  EXPECT_EQ(safety.status().phase, GatePhase::open);
+}
+
+TEST(FaultMonitor, TakesAReadingThatIsNotFiniteForMissing) {
+  Safety safety;
+  safety.tick();
+  for (int missing = 0; missing < 3; ++missing) {
+    Inputs inputs(*safety.robot, safety.ticking.now());
+    inputs.posture.joints.active[0] = nan;
+    safety.tick(inputs);
+  }
+  EXPECT_EQ(safety.status().fault, GateFault::joints_invalid);
+}
+
+TEST(FaultMonitor, FindsAReferenceThatCannotBeReached) {
+  Safety safety;
+  safety.tick();
+  for (const PlatformVector& pose : {PlatformVector(Eigen::Vector3d(5.0, 0.0, 0.0)),
+                                     PlatformVector(Eigen::Vector3d(nan, 0, 0)), PlatformVector()}) {
+    Inputs inputs(*safety.robot, safety.ticking.now());
+    inputs.reference.pose = pose;
+    safety.tick(inputs);
+    EXPECT_EQ(safety.present(), fault_bit(GateFault::control_error));
+  }
+}
+
+TEST(FaultMonitor, AsksForNoControlErrorWhereNoReferenceIsFollowed) {
+  Safety safety;
+  Inputs inputs(*safety.robot, safety.ticking.now());
+  inputs.reference = {};
+  safety.tick(inputs);
+  EXPECT_EQ(safety.present(), FaultMask{0});
+}
+
+TEST(FaultMonitor, JudgesJumpsWithinTheTorqueRange) {
+  Safety safety;
+  const auto ask = [&safety](double torque) {
+    Inputs inputs(*safety.robot, safety.ticking.now());
+    inputs.command.torque[0] = torque;
+    safety.tick(inputs);
+    return safety.present();
+  };
+  EXPECT_EQ(ask(70.0), FaultMask{0});
+  EXPECT_EQ(ask(500.0), FaultMask{0}) << "counts as 100 Nm";
+  EXPECT_EQ(ask(-500.0), fault_bit(GateFault::torque_jump));
+}
+
+/// No input that is not a number may pass unnoticed where it matters, and none may reach the station.
+TEST(FaultMonitor, FindsEveryNumberThatIsNone) {
+  const std::vector<std::function<double&(Inputs&)>> numbers{
+      [](Inputs& in) -> double& { return in.posture.motion.position[1]; },
+      [](Inputs& in) -> double& { return in.posture.motion.velocity[1]; },
+      [](Inputs& in) -> double& { return in.posture.platform.pose[1]; },
+      [](Inputs& in) -> double& { return in.posture.platform.velocity[1]; },
+      [](Inputs& in) -> double& { return in.posture.measures.det_A; },
+      [](Inputs& in) -> double& { return in.posture.measures.det_B; },
+      [](Inputs& in) -> double& { return in.posture.measures.sigma_sc; },
+      [](Inputs& in) -> double& { return in.reference.pose[1]; },
+      [](Inputs& in) -> double& { return in.command.torque[1]; }};
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    for (const double bad : {nan, std::numeric_limits<double>::infinity()}) {
+      if (i >= 4 && i <= 6 && !std::isnan(bad)) continue;  // infinitely far from a singularity is fine
+      Safety safety;
+      safety.tick();
+      Inputs inputs(*safety.robot, safety.ticking.now());
+      numbers[i](inputs) = bad;
+      safety.tick(inputs);
+      EXPECT_NE(safety.present(), FaultMask{0}) << i;
+      EXPECT_TRUE(safety.ticking.get(safety.gate.torque_command).torque.allFinite()) << i;
+    }
+  }
+}
+
+TEST(FaultMonitor, NeverAllocates) {
+  Safety safety;
+  safety.tick();
+  const test::AllocationCounter counter;
+  safety.tick();
+  EXPECT_EQ(counter.count(), 0);
+}
+
+TEST(FaultLimits, MustNotExcludeTheRobotAtHome) {
+  FaultLimits limits;
+  limits.workspace.min_abs_det_A = 0.6;
+  EXPECT_THROW(FaultMonitor(test::planar_bench(), limits), SetupError);
+}
+
+TEST(FaultLimits, NameEverythingThatIsWrongWithThem) {
+  FaultLimits limits;
+  limits.max_joint_speed = 0.0;
+  limits.max_control_error = nan;
+  limits.max_torque_jump = -1.0;
+  limits.longest_gap = -1ms;
+  EXPECT_EQ(problems(limits, *test::planar_bench()).size(), 4U);
+  EXPECT_TRUE(problems(FaultLimits(), *test::planar_bench()).empty());
+}
+
+}  // namespace
+}  // namespace flinch
