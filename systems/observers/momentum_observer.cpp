@@ -1,5 +1,6 @@
 #include "systems/observers/momentum_observer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -32,7 +33,8 @@ MomentumObserver::MomentumObserver(std::shared_ptr<const ParallelRobot> robot,
       torque_timing_(settings.torque_timing),
       sampling_(settings.sampling) {
   throw_if_any(problems(gain_, robot_->dof()));
-  settling_time_ = from_seconds(settling_time_constants / gain_.minCoeff());
+  settling_time_ =
+      std::max(from_seconds(settling_time_constants / gain_.minCoeff()), settings.input_settling_time);
   update<&MomentumObserver::keep>(Every{sampling_.period}, memory_, next_);
 }
 

@@ -14,6 +14,8 @@ struct MomentumObserverSettings {
   PlatformVector gain;  ///< Diagonal of K_o [1/s]; 20 in [SafePR] V-A.
   TorqueTiming torque_timing = TorqueTiming::sampled;
   Sampling sampling;
+  /// How long a velocity that has just begun still adapts: five time constants of the 30 Hz filter.
+  Time input_settling_time = 27ms;
 };
 
 /// What the momentum observer remembers.
@@ -31,9 +33,10 @@ struct MomentumObserverMemory {
 ///   F_k = a F_{k-1} + (1 - a) ((p_k - p_{k-1}) / T - s_mean),   F_0 = 0,
 /// where s_mean is `mean_known_wrench`. Only differences of p enter, so that p(0) is subtracted.
 ///
-/// The estimate is valid from five time constants of the slowest gain after the first sample. A tick at which
-/// any input is not valid, not finite or not new is skipped: the estimate stays, valid, for the longest hold,
-/// and the next sample is integrated over the whole time since the last. After that the observer starts anew.
+/// The estimate is valid from five time constants of the slowest gain after the first sample on, and not
+/// before its inputs have settled. A tick at which any input is not valid, not finite or not new is skipped:
+/// the estimate stays, valid, for the longest hold, and the next sample is integrated over the whole time
+/// since the last. After that the observer starts anew.
 class MomentumObserver final : public System {
   State<MomentumObserverMemory> memory_ = state<MomentumObserverMemory>("memory");
 

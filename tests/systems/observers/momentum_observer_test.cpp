@@ -48,9 +48,8 @@ struct Inputs {
 };
 
 struct Observer {
-  explicit Observer(TorqueTiming timing = TorqueTiming::sampled)
-      : block(
-            builder.add<MomentumObserver>("observer", bench(), MomentumObserverSettings{gains, timing, {}})),
+  explicit Observer(TorqueTiming timing = TorqueTiming::sampled, const PlatformVector& gain = gains)
+      : block(builder.add<MomentumObserver>("observer", bench(), MomentumObserverSettings{gain, timing, {}})),
         platform(builder.export_input("platform", block.platform)),
         kinematics(builder.export_input("kinematics", block.kinematics)),
         dynamics(builder.export_input("dynamics", block.dynamics)),
@@ -175,6 +174,13 @@ TEST(MomentumObserver, IsValidFromFiveOfItsLongestTimeConstantsOn) {
   Observer observer;
   for (int k = 0; k < 400; ++k) {
     ASSERT_EQ(observer.see_pushed(PlatformVector::Ones(3)).valid, k >= 250) << k;
+  }
+}
+
+TEST(MomentumObserver, IsNotValidBeforeItsInputsHaveSettled) {
+  Observer observer(TorqueTiming::sampled, PlatformVector::Constant(3, 500.0));
+  for (int k = 0; k < 40; ++k) {
+    ASSERT_EQ(observer.see_pushed(PlatformVector::Ones(3)).valid, k >= 27) << k;
   }
 }
 
