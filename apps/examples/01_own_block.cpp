@@ -1,7 +1,8 @@
 // A block of your own, alone in a diagram: a low-pass filter and the step that it answers.
 //
-// A block declares its ports and states as members. Each output and update is a const function which takes exactly
-// what its declaration names, so the block can be tested by calling it, and nothing can be read by accident.
+// A block declares its ports and states as members. Each output and update is a const function which takes
+// exactly what its declaration names, so the block can be tested by calling it, and nothing can be read by
+// accident.
 #include <cmath>
 #include <cstdio>
 

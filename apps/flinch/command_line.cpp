@@ -53,26 +53,36 @@ struct Verbs {
 };
 
 void add_verbs(CLI::App& app, Verbs& verbs) {
-  CLI::App& run_verb = verbs.add(app, "run", "Run one experiment in simulation: verdict, recording, report",
-                                 "flinch run apps/scenarios/platform_collision.yaml --out out/demo", verbs.run, &run);
-  run_verb.add_option("scenario", verbs.run.scenario, "Scenario file (YAML)")->required()->type_name("SCENARIO.yaml");
-  run_verb.add_option("--out", verbs.run.out, "Folder for run.h5 and report.html [out/NAME]")->type_name("DIR");
-  run_verb.add_option("--seed", verbs.run.seed, "Seed of all noise, instead of the scenario's")->type_name("N");
+  CLI::App& run_verb =
+      verbs.add(app, "run", "Run one experiment in simulation: verdict, recording, report",
+                "flinch run apps/scenarios/platform_collision.yaml --out out/demo", verbs.run, &run);
+  run_verb.add_option("scenario", verbs.run.scenario, "Scenario file (YAML)")
+      ->required()
+      ->type_name("SCENARIO.yaml");
+  run_verb.add_option("--out", verbs.run.out, "Folder for run.h5 and report.html [out/NAME]")
+      ->type_name("DIR");
+  run_verb.add_option("--seed", verbs.run.seed, "Seed of all noise, instead of the scenario's")
+      ->type_name("N");
 
   CLI::App& report_verb = verbs.add(app, "report", "Make the report page of a recording",
                                     "flinch report out/demo/run.h5", verbs.report, &report);
   report_verb.add_option("recording", verbs.report.recording, "Recording (HDF5) of flinch run")
       ->required()
       ->type_name("RUN.h5");
-  report_verb.add_option("--out", verbs.report.out, "The page [report.html beside the recording]")->type_name("PAGE.html");
+  report_verb.add_option("--out", verbs.report.out, "The page [report.html beside the recording]")
+      ->type_name("PAGE.html");
 
-  CLI::App& graph_verb = verbs.add(app, "graph", "Draw the diagram of a scenario's closed loop",
-                                   "flinch graph apps/scenarios/platform_collision.yaml --out loop.svg", verbs.graph, &graph);
-  graph_verb.add_option("scenario", verbs.graph.scenario, "Scenario file (YAML)")->required()->type_name("SCENARIO.yaml");
+  CLI::App& graph_verb =
+      verbs.add(app, "graph", "Draw the diagram of a scenario's closed loop",
+                "flinch graph apps/scenarios/platform_collision.yaml --out loop.svg", verbs.graph, &graph);
+  graph_verb.add_option("scenario", verbs.graph.scenario, "Scenario file (YAML)")
+      ->required()
+      ->type_name("SCENARIO.yaml");
   graph_verb.add_option("--out", verbs.graph.out, "A .svg or .dot file [DOT on stdout]")->type_name("FILE");
 
-  CLI::App& check_verb = verbs.add(app, "check", "Say all that is wrong with a scenario, robot or recording file",
-                                   "flinch check apps/robots/planar_3rrr.yaml", verbs.check, &check);
+  CLI::App& check_verb =
+      verbs.add(app, "check", "Say all that is wrong with a scenario, robot or recording file",
+                "flinch check apps/robots/planar_3rrr.yaml", verbs.check, &check);
   check_verb.add_option("file", verbs.check.file, "Scenario (YAML), robot (YAML) or recording (HDF5)")
       ->required()
       ->type_name("FILE");
@@ -81,7 +91,8 @@ void add_verbs(CLI::App& app, Verbs& verbs) {
 }  // namespace
 
 int run_command_line(int argc, const char* const* argv) {
-  CLI::App app("flinch: contact detection and reaction for parallel robots. Not a certified safety function.", "flinch");
+  CLI::App app("flinch: contact detection and reaction for parallel robots. Not a certified safety function.",
+               "flinch");
   app.set_version_flag("--version", std::string("flinch ") + FLINCH_VERSION);
   app.require_subcommand(1);
   app.footer("Exit status: 0 done, 1 the verdict is bad, 2 bad input or usage, 3 a fault stopped the run.");
@@ -90,7 +101,8 @@ int run_command_line(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? static_cast<int>(ExitStatus::done) : static_cast<int>(ExitStatus::bad_input);
+    return app.exit(error) == 0 ? static_cast<int>(ExitStatus::done)
+                                : static_cast<int>(ExitStatus::bad_input);
   }
   verbs.common->command_line = typed(argc, argv);
   try {

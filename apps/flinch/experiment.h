@@ -13,8 +13,8 @@ namespace flinch {
 
 struct Scenario;
 
-/// The closed loop of a scenario: the simulated station and the control path. The outputs of the diagram are what is
-/// recorded; its input are the operator's buttons.
+/// The closed loop of a scenario: the simulated station and the control path. The outputs of the diagram are
+/// what is recorded; its input are the operator's buttons.
 struct Experiment {
   std::unique_ptr<Diagram> diagram;
   InputPort<OperatorCommand> operator_command;
@@ -23,9 +23,9 @@ struct Experiment {
 /// Throws SetupError for settings that do not fit together.
 Experiment build_experiment(const Scenario& scenario);
 
-/// Runs the scenario from its start to its end and returns all that was recorded, with what made it as attributes:
-/// version, seed, scenario and robot file, and `provenance`. `progress` is told now and then which share is done.
-/// Throws SetupError as build_experiment() does.
+/// Runs the scenario from its start to its end and returns all that was recorded, with what made it as
+/// attributes: version, seed, scenario and robot file, and `provenance`. `progress` is told now and then
+/// which share is done. Throws SetupError as build_experiment() does.
 Recording run_experiment(const Scenario& scenario, const std::map<std::string, std::string>& provenance = {},
                          const std::function<void(double share)>& progress = {});
 

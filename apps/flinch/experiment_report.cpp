@@ -39,7 +39,8 @@ ReportContact report_contact(const ContactVerdict& contact) {
   return row;
 }
 
-ReportMeasure measure(std::string name, double value, std::string unit, std::optional<double> bound, std::string note) {
+ReportMeasure measure(std::string name, double value, std::string unit, std::optional<double> bound,
+                      std::string note) {
   ReportMeasure row;
   row.name = std::move(name);
   row.value = value;
@@ -55,23 +56,28 @@ std::vector<ReportMeasure> measures(const Verdict& verdict, const Expectations& 
   const auto millimetres = [](const std::optional<double>& metres) {
     return metres ? std::optional(1e3 * *metres) : std::nullopt;
   };
-  return {measure("False detections", verdict.false_detections, "", 0.0, "contacts seen where there was none"),
-          measure("Observer error, force", verdict.max_observer_error_force, "N", expected.observer_error, before),
-          measure("Observer error, moment", verdict.max_observer_error_moment, "Nm", expected.observer_error_moment, before),
-          measure("Tracking error", 1e3 * verdict.max_tracking_error, "mm", millimetres(expected.tracking_error), before),
-          measure("Orientation error", verdict.max_orientation_error * 180.0 / M_PI, "deg", std::nullopt, before),
-          measure("Loop closure", verdict.loop_closure, "m", expected.loop_closure,
-                  "largest miss of a leg followed along its joint angles")};
+  return {
+      measure("False detections", verdict.false_detections, "", 0.0, "contacts seen where there was none"),
+      measure("Observer error, force", verdict.max_observer_error_force, "N", expected.observer_error,
+              before),
+      measure("Observer error, moment", verdict.max_observer_error_moment, "Nm",
+              expected.observer_error_moment, before),
+      measure("Tracking error", 1e3 * verdict.max_tracking_error, "mm", millimetres(expected.tracking_error),
+              before),
+      measure("Orientation error", verdict.max_orientation_error * 180.0 / M_PI, "deg", std::nullopt, before),
+      measure("Loop closure", verdict.loop_closure, "m", expected.loop_closure,
+              "largest miss of a leg followed along its joint angles")};
 }
 
 ReportRobot drawn_robot(const PlanarRrrParameters& parameters) {
   ReportRobot robot;
   for (const PlanarRrrLeg& leg : parameters.legs) {
-    robot.legs.push_back({{leg.base_radius * std::sin(leg.base_angle), -leg.base_radius * std::cos(leg.base_angle)},
-                          leg.base_angle,
-                          leg.link1_length,
-                          {parameters.coupling_radius * std::cos(leg.coupling_angle),
-                           parameters.coupling_radius * std::sin(leg.coupling_angle)}});
+    robot.legs.push_back(
+        {{leg.base_radius * std::sin(leg.base_angle), -leg.base_radius * std::cos(leg.base_angle)},
+         leg.base_angle,
+         leg.link1_length,
+         {parameters.coupling_radius * std::cos(leg.coupling_angle),
+          parameters.coupling_radius * std::sin(leg.coupling_angle)}});
   }
   robot.link_radius = parameters.link_radius;
   robot.platform_radius = parameters.platform_hull_radius;
@@ -99,13 +105,16 @@ Column where(const Column& flag, Column column) {
 }
 
 /// A contact point is only shown while its body is touched.
-void add_touch(const Recording& recording, const std::string& field, const std::string& name, Report& report) {
+void add_touch(const Recording& recording, const std::string& field, const std::string& name,
+               Report& report) {
   Column touched = recording.column("contact", field + ".body");
   for (double& body : touched) body = body >= 0.0 ? 1.0 : 0.0;
   report.columns[name + "_x"] = where(touched, recording.column("contact", field + ".point_in_base", 0));
   report.columns[name + "_y"] = where(touched, recording.column("contact", field + ".point_in_base", 1));
-  report.columns[name + "_force_x"] = where(touched, recording.column("contact", field + ".force_in_base", 0));
-  report.columns[name + "_force_y"] = where(touched, recording.column("contact", field + ".force_in_base", 1));
+  report.columns[name + "_force_x"] =
+      where(touched, recording.column("contact", field + ".force_in_base", 0));
+  report.columns[name + "_force_y"] =
+      where(touched, recording.column("contact", field + ".force_in_base", 1));
 }
 
 void add_motion(const Recording& recording, Report& report) {
@@ -116,8 +125,8 @@ void add_motion(const Recording& recording, Report& report) {
   report.columns["pose_y"] = truth("pose", 1);
   report.columns["pose_phi"] = truth("pose", 2);
   report.columns["speed"] = magnitude(truth("velocity", 0), truth("velocity", 1));
-  report.columns["position_error"] =
-      where(followed, magnitude(difference(truth("pose", 0), target(0)), difference(truth("pose", 1), target(1))));
+  report.columns["position_error"] = where(
+      followed, magnitude(difference(truth("pose", 0), target(0)), difference(truth("pose", 1), target(1))));
   Column turn = difference(truth("pose", 2), target(2));
   for (double& angle : turn) angle = std::abs(std::remainder(angle, 2.0 * M_PI));
   report.columns["orientation_error"] = where(followed, turn);
@@ -147,15 +156,16 @@ void add_forces(const Recording& recording, Report& report) {
   add_touch(recording, "second", "contact_2", report);
 }
 
-ReportLane lane(const Recording& recording, std::string name, const std::string& path, const std::string& field,
-                std::vector<std::string> states) {
+ReportLane lane(const Recording& recording, std::string name, const std::string& path,
+                const std::string& field, std::vector<std::string> states) {
   ReportLane result{std::move(name), std::move(states), {}};
   for (const double state : recording.column(path, field)) result.state.push_back(static_cast<int>(state));
   return result;
 }
 
 std::vector<ReportLane> lanes(const Recording& recording) {
-  ReportLane mode = lane(recording, "mode", "reaction", "mode", {"nominal", "stopped", "react", "hold", "zero-g"});
+  ReportLane mode =
+      lane(recording, "mode", "reaction", "mode", {"nominal", "stopped", "react", "hold", "zero-g"});
   for (int& state : mode.state) {  // the page's quiet state comes first: nominal before stopped
     if (state < 2) state = 1 - state;
   }
@@ -185,8 +195,9 @@ std::vector<ReportParameter> parameters(const std::string& group, const std::vec
   for (const ReadValue& value : values) {
     const std::size_t dot = value.key.find('.');
     const bool nested = dot != std::string::npos;
-    rows.push_back({nested ? group + ": " + value.key.substr(0, dot) : group, nested ? value.key.substr(dot + 1) : value.key,
-                    value.value, value.unit, value.from_file ? "from the file" : "default"});
+    rows.push_back({nested ? group + ": " + value.key.substr(0, dot) : group,
+                    nested ? value.key.substr(dot + 1) : value.key, value.value, value.unit,
+                    value.from_file ? "from the file" : "default"});
   }
   return rows;
 }
@@ -205,14 +216,16 @@ Report experiment_report(const Scenario& scenario, const Recording& recording, c
   Report report;
   report.title = scenario.title;
   report.subtitle = scenario.description;
-  report.note = "Simulation. flinch is not a certified safety function; take force limits from the standard itself.";
+  report.note =
+      "Simulation. flinch is not a certified safety function; take force limits from the standard itself.";
   report.good = verdict.good();
   for (const ContactVerdict& contact : verdict.contacts) report.contacts.push_back(report_contact(contact));
   report.measures = measures(verdict, scenario.expected);
   report.robot = drawn_robot(scenario.station.bench.robot);
   if (scenario.station.bench.pylon) {
     const Pylon& pylon = *scenario.station.bench.pylon;
-    report.obstacles.push_back({"pylon", {pylon.position_in_base.x(), pylon.position_in_base.y()}, pylon.radius});
+    report.obstacles.push_back(
+        {"pylon", {pylon.position_in_base.x(), pylon.position_in_base.y()}, pylon.radius});
   }
   report.period = to_seconds(recording.period);
   if (!recording.time_ns.empty()) report.start = 1e-9 * static_cast<double>(recording.time_ns.front());
@@ -221,7 +234,8 @@ Report experiment_report(const Scenario& scenario, const Recording& recording, c
   report.lanes = lanes(recording);
   report.bounds = bounds(scenario, verdict);
   report.parameters = parameters("scenario", scenario.values);
-  for (ReportParameter& row : parameters("robot", scenario.robot.values)) report.parameters.push_back(std::move(row));
+  for (ReportParameter& row : parameters("robot", scenario.robot.values))
+    report.parameters.push_back(std::move(row));
   report.provenance = provenance(recording);
   report.texts = {{"Scenario " + scenario.file.filename().string(), scenario.text},
                   {"Robot " + scenario.robot_file.filename().string(), scenario.robot_text}};

@@ -47,8 +47,8 @@ void Progress::draw_bar(double share) {
   const int full = static_cast<int>(share * width);
   const double elapsed = seconds_since(started_);
   const double left = share > 0.01 ? elapsed * (1.0 - share) / share : 0.0;
-  fmt::print(stderr, "\r\x1b[K{} [{:#<{}}{:.<{}}] {:3.0f} %  {:.1f} s left", what_, "", full, "", width - full,
-             100 * share, left);
+  fmt::print(stderr, "\r\x1b[K{} [{:#<{}}{:.<{}}] {:3.0f} %  {:.1f} s left", what_, "", full, "",
+             width - full, 100 * share, left);
   std::fflush(stderr);
 }
 

@@ -5,8 +5,9 @@
 
 namespace flinch {
 
-/// Tells on stderr how far something has come: a bar that redraws itself on a terminal; where stderr is a pipe or
-/// file, a plain line at every quarter. Says nothing when quiet. The clock is the wall's and only paces the display.
+/// Tells on stderr how far something has come: a bar that redraws itself on a terminal; where stderr is a
+/// pipe or file, a plain line at every quarter. Says nothing when quiet. The clock is the wall's and only
+/// paces the display.
 class Progress {
  public:
   Progress(std::string what, bool quiet);

@@ -30,7 +30,8 @@ void read_expectations(ConfigReader expect, const ParallelRobot& robot, Expectat
     expect.text("contact", body);
     const std::vector<std::string> known = touchable(robot);
     if (std::find(known.begin(), known.end(), body) == known.end()) {
-      expect.problem("contact", "is '" + body + "', which is no body of this robot" + did_you_mean(body, known));
+      expect.problem("contact",
+                     "is '" + body + "', which is no body of this robot" + did_you_mean(body, known));
     }
     expected.contact = body;
   }
@@ -47,8 +48,8 @@ void read_force_limits(ConfigReader reader, ForceLimits& limits) {
   reader.number("transient_duration", unit::s, limits.transient_duration, positive);
 }
 
-/// What `read` returns; where that is no good its problems are noted, and the bench stands in so that the rest of the
-/// scenario can be checked as well.
+/// What `read` returns; where that is no good its problems are noted, and the bench stands in so that the
+/// rest of the scenario can be checked as well.
 template <class Read>
 RobotFile robot_or_stand_in(ConfigReader& reader, Read&& read) {
   try {
@@ -71,16 +72,18 @@ void read_rest(ConfigReader& reader, std::optional<std::uint64_t> seed, Scenario
   apply_limits(scenario.robot.limits, scenario.control);
   read_control(reader.section("control"), scenario.control);
   read_motion(reader.section("motion"), robot, scenario.control);
-  read_station(reader, robot.parameters(), scenario.seed, scenario.station);
+  read_station(reader, robot.parameters(), scenario.control.trajectory.path, scenario.seed, scenario.station);
   read_expectations(reader.section("expect"), robot, scenario.expected);
   read_force_limits(reader.section("force_limits"), scenario.force_limits);
   scenario.values = reader.finish();
 }
 
-const std::string& attribute(const Recording& recording, const std::string& name, const std::filesystem::path& file) {
+const std::string& attribute(const Recording& recording, const std::string& name,
+                             const std::filesystem::path& file) {
   const auto found = recording.attributes.find(name);
   if (found == recording.attributes.end()) {
-    throw SetupError(file.string() + ": the recording has no attribute '" + name + "'; it was not made by 'flinch run'");
+    throw SetupError(file.string() + ": the recording has no attribute '" + name +
+                     "'; it was not made by 'flinch run'");
   }
   return found->second;
 }

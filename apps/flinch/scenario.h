@@ -26,8 +26,8 @@ struct Scenario {
   Time duration = 1s;
 
   std::filesystem::path robot_file;
-  RobotFile robot;                    ///< what the controller believes
-  SimulatedStationSettings station;   ///< what stands there really
+  RobotFile robot;                   ///< what the controller believes
+  SimulatedStationSettings station;  ///< what stands there really
   ContactControlSettings control;
   Expectations expected;
   ForceLimits force_limits;
@@ -37,12 +37,12 @@ struct Scenario {
   std::string robot_text;         ///< of the robot file
 };
 
-/// Reads a scenario and the robot file it names; `seed` replaces the file's. Throws SetupError with all that is wrong
-/// with both, a motion that the legs do not reach included.
+/// Reads a scenario and the robot file it names; `seed` replaces the file's. Throws SetupError with all that
+/// is wrong with both, a motion that the legs do not reach included.
 Scenario read_scenario(const std::filesystem::path& file, std::optional<std::uint64_t> seed = std::nullopt);
 
-/// The scenario that a recording was made from, out of the texts that it keeps. Throws SetupError naming `file`, where
-/// the recording comes from, when it keeps none.
+/// The scenario that a recording was made from, out of the texts that it keeps. Throws SetupError naming
+/// `file`, where the recording comes from, when it keeps none.
 Scenario recorded_scenario(const Recording& recording, const std::filesystem::path& file);
 
 }  // namespace flinch

@@ -13,7 +13,9 @@
 namespace flinch {
 namespace {
 
-std::span<double> entries(PlatformVector& vector) { return {vector.data(), static_cast<std::size_t>(vector.size())}; }
+std::span<double> entries(PlatformVector& vector) {
+  return {vector.data(), static_cast<std::size_t>(vector.size())};
+}
 
 void read_limits(ConfigReader reader, PoseLimits& limits) {
   reader.number("velocity", unit::m_per_s, limits.translation.velocity, positive);
@@ -38,7 +40,8 @@ void read_sensing(ConfigReader& control, ContactControlSettings& settings) {
 }
 
 void read_detection(ConfigReader& control, ContactControlSettings& settings) {
-  control.section("momentum_observer").numbers("gain", unit::per_s, entries(settings.momentum_observer.gain), positive);
+  control.section("momentum_observer")
+      .numbers("gain", unit::per_s, entries(settings.momentum_observer.gain), positive);
 
   ConfigReader detector = control.section("contact_detector");
   detector.number("reaction_force", unit::N, settings.contact_detector.reaction.force, positive);
@@ -135,7 +138,8 @@ void read_motion(ConfigReader motion, const ParallelRobot& robot, ContactControl
     if (kind == MotionKind::passage) settings.trajectory.path = read_passage(motion, robot);
     if (kind == MotionKind::square) settings.trajectory.path = read_square(motion, robot);
   } catch (const SetupError& error) {
-    for (const std::string& problem : error.problems()) motion.problem("kind", "cannot be moved like this: " + problem);
+    for (const std::string& problem : error.problems())
+      motion.problem("kind", "cannot be moved like this: " + problem);
   }
 }
 

@@ -13,8 +13,8 @@ void apply_limits(const WorkspaceLimits& limits, ContactControlSettings& control
 /// Reads the section `control` of a scenario.
 void read_control(ConfigReader control, ContactControlSettings& settings);
 
-/// Reads the section `motion` of a scenario into the nominal motion. Throws SetupError for a motion that the robot
-/// cannot make, with the line of the section.
+/// Reads the section `motion` of a scenario into the nominal motion. Throws SetupError for a motion that the
+/// robot cannot make, with the line of the section.
 void read_motion(ConfigReader motion, const ParallelRobot& robot, ContactControlSettings& settings);
 
 }  // namespace flinch

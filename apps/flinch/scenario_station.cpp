@@ -5,6 +5,7 @@
 
 #include "plant/simulated_station.h"
 #include "systems/config/config_reader.h"
+#include "systems/control/platform_path.h"
 
 namespace flinch {
 namespace {
@@ -13,7 +14,8 @@ std::span<double> entries(Eigen::Vector3d& vector) { return {vector.data(), 3}; 
 
 void read_material(ConfigReader& reader, ContactMaterial& material) {
   reader.number("stiffness", unit::N_per_m, material.stiffness, positive);
-  reader.number("restitution", unit::none, material.restitution, {.low = 0.0, .high = 1.0, .low_included = false});
+  reader.number("restitution", unit::none, material.restitution,
+                {.low = 0.0, .high = 1.0, .low_included = false});
   reader.number("restitution_speed", unit::m_per_s, material.restitution_speed, positive);
   reader.number("friction", unit::none, material.friction, not_negative);
 }
@@ -40,11 +42,13 @@ enum class PlantFriction { as_robot_file, none };
 void read_plant(ConfigReader plant, SimulatedStationSettings& station) {
   PlantFriction friction = PlantFriction::as_robot_file;
   double mass_scale = 1.0, payload = 0.0;
-  plant.choice("friction", friction, {{"as_robot_file", PlantFriction::as_robot_file}, {"none", PlantFriction::none}});
+  plant.choice("friction", friction,
+               {{"as_robot_file", PlantFriction::as_robot_file}, {"none", PlantFriction::none}});
   plant.number("leg_inertia_scale", unit::none, mass_scale, positive);
   plant.number("payload", unit::kg, payload, not_negative);
   plant.numbers("torque_constant", unit::Nm_per_A, entries(station.drives.torque_constant), positive);
-  plant.numbers("driver_torque_constant", unit::Nm_per_A, entries(station.drives.driver_torque_constant), positive);
+  plant.numbers("driver_torque_constant", unit::Nm_per_A, entries(station.drives.driver_torque_constant),
+                positive);
 
   PlanarRrrParameters& robot = station.bench.robot;
   robot.platform_mass += payload;
@@ -120,16 +124,20 @@ WrenchRamp read_ramp(ConfigReader reader) {
 
 }  // namespace
 
-void read_station(ConfigReader& scenario, const PlanarRrrParameters& robot, std::uint64_t seed,
+void read_station(ConfigReader& scenario, const PlanarRrrParameters& robot,
+                  const std::optional<PlatformPath>& path, std::uint64_t seed,
                   SimulatedStationSettings& station) {
   station.seed = seed;
   station.bench.robot = robot;
+  if (path) station.bench.initial_pose = path->start();
   read_plant(scenario.section("plant"), station);
   if (scenario.has("pylon")) read_pylon(scenario.section("pylon"), station.bench.pylon);
-  for (ConfigReader& ramp : scenario.sections("applied_wrench")) station.applied_wrench.push_back(read_ramp(ramp));
+  for (ConfigReader& ramp : scenario.sections("applied_wrench"))
+    station.applied_wrench.push_back(read_ramp(ramp));
   read_sensors(scenario.section("sensors"), station);
   for (const std::string& complaint : problems(station.bench)) scenario.add_problems({"plant: " + complaint});
-  for (const std::string& complaint : problems(station.imu)) scenario.add_problems({"sensors.imu: " + complaint});
+  for (const std::string& complaint : problems(station.imu))
+    scenario.add_problems({"sensors.imu: " + complaint});
 }
 
 }  // namespace flinch

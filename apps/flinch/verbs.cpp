@@ -53,7 +53,8 @@ void draw_svg(const std::string& dot, const std::filesystem::path& file) {
   FILE* graphviz = file.string().find('\'') == std::string::npos ? popen(command.c_str(), "w") : nullptr;
   if (graphviz != nullptr) std::fwrite(dot.data(), 1, dot.size(), graphviz);
   if (graphviz == nullptr || pclose(graphviz) != 0) {
-    throw SetupError(file.string() + ": Graphviz could not draw it; is the program 'dot' installed (package graphviz)?");
+    throw SetupError(file.string() +
+                     ": Graphviz could not draw it; is the program 'dot' installed (package graphviz)?");
   }
 }
 
@@ -61,7 +62,8 @@ void draw_svg(const std::string& dot, const std::filesystem::path& file) {
 
 ExitStatus run(const RunOptions& options) {
   const Scenario scenario = read_scenario(options.scenario, options.seed);
-  const std::filesystem::path folder = options.out.empty() ? std::filesystem::path("out") / scenario.name : options.out;
+  const std::filesystem::path folder =
+      options.out.empty() ? std::filesystem::path("out") / scenario.name : options.out;
   build_experiment(scenario);  // says what does not fit before anything is written
   make_folder(folder);
 
@@ -79,7 +81,8 @@ ExitStatus run(const RunOptions& options) {
   write_report_page(experiment_report(scenario, recording, verdict), folder / "report.html");
   print_verdict(verdict, {wall.count(), scenario.seed}, options.common);
   if (!options.common.quiet) {
-    fmt::print(stderr, "recording: {}\nreport:    {}\n", (folder / "run.h5").string(), (folder / "report.html").string());
+    fmt::print(stderr, "recording: {}\nreport:    {}\n", (folder / "run.h5").string(),
+               (folder / "report.html").string());
   }
   return status_of(verdict);
 }
@@ -111,7 +114,8 @@ ExitStatus graph(const GraphOptions& options) {
   } else if (extension == ".dot") {
     write_text(dot, options.out);
   } else {
-    throw SetupError(options.out.string() + ": a graph is written as .svg or .dot, not as '" + extension + "'");
+    throw SetupError(options.out.string() + ": a graph is written as .svg or .dot, not as '" + extension +
+                     "'");
   }
   if (options.common.json) {
     fmt::print("{}\n", Json{{"graph", options.out.string()}}.dump());

@@ -8,37 +8,39 @@ namespace flinch {
 
 struct Recording;
 
-/// A force limit for contact with a person. These defaults are the values that [SafePR] quotes for the hand from
-/// ISO/TS 15066; whoever makes a claim takes them from the standard.
+/// A force limit for contact with a person. These defaults are the values that [SafePR] quotes for the hand
+/// from ISO/TS 15066; whoever makes a claim takes them from the standard.
 struct ForceLimits {
-  double transient = 280.0;         ///< for contacts no longer than `transient_duration` [N]
-  double quasi_static = 140.0;      ///< for longer ones [N]
+  double transient = 280.0;         ///< for the first `transient_duration` of a contact [N]
+  double quasi_static = 140.0;      ///< for what lasts longer [N]
   double transient_duration = 0.5;  ///< [s]
 };
 
 /// What a run is expected to show; what is not given is not judged.
 struct Expectations {
-  std::optional<std::string> contact;         ///< the body that is touched, or "none"
-  std::optional<double> detection_time;       ///< longest time from contact to detection [s]
-  std::optional<double> observer_error;       ///< largest force error of the estimate without contact [N]
+  std::optional<std::string> contact;           ///< the body that is touched, or "none"
+  std::optional<double> detection_time;         ///< longest time from contact to detection [s]
+  std::optional<double> observer_error;         ///< largest force error of the estimate without contact [N]
   std::optional<double> observer_error_moment;  ///< the same for the moment [Nm]
-  std::optional<double> tracking_error;       ///< largest distance from the reference without contact [m]
-  double loop_closure = 1e-9;                 ///< [m]
+  std::optional<double> tracking_error;         ///< largest distance from the reference without contact [m]
+  double loop_closure = 1e-9;                   ///< [m]
 };
 
 /// One contact: from the first force above `contact_force` to the last, where interruptions shorter than
 /// `same_contact` do not count.
 struct ContactVerdict {
-  std::string body;                ///< "platform", "leg1_link2"; "leg1_clamping" where both links of a leg are touched
-  double onset = 0.0;              ///< t_c, when the surfaces met [s]
-  std::optional<double> detected;  ///< t_det [s]
-  std::optional<double> removed;   ///< t_rem; none: still touching at the end [s]
-  double speed = 0.0;              ///< of the platform at the onset [m/s]
-  double peak_force = 0.0;         ///< of one touching body [N]
-  double peak_time = 0.0;          ///< [s]
-  double limit = 0.0;              ///< [N]
+  std::string body;    ///< "platform", "leg1_link2"; "leg1_clamping" where both links of a leg are touched
+  double onset = 0.0;  ///< t_c, when the force rose above `contact_force`, between samples [s]
+  std::optional<double> detected;       ///< t_det [s]
+  std::optional<double> removed;        ///< t_rem; none: still touching at the end [s]
+  double speed = 0.0;                   ///< of the platform, the largest during the contact [m/s]
+  double peak_force = 0.0;              ///< of one touching body [N]
+  double peak_time = 0.0;               ///< [s]
+  std::optional<double> lasting_force;  ///< the largest after the transient duration, if it lasts so long [N]
+  double limit =
+      0.0;  ///< of the peak force: transient, or quasi-static where only the lasting force fails [N]
   std::string limit_name;
-  bool within_limit = false;
+  bool within_limit = false;  ///< both forces are
 };
 
 /// What a run shows, judged.
@@ -47,14 +49,14 @@ struct Verdict {
   static constexpr double same_contact = 0.1;   ///< [s]
 
   std::vector<ContactVerdict> contacts;
-  int false_detections = 0;            ///< with no force of more than `contact_force` in the last `same_contact`
+  int false_detections = 0;  ///< with no force of more than `contact_force` in the last `same_contact`
   double max_observer_error_force = 0.0;   ///< of any component, before anything touches the robot [N]
   double max_observer_error_moment = 0.0;  ///< [Nm]
-  double max_tracking_error = 0.0;     ///< in the nominal mode, before anything touches the robot [m]
-  double max_orientation_error = 0.0;  ///< likewise [rad]
-  double loop_closure = 0.0;           ///< largest miss of a leg [m]
-  std::string fault;                   ///< why the torque gate closed; "" if it did not
-  double simulated = 0.0;              ///< [s]
+  double max_tracking_error = 0.0;         ///< in the nominal mode, before anything touches the robot [m]
+  double max_orientation_error = 0.0;      ///< likewise [rad]
+  double loop_closure = 0.0;               ///< largest miss of a leg [m]
+  std::string fault;                       ///< why the torque gate closed; "" if it did not
+  double simulated = 0.0;                  ///< [s]
 
   std::vector<std::string> failures;  ///< why the verdict is bad, one sentence each; empty: it is good
   bool good() const { return failures.empty(); }

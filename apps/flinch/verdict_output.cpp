@@ -29,13 +29,14 @@ Json contact_json(const ContactVerdict& contact) {
           {"limit_N", contact.limit},
           {"within_limit", contact.within_limit},
           {"limit", contact.limit_name},
+          {"lasting_force_N", contact.lasting_force ? Json(*contact.lasting_force) : Json(nullptr)},
           {"onset_s", contact.onset},
           {"speed_m_per_s", contact.speed}};
 }
 
 std::string contact_line(const ContactVerdict& contact) {
-  return fmt::format("{:<15} {:>8.3f} {:>6.2f} {:>10} {:>10} {:>8.0f} {:>8.0f}  {}\n", contact.body, contact.onset,
-                     contact.speed, milliseconds_text(contact.onset, contact.detected),
+  return fmt::format("{:<15} {:>8.3f} {:>6.2f} {:>10} {:>10} {:>8.0f} {:>8.0f}  {}\n", contact.body,
+                     contact.onset, contact.speed, milliseconds_text(contact.onset, contact.detected),
                      milliseconds_text(contact.onset, contact.removed), contact.peak_force, contact.limit,
                      contact.within_limit ? "yes" : "NO");
 }
@@ -43,8 +44,8 @@ std::string contact_line(const ContactVerdict& contact) {
 }  // namespace
 
 std::string verdict_table(const Verdict& verdict, const RunFacts& facts) {
-  std::string text = fmt::format("{:<15} {:>8} {:>6} {:>10} {:>10} {:>8} {:>8}  {}\n", "contact with", "at s", "m/s",
-                                 "noticed ms", "removed ms", "peak N", "limit N", "within");
+  std::string text = fmt::format("{:<15} {:>8} {:>6} {:>10} {:>10} {:>8} {:>8}  {}\n", "contact with", "at s",
+                                 "m/s", "noticed ms", "removed ms", "peak N", "limit N", "within");
   for (const ContactVerdict& contact : verdict.contacts) text += contact_line(contact);
   if (verdict.contacts.empty()) text += "nothing was touched\n";
   text += fmt::format(
@@ -52,8 +53,8 @@ std::string verdict_table(const Verdict& verdict, const RunFacts& facts) {
       "tracking error     {:.2f} mm, {:.2f} deg before any contact\nloop closure       {:.1e} m\n"
       "simulated          {:.3f} s in {:.2f} s, seed {}\n\n",
       verdict.false_detections, verdict.max_observer_error_force, verdict.max_observer_error_moment,
-      1e3 * verdict.max_tracking_error, verdict.max_orientation_error * 57.29577951308232, verdict.loop_closure,
-      verdict.simulated, facts.wall, facts.seed);
+      1e3 * verdict.max_tracking_error, verdict.max_orientation_error * 57.29577951308232,
+      verdict.loop_closure, verdict.simulated, facts.wall, facts.seed);
   text += verdict.good() ? "verdict: good\n" : "verdict: bad\n";
   for (const std::string& failure : verdict.failures) text += "  - " + failure + "\n";
   return text;

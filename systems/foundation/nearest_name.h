@@ -6,7 +6,8 @@
 
 namespace flinch {
 
-/// The one of `known` that `name` most likely was meant to be (smallest edit distance), or "" when none is near.
+/// The one of `known` that `name` most likely was meant to be (smallest edit distance), or "" when none is
+/// near.
 std::string nearest_name(std::string_view name, std::span<const std::string> known);
 
 /// "; did you mean 'x'?" for the nearest known name, or a list of all known names when none is near.

@@ -10,8 +10,8 @@ namespace flinch {
 
 class System;
 
-/// A member function of a block with its types erased: reads its arguments from, and writes its result to, the memory
-/// of a Context at `offsets` (the arguments in order, then the result).
+/// A member function of a block with its types erased: reads its arguments from, and writes its result to,
+/// the memory of a Context at `offsets` (the arguments in order, then the result).
 using BlockFunction = void (*)(const System& block, std::byte* memory, const std::uint32_t* offsets);
 
 namespace internal {
@@ -34,17 +34,20 @@ struct MemberSignature<Return (Block_::*)(Parameters...) const> {
   static constexpr std::size_t arguments = sizeof...(Parameters);
   using Result = std::remove_cvref_t<Return>;
   using Values = std::tuple<std::remove_cvref_t<Parameters>...>;
-  static_assert((!is_result_argument<Parameters> && ...), "a function that returns its result may not write to an argument");
+  static_assert((!is_result_argument<Parameters> && ...),
+                "a function that returns its result may not write to an argument");
 };
 
 template <class Block_, class... Parameters>
 struct MemberSignature<void (Block_::*)(Parameters...) const> {
-  static_assert(sizeof...(Parameters) > 0, "a function of a block returns its result or takes it as last argument");
+  static_assert(sizeof...(Parameters) > 0,
+                "a function of a block returns its result or takes it as last argument");
   using Block = Block_;
   static constexpr bool returns = false;
   static constexpr std::size_t arguments = sizeof...(Parameters) - 1;
   static_assert(is_result_argument<LastOf<Parameters...>>, "the last argument must be Result&");
-  static_assert((static_cast<std::size_t>(is_result_argument<Parameters>) + ...) == 1, "only the last argument may be written");
+  static_assert((static_cast<std::size_t>(is_result_argument<Parameters>) + ...) == 1,
+                "only the last argument may be written");
   using Result = std::remove_cvref_t<LastOf<Parameters...>>;
   using Values = std::tuple<std::remove_cvref_t<Parameters>...>;  // the result comes last
 };
@@ -62,14 +65,17 @@ T& at(std::byte* memory, std::uint32_t offset) {
 }
 
 template <auto function, std::size_t... i>
-void call_with(const System& system, std::byte* memory, const std::uint32_t* offsets, std::index_sequence<i...>) {
+void call_with(const System& system, std::byte* memory, const std::uint32_t* offsets,
+               std::index_sequence<i...>) {
   using S = Signature<function>;
   const auto& block = static_cast<const typename S::Block&>(system);
   auto& result = at<typename S::Result>(memory, offsets[sizeof...(i)]);
   if constexpr (S::returns) {
-    result = (block.*function)(std::as_const(at<std::tuple_element_t<i, typename S::Values>>(memory, offsets[i]))...);
+    result = (block.*function)(
+        std::as_const(at<std::tuple_element_t<i, typename S::Values>>(memory, offsets[i]))...);
   } else {
-    (block.*function)(std::as_const(at<std::tuple_element_t<i, typename S::Values>>(memory, offsets[i]))..., result);
+    (block.*function)(std::as_const(at<std::tuple_element_t<i, typename S::Values>>(memory, offsets[i]))...,
+                      result);
   }
 }
 
@@ -81,12 +87,14 @@ void call(const System& system, std::byte* memory, const std::uint32_t* offsets)
 template <auto function, class... Values>
 constexpr void check_arguments() {
   using S = Signature<function>;
-  static_assert(sizeof...(Values) == S::arguments, "the declaration names more or fewer values than the function takes");
+  static_assert(sizeof...(Values) == S::arguments,
+                "the declaration names more or fewer values than the function takes");
   if constexpr (sizeof...(Values) == S::arguments) {
     []<std::size_t... i>(std::index_sequence<i...>) {
       static_assert((std::is_same_v<Values, std::tuple_element_t<i, typename S::Values>> && ...),
                     "the declaration names a value of another type than the function takes");
-    }(std::make_index_sequence<S::arguments>());
+    }
+    (std::make_index_sequence<S::arguments>());
   }
 }
 

@@ -12,13 +12,13 @@ namespace flinch {
 namespace {
 
 std::byte* allocate(std::size_t size) {
-  return static_cast<std::byte*>(::operator new(size, std::align_val_t{Layout::alignment}));
+  return static_cast<std::byte*>(::operator new (size, std::align_val_t{Layout::alignment}));
 }
 
 }  // namespace
 
 void Context::FreeMemory::operator()(std::byte* memory) const {
-  ::operator delete(memory, std::align_val_t{Layout::alignment});
+  ::operator delete (memory, std::align_val_t{Layout::alignment});
 }
 
 Context::Context(const Diagram& diagram) : diagram_(&diagram), memory_(allocate(diagram.layout().size())) {
@@ -27,7 +27,8 @@ Context::Context(const Diagram& diagram) : diagram_(&diagram), memory_(allocate(
   }
 }
 
-Context::Context(const Context& other) : diagram_(other.diagram_), memory_(allocate(diagram_->layout().size())) {
+Context::Context(const Context& other)
+    : diagram_(other.diagram_), memory_(allocate(diagram_->layout().size())) {
   for (const Layout::Cell& cell : diagram_->layout().cells()) {
     cell.type->copy_construct(memory_.get() + cell.offset, other.memory_.get() + cell.offset);
   }
@@ -61,7 +62,8 @@ std::uint32_t Context::offset_of(PortId port) const { return diagram_->offset(po
 
 std::uint32_t Context::offset_of_external(PortId port) const {
   if (port.owner != diagram_ || port.kind != PortId::Kind::input) {
-    throw SetupError("only the inputs of the diagram '" + diagram_->name() + "' itself can be set from outside");
+    throw SetupError("only the inputs of the diagram '" + diagram_->name() +
+                     "' itself can be set from outside");
   }
   return diagram_->offset(port);
 }

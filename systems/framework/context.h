@@ -11,17 +11,17 @@ namespace flinch {
 class Diagram;
 class Layout;
 
-/// Where one value lies in every Context of a diagram: Diagram::slot() finds it once, Context::operator[] is then one
-/// addition.
+/// Where one value lies in every Context of a diagram: Diagram::slot() finds it once, Context::operator[] is
+/// then one addition.
 template <class T>
 struct Slot {
   std::uint32_t offset = 0;
 };
 
-/// Everything of a running diagram that changes: the time, every port value and every state, in one block of memory,
-/// apart from the diagram, which is const and can be shared. Copy it to snapshot, to rewind or to run a thousand
-/// trials side by side, each in its own thread. Assigning between Contexts of one diagram does not allocate. The
-/// diagram must outlive its Contexts.
+/// Everything of a running diagram that changes: the time, every port value and every state, in one block of
+/// memory, apart from the diagram, which is const and can be shared. Copy it to snapshot, to rewind or to run
+/// a thousand trials side by side, each in its own thread. Assigning between Contexts of one diagram does not
+/// allocate. The diagram must outlive its Contexts.
 class Context {
  public:
   explicit Context(const Diagram& diagram);

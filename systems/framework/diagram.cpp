@@ -24,7 +24,8 @@ void Diagram::update(Context& context) const {
   }
   for (const UpdateGroup& group : update_groups_) {
     if (!group.every.due(now)) continue;
-    for (const StateCell& cell : group.written) cell.type->copy_assign(memory + cell.current, memory + cell.next);
+    for (const StateCell& cell : group.written)
+      cell.type->copy_assign(memory + cell.current, memory + cell.next);
   }
 }
 

@@ -13,8 +13,8 @@
 
 namespace flinch {
 
-/// Blocks wired together, checked and put in order by DiagramBuilder::build(). A diagram is itself a System: it exports
-/// ports and nests. It never changes; what changes lives in Contexts, so threads may share it.
+/// Blocks wired together, checked and put in order by DiagramBuilder::build(). A diagram is itself a System:
+/// it exports ports and nests. It never changes; what changes lives in Contexts, so threads may share it.
 ///
 /// Its meaning, tick by tick, with tick period T and t_k = k T:
 ///
@@ -23,12 +23,13 @@ namespace flinch {
 ///     u   := the diagram's input ports, as set from outside before the tick
 ///     y   := every output, from x, u and t_k, each once, in an order in which what is read comes first
 ///     recorders see y and u
-///     x_d := every update that is due at t_k, all computed from the old x and from y, then all written at once
-///     x_c := the continuous states integrated from t_k to t_{k+1}, with u and the new x_d held; inside that step only
+///     x_d := every update that is due at t_k, all computed from the old x and from y, then all written at
+///     once x_c := the continuous states integrated from t_k to t_{k+1}, with u and the new x_d held; inside
+///     that step only
 ///            the outputs that a derivative depends on are computed again
 ///
-/// So a state that an update writes at t_k acts from t_k on: a value held by it is a zero-order hold without delay in
-/// continuous time, and one tick of delay between discrete blocks.
+/// So a state that an update writes at t_k acts from t_k on: a value held by it is a zero-order hold without
+/// delay in continuous time, and one tick of delay between discrete blocks.
 class Diagram : public System {
  public:
   ~Diagram() override;
@@ -48,7 +49,8 @@ class Diagram : public System {
   std::size_t continuous_size() const { return continuous_size_; }
   void get_continuous(const Context& context, std::span<double> numbers) const;
   void set_continuous(Context& context, std::span<const double> numbers) const;
-  /// Computes what the derivatives depend on and what stays constant during a step: once before derivatives().
+  /// Computes what the derivatives depend on and what stays constant during a step: once before
+  /// derivatives().
   void begin_step(Context& context) const;
   /// The time derivative [per second] of the continuous states in `context`.
   void derivatives(Context& context, std::span<double> rates) const;
@@ -62,7 +64,8 @@ class Diagram : public System {
   /// The blocks directly inside, in the order in which they were added.
   const std::vector<std::unique_ptr<System>>& children() const { return children_; }
 
-  /// A port of any block inside, by its path: "station/encoders/joints"; inputs and outputs, exported ones as well.
+  /// A port of any block inside, by its path: "station/encoders/joints"; inputs and outputs, exported ones as
+  /// well.
   struct Tap {
     std::string path;
     PortId port;

@@ -44,13 +44,14 @@ void DiagramBuilder::add_wire(PortId from, PortId to) {
   const bool from_inside = is_child(from.owner) && from.kind == PortId::Kind::output;
   const bool from_outside = from.owner == diagram_.get() && from.kind == PortId::Kind::input;
   if (!from_inside && !from_outside) {
-    problems_.push_back(path(from) + " is connected to " + path(to) + ", but is no output of a block directly in '" +
-                        diagram_->name_ + "' and no input of it; export it from its diagram");
+    problems_.push_back(path(from) + " is connected to " + path(to) +
+                        ", but is no output of a block directly in '" + diagram_->name_ +
+                        "' and no input of it; export it from its diagram");
     return;
   }
   if (!is_child(to.owner)) {
-    problems_.push_back(path(from) + " is connected to " + path(to) + ", which is not in '" + diagram_->name_ +
-                        "'; export it from its diagram");
+    problems_.push_back(path(from) + " is connected to " + path(to) + ", which is not in '" +
+                        diagram_->name_ + "'; export it from its diagram");
     return;
   }
   for (const Diagram::Wire& wire : diagram_->wires_) {
@@ -74,7 +75,8 @@ void DiagramBuilder::find_unconnected(std::vector<std::string>& problems) const 
 }
 
 void DiagramBuilder::find_duplicates(std::vector<std::string>& problems) const {
-  const auto check = [&problems](const std::string& where, const auto& named, const char* what, const auto& name_of) {
+  const auto check = [&problems](const std::string& where, const auto& named, const char* what,
+                                 const auto& name_of) {
     std::set<std::string> seen;
     for (const auto& each : named) {
       if (!seen.insert(name_of(each)).second) {
@@ -97,8 +99,8 @@ void DiagramBuilder::find_duplicates(std::vector<std::string>& problems) const {
 void DiagramBuilder::find_foreign_exports(std::vector<std::string>& problems) const {
   for (const System::Output& output : diagram_->outputs_) {
     if (!is_child(output.reads.front().owner)) {
-      problems.push_back(diagram_->name_ + "/" + output.name + " exports a port of a block that is not directly in '" +
-                         diagram_->name_ + "'");
+      problems.push_back(diagram_->name_ + "/" + output.name +
+                         " exports a port of a block that is not directly in '" + diagram_->name_ + "'");
     }
   }
 }

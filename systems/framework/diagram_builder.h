@@ -19,8 +19,8 @@ namespace flinch {
 ///   std::unique_ptr<Diagram> loop = builder.build();
 class DiagramBuilder {
  public:
-  /// `tick` is the period at which the outputs are evaluated; every update's period and offset must be multiples of it.
-  /// A nested diagram runs at the tick of the outermost one.
+  /// `tick` is the period at which the outputs are evaluated; every update's period and offset must be
+  /// multiples of it. A nested diagram runs at the tick of the outermost one.
   explicit DiagramBuilder(std::string name = "diagram", Time tick = 1ms);
 
   /// Adds a Block made from `arguments`. The reference lives as long as the diagram.
@@ -65,9 +65,9 @@ class DiagramBuilder {
     return {{diagram_.get(), PortId::Kind::output, static_cast<int>(diagram_->outputs_.size()) - 1}};
   }
 
-  /// Checks the wiring and fixes the order in which everything runs. Throws SetupError with all that is wrong, each
-  /// with full path names: inputs not connected or connected twice, names used twice, algebraic loops port by port,
-  /// periods that do not divide. The builder is empty afterwards.
+  /// Checks the wiring and fixes the order in which everything runs. Throws SetupError with all that is
+  /// wrong, each with full path names: inputs not connected or connected twice, names used twice, algebraic
+  /// loops port by port, periods that do not divide. The builder is empty afterwards.
   std::unique_ptr<Diagram> build();
 
  private:

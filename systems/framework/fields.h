@@ -24,21 +24,26 @@ namespace flinch {
 ///     }
 ///   };
 ///
-/// Fields are numbers, bool, enumerations, durations, Eigen matrices of bounded size, std::array of these, and
-/// other values with fields.
+/// Fields are numbers, bool, enumerations, durations, Eigen matrices of bounded size, std::array of these,
+/// and other values with fields.
 template <class T>
-concept HasFields = requires(T& value) { T::fields(value, [](const auto&...) {}); };
+concept HasFields = requires(T& value) {
+  T::fields(value, [](const auto&...) {});
+};
 
 namespace internal {
 
 template <class T>
-concept Duration = requires { typename T::period; } && std::same_as<T, std::chrono::nanoseconds>;
+concept Duration = requires {
+  typename T::period;
+}
+&&std::same_as<T, std::chrono::nanoseconds>;
 
 template <class T>
 concept Scalar = std::is_arithmetic_v<T> || std::is_enum_v<T> || Duration<T>;
 
 template <class T>
-concept BoundedMatrix = std::derived_from<T, Eigen::PlainObjectBase<T>> && (T::MaxSizeAtCompileTime > 0);
+concept BoundedMatrix = std::derived_from<T, Eigen::PlainObjectBase<T>> &&(T::MaxSizeAtCompileTime > 0);
 
 template <class T>
 inline constexpr bool is_std_array = false;
@@ -58,12 +63,12 @@ struct Field {
   std::string unit;   ///< SI; "" for a number without unit
   std::string frame;  ///< "" where the value has none
   Kind kind{};
-  int capacity = 1;       ///< most numbers that it can hold
-  bool resizable = false; ///< whether rows and columns may differ from sample to sample
+  int capacity = 1;        ///< most numbers that it can hold
+  bool resizable = false;  ///< whether rows and columns may differ from sample to sample
 };
 
-/// How a value of one type is laid out in a row of a recording: each field is `capacity` numbers of 8 bytes, and two
-/// more (rows, columns) before them where it is resizable.
+/// How a value of one type is laid out in a row of a recording: each field is `capacity` numbers of 8 bytes,
+/// and two more (rows, columns) before them where it is resizable.
 struct RowLayout {
   std::vector<Field> fields;
   std::size_t numbers = 0;  ///< 8-byte numbers in a row
@@ -77,15 +82,17 @@ void visit_leaves(const std::string& name, const char* unit, const char* frame, 
   using Value = std::remove_const_t<T>;
   const auto joined = [&name](const std::string& part) { return name.empty() ? part : name + "." + part; };
   if constexpr (HasFields<Value>) {
-    Value::fields(value, [&](const char* part, const char* part_unit, auto& member, const char* part_frame = "") {
-      visit_leaves(joined(part), part_unit, part_frame, member, leaf);
-    });
+    Value::fields(value,
+                  [&](const char* part, const char* part_unit, auto& member, const char* part_frame = "") {
+                    visit_leaves(joined(part), part_unit, part_frame, member, leaf);
+                  });
   } else if constexpr (is_std_array<Value>) {
     for (std::size_t i = 0; i < value.size(); ++i) {
       visit_leaves(joined(std::to_string(i)), unit, frame, value[i], leaf);
     }
   } else {
-    static_assert(Scalar<Value> || BoundedMatrix<Value>, "a field must be a number, a bounded matrix or have fields");
+    static_assert(Scalar<Value> || BoundedMatrix<Value>,
+                  "a field must be a number, a bounded matrix or have fields");
     leaf(name.empty() ? std::string("value") : name, unit, frame, value);
   }
 }
@@ -202,15 +209,15 @@ template <Recordable T>
 RowLayout row_layout() {
   RowLayout layout;
   T value{};
-  internal::visit_leaves("", "", "", value,
-                         [&](std::string name, const char* unit, const char* frame, const auto& leaf) {
-                           Field field = internal::field_of(leaf);
-                           field.name = std::move(name);
-                           field.unit = unit;
-                           field.frame = frame;
-                           layout.numbers += static_cast<std::size_t>(field.capacity) + (field.resizable ? 2U : 0U);
-                           layout.fields.push_back(std::move(field));
-                         });
+  internal::visit_leaves(
+      "", "", "", value, [&](std::string name, const char* unit, const char* frame, const auto& leaf) {
+        Field field = internal::field_of(leaf);
+        field.name = std::move(name);
+        field.unit = unit;
+        field.frame = frame;
+        layout.numbers += static_cast<std::size_t>(field.capacity) + (field.resizable ? 2U : 0U);
+        layout.fields.push_back(std::move(field));
+      });
   return layout;
 }
 

@@ -7,11 +7,13 @@
 namespace flinch {
 namespace {
 
-/// Gives every block and diagram a short identifier, in the order of drawing, so that equal diagrams give equal text.
+/// Gives every block and diagram a short identifier, in the order of drawing, so that equal diagrams give
+/// equal text.
 class Drawing {
  public:
   std::string draw(const Diagram& root) {
-    text_ << "digraph \"" << root.name() << "\" {\n  rankdir=LR;\n  node [shape=plain, fontname=\"Helvetica\", fontsize=11];\n"
+    text_ << "digraph \"" << root.name()
+          << "\" {\n  rankdir=LR;\n  node [shape=plain, fontname=\"Helvetica\", fontsize=11];\n"
           << "  edge [color=\"#4a5a70\", arrowsize=0.7];\n  compound=true;\n";
     draw_ports(root, "  ");
     draw_children(root, "  ");
@@ -29,20 +31,24 @@ class Drawing {
 
   /// The inputs and outputs of a diagram are small nodes of their own.
   void draw_ports(const Diagram& diagram, const std::string& indent) {
-    for (std::size_t i = 0; i < diagram.inputs().size(); ++i) draw_port(diagram, "i", i, diagram.inputs()[i].name, indent);
-    for (std::size_t i = 0; i < diagram.outputs().size(); ++i) draw_port(diagram, "o", i, diagram.outputs()[i].name, indent);
+    for (std::size_t i = 0; i < diagram.inputs().size(); ++i)
+      draw_port(diagram, "i", i, diagram.inputs()[i].name, indent);
+    for (std::size_t i = 0; i < diagram.outputs().size(); ++i)
+      draw_port(diagram, "o", i, diagram.outputs()[i].name, indent);
   }
 
-  void draw_port(const Diagram& diagram, const char* side, std::size_t i, const std::string& name, const std::string& indent) {
-    text_ << indent << id(diagram) << "_" << side << i << " [shape=box, style=\"rounded,filled\", fillcolor=\"#e8eef7\", label=\""
-          << name << "\"];\n";
+  void draw_port(const Diagram& diagram, const char* side, std::size_t i, const std::string& name,
+                 const std::string& indent) {
+    text_ << indent << id(diagram) << "_" << side << i
+          << " [shape=box, style=\"rounded,filled\", fillcolor=\"#e8eef7\", label=\"" << name << "\"];\n";
   }
 
   void draw_children(const Diagram& diagram, const std::string& indent) {
     for (const auto& child : diagram.children()) {
       if (const auto* nested = dynamic_cast<const Diagram*>(child.get())) {
         text_ << indent << "subgraph cluster_" << id(*nested) << " {\n"
-              << indent << "  label=\"" << nested->name() << "\"; style=rounded; color=\"#9aa8ba\"; fontname=\"Helvetica\";\n";
+              << indent << "  label=\"" << nested->name()
+              << "\"; style=rounded; color=\"#9aa8ba\"; fontname=\"Helvetica\";\n";
         draw_ports(*nested, indent + "  ");
         draw_children(*nested, indent + "  ");
         text_ << indent << "}\n";
@@ -54,10 +60,13 @@ class Drawing {
 
   void draw_block(const System& block, const std::string& indent) {
     const std::size_t rows = std::max<std::size_t>({block.inputs().size(), block.outputs().size(), 1});
-    text_ << indent << id(block) << " [label=<<table border=\"1\" cellborder=\"0\" cellspacing=\"0\" cellpadding=\"3\" color=\"#4a5a70\">"
+    text_ << indent << id(block)
+          << " [label=<<table border=\"1\" cellborder=\"0\" cellspacing=\"0\" cellpadding=\"3\" "
+             "color=\"#4a5a70\">"
           << "<tr><td colspan=\"2\" bgcolor=\"#f3f1ea\"><b>" << block.name() << "</b></td></tr>";
     for (std::size_t i = 0; i < rows; ++i) {
-      text_ << "<tr>" << cell("i", i, block.inputs(), "left") << cell("o", i, block.outputs(), "right") << "</tr>";
+      text_ << "<tr>" << cell("i", i, block.inputs(), "left") << cell("o", i, block.outputs(), "right")
+            << "</tr>";
     }
     text_ << "</table>>];\n";
   }
@@ -65,7 +74,8 @@ class Drawing {
   template <class Ports>
   static std::string cell(const char* side, std::size_t i, const Ports& ports, const char* align) {
     if (i >= ports.size()) return "<td></td>";
-    return std::string("<td port=\"") + side + std::to_string(i) + "\" align=\"" + align + "\">" + ports[i].name + "</td>";
+    return std::string("<td port=\"") + side + std::to_string(i) + "\" align=\"" + align + "\">" +
+           ports[i].name + "</td>";
   }
 
   void draw_wires(const Diagram& diagram) {
@@ -78,12 +88,15 @@ class Drawing {
     }
   }
 
-  void draw_edge(PortId from, PortId to) { text_ << "  " << anchor(from, ":e") << " -> " << anchor(to, ":w") << ";\n"; }
+  void draw_edge(PortId from, PortId to) {
+    text_ << "  " << anchor(from, ":e") << " -> " << anchor(to, ":w") << ";\n";
+  }
 
   std::string anchor(PortId port, const char* compass) {
     const std::string side = port.kind == PortId::Kind::input ? "i" : "o";
     const bool of_diagram = dynamic_cast<const Diagram*>(port.owner) != nullptr;
-    return id(*port.owner) + (of_diagram ? "_" : ":") + side + std::to_string(port.index) + (of_diagram ? "" : compass);
+    return id(*port.owner) + (of_diagram ? "_" : ":") + side + std::to_string(port.index) +
+           (of_diagram ? "" : compass);
   }
 
   std::unordered_map<const System*, std::string> ids_;

@@ -10,9 +10,9 @@
 
 namespace flinch {
 
-/// Plays one recorded port back: at each tick its output is, bit for bit, the value recorded at that time. Between
-/// samples it holds the last one; before the first and after the last its output is a default T, for which flinch's
-/// values say that they are not valid.
+/// Plays one recorded port back: at each tick its output is, bit for bit, the value recorded at that time.
+/// Between samples it holds the last one; before the first and after the last its output is a default T, for
+/// which flinch's values say that they are not valid.
 template <Recordable T>
 class Player final : public System {
  public:
@@ -43,7 +43,8 @@ class Player final : public System {
     };
     if (!std::equal(expected.fields.begin(), expected.fields.end(), signal.layout.fields.begin(),
                     signal.layout.fields.end(), same)) {
-      throw SetupError("the signal '" + signal.path + "' was recorded with other fields than this version of flinch has");
+      throw SetupError("the signal '" + signal.path +
+                       "' was recorded with other fields than this version of flinch has");
     }
   }
 

@@ -18,8 +18,8 @@ struct PortId {
   friend bool operator==(const PortId&, const PortId&) = default;
 };
 
-/// Handles: small values, copied at will, valid as long as their System. Only System makes them; the type T is that
-/// of the value, so that wiring different types does not compile.
+/// Handles: small values, copied at will, valid as long as their System. Only System makes them; the type T
+/// is that of the value, so that wiring different types does not compile.
 template <class T>
 struct InputPort {
   using Value = T;
@@ -33,7 +33,8 @@ struct OutputPort {
   PortId id;
 };
 
-/// A value that lasts from tick to tick: written by one update, or integrated along one derivative. Private to its block.
+/// A value that lasts from tick to tick: written by one update, or integrated along one derivative. Private
+/// to its block.
 template <class T>
 struct State {
   using Value = T;

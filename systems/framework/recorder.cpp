@@ -7,7 +7,8 @@
 
 namespace flinch {
 
-Recorder::Recorder(const Diagram& diagram, const std::vector<std::string>& paths, std::size_t capacity, Every every)
+Recorder::Recorder(const Diagram& diagram, const std::vector<std::string>& paths, std::size_t capacity,
+                   Every every)
     : every_(every), capacity_(capacity) {
   if (every_.period == Time::zero()) every_.period = diagram.tick();
   std::vector<std::string> problems;
@@ -15,7 +16,8 @@ Recorder::Recorder(const Diagram& diagram, const std::vector<std::string>& paths
     try {
       const Diagram::Tap tap = diagram.tap(path);
       if (tap.type->layout == nullptr) {
-        problems.push_back("the port '" + path + "' cannot be recorded: its type has no fields (see fields.h)");
+        problems.push_back("the port '" + path +
+                           "' cannot be recorded: its type has no fields (see fields.h)");
         continue;
       }
       Channel channel{tap.offset, tap.type, {path, tap.type->layout(), {}}};
@@ -52,7 +54,8 @@ Recording Recorder::recording(std::map<std::string, std::string> attributes) con
   Recording recording{every_.period, time_ns_, std::move(attributes), {}};
   for (const Channel& channel : channels_) {
     const auto used = static_cast<std::ptrdiff_t>(samples() * channel.signal.layout.numbers);
-    recording.signals.push_back({channel.signal.path, channel.signal.layout,
+    recording.signals.push_back({channel.signal.path,
+                                 channel.signal.layout,
                                  {channel.signal.rows.begin(), channel.signal.rows.begin() + used}});
   }
   return recording;

@@ -17,8 +17,9 @@ class Diagram;
 /// Copies the values of chosen ports, tick by tick, into memory that it allocates beforehand.
 class Recorder {
  public:
-  /// `paths` name ports of `diagram` (Diagram::taps() lists them). At most `capacity` samples fit; of later ones only
-  /// the number is kept. Throws SetupError for unknown paths and for ports whose type has no fields.
+  /// `paths` name ports of `diagram` (Diagram::taps() lists them). At most `capacity` samples fit; of later
+  /// ones only the number is kept. Throws SetupError for unknown paths and for ports whose type has no
+  /// fields.
   Recorder(const Diagram& diagram, const std::vector<std::string>& paths, std::size_t capacity,
            Every every = Every{});
 

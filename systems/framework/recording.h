@@ -20,10 +20,10 @@ struct Signal {
 
 /// What a Recorder has seen: signals with a common time axis, and what made them.
 ///
-/// As a file it is HDF5: a group for each port path, in it a dataset for each field (samples x numbers) with the
-/// attributes unit, frame and period_ns; fields that change size have a second dataset NAME.size (rows, columns). The
-/// dataset /time_ns holds the time of each sample; the attributes of the root are `attributes`. Equal recordings
-/// make equal files, byte for byte: nothing in it depends on when or where it was written.
+/// As a file it is HDF5: a group for each port path, in it a dataset for each field (samples x numbers) with
+/// the attributes unit, frame and period_ns; fields that change size have a second dataset NAME.size (rows,
+/// columns). The dataset /time_ns holds the time of each sample; the attributes of the root are `attributes`.
+/// Equal recordings make equal files, byte for byte: nothing in it depends on when or where it was written.
 struct Recording {
   Time period{};
   std::vector<std::int64_t> time_ns;
@@ -35,12 +35,13 @@ struct Recording {
   /// The signal of the port `path`. Throws SetupError naming the nearest path.
   const Signal& signal(const std::string& path) const;
 
-  /// Column `element` of `field` ("joints.active") of the port `path`, as real numbers; NaN where it was shorter.
+  /// Column `element` of `field` ("joints.active") of the port `path`, as real numbers; NaN where it was
+  /// shorter.
   std::vector<double> column(const std::string& path, const std::string& field, int element = 0) const;
 };
 
-/// Writes `recording` to `file`, first under another name, so that an older file is replaced only by a whole new one.
-/// Throws SetupError when that fails.
+/// Writes `recording` to `file`, first under another name, so that an older file is replaced only by a whole
+/// new one. Throws SetupError when that fails.
 void write_recording(const Recording& recording, const std::filesystem::path& file);
 
 /// Reads a recording. Throws SetupError naming the file and what is missing or broken.

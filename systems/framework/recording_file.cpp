@@ -59,8 +59,8 @@ void write_text(hid_t object, const std::string& name, const std::string& text) 
 
 void write_integer(hid_t object, const std::string& name, std::int64_t value) {
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose, "making an attribute");
-  const Handle attribute(H5Acreate2(object, name.c_str(), H5T_STD_I64LE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
-                         "making the attribute '" + name + "'");
+  const Handle attribute(H5Acreate2(object, name.c_str(), H5T_STD_I64LE, space, H5P_DEFAULT, H5P_DEFAULT),
+                         H5Aclose, "making the attribute '" + name + "'");
   check(H5Awrite(attribute, H5T_NATIVE_INT64, &value), "writing the attribute '" + name + "'");
 }
 
@@ -94,7 +94,9 @@ hid_t file_type(Field::Kind kind) {
   return kind == Field::Kind::boolean ? H5T_STD_U8LE : H5T_STD_I64LE;
 }
 
-hid_t memory_type(Field::Kind kind) { return kind == Field::Kind::real ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64; }
+hid_t memory_type(Field::Kind kind) {
+  return kind == Field::Kind::real ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64;
+}
 
 /// Creation properties without time stamps, and compressed where there is enough to compress.
 Handle properties(hsize_t samples, hsize_t columns) {
@@ -109,14 +111,14 @@ Handle properties(hsize_t samples, hsize_t columns) {
   return list;
 }
 
-Handle write_numbers(hid_t parent, const std::string& name, Field::Kind kind, const std::vector<Number>& numbers,
-                     std::size_t samples) {
+Handle write_numbers(hid_t parent, const std::string& name, Field::Kind kind,
+                     const std::vector<Number>& numbers, std::size_t samples) {
   const hsize_t columns = samples == 0 ? 1 : numbers.size() / samples;
   const hsize_t size[2] = {samples, columns};
   const Handle space(H5Screate_simple(2, size, nullptr), H5Sclose, "making a data space");
   const Handle creation = properties(samples, columns);
-  Handle set(H5Dcreate2(parent, name.c_str(), file_type(kind), space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose,
-             "making the data set '" + name + "'");
+  Handle set(H5Dcreate2(parent, name.c_str(), file_type(kind), space, H5P_DEFAULT, creation, H5P_DEFAULT),
+             H5Dclose, "making the data set '" + name + "'");
   check(H5Dwrite(set, memory_type(kind), H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()),
         "writing the data set '" + name + "'");
   return set;
@@ -124,13 +126,15 @@ Handle write_numbers(hid_t parent, const std::string& name, Field::Kind kind, co
 
 std::vector<Number> read_numbers(hid_t parent, const std::string& name, Field::Kind kind, std::size_t samples,
                                  std::size_t columns) {
-  const Handle set(H5Dopen2(parent, name.c_str(), H5P_DEFAULT), H5Dclose, "opening the data set '" + name + "'");
+  const Handle set(H5Dopen2(parent, name.c_str(), H5P_DEFAULT), H5Dclose,
+                   "opening the data set '" + name + "'");
   const Handle space(H5Dget_space(set), H5Sclose, "reading the size of '" + name + "'");
   hsize_t size[2] = {0, 0};
   if (H5Sget_simple_extent_ndims(space) != 2 || H5Sget_simple_extent_dims(space, size, nullptr) != 2 ||
       size[0] != samples || (samples > 0 && size[1] != columns)) {
-    throw SetupError("the data set '" + name + "' has " + std::to_string(size[0]) + " x " + std::to_string(size[1]) +
-                     " numbers instead of " + std::to_string(samples) + " x " + std::to_string(columns));
+    throw SetupError("the data set '" + name + "' has " + std::to_string(size[0]) + " x " +
+                     std::to_string(size[1]) + " numbers instead of " + std::to_string(samples) + " x " +
+                     std::to_string(columns));
   }
   std::vector<Number> numbers(samples * columns);
   check(H5Dread(set, memory_type(kind), H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()),
@@ -141,7 +145,8 @@ std::vector<Number> read_numbers(hid_t parent, const std::string& name, Field::K
 // --- signals ---
 
 /// Columns first ... first + count of every row of `signal`.
-std::vector<Number> columns_of(const Signal& signal, std::size_t samples, std::size_t first, std::size_t count) {
+std::vector<Number> columns_of(const Signal& signal, std::size_t samples, std::size_t first,
+                               std::size_t count) {
   std::vector<Number> columns;
   columns.reserve(samples * count);
   for (std::size_t k = 0; k < samples; ++k) {
@@ -168,7 +173,8 @@ void write_signal(hid_t file, const Signal& signal, std::size_t samples, Time pe
   std::size_t first = 0;
   for (const Field& field : signal.layout.fields) {
     if (field.resizable) {
-      write_numbers(group, field.name + ".size", Field::Kind::integer, columns_of(signal, samples, first, 2), samples);
+      write_numbers(group, field.name + ".size", Field::Kind::integer, columns_of(signal, samples, first, 2),
+                    samples);
       first += 2;
     }
     const auto capacity = static_cast<std::size_t>(field.capacity);
@@ -196,8 +202,10 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 Field read_field(hid_t group, const std::string& name) {
-  const Handle set(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose, "opening the data set '" + name + "'");
-  Field field{name, read_text(set, "unit"), read_text(set, "frame"), {}, 0, read_integer(set, "resizable") != 0};
+  const Handle set(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose,
+                   "opening the data set '" + name + "'");
+  Field field{
+      name, read_text(set, "unit"), read_text(set, "frame"), {}, 0, read_integer(set, "resizable") != 0};
   field.kind = static_cast<Field::Kind>(std::clamp<std::int64_t>(read_integer(set, "kind"), 0, 2));
   field.capacity = static_cast<int>(std::clamp<std::int64_t>(read_integer(set, "capacity"), 1, 1 << 20));
   return field;
@@ -215,7 +223,8 @@ Signal read_signal(hid_t file, const std::string& path, std::size_t samples) {
   std::size_t first = 0;
   for (const Field& field : signal.layout.fields) {
     if (field.resizable) {
-      put_columns(signal, read_numbers(group, field.name + ".size", Field::Kind::integer, samples, 2), samples, first);
+      put_columns(signal, read_numbers(group, field.name + ".size", Field::Kind::integer, samples, 2),
+                  samples, first);
       first += 2;
     }
     const auto capacity = static_cast<std::size_t>(field.capacity);
@@ -241,7 +250,8 @@ constexpr const char* period_attribute = "flinch.period_ns";
 void write_to(const Recording& recording, const std::filesystem::path& file) {
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "making file properties");
   check(H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST), "choosing the file version");
-  const Handle hdf(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "creating the file");
+  const Handle hdf(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose,
+                   "creating the file");
   const Handle root(H5Gopen2(hdf, "/", H5P_DEFAULT), H5Gclose, "opening the root group");
   std::vector<Number> times(recording.samples());
   for (std::size_t k = 0; k < times.size(); ++k) times[k].integer = recording.time_ns[k];
@@ -273,7 +283,8 @@ Recording read_from(const std::filesystem::path& file) {
     recording.signals.push_back(read_signal(root, path, recording.samples()));
   }
   for (const std::string& name : attribute_names(root)) {
-    if (name != signals_attribute && name != period_attribute) recording.attributes[name] = read_text(root, name);
+    if (name != signals_attribute && name != period_attribute)
+      recording.attributes[name] = read_text(root, name);
   }
   return recording;
 }

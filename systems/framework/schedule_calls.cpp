@@ -11,7 +11,8 @@ void Scheduler::lay_out() {
     const System::Input& input = root_.inputs()[i];
     layout.add({&root_, PortId::Kind::input, static_cast<int>(i)}, *input.type, input.type->make_default());
   }
-  for (const std::size_t node : order_) {  // in the order of computation: neighbours in time are neighbours in memory
+  for (const std::size_t node :
+       order_) {  // in the order of computation: neighbours in time are neighbours in memory
     const System::Output& output = output_of(nodes_[node]);
     layout.add(nodes_[node].port, *output.type, output.type->make_default());
   }
@@ -36,15 +37,16 @@ void Scheduler::lay_out() {
   }
 }
 
-Diagram::Call Scheduler::make_call(const System& block, BlockFunction function, const std::vector<PortId>& reads,
-                                   std::uint32_t result) {
+Diagram::Call Scheduler::make_call(const System& block, BlockFunction function,
+                                   const std::vector<PortId>& reads, std::uint32_t result) {
   const auto first = static_cast<std::uint32_t>(root_.offsets_.size());
   for (const PortId& read : reads) root_.offsets_.push_back(root_.layout_.offset(source(read)));
   root_.offsets_.push_back(result);
   return {&block, function, first};
 }
 
-void Scheduler::add_line(const std::string& what, const std::vector<PortId>& reads, const std::string& target) {
+void Scheduler::add_line(const std::string& what, const std::vector<PortId>& reads,
+                         const std::string& target) {
   std::string line = what + " " + target + "  <- ";
   for (const PortId& read : reads) line += (line.ends_with("<- ") ? "" : ", ") + path(source(read));
   root_.schedule_lines_.push_back(line);
@@ -54,7 +56,8 @@ void Scheduler::add_outputs() {
   for (const std::size_t node : order_) {
     const PortId port = nodes_[node].port;
     const System::Output& output = output_of(nodes_[node]);
-    root_.outputs_in_order_.push_back(make_call(*port.owner, output.function, output.reads, root_.layout_.offset(port)));
+    root_.outputs_in_order_.push_back(
+        make_call(*port.owner, output.function, output.reads, root_.layout_.offset(port)));
     add_line("output    ", output.reads, path(port));
   }
 }
@@ -68,7 +71,8 @@ void Scheduler::add_updates() {
     for (const System::Change& update : leaf.block->updates()) {
       const Every every = update.every.value_or(Every{root_.tick(), Time::zero()});
       auto& groups = root_.update_groups_;
-      auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& each) { return each.every == every; });
+      auto group =
+          std::find_if(groups.begin(), groups.end(), [&](const auto& each) { return each.every == every; });
       if (group == groups.end()) group = groups.insert(groups.end(), {every, {}, {}});
       const Diagram::StateCell cell = cell_of(update.state);
       group->calls.push_back(make_call(*leaf.block, update.function, update.reads, cell.next));
@@ -77,7 +81,8 @@ void Scheduler::add_updates() {
     }
     for (const System::Change& derivative : leaf.block->derivatives()) {
       const Diagram::StateCell cell = cell_of(derivative.state);
-      root_.derivative_calls_.push_back(make_call(*leaf.block, derivative.function, derivative.reads, cell.next));
+      root_.derivative_calls_.push_back(
+          make_call(*leaf.block, derivative.function, derivative.reads, cell.next));
       root_.continuous_cells_.push_back(cell);
       add_line("derivative", derivative.reads, path(derivative.state));
     }
@@ -115,10 +120,12 @@ void Scheduler::add_continuous() {
   for (std::size_t i = 0; i < order_.size(); ++i) {
     const Node& node = nodes_[order_[i]];
     if (!node.needed_in_step) continue;
-    (node.varies_in_step ? root_.varying_in_step_ : root_.constant_in_step_).push_back(root_.outputs_in_order_[i]);
+    (node.varies_in_step ? root_.varying_in_step_ : root_.constant_in_step_)
+        .push_back(root_.outputs_in_order_[i]);
   }
   for (const Diagram::StateCell& cell : root_.continuous_cells_) {
-    const System::StateVariable& state = cell.state.owner->states()[static_cast<std::size_t>(cell.state.index)];
+    const System::StateVariable& state =
+        cell.state.owner->states()[static_cast<std::size_t>(cell.state.index)];
     root_.continuous_size_ += cell.type->numbers(const_cast<void*>(state.initial.get())).size();
   }
 }

@@ -73,7 +73,8 @@ std::string Scheduler::path(PortId port) const {
 void Scheduler::find_loops(std::vector<std::string>& problems) {
   std::vector<bool> placed(nodes_.size(), false);
   const auto ready = [&](std::size_t node) {
-    return std::all_of(nodes_[node].reads.begin(), nodes_[node].reads.end(), [&](std::size_t read) { return placed[read]; });
+    return std::all_of(nodes_[node].reads.begin(), nodes_[node].reads.end(),
+                       [&](std::size_t read) { return placed[read]; });
   };
   for (bool progress = true; progress;) {
     progress = false;
@@ -87,7 +88,8 @@ void Scheduler::find_loops(std::vector<std::string>& problems) {
   for (std::size_t node = 0; node < nodes_.size(); ++node) {
     if (placed[node] || reported[node]) continue;
     const std::vector<std::size_t> cycle = cycle_through(node, placed);
-    const bool known = std::any_of(cycle.begin(), cycle.end(), [&](std::size_t member) { return reported[member]; });
+    const bool known =
+        std::any_of(cycle.begin(), cycle.end(), [&](std::size_t member) { return reported[member]; });
     reported[node] = true;
     for (const std::size_t member : cycle) reported[member] = true;
     if (!known) problems.push_back(describe_cycle(cycle));
@@ -99,7 +101,8 @@ std::vector<std::size_t> Scheduler::cycle_through(std::size_t start, const std::
   std::vector<std::size_t> walk{start};
   while (true) {
     const std::vector<std::size_t>& reads = nodes_[walk.back()].reads;
-    const std::size_t next = *std::find_if(reads.begin(), reads.end(), [&](std::size_t read) { return !placed[read]; });
+    const std::size_t next =
+        *std::find_if(reads.begin(), reads.end(), [&](std::size_t read) { return !placed[read]; });
     const auto seen = std::find(walk.begin(), walk.end(), next);
     if (seen != walk.end()) {
       std::vector<std::size_t> cycle(seen, walk.end());
@@ -131,12 +134,12 @@ void Scheduler::check_periods(std::vector<std::string>& problems) const {
       const Every every = update.every.value_or(Every{root_.tick(), Time::zero()});
       const std::string who = "the update of " + path(update.state);
       if (every.period <= Time::zero() || every.period % root_.tick() != Time::zero()) {
-        problems.push_back(who + " has the period " + nanoseconds(every.period) + ", which is no multiple of the tick, " +
-                           nanoseconds(root_.tick()));
+        problems.push_back(who + " has the period " + nanoseconds(every.period) +
+                           ", which is no multiple of the tick, " + nanoseconds(root_.tick()));
       }
       if (every.offset < Time::zero() || every.offset % root_.tick() != Time::zero()) {
-        problems.push_back(who + " has the offset " + nanoseconds(every.offset) + ", which is no multiple of the tick, " +
-                           nanoseconds(root_.tick()));
+        problems.push_back(who + " has the offset " + nanoseconds(every.offset) +
+                           ", which is no multiple of the tick, " + nanoseconds(root_.tick()));
       }
     }
   }
@@ -145,11 +148,14 @@ void Scheduler::check_periods(std::vector<std::string>& problems) const {
 void Scheduler::check_states(std::vector<std::string>& problems) const {
   for (const Leaf& leaf : leaves_) {
     std::vector<int> writers(leaf.block->states().size(), 0);
-    for (const System::Change& change : leaf.block->updates()) ++writers[static_cast<std::size_t>(change.state.index)];
-    for (const System::Change& change : leaf.block->derivatives()) ++writers[static_cast<std::size_t>(change.state.index)];
+    for (const System::Change& change : leaf.block->updates())
+      ++writers[static_cast<std::size_t>(change.state.index)];
+    for (const System::Change& change : leaf.block->derivatives())
+      ++writers[static_cast<std::size_t>(change.state.index)];
     for (std::size_t i = 0; i < writers.size(); ++i) {
       const std::string state = leaf.path + "/" + leaf.block->states()[i].name;
-      if (writers[i] > 1) problems.push_back("the state " + state + " has more than one update or derivative");
+      if (writers[i] > 1)
+        problems.push_back("the state " + state + " has more than one update or derivative");
       if (writers[i] == 0) problems.push_back("the state " + state + " has no update and no derivative");
     }
   }

@@ -8,8 +8,8 @@
 
 namespace flinch {
 
-/// Flattens a diagram, with all that is nested in it, into lists of function calls in an order that works. Used by
-/// DiagramBuilder::build() only.
+/// Flattens a diagram, with all that is nested in it, into lists of function calls in an order that works.
+/// Used by DiagramBuilder::build() only.
 class Scheduler {
  public:
   explicit Scheduler(Diagram& root) : root_(root) {}

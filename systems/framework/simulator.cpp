@@ -9,7 +9,8 @@ namespace flinch {
 /// The diagram's continuous part during one tick.
 class Simulator::Step final : public DifferentialEquation {
  public:
-  Step(const Diagram& diagram, Context& context) : diagram_(diagram), context_(context), start_(context.time()) {
+  Step(const Diagram& diagram, Context& context)
+      : diagram_(diagram), context_(context), start_(context.time()) {
     diagram_.begin_step(context_);
   }
 

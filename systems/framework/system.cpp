@@ -8,10 +8,14 @@ const std::string& System::port_name(PortId port) const {
   static const std::string clock_name = "clock";
   const auto index = static_cast<std::size_t>(port.index);
   switch (port.kind) {
-    case PortId::Kind::input: return inputs_.at(index).name;
-    case PortId::Kind::output: return outputs_.at(index).name;
-    case PortId::Kind::state: return states_.at(index).name;
-    case PortId::Kind::clock: break;
+    case PortId::Kind::input:
+      return inputs_.at(index).name;
+    case PortId::Kind::output:
+      return outputs_.at(index).name;
+    case PortId::Kind::state:
+      return states_.at(index).name;
+    case PortId::Kind::clock:
+      break;
   }
   return clock_name;
 }
@@ -21,9 +25,12 @@ bool System::declared(PortId port) const {
   if (port.owner != this || port.index < 0) return false;
   const auto index = static_cast<std::size_t>(port.index);
   switch (port.kind) {
-    case PortId::Kind::input: return index < inputs_.size();
-    case PortId::Kind::output: return index < outputs_.size();
-    default: return index < states_.size();
+    case PortId::Kind::input:
+      return index < inputs_.size();
+    case PortId::Kind::output:
+      return index < outputs_.size();
+    default:
+      return index < states_.size();
   }
 }
 

@@ -15,9 +15,9 @@
 
 namespace flinch {
 
-/// A block: pure functions between typed ports. A block declares its ports and states as members; every output, update
-/// and derivative is a const member function that takes exactly the values which its declaration names, in that
-/// order, and nothing else:
+/// A block: pure functions between typed ports. A block declares its ports and states as members; every
+/// output, update and derivative is a const member function that takes exactly the values which its
+/// declaration names, in that order, and nothing else:
 ///
 ///   class LowPass final : public System {
 ///     State<double> filtered_ = state<double>("filtered", 0.0);            // above its readers
@@ -25,14 +25,15 @@ namespace flinch {
 ///     InputPort<double>  raw    = input<double>("raw");
 ///     OutputPort<double> smooth = output<&LowPass::read>("smooth", filtered_);
 ///    private:
-///     Update filter_ = update<&LowPass::filter>(filtered_, filtered_, raw);  // writes the first, reads the others
-///     double read(double filtered) const { return filtered; }
-///     double filter(double filtered, double raw) const { return 0.9 * filtered + 0.1 * raw; }
+///     Update filter_ = update<&LowPass::filter>(filtered_, filtered_, raw);  // writes the first, reads the
+///     others double read(double filtered) const { return filtered; } double filter(double filtered, double
+///     raw) const { return 0.9 * filtered + 0.1 * raw; }
 ///   };
 ///
-/// A function returns its result or takes it as last argument, `Result&` (which holds the previous value). So what an
-/// output depends on is its argument list, and a block is tested by calling a function. Nothing that a function of a
-/// block does may allocate, lock, throw or block; what it cannot compute it says in its result (`valid`).
+/// A function returns its result or takes it as last argument, `Result&` (which holds the previous value). So
+/// what an output depends on is its argument list, and a block is tested by calling a function. Nothing that
+/// a function of a block does may allocate, lock, throw or block; what it cannot compute it says in its
+/// result (`valid`).
 class System {
  public:
   virtual ~System() = default;

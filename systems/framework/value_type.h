@@ -27,7 +27,8 @@ struct ValueType {
   void (*from_row)(const internal::Number* row, void* value);
 };
 
-/// A value that a port or state can hold. Its copies must not touch the heap: use fixed or bounded Eigen types.
+/// A value that a port or state can hold. Its copies must not touch the heap: use fixed or bounded Eigen
+/// types.
 template <class T>
 concept PortValue = std::is_object_v<T> && !std::is_const_v<T> && std::is_default_constructible_v<T> &&
                     std::is_copy_constructible_v<T> && std::is_copy_assignable_v<T>;

@@ -4,8 +4,8 @@
 
 namespace flinch {
 
-/// Holds what it reads at a tick: continuous states see that value until the next one; discrete blocks see it one tick
-/// later. This breaks an algebraic loop.
+/// Holds what it reads at a tick: continuous states see that value until the next one; discrete blocks see it
+/// one tick later. This breaks an algebraic loop.
 template <PortValue T>
 class ZeroOrderHold final : public System {
   State<T> value_;

@@ -17,7 +17,8 @@ std::array<double, 3> three(const JointVector& values) { return {values[0], valu
 /// The bench with legs made of bodies, so that both engines are told the same.
 PlanarRrrParameters robot_of_bodies(BenchGeometry geometry, BenchFriction friction) {
   PlanarRrrParameters robot = bench_robot(geometry, friction);
-  for (PlanarRrrLeg& leg : robot.legs) leg.inertia = base_parameters(bench_link1(), bench_link2(), leg.link1_length);
+  for (PlanarRrrLeg& leg : robot.legs)
+    leg.inertia = base_parameters(bench_link1(), bench_link2(), leg.link1_length);
   return robot;
 }
 
@@ -26,7 +27,9 @@ std::vector<double> differences(const PlanarRrrParameters& parameters, int count
   const PlanarRrr robot(parameters);
   MujocoBench mujoco(parameters, bench_link1(), bench_link2());
   std::mt19937_64 generator(2026);
-  const auto draw = [&generator](double limit) { return std::uniform_real_distribution<double>(-limit, limit)(generator); };
+  const auto draw = [&generator](double limit) {
+    return std::uniform_real_distribution<double>(-limit, limit)(generator);
+  };
   std::vector<double> found;
   while (static_cast<int>(found.size()) < count) {
     const Eigen::Vector3d pose(draw(0.2), draw(0.2), draw(0.5));
@@ -50,8 +53,10 @@ class MujocoPeer : public testing::TestWithParam<std::pair<BenchGeometry, BenchF
 TEST_P(MujocoPeer, GivesTheSamePlatformAccelerations) {
   const std::vector<double> found = differences(robot_of_bodies(GetParam().first, GetParam().second), 300);
   const double median = found[150], p99 = found[297];
-  std::printf("  relative difference to MuJoCo: median %.2e, 99th percentile %.2e, largest %.2e (asked: p99 <= 1e-3)\n",
-              median, p99, found.back());
+  std::printf(
+      "  relative difference to MuJoCo: median %.2e, 99th percentile %.2e, largest %.2e (asked: p99 <= "
+      "1e-3)\n",
+      median, p99, found.back());
   RecordProperty("p99", std::to_string(p99));
   EXPECT_LE(p99, 1e-3);
 }

@@ -10,11 +10,12 @@ namespace flinch::peer {
 namespace {
 
 std::string inertial(double x, double mass, double inertia) {
-  // MuJoCo wants a full positive definite inertia that obeys the triangle inequality; only the z part matters here.
+  // MuJoCo wants a full positive definite inertia that obeys the triangle inequality; only the z part matters
+  // here.
   std::ostringstream text;
   text.precision(17);
-  text << "<inertial pos='" << x << " 0 0' mass='" << mass << "' diaginertia='" << inertia << " " << inertia << " "
-       << inertia << "'/>";
+  text << "<inertial pos='" << x << " 0 0' mass='" << mass << "' diaginertia='" << inertia << " " << inertia
+       << " " << inertia << "'/>";
   return text.str();
 }
 
@@ -23,12 +24,13 @@ std::string leg_xml(const PlanarRrrLeg& leg, int i, const LinkBody& link1, const
   text.precision(17);
   const double x = leg.base_radius * std::sin(leg.base_angle);
   const double y = -leg.base_radius * std::cos(leg.base_angle);
-  text << "<body name='leg" << i << "_link1' pos='" << x << " " << y << " 0' euler='0 0 " << leg.base_angle << "'>"
-       << "<joint name='qa" << i << "' type='hinge' axis='0 0 1' damping='" << leg.active_friction.viscous << "'/>"
-       << inertial(link1.centre_of_mass, link1.mass, link1.inertia) << "<body name='leg" << i << "_link2' pos='"
-       << leg.link1_length << " 0 0'>"
-       << "<joint name='qp" << i << "' type='hinge' axis='0 0 1' damping='" << leg.passive_friction.viscous << "'/>"
-       << inertial(link2.centre_of_mass, link2.mass, link2.inertia) << "</body></body>";
+  text << "<body name='leg" << i << "_link1' pos='" << x << " " << y << " 0' euler='0 0 " << leg.base_angle
+       << "'>"
+       << "<joint name='qa" << i << "' type='hinge' axis='0 0 1' damping='" << leg.active_friction.viscous
+       << "'/>" << inertial(link1.centre_of_mass, link1.mass, link1.inertia) << "<body name='leg" << i
+       << "_link2' pos='" << leg.link1_length << " 0 0'>"
+       << "<joint name='qp" << i << "' type='hinge' axis='0 0 1' damping='" << leg.passive_friction.viscous
+       << "'/>" << inertial(link2.centre_of_mass, link2.mass, link2.inertia) << "</body></body>";
   return text.str();
 }
 
@@ -36,7 +38,8 @@ std::string bench_xml(const PlanarRrrParameters& robot, const LinkBody& link1, c
   std::ostringstream text;
   text.precision(17);
   text << "<mujoco><compiler angle='radian' autolimits='true'/>"
-       << "<option timestep='0.001' integrator='RK4' gravity='0 0 -9.81' tolerance='1e-14' iterations='200' solver='Newton'/>"
+       << "<option timestep='0.001' integrator='RK4' gravity='0 0 -9.81' tolerance='1e-14' iterations='200' "
+          "solver='Newton'/>"
        << "<worldbody><body name='platform'><joint name='x' type='slide' axis='1 0 0'/>"
        << "<joint name='y' type='slide' axis='0 1 0'/><joint name='phi' type='hinge' axis='0 0 1'/>"
        << inertial(0.0, robot.platform_mass, robot.platform_inertia) << "</body>";
@@ -85,7 +88,8 @@ MujocoBench::MujocoBench(const PlanarRrrParameters& robot, const LinkBody& link1
 
 void MujocoBench::set_state(const Eigen::Vector3d& pose, const Eigen::Vector3d& velocity,
                             const std::array<double, 3>& active, const std::array<double, 3>& passive,
-                            const std::array<double, 3>& active_rate, const std::array<double, 3>& passive_rate) {
+                            const std::array<double, 3>& active_rate,
+                            const std::array<double, 3>& passive_rate) {
   for (int i = 0; i < 3; ++i) {
     data_->qpos[i] = pose[i];
     data_->qvel[i] = velocity[i];
@@ -104,7 +108,8 @@ Eigen::MatrixXd MujocoBench::constraint_jacobian(mjData* data) const {
     throw std::runtime_error("the constraint Jacobian is sparse; the bench is small enough for a dense one");
   }
   for (int row = 0; row < data->nefc; ++row) {
-    for (int column = 0; column < model_->nv; ++column) jacobian(row, column) = data->efc_J[row * model_->nv + column];
+    for (int column = 0; column < model_->nv; ++column)
+      jacobian(row, column) = data->efc_J[row * model_->nv + column];
   }
   return jacobian;
 }

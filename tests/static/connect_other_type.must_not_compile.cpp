@@ -1,7 +1,7 @@
 // expect: connect
 // Connecting ports whose values differ in type.
-#include "systems/framework/diagram_builder.h"
 #include "systems/framework/constant.h"
+#include "systems/framework/diagram_builder.h"
 #include "systems/framework/zero_order_hold.h"
 
 void wire(flinch::DiagramBuilder& builder) {

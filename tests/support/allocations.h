@@ -4,8 +4,8 @@
 
 namespace flinch::test {
 
-/// How often this thread has asked for heap memory since it started: malloc and everything that ends there, operator
-/// new and Eigen included. Under a sanitizer, which brings its own allocator, this stays 0.
+/// How often this thread has asked for heap memory since it started: malloc and everything that ends there,
+/// operator new and Eigen included. Under a sanitizer, which brings its own allocator, this stays 0.
 std::int64_t allocations();
 
 /// Counts the allocations of this thread while it lives.

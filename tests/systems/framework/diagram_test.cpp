@@ -28,7 +28,8 @@ class Noise final : public System {
   State<double> value_ = state<double>("value", 0.0);
 
  public:
-  explicit Noise(std::uint64_t seed) : generator_(state<RandomGenerator>("generator", RandomGenerator(seed))) {
+  explicit Noise(std::uint64_t seed)
+      : generator_(state<RandomGenerator>("generator", RandomGenerator(seed))) {
     update<&Noise::advance>(generator_, generator_);
     update<&Noise::draw>(value_, generator_);
   }
@@ -256,7 +257,8 @@ TEST(DiagramBuilder, ReportsAllWiringErrorsAtOnceWithFullPaths) {
       "robot/sum: two blocks have this name",
       "robot/sum/b is not connected",
       "robot/sum/b is not connected",
-      "algebraic loop: robot/sum/sum -> robot/sum/a -> robot/sum/sum -> robot/sum/a -> robot/sum/sum; let one of these "
+      "algebraic loop: robot/sum/sum -> robot/sum/a -> robot/sum/sum -> robot/sum/a -> robot/sum/sum; let "
+      "one of these "
       "outputs read a state instead of an input",
       "the update of robot/fast/held has the period 1500000 ns, which is no multiple of the tick, 1000000 ns",
       "the update of robot/late/held has the offset 300000 ns, which is no multiple of the tick, 1000000 ns"};
@@ -279,9 +281,10 @@ TEST(DiagramBuilder, ListsALoopThroughNestedDiagramsPortByPort) {
   builder.connect(adder.sum, after.in);
   const std::vector<std::string> problems = problems_of(builder);
   ASSERT_EQ(problems.size(), 1U);
-  EXPECT_EQ(problems[0],
-            "algebraic loop: outer/adder/sum -> outer/inner/gain/in -> outer/inner/gain/out -> outer/adder/a -> "
-            "outer/adder/sum; let one of these outputs read a state instead of an input");
+  EXPECT_EQ(
+      problems[0],
+      "algebraic loop: outer/adder/sum -> outer/inner/gain/in -> outer/inner/gain/out -> outer/adder/a -> "
+      "outer/adder/sum; let one of these outputs read a state instead of an input");
 }
 
 TEST(DiagramBuilder, ReportsTwoSeparateLoopsOnce) {
@@ -328,7 +331,8 @@ TEST(Diagram, NamesTheNearestPortWhenATapIsUnknown) {
     loop.diagram->tap("feedback/amplifier/gain/our");
     FAIL();
   } catch (const SetupError& error) {
-    EXPECT_NE(std::string(error.what()).find("did you mean 'feedback/amplifier/gain/out'?"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("did you mean 'feedback/amplifier/gain/out'?"),
+              std::string::npos);
   }
 }
 
@@ -343,7 +347,8 @@ TEST(Diagram, ListsItsScheduleInAnOrderInWhichWhatIsReadComesFirst) {
   const std::string schedule = flat_loop().diagram->schedule();
   EXPECT_LT(schedule.find("output     loop/delay/out"), schedule.find("output     loop/gain/out"));
   EXPECT_LT(schedule.find("output     loop/gain/out"), schedule.find("output     loop/adder/sum"));
-  EXPECT_NE(schedule.find("derivative loop/decay/x  <- loop/decay/x, loop/delay/out"), std::string::npos) << schedule;
+  EXPECT_NE(schedule.find("derivative loop/decay/x  <- loop/decay/x, loop/delay/out"), std::string::npos)
+      << schedule;
 }
 
 }  // namespace

@@ -33,7 +33,8 @@ TEST(RandomGenerator, DrawsNormalNumbersWithTheRightMoments) {
 TEST(DeriveSeed, DiffersForEveryNameAndSeed) {
   std::set<std::uint64_t> seeds;
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
-    for (const char* name : {"", "a", "b", "ab", "ba", "imu", "encoders"}) seeds.insert(derive_seed(seed, name));
+    for (const char* name : {"", "a", "b", "ab", "ba", "imu", "encoders"})
+      seeds.insert(derive_seed(seed, name));
   }
   EXPECT_EQ(seeds.size(), 700U);
 }

@@ -63,7 +63,8 @@ class Source final : public System {
     drawn.good = generator.uniform(0, 1) > 0.5;
     drawn.mood = generator.uniform(0, 1) > 0.5 ? Mood::alarmed : Mood::calm;
     drawn.count = static_cast<int>(generator.uniform(-1000, 1000));
-    drawn.real = generator.uniform(0, 1) > 0.9 ? std::numeric_limits<double>::quiet_NaN() : generator.normal();
+    drawn.real =
+        generator.uniform(0, 1) > 0.9 ? std::numeric_limits<double>::quiet_NaN() : generator.normal();
     drawn.fixed = Eigen::Vector3d(generator.normal(), -0.0, std::numeric_limits<double>::infinity());
     drawn.bounded = Bounded::Constant(static_cast<int>(generator.uniform(0, 6.99)), generator.normal());
     drawn.pair = {generator.normal(), generator.normal()};
@@ -84,7 +85,8 @@ class Digest final : public System {
   double add(double value, const Sample& seen) const {
     const double real = std::isnan(seen.real) ? 0.25 : seen.real;
     return 0.9 * value + real + seen.fixed.x() + seen.bounded.sum() * (seen.good ? 1.0 : 3.0) + seen.pair[1] +
-           1e-9 * static_cast<double>(seen.when.count()) + (seen.mood == Mood::alarmed ? 0.1 : 0.2) + seen.count;
+           1e-9 * static_cast<double>(seen.when.count()) + (seen.mood == Mood::alarmed ? 0.1 : 0.2) +
+           seen.count;
   }
 };
 
@@ -147,7 +149,8 @@ TEST_F(RecordingFile, HoldsEveryBitAndAttribute) {
   for (std::size_t i = 0; i < read.signals.size(); ++i) {
     ASSERT_EQ(read.signals[i].rows.size(), original.signals[i].rows.size());
     for (std::size_t k = 0; k < read.signals[i].rows.size(); ++k) {
-      ASSERT_EQ(read.signals[i].rows[k].integer, original.signals[i].rows[k].integer) << read.signals[i].path << k;
+      ASSERT_EQ(read.signals[i].rows[k].integer, original.signals[i].rows[k].integer)
+          << read.signals[i].path << k;
     }
     for (std::size_t f = 0; f < read.signals[i].layout.fields.size(); ++f) {
       EXPECT_EQ(read.signals[i].layout.fields[f].unit, original.signals[i].layout.fields[f].unit);
@@ -171,7 +174,8 @@ TEST_F(RecordingFile, TellsWhenItIsTruncatedAndNamesTheFile) {
       read_recording(file("cut.h5"));
       ADD_FAILURE() << "a recording cut to " << size << " bytes was read";
     } catch (const SetupError& error) {
-      EXPECT_NE(std::string(error.what()).find("cut.h5: this is no whole flinch recording"), std::string::npos);
+      EXPECT_NE(std::string(error.what()).find("cut.h5: this is no whole flinch recording"),
+                std::string::npos);
     }
   }
   EXPECT_THROW(read_recording(file("missing.h5")), SetupError);
