@@ -1,0 +1,294 @@
+#include "plant/bench_dynamics.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "plant/sundials_integrator.h"
+#include "systems/foundation/setup_error.h"
+#include "systems/framework/runge_kutta.h"
+#include "systems/robot/planar_rrr_presets.h"
+#include "tests/plant/integrate_bench.h"
+
+namespace flinch {
+namespace {
+
+const DriveAction coasting{
+    .torque = {0.0, 0.0, 0.0}, .current = {0.0, 0.0, 0.0}, .enabled = true, .braked = false};
+
+BenchSettings bench(BenchFriction friction = BenchFriction::none) {
+  BenchSettings settings;
+  settings.robot = bench_robot(BenchGeometry::individual, friction);
+  settings.link_material.reset();
+  return settings;
+}
+
+BenchSettings moving_bench(BenchFriction friction = BenchFriction::none) {
+  BenchSettings settings = bench(friction);
+  settings.initial_velocity = {0.6, -0.4, 1.0};
+  return settings;
+}
+
+Pylon pylon_at(double x, double y) {
+  Pylon pylon;
+  pylon.position_in_base = {x, y};
+  return pylon;
+}
+
+/// The bench and the work done on it, integrated tick by tick.
+class MovingBench {
+ public:
+  explicit MovingBench(const BenchSettings& settings, std::unique_ptr<Integrator> method = nullptr)
+      : dynamics(settings),
+        equation(dynamics),
+        y(equation.size(), 0.0),
+        integrator_(method ? std::move(method) : std::make_unique<SundialsIntegrator>()) {
+    equation.drives = coasting;
+    const BenchState start = dynamics.initial_state();
+    std::copy_n(start.data(), start.size(), y.begin());
+    integrator_->prepare(y.size());
+  }
+
+  bool tick() { return integrator_->advance(equation, 1e-3, y); }
+
+  BenchState state() const {
+    return Eigen::Map<const Eigen::VectorXd>(y.data(), dynamics.initial_state().size());
+  }
+  Eigen::Vector3d pose() const { return state().head<3>(); }
+  BenchSnapshot now() const {
+    BenchSnapshot snapshot;
+    dynamics.snapshot(state(), equation.drives, equation.applied_wrench, snapshot);
+    return snapshot;
+  }
+  double kinetic_energy() const { return dynamics.robot().kinetic_energy(now().motion); }
+  /// Work of drives, applied wrench and contacts, less that lost to friction [J].
+  double work() const {
+    const auto works = std::span(y).last(test::BenchEquation::works);
+    return works[0] + works[1] + works[2] - works[3];
+  }
+  double contact_work() const { return y[y.size() - 2]; }
+
+  const BenchDynamics dynamics;
+  test::BenchEquation equation;
+  std::vector<double> y;
+
+ private:
+  std::unique_ptr<Integrator> integrator_;
+};
+
+// ---------------------------------------------------------------- energy
+
+// Starts from which no leg stretches or folds within five seconds.
+TEST(FreeMotion, KeepsItsEnergyForFiveSeconds) {
+  for (const Eigen::Vector3d& start_velocity :
+       {Eigen::Vector3d(-0.03, 0.13, 2.73), Eigen::Vector3d(-0.11, -0.06, 2.79),
+        Eigen::Vector3d(0.06, -0.07, 2.95)}) {
+    BenchSettings settings = bench();
+    settings.initial_velocity = start_velocity;
+    MovingBench bench(settings);
+    const double start = bench.kinetic_energy();
+    double drift = 0.0;
+    double travelled = 0.0;
+    for (int k = 0; k < 5000; ++k) {
+      ASSERT_TRUE(bench.tick());
+      drift = std::max(drift, std::abs(bench.kinetic_energy() / start - 1.0));
+      travelled += 1e-3 * bench.state().segment<2>(3).norm();
+    }
+    std::cout << "relative drift of the energy: " << drift << " over " << travelled << " m\n";
+    EXPECT_LT(drift, 1e-10);
+    EXPECT_GT(travelled, 0.7);
+  }
+}
+
+TEST(DrivenMotion, GainsTheWorkOfDrivesWrenchAndContactsLessFriction) {
+  BenchSettings settings = moving_bench(BenchFriction::test_bench);
+  settings.pylon = pylon_at(0.32, 0.20);
+  settings.link_material = ContactMaterial{.stiffness = 5e4};
+  const SundialsOptions tight{.relative_tolerance = 1e-11, .absolute_tolerance = 1e-12};
+  MovingBench bench(settings, std::make_unique<SundialsIntegrator>(tight));
+  const double start = bench.kinetic_energy();
+  double imbalance = 0.0;
+  int in_contact = 0;
+  for (int k = 0; k < 1500; ++k) {
+    const double t = 1e-3 * k;
+    bench.equation.drives.torque << 8.0 * std::sin(5.0 * t), 8.0 * std::cos(7.0 * t),
+        -6.0 * std::sin(3.0 * t);
+    bench.equation.applied_wrench << 10.0 * std::cos(4.0 * t), -5.0, 1.0;
+    ASSERT_TRUE(bench.tick());
+    ASSERT_TRUE(bench.now().motion.reachable) << k;
+    imbalance = std::max(imbalance, std::abs(bench.kinetic_energy() - start - bench.work()));
+    if (bench.now().contacts.touch_count > 0) ++in_contact;
+  }
+  std::cout << "imbalance of the energy: " << imbalance << " J of " << bench.kinetic_energy() << " J, "
+            << in_contact << " ms in contact\n";
+  EXPECT_LT(imbalance, 1e-8);
+  EXPECT_GT(in_contact, 50);
+  EXPECT_LT(bench.contact_work(), -1e-3) << "contacts dissipate";
+}
+
+double spring_energy(const ContactForces& contacts, double stiffness) {
+  double energy = 0.0;
+  for (int i = 0; i < contacts.touch_count; ++i) {
+    energy += 0.5 * stiffness * std::pow(contacts.touches[static_cast<std::size_t>(i)].depth, 2);
+  }
+  return energy;
+}
+
+TEST(ElasticPylon, ReturnsTheEnergyThatItTook) {
+  BenchSettings settings = moving_bench();
+  settings.pylon = pylon_at(0.32, 0.20);
+  settings.pylon->material.restitution = 1.0;
+  MovingBench bench(settings);
+  const double start = bench.kinetic_energy();
+  double drift = 0.0;
+  double stored = 0.0;
+  for (int k = 0; k < 1000; ++k) {
+    ASSERT_TRUE(bench.tick());
+    const double spring = spring_energy(bench.now().contacts, settings.pylon->material.stiffness);
+    stored = std::max(stored, spring);
+    drift = std::max(drift, std::abs((bench.kinetic_energy() + spring) / start - 1.0));
+  }
+  std::cout << "relative drift of the energy: " << drift << ", at most " << stored << " J in the pylon\n";
+  EXPECT_LT(drift, 1e-7);
+  EXPECT_GT(stored, 0.1 * start);
+}
+
+TEST(CompliantPylon, SharesItsEnergyWithTheRobot) {
+  BenchSettings settings = moving_bench();
+  settings.pylon = pylon_at(0.32, 0.20);
+  settings.pylon->material.restitution = 1.0;
+  settings.pylon->mounting = Pylon::Mounting::compliant;
+  settings.pylon->mount_damping = 0.0;
+  MovingBench bench(settings);
+  const Pylon& pylon = *settings.pylon;
+  const double start = bench.kinetic_energy();
+  double drift = 0.0;
+  double in_pylon = 0.0;
+  for (int k = 0; k < 1000; ++k) {
+    ASSERT_TRUE(bench.tick());
+    const BenchState state = bench.state();
+    ASSERT_EQ(state.size(), 10);
+    const double mount = 0.5 * pylon.mount_stiffness * state.segment<2>(6).squaredNorm() +
+                         0.5 * pylon.mass * state.segment<2>(8).squaredNorm();
+    in_pylon = std::max(in_pylon, mount);
+    const double spring = spring_energy(bench.now().contacts, pylon.material.stiffness);
+    drift = std::max(drift, std::abs((bench.kinetic_energy() + spring + mount) / start - 1.0));
+  }
+  std::cout << "relative drift of the energy: " << drift << ", at most " << in_pylon
+            << " J in the mounting\n";
+  EXPECT_LT(drift, 1e-7);
+  EXPECT_GT(in_pylon, 0.05 * start);
+}
+
+TEST(CompliantPylon, AloneIsADampedOscillator) {
+  BenchSettings settings = bench();
+  settings.pylon = pylon_at(1.5, 0.0);
+  settings.pylon->mounting = Pylon::Mounting::compliant;
+  MovingBench moving(settings);
+  moving.y[6] = 0.01;
+  const double m = settings.pylon->mass;
+  const double decay = settings.pylon->mount_damping / (2.0 * m);
+  const double omega = std::sqrt(settings.pylon->mount_stiffness / m - decay * decay);
+  for (int k = 1; k <= 300; ++k) {
+    moving.tick();
+    const double t = 1e-3 * k;
+    const double expected =
+        0.01 * std::exp(-decay * t) * (std::cos(omega * t) + decay / omega * std::sin(omega * t));
+    EXPECT_NEAR(moving.state()[6], expected, 1e-8);
+    EXPECT_EQ(moving.state()[7], 0.0);
+  }
+}
+
+// ---------------------------------------------------------------- accuracy
+
+TEST(BenchMotion, FollowsTinyFixedStepsInFreeMotionAndInContact) {
+  for (const bool with_pylon : {false, true}) {
+    BenchSettings settings = moving_bench(BenchFriction::simulation);
+    if (with_pylon) settings.pylon = pylon_at(0.32, 0.20);
+    MovingBench bench(settings);
+    MovingBench reference(settings, std::make_unique<RungeKutta>(100));
+    double worst = 0.0;
+    for (int k = 0; k < 400; ++k) {
+      const Eigen::Vector3d torque(5.0 * std::sin(0.02 * k), -3.0, 4.0 * std::cos(0.03 * k));
+      bench.equation.drives.torque = reference.equation.drives.torque = torque;
+      bench.tick();
+      reference.tick();
+      worst = std::max(worst, (bench.pose() - reference.pose()).norm());
+    }
+    std::cout << (with_pylon ? "with" : "without") << " pylon, from tiny steps: " << worst << "\n";
+    EXPECT_LT(worst, with_pylon ? 1e-7 : 1e-9);
+  }
+}
+
+// ---------------------------------------------------------------- brakes, limits
+
+TEST(Brakes, StopTheRobotAndHoldIt) {
+  MovingBench bench(moving_bench());
+  bench.equation.drives = DriveAction();
+  for (int k = 0; k < 100; ++k) ASSERT_TRUE(bench.tick());
+  EXPECT_LT(bench.state().segment<3>(3).norm(), 1e-3);
+
+  const Eigen::Vector3d before = bench.pose();
+  bench.equation.applied_wrench << 40.0, 0.0, 0.0;
+  for (int k = 0; k < 100; ++k) ASSERT_TRUE(bench.tick());
+  EXPECT_LT((bench.pose() - before).head<2>().norm(), 1e-3) << "it creeps by less than 1 cm/s under 40 N";
+}
+
+TEST(BenchDynamics, StandsStillWhereALegWouldHaveToStretchBeyondItsReach) {
+  const BenchDynamics dynamics(bench());
+  BenchState state = dynamics.initial_state();
+  state.head<3>() << 2.0, 0.0, 0.0;
+  state.segment<3>(3) << 1.0, 1.0, 1.0;
+  BenchState rates;
+  dynamics.rates(state, coasting, Eigen::Vector3d::Zero(), ContactCandidates::all(), rates);
+  EXPECT_EQ(rates, BenchState::Zero(6));
+  BenchSnapshot snapshot;
+  dynamics.snapshot(state, coasting, Eigen::Vector3d::Zero(), snapshot);
+  EXPECT_FALSE(snapshot.motion.reachable);
+}
+
+TEST(BenchDynamics, MovesAlikeWithAllPairsAndWithThoseThatCanTouch) {
+  BenchSettings settings = moving_bench();
+  settings.pylon = pylon_at(0.2, 0.1);
+  settings.link_material = ContactMaterial{.stiffness = 5e4};
+  const BenchDynamics dynamics(settings);
+  const BenchState state = dynamics.initial_state();
+  BenchState with_all;
+  BenchState with_some;
+  dynamics.rates(state, coasting, Eigen::Vector3d::Zero(), ContactCandidates::all(), with_all);
+  const ContactCandidates candidates = dynamics.candidates(state, 1e-3);
+  dynamics.rates(state, coasting, Eigen::Vector3d::Zero(), candidates, with_some);
+  EXPECT_EQ(with_all, with_some);
+  EXPECT_LT(candidates.count(), 5);
+}
+
+TEST(BenchDynamics, RefusesImpossibleSettingsNamingThemAll) {
+  BenchSettings settings = bench();
+  settings.pylon = pylon_at(0.0, 0.0);
+  settings.pylon->radius = -1.0;
+  settings.pylon->material.restitution = 1.5;
+  settings.pylon->mounting = Pylon::Mounting::compliant;
+  settings.pylon->mass = 0.0;
+  settings.link_material = ContactMaterial{.stiffness = 0.0};
+  settings.brake.velocity = std::nan("");
+  try {
+    const BenchDynamics dynamics(settings);
+    FAIL();
+  } catch (const SetupError& error) {
+    ASSERT_EQ(error.problems().size(), 5U);
+    EXPECT_EQ(error.problems()[0], "pylon.radius is -1.000000; it must be positive");
+    EXPECT_EQ(error.problems()[2], "pylon.material.restitution is 1.500000; it must be at most 1.000000");
+    EXPECT_EQ(error.problems()[4], "brake.velocity is nan; it must be positive");
+  }
+  settings = bench();
+  settings.initial_pose = Eigen::Vector3d(3.0, 0.0, 0.0);
+  EXPECT_THROW(BenchDynamics{settings}, SetupError);
+}
+
+}  // namespace
+}  // namespace flinch
