@@ -1,0 +1,43 @@
+#pragma once
+
+#include "systems/framework/time.h"
+#include "systems/robot/vectors.h"
+
+namespace flinch {
+
+/// What the simulated robot really does. No control block reads it.
+struct PlantTruth {
+  Time acquired{};
+  bool valid = false;       ///< All legs reach the pose. Otherwise the robot has come apart and stands still.
+  PlatformVector pose;      ///< x, in the base frame [m, m, rad]
+  PlatformVector velocity;  ///< [m/s, m/s, rad/s]
+  PlatformVector acceleration;  ///< [m/s^2, m/s^2, rad/s^2]
+  JointVector active;           ///< q_a [rad]
+  JointVector passive;          ///< q_p [rad]
+  JointVector coupling;         ///< q_c [rad]
+  JointVector drive_torque;     ///< tau_a that acts, without the brakes' [Nm]
+  PlatformVector
+      wrench_in_base;  ///< F_ext: all that acts from outside, contacts and applied wrench [N, N, Nm]
+  /// Largest coordinate by which a leg, followed along its joint angles, misses its joint on the platform
+  /// [m].
+  double loop_closure_error = 0.0;
+  double kinetic_energy = 0.0;  ///< [J]
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("acquired", "ns", self.acquired);
+    visit("valid", "", self.valid);
+    visit("pose", "m, m, rad", self.pose, "base");
+    visit("velocity", "m/s, m/s, rad/s", self.velocity, "base");
+    visit("acceleration", "m/s^2, m/s^2, rad/s^2", self.acceleration, "base");
+    visit("active", "rad", self.active);
+    visit("passive", "rad", self.passive);
+    visit("coupling", "rad", self.coupling);
+    visit("drive_torque", "Nm", self.drive_torque);
+    visit("wrench_in_base", "N, N, Nm", self.wrench_in_base, "base");
+    visit("loop_closure_error", "m", self.loop_closure_error);
+    visit("kinetic_energy", "J", self.kinetic_energy);
+  }
+};
+
+}  // namespace flinch

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "plant/drive_action.h"
+#include "plant/plant_truth.h"
+#include "systems/control/brake_command.h"
+#include "systems/control/torque_command.h"
+#include "systems/framework/system.h"
+#include "systems/sensors/station_status.h"
+
+namespace flinch {
+
+/// Drives with current control. The torque constants of [PAR] are the true ones of the bench.
+struct SimulatedDrivesSettings {
+  /// What a motor makes of its current [Nm/A].
+  Eigen::Vector3d torque_constant{6.021, 6.6116, 6.7315};
+  /// What the driver believes when it turns a torque command into a current [Nm/A].
+  Eigen::Vector3d driver_torque_constant{6.021, 6.6116, 6.7315};
+  double torque_limit = 100.0;  ///< Commands are cut to this [Nm].
+  Time longest_silence = 3ms;   ///< Age of a command from which on it is not obeyed.
+};
+
+std::vector<std::string> problems(const SimulatedDrivesSettings& settings);
+
+/// Turns commands into torque, held from tick to tick. A command that is not valid or not finite, older than
+/// the longest silence or from the future, or that comes with the brakes engaged, gives no torque and closes
+/// the brakes. The drives obey again at the first command without these faults.
+class SimulatedDrives final : public System {
+  State<DriveAction> acting_ = state<DriveAction>("acting");  // from this tick on
+
+ public:
+  /// Throws SetupError.
+  explicit SimulatedDrives(const SimulatedDrivesSettings& settings);
+
+  InputPort<TorqueCommand> torque_command = input<TorqueCommand>("torque_command");
+  InputPort<BrakeCommand> brake = input<BrakeCommand>("brake");
+  InputPort<PlantTruth> truth = input<PlantTruth>("truth");
+
+  /// What has acted until the tick and, between ticks, what acts.
+  OutputPort<DriveAction> acting = output<&SimulatedDrives::read>("acting", acting_);
+  /// The drives are always powered; a robot that has come apart is a fault and disables them.
+  OutputPort<StationStatus> status = output<&SimulatedDrives::report>("status", clock, acting_, truth);
+
+ private:
+  Update act_ = update<&SimulatedDrives::act>(acting_, clock, torque_command, brake);
+
+  DriveAction act(Time now, const TorqueCommand& command, const BrakeCommand& brakes) const;
+  void read(const DriveAction& now, DriveAction& out) const { out = now; }
+  StationStatus report(Time now, const DriveAction& action, const PlantTruth& robot) const;
+
+  SimulatedDrivesSettings settings_;
+};
+
+}  // namespace flinch

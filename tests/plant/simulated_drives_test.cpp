@@ -1,0 +1,149 @@
+#include "plant/simulated_drives.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "systems/foundation/setup_error.h"
+#include "tests/plant/sensor_bench.h"
+
+namespace flinch {
+namespace {
+
+/// Drives whose commands the test sets; what they do after a tick is seen at the next one.
+class Drives {
+ public:
+  explicit Drives(const SimulatedDrivesSettings& settings = {}) : ticking_(wire(settings)) {
+    ticking_.set(truth_, test::truth_at_rest());
+    ticking_.set(brake_, {.engage = false});
+  }
+
+  Time now() const { return ticking_.now(); }
+  TorqueCommand fresh(double first, double second, double third) const {
+    return {.computed = now(), .valid = true, .torque = Eigen::Vector3d(first, second, third)};
+  }
+  void brake(bool engage) { ticking_.set(brake_, {.engage = engage}); }
+  void come_apart() { ticking_.set(truth_, PlantTruth()); }
+
+  /// Obeys `command` for a tick and says what acted until the next one.
+  DriveAction after(const TorqueCommand& command) {
+    ticking_.set(command_, command);
+    ticking_.tick();
+    ticking_.set(command_, {});
+    ticking_.tick();
+    return ticking_.get(acting_);
+  }
+  const StationStatus& status() const { return ticking_.get(status_); }
+
+ private:
+  DiagramBuilder& wire(const SimulatedDrivesSettings& settings) {
+    auto& drives = builder_.add<SimulatedDrives>("drives", settings);
+    command_ = builder_.export_input("command", drives.torque_command);
+    brake_ = builder_.export_input("brake", drives.brake);
+    truth_ = builder_.export_input("truth", drives.truth);
+    acting_ = drives.acting;
+    status_ = drives.status;
+    return builder_;
+  }
+
+  DiagramBuilder builder_{"test", 1ms};
+  InputPort<TorqueCommand> command_;
+  InputPort<BrakeCommand> brake_;
+  InputPort<PlantTruth> truth_;
+  OutputPort<DriveAction> acting_;
+  OutputPort<StationStatus> status_;
+  test::Ticking ticking_;
+};
+
+void expect_stopped(const DriveAction& action) {
+  EXPECT_EQ(action.torque, Eigen::Vector3d::Zero());
+  EXPECT_EQ(action.current, Eigen::Vector3d::Zero());
+  EXPECT_TRUE(action.braked);
+  EXPECT_FALSE(action.enabled);
+}
+
+TEST(SimulatedDrives, TurnCommandsIntoCurrentsAndTorques) {
+  Drives drives;
+  const DriveAction action = drives.after(drives.fresh(6.021, -13.2232, 0.0));
+  EXPECT_TRUE(action.torque.isApprox(Eigen::Vector3d(6.021, -13.2232, 0.0)));
+  EXPECT_TRUE(action.current.isApprox(Eigen::Vector3d(1.0, -2.0, 0.0)));
+  EXPECT_TRUE(action.enabled);
+  EXPECT_FALSE(action.braked);
+  EXPECT_TRUE(drives.status().enabled);
+  EXPECT_FALSE(drives.status().braked);
+}
+
+TEST(SimulatedDrives, MakeAnotherTorqueWhereTheDriverIsWrongAboutTheConstant) {
+  Drives drives({.driver_torque_constant = Eigen::Vector3d::Constant(6.1)});
+  const DriveAction action = drives.after(drives.fresh(6.1, 6.1, 6.1));
+  EXPECT_TRUE(action.current.isApprox(Eigen::Vector3d::Ones()));
+  EXPECT_TRUE(action.torque.isApprox(Eigen::Vector3d(6.021, 6.6116, 6.7315)));
+}
+
+TEST(SimulatedDrives, CutCommandsToTheirLimit) {
+  Drives drives({.torque_limit = 50.0});
+  const DriveAction action = drives.after(drives.fresh(80.0, -1e9, 20.0));
+  EXPECT_TRUE(action.torque.isApprox(Eigen::Vector3d(50.0, -50.0, 20.0)));
+}
+
+TEST(SimulatedDrives, BrakeUntilTheFirstCommandAndWithoutOne) {
+  Drives drives;
+  expect_stopped(drives.after(TorqueCommand()));
+  EXPECT_TRUE(drives.status().valid);
+  EXPECT_TRUE(drives.status().braked);
+  EXPECT_TRUE(drives.status().enabled) << "they would obey";
+}
+
+TEST(SimulatedDrives, BrakeOnStaleCommandsAndObeyAgainOnFreshOnes) {
+  Drives drives;
+  for (int k = 0; k < 10; ++k) drives.after(TorqueCommand());
+  TorqueCommand command = drives.fresh(1.0, 2.0, 3.0);
+  command.computed = drives.now() - 3ms;
+  EXPECT_TRUE(drives.after(command).enabled) << "just not too old";
+  command.computed = drives.now() - 3ms - Time(1);
+  expect_stopped(drives.after(command));
+  command.computed = drives.now() + 1ms;
+  expect_stopped(drives.after(command));
+  EXPECT_TRUE(drives.after(drives.fresh(1.0, 2.0, 3.0)).enabled);
+}
+
+TEST(SimulatedDrives, BrakeOnUnusableCommands) {
+  Drives drives;
+  TorqueCommand invalid = drives.fresh(1.0, 2.0, 3.0);
+  invalid.valid = false;
+  expect_stopped(drives.after(invalid));
+  expect_stopped(drives.after(drives.fresh(1.0, std::nan(""), 3.0)));
+  expect_stopped(drives.after(drives.fresh(1.0, 2.0, HUGE_VAL)));
+  TorqueCommand short_one = drives.fresh(1.0, 2.0, 3.0);
+  short_one.torque = JointVector::Ones(2);
+  expect_stopped(drives.after(short_one));
+}
+
+TEST(SimulatedDrives, GiveNoTorqueWhileBraking) {
+  Drives drives;
+  drives.brake(true);
+  expect_stopped(drives.after(drives.fresh(1.0, 2.0, 3.0)));
+  drives.brake(false);
+  EXPECT_TRUE(drives.after(drives.fresh(1.0, 2.0, 3.0)).enabled);
+}
+
+TEST(SimulatedDrives, AreDisabledByAFaultWhenTheRobotCameApart) {
+  Drives drives;
+  drives.after(TorqueCommand());
+  EXPECT_FALSE(drives.status().fault);
+  drives.come_apart();
+  drives.after(TorqueCommand());
+  EXPECT_TRUE(drives.status().fault);
+  EXPECT_FALSE(drives.status().enabled);
+}
+
+TEST(SimulatedDrives, RefuseConstantsAndLimitsThatAreNotPositive) {
+  SimulatedDrivesSettings settings;
+  settings.torque_constant[1] = 0.0;
+  settings.torque_limit = -1.0;
+  EXPECT_EQ(problems(settings).size(), 2U);
+  EXPECT_THROW(SimulatedDrives{settings}, SetupError);
+}
+
+}  // namespace
+}  // namespace flinch
