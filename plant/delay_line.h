@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "systems/framework/time.h"
+
+namespace flinch {
+
+/// The latest samples of a sensor, to be delivered late: a State. T has a time `acquired`.
+template <class T>
+class DelayLine {
+ public:
+  static constexpr std::size_t capacity = 16;
+
+  /// Takes a sample later than all before, and forgets the oldest where it holds `capacity`.
+  void push(const T& sample) {
+    samples_[next_] = sample;
+    next_ = (next_ + 1) % capacity;
+    if (count_ < capacity) ++count_;
+  }
+
+  /// The latest sample acquired no later than `time`; null when there is none.
+  const T* latest_until(Time time) const {
+    for (std::size_t age = 1; age <= count_; ++age) {
+      const T& sample = samples_[(next_ + capacity - age) % capacity];
+      if (sample.acquired <= time) return &sample;
+    }
+    return nullptr;
+  }
+
+  /// Whether every sample, taken every `period`, is still held when it is `delay` old.
+  static bool can_delay(Time delay, Time period) {
+    return delay < period * static_cast<Time::rep>(capacity - 1);
+  }
+
+ private:
+  std::array<T, capacity> samples_{};
+  std::size_t next_ = 0;
+  std::size_t count_ = 0;
+};
+
+}  // namespace flinch

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <numbers>
+
+#include "plant/plant_truth.h"
+#include "plant/sensor_noise.h"
+#include "systems/framework/system.h"
+#include "systems/sensors/joint_reading.h"
+
+namespace flinch {
+
+/// How far the encoders of one kind are off the truth [rad].
+struct EncoderErrors {
+  double accuracy = 0.0;    ///< Standard deviation of a constant error, drawn once for each encoder.
+  double noise = 0.0;       ///< Standard deviation of white noise.
+  double resolution = 0.0;  ///< Readings are multiples of it.
+};
+
+/// The encoders of the bench.
+struct SimulatedEncodersSettings {
+  bool ideal = false;           ///< Readings are the truth.
+  bool passive_mounted = true;  ///< Otherwise passive angles are not valid.
+
+  /// ECN1313; noise and resolution of [RAL25] IV-A. Its system accuracy of 0.0056 degrees is left out there.
+  EncoderErrors active{.accuracy = 0.0, .noise = 4e-4 * degree, .resolution = 1.2e-5 * degree};
+  /// RI36-H: an accuracy of 0.1 degrees, [ICRA23] III-A, taken as the standard deviation of each encoder's
+  /// error; 3600 lines, counted fourfold (assumed, not published).
+  EncoderErrors passive{.accuracy = 0.1 * degree, .noise = 0.0, .resolution = 360.0 / 14400 * degree};
+
+ private:
+  static constexpr double degree = std::numbers::pi / 180.0;
+};
+
+/// Measures the joint angles at every tick.
+class SimulatedEncoders final : public System {
+ public:
+  SimulatedEncoders(const SimulatedEncodersSettings& settings, std::uint64_t seed);
+
+ private:
+  SimulatedEncodersSettings settings_;
+  Eigen::Vector3d active_error_;
+  Eigen::Vector3d passive_error_;
+  State<NormalNumbers<6>> noise_;
+
+ public:
+  InputPort<PlantTruth> truth = input<PlantTruth>("truth");
+  OutputPort<JointReading> joints = output<&SimulatedEncoders::measure>("joints", truth, noise_);
+
+ private:
+  Update draw_ = update<&SimulatedEncoders::draw>(noise_);
+
+  void measure(const PlantTruth& now, const NormalNumbers<6>& noise, JointReading& reading) const;
+  void draw(NormalNumbers<6>& noise) const { noise.draw(); }
+};
+
+}  // namespace flinch
