@@ -1,0 +1,63 @@
+#pragma once
+
+#include "plant/applied_wrench.h"
+#include "plant/bench_dynamics.h"
+#include "plant/contact_history.h"
+#include "plant/contact_truth.h"
+#include "plant/drive_action.h"
+#include "plant/plant_truth.h"
+#include "systems/framework/system.h"
+#include "systems/sensors/platform_motion.h"
+
+namespace flinch {
+
+/// The simulated bench. Its outputs at a tick are the truth at that instant, under the torque that acted
+/// until then.
+class BenchPlant final : public System {
+  BenchDynamics dynamics_;
+  Time tick_;
+  State<BenchState> state_ = state<BenchState>("motion", dynamics_.initial_state());
+  State<ContactCandidates> candidates_ =
+      state<ContactCandidates>("candidates");                          // in the step after this tick
+  State<ContactHistory> history_ = state<ContactHistory>("contacts");  // until the tick before
+
+ public:
+  /// `tick` is the time between ticks of the diagram, or a multiple of it; build() refuses anything else.
+  /// Throws SetupError.
+  explicit BenchPlant(const BenchSettings& settings, Time tick = 1ms);
+
+  InputPort<DriveAction> drives = input<DriveAction>("drives");  ///< Must be held between ticks.
+  InputPort<AppliedWrench> applied = input<AppliedWrench>("applied");
+
+  OutputPort<BenchSnapshot> snapshot = output<&BenchPlant::look>("snapshot", state_, drives, applied);
+  OutputPort<PlantTruth> truth = output<&BenchPlant::tell_truth>("truth", clock, snapshot, drives);
+  OutputPort<PlatformMotion> platform = output<&BenchPlant::tell_platform>("platform", truth);
+
+ private:
+  OutputPort<ContactHistory> history_now_ = output<&BenchPlant::follow>("history", clock, snapshot, history_);
+
+ public:
+  OutputPort<ContactTruth> contact = output<&BenchPlant::tell_contact>("contact", snapshot, history_now_);
+
+  const BenchDynamics& dynamics() const { return dynamics_; }
+
+ private:
+  void move(const BenchState& motion, const DriveAction& acting, const AppliedWrench& wrench,
+            const ContactCandidates& candidates, BenchState& rates) const;
+  ContactCandidates look_ahead(const BenchState& motion) const;
+  void look(const BenchState& motion, const DriveAction& acting, const AppliedWrench& wrench,
+            BenchSnapshot& out) const;
+
+  void tell_truth(Time now, const BenchSnapshot& bench, const DriveAction& acting, PlantTruth& out) const;
+  void tell_platform(const PlantTruth& robot, PlatformMotion& out) const;
+  void follow(Time now, const BenchSnapshot& bench, const ContactHistory& before,
+              ContactHistory& after) const;
+  void tell_contact(const BenchSnapshot& bench, const ContactHistory& history, ContactTruth& out) const;
+  void remember(const ContactHistory& now, ContactHistory& kept) const { kept = now; }
+
+  Update remember_ = update<&BenchPlant::remember>(history_, history_now_);
+  Update look_ahead_ = update<&BenchPlant::look_ahead>(Every{tick_}, candidates_, state_);
+  Derivative move_ = derivative<&BenchPlant::move>(state_, state_, drives, applied, candidates_);
+};
+
+}  // namespace flinch

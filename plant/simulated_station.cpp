@@ -1,0 +1,87 @@
+#include "plant/simulated_station.h"
+
+#include "plant/bench_plant.h"
+#include "systems/framework/random.h"
+
+namespace flinch {
+namespace {
+
+/// The blocks of the station while it is put together.
+struct Parts {
+  SimulatedDrives& drives;
+  BenchPlant& plant;
+};
+
+Parts add_robot(DiagramBuilder& inside, const SimulatedStationSettings& settings) {
+  auto& drives = inside.add<SimulatedDrives>("drives", settings.drives);
+  auto& script = inside.add<AppliedWrenchScript>("applied_wrench", settings.applied_wrench);
+  auto& plant = inside.add<BenchPlant>("plant", settings.bench, settings.tick);
+  inside.connect(drives.acting, plant.drives);
+  inside.connect(script.wrench, plant.applied);
+  inside.connect(plant.truth, drives.truth);
+  return {drives, plant};
+}
+
+OutputPort<JointReading> add_encoders(DiagramBuilder& inside, const SimulatedStationSettings& settings,
+                                      const Parts& parts) {
+  auto& encoders =
+      inside.add<SimulatedEncoders>("encoders", settings.encoders, derive_seed(settings.seed, "encoders"));
+  inside.connect(parts.plant.truth, encoders.truth);
+  return inside.export_output("joints", encoders.joints);
+}
+
+OutputPort<DriveReading> add_current_sensors(DiagramBuilder& inside, const SimulatedStationSettings& settings,
+                                             const Parts& parts) {
+  auto& sensors = inside.add<SimulatedCurrentSensors>("current_sensors", settings.currents,
+                                                      derive_seed(settings.seed, "currents"));
+  inside.connect(parts.drives.acting, sensors.drives);
+  return inside.export_output("drives", sensors.currents);
+}
+
+OutputPort<ImuReading> add_imu(DiagramBuilder& inside, const SimulatedStationSettings& settings,
+                               const Parts& parts) {
+  auto& imu = inside.add<SimulatedImu>("imu", settings.imu, settings.bench.robot.gravity,
+                                       derive_seed(settings.seed, "imu"));
+  inside.connect(parts.plant.truth, imu.truth);
+  return inside.export_output("imu", imu.imu);
+}
+
+std::optional<OutputPort<ForceTorqueReading>> add_force_torque_sensor(
+    DiagramBuilder& inside, const SimulatedStationSettings& settings, const Parts& parts) {
+  if (!settings.force_torque || !settings.bench.pylon) return std::nullopt;
+  auto& sensor = inside.add<SimulatedForceTorqueSensor>("force_torque_sensor", *settings.force_torque,
+                                                        settings.bench.pylon->position_in_base,
+                                                        derive_seed(settings.seed, "force_torque"));
+  inside.connect(parts.plant.snapshot, sensor.snapshot);
+  return inside.export_output("force_torque", sensor.force_torque);
+}
+
+}  // namespace
+
+SimulatedStationSettings with_ideal_sensors(SimulatedStationSettings settings) {
+  settings.encoders.ideal = true;
+  settings.currents.ideal = true;
+  settings.imu.ideal = true;
+  if (settings.force_torque) settings.force_torque->ideal = true;
+  return settings;
+}
+
+SimulatedStation add_simulated_station(DiagramBuilder& builder, const SimulatedStationSettings& settings) {
+  DiagramBuilder inside("station", settings.tick);
+  const Parts parts = add_robot(inside, settings);
+  SimulatedStation station;
+  station.torque_command = inside.export_input("torque_command", parts.drives.torque_command);
+  station.brake = inside.export_input("brake", parts.drives.brake);
+  station.joints = add_encoders(inside, settings, parts);
+  station.drives = add_current_sensors(inside, settings, parts);
+  station.imu = add_imu(inside, settings, parts);
+  station.status = inside.export_output("status", parts.drives.status);
+  station.force_torque = add_force_torque_sensor(inside, settings, parts);
+  station.plant_truth = inside.export_output("truth", parts.plant.truth);
+  station.contact_truth = inside.export_output("contact_truth", parts.plant.contact);
+  station.platform_truth = inside.export_output("platform_truth", parts.plant.platform);
+  builder.add(inside.build());
+  return station;
+}
+
+}  // namespace flinch

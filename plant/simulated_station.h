@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "diagrams/station.h"
+#include "plant/applied_wrench.h"
+#include "plant/bench_settings.h"
+#include "plant/contact_truth.h"
+#include "plant/plant_truth.h"
+#include "plant/simulated_current_sensors.h"
+#include "plant/simulated_drives.h"
+#include "plant/simulated_encoders.h"
+#include "plant/simulated_force_torque_sensor.h"
+#include "plant/simulated_imu.h"
+#include "systems/framework/diagram_builder.h"
+#include "systems/sensors/platform_motion.h"
+
+namespace flinch {
+
+/// A simulated bench with its drives and sensors.
+struct SimulatedStationSettings {
+  BenchSettings bench;
+  SimulatedDrivesSettings drives;
+  SimulatedEncodersSettings encoders;
+  SimulatedCurrentSensorsSettings currents;
+  SimulatedImuSettings imu;
+  /// Mounted where there is a pylon.
+  std::optional<SimulatedForceTorqueSettings> force_torque = SimulatedForceTorqueSettings{};
+  std::vector<WrenchRamp> applied_wrench;  ///< Pushes on the platform.
+
+  std::uint64_t seed = 0;  ///< Of the run; each sensor derives its own.
+  Time tick = 1ms;         ///< The time between ticks of the diagram, or a multiple of it.
+};
+
+/// The same with sensors that tell the truth, at once.
+SimulatedStationSettings with_ideal_sensors(SimulatedStationSettings settings);
+
+/// The station's ports, and the truth, which no control block may read.
+struct SimulatedStation : Station {
+  OutputPort<PlantTruth> plant_truth;
+  OutputPort<ContactTruth> contact_truth;
+  OutputPort<PlatformMotion>
+      platform_truth;  ///< Pose and velocity as sensors would tell them without errors.
+};
+
+/// Adds the simulated bench as one nested diagram, "station". Its continuous state wants an adaptive
+/// integrator: SundialsIntegrator. Throws SetupError for settings that describe no bench.
+SimulatedStation add_simulated_station(DiagramBuilder& builder, const SimulatedStationSettings& settings);
+
+}  // namespace flinch
