@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
 
 #include "diagrams/contact_control_settings.h"
@@ -75,16 +76,17 @@ PlatformVector read_pose(ConfigReader pose) {
   return x;
 }
 
-PlatformPath read_through(ConfigReader& motion, const ParallelRobot& robot) {
+std::optional<PlatformPath> read_through(ConfigReader& motion, const ParallelRobot& robot) {
   std::vector<PlatformVector> poses;
   for (ConfigReader& pose : motion.sections("poses")) poses.push_back(read_pose(pose));
   PoseLimits limits{.translation = {.velocity = 1.0, .acceleration = 12.0, .jerk = 600.0},
                     .rotation = {.velocity = 4.0, .acceleration = 80.0, .jerk = 8000.0}};
   read_limits(motion.section("limits"), limits);
+  if (!motion.good()) return std::nullopt;
   return PlatformPath::through(robot, poses, limits);
 }
 
-PlatformPath read_passage(ConfigReader& motion, const ParallelRobot& robot) {
+std::optional<PlatformPath> read_passage(ConfigReader& motion, const ParallelRobot& robot) {
   PassageSettings settings;
   double direction = 0.0;
   settings.pose = read_pose(motion.section("pose"));
@@ -94,10 +96,11 @@ PlatformPath read_passage(ConfigReader& motion, const ParallelRobot& robot) {
   motion.number("acceleration", unit::m_per_s2, settings.acceleration, positive);
   motion.number("jerk", unit::m_per_s3, settings.jerk, positive);
   settings.direction = Eigen::Vector2d(std::cos(direction), std::sin(direction));
+  if (!motion.good()) return std::nullopt;
   return passage(robot, settings).path;
 }
 
-PlatformPath read_square(ConfigReader& motion, const ParallelRobot& robot) {
+std::optional<PlatformPath> read_square(ConfigReader& motion, const ParallelRobot& robot) {
   double side = 0.3;
   int laps = 1;
   PoseLimits limits{.translation = {.velocity = 1.5, .acceleration = 12.0, .jerk = 600.0},
@@ -106,6 +109,7 @@ PlatformPath read_square(ConfigReader& motion, const ParallelRobot& robot) {
   motion.number("side", unit::m, side, positive);
   motion.integer("laps", laps, 1, 1000);
   read_limits(motion.section("limits"), limits);
+  if (!motion.good()) return std::nullopt;
   return PlatformPath::square(robot, centre, side, limits, laps);
 }
 
