@@ -1,0 +1,262 @@
+#include "plant/bench_plant.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <vector>
+
+#include "systems/foundation/setup_error.h"
+#include "systems/framework/runge_kutta.h"
+#include "tests/plant/integrate_bench.h"
+#include "tests/plant/random_bench.h"
+#include "tests/plant/servoed_station.h"
+
+namespace flinch {
+namespace {
+
+SimulatedStationSettings station_with_pylon(double x, double y, double stiffness = 6000.0) {
+  SimulatedStationSettings settings = test::bench_station();
+  settings.bench.pylon = Pylon{};
+  settings.bench.pylon->position_in_base = {x, y};
+  settings.bench.pylon->material.stiffness = stiffness;
+  return settings;
+}
+
+// ---------------------------------------------------------------- truth
+
+TEST(PlantTruth, ClosesItsLoops) {
+  test::ServoedStation station(station_with_pylon(0.32, 0.20));
+  double worst = 0.0;
+  int in_contact = 0;
+  for (int k = 0; k < 3000; ++k) {
+    station.step();
+    ASSERT_TRUE(station.truth().valid);
+    worst = std::max(worst, station.truth().loop_closure_error);
+    in_contact += station.contact().in_contact ? 1 : 0;
+  }
+  std::cout << "loop closure: " << worst << " m, " << in_contact << " ms in contact\n";
+  EXPECT_LT(worst, 1e-14);
+  EXPECT_GT(in_contact, 100);
+}
+
+TEST(PlantTruth, AnglesTurnWithTheRatesOfTheKinematics) {
+  test::ServoedStation station(test::bench_station());
+  const PlanarRrr robot(bench_robot(BenchGeometry::individual, BenchFriction::none));
+  station.advance_to(500ms);
+  PlantTruth before = station.truth();
+  for (int k = 0; k < 300; ++k) {
+    station.advance_to(station.context().time() + 1ms);
+    const PlantTruth& now = station.truth();
+    Kinematics start;
+    Kinematics end;
+    robot.kinematics(before.pose, before.velocity, start);
+    robot.kinematics(now.pose, now.velocity, end);
+    const auto expect_integral = [](const JointVector& from, const JointVector& to,
+                                    const JointVector& first_rate, const JointVector& last_rate) {
+      const JointVector turned = ParallelRobot::joint_difference(to, from);
+      EXPECT_NEAR((turned - 0.5e-3 * (first_rate + last_rate)).norm(), 0.0, 1e-6);  // trapezoidal rule
+    };
+    expect_integral(before.active, now.active, start.rates.active, end.rates.active);
+    expect_integral(before.passive, now.passive, start.rates.passive, end.rates.passive);
+    expect_integral(before.coupling, now.coupling, start.rates.coupling, end.rates.coupling);
+    before = now;
+  }
+}
+
+TEST(PlantTruth, AccelerationIsThatOfTheTorqueWhichActedUntilNow) {
+  SimulatedStationSettings settings = station_with_pylon(0.32, 0.20);
+  settings.applied_wrench = {
+      {.peak_in_base = {10.0, -5.0, 0.5}, .start = 0s, .rise = 1s, .hold = 1s, .fall = 1s}};
+  test::ServoedStation station(settings);
+  const PlanarRrr robot(settings.bench.robot);
+  for (int k = 0; k < 1500; ++k) {
+    station.step();
+    const PlantTruth& truth = station.truth();
+    const PlanarMotion motion = robot.motion(truth.pose, truth.velocity);
+    if (k < 2 || station.contact().self_contact) continue;  // until the first command the brakes are closed
+    const Eigen::Vector3d expected = robot.acceleration(motion, truth.drive_torque, truth.wrench_in_base);
+    EXPECT_NEAR((truth.acceleration - expected).norm(), 0.0, 1e-9);
+    EXPECT_NEAR(truth.kinetic_energy, robot.kinetic_energy(motion), 1e-14);
+  }
+}
+
+TEST(PlantTruth, IsAlsoToldAsPlatformMotion) {
+  test::ServoedStation station(test::bench_station());
+  station.advance_to(300ms);
+  const PlatformMotion& motion = station.get(station.station.platform_truth);
+  EXPECT_TRUE(motion.valid());
+  EXPECT_EQ(motion.acquired, 300ms);
+  EXPECT_EQ(motion.pose, station.truth().pose);
+  EXPECT_EQ(motion.velocity, station.truth().velocity);
+}
+
+// ---------------------------------------------------------------- instants of contact
+
+/// Follows the bench from one tick to the next in steps of a microsecond.
+class Microscope {
+ public:
+  explicit Microscope(const BenchSettings& settings) : dynamics_(settings), equation_(dynamics_) {}
+
+  /// When the least gap to the pylon changes its sign in the tick that begins at `start` [s after it].
+  double crossing(const PlantTruth& start, const Eigen::Vector3d& torque) {
+    std::vector<double> y(equation_.size(), 0.0);
+    std::copy_n(start.pose.data(), 3, y.begin());
+    std::copy_n(start.velocity.data(), 3, y.begin() + 3);
+    equation_.drives.torque = torque;
+    equation_.drives.braked = false;
+    RungeKutta one_step(1);
+    one_step.prepare(y.size());
+    constexpr double h = 1e-6;
+    double before = least_gap(y);
+    for (int k = 0; k < 1000; ++k) {
+      one_step.advance(equation_, h, y);
+      const double after = least_gap(y);
+      if ((before < 0.0) != (after < 0.0)) return h * (k + before / (before - after));
+      before = after;
+    }
+    return std::nan("");
+  }
+
+ private:
+  double least_gap(const std::vector<double>& y) const {
+    const Eigen::Map<const Eigen::Matrix<double, 6, 1>> state(y.data());
+    PylonGaps gaps;
+    const PylonMotion pylon{dynamics_.settings().pylon->position_in_base, {0.0, 0.0}};
+    dynamics_.contacts().pylon_gaps(dynamics_.robot().motion(state.head<3>(), state.tail<3>()), pylon, gaps);
+    return *std::min_element(gaps.gap.begin(), gaps.gap.end());
+  }
+
+  BenchDynamics dynamics_;
+  test::BenchEquation equation_;
+};
+
+TEST(ContactTruth, TellsOnsetAndEndToAMicrosecond) {
+  double worst_onset = 0.0;
+  double worst_end = 0.0;
+  int onsets = 0;
+  int ends = 0;
+  test::RandomBench random(31);
+  for (int trial = 0; trial < 30; ++trial) {
+    const Eigen::Vector2d pylon = random.point(0.5);
+    const SimulatedStationSettings settings =
+        station_with_pylon(pylon.x(), pylon.y(), random.uniform(3e3, 2e4));
+    Microscope microscope(settings.bench);
+    test::ServoedStation station(settings, {.frequency = {10.0, 8.0, 6.0}});
+    PlantTruth before;
+    ContactTruth contact_before;
+    for (int k = 0; k < 1500; ++k) {
+      station.step();
+      const ContactTruth& contact = station.contact();
+      if (k > 1 && contact.in_contact != contact_before.in_contact) {
+        const double reference = microscope.crossing(before, station.truth().drive_torque);
+        const Time told = (contact.in_contact ? contact.onset : contact.end) - before.acquired;
+        const double error = std::abs(to_seconds(told) - reference);
+        (contact.in_contact ? worst_onset : worst_end) =
+            std::max(contact.in_contact ? worst_onset : worst_end, error);
+        ++(contact.in_contact ? onsets : ends);
+      }
+      before = station.truth();
+      contact_before = contact;
+    }
+  }
+  std::cout << "onset: " << 1e6 * worst_onset << " us in " << onsets << ", end: " << 1e6 * worst_end
+            << " us in " << ends << "\n";
+  EXPECT_LT(worst_onset, 1e-6);
+  EXPECT_LT(worst_end, 1e-6);
+  EXPECT_GE(onsets, 30);
+  EXPECT_GE(ends, 30);
+}
+
+TEST(ContactTruth, SumsUpTheContactsOfAnInstant) {
+  const SimulatedStationSettings settings = station_with_pylon(0.32, 0.20);
+  test::ServoedStation station(settings);
+  double peak = 0.0;
+  std::int64_t contacts = 0;
+  int in_contact = 0;
+  for (int k = 0; k < 3000; ++k) {
+    station.step();
+    const ContactTruth& contact = station.contact();
+    EXPECT_TRUE(contact.valid);
+    EXPECT_EQ(contact.acquired, 1ms * k);
+    EXPECT_EQ(contact.in_contact, contact.strongest.body >= 0);
+    EXPECT_GE(contact.strongest.force_in_base.norm(), contact.second.force_in_base.norm());
+    if (contact.contacts > contacts) peak = 0.0;
+    contacts = contact.contacts;
+    if (!contact.in_contact) continue;
+    ++in_contact;
+    peak = std::max(peak, contact.strongest.force_in_base.norm());
+    EXPECT_EQ(contact.peak_force, peak);
+    EXPECT_EQ(contact.end, contact.acquired);
+    const Eigen::Vector2d sum = contact.strongest.force_in_base + contact.second.force_in_base;
+    if (contact.strongest.body == 0) {
+      EXPECT_NEAR((contact.wrench_in_base.head(2) - sum).norm(), 0.0, 1e-9);
+    }
+    const Eigen::Vector2d from_pylon =
+        contact.strongest.point_in_base - settings.bench.pylon->position_in_base;
+    EXPECT_GT(from_pylon.dot(contact.strongest.force_in_base), 0.0) << "it pushes the robot away";
+    EXPECT_NEAR(from_pylon.norm(), settings.bench.pylon->radius - 0.5 * contact.strongest.depth, 1e-12);
+  }
+  EXPECT_GT(in_contact, 100);
+}
+
+TEST(ContactTruth, SeesAPylonClampedBetweenTheLinksOfALeg) {
+  SimulatedStationSettings settings = test::bench_station();
+  const PlanarRrr robot(settings.bench.robot);
+  const PlanarMotion home = robot.motion({0.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+  const PlanarLeg& leg = home.legs[0].leg;
+  const Eigen::Vector2d bisector = (leg.u2 - leg.u1).normalized();
+  const double half_angle = 0.5 * std::acos(-leg.u1.dot(leg.u2));
+  settings.bench.pylon = Pylon{};
+  settings.bench.pylon->position_in_base = leg.passive_joint + 0.068 / std::sin(half_angle) * bisector;
+  test::ServoedStation station(settings, {.amplitude = {0.0, 0.0, 0.0}});
+  station.step();
+  const ContactTruth& contact = station.contact();
+  EXPECT_TRUE(contact.clamping);
+  EXPECT_EQ(std::min(contact.strongest.body, contact.second.body), BodyId::link1(0).index());
+  EXPECT_EQ(std::max(contact.strongest.body, contact.second.body), BodyId::link2(0).index());
+  EXPECT_EQ(contact.onset, 0ms) << "it began before the run";
+}
+
+TEST(ContactTruth, WithoutAPylonIsValidAndEmpty) {
+  test::ServoedStation station(test::bench_station());
+  station.advance_to(200ms);
+  EXPECT_TRUE(station.contact().valid);
+  EXPECT_FALSE(station.contact().in_contact);
+  EXPECT_EQ(station.contact().contacts, 0);
+  EXPECT_EQ(station.contact().strongest.body, -1);
+}
+
+// ---------------------------------------------------------------- set-up
+
+TEST(BenchPlant, RefusesADiagramThatTicksMoreSlowlyThanItLooksAhead) {
+  EXPECT_THROW(test::ServoedStation(test::bench_station(), {}, std::make_unique<SundialsIntegrator>(), 2ms),
+               SetupError);
+}
+
+TEST(BenchPlant, MovesAlikeInFinerTicksUnderTheSameTorque) {
+  SimulatedStationSettings settings = station_with_pylon(0.1, 0.1);
+  settings.applied_wrench = {
+      {.peak_in_base = {20.0, 15.0, 1.0}, .start = 0s, .rise = 1s, .hold = 0s, .fall = 1s}};
+  settings.bench.brake.torque = 0.0;
+  const auto pose_after = [&](Time tick) {
+    DiagramBuilder builder("test", tick);
+    SimulatedStation station = add_simulated_station(builder, settings);
+    auto& torque = builder.add<Constant<TorqueCommand>>("torque", TorqueCommand());
+    auto& brake = builder.add<Constant<BrakeCommand>>("brake", BrakeCommand());
+    builder.connect(torque.value, station.torque_command);
+    builder.connect(brake.value, station.brake);
+    const auto diagram = builder.build();
+    Context context = diagram->make_context();
+    Simulator simulator(*diagram, std::make_unique<SundialsIntegrator>());
+    simulator.advance_to(context, 500ms);
+    return Eigen::Vector3d(context.get(station.plant_truth).pose);
+  };
+  const Eigen::Vector3d coarse = pose_after(1ms);
+  EXPECT_GT(coarse.norm(), 0.01);
+  EXPECT_NEAR((coarse - pose_after(250us)).norm(), 0.0, 1e-7);
+}
+
+}  // namespace
+}  // namespace flinch
