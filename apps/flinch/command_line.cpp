@@ -3,9 +3,12 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "systems/foundation/nearest_name.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
@@ -22,11 +25,19 @@ std::string typed(int argc, const char* const* argv) {
   return text;
 }
 
-void complain(const SetupError& error, const CommonOptions& common) {
-  if (common.json) {
-    fmt::print("{}\n", nlohmann::ordered_json{{"error", error.problems()}}.dump());
-  }
-  for (const std::string& problem : error.problems()) fmt::print(stderr, "error: {}\n", problem);
+int complain(const std::vector<std::string>& problems, bool json) {
+  if (json) fmt::print("{}\n", nlohmann::ordered_json{{"error", problems}}.dump());
+  for (const std::string& problem : problems) fmt::print(stderr, "error: {}\n", problem);
+  return static_cast<int>(ExitStatus::bad_input);
+}
+
+/// What is wrong with `text` as a seed; "" if nothing is.
+std::string problem_with_seed(const std::string& text) {
+  std::uint64_t seed = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, seed);
+  if (error == std::errc{} && rest == end) return "";
+  return "is '" + text + "'; it must be a whole number between 0 and 2^64 - 1";
 }
 
 /// The verbs and their options.
@@ -62,6 +73,7 @@ void add_verbs(CLI::App& app, Verbs& verbs) {
   run_verb.add_option("--out", verbs.run.out, "Folder for run.h5 and report.html [out/NAME]")
       ->type_name("DIR");
   run_verb.add_option("--seed", verbs.run.seed, "Seed of all noise, instead of the scenario's")
+      ->check(problem_with_seed)
       ->type_name("N");
 
   CLI::App& report_verb = verbs.add(app, "report", "Make the report page of a recording",
@@ -88,6 +100,19 @@ void add_verbs(CLI::App& app, Verbs& verbs) {
       ->type_name("FILE");
 }
 
+/// The error of the parser, with the way out.
+std::string usage_problem(const CLI::App& app, const CLI::ParseError& error, const std::string& first) {
+  const auto chosen = app.get_subcommands();
+  if (!chosen.empty()) {
+    return fmt::format("{}; 'flinch {} --help' shows how", error.what(), chosen.front()->get_name());
+  }
+  std::vector<std::string> verbs;
+  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
+    verbs.push_back(verb->get_name());
+  if (first.empty() || first.starts_with('-')) return "there is no verb" + did_you_mean(first, verbs);
+  return "'" + first + "' is no verb" + did_you_mean(first, verbs);
+}
+
 }  // namespace
 
 int run_command_line(int argc, const char* const* argv) {
@@ -101,15 +126,15 @@ int run_command_line(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? static_cast<int>(ExitStatus::done)
-                                : static_cast<int>(ExitStatus::bad_input);
+    if (error.get_exit_code() == 0) return app.exit(error);  // help or version
+    const bool json = std::find(argv, argv + argc, std::string("--json")) != argv + argc;
+    return complain({usage_problem(app, error, argc > 1 ? argv[1] : "")}, json);
   }
   verbs.common->command_line = typed(argc, argv);
   try {
     return static_cast<int>(verbs.chosen());
   } catch (const SetupError& error) {
-    complain(error, *verbs.common);
-    return static_cast<int>(ExitStatus::bad_input);
+    return complain(error.problems(), verbs.common->json);
   }
 }
 
