@@ -1,6 +1,7 @@
 #include "apps/flinch/scenario.h"
 
 #include <algorithm>
+#include <charconv>
 
 #include "apps/flinch/scenario_control.h"
 #include "apps/flinch/scenario_station.h"
@@ -88,6 +89,16 @@ const std::string& attribute(const Recording& recording, const std::string& name
   return found->second;
 }
 
+std::uint64_t recorded_seed(const Recording& recording, const std::filesystem::path& file) {
+  const std::string& text = attribute(recording, "seed", file);
+  std::uint64_t seed = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, seed);
+  if (error == std::errc{} && rest == end) return seed;
+  throw SetupError(file.string() + ": the attribute 'seed' is '" + text +
+                   "'; it must be a whole number between 0 and 2^64 - 1");
+}
+
 }  // namespace
 
 Scenario read_scenario(const std::filesystem::path& file, std::optional<std::uint64_t> seed) {
@@ -117,7 +128,7 @@ Scenario recorded_scenario(const Recording& recording, const std::filesystem::pa
   std::string unused;
   reader.text("robot", unused);
   scenario.robot = parse_robot_file(scenario.robot_text, file.string() + ":" + scenario.robot_file.string());
-  read_rest(reader, std::stoull(attribute(recording, "seed", file)), scenario);
+  read_rest(reader, recorded_seed(recording, file), scenario);
   return scenario;
 }
 
