@@ -2,7 +2,7 @@
 #include <fmt/core.h>
 
 #include <chrono>
-#include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -31,6 +31,35 @@ void make_folder(const std::filesystem::path& folder) {
   if (error) throw SetupError(folder.string() + ": the folder cannot be made: " + error.message());
 }
 
+/// What `make` returns; what is wrong is told with the name of `file`, where it comes from.
+template <class Make>
+auto out_of(const std::filesystem::path& file, Make&& make) {
+  try {
+    return make();
+  } catch (const SetupError& error) {
+    std::vector<std::string> problems;
+    for (const std::string& problem : error.problems()) problems.push_back(file.string() + ": " + problem);
+    throw SetupError(std::move(problems));
+  }
+}
+
+Experiment built(const Scenario& scenario) {
+  return out_of(scenario.file, [&scenario] { return build_experiment(scenario); });
+}
+
+Report recorded_report(const std::filesystem::path& file) {
+  const Recording recording = read_recording(file);
+  const Scenario scenario = recorded_scenario(recording, file);
+  return out_of(file, [&] {
+    return experiment_report(scenario, recording, judge(recording, scenario.expected, scenario.force_limits));
+  });
+}
+
+bool is_robot(const std::filesystem::path& file) {
+  const ConfigReader reader = ConfigReader::open(file);
+  return reader.has("kind") || reader.has("legs");
+}
+
 ExitStatus status_of(const Verdict& verdict) {
   if (!verdict.fault.empty()) return ExitStatus::fault;
   return verdict.good() ? ExitStatus::done : ExitStatus::bad_verdict;
@@ -47,15 +76,33 @@ void write_text(const std::string& text, const std::filesystem::path& file) {
   if (!stream.flush()) throw SetupError(file.string() + ": the file cannot be written");
 }
 
-/// Lets Graphviz draw `dot` into `file`.
+std::string quoted_for_shell(const std::filesystem::path& path) {
+  std::string text = "'";
+  for (const char c : path.string()) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+/// Lets Graphviz draw `dot` into `file`, which is replaced only by a whole picture.
 void draw_svg(const std::string& dot, const std::filesystem::path& file) {
-  const std::string command = "dot -Tsvg -o '" + file.string() + "'";
-  FILE* graphviz = file.string().find('\'') == std::string::npos ? popen(command.c_str(), "w") : nullptr;
-  if (graphviz != nullptr) std::fwrite(dot.data(), 1, dot.size(), graphviz);
-  if (graphviz == nullptr || pclose(graphviz) != 0) {
-    throw SetupError(file.string() +
-                     ": Graphviz could not draw it; is the program 'dot' installed (package graphviz)?");
-  }
+  const std::filesystem::path source = file.string() + ".dot.part", picture = file.string() + ".svg.part";
+  write_text(dot, source);
+  const std::string command = "dot -Tsvg -o " + quoted_for_shell(picture) + " " + quoted_for_shell(source);
+  const bool drawn = std::system(command.c_str()) == 0;
+  std::error_code error;
+  std::filesystem::remove(source, error);
+  if (drawn) std::filesystem::rename(picture, file, error);
+  if (drawn && !error) return;
+  throw SetupError(file.string() +
+                   ": Graphviz could not draw it; is the program 'dot' installed (package graphviz)?");
+}
+
+/// Throws SetupError where there is no folder for `file`.
+void require_folder_of(const std::filesystem::path& file) {
+  const std::filesystem::path folder = file.parent_path();
+  std::error_code error;
+  if (folder.empty() || std::filesystem::is_directory(folder, error)) return;
+  throw SetupError(file.string() + ": cannot be written, for there is no folder " + folder.string() +
+                   "; make it first");
 }
 
 }  // namespace
@@ -64,7 +111,7 @@ ExitStatus run(const RunOptions& options) {
   const Scenario scenario = read_scenario(options.scenario, options.seed);
   const std::filesystem::path folder =
       options.out.empty() ? std::filesystem::path("out") / scenario.name : options.out;
-  build_experiment(scenario);  // says what does not fit before anything is written
+  built(scenario);  // says what does not fit before anything is written
   make_folder(folder);
 
   const auto started = std::chrono::steady_clock::now();
@@ -88,12 +135,10 @@ ExitStatus run(const RunOptions& options) {
 }
 
 ExitStatus report(const ReportOptions& options) {
-  const Recording recording = read_recording(options.recording);
-  const Scenario scenario = recorded_scenario(recording, options.recording);
   const std::filesystem::path page =
       options.out.empty() ? options.recording.parent_path() / "report.html" : options.out;
-  const Verdict verdict = judge(recording, scenario.expected, scenario.force_limits);
-  write_report_page(experiment_report(scenario, recording, verdict), page);
+  require_folder_of(page);
+  write_report_page(recorded_report(options.recording), page);
   if (options.common.json) {
     fmt::print("{}\n", Json{{"report", page.string()}}.dump());
   } else if (!options.common.quiet) {
@@ -103,19 +148,21 @@ ExitStatus report(const ReportOptions& options) {
 }
 
 ExitStatus graph(const GraphOptions& options) {
-  const std::string dot = build_experiment(read_scenario(options.scenario)).diagram->graphviz();
   const std::string extension = options.out.extension().string();
+  if (!options.out.empty() && extension != ".svg" && extension != ".dot") {
+    throw SetupError(options.out.string() + ": a graph is written as .svg or .dot, not as '" + extension +
+                     "'");
+  }
+  require_folder_of(options.out);
+  const std::string dot = built(read_scenario(options.scenario)).diagram->graphviz();
   if (options.out.empty()) {
     fmt::print("{}", options.common.json ? Json{{"dot", dot}}.dump() + "\n" : dot);
     return ExitStatus::done;
   }
   if (extension == ".svg") {
     draw_svg(dot, options.out);
-  } else if (extension == ".dot") {
-    write_text(dot, options.out);
   } else {
-    throw SetupError(options.out.string() + ": a graph is written as .svg or .dot, not as '" + extension +
-                     "'");
+    write_text(dot, options.out);
   }
   if (options.common.json) {
     fmt::print("{}\n", Json{{"graph", options.out.string()}}.dump());
@@ -128,13 +175,13 @@ ExitStatus graph(const GraphOptions& options) {
 ExitStatus check(const CheckOptions& options) {
   std::string what;
   if (options.file.extension() == ".h5") {
-    recorded_scenario(read_recording(options.file), options.file);
+    recorded_report(options.file);
     what = "recording";
-  } else if (ConfigReader::open(options.file).has("legs")) {
+  } else if (is_robot(options.file)) {
     read_robot_file(options.file);
     what = "robot";
   } else {
-    build_experiment(read_scenario(options.file));
+    built(read_scenario(options.file));
     what = "scenario";
   }
   if (options.common.json) {
