@@ -143,7 +143,7 @@ void read_motion(ConfigReader motion, const ParallelRobot& robot, ContactControl
     if (kind == MotionKind::square) settings.trajectory.path = read_square(motion, robot);
   } catch (const SetupError& error) {
     for (const std::string& problem : error.problems())
-      motion.problem("kind", "cannot be moved like this: " + problem);
+      motion.problem("", "the robot cannot move like this: " + problem);
   }
 }
 
