@@ -23,6 +23,7 @@ struct Samples {
         body(recording.column("contact", "strongest.body")),
         clamping(recording.column("contact", "clamping")),
         level(recording.column("detection", "level")),
+        present_level(recording.column("detection", "present_level")),
         mode(recording.column("reaction", "mode")),
         estimate_valid(recording.column("wrench", "valid")),
         reference_valid(recording.column("reference", "valid")),
@@ -40,14 +41,16 @@ struct Samples {
 
   std::size_t size() const { return time.size(); }
   double force(std::size_t k) const { return std::hypot(force_x[k], force_y[k]); }
+  /// By the pylon or by an applied wrench.
   bool touched(std::size_t k) const {
     return force(k) > Verdict::contact_force ||
-           std::hypot(external[0][k], external[1][k]) > Verdict::contact_force;
+           std::hypot(external[0][k], external[1][k]) > Verdict::contact_force ||
+           std::abs(external[2][k]) > Verdict::contact_moment;
   }
 
   double period;
   std::vector<double> time;
-  std::vector<double> force_x, force_y, body, clamping, level, mode;
+  std::vector<double> force_x, force_y, body, clamping, level, present_level, mode;
   std::vector<double> estimate_valid, reference_valid, loop_closure, fault;
   std::vector<std::vector<double>> pose, velocity, external, estimate, reference;
 };
@@ -106,18 +109,22 @@ double onset_of(const Samples& samples, std::size_t first) {
   return samples.time[first - 1] + share * (samples.time[first] - samples.time[first - 1]);
 }
 
+/// When the contact was noticed. The latched level would not do: of a second contact it knows nothing.
+std::optional<double> detection_of(const Samples& samples, const Span& span) {
+  const double end = samples.time[span.last] + Verdict::same_contact;
+  for (std::size_t k = span.first; k < samples.size() && samples.time[k] < end; ++k) {
+    if (samples.present_level[k] > 0.0) return samples.time[k];
+  }
+  return std::nullopt;
+}
+
 ContactVerdict judge_contact(const Samples& samples, const Span& span, const ForceLimits& limits) {
   ContactVerdict contact;
   std::size_t peak = span.first;
   for (std::size_t k = span.first; k <= span.last; ++k) {
     if (samples.force(k) > samples.force(peak)) peak = k;
-    if (!contact.detected && samples.level[k] > 0.0) contact.detected = samples.time[k];
   }
-  const double grace_end = samples.time[span.last] + Verdict::same_contact;
-  for (std::size_t k = span.last; !contact.detected && k < samples.size() && samples.time[k] < grace_end;
-       ++k) {
-    if (samples.level[k] > 0.0) contact.detected = samples.time[k];
-  }
+  contact.detected = detection_of(samples, span);
   contact.body = touched_body(samples, span, peak);
   contact.onset = onset_of(samples, span.first);
   contact.peak_force = samples.force(peak);

@@ -31,7 +31,7 @@ struct Expectations {
 struct ContactVerdict {
   std::string body;    ///< "platform", "leg1_link2"; "leg1_clamping" where both links of a leg are touched
   double onset = 0.0;  ///< t_c, when the force rose above `contact_force`, between samples [s]
-  std::optional<double> detected;       ///< t_det [s]
+  std::optional<double> detected;       ///< t_det, when the estimate reached the reaction threshold [s]
   std::optional<double> removed;        ///< t_rem; none: still touching at the end [s]
   double speed = 0.0;                   ///< of the platform, the largest during the contact [m/s]
   double peak_force = 0.0;              ///< of one touching body [N]
@@ -46,10 +46,12 @@ struct ContactVerdict {
 /// What a run shows, judged.
 struct Verdict {
   static constexpr double contact_force = 1.0;  ///< below it there is no contact, as in the papers [N]
-  static constexpr double same_contact = 0.1;   ///< [s]
+  /// Below it nothing turns the platform: `contact_force` at a coupling joint, a tenth of a metre away [Nm].
+  static constexpr double contact_moment = 0.1;
+  static constexpr double same_contact = 0.1;  ///< [s]
 
   std::vector<ContactVerdict> contacts;
-  int false_detections = 0;  ///< with no force of more than `contact_force` in the last `same_contact`
+  int false_detections = 0;                ///< while nothing has touched the robot in the last `same_contact`
   double max_observer_error_force = 0.0;   ///< of any component, before anything touches the robot [N]
   double max_observer_error_moment = 0.0;  ///< [Nm]
   double max_tracking_error = 0.0;         ///< in the nominal mode, before anything touches the robot [m]
