@@ -1,0 +1,50 @@
+#pragma once
+
+#include "systems/control/controlled_stop.h"
+#include "systems/control/fault_table.h"
+#include "systems/control/impedance_controller.h"
+#include "systems/control/mode_selector.h"
+#include "systems/control/platform_trajectory.h"
+#include "systems/control/reaction_sequence.h"
+#include "systems/control/retraction.h"
+#include "systems/control/torque_gate.h"
+#include "systems/observers/contact_detector.h"
+#include "systems/observers/momentum_observer.h"
+#include "systems/sensors/drive_torque_mapping.h"
+#include "systems/sensors/forward_kinematics.h"
+#include "systems/sensors/velocity_filter.h"
+
+namespace flinch {
+
+/// All that can be set in the contact-control pipeline. The defaults are those of the planar bench; each
+/// block's own settings say what they mean and where they come from.
+struct ContactControlSettings {
+  // ---- what the sensors say
+  VelocityFilterSettings velocity_filter;  ///< 30 Hz
+  ForwardKinematicsSettings forward_kinematics;
+  /// 6.1 Nm/A until calibrated, [ICRA23] III-B; filtered as the velocity is.
+  DriveTorqueSettings drive_torque{
+      .torque_constant = JointVector::Constant(3, 6.1), .low_pass = LowPassSettings{}, .sampling = {}};
+
+  // ---- contacts
+  MomentumObserverSettings momentum_observer{.gain = PlatformVector::Constant(3, 20.0),
+                                             .torque_timing = TorqueTiming::sampled,
+                                             .sampling = {}};  ///< [SafePR] V-A
+  ContactDetectorSettings contact_detector;                    ///< 10 N, 1 Nm; hard: 60 N, 3 Nm
+
+  // ---- what to do
+  PlatformTrajectorySettings trajectory;             ///< stays where the robot is
+  ImpedanceSettings impedance = planar_impedance();  ///< 2 N/mm, 85 Nm/rad, critically damped
+  RetractionSettings retraction;                     ///< 0.10 m along the force
+  /// Share of the translational stiffness that is left while reacting, 0 to 1. [SafePR] IV-A
+  double reaction_stiffness = 1.0;
+  ReactionSequenceSettings sequence;
+  ModeSelectorSettings modes;  ///< blends over 10 ms
+
+  // ---- safety
+  FaultLimits faults;
+  ControlledStopSettings controlled_stop;
+  TorqueGateSettings torque_gate;  ///< 100 Nm, 20 Nm/ms
+};
+
+}  // namespace flinch

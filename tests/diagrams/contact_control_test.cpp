@@ -1,0 +1,439 @@
+#include "diagrams/contact_control.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "systems/foundation/setup_error.h"
+#include "systems/framework/random.h"
+#include "systems/framework/runge_kutta.h"
+#include "systems/framework/simulator.h"
+#include "systems/robot/planar_rrr_presets.h"
+#include "tests/support/allocations.h"
+#include "tests/support/ideal_station.h"
+
+namespace flinch {
+namespace {
+
+using enum ReactionMode;
+
+constexpr double encoder_noise = 4e-4 * 3.14159265358979 / 180.0;  // [RAL25] IV-A
+
+struct Experiment {
+  BenchFriction friction = BenchFriction::none;
+  test::IdealStationSettings station;
+  ContactControlSettings control;
+};
+
+/// The pipeline around an ideal station, run by hand: what the operator and an external wrench do is set
+/// between ticks.
+class Bench {
+ public:
+  explicit Bench(const Experiment& experiment)
+      : robot(std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::individual, experiment.friction))),
+        station(builder_.add<test::IdealStation>("station", robot, experiment.station)),
+        control(add_contact_control(builder_, robot, experiment.control)),
+        joints_(builder_.add<Dropout>("dropout")),
+        operator_(builder_.export_input("operator", control.operator_command)),
+        wrench_(builder_.export_input("wrench", station.wrench)),
+        broken_(builder_.export_input("broken", joints_.broken)),
+        diagram(build()),
+        context(diagram->make_context()),
+        simulator_(*diagram, std::make_unique<RungeKutta>(4)) {
+    context.set(operator_, {});
+    context.set(wrench_, PlatformVector());
+    context.set(broken_, false);
+  }
+
+  void press(const OperatorCommand& buttons) { context.set(operator_, buttons); }
+  void push(const PlatformVector& wrench) { context.set(wrench_, wrench); }
+  void lose_encoders(bool lost) { context.set(broken_, lost); }
+
+  void tick() { simulator_.step(context); }
+  template <class See>
+  void run(Time duration, See see) {
+    for (const Time end = context.time() + duration; context.time() < end;) {
+      tick();
+      see();
+    }
+  }
+  void run(Time duration) {
+    run(duration, [] {});
+  }
+  /// Runs until the mode is reached; false if it is not within `limit`.
+  bool run_until(ReactionMode mode, Time limit) {
+    for (const Time end = context.time() + limit; context.time() < end;) {
+      tick();
+      if (state().mode == mode) return true;
+    }
+    return false;
+  }
+
+  const ReactionState& state() const { return context.get(control.reaction_state); }
+  const GateStatus& gate() const { return context.get(control.gate); }
+  const TorqueCommand& torque() const { return context.get(control.torque_command); }
+  Eigen::Vector3d pose() const { return context.get(station.motion).head<3>(); }
+  Eigen::Vector3d velocity() const { return context.get(station.motion).tail<3>(); }
+
+ private:
+  /// Loses joint readings while `broken`.
+  class Dropout final : public System {
+   public:
+    InputPort<JointReading> in = input<JointReading>("in");
+    InputPort<bool> broken = input<bool>("broken");
+    OutputPort<JointReading> out = output<&Dropout::pass>("out", in, broken);
+
+   private:
+    void pass(const JointReading& reading, bool lost, JointReading& result) const {
+      result = reading;
+      if (lost) result.valid = false;
+    }
+  };
+
+  std::unique_ptr<Diagram> build() {
+    builder_.connect(station.joints, joints_.in);
+    builder_.connect(joints_.out, control.joints);
+    builder_.connect(station.drives, control.drives);
+    builder_.connect(station.status, control.status);
+    builder_.connect(control.torque_command, station.torque_command);
+    builder_.connect(control.brake, station.brake);
+    return builder_.build();
+  }
+
+  DiagramBuilder builder_{"bench"};
+
+ public:
+  std::shared_ptr<const PlanarRrr> robot;
+  test::IdealStation& station;
+  ContactControl control;
+
+ private:
+  Dropout& joints_;
+  InputPort<OperatorCommand> operator_;
+  InputPort<PlatformVector> wrench_;
+  InputPort<bool> broken_;
+
+ public:
+  std::unique_ptr<Diagram> diagram;
+  Context context;
+
+ private:
+  Simulator simulator_;
+};
+
+/// Into a wall of 6 kN/m, 0.05 m behind the middle of a passage at `speed`.
+Experiment collision(double speed) {
+  Experiment experiment;
+  experiment.friction = BenchFriction::test_bench;
+  experiment.station.encoder_noise = encoder_noise;
+  const PlanarRrr robot(bench_robot(BenchGeometry::individual, experiment.friction));
+  const Passage passing = passage(robot, {.pose = Eigen::Vector3d(0.05, 0.0, 0.0),
+                                          .direction = Eigen::Vector2d(1.0, 0.0),
+                                          .speed = speed,
+                                          .cruise = 0.05});
+  experiment.station.pose = passing.path.start();
+  experiment.station.wall = {.position = 0.05, .stiffness = 6000.0};
+  experiment.control.trajectory.path = passing.path;
+  experiment.control.trajectory.start = 300ms;
+  return experiment;
+}
+
+// ---------------------------------------------------------------- start
+
+TEST(ContactControl, IsOneNestedDiagram) {
+  Bench bench(Experiment{});
+  EXPECT_EQ(bench.control.torque_command.id.owner->name(), "control");
+  EXPECT_NO_THROW(bench.diagram->tap("control/torque_gate/status"));
+  EXPECT_NO_THROW(bench.diagram->tap("control/wrench_estimate"));
+}
+
+TEST(ContactControl, KeepsTheBrakesClosedUntilContactsCanBeDetected) {
+  Bench bench(Experiment{});
+  bench.run(251ms, [&bench] {
+    ASSERT_EQ(bench.gate().phase, GatePhase::waiting);
+    ASSERT_FALSE(bench.torque().valid);
+    ASSERT_TRUE(bench.context.get(bench.control.brake).engage);
+  });
+  bench.tick();
+  EXPECT_EQ(bench.gate().phase, GatePhase::open);
+  bench.tick();
+  EXPECT_EQ(bench.state().mode, nominal);
+  EXPECT_TRUE(bench.torque().valid);
+  EXPECT_FALSE(bench.context.get(bench.control.brake).engage);
+}
+
+TEST(ContactControl, HoldsTheRobotWhereItFindsIt) {
+  Experiment experiment;
+  experiment.friction = BenchFriction::test_bench;
+  experiment.station.encoder_noise = encoder_noise;
+  experiment.station.pose = Eigen::Vector3d(0.04, -0.06, 0.1);
+  Bench bench(experiment);
+  bench.run(3s, [&] { ASSERT_LT((bench.pose() - experiment.station.pose).norm(), 1e-4); });
+  EXPECT_EQ(bench.state().mode, nominal);
+  EXPECT_LT(bench.velocity().norm(), 1e-2);
+}
+
+// ---------------------------------------------------------------- without contact
+
+TEST(ContactControl, FollowsTheSquareAndFeelsNothing) {
+  Experiment experiment;
+  experiment.friction = BenchFriction::test_bench;
+  experiment.station.encoder_noise = encoder_noise;
+  experiment.station.pose = Eigen::Vector3d(-0.1, -0.1, 0.0);
+  experiment.control.drive_torque.torque_constant = experiment.station.torque_constant;
+  const PlanarRrr robot(bench_robot(BenchGeometry::individual, experiment.friction));
+  const PoseLimits limits{.translation = {1.5, 12.0, 2000.0}, .rotation = {4.0, 80.0, 8000.0}};
+  experiment.control.trajectory.path = PlatformPath::square(robot, PlatformVector::Zero(3), 0.2, limits, 2);
+  Bench bench(experiment);
+  double error = 0.0, force = 0.0, moment = 0.0, speed = 0.0;
+  bench.run(4s, [&] {
+    const PlatformReference& reference = bench.context.get(bench.control.reference);
+    if (!reference.valid) return;
+    const PlatformVector& wrench = bench.context.get(bench.control.wrench_estimate).wrench_in_base;
+    error = std::max(error, (reference.pose.head(2) - bench.pose().head(2)).norm());
+    force = std::max(force, wrench.head(2).lpNorm<Eigen::Infinity>());
+    moment = std::max(moment, std::abs(wrench[2]));
+    speed = std::max(speed, bench.velocity().head(2).norm());
+    ASSERT_EQ(bench.state().mode, nominal);
+  });
+  RecordProperty("position_error_mm", std::to_string(1e3 * error));
+  RecordProperty("force_N", std::to_string(force));
+  EXPECT_GT(speed, 1.3);
+  EXPECT_LT(error, 0.010);  // [SafePR] V-B
+  EXPECT_LT(force, 5.0);
+  EXPECT_LT(moment, 0.3);
+  EXPECT_TRUE(bench.context.get(bench.control.reference).finished);
+}
+
+TEST(ContactControl, GivesWayToAWeakForceByForceOverStiffness) {
+  Bench bench(Experiment{});
+  bench.run(300ms);
+  bench.push(Eigen::Vector3d(8.0, -5.0, 0.5));
+  bench.run(2s);
+  EXPECT_EQ(bench.state().mode, nominal);
+  EXPECT_LT((bench.pose() - Eigen::Vector3d(8.0 / 2000.0, -5.0 / 2000.0, 0.5 / 85.0)).norm(), 1e-5);
+  EXPECT_LT((bench.context.get(bench.control.wrench_estimate).wrench_in_base -
+             PlatformVector(Eigen::Vector3d(8, -5, 0.5)))
+                .norm(),
+            0.05);
+}
+
+// ---------------------------------------------------------------- reactions
+
+class CollisionAtSpeed : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(ContactControl, CollisionAtSpeed, testing::Values(0.2, 0.5, 0.7));
+
+TEST_P(CollisionAtSpeed, IsDetectedAndTheRobotRetreats) {
+  Bench bench(collision(GetParam()));
+  ASSERT_TRUE(bench.run_until(react, 2s));
+  const Time detected = bench.context.get(bench.control.detection).detected;
+  EXPECT_EQ(bench.state().since, detected);
+  const double where = bench.pose()[0];
+  EXPECT_GT(bench.context.get(bench.station.contact_force), 10.0);
+
+  ASSERT_TRUE(bench.run_until(hold, 1s));
+  bench.run(1s, [&bench] { ASSERT_EQ(bench.state().mode, hold); });
+  EXPECT_EQ(bench.context.get(bench.station.contact_force), 0.0);
+  EXPECT_NEAR(bench.pose()[0], where - 0.10, 2e-3);
+  EXPECT_LT(bench.velocity().norm(), 1e-3);
+  EXPECT_EQ(bench.gate().phase, GatePhase::open);
+}
+
+TEST(ContactControl, FloatsAfterAHardContactUntilTheOperatorResetsAtRest) {
+  Bench bench(Experiment{});
+  bench.run(300ms);
+  bench.push(Eigen::Vector3d(90.0, 0.0, 0.0));
+  ASSERT_TRUE(bench.run_until(react, 100ms));
+  ASSERT_TRUE(bench.run_until(zero_g, 300ms));
+  bench.press({.start = false, .reset = true});
+  bench.run(20ms);
+  EXPECT_EQ(bench.state().mode, zero_g) << "still pushed";
+  EXPECT_LT(bench.torque().torque.norm(), 1e-9) << "no gravity in the plane";
+  bench.press({});
+}
+
+TEST(ContactControl, LeavesZeroGravityAtRestOnReset) {
+  Bench bench(Experiment{});
+  bench.run(300ms);
+  bench.push(Eigen::Vector3d(0.0, 120.0, 0.0));
+  ASSERT_TRUE(bench.run_until(zero_g, 200ms));
+  const Eigen::Vector3d strength(50.0, 50.0, 2.5);  // of a hand that stops the floating robot
+  bench.run(1s, [&] {
+    const Eigen::Vector3d by_hand = -Eigen::Vector3d(80.0, 80.0, 1.0).cwiseProduct(bench.velocity());
+    bench.push(by_hand.cwiseMax(-strength).cwiseMin(strength));
+  });
+  bench.push(PlatformVector());
+  bench.run(300ms);
+  ASSERT_EQ(bench.state().mode, zero_g);
+  bench.press({.start = false, .reset = true});
+  bench.tick();
+  EXPECT_EQ(bench.state().mode, nominal);
+  const Eigen::Vector3d here = bench.pose();
+  bench.run(500ms);
+  EXPECT_EQ(bench.state().mode, nominal);
+  EXPECT_LT((bench.pose() - here).norm(), 2e-3);
+}
+
+TEST(ContactControl, HoldsItsPlaceAfterAResetAndGoesOnOnlyWhenStarted) {
+  Bench bench(collision(0.5));
+  ASSERT_TRUE(bench.run_until(hold, 3s));
+  bench.run(500ms);
+  const Eigen::Vector3d here = bench.pose();
+  JointVector last = bench.torque().torque;
+  bench.press({.start = false, .reset = true});
+  bench.run(500ms, [&] {
+    ASSERT_LT((bench.torque().torque - last).lpNorm<Eigen::Infinity>(), 1.0) << "no jump";
+    last = bench.torque().torque;
+  });
+  EXPECT_EQ(bench.state().mode, nominal);
+  EXPECT_LT((bench.pose() - here).norm(), 1e-3);
+  bench.press({});
+  bench.run(500ms);
+  EXPECT_LT((bench.pose() - here).norm(), 1e-3);
+  bench.press({.start = true, .reset = false});
+  EXPECT_TRUE(bench.run_until(react, 3s)) << "into the wall once more";
+}
+
+TEST(ContactControl, RetreatsSofterWhereAskedTo) {
+  Experiment experiment = collision(0.5);
+  experiment.control.reaction_stiffness = 0.2;
+  Bench bench(experiment);
+  ASSERT_TRUE(bench.run_until(hold, 3s));
+  bench.run(2s);
+  const Eigen::Vector3d here = bench.pose();
+  bench.push(Eigen::Vector3d(0.0, 8.0, 0.0));
+  bench.run(3s);
+  EXPECT_NEAR(bench.pose()[1] - here[1], 8.0 / 400.0, 2e-3) << "within friction";
+}
+
+// ---------------------------------------------------------------- faults
+
+TEST(ContactControl, BrakesWhenTheEncodersAreLostAndRecoversOnReset) {
+  Bench bench(collision(0.5));
+  bench.run(400ms);
+  ASSERT_EQ(bench.state().mode, nominal);
+  ASSERT_GT(bench.velocity()[0], 0.4);
+  bench.lose_encoders(true);
+  bench.run(2ms);
+  EXPECT_EQ(bench.gate().phase, GatePhase::open) << "two readings may be missing";
+  bench.tick();
+  EXPECT_EQ(bench.gate().fault, GateFault::joints_invalid);
+  EXPECT_TRUE(bench.context.get(bench.control.brake).engage);
+  bench.run(100ms);
+  EXPECT_LT(bench.velocity().norm(), 1e-6);
+  bench.lose_encoders(false);
+  bench.run(400ms);
+  EXPECT_EQ(bench.gate().phase, GatePhase::closed);
+  EXPECT_EQ(bench.state().mode, stopped);
+  const Eigen::Vector3d here = bench.pose();
+  bench.press({.start = false, .reset = true});
+  bench.run(1s);
+  EXPECT_EQ(bench.gate().phase, GatePhase::open);
+  EXPECT_EQ(bench.state().mode, nominal);
+  EXPECT_LT((bench.pose() - here).norm(), 1e-3) << "does not go on by itself";
+}
+
+TEST(ContactControl, StopsBeforeTheRobotLeavesItsWorkspace) {
+  Experiment experiment;
+  experiment.control.sequence.zero_g_when_struck = false;
+  experiment.control.contact_detector.reaction = {1e3, 1e3};
+  experiment.control.contact_detector.hard = {1e3, 1e3};
+  experiment.control.impedance.stiffness = Eigen::Vector3d(1.0, 1.0, 1.0);
+  Bench bench(experiment);
+  bench.run(300ms);
+  bench.push(Eigen::Vector3d(0.0, 0.0, 1.5));  // turns it towards its singularity
+  bool closed = false;
+  bench.run(3s, [&] {
+    closed = closed || bench.gate().phase == GatePhase::closed;
+    if (closed) bench.push(PlatformVector());
+  });
+  EXPECT_TRUE(closed);
+  EXPECT_EQ(bench.gate().reaction, GateReaction::controlled_stop);
+  EXPECT_LT(bench.velocity().norm(), 1e-3);
+}
+
+TEST(ContactControl, WritesNoTorqueThatIsNoNumberWhateverTheStationSays) {
+  const Experiment experiment;
+  const auto robot = std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::none));
+  DiagramBuilder builder("nonsense");
+  const ContactControl control = add_contact_control(builder, robot, experiment.control);
+  const auto joints = builder.export_input("joints", control.joints);
+  const auto drives = builder.export_input("drives", control.drives);
+  const auto status = builder.export_input("status", control.status);
+  const auto buttons = builder.export_input("operator", control.operator_command);
+  const auto diagram = builder.build();
+  Context context = diagram->make_context();
+  RandomGenerator random(23);
+  const JointAngles home = robot->inverse_kinematics(robot->home_pose(), robot->home_working_mode()).joints;
+  const auto spoilt = [&random](JointVector values, double share) {
+    for (double& value : values) {
+      if (random.uniform(0.0, 1.0) < share) value = std::numeric_limits<double>::quiet_NaN();
+    }
+    return values;
+  };
+  int torques = 0;
+  for (int k = 0; k < 20000; ++k) {
+    const Time now = context.time();
+    const double share = k % 1000 < 500 ? 0.0 : 0.02;
+    const JointVector active = home.active + JointVector::Constant(3, 1e-5 * random.normal());
+    context.set(joints, {now, true, true, spoilt(active, share), spoilt(home.passive, share)});
+    context.set(drives, {now, true, spoilt(JointVector::Zero(3), share)});
+    context.set(status, {.acquired = now, .valid = true, .enabled = true, .braked = false, .fault = false});
+    context.set(buttons, {.start = false, .reset = k % 10 == 0});
+    diagram->evaluate(context);
+    diagram->update(context);
+    context.set_time(now + diagram->tick());
+    const TorqueCommand& torque = context.get(control.torque_command);
+    ASSERT_TRUE(torque.torque.allFinite());
+    ASSERT_EQ(context.get(control.brake).engage, !torque.valid);
+    torques += torque.valid ? 1 : 0;
+  }
+  EXPECT_GT(torques, 1000);
+}
+
+// ---------------------------------------------------------------- real time, settings
+
+TEST(ContactControl, NeverAllocatesInAnyMode) {
+  Bench bench(collision(0.7));
+  bench.tick();
+  std::optional<test::AllocationCounter> counter(std::in_place);
+  ASSERT_TRUE(bench.run_until(hold, 3s));
+  bench.press({.start = false, .reset = true});
+  bench.run(50ms);
+  EXPECT_EQ(bench.state().mode, nominal);
+  bench.push(Eigen::Vector3d(0.0, 120.0, 0.0));
+  EXPECT_TRUE(bench.run_until(zero_g, 200ms));
+  bench.lose_encoders(true);
+  EXPECT_TRUE(bench.run_until(stopped, 10ms));
+  EXPECT_EQ(counter->count(), 0);
+}
+
+TEST(ContactControl, RepeatsBitForBit) {
+  Bench first(collision(0.5)), second(collision(0.5));
+  first.run(2s), second.run(2s);
+  EXPECT_EQ(first.pose(), second.pose());
+  EXPECT_EQ(first.torque().torque, second.torque().torque);
+}
+
+TEST(ContactControl, RefusesSettingsThatDoNotFitTheRobot) {
+  const auto robot = std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::none));
+  const auto add = [&robot](const ContactControlSettings& settings) {
+    DiagramBuilder builder;
+    add_contact_control(builder, robot, settings);
+  };
+  EXPECT_NO_THROW(add({}));
+  ContactControlSettings settings;
+  settings.reaction_stiffness = 1.5;
+  EXPECT_THROW(add(settings), SetupError);
+  settings = {};
+  settings.drive_torque.torque_constant = JointVector::Ones(2);
+  EXPECT_THROW(add(settings), SetupError);
+  settings = {};
+  settings.impedance.stiffness = PlatformVector::Ones(6);
+  EXPECT_THROW(add(settings), SetupError);
+}
+
+}  // namespace
+}  // namespace flinch
