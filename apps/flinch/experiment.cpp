@@ -81,7 +81,9 @@ Recording run_experiment(const Scenario& scenario, const std::map<std::string, s
     if (progress && tick % 50 == 0) progress(static_cast<double>(tick) / static_cast<double>(ticks));
     simulator.step(context);
   }
-  return recorder.recording(attributes_of(scenario, provenance));
+  auto attributes = attributes_of(scenario, provenance);
+  attributes["simulation.inaccurate_steps"] = std::to_string(simulator.inaccurate_steps());
+  return recorder.recording(std::move(attributes));
 }
 
 }  // namespace flinch

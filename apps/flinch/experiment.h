@@ -24,8 +24,8 @@ struct Experiment {
 Experiment build_experiment(const Scenario& scenario);
 
 /// Runs the scenario from its start to its end and returns all that was recorded, with what made it as
-/// attributes: version, seed, scenario and robot file, and `provenance`. `progress` is told now and then
-/// which share is done. Throws SetupError as build_experiment() does.
+/// attributes: version, seed, scenario and robot file, steps that missed their accuracy, and `provenance`.
+/// `progress` is told now and then which share is done. Throws SetupError as build_experiment() does.
 Recording run_experiment(const Scenario& scenario, const std::map<std::string, std::string>& provenance = {},
                          const std::function<void(double share)>& progress = {});
 

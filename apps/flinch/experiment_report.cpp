@@ -202,6 +202,20 @@ std::vector<ReportParameter> parameters(const std::string& group, const std::vec
   return rows;
 }
 
+/// As they took effect: the seed may come from the command line. In which folder the robot file lay is left
+/// out, so that a recording gives the same page wherever it is.
+std::vector<ReportParameter> scenario_parameters(const Scenario& scenario) {
+  std::vector<ReportParameter> rows = parameters("scenario", scenario.values);
+  for (ReportParameter& row : rows) {
+    if (row.group != "scenario") continue;
+    if (row.name == "robot") row.value = scenario.robot_file.filename().string();
+    if (row.name != "seed" || row.value == std::to_string(scenario.seed)) continue;
+    row.value = std::to_string(scenario.seed);
+    row.note = "from the command line";
+  }
+  return rows;
+}
+
 std::vector<ReportParameter> provenance(const Recording& recording) {
   std::vector<ReportParameter> rows;
   for (const auto& [name, text] : recording.attributes) {
@@ -233,7 +247,7 @@ Report experiment_report(const Scenario& scenario, const Recording& recording, c
   add_forces(recording, report);
   report.lanes = lanes(recording);
   report.bounds = bounds(scenario, verdict);
-  report.parameters = parameters("scenario", scenario.values);
+  report.parameters = scenario_parameters(scenario);
   for (ReportParameter& row : parameters("robot", scenario.robot.values))
     report.parameters.push_back(std::move(row));
   report.provenance = provenance(recording);
