@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <memory>
 
 #include "plant/plant_truth.h"
 #include "systems/control/torque_command.h"
@@ -23,10 +22,32 @@ struct Path {
   }
 };
 
-/// Moves the platform along a path, from the truth: F = K (x_d - x) - D v, tau_a = J_x,qa^T F.
+/// Law that moves the platform along a path: F = K (x_d - x) - D v, tau_a = J_x,qa^T F.
+class Servo {
+ public:
+  Servo(const PlanarRrrParameters& robot, const Path& path) : robot_(robot), path_(path) {}
+
+  /// Drive torques [Nm] at the time `t` [s]; none near a singularity.
+  Eigen::Vector3d torque(double t, const Eigen::Vector3d& pose, const Eigen::Vector3d& velocity) const {
+    Kinematics kinematics;
+    robot_.kinematics(pose, velocity, kinematics);
+    if (!kinematics.valid) return Eigen::Vector3d::Zero();
+    const Eigen::Vector3d error = robot_.difference(path_.at(t), pose);
+    const Eigen::Vector3d force = stiffness_.cwiseProduct(error) - damping_.cwiseProduct(velocity);
+    return kinematics.J_x_qa.transpose() * force;
+  }
+
+ private:
+  PlanarRrr robot_;
+  Path path_;
+  Eigen::Vector3d stiffness_{2000.0, 2000.0, 85.0};
+  Eigen::Vector3d damping_{170.0, 170.0, 4.0};
+};
+
+/// The same as a block that knows the truth.
 class TruthServo final : public System {
  public:
-  TruthServo(const PlanarRrrParameters& robot, const Path& path) : robot_(robot), path_(path) {}
+  TruthServo(const PlanarRrrParameters& robot, const Path& path) : servo_(robot, path) {}
 
   InputPort<PlantTruth> truth = input<PlantTruth>("truth");
   OutputPort<TorqueCommand> torque = output<&TruthServo::control>("torque", clock, truth);
@@ -36,20 +57,10 @@ class TruthServo final : public System {
     command.computed = now;
     command.valid = robot.valid;
     command.torque = JointVector::Zero(3);
-    if (!robot.valid) return;
-    Kinematics kinematics;
-    robot_.kinematics(robot.pose, robot.velocity, kinematics);
-    if (!kinematics.valid) return;
-    const Eigen::Vector3d error = robot_.difference(path_.at(to_seconds(now)), robot.pose);
-    const Eigen::Vector3d velocity = robot.velocity;
-    const Eigen::Vector3d force = stiffness_.cwiseProduct(error) - damping_.cwiseProduct(velocity);
-    command.torque = kinematics.J_x_qa.transpose() * force;
+    if (robot.valid) command.torque = servo_.torque(to_seconds(now), robot.pose, robot.velocity);
   }
 
-  PlanarRrr robot_;
-  Path path_;
-  Eigen::Vector3d stiffness_{2000.0, 2000.0, 85.0};
-  Eigen::Vector3d damping_{170.0, 170.0, 4.0};
+  Servo servo_;
 };
 
 }  // namespace flinch::test
