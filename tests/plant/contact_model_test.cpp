@@ -178,6 +178,29 @@ TEST(PylonBetweenTheLinksOfALeg, IsClampedByBoth) {
   }
 }
 
+TEST(PylonAtTheCouplingJoint, MeetsTheEndOfTheLinkWhereThePlatformDoesNotCoverIt) {
+  PlanarRrrParameters parameters = bench_robot(BenchGeometry::individual, BenchFriction::none);
+  for (const double hull_radius : {0.137, 0.05}) {
+    parameters.platform_hull_radius = hull_radius;
+    const PlanarRrr robot(parameters);
+    const ContactModel model(robot, pylon_of(elastic), std::nullopt);
+    const PlanarMotion motion = robot.motion({0.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+    const PlanarLeg& leg = motion.legs[0].leg;
+    const Eigen::Vector2d side =
+        leg.arm.dot(normal(leg.u2)) > 0.0 ? normal(leg.u2) : Eigen::Vector2d(-normal(leg.u2));
+    const Eigen::Vector2d beyond_the_end = (side + 0.1 * leg.u2).normalized();
+    const Eigen::Vector2d pylon = leg.coupling_joint + (0.03 + 0.04 - 1e-3) * beyond_the_end;
+    const ContactForces forces = forces_of(model, motion, {pylon, {0.0, 0.0}});
+    ASSERT_EQ(forces.touch_count, 1) << hull_radius;
+    if (hull_radius == 0.137) {
+      EXPECT_EQ(forces.touches[0].body, BodyId::platform());
+    } else {
+      EXPECT_EQ(forces.touches[0].body, BodyId::link2(0));
+      EXPECT_NEAR((forces.force_on_pylon - 6.0 * beyond_the_end).norm(), 0.0, 1e-9);
+    }
+  }
+}
+
 // ---------------------------------------------------------------- energy
 
 /// Sum of the springs' energies over all pairs.
