@@ -75,16 +75,21 @@ TEST(ContactHistory, TellsOnsetPeakAndEndOfAContact) {
 }
 
 TEST(ContactHistory, LastsFromTheFirstBodyToTheLast) {
-  ContactHistory history;
-  const ContactForces none;
-  history = history.next(0ms, gaps_of(0.8e-3, -1.0, 0.4e-3, -1.0), none);
-  history = history.next(1ms, gaps_of(-0.2e-3, -1.0, -0.6e-3, -1.0), pushing(1.0));
-  EXPECT_EQ(history.onset, 400us);
-  history = history.next(2ms, gaps_of(0.8e-3, 1.0, -0.1e-3, 0.5), pushing(1.0));
-  EXPECT_TRUE(history.in_contact);
-  EXPECT_EQ(history.contacts, 1);
-  history = history.next(3ms, gaps_of(1.8e-3, 1.0, 0.4e-3, 0.5), none);
-  EXPECT_EQ(history.end, 2200us);
+  for (const bool swapped : {false, true}) {
+    const auto gaps = [&](double a, double a_rate, double b, double b_rate) {
+      return swapped ? gaps_of(b, b_rate, a, a_rate) : gaps_of(a, a_rate, b, b_rate);
+    };
+    ContactHistory history;
+    const ContactForces none;
+    history = history.next(0ms, gaps(0.8e-3, -1.0, 0.4e-3, -1.0), none);
+    history = history.next(1ms, gaps(-0.2e-3, -1.0, -0.6e-3, -1.0), pushing(1.0));
+    EXPECT_EQ(history.onset, 400us);
+    history = history.next(2ms, gaps(-0.2e-3, 0.5, -0.1e-3, 0.5), pushing(1.0));
+    EXPECT_TRUE(history.in_contact);
+    EXPECT_EQ(history.contacts, 1);
+    history = history.next(3ms, gaps(0.3e-3, 0.5, 0.4e-3, 0.5), none);
+    EXPECT_EQ(history.end, 2400us);
+  }
 }
 
 TEST(ContactHistory, ThatStartsInContactBeginsWithTheFirstTick) {
