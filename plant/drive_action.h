@@ -8,7 +8,7 @@ namespace flinch {
 struct DriveAction {
   Eigen::Vector3d torque{0.0, 0.0, 0.0};   ///< Acting on the drives' axes, without the brakes' [Nm].
   Eigen::Vector3d current{0.0, 0.0, 0.0};  ///< In the motors [A].
-  bool enabled = false;                    ///< A command is acted upon.
+  bool enabled = false;                    ///< A command is obeyed.
   bool braked = true;
 
   template <class Self, class Visit>
