@@ -37,11 +37,8 @@ DriveAction SimulatedDrives::act(Time now, const TorqueCommand& command, const B
 }
 
 StationStatus SimulatedDrives::report(Time now, const DriveAction& action, const PlantTruth& robot) const {
-  return {.acquired = now,
-          .valid = true,
-          .enabled = robot.valid,
-          .braked = action.braked,
-          .fault = !robot.valid};
+  return {
+      .acquired = now, .valid = true, .enabled = robot.valid, .braked = action.braked, .fault = !robot.valid};
 }
 
 }  // namespace flinch
