@@ -16,11 +16,11 @@ enum class ContactLevel : std::uint8_t {
 
 /// Whether the robot is touched. Both levels latch until the detector is reset.
 struct ContactDetection {
-  bool valid = false;                             ///< there is an estimate to judge
-  ContactLevel level = ContactLevel::none;        ///< the highest level since the last reset
+  bool valid = false;                               ///< there is an estimate to judge
+  ContactLevel level = ContactLevel::none;          ///< the highest level since the last reset
   ContactLevel present_level = ContactLevel::none;  ///< of this tick's estimate alone
-  Time detected{};                                ///< tick at which the reaction threshold was first reached
-  PlatformVector wrench_in_base;                  ///< the estimate at that tick [N, N, Nm]; empty before
+  Time detected{};                ///< tick at which the reaction threshold was first reached
+  PlatformVector wrench_in_base;  ///< the estimate at that tick [N, N, Nm]; empty before
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {

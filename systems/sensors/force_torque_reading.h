@@ -6,8 +6,8 @@
 
 namespace flinch {
 
-/// One sample of the force-torque sensor below the object that the robot touches: what the object does to the robot.
-/// For validation only; no control block reads it.
+/// One sample of the force-torque sensor below the object that the robot touches: what the object does to the
+/// robot. For validation only; no control block reads it.
 struct ForceTorqueReading {
   Time acquired{};
   bool valid = false;
