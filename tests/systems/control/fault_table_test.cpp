@@ -3,96 +3,23 @@
 #include <gtest/gtest.h>
 
 #include <cctype>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <map>
 #include <numbers>
 #include <set>
 #include <string>
-#include <vector>
 
-#include "systems/control/fault_monitor.h"
-#include "systems/control/torque_gate.h"
-#include "systems/foundation/setup_error.h"
-#include "systems/framework/diagram_builder.h"
-#include "tests/support/allocations.h"
-#include "tests/support/ticking.h"
-#include "tests/systems/control/planar_bench.h"
+#include "tests/systems/control/gated_inputs.h"
 
 namespace flinch {
 namespace {
 
+using test::Inputs;
+using test::Safety;
+
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double degree = std::numbers::pi / 180.0;
-
-/// All that monitor and gate see at a tick. Healthy by default: the bench at rest at home.
-struct Inputs {
-  Inputs(const ParallelRobot& robot, Time now)
-      : posture(robot, PlatformVector::Zero(3), PlatformVector::Zero(3), now) {
-    const JointVector zero = JointVector::Zero(3);
-    station = {.acquired = now, .valid = true, .enabled = true, .braked = false, .fault = false};
-    drives = {.acquired = now, .valid = true, .current = zero};
-    detection = {.valid = true, .wrench_in_base = {}};
-    reference = {true, true, posture.platform.pose, zero, zero};
-    command = {.computed = now, .valid = true, .torque = zero};
-  }
-
-  test::Posture posture;
-  StationStatus station;
-  DriveReading drives;
-  ContactDetection detection;
-  PlatformReference reference;
-  TorqueCommand command;
-  Time last_seen = 10ms;  ///< for what hangs: the last tick of open()
-};
-
-/// Fault monitor and torque gate, wired as in the pipeline.
-struct Safety {
-  void tick(const Inputs& inputs, bool reset_now = false) {
-    ticking.set(station, inputs.station);
-    ticking.set(joints, inputs.posture.joints);
-    ticking.set(drives, inputs.drives);
-    ticking.set(motion, inputs.posture.motion);
-    ticking.set(platform, inputs.posture.platform);
-    ticking.set(measures, inputs.posture.measures);
-    ticking.set(detection, inputs.detection);
-    ticking.set(reference, inputs.reference);
-    ticking.set(command, inputs.command);
-    ticking.set(stop, {.computed = ticking.now(), .valid = true, .torque = Eigen::Vector3d(7.0, 8.0, 9.0)});
-    ticking.set(reset, {.reset = reset_now});
-    ticking.tick();
-  }
-  void tick(bool reset_now = false) { tick(Inputs(*robot, ticking.now()), reset_now); }
-  FaultMask present() const { return ticking.get(monitor.faults).present; }
-  const GateStatus& status() const { return ticking.get(gate.status); }
-
-  std::shared_ptr<const PlanarRrr> robot = test::planar_bench();
-  DiagramBuilder builder;
-  FaultMonitor& monitor = builder.add<FaultMonitor>("monitor", robot, FaultLimits());
-  TorqueGate& gate =
-      builder.add<TorqueGate>("gate", TorqueGateSettings{.max_torque = 100.0, .max_torque_rate = 1e9});
-  InputPort<TorqueCommand> command = connect();
-  InputPort<StationStatus> station = builder.export_input("station", monitor.station);
-  InputPort<JointReading> joints = builder.export_input("joints", monitor.joints);
-  InputPort<DriveReading> drives = builder.export_input("drives", monitor.drives);
-  InputPort<JointMotion> motion = builder.export_input("motion", monitor.motion);
-  InputPort<PlatformMotion> platform = builder.export_input("platform", monitor.platform);
-  InputPort<WorkspaceMeasures> measures = builder.export_input("measures", monitor.measures);
-  InputPort<ContactDetection> detection = builder.export_input("detection", monitor.detection);
-  InputPort<PlatformReference> reference = builder.export_input("reference", monitor.reference);
-  InputPort<TorqueCommand> stop = builder.export_input("stop", gate.stop);
-  InputPort<ResetCommand> reset = builder.export_input("reset", gate.reset);
-  test::Ticking ticking{builder};
-
- private:
-  InputPort<TorqueCommand> connect() {
-    const auto asked = builder.export_input("command", monitor.command);
-    builder.connect(asked, gate.command);
-    builder.connect(monitor.faults, gate.faults);
-    return asked;
-  }
-};
 
 /// What brings a fault about, and what is as bad as it can be without doing so.
 struct Cause {
@@ -274,113 +201,6 @@ TEST(FaultTable, IsEmptyForTheHealthyRobot) {
 TEST(FaultTable, HasNoFirstFaultAndNoReactionForTheEmptySet) {
   EXPECT_EQ(first_fault(0), GateFault::none);
   EXPECT_EQ(worst_reaction(0), GateReaction::none);
-}
-
-TEST(FaultMonitor, ToleratesTwoMissingSamples) {
-  Safety safety;
-  safety.tick();
-  for (int missing = 0; missing < 2; ++missing) {
-    Inputs inputs(*safety.robot, safety.ticking.now());
-    inputs.station.valid = inputs.posture.joints.valid = inputs.drives.valid = false;
-    safety.tick(inputs);
-    EXPECT_EQ(safety.status().phase, GatePhase::open);
-  }
-  safety.tick();
-  EXPECT_EQ(safety.status().phase, GatePhase::open);
-}
-
-TEST(FaultMonitor, TakesAReadingThatIsNotFiniteForMissing) {
-  Safety safety;
-  safety.tick();
-  for (int missing = 0; missing < 3; ++missing) {
-    Inputs inputs(*safety.robot, safety.ticking.now());
-    inputs.posture.joints.active[0] = nan;
-    safety.tick(inputs);
-  }
-  EXPECT_EQ(safety.status().fault, GateFault::joints_invalid);
-}
-
-TEST(FaultMonitor, FindsAReferenceThatCannotBeReached) {
-  Safety safety;
-  safety.tick();
-  for (const PlatformVector& pose : {PlatformVector(Eigen::Vector3d(5.0, 0.0, 0.0)),
-                                     PlatformVector(Eigen::Vector3d(nan, 0, 0)), PlatformVector()}) {
-    Inputs inputs(*safety.robot, safety.ticking.now());
-    inputs.reference.pose = pose;
-    safety.tick(inputs);
-    EXPECT_EQ(safety.present(), fault_bit(GateFault::control_error));
-  }
-}
-
-TEST(FaultMonitor, AsksForNoControlErrorWhereNoReferenceIsFollowed) {
-  Safety safety;
-  Inputs inputs(*safety.robot, safety.ticking.now());
-  inputs.reference = {};
-  safety.tick(inputs);
-  EXPECT_EQ(safety.present(), FaultMask{0});
-}
-
-TEST(FaultMonitor, JudgesJumpsWithinTheTorqueRange) {
-  Safety safety;
-  const auto ask = [&safety](double torque) {
-    Inputs inputs(*safety.robot, safety.ticking.now());
-    inputs.command.torque[0] = torque;
-    safety.tick(inputs);
-    return safety.present();
-  };
-  EXPECT_EQ(ask(70.0), FaultMask{0});
-  EXPECT_EQ(ask(500.0), FaultMask{0}) << "counts as 100 Nm";
-  EXPECT_EQ(ask(-500.0), fault_bit(GateFault::torque_jump));
-}
-
-/// No input that is not a number may pass unnoticed where it matters, and none may reach the station.
-TEST(FaultMonitor, FindsEveryNumberThatIsNone) {
-  const std::vector<std::function<double&(Inputs&)>> numbers{
-      [](Inputs& in) -> double& { return in.posture.motion.position[1]; },
-      [](Inputs& in) -> double& { return in.posture.motion.velocity[1]; },
-      [](Inputs& in) -> double& { return in.posture.platform.pose[1]; },
-      [](Inputs& in) -> double& { return in.posture.platform.velocity[1]; },
-      [](Inputs& in) -> double& { return in.posture.measures.det_A; },
-      [](Inputs& in) -> double& { return in.posture.measures.det_B; },
-      [](Inputs& in) -> double& { return in.posture.measures.sigma_sc; },
-      [](Inputs& in) -> double& { return in.reference.pose[1]; },
-      [](Inputs& in) -> double& { return in.command.torque[1]; }};
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    for (const double bad : {nan, std::numeric_limits<double>::infinity()}) {
-      if (i >= 4 && i <= 6 && !std::isnan(bad)) continue;  // infinitely far from a singularity is fine
-      Safety safety;
-      safety.tick();
-      Inputs inputs(*safety.robot, safety.ticking.now());
-      numbers[i](inputs) = bad;
-      safety.tick(inputs);
-      EXPECT_NE(safety.present(), FaultMask{0}) << i;
-      EXPECT_TRUE(safety.ticking.get(safety.gate.torque_command).torque.allFinite()) << i;
-    }
-  }
-}
-
-TEST(FaultMonitor, NeverAllocates) {
-  Safety safety;
-  safety.tick();
-  const test::AllocationCounter counter;
-  safety.tick();
-  EXPECT_EQ(counter.count(), 0);
-}
-
-TEST(FaultLimits, MustNotExcludeTheRobotAtHome) {
-  FaultLimits limits;
-  limits.workspace.min_abs_det_A = 0.6;
-  EXPECT_THROW(FaultMonitor(test::planar_bench(), limits), SetupError);
-}
-
-TEST(FaultLimits, NameEverythingThatIsWrongWithThem) {
-  FaultLimits limits;
-  limits.max_joint_speed = 0.0;
-  limits.max_control_error = nan;
-  limits.max_torque_jump = -1.0;
-  limits.longest_gap = -1ms;
-  EXPECT_EQ(problems(limits, *test::planar_bench()).size(), 4U);
-  EXPECT_TRUE(problems(FaultLimits(), *test::planar_bench()).empty());
 }
 
 }  // namespace
