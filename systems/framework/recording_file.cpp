@@ -163,11 +163,30 @@ void put_columns(Signal& signal, const std::vector<Number>& columns, std::size_t
   }
 }
 
+/// Properties of groups or files without time stamps; `kind` is H5P_GROUP_CREATE or H5P_FILE_CREATE.
+Handle timeless(hid_t kind) {
+  Handle list(H5Pcreate(kind), H5Pclose, "making properties");
+  check(H5Pset_obj_track_times(list, false), "leaving out time stamps");
+  return list;
+}
+
+/// Opens the group `path`; it and those around it are made where they are missing.
+Handle make_group(hid_t file, const std::string& path) {
+  const Handle creation = timeless(H5P_GROUP_CREATE);
+  const std::string doing = "making the group '" + path + "'";
+  for (std::size_t end = path.find('/');; end = path.find('/', end + 1)) {
+    const std::string part = path.substr(0, end);
+    if (H5Lexists(file, part.c_str(), H5P_DEFAULT) <= 0) {
+      Handle group(H5Gcreate2(file, part.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose, doing);
+      if (end == std::string::npos) return group;
+    } else if (end == std::string::npos) {
+      return {H5Gopen2(file, part.c_str(), H5P_DEFAULT), H5Gclose, doing};
+    }
+  }
+}
+
 void write_signal(hid_t file, const Signal& signal, std::size_t samples, Time period) {
-  const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, "making link properties");
-  check(H5Pset_create_intermediate_group(links, 1), "nesting groups");
-  const Handle group(H5Gcreate2(file, signal.path.c_str(), links, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
-                     "making the group '" + signal.path + "'");
+  const Handle group = make_group(file, signal.path);
   write_integer(group, "period_ns", period.count());
   std::string order;
   std::size_t first = 0;
@@ -250,7 +269,7 @@ constexpr const char* period_attribute = "flinch.period_ns";
 void write_to(const Recording& recording, const std::filesystem::path& file) {
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "making file properties");
   check(H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST), "choosing the file version");
-  const Handle hdf(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose,
+  const Handle hdf(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, timeless(H5P_FILE_CREATE), access), H5Fclose,
                    "creating the file");
   const Handle root(H5Gopen2(hdf, "/", H5P_DEFAULT), H5Gclose, "opening the root group");
   std::vector<Number> times(recording.samples());
