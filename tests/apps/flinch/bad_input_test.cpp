@@ -1,0 +1,262 @@
+// Whatever is wrong with what the program is given: one clear sentence on stderr, exit status 2, and no file
+// written or overwritten.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "systems/framework/recording.h"
+#include "tests/apps/flinch/program.h"
+
+namespace flinch {
+namespace {
+
+using test::flinch;
+using test::Outcome;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+constexpr const char* collision = "scenarios/platform_collision.yaml";
+constexpr const char* robot = "robots/planar_3rrr.yaml";
+
+class BadInput : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    place.write("out/run.h5", "an older recording");
+    place.write("out/report.html", "an older report");
+  }
+
+  /// Runs the program, which must leave every file as it is, and print nothing but one line on stderr.
+  std::string complaint(const std::vector<std::string>& arguments) {
+    const auto before = place.contents();
+    const Outcome outcome = flinch(arguments);
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_TRUE(place.contents() == before) << "files were written";
+    return outcome.err;
+  }
+
+  /// The same for 'flinch run' with the older results in the way.
+  std::string complaint_of_run(const std::string& scenario = collision) {
+    return complaint({"run", place.at(scenario), "--out", place.at("out")});
+  }
+
+  /// "error: FILE:LINE: ", where LINE is the one with `text`.
+  std::string at_line_of(const std::string& name, const std::string& text) const {
+    return "error: " + place.at(name) + ":" + std::to_string(place.line_of(name, text)) + ": ";
+  }
+
+  test::Workplace place;
+};
+
+// ---------------------------------------------------------------- scenario files
+
+TEST_F(BadInput, MotionThatTheLegsDoNotReach) {
+  place.replace(collision, "pose: {x_mm: -40", "pose: {x_mm: -640");
+  const std::string said = complaint_of_run();
+  EXPECT_THAT(said, StartsWith(at_line_of(collision, "motion:") + "motion: "));
+  EXPECT_THAT(said, HasSubstr("the legs do not reach the pose (-0.6"));
+}
+
+TEST_F(BadInput, KeyWithTheUnitOfAnotherQuantity) {
+  place.replace(collision, "speed_m_per_s", "speed_m");
+  EXPECT_EQ(complaint_of_run(), at_line_of(collision, "speed_m") +
+                                    "motion.speed_m: has the wrong unit, m; write speed_m_per_s or "
+                                    "speed_mm_per_s\n");
+}
+
+TEST_F(BadInput, KeyThatNobodyKnows) {
+  place.replace(collision, "reaction_force_N", "reacton_force_N");
+  EXPECT_EQ(complaint_of_run(), at_line_of(collision, "reacton_force_N") +
+                                    "control.contact_detector.reacton_force_N: is not a known key; did you "
+                                    "mean 'reaction_force_N'?\n");
+}
+
+TEST_F(BadInput, KeyThatIsGivenTwice) {
+  place.replace(collision, "seed: 1\n", "seed: 1\nseed: 2\n");
+  EXPECT_EQ(complaint_of_run(), at_line_of(collision, "seed: 2") + "seed: is given already on line " +
+                                    std::to_string(place.line_of(collision, "seed: 1")) +
+                                    "; keep one of them\n");
+}
+
+TEST_F(BadInput, NumberThatIsNone) {
+  place.replace(collision, "cruise_mm: 80", "cruise_mm: .nan");
+  EXPECT_EQ(complaint_of_run(),
+            at_line_of(collision, ".nan") + "motion.cruise_mm: is .nan; it must be a finite number\n");
+}
+
+TEST_F(BadInput, ExpectationAboutAnUnknownBody) {
+  place.replace(collision, "contact: platform", "contact: plattform");
+  EXPECT_EQ(complaint_of_run(), at_line_of(collision, "plattform") +
+                                    "expect.contact: is 'plattform', which is no body of this robot; did you "
+                                    "mean 'platform'?\n");
+}
+
+TEST_F(BadInput, SettingsThatDoNotFitTogether) {
+  place.replace(collision, "reaction_force_N: 10", "reaction_force_N: 100");
+  const std::string said = complaint_of_run();
+  EXPECT_THAT(said, StartsWith("error: " + place.at(collision) + ": "));
+  EXPECT_THAT(said, HasSubstr("hard has a threshold below that of reaction"));
+}
+
+TEST_F(BadInput, ScenarioThatIsNotThere) {
+  EXPECT_EQ(complaint_of_run("scenarios/platform_colision.yaml"),
+            "error: " + place.at("scenarios/platform_colision.yaml") +
+                ": no such file; did you mean 'platform_collision.yaml'?\n");
+}
+
+TEST_F(BadInput, EveryProblemIsToldAtOnce) {
+  place.replace(collision, "speed_m_per_s: 0.95", "speed_m_per_s: -1");
+  place.replace(collision, "seed: 1", "seed: one");
+  place.replace(robot, "mass_kg: 0.642", "mass_kg: 0");
+  const Outcome outcome = flinch({"run", place.at(collision), "--out", place.at("out")});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr(at_line_of(collision, "speed_m_per_s") + "motion.speed_m_per_s: is -1"));
+  EXPECT_THAT(outcome.err, HasSubstr(at_line_of(collision, "seed: one") + "seed: is 'one'"));
+  EXPECT_THAT(outcome.err, HasSubstr("planar_3rrr.yaml:"));
+  EXPECT_THAT(outcome.err, HasSubstr("platform.mass_kg: is 0 kg; it must be positive"));
+}
+
+// ---------------------------------------------------------------- robot files
+
+TEST_F(BadInput, RobotThatIsNotThere) {
+  place.replace(collision, "planar_3rrr.yaml", "planar_3rr.yaml");
+  const std::string said = complaint_of_run();
+  EXPECT_THAT(said,
+              StartsWith(at_line_of(collision, "planar_3rr.yaml") + "robot: is '../robots/planar_3rr.yaml'"));
+  EXPECT_THAT(said, HasSubstr("no such file; did you mean 'planar_3rrr.yaml'?"));
+}
+
+TEST_F(BadInput, MassThatIsNegative) {
+  place.replace(robot, "mass_kg: 0.642", "mass_kg: -0.642");
+  EXPECT_EQ(complaint_of_run(),
+            at_line_of(robot, "mass_kg: -0.642") + "platform.mass_kg: is -0.642 kg; it must be positive\n");
+}
+
+TEST_F(BadInput, InertiaThatIsNotPositiveDefinite) {
+  const std::string inertia = "base_parameters: {p1_kg_m2: 0.6, p2_kg_m2: 0.01, p3_kg_m2: 0.1356582}";
+  place.replace(robot, "base_parameters: *leg_inertia", inertia);
+  const std::string said = complaint_of_run();
+  EXPECT_THAT(said, StartsWith(at_line_of(robot, inertia) + "legs[1].base_parameters: "));
+  EXPECT_THAT(said,
+              HasSubstr("(p1 - p2) p2 = 0.0059 and p3^2 = 0.0184031 kg^2 m^4; the first must be greater"));
+}
+
+TEST_F(BadInput, RobotFileIsNamedAsTheScenarioFindsIt) {
+  place.replace(robot, "link_radius_m: 0.03", "link_radius_m: .inf");
+  EXPECT_THAT(complaint({"check", place.at(robot)}),
+              StartsWith(at_line_of(robot, ".inf") + "link_radius_m: is .inf"));
+}
+
+// ---------------------------------------------------------------- recordings
+
+TEST_F(BadInput, RecordingWithoutItsEnd) {
+  ASSERT_EQ(flinch({"run", place.at(collision), "--out", place.at("whole")}).status, 0);
+  const std::string whole = test::bytes_of(place / "whole/run.h5");
+  place.write("out/run.h5", whole.substr(0, whole.size() / 2));
+  for (const std::string verb : {"report", "check"}) {
+    const std::string said = complaint({verb, place.at("out/run.h5")});
+    EXPECT_THAT(said, StartsWith("error: " + place.at("out/run.h5") + ": this is no whole flinch recording"));
+    EXPECT_THAT(said, HasSubstr("its end is missing"));
+  }
+}
+
+TEST_F(BadInput, RecordingThatIsNoRecording) {
+  EXPECT_THAT(complaint({"report", place.at(collision), "--out", place.at("out/report.html")}),
+              StartsWith("error: " + place.at(collision) + ": this is no whole flinch recording"));
+  EXPECT_EQ(complaint({"report", place.at("out/none.h5")}),
+            "error: " + place.at("out/none.h5") + ": there is no such file\n");
+}
+
+TEST_F(BadInput, RecordingOfAnotherProgram) {
+  Recording recording;
+  recording.period = 1ms;
+  recording.time_ns = {0};
+  write_recording(recording, place / "out/run.h5");
+  for (const std::string verb : {"report", "check"}) {
+    EXPECT_EQ(complaint({verb, place.at("out/run.h5")}),
+              "error: " + place.at("out/run.h5") +
+                  ": the recording has no attribute 'scenario.file'; it was not made by 'flinch run'\n");
+  }
+}
+
+TEST_F(BadInput, RecordingThatLacksASignalOrItsSeed) {
+  ASSERT_EQ(flinch({"run", place.at(collision), "--out", place.at("out")}).status, 0);
+  const Recording whole = read_recording(place / "out/run.h5");
+  Recording spoilt = whole;
+  std::erase_if(spoilt.signals, [](const Signal& signal) { return signal.path == "wrench"; });
+  write_recording(spoilt, place / "out/run.h5");
+  const std::string said = complaint({"check", place.at("out/run.h5")});
+  EXPECT_THAT(said, StartsWith("error: " + place.at("out/run.h5") + ": "));
+  EXPECT_THAT(said, HasSubstr("'wrench'"));
+
+  spoilt = whole;
+  spoilt.attributes["seed"] = "one";
+  write_recording(spoilt, place / "out/run.h5");
+  EXPECT_EQ(complaint({"report", place.at("out/run.h5")}),
+            "error: " + place.at("out/run.h5") +
+                ": the attribute 'seed' is 'one'; it must be a whole number between 0 and 2^64 - 1\n");
+}
+
+// ---------------------------------------------------------------- the command line
+
+TEST_F(BadInput, FolderThatCannotBeMade) {
+  for (const std::string folder : {"out/run.h5", "out/run.h5/below"}) {
+    EXPECT_EQ(complaint({"run", place.at(collision), "--out", place.at(folder)}),
+              "error: " + place.at(folder) + ": the folder cannot be made: Not a directory\n");
+  }
+}
+
+TEST_F(BadInput, PlaceForAPageOrGraphThatIsNotThere) {
+  const std::string folder = place.at("nowhere");
+  const std::string complaint_end =
+      ": cannot be written, for there is no folder " + folder + "; make it first\n";
+  for (const std::string name : {"/loop.svg", "/loop.dot"}) {
+    EXPECT_EQ(complaint({"graph", place.at(collision), "--out", folder + name}),
+              "error: " + folder + name + complaint_end);
+  }
+  EXPECT_EQ(complaint({"report", place.at("out/run.h5"), "--out", folder + "/page.html"}),
+            "error: " + folder + "/page.html" + complaint_end);
+}
+
+TEST_F(BadInput, GraphThatIsNeitherSvgNorDot) {
+  EXPECT_EQ(complaint({"graph", place.at(collision), "--out", place.at("out/loop.png")}),
+            "error: " + place.at("out/loop.png") + ": a graph is written as .svg or .dot, not as '.png'\n");
+}
+
+TEST_F(BadInput, VerbThatNobodyKnows) {
+  EXPECT_EQ(complaint({"reprot", place.at(collision)}),
+            "error: 'reprot' is no verb; did you mean 'report'?\n");
+  EXPECT_EQ(complaint({}), "error: there is no verb; known are: run, report, graph, check\n");
+}
+
+TEST_F(BadInput, ArgumentThatIsMissingOrTooMuch) {
+  EXPECT_EQ(complaint({"run"}), "error: scenario is required; 'flinch run --help' shows how\n");
+  const std::string said = complaint({"check", place.at(collision), "--jason"});
+  EXPECT_THAT(said, HasSubstr("--jason"));
+  EXPECT_THAT(said, HasSubstr("; 'flinch check --help' shows how"));
+}
+
+TEST_F(BadInput, SeedThatIsNoWholeNumber) {
+  for (const std::string seed : {"-1", "1.5", "one", "", "1e3", "0x10", "18446744073709551616"}) {
+    EXPECT_EQ(complaint({"run", place.at(collision), "--out", place.at("out"), "--seed", seed}),
+              "error: --seed: is '" + seed +
+                  "'; it must be a whole number between 0 and 2^64 - 1; 'flinch run --help' shows how\n");
+  }
+}
+
+TEST_F(BadInput, IsToldAsOneJsonObjectToPrograms) {
+  place.replace(collision, "seed: 1\n", "seed: 1\nseed: 2\n");
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"run", place.at(collision), "--json"}, {"check", "--json"}}) {
+    const Outcome outcome = flinch(arguments);
+    EXPECT_EQ(outcome.status, 2);
+    const auto said = nlohmann::json::parse(outcome.out);
+    ASSERT_EQ(said["error"].size(), 1U);
+    EXPECT_EQ("error: " + said["error"][0].get<std::string>() + "\n", outcome.err);
+  }
+}
+
+}  // namespace
+}  // namespace flinch

@@ -1,0 +1,257 @@
+// The program from its command line to its files.
+#include "apps/flinch/command_line.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "systems/framework/recording.h"
+#include "tests/apps/flinch/program.h"
+
+namespace flinch {
+namespace {
+
+using nlohmann::json;
+using test::flinch;
+using test::Outcome;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+constexpr const char* collision = "scenarios/platform_collision.yaml";
+const std::vector<std::string> verbs = {"run", "report", "graph", "check"};
+
+class CommandLine : public ::testing::Test {
+ protected:
+  Outcome run(const std::string& scenario, const std::vector<std::string>& options = {}) const {
+    std::vector<std::string> arguments = {"run", place.at(scenario), "--out", place.at("out")};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return flinch(arguments);
+  }
+  std::string bytes_of(const std::string& name) const { return test::bytes_of(place / name); }
+
+  test::Workplace place;
+};
+
+// ---------------------------------------------------------------- exit status
+
+TEST_F(CommandLine, Ends0WhereTheVerdictIsGood) {
+  const Outcome outcome = run(collision);
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_THAT(outcome.out, HasSubstr("verdict: good\n"));
+}
+
+TEST_F(CommandLine, Ends1WhereTheVerdictIsBadAndStillWritesEverything) {
+  place.replace(collision, "detection_time_ms: 15", "detection_time_ms: 1");
+  const Outcome outcome = run(collision);
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("verdict: bad\n  - the contact with platform was detected after"));
+  EXPECT_FALSE(bytes_of("out/run.h5").empty());
+  EXPECT_FALSE(bytes_of("out/report.html").empty());
+}
+
+TEST_F(CommandLine, Ends3WhereAFaultClosesTheTorqueGate) {
+  place.write("scenarios/fault.yaml",
+              "robot: ../robots/planar_3rrr.yaml\nduration_s: 1\n"
+              "motion: {kind: through, poses: [{x_mm: 0}, {x_mm: 360}]}\n");
+  const Outcome outcome = run("scenarios/fault.yaml");
+  EXPECT_EQ(outcome.status, 3) << outcome.out << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("verdict: bad\n  - the torque gate closed: "));
+}
+
+// ---------------------------------------------------------------- what it prints
+
+TEST_F(CommandLine, PrintsResultsOnStdoutAndMessagesOnStderr) {
+  const Outcome outcome = run(collision);
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("contact with"), HasSubstr("platform"), HasSubstr("seed 1")));
+  EXPECT_THAT(outcome.out, Not(HasSubstr("run.h5")));
+  EXPECT_EQ(outcome.err,
+            "simulating platform_collision: 25 %\nsimulating platform_collision: 50 %\n"
+            "simulating platform_collision: 75 %\nrecording: " +
+                place.at("out/run.h5") + "\nreport:    " + place.at("out/report.html") + "\n");
+}
+
+TEST_F(CommandLine, PrintsOnlyResultsWhenQuiet) {
+  const Outcome outcome = run(collision, {"--quiet"});
+  EXPECT_THAT(outcome.out, HasSubstr("verdict: good\n"));
+  EXPECT_EQ(outcome.err, "");
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"check", place.at(collision), "--quiet"},
+        {"report", place.at("out/run.h5"), "--quiet"},
+        {"graph", place.at(collision), "--quiet", "--out", place.at("loop.dot")}}) {
+    const Outcome quiet = flinch(arguments);
+    EXPECT_EQ(quiet.status, 0);
+    EXPECT_EQ(quiet.out + quiet.err, "");
+  }
+}
+
+TEST_F(CommandLine, PrintsOneJsonObjectWithTheWholeVerdict) {
+  const Outcome outcome = run(collision, {"--json", "--seed", "5"});
+  EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 1);
+  const json verdict = json::parse(outcome.out);
+  for (const std::string key : {"max_observer_error_N", "max_observer_error_Nm", "max_tracking_error_mm",
+                                "loop_closure_m", "simulated_s", "wall_s"}) {
+    EXPECT_TRUE(verdict.at(key).is_number_float()) << key;
+  }
+  EXPECT_EQ(verdict.at("verdict"), "good");
+  EXPECT_EQ(verdict.at("false_detections"), 0);
+  EXPECT_EQ(verdict.at("seed"), 5);
+  EXPECT_EQ(verdict.at("simulated_s"), 1.2);
+
+  ASSERT_EQ(verdict.at("contacts").size(), 1U);
+  const json& contact = verdict["contacts"][0];
+  EXPECT_EQ(contact.at("body"), "platform");
+  EXPECT_EQ(contact.at("detected"), true);
+  EXPECT_EQ(contact.at("within_limit"), true);
+  for (const std::string key : {"detection_ms", "removal_ms", "peak_force_N", "limit_N"}) {
+    EXPECT_TRUE(contact.at(key).is_number()) << key;
+  }
+}
+
+TEST_F(CommandLine, PrintsNullInJsonForWhatDidNotHappen) {
+  place.replace("scenarios/clamping.yaml", "duration_s: 1.5", "duration_s: 0.48");
+  const json contact = json::parse(run("scenarios/clamping.yaml", {"--json"}).out).at("contacts").at(0);
+  EXPECT_EQ(contact.at("detected"), false);
+  EXPECT_TRUE(contact.at("detection_ms").is_null());
+  EXPECT_TRUE(contact.at("removal_ms").is_null());
+}
+
+TEST_F(CommandLine, PrintsOneJsonObjectForEveryVerb) {
+  run(collision);
+  EXPECT_EQ(json::parse(flinch({"check", place.at(collision), "--json"}).out),
+            json({{"file", place.at(collision)}, {"kind", "scenario"}, {"good", true}}));
+  EXPECT_EQ(json::parse(flinch({"report", place.at("out/run.h5"), "--json"}).out),
+            json({{"report", place.at("out/report.html")}}));
+  EXPECT_EQ(json::parse(flinch({"graph", place.at(collision), "--out", place.at("loop.svg"), "--json"}).out),
+            json({{"graph", place.at("loop.svg")}}));
+  EXPECT_THAT(json::parse(flinch({"graph", place.at(collision), "--json"}).out).at("dot").get<std::string>(),
+              StartsWith("digraph"));
+}
+
+TEST_F(CommandLine, HelpsWithAnExampleOfEveryVerb) {
+  const Outcome help = flinch({"--help"});
+  EXPECT_EQ(help.status, 0);
+  EXPECT_THAT(help.out,
+              HasSubstr("Exit status: 0 done, 1 the verdict is bad, 2 bad input or usage, 3 a fault"));
+  for (const std::string& verb : verbs) {
+    EXPECT_THAT(help.out, HasSubstr("  " + verb + " "));
+    const Outcome of_verb = flinch({verb, "--help"});
+    EXPECT_EQ(of_verb.status, 0);
+    EXPECT_EQ(of_verb.err, "");
+    EXPECT_THAT(of_verb.out, HasSubstr("Example:\n  flinch " + verb + " "));
+    for (const std::string option : {"--json", "--quiet"}) EXPECT_THAT(of_verb.out, HasSubstr(option));
+  }
+}
+
+TEST_F(CommandLine, TellsItsVersion) {
+  const Outcome outcome = flinch({"--version"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_THAT(outcome.out, ::testing::MatchesRegex("flinch [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+// ---------------------------------------------------------------- what it writes
+
+TEST_F(CommandLine, WritesTheSameBytesAgain) {
+  run(collision);
+  const std::string recording = bytes_of("out/run.h5");
+  const std::string page = bytes_of("out/report.html");
+  std::this_thread::sleep_for(1100ms);  // HDF5 would keep times in whole seconds
+  run(collision);
+  EXPECT_TRUE(bytes_of("out/run.h5") == recording);
+  EXPECT_TRUE(bytes_of("out/report.html") == page);
+}
+
+TEST_F(CommandLine, WritesTheSameDataElsewhereWithTheCommandThatMadeIt) {
+  run(collision);
+  flinch({"run", place.at(collision), "--out", place.at("elsewhere"), "--quiet"});
+  Recording here = read_recording(place / "out/run.h5");
+  Recording there = read_recording(place / "elsewhere/run.h5");
+  EXPECT_EQ(here.attributes.at("command_line"),
+            "flinch run " + place.at(collision) + " --out " + place.at("out"));
+  EXPECT_EQ(there.attributes.at("command_line"),
+            "flinch run " + place.at(collision) + " --out " + place.at("elsewhere") + " --quiet");
+
+  there.attributes["command_line"] = here.attributes["command_line"];
+  write_recording(there, place / "elsewhere/run.h5");
+  EXPECT_TRUE(bytes_of("elsewhere/run.h5") == bytes_of("out/run.h5"));
+}
+
+TEST_F(CommandLine, WritesOtherDataForAnotherSeed) {
+  run(collision, {"--seed", "1"});
+  const Recording one = read_recording(place / "out/run.h5");
+  run(collision, {"--seed", "2"});
+  const Recording two = read_recording(place / "out/run.h5");
+  EXPECT_EQ(two.attributes.at("seed"), "2");
+  EXPECT_NE(one.column("joints", "active"), two.column("joints", "active"));
+}
+
+TEST_F(CommandLine, SaysInTheRecordingWhatMadeIt) {
+  run(collision, {"--seed", "9"});
+  const Recording recording = read_recording(place / "out/run.h5");
+  EXPECT_EQ(recording.period, 1ms);
+  EXPECT_EQ(recording.samples(), 1200U);
+  EXPECT_EQ(recording.attributes.at("seed"), "9");
+  EXPECT_EQ(recording.attributes.at("scenario.file"), "platform_collision.yaml");
+  EXPECT_EQ(recording.attributes.at("scenario.text"), bytes_of(collision));
+  EXPECT_EQ(recording.attributes.at("robot.text"), bytes_of("robots/planar_3rrr.yaml"));
+  EXPECT_EQ("flinch " + recording.attributes.at("flinch.version") + "\n", flinch({"--version"}).out);
+}
+
+TEST_F(CommandLine, MakesTheSamePageFromARecordingAsTheRun) {
+  run(collision, {"--seed", "9"});
+  const Outcome outcome = flinch({"report", place.at("out/run.h5"), "--out", place.at("again.html")});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.out, "report: " + place.at("again.html") + "\n");
+  EXPECT_TRUE(bytes_of("again.html") == bytes_of("out/report.html"));
+}
+
+TEST_F(CommandLine, MakesThePageWithoutTheFilesOfTheScenario) {
+  run(collision);
+  std::filesystem::remove_all(place / "scenarios");
+  std::filesystem::remove_all(place / "robots");
+  std::filesystem::rename(place / "out", place / "moved");
+  const std::string page = bytes_of("moved/report.html");
+  std::filesystem::remove(place / "moved/report.html");
+  EXPECT_EQ(flinch({"report", place.at("moved/run.h5")}).status, 0);
+  EXPECT_TRUE(bytes_of("moved/report.html") == page);
+}
+
+TEST_F(CommandLine, ShowsInThePageTheSeedThatTookEffect) {
+  run(collision, {"--seed", "123456789"});
+  EXPECT_THAT(bytes_of("out/report.html"), HasSubstr("\"from the command line\""));
+  EXPECT_THAT(bytes_of("out/report.html"), HasSubstr("\"123456789\""));
+}
+
+TEST_F(CommandLine, DrawsTheClosedLoopAsDotOrSvg) {
+  const std::string dot = flinch({"graph", place.at(collision)}).out;
+  EXPECT_THAT(dot, AllOf(StartsWith("digraph"), HasSubstr("station"), HasSubstr("torque_gate")));
+  EXPECT_EQ(flinch({"graph", place.at(collision), "--out", place.at("loop.dot")}).status, 0);
+  EXPECT_EQ(bytes_of("loop.dot"), dot);
+
+  const Outcome outcome = flinch({"graph", place.at(collision), "--out", place.at("it's a loop.svg")});
+  EXPECT_EQ(outcome.out, "graph: " + place.at("it's a loop.svg") + "\n");
+  EXPECT_THAT(bytes_of("it's a loop.svg"), AllOf(HasSubstr("<svg"), HasSubstr("</svg>")));
+  for (const auto& [file, bytes] : place.contents()) EXPECT_THAT(file, Not(HasSubstr(".part")));
+}
+
+TEST_F(CommandLine, ChecksScenariosRobotsAndRecordings) {
+  run(collision);
+  EXPECT_EQ(flinch({"check", place.at(collision)}).out, place.at(collision) + ": a good scenario file\n");
+  EXPECT_EQ(flinch({"check", place.at("robots/planar_3rrr.yaml")}).out,
+            place.at("robots/planar_3rrr.yaml") + ": a good robot file\n");
+  EXPECT_EQ(flinch({"check", place.at("out/run.h5")}).out,
+            place.at("out/run.h5") + ": a good recording file\n");
+}
+
+TEST_F(CommandLine, WritesNothingWhenItChecks) {
+  const auto before = place.contents();
+  flinch({"check", place.at(collision)});
+  EXPECT_TRUE(place.contents() == before);
+}
+
+}  // namespace
+}  // namespace flinch

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "plant/contact_truth.h"
+#include "plant/plant_truth.h"
+#include "systems/control/gate_status.h"
+#include "systems/control/platform_reference.h"
+#include "systems/control/reaction_state.h"
+#include "systems/framework/recording.h"
+#include "systems/observers/contact_detection.h"
+#include "systems/observers/wrench_estimate.h"
+#include "systems/robot/body_id.h"
+
+namespace flinch::test {
+
+/// All that a verdict looks at, at one tick.
+struct Moment {
+  PlantTruth truth;
+  ContactTruth contact;
+  WrenchEstimate estimate;
+  ContactDetection detection;
+  ReactionState reaction;
+  PlatformReference reference;
+  GateStatus gate;
+};
+
+/// A recording made up tick by tick: the robot rests where it shall, nothing touches it and nothing is
+/// noticed, until something else is said.
+class SyntheticRun {
+ public:
+  explicit SyntheticRun(int milliseconds) : moments_(static_cast<std::size_t>(milliseconds), quiet()) {}
+
+  /// The tick at `milliseconds`.
+  Moment& at(int milliseconds) { return moments_[static_cast<std::size_t>(milliseconds)]; }
+
+  /// The pylon pushes `body` with `force` [N] along x, from the first tick to the last.
+  SyntheticRun& touch(BodyId body, int first, int last, double force) {
+    for (int k = first; k <= last; ++k) {
+      at(k).contact.strongest.body = body.index();
+      at(k).contact.strongest.force_in_base = {force, 0.0};
+      at(k).truth.wrench_in_base[0] = force;
+    }
+    return *this;
+  }
+
+  /// The estimate is above the reaction threshold from the first tick to the last; the detector latches.
+  SyntheticRun& notice(int first, int last) {
+    for (int k = first; k < static_cast<int>(moments_.size()); ++k) {
+      at(k).detection.level = ContactLevel::reaction;
+      if (k <= last) at(k).detection.present_level = ContactLevel::reaction;
+    }
+    return *this;
+  }
+
+  Recording recording() const {
+    Recording recording;
+    recording.period = 1ms;
+    for (std::size_t k = 0; k < moments_.size(); ++k) {
+      recording.time_ns.push_back(1'000'000 * static_cast<std::int64_t>(k));
+    }
+    recording.signals = {signal("truth", &Moment::truth),       signal("contact", &Moment::contact),
+                         signal("wrench", &Moment::estimate),   signal("detection", &Moment::detection),
+                         signal("reaction", &Moment::reaction), signal("reference", &Moment::reference),
+                         signal("gate", &Moment::gate)};
+    return recording;
+  }
+
+ private:
+  static Moment quiet() {
+    const PlatformVector zero = PlatformVector::Zero(3);
+    Moment moment;
+    moment.truth.valid = moment.contact.valid = moment.detection.valid = true;
+    moment.truth.pose = moment.truth.velocity = moment.truth.wrench_in_base = zero;
+    moment.estimate.valid = moment.reference.valid = true;
+    moment.estimate.wrench_in_base = moment.reference.pose = zero;
+    moment.reaction.mode = ReactionMode::nominal;
+    moment.gate.phase = GatePhase::open;
+    return moment;
+  }
+
+  template <class Value>
+  Signal signal(const std::string& path, Value Moment::*value) const {
+    Signal signal{path, row_layout<Value>(), {}};
+    signal.rows.resize(moments_.size() * signal.layout.numbers);
+    for (std::size_t k = 0; k < moments_.size(); ++k) {
+      write_row(moments_[k].*value, signal.rows.data() + k * signal.layout.numbers);
+    }
+    return signal;
+  }
+
+  std::vector<Moment> moments_;
+};
+
+}  // namespace flinch::test
