@@ -1,0 +1,81 @@
+#include "drivers/bus_settings.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace flinch {
+namespace {
+
+bool is_loopback(const BusSettings& settings) {
+  return settings.interface == "lo" || settings.interface == "127.0.0.1";
+}
+
+/// What interface names and addresses consist of; nothing of it means anything in XML.
+bool is_address(const std::string& text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char letter) {
+    return std::isalnum(letter) != 0 || letter == '.' || letter == ':' || letter == '-' || letter == '_';
+  });
+}
+
+std::string network(const BusSettings& settings) {
+  const bool is_number = std::isdigit(static_cast<unsigned char>(settings.interface.front())) != 0;
+  const std::string attribute = is_number ? "address" : "name";
+  const bool multicast = !is_loopback(settings) && settings.peers.empty();
+  return "<General><Interfaces><NetworkInterface " + attribute + "=\"" + settings.interface +
+         "\" multicast=\"" + (multicast ? "default" : "false") + "\"/></Interfaces><AllowMulticast>" +
+         (multicast ? "default" : "false") + "</AllowMulticast></General>";
+}
+
+std::string discovery(const BusSettings& settings) {
+  std::vector<std::string> peers = settings.peers;
+  if (is_loopback(settings)) peers = {"127.0.0.1"};
+  if (peers.empty()) return "";
+  std::string list;
+  for (const std::string& peer : peers) list += "<Peer address=\"" + peer + "\"/>";
+  return "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>9"
+         "</MaxAutoParticipantIndex><Peers>" +
+         list + "</Peers></Discovery>";
+}
+
+std::string threads(const BusSettings& settings) {
+  if (settings.realtime_priority == 0) return "";
+  std::string list;
+  for (const char* name : {"recv", "tev", "dq.user"}) {
+    list += std::string("<Thread Name=\"") + name + "\"><Scheduling><Class>Realtime</Class><Priority>" +
+            std::to_string(settings.realtime_priority) + "</Priority></Scheduling></Thread>";
+  }
+  return "<Threads>" + list + "</Threads>";
+}
+
+}  // namespace
+
+std::vector<std::string> problems(const BusSettings& settings) {
+  std::vector<std::string> found;
+  if (settings.domain > 230) found.push_back("the domain of the bus must be 0 to 230");
+  if (!is_address(settings.interface)) {
+    found.push_back("'" + settings.interface + "' is neither name nor address of a network interface");
+  }
+  for (const std::string& peer : settings.peers) {
+    if (!is_address(peer)) found.push_back("the peer '" + peer + "' is no address");
+  }
+  if (is_loopback(settings) && !settings.peers.empty()) {
+    found.push_back("a bus on the loopback interface has no peers on other machines");
+  }
+  if (settings.realtime_priority < 0 || settings.realtime_priority > 99) {
+    found.push_back("the real-time priority of the bus must be 1 to 99, or 0 for none");
+  }
+  return found;
+}
+
+std::vector<std::string> warnings(const BusSettings& settings) {
+  if (is_loopback(settings)) return {};
+  return {"whoever reaches the interface '" + settings.interface +
+          "' can command the robot: the bus leaves this machine without security"};
+}
+
+std::string cyclone_configuration(const BusSettings& settings) {
+  return "<CycloneDDS xmlns=\"https://cdds.io/config\"><Domain Id=\"any\">" + network(settings) +
+         discovery(settings) + threads(settings) + "</Domain></CycloneDDS>";
+}
+
+}  // namespace flinch

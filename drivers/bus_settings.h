@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace flinch {
+
+/// Where the bus is.
+struct BusSettings {
+  std::uint32_t domain = 0;  ///< who shares the number shares the bus, 0 to 230
+  std::string interface =
+      "lo";  ///< name or address of the network interface; "lo": nothing leaves the machine
+  std::vector<std::string> peers = {};  ///< addresses of the other ends where the network has no multicast
+  int realtime_priority = 0;            ///< of the threads of the bus, SCHED_FIFO, 1 to 99; 0: as all threads
+};
+
+/// All that is wrong with `settings`, one sentence each.
+std::vector<std::string> problems(const BusSettings& settings);
+
+/// What the user should know before going on, one sentence each: a bus that others can reach and command.
+std::vector<std::string> warnings(const BusSettings& settings);
+
+/// The configuration of Cyclone DDS that makes this bus, in its XML.
+std::string cyclone_configuration(const BusSettings& settings);
+
+}  // namespace flinch

@@ -1,0 +1,44 @@
+#include "drivers/dds_reader.h"
+
+#include <dds/dds.h>
+
+#include <memory>
+#include <string>
+
+#include "drivers/dds_qos.h"
+
+namespace flinch {
+
+bool DdsArrivals::take(void* sample) noexcept {
+  dds_sample_info_t info{};
+  while (dds_take(reader_, &sample, &info, 1, 1) == 1) {
+    if (info.valid_data) return true;
+  }
+  return false;
+}
+
+DdsReader::DdsReader(const DdsBus& bus, const Topic& topic, OnData on_data, void* owner)
+    : on_data_(on_data), owner_(owner) {
+  const std::string what = std::string("the topic ") + topic.name;
+  const DdsQos qos = qos_of(topic.kind);
+  const std::unique_ptr<dds_listener_t, void (*)(dds_listener_t*)> listener(dds_create_listener(this),
+                                                                            dds_delete_listener);
+  dds_lset_data_available(listener.get(), &DdsReader::arrived);
+  topic_ = DdsEntity(
+      check_dds(dds_create_topic(bus.participant(), topic.type, topic.name, nullptr, nullptr), what));
+  reader_ = DdsEntity(
+      check_dds(dds_create_reader(bus.participant(), topic_.handle(), qos.get(), listener.get()), what));
+}
+
+void DdsReader::arrived(std::int32_t reader, void* self) {
+  const DdsReader& receiver = *static_cast<const DdsReader*>(self);
+  receiver.on_data_(DdsArrivals(reader), receiver.owner_);
+}
+
+int DdsReader::writers() const noexcept {
+  dds_subscription_matched_status_t matched{};
+  if (dds_get_subscription_matched_status(reader_.handle(), &matched) != 0) return 0;
+  return static_cast<int>(matched.current_count);
+}
+
+}  // namespace flinch

@@ -1,0 +1,166 @@
+#include "drivers/dds_server.h"
+
+#include <drivers/idl/flinch.h>
+
+#include <optional>
+
+#include "drivers/sample_receiver.h"
+#include "drivers/sample_sender.h"
+#include "drivers/sending_thread.h"
+#include "drivers/tick_clock.h"
+#include "drivers/wire_conversion.h"
+#include "systems/framework/diagram.h"
+
+namespace flinch {
+namespace {
+
+bool asks_for_nothing(const flinch_TorqueSample& sample) {
+  return (sample.header.flags & flag_valid) == 0 || (sample.header.flags & flag_engage_brake) != 0;
+}
+
+/// Brings one kind of reading from the diagram to the bus.
+template <class Sample, class Reading>
+class ReadingOutlet {
+ public:
+  ReadingOutlet(const DdsBus& bus, const Topic& topic, const SenderIdentity& sender, Slot<Reading> output)
+      : output_(output), sender_(bus, topic, sender) {}
+
+  void take_outputs(const Context& context, const TickClock& clock) noexcept {
+    Sample sample;
+    Reading reading = context[output_];
+    reading.acquired = clock.to_monotonic(reading.acquired);
+    to_wire(reading, sample);
+    sender_.leave(sample);
+  }
+
+  void send() noexcept { sender_.send(); }
+
+ private:
+  Slot<Reading> output_;
+  SampleSender<Sample> sender_;
+};
+
+}  // namespace
+
+class DdsServer::Implementation {
+ public:
+  Implementation(const DdsBus& bus, const Diagram& diagram, const Station& station,
+                 const DdsServerSettings& settings)
+      : settings_(settings),
+        sender_{draw_session(), settings.robot},
+        clock_(diagram.tick()),
+        torque_command_(diagram.slot(station.torque_command)),
+        brake_(diagram.slot(station.brake)),
+        station_status_(diagram.slot(station.status)),
+        commands_(bus, torque_command_topic, admission(settings), &asks_for_nothing),
+        joints_(bus, joints_topic, sender_, diagram.slot(station.joints)),
+        drives_(bus, drives_topic, sender_, diagram.slot(station.drives)),
+        imu_(bus, imu_topic, sender_, diagram.slot(station.imu)),
+        status_(bus, status_topic, sender_) {
+    if (station.force_torque) {
+      force_torque_.emplace(bus, force_torque_topic, sender_, diagram.slot(*station.force_torque));
+    }
+    thread_.emplace([this] { send(); }, settings.realtime_priority);
+  }
+
+  void set_inputs(Context& context) noexcept {
+    clock_.start_tick(context.time());
+    if (commands_.take(last_)) obeying_ = true;
+    age_ = MonotonicClock::now() - last_.sent;
+    if (obeying_ && age_ > settings_.longest_silence) {
+      obeying_ = false;
+      ++silences_;
+    }
+    command(context[torque_command_], context[brake_]);
+  }
+
+  void take_outputs(const Context& context) noexcept {
+    joints_.take_outputs(context, clock_);
+    drives_.take_outputs(context, clock_);
+    imu_.take_outputs(context, clock_);
+    if (force_torque_) force_torque_->take_outputs(context, clock_);
+    leave_status(context[station_status_]);
+    thread_->wake();
+  }
+
+  DdsCommander commander() const noexcept {
+    return {.session = obeying_ ? last_.sample.header.session : 0,
+            .received = commands_.count(Admission::admitted),
+            .refused = commands_.refused(),
+            .silences = silences_,
+            .age = age_};
+  }
+
+ private:
+  static AdmissionSettings admission(const DdsServerSettings& settings) {
+    return {.robot = settings.robot,
+            .longest_silence = settings.longest_silence,
+            .longest_way = settings.longest_way,
+            .begins_neutral = true};
+  }
+
+  void command(TorqueCommand& torque, BrakeCommand& brake) const noexcept {
+    torque = TorqueCommand();
+    brake = BrakeCommand();
+    if (!obeying_) return;
+    from_wire(last_.sample, torque);
+    from_wire(last_.sample, brake);
+    torque.computed = clock_.to_tick_time(last_.acquired);
+  }
+
+  void leave_status(StationStatus status) noexcept {
+    status.acquired = clock_.to_monotonic(status.acquired);
+    status.enabled = status.enabled && obeying_;
+    flinch_StatusSample sample;
+    to_wire(status, sample);
+    const DdsCommander now = commander();
+    sample.commander = now.session;
+    sample.commands_refused = now.refused;
+    if (obeying_) {
+      sample.command_number = last_.sample.header.number;
+      sample.command_sent_ns = last_.sample.header.sent_ns;
+      sample.command_received_ns = last_.arrived.count();
+    }
+    status_.leave(sample);
+  }
+
+  void send() noexcept {
+    joints_.send();
+    drives_.send();
+    imu_.send();
+    if (force_torque_) force_torque_->send();
+    status_.send();
+  }
+
+  DdsServerSettings settings_;
+  SenderIdentity sender_;
+  TickClock clock_;
+  Slot<TorqueCommand> torque_command_;
+  Slot<BrakeCommand> brake_;
+  Slot<StationStatus> station_status_;
+
+  bool obeying_ = false;
+  Time age_{};
+  std::uint32_t silences_ = 0;
+  ReceivedSample<flinch_TorqueSample> last_;
+  SampleReceiver<flinch_TorqueSample> commands_;
+
+  ReadingOutlet<flinch_JointSample, JointReading> joints_;
+  ReadingOutlet<flinch_DriveSample, DriveReading> drives_;
+  ReadingOutlet<flinch_ImuSample, ImuReading> imu_;
+  std::optional<ReadingOutlet<flinch_ForceTorqueSample, ForceTorqueReading>> force_torque_;
+  SampleSender<flinch_StatusSample> status_;
+  std::optional<SendingThread> thread_;  // last: ends before what it sends with
+};
+
+DdsServer::DdsServer(const DdsBus& bus, const Diagram& diagram, const Station& station,
+                     const DdsServerSettings& settings)
+    : implementation_(std::make_unique<Implementation>(bus, diagram, station, settings)) {}
+
+DdsServer::~DdsServer() = default;
+
+void DdsServer::set_inputs(Context& context) { implementation_->set_inputs(context); }
+void DdsServer::take_outputs(const Context& context) { implementation_->take_outputs(context); }
+DdsCommander DdsServer::commander() const noexcept { return implementation_->commander(); }
+
+}  // namespace flinch

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "diagrams/station.h"
+#include "drivers/dds_bus.h"
+#include "systems/framework/context.h"
+#include "systems/framework/exchange.h"
+
+namespace flinch {
+
+struct DdsServerSettings {
+  std::uint32_t robot =
+      0;  ///< robot_hash() of the robot description: that of the other end, or nothing passes
+  /// Without a newer command: the brakes close, and who commanded must begin anew. With the bench's tick and
+  /// the 10 ms in which the brakes must be commanded to close this leaves room for a busy machine.
+  Time longest_silence = 6ms;
+  Time longest_way =
+      5ms;  ///< of a command from sending to arrival, as far as it varies; later ones are refused
+  int realtime_priority = 0;  ///< of the thread that sends, SCHED_FIFO, 1 to 99; 0: an ordinary thread
+};
+
+/// Who commands, since the start.
+struct DdsCommander {
+  std::uint32_t session = 0;  ///< whose commands are obeyed; 0: nobody's
+  std::uint32_t received = 0;
+  std::uint32_t refused =
+      0;  ///< of another version, robot or session, not newer, too late, or not neutral at first
+  std::uint32_t silences = 0;  ///< how often a commander fell silent
+  Time age{};                  ///< of the last command, by its sending
+};
+
+/// Puts a station on the bus: sends its readings after each tick, and lets commands in before. It obeys one
+/// session at a time, which begins with a command of no torque or with brakes, in time and in order; to all
+/// others, and when the session falls silent, the answer is no torque and closed brakes. A station on the
+/// bus says that it is enabled only while it obeys somebody.
+///
+/// Receiving and sending happen on other threads; what is called from the loop neither blocks, allocates nor
+/// throws. `torque_command` and `brake` must be inputs of the outermost diagram.
+class DdsServer final : public Exchange {
+ public:
+  /// Throws SetupError.
+  DdsServer(const DdsBus& bus, const Diagram& diagram, const Station& station,
+            const DdsServerSettings& settings);
+  ~DdsServer() override;
+
+  /// Sets torque command and brake.
+  void set_inputs(Context& context) override;
+  /// Sends the readings.
+  void take_outputs(const Context& context) override;
+
+  /// As the last set_inputs() saw it; of the thread that calls that, or while it does not.
+  DdsCommander commander() const noexcept;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace flinch

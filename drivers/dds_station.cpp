@@ -1,0 +1,157 @@
+#include "drivers/dds_station.h"
+
+#include <drivers/idl/flinch.h>
+
+#include <optional>
+
+#include "drivers/sample_receiver.h"
+#include "drivers/sample_sender.h"
+#include "drivers/sending_thread.h"
+#include "drivers/tick_clock.h"
+#include "drivers/wire_conversion.h"
+#include "systems/framework/diagram.h"
+
+namespace flinch {
+namespace {
+
+/// Brings one kind of reading from the bus to an input of the diagram.
+template <class Sample, class Reading>
+class ReadingInlet {
+ public:
+  ReadingInlet(const DdsBus& bus, const Topic& topic, const AdmissionSettings& admission,
+               Slot<Arrival<Reading>> input)
+      : input_(input), receiver_(bus, topic, admission) {}
+
+  void set_inputs(Context& context, const TickClock& clock) noexcept {
+    if (!receiver_.take(last_)) return;
+    Arrival<Reading>& arrival = context[input_];
+    from_wire(last_.sample, arrival.reading);
+    arrival.reading.acquired = clock.to_tick_time(last_.acquired);
+    arrival.source = last_.sample.header.session;
+    arrival.number = last_.sample.header.number;
+  }
+
+  const ReceivedSample<Sample>& last() const noexcept { return last_; }
+  const SampleReceiver<Sample>& receiver() const noexcept { return receiver_; }
+
+ private:
+  Slot<Arrival<Reading>> input_;
+  ReceivedSample<Sample> last_;
+  SampleReceiver<Sample> receiver_;
+};
+
+}  // namespace
+
+class DdsStation::Implementation {
+ public:
+  Implementation(const DdsBus& bus, const Diagram& diagram, const ExternalStation& station,
+                 const DdsStationSettings& settings)
+      : sender_{draw_session(), settings.robot},
+        clock_(diagram.tick()),
+        torque_command_(diagram.slot(station.torque_command)),
+        brake_(diagram.slot(station.brake)),
+        admission_{.robot = settings.robot, .longest_silence = settings.longest_silence},
+        joints_(bus, joints_topic, admission_, diagram.slot(station.arriving_joints)),
+        drives_(bus, drives_topic, admission_, diagram.slot(station.arriving_drives)),
+        imu_(bus, imu_topic, admission_, diagram.slot(station.arriving_imu)),
+        status_(bus, status_topic, admission_, diagram.slot(station.arriving_status)),
+        commands_(bus, torque_command_topic, sender_),
+        requests_(bus, drive_request_topic, sender_) {
+    if (station.arriving_force_torque) {
+      force_torque_.emplace(bus, force_torque_topic, admission_,
+                            diagram.slot(*station.arriving_force_torque));
+    }
+    thread_.emplace([this] { commands_.send(), requests_.send(); }, settings.realtime_priority);
+  }
+
+  void set_inputs(Context& context) noexcept {
+    clock_.start_tick(context.time());
+    joints_.set_inputs(context, clock_);
+    drives_.set_inputs(context, clock_);
+    imu_.set_inputs(context, clock_);
+    status_.set_inputs(context, clock_);
+    if (force_torque_) force_torque_->set_inputs(context, clock_);
+  }
+
+  void take_outputs(const Context& context) noexcept {
+    flinch_TorqueSample sample;
+    TorqueCommand command = context[torque_command_];
+    command.computed = clock_.to_monotonic(command.computed);
+    to_wire(command, context[brake_], sample);
+    commands_.leave(sample);
+    thread_->wake();
+  }
+
+  void request(const DriveWish& wish) noexcept {
+    flinch_DriveRequest request{};
+    request.header.acquired_ns = MonotonicClock::now().count();
+    request.header.flags = flag_valid;
+    request.wanted = static_cast<std::uint8_t>(wish.state);
+    request.mode = 10;  // cyclic synchronous torque
+    request.engage_brake = wish.engage_brake;
+    request.fault_resets = wish.fault_resets;
+    requests_.leave(request);
+    thread_->wake();
+  }
+
+  DdsLink link() const noexcept {
+    DdsLink link;
+    link.peers = joints_.receiver().writers();
+    link.received = joints_.receiver().count(Admission::admitted);
+    add_refusals(joints_.receiver(), link);
+    add_refusals(drives_.receiver(), link);
+    add_refusals(imu_.receiver(), link);
+    add_refusals(status_.receiver(), link);
+    const ReceivedSample<flinch_StatusSample>& last = status_.last();
+    link.commands_obeyed = last.sample.commander == sender_.session;
+    if (link.commands_obeyed) link.round_trip = round_trip(last);
+    return link;
+  }
+
+  std::uint32_t session() const noexcept { return sender_.session; }
+
+ private:
+  template <class Sample>
+  static void add_refusals(const SampleReceiver<Sample>& receiver, DdsLink& link) noexcept {
+    link.refused += receiver.refused();
+    link.other_version += receiver.count(Admission::other_version);
+    link.other_robot += receiver.count(Admission::other_robot);
+  }
+
+  /// Each difference is of one clock, so the two need not agree.
+  static Time round_trip(const ReceivedSample<flinch_StatusSample>& last) noexcept {
+    const Time away = last.arrived - Time(last.sample.command_sent_ns);
+    const Time kept = Time(last.sample.header.sent_ns) - Time(last.sample.command_received_ns);
+    return away - kept;
+  }
+
+  SenderIdentity sender_;
+  TickClock clock_;
+  Slot<TorqueCommand> torque_command_;
+  Slot<BrakeCommand> brake_;
+  AdmissionSettings admission_;
+
+  ReadingInlet<flinch_JointSample, JointReading> joints_;
+  ReadingInlet<flinch_DriveSample, DriveReading> drives_;
+  ReadingInlet<flinch_ImuSample, ImuReading> imu_;
+  ReadingInlet<flinch_StatusSample, StationStatus> status_;
+  std::optional<ReadingInlet<flinch_ForceTorqueSample, ForceTorqueReading>> force_torque_;
+
+  SampleSender<flinch_TorqueSample> commands_;
+  SampleSender<flinch_DriveRequest> requests_;
+  std::optional<SendingThread> thread_;  // last: ends before what it sends with
+};
+
+DdsStation::DdsStation(const DdsBus& bus, const Diagram& diagram, const ExternalStation& station,
+                       const DdsStationSettings& settings)
+    : implementation_(std::make_unique<Implementation>(bus, diagram, station, settings)) {}
+
+DdsStation::~DdsStation() = default;
+
+void DdsStation::set_inputs(Context& context) { implementation_->set_inputs(context); }
+void DdsStation::take_outputs(const Context& context) { implementation_->take_outputs(context); }
+void DdsStation::request(const DriveWish& wish) noexcept { implementation_->request(wish); }
+DdsLink DdsStation::link() const noexcept { return implementation_->link(); }
+std::uint32_t DdsStation::session() const noexcept { return implementation_->session(); }
+
+}  // namespace flinch

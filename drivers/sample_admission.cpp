@@ -1,0 +1,40 @@
+#include "drivers/sample_admission.h"
+
+#include <drivers/idl/flinch.h>
+
+namespace flinch {
+namespace {
+
+/// Whether a number comes after another, also across the wrap-around.
+bool is_after(std::uint32_t number, std::uint32_t last) {
+  return static_cast<std::int32_t>(number - last) > 0;
+}
+
+}  // namespace
+
+void SampleAdmission::give_up_the_silent(Time now) noexcept {
+  if (session_ != 0 && now - last_ > settings_.longest_silence) session_ = 0;
+}
+
+Admission SampleAdmission::judge(const flinch_Header& header, Time now, bool neutral) noexcept {
+  if (header.version != protocol_version) return Admission::other_version;
+  if (header.robot != settings_.robot) return Admission::other_robot;
+  give_up_the_silent(now);
+  if (header.session == 0 || (session_ != 0 && header.session != session_)) return Admission::other_session;
+
+  const bool known = header.session == last_session_;
+  if (known && !is_after(header.number, last_number_)) return Admission::not_newer;
+  ClockMap clock = known ? clock_ : ClockMap();
+  clock.observe(Time(header.sent_ns), now);
+  if (known) clock_ = clock;
+  if (now - clock.to_here(Time(header.sent_ns)) > settings_.longest_way) return Admission::too_late;
+  if (session_ == 0 && settings_.begins_neutral && !neutral) return Admission::not_neutral;
+
+  clock_ = clock;
+  session_ = last_session_ = header.session;
+  last_number_ = header.number;
+  last_ = now;
+  return Admission::admitted;
+}
+
+}  // namespace flinch

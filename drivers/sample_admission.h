@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+
+#include "drivers/clock_map.h"
+#include "drivers/wire_header.h"
+#include "systems/framework/time.h"
+
+namespace flinch {
+
+/// What becomes of a sample that has arrived.
+enum class Admission : std::uint8_t {
+  admitted,
+  other_version,  ///< speaks another protocol
+  other_robot,    ///< uses another robot description
+  other_session,  ///< comes from another sender than the one that is being listened to
+  not_neutral,    ///< would begin a session with more than a neutral command
+  not_newer,      ///< its number has been seen, or overtaken
+  too_late,       ///< was on its way for too long
+};
+inline constexpr int admission_count = 7;
+
+struct AdmissionSettings {
+  std::uint32_t robot = 0;
+  Time longest_silence = 100ms;  ///< after which a sender is given up, and another one listened to
+  Time longest_way = 20ms;       ///< from sending to arrival, as far as it varies
+  bool begins_neutral = false;   ///< a session begins only with a sample that asks for nothing
+};
+
+/// Who is listened to, and which of its samples count: one sender at a time, the first that speaks, until it
+/// falls silent; only what is newer than the last; only what is not late. Neither a second sender, however
+/// loud, nor a late or repeated sample can push in. Where a session must begin neutral, so must what comes
+/// after a silence. Constant time, no memory; for one thread.
+class SampleAdmission {
+ public:
+  explicit SampleAdmission(const AdmissionSettings& settings) : settings_(settings) {}
+
+  /// Judges a sample that arrived `now` (own monotonic clock); `neutral`: it asks for nothing.
+  Admission judge(const flinch_Header& header, Time now, bool neutral = true) noexcept;
+
+  /// A time of the admitted sender's clock in the own one.
+  Time to_own_clock(Time senders) const noexcept { return clock_.to_here(senders); }
+
+  /// The session that is listened to; 0 for none.
+  std::uint32_t session() const noexcept { return session_; }
+
+ private:
+  void give_up_the_silent(Time now) noexcept;
+
+  AdmissionSettings settings_;
+  std::uint32_t session_ = 0;
+  std::uint32_t last_session_ = 0;
+  std::uint32_t last_number_ = 0;
+  Time last_{};
+  ClockMap clock_;
+};
+
+}  // namespace flinch

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+
+#include "drivers/dds_reader.h"
+#include "drivers/sample_admission.h"
+#include "systems/framework/monotonic_clock.h"
+#include "systems/framework/triple_buffer.h"
+
+namespace flinch {
+
+/// An admitted sample with its times in the own monotonic clock.
+template <class Sample>
+struct ReceivedSample {
+  Sample sample{};
+  Time arrived{};
+  Time sent{};      ///< by the sender's stamp; too late by the smallest delay on the way
+  Time acquired{};  ///< likewise
+};
+
+/// Receives samples of one topic, admits or refuses each as it arrives, and keeps the last admitted one for a
+/// control loop, which takes it without waiting.
+template <class Sample>
+class SampleReceiver {
+ public:
+  /// Whether a sample asks for nothing: see AdmissionSettings::begins_neutral.
+  using IsNeutral = bool (*)(const Sample&);
+
+  /// Throws SetupError, as DdsReader.
+  SampleReceiver(const DdsBus& bus, const Topic& topic, const AdmissionSettings& admission,
+                 IsNeutral is_neutral = nullptr)
+      : is_neutral_(is_neutral), admission_(admission), reader_(bus, topic, &SampleReceiver::receive, this) {}
+
+  /// Copies the last admitted sample if there is one that was not taken before. For one thread.
+  bool take(ReceivedSample<Sample>& received) noexcept { return last_.take(received); }
+
+  /// How many samples met with `verdict`.
+  std::uint32_t count(Admission verdict) const noexcept {
+    return counts_[static_cast<std::size_t>(verdict)].load(std::memory_order_relaxed);
+  }
+  std::uint32_t refused() const noexcept {
+    std::uint32_t sum = 0;
+    for (const auto& count : counts_) sum += count.load(std::memory_order_relaxed);
+    return sum - count(Admission::admitted);
+  }
+
+  /// How many writers send.
+  int writers() const noexcept { return reader_.writers(); }
+
+ private:
+  static void receive(DdsArrivals arrivals, void* self) {
+    auto& receiver = *static_cast<SampleReceiver*>(self);
+    ReceivedSample<Sample>& next = receiver.next_;
+    while (arrivals.take(&next.sample)) receiver.judge(next);
+  }
+
+  void judge(ReceivedSample<Sample>& next) noexcept {
+    next.arrived = MonotonicClock::now();
+    const bool neutral = is_neutral_ == nullptr || is_neutral_(next.sample);
+    const Admission verdict = admission_.judge(next.sample.header, next.arrived, neutral);
+    counts_[static_cast<std::size_t>(verdict)].fetch_add(1, std::memory_order_relaxed);
+    if (verdict != Admission::admitted) return;
+    next.sent = admission_.to_own_clock(Time(next.sample.header.sent_ns));
+    next.acquired = admission_.to_own_clock(Time(next.sample.header.acquired_ns));
+    last_.publish(next);
+  }
+
+  IsNeutral is_neutral_;
+  SampleAdmission admission_;  // this and next_: only where samples arrive
+  ReceivedSample<Sample> next_;
+  TripleBuffer<ReceivedSample<Sample>> last_;
+  std::array<std::atomic<std::uint32_t>, admission_count> counts_{};
+  DdsReader reader_;  // last
+};
+
+}  // namespace flinch

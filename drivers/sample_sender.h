@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+
+#include "drivers/dds_writer.h"
+#include "drivers/wire_header.h"
+#include "systems/framework/triple_buffer.h"
+
+struct flinch_Header;
+
+namespace flinch {
+
+/// Fills in what a header says of its sender, and the time of sending: now.
+void stamp(flinch_Header& header, const SenderIdentity& sender, std::uint32_t number) noexcept;
+
+/// Sends the last sample that a control loop has left, from another thread.
+template <class Sample>
+class SampleSender {
+ public:
+  /// Throws SetupError, as DdsWriter.
+  SampleSender(const DdsBus& bus, const Topic& topic, const SenderIdentity& sender)
+      : sender_(sender), writer_(bus, topic) {}
+
+  /// For the control loop: leaves a sample to be sent; of its header acquired_ns, count and flags.
+  void leave(const Sample& sample) noexcept { left_.publish(sample); }
+
+  /// For the sending thread: sends what was left since the last time.
+  void send() noexcept {
+    if (!left_.take(next_)) return;
+    stamp(next_.header, sender_, ++number_);
+    writer_.write(&next_);
+  }
+
+  /// How many readers listen.
+  int readers() const noexcept { return writer_.readers(); }
+
+ private:
+  SenderIdentity sender_;
+  std::uint32_t number_ = 0;
+  Sample next_{};
+  TripleBuffer<Sample> left_;
+  DdsWriter writer_;
+};
+
+}  // namespace flinch

@@ -1,0 +1,33 @@
+#include "drivers/topics.h"
+
+#include <drivers/idl/flinch.h>
+#include <drivers/idl/ros2.h>
+
+namespace flinch {
+
+const Topic joints_topic{"flinch/joints", &flinch_JointSample_desc, TopicKind::sensor};
+const Topic drives_topic{"flinch/drives", &flinch_DriveSample_desc, TopicKind::sensor};
+const Topic imu_topic{"flinch/imu", &flinch_ImuSample_desc, TopicKind::sensor};
+const Topic force_torque_topic{"flinch/force_torque", &flinch_ForceTorqueSample_desc, TopicKind::sensor};
+const Topic status_topic{"flinch/status", &flinch_StatusSample_desc, TopicKind::sensor};
+const Topic torque_command_topic{"flinch/torque_command", &flinch_TorqueSample_desc, TopicKind::command};
+const Topic drive_request_topic{"flinch/drive_request", &flinch_DriveRequest_desc, TopicKind::request};
+const Topic contact_event_topic{"flinch/contact_event", &flinch_ContactEvent_desc, TopicKind::event};
+const Topic diagnostics_topic{"flinch/diagnostics", &flinch_Diagnostics_desc, TopicKind::event};
+
+const Topic ros2_joint_states_topic{"rt/joint_states", &sensor_msgs_msg_dds__JointState__desc,
+                                    TopicKind::event};
+const Topic ros2_imu_topic{"rt/imu/data", &sensor_msgs_msg_dds__Imu__desc, TopicKind::event};
+const Topic ros2_contact_wrench_topic{"rt/contact/wrench", &geometry_msgs_msg_dds__WrenchStamped__desc,
+                                      TopicKind::event};
+const Topic ros2_diagnostics_topic{"rt/diagnostics", &diagnostic_msgs_msg_dds__DiagnosticArray__desc,
+                                   TopicKind::event};
+
+// The rule of the sizes: what a controller sends is no larger than what it receives, and none above 128
+// bytes.
+static_assert(sizeof(flinch_Header) == 32);
+static_assert(sizeof(flinch_JointSample) == 128 && sizeof(flinch_DriveSample) == 128);
+static_assert(sizeof(flinch_ImuSample) == 128 && sizeof(flinch_ForceTorqueSample) == 128);
+static_assert(sizeof(flinch_StatusSample) == 128 && sizeof(flinch_TorqueSample) == 128);
+
+}  // namespace flinch

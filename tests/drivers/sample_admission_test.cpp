@@ -1,0 +1,129 @@
+#include "drivers/sample_admission.h"
+
+#include <drivers/idl/flinch.h>
+#include <gtest/gtest.h>
+
+namespace flinch {
+namespace {
+
+using enum Admission;
+
+constexpr std::uint32_t robot = 0xc0ffee;
+
+flinch_Header header(std::uint32_t session, std::uint32_t number, Time sent) {
+  flinch_Header result{};
+  result.sent_ns = sent.count();
+  result.session = session;
+  result.robot = robot;
+  result.number = number;
+  result.version = protocol_version;
+  return result;
+}
+
+/// Judges samples whose sender's clock is ahead by an hour.
+struct Gate {
+  SampleAdmission admission;
+
+  explicit Gate(bool begins_neutral = false, Time longest_silence = 100ms)
+      : admission({.robot = robot,
+                   .longest_silence = longest_silence,
+                   .longest_way = 5ms,
+                   .begins_neutral = begins_neutral}) {}
+
+  Admission judge(std::uint32_t session, std::uint32_t number, Time sent, bool neutral = true,
+                  Time way = 50us) {
+    return admission.judge(header(session, number, sent + 1h), sent + way, neutral);
+  }
+};
+
+TEST(SampleAdmission, AdmitsNumbersThatGrowAlsoWithGapsAndAcrossTheWrapAround) {
+  Gate gate;
+  EXPECT_EQ(gate.judge(7, 0xfffffffe, 1ms), admitted);
+  EXPECT_EQ(gate.judge(7, 0xffffffff, 2ms), admitted);
+  EXPECT_EQ(gate.judge(7, 0, 3ms), admitted);
+  EXPECT_EQ(gate.judge(7, 40, 43ms), admitted);
+}
+
+TEST(SampleAdmission, RefusesRepeatedAndOvertakenSamples) {
+  Gate gate;
+  EXPECT_EQ(gate.judge(7, 5, 1ms), admitted);
+  EXPECT_EQ(gate.judge(7, 5, 2ms), not_newer);
+  EXPECT_EQ(gate.judge(7, 4, 3ms), not_newer);
+  EXPECT_EQ(gate.judge(7, 6, 4ms), admitted);
+}
+
+TEST(SampleAdmission, RefusesAnotherVersionAndAnotherRobotWithoutListeningToThem) {
+  Gate gate;
+  flinch_Header other = header(7, 1, 1h);
+  other.version = protocol_version + 1;
+  EXPECT_EQ(gate.admission.judge(other, 1ms), other_version);
+  other = header(7, 1, 1h);
+  other.robot = robot + 1;
+  EXPECT_EQ(gate.admission.judge(other, 1ms), other_robot);
+  EXPECT_EQ(gate.admission.session(), 0u);
+  EXPECT_EQ(gate.judge(8, 1, 2ms), admitted);
+}
+
+TEST(SampleAdmission, ListensToTheFirstSenderUntilItFallsSilent) {
+  Gate gate;
+  Time t = 0ms;
+  for (std::uint32_t k = 1; k < 200; ++k, t += 1ms) {
+    EXPECT_EQ(gate.judge(7, k, t), admitted);
+    EXPECT_EQ(gate.judge(8, 1000 + k, t), other_session);
+  }
+  EXPECT_EQ(gate.judge(8, 2000, t + 90ms), other_session);
+  EXPECT_EQ(gate.judge(8, 2001, t + 101ms), admitted);
+  EXPECT_EQ(gate.judge(7, 300, t + 102ms), other_session);
+}
+
+TEST(SampleAdmission, IsNotKeptAliveByWhatItRefuses) {
+  Gate gate;
+  EXPECT_EQ(gate.judge(7, 5, 0ms), admitted);
+  for (Time t = 1ms; t < 100ms; t += 1ms) EXPECT_EQ(gate.judge(7, 5, t), not_newer);
+  EXPECT_EQ(gate.judge(8, 1, 102ms), admitted);
+}
+
+TEST(SampleAdmission, RefusesWhatWasOnItsWayForTooLong) {
+  Gate gate;
+  EXPECT_EQ(gate.judge(7, 1, 0ms), admitted);
+  EXPECT_EQ(gate.judge(7, 2, 1ms, true, 1100ms), too_late);
+  EXPECT_EQ(gate.judge(7, 3, 1102ms), admitted);
+}
+
+TEST(SampleAdmission, LetsNobodyBeginOrBeginAgainWithMoreThanANeutralSample) {
+  Gate gate(true, 6ms);
+  EXPECT_EQ(gate.judge(7, 1, 1ms, false), not_neutral);
+  EXPECT_EQ(gate.judge(7, 2, 2ms, true), admitted);
+  EXPECT_EQ(gate.judge(7, 3, 3ms, false), admitted);
+  EXPECT_EQ(gate.judge(7, 4, 20ms, false), not_neutral);
+  EXPECT_EQ(gate.judge(7, 5, 21ms, true), admitted);
+}
+
+TEST(SampleAdmission, RefusesASenderWithoutASession) {
+  Gate gate;
+  EXPECT_EQ(gate.judge(0, 1, 1ms), other_session);
+}
+
+TEST(SampleAdmission, TranslatesTheSendersTimes) {
+  Gate gate;
+  for (std::uint32_t k = 1; k < 50; ++k) ASSERT_EQ(gate.judge(7, k, k * 1ms), admitted);
+  const Time error = gate.admission.to_own_clock(1h + 49ms) - 49ms;
+  EXPECT_GE(error, 49us);
+  EXPECT_LE(error, 51us);
+}
+
+TEST(RobotHash, DiffersForAnyChangeOfTheDescription) {
+  EXPECT_EQ(robot_hash("abc"), robot_hash("abc"));
+  EXPECT_EQ(robot_hash(""), 0x811c9dc5u);   // FNV-1a, by its definition
+  EXPECT_EQ(robot_hash("a"), 0xe40c292cu);  // published test vector
+  EXPECT_NE(robot_hash("mass: 2.1"), robot_hash("mass: 2.2"));
+}
+
+TEST(Session, IsNeverZeroAndNeverTheSame) {
+  const std::uint32_t first = draw_session(), second = draw_session();
+  EXPECT_NE(first, 0u);
+  EXPECT_NE(first, second);
+}
+
+}  // namespace
+}  // namespace flinch
