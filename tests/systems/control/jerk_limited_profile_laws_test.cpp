@@ -114,7 +114,8 @@ TEST(JerkLimitedProfile, IsContinuousInPositionVelocityAndAcceleration) {
   Draw draw(2);
   for (int i = 0; i < cases; ++i) {
     const Case c = draw.any();
-    const auto phases = plan(c).phases();
+    const JerkLimitedProfile profile = plan(c);
+    const auto phases = profile.phases();
     for (std::size_t k = 0; k + 1 < phases.size(); ++k) {
       const ScalarMotion end =
           after(phases[k].at_begin, phases[k].at_begin.jerk, phases[k + 1].begin - phases[k].begin);
