@@ -18,6 +18,8 @@ bool asks_for_nothing(const flinch_TorqueSample& sample) {
   return (sample.header.flags & flag_valid) == 0 || (sample.header.flags & flag_engage_brake) != 0;
 }
 
+constexpr std::uint8_t operation_enabled = 2;  // of flinch_DriveRequest::wanted
+
 /// Brings one kind of reading from the diagram to the bus.
 template <class Sample, class Reading>
 class ReadingOutlet {
@@ -53,6 +55,7 @@ class DdsServer::Implementation {
         brake_(diagram.slot(station.brake)),
         station_status_(diagram.slot(station.status)),
         commands_(bus, torque_command_topic, admission(settings), &asks_for_nothing),
+        requests_(bus, drive_request_topic, request_admission(settings)),
         joints_(bus, joints_topic, sender_, diagram.slot(station.joints)),
         drives_(bus, drives_topic, sender_, diagram.slot(station.drives)),
         imu_(bus, imu_topic, sender_, diagram.slot(station.imu)),
@@ -66,6 +69,7 @@ class DdsServer::Implementation {
   void set_inputs(Context& context) noexcept {
     clock_.start_tick(context.time());
     if (commands_.take(last_)) obeying_ = true;
+    requests_.take(request_);
     age_ = MonotonicClock::now() - last_.sent;
     if (obeying_ && age_ > settings_.longest_silence) {
       obeying_ = false;
@@ -99,12 +103,26 @@ class DdsServer::Implementation {
             .begins_neutral = true};
   }
 
+  /// A request says little and seldom: whoever commands is judged by the commands, and only its request
+  /// counts.
+  static AdmissionSettings request_admission(const DdsServerSettings& settings) {
+    return {.robot = settings.robot, .longest_silence = Time::zero(), .longest_way = 1h};
+  }
+
+  /// Whether who commands has asked for brakes, or for less than operation.
+  bool is_held() const noexcept {
+    const flinch_DriveRequest& request = request_.sample;
+    return request.header.session == last_.sample.header.session &&
+           (request.engage_brake != 0 || request.wanted != operation_enabled);
+  }
+
   void command(TorqueCommand& torque, BrakeCommand& brake) const noexcept {
     torque = TorqueCommand();
     brake = BrakeCommand();
     if (!obeying_) return;
     from_wire(last_.sample, torque);
     from_wire(last_.sample, brake);
+    brake.engage = brake.engage || is_held();
     torque.computed = clock_.to_tick_time(last_.acquired);
   }
 
@@ -144,6 +162,8 @@ class DdsServer::Implementation {
   std::uint32_t silences_ = 0;
   ReceivedSample<flinch_TorqueSample> last_;
   SampleReceiver<flinch_TorqueSample> commands_;
+  ReceivedSample<flinch_DriveRequest> request_;
+  SampleReceiver<flinch_DriveRequest> requests_;
 
   ReadingOutlet<flinch_JointSample, JointReading> joints_;
   ReadingOutlet<flinch_DriveSample, DriveReading> drives_;

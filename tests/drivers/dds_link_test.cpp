@@ -166,6 +166,30 @@ TEST(DdsLink, RefusesASecondCommanderAndObeysTheFirst) {
   EXPECT_GT(far.server().commander().refused, 100u);
 }
 
+TEST(DdsLink, ClosesTheBrakesOnRequestWhateverTheCommandsSay) {
+  const DdsBus bus({.domain = test::free_domain()});
+  FarEnd far(bus);
+  NearEnd near(bus);
+  std::atomic<bool> brake = true;
+  const FarThread running(far, [&] { brake = far.brake(); });
+  const auto run_until = [&](bool braked, DriveWish wish) {
+    int lasted = 0;
+    near.dds().request(wish);
+    near.run([&] {
+      lasted = brake == braked ? lasted + 1 : 0;
+      return lasted == 50 || too_long(near);
+    });
+    return lasted == 50;
+  };
+  const DriveWish operate{.state = DriveWish::State::operation_enabled, .engage_brake = false};
+  const DriveWish brakes{.state = DriveWish::State::operation_enabled, .engage_brake = true};
+  const DriveWish stop{.state = DriveWish::State::quick_stop, .engage_brake = false};
+  EXPECT_TRUE(run_until(false, operate));
+  EXPECT_TRUE(run_until(true, brakes));
+  EXPECT_TRUE(run_until(false, operate));
+  EXPECT_TRUE(run_until(true, stop));
+}
+
 TEST(DdsLink, RefusesCommandsOfAnotherProtocolVersion) {
   const DdsBus bus({.domain = test::free_domain()});
   FarEnd far(bus);

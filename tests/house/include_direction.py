@@ -19,6 +19,7 @@ MAY_INCLUDE = {
     "systems/control": BLOCKS,
     "diagrams": DIAGRAMS,
     "plant": ["plant", *DIAGRAMS],
+    "drivers": ["drivers", *DIAGRAMS],
 }
 ABOVE_ALL = ("apps", "tests")  # may include everything below them, and tests the apps
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"')

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drivers/dds_bus.h"
+#include "systems/control/gate_status.h"
+#include "systems/framework/context.h"
+#include "systems/framework/exchange.h"
+#include "systems/observers/wrench_estimate.h"
+#include "systems/sensors/drive_torque.h"
+#include "systems/sensors/imu_reading.h"
+#include "systems/sensors/joint_motion.h"
+
+namespace flinch {
+
+/// What to show to ROS 2; what is not there is not published.
+struct Ros2Sources {
+  std::optional<OutputPort<JointMotion>> joint_motion;  ///< rt/joint_states, one joint a drive
+  std::optional<OutputPort<DriveTorque>> drive_torque;  ///< the effort there
+  std::optional<OutputPort<ImuReading>> imu;            ///< rt/imu/data
+  std::optional<OutputPort<WrenchEstimate>> wrench;     ///< rt/contact/wrench, about the platform origin
+  std::optional<OutputPort<GateStatus>> gate;           ///< rt/diagnostics, ten times a second
+};
+
+struct Ros2Settings {
+  std::vector<std::string> joint_names;  ///< one a drive
+  std::string base_frame = "base";
+  std::string imu_frame = "imu";
+  bool planar = true;              ///< wrenches are (f_x, f_y, m_z)
+  int ticks_between_messages = 1;  ///< 1: every tick
+};
+
+/// Shows a running diagram to the tools of ROS 2, without ROS 2: the topics carry the names, types and
+/// encoding that its DDS layer uses. Only valid values are published. Sending happens on another thread; a
+/// message that is overtaken by the next is dropped. Message stamps are wall-clock times, as ROS 2 wants
+/// them; nothing reads them back.
+class Ros2Publisher final : public Exchange {
+ public:
+  /// Throws SetupError, also for fewer than 1 tick between messages.
+  Ros2Publisher(const DdsBus& bus, const Diagram& diagram, const Ros2Sources& sources,
+                const Ros2Settings& settings);
+  ~Ros2Publisher() override;
+
+  void set_inputs(Context& context) override;
+  void take_outputs(const Context& context) override;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace flinch
