@@ -203,9 +203,11 @@ std::vector<ReportParameter> parameters(const std::string& group, const std::vec
 }
 
 /// As they took effect: the seed may come from the command line. In which folder the robot file lay is left
-/// out, so that a recording gives the same page wherever it is.
+/// out, so that a recording gives the same page wherever it is; title and description head the page.
 std::vector<ReportParameter> scenario_parameters(const Scenario& scenario) {
   std::vector<ReportParameter> rows = parameters("scenario", scenario.values);
+  std::erase_if(rows,
+                [](const ReportParameter& row) { return row.name == "title" || row.name == "description"; });
   for (ReportParameter& row : rows) {
     if (row.group != "scenario") continue;
     if (row.name == "robot") row.value = scenario.robot_file.filename().string();

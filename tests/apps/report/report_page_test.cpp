@@ -14,6 +14,7 @@
 
 #include "apps/flinch/report_json.h"
 #include "systems/foundation/setup_error.h"
+#include "tests/apps/report/chromium.h"
 #include "tests/apps/report/sample_report.h"
 
 namespace flinch {
@@ -140,14 +141,6 @@ TEST(CheckReport, NamesEveryProblemAtOnce) {
               ElementsAre(HasSubstr("'sigma_capa'; did you mean 'sigma_kappa'?"),
                           HasSubstr("column 'speed' has 1 samples"), HasSubstr("no name for state 1"),
                           HasSubstr("chart 'forces'"), HasSubstr("period")));
-}
-
-/// Chromium finds nothing wrong with the page at `path`; needs Debian's chromium-driver.
-void expect_works_in_chromium(const std::filesystem::path& path) {
-  const std::string script = std::string(FLINCH_SOURCE_DIR) + "/tests/apps/report/page_in_browser.py";
-  const int status = std::system(("python3 '" + script + "' '" + path.string() + "'").c_str());
-  if (WEXITSTATUS(status) == 77) GTEST_SKIP() << "there is no chromedriver";
-  EXPECT_EQ(status, 0);
 }
 
 std::filesystem::path page_file(const std::string& name) {

@@ -213,6 +213,11 @@ void add_background(Report& report) {
                    {"sigma_sc", "safety limit", 0.17},     {"torque", "torque limit", 100.0},
                    {"torque", "torque limit", -100.0}};
   report.parameters = {{"observer", "gain", "20, 20, 10", "1/s", "momentum observer"},
+                       {"observer", "remark",
+                        "a value can be as long as a sentence, or longer than any table "
+                        "is wide, like the names of files in folders in folders: far/down/in/some/archive/of/"
+                        "experiments/of/last/year/and/the/year/before/robot.yaml",
+                        "", ""},
                        {"observer", "start", "steady", "", ""},
                        {"detector", "reaction threshold, force", "10", "N", "each component"},
                        {"detector", "reaction threshold, moment", "1", "Nm", ""},
