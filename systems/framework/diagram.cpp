@@ -4,23 +4,35 @@
 
 #include "systems/foundation/nearest_name.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/framework/block_profile.h"
 
 namespace flinch {
 
 Diagram::~Diagram() = default;
 
-void Diagram::run(const std::vector<Call>& calls, std::byte* memory) const {
+void Diagram::run(const std::vector<Call>& calls, std::byte* memory, BlockProfile* profile) const {
+  if (profile != nullptr) return run_timed(calls, memory, *profile);
   const std::uint32_t* offsets = offsets_.data();
   for (const Call& call : calls) call.function(*call.block, memory, offsets + call.first_offset);
 }
 
-void Diagram::evaluate(Context& context) const { run(outputs_in_order_, context.memory()); }
+void Diagram::run_timed(const std::vector<Call>& calls, std::byte* memory, BlockProfile& profile) const {
+  profile.start_calls();
+  for (const Call& call : calls) {
+    call.function(*call.block, memory, offsets_.data() + call.first_offset);
+    profile.end_call(*call.block);
+  }
+}
 
-void Diagram::update(Context& context) const {
+void Diagram::evaluate(Context& context, BlockProfile* profile) const {
+  run(outputs_in_order_, context.memory(), profile);
+}
+
+void Diagram::update(Context& context, BlockProfile* profile) const {
   std::byte* memory = context.memory();
   const Time now = context.time();
   for (const UpdateGroup& group : update_groups_) {
-    if (group.every.due(now)) run(group.calls, memory);
+    if (group.every.due(now)) run(group.calls, memory, profile);
   }
   for (const UpdateGroup& group : update_groups_) {
     if (!group.every.due(now)) continue;
@@ -47,11 +59,13 @@ void Diagram::set_continuous(Context& context, std::span<const double> numbers) 
   }
 }
 
-void Diagram::begin_step(Context& context) const { run(constant_in_step_, context.memory()); }
+void Diagram::begin_step(Context& context, BlockProfile* profile) const {
+  run(constant_in_step_, context.memory(), profile);
+}
 
-void Diagram::derivatives(Context& context, std::span<double> rates) const {
-  run(varying_in_step_, context.memory());
-  run(derivative_calls_, context.memory());
+void Diagram::derivatives(Context& context, std::span<double> rates, BlockProfile* profile) const {
+  run(varying_in_step_, context.memory(), profile);
+  run(derivative_calls_, context.memory(), profile);
   auto to = rates.begin();
   for (const StateCell& cell : continuous_cells_) {
     const std::span<double> rate = cell.type->numbers(context.memory() + cell.next);

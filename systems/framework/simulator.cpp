@@ -1,5 +1,6 @@
 #include "systems/framework/simulator.h"
 
+#include "systems/framework/block_profile.h"
 #include "systems/framework/diagram.h"
 #include "systems/framework/recorder.h"
 #include "systems/framework/runge_kutta.h"
@@ -9,20 +10,21 @@ namespace flinch {
 /// The diagram's continuous part during one tick.
 class Simulator::Step final : public DifferentialEquation {
  public:
-  Step(const Diagram& diagram, Context& context)
-      : diagram_(diagram), context_(context), start_(context.time()) {
-    diagram_.begin_step(context_);
+  Step(const Diagram& diagram, Context& context, BlockProfile* profile)
+      : diagram_(diagram), context_(context), profile_(profile), start_(context.time()) {
+    diagram_.begin_step(context_, profile_);
   }
 
   void rates(double t, std::span<const double> y, std::span<double> rates) override {
     context_.set_time(start_ + from_seconds(t));
     diagram_.set_continuous(context_, y);
-    diagram_.derivatives(context_, rates);
+    diagram_.derivatives(context_, rates, profile_);
   }
 
  private:
   const Diagram& diagram_;
   Context& context_;
+  BlockProfile* profile_;
   Time start_;
 };
 
@@ -35,18 +37,27 @@ Simulator::Simulator(const Diagram& diagram, std::unique_ptr<Integrator> integra
 
 Simulator::~Simulator() = default;
 
-void Simulator::step(Context& context) {
+void Simulator::evaluate(Context& context) const { diagram_.evaluate(context, profile_); }
+
+void Simulator::advance(Context& context) {
   const Time next = context.time() + diagram_.tick();
-  diagram_.evaluate(context);
   for (Recorder* recorder : recorders_) recorder->record(context);
-  diagram_.update(context);
-  if (!continuous_.empty()) {
-    Step equation(diagram_, context);
-    diagram_.get_continuous(context, continuous_);
-    if (!integrator_->advance(equation, to_seconds(diagram_.tick()), continuous_)) ++inaccurate_steps_;
-    diagram_.set_continuous(context, continuous_);
-  }
+  diagram_.update(context, profile_);
+  if (!continuous_.empty()) integrate(context);
   context.set_time(next);
+  if (profile_ != nullptr) profile_->end_tick();
+}
+
+void Simulator::integrate(Context& context) {
+  Step equation(diagram_, context, profile_);
+  diagram_.get_continuous(context, continuous_);
+  if (!integrator_->advance(equation, to_seconds(diagram_.tick()), continuous_)) ++inaccurate_steps_;
+  diagram_.set_continuous(context, continuous_);
+}
+
+void Simulator::step(Context& context) {
+  evaluate(context);
+  advance(context);
 }
 
 void Simulator::advance_to(Context& context, Time end) {

@@ -9,6 +9,7 @@
 
 namespace flinch {
 
+class BlockProfile;
 class Diagram;
 class Recorder;
 
@@ -23,8 +24,17 @@ class Simulator {
   /// Lets `recorder` see every tick. It must outlive the Simulator.
   void record(Recorder& recorder) { recorders_.push_back(&recorder); }
 
+  /// Lets `profile` time every block. It must outlive the Simulator.
+  void profile(BlockProfile& profile) { profile_ = &profile; }
+
   /// Runs one tick: from t_k to t_{k+1}.
   void step(Context& context);
+
+  /// The two halves of a tick, for who has something to do between them, as RealtimeRunner: the outputs at
+  /// t_k, ...
+  void evaluate(Context& context) const;
+  /// ... and what follows from them: recorders, updates, integration to t_{k+1}.
+  void advance(Context& context);
 
   /// Runs all ticks before `end`, then evaluates the outputs at `end`.
   void advance_to(Context& context, Time end);
@@ -35,10 +45,13 @@ class Simulator {
  private:
   class Step;
 
+  void integrate(Context& context);
+
   const Diagram& diagram_;
   std::unique_ptr<Integrator> integrator_;
   std::vector<double> continuous_;
   std::vector<Recorder*> recorders_;
+  BlockProfile* profile_ = nullptr;
   std::int64_t inaccurate_steps_ = 0;
 };
 
