@@ -1,0 +1,68 @@
+#include "systems/framework/realtime_runner.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "systems/foundation/setup_error.h"
+#include "systems/framework/diagram.h"
+#include "systems/framework/exchange.h"
+
+namespace flinch {
+
+RealtimeRunner::RealtimeRunner(const Diagram& diagram, TickSource& ticks, Exchange& exchange,
+                               std::unique_ptr<Integrator> integrator)
+    : diagram_(diagram), ticks_(ticks), exchange_(exchange), simulator_(diagram, std::move(integrator)) {}
+
+void RealtimeRunner::feed_timing(InputPort<TickTiming> input) {
+  if (input.id.owner != &diagram_) {
+    throw SetupError("the timing of ticks was to be fed into an input that is not one of the diagram '" +
+                     diagram_.name() + "' itself; export it, and feed what export_input() returns");
+  }
+  timing_slot_ = diagram_.slot(input);
+}
+
+TickTiming RealtimeRunner::time_start(Wake wake, Time due, const TickDurations& previous) {
+  TickTiming timing;
+  timing.valid = true;
+  timing.without_sample = wake == Wake::no_sample;
+  timing.started = ticks_.now();
+  timing.lateness = std::max(Time::zero(), timing.started - due);
+  timing.late = timing.lateness > late_start;
+  timing.lost_periods = timing.lateness / diagram_.tick();
+  timing.previous = previous;
+  return timing;
+}
+
+TickDurations RealtimeRunner::tick(Context& context, const TickTiming& timing) {
+  if (timing_slot_) context[*timing_slot_] = timing;
+  exchange_.set_inputs(context);
+  simulator_.evaluate(context);
+  exchange_.take_outputs(context);
+  const Time evaluated = ticks_.now();
+  simulator_.advance(context);
+  const Time ended = ticks_.now();
+
+  const Time whole = ended - timing.started;
+  return {.valid = true,
+          .overran = whole > diagram_.tick(),
+          .evaluation = evaluated - timing.started,
+          .update = ended - evaluated,
+          .whole = whole};
+}
+
+void RealtimeRunner::run(Context& context, Time end) {
+  const Time period = diagram_.tick();
+  TickDurations durations;
+  Time due = ticks_.now();
+  while (context.time() < end && !stop_requested()) {
+    const Wake wake = ticks_.wait(due);
+    if (stop_requested()) return;
+    const TickTiming timing = time_start(wake, due, durations);
+    statistics_.count_start(timing);
+    durations = tick(context, timing);
+    statistics_.count_end(durations);
+    due = wake == Wake::sample ? timing.started + period : due + (timing.lost_periods + 1) * period;
+  }
+}
+
+}  // namespace flinch

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <optional>
+
+#include "systems/framework/simulator.h"
+#include "systems/framework/tick_source.h"
+#include "systems/framework/tick_statistics.h"
+#include "systems/framework/tick_timing.h"
+
+namespace flinch {
+
+class Exchange;
+
+/// Runs a diagram in real time, on the thread that calls run(). It is the diagram that Simulator runs, and
+/// with the same inputs it computes the same bits. With the tick period T:
+///
+///   t := the context's time,  d := now
+///   while t < end and nobody asked to stop
+///     wait until d, or for a sample (see TickSource)
+///     s := now,  n := floor((s - d) / T)
+///     u := the timing of this tick, where an input was named for it, and what exchange.set_inputs() sets
+///     y := every output, at t
+///     exchange.take_outputs() sees y: here the command leaves
+///     recorders see y and u
+///     x := updates at t, and integration to t + T, as diagram.h says
+///     t := t + T
+///     d := s + T if a sample came, d + (n + 1) T otherwise
+///
+/// So a tick is never dropped, and none is run twice as fast to catch up. After an overrun the next tick
+/// starts late, but at once; the ticks after it are due when they were before. When n whole periods have
+/// passed without a tick, they are lost: counted, told in TickTiming, and t, which counts ticks, is n T
+/// further behind the clock. What shall follow from late ticks is decided by blocks, from an input that
+/// feed_timing() fills.
+///
+/// In steady state the thread allocates nothing and takes no lock. What the machine grants it is asked for
+/// apart, and before: see RealtimeThread.
+///
+///   RealtimeThread thread(settings);             // throws where something required is not permitted
+///   show(thread.report());
+///   ClockTicks ticks;
+///   RealtimeRunner runner(diagram, ticks, exchange);
+///   runner.record(recorder);
+///   runner.run(context, 10s);
+class RealtimeRunner {
+ public:
+  static constexpr Time late_start = 500us;  ///< a tick that starts later than this after it was due is late
+
+  /// All references must outlive the runner. The default integrator is that of Simulator.
+  RealtimeRunner(const Diagram& diagram, TickSource& ticks, Exchange& exchange,
+                 std::unique_ptr<Integrator> integrator = nullptr);
+
+  /// As Simulator::record().
+  void record(Recorder& recorder) { simulator_.record(recorder); }
+  /// As Simulator::profile().
+  void profile(BlockProfile& profile) { simulator_.profile(profile); }
+
+  /// Before each tick, sets `input` of the diagram itself to the tick's timing. Throws SetupError for an
+  /// input of a block inside.
+  void feed_timing(InputPort<TickTiming> input);
+
+  /// Runs ticks until the context's time reaches `end` or somebody asks to stop.
+  void run(Context& context, Time end = Time::max());
+
+  /// Lets run() return after the current tick, for good. From any thread or signal handler.
+  void request_stop() noexcept { stop_requested_.store(true, std::memory_order_relaxed); }
+  bool stop_requested() const noexcept { return stop_requested_.load(std::memory_order_relaxed); }
+
+  /// Of all runs. Not to be read while one is under way.
+  const TickStatistics& statistics() const { return statistics_; }
+  /// As Simulator::inaccurate_steps().
+  std::int64_t inaccurate_steps() const { return simulator_.inaccurate_steps(); }
+
+ private:
+  TickTiming time_start(Wake wake, Time due, const TickDurations& previous);
+  TickDurations tick(Context& context, const TickTiming& timing);
+
+  static_assert(std::atomic<bool>::is_always_lock_free);
+
+  const Diagram& diagram_;
+  TickSource& ticks_;
+  Exchange& exchange_;
+  Simulator simulator_;
+  std::optional<Slot<TickTiming>> timing_slot_;
+  TickStatistics statistics_;
+  std::atomic<bool> stop_requested_ = false;
+};
+
+}  // namespace flinch

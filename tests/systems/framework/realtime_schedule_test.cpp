@@ -1,0 +1,140 @@
+// When ticks start, and what becomes of those that cannot start when they are due.
+#include <gtest/gtest.h>
+
+#include "systems/framework/random.h"
+#include "systems/framework/realtime_runner.h"
+#include "tests/systems/framework/realtime_station.h"
+
+namespace flinch {
+namespace {
+
+using test::Calls;
+using test::FakeClockTicks;
+using test::FakeSampleTicks;
+using test::Station;
+
+/// The timings that a run had, tick by tick.
+std::vector<TickTiming> run_ticks(TickSource& source, int ticks, const std::function<void(int)>& work) {
+  const Station station = Station::build();
+  std::vector<TickTiming> timings;
+  Calls exchange;
+  exchange.before = [&](Context& context) { timings.push_back(context.get(station.timing)); };
+  exchange.after = [&](const Context&) { work(static_cast<int>(timings.size()) - 1); };
+  RealtimeRunner runner(*station.diagram, source, exchange);
+  runner.feed_timing(station.timing);
+  Context context = station.diagram->make_context();
+  runner.run(context, ticks * 1ms);
+  EXPECT_EQ(context.time(), Time(ticks * 1ms));
+  return timings;
+}
+
+// ---------------------------------------------------------------- laws
+
+TEST(RealtimeRunner, StartsAtMostOneTickInAPeriodAndAccountsForEveryPeriod) {
+  FakeClockTicks ticks;
+  RandomGenerator random(2);
+  const Time start = ticks.now();
+  const std::vector<TickTiming> timings = run_ticks(ticks, 2000, [&](int) {
+    ticks.work(from_seconds(random.uniform(0.0, random.uniform(0.0, 1.0) < 0.9 ? 0.5e-3 : 6e-3)));
+    ticks.wake_delay = from_seconds(random.uniform(0.0, random.uniform(0.0, 1.0) < 0.9 ? 0.1e-3 : 4e-3));
+  });
+  std::int64_t lost = 0;
+  for (std::size_t k = 0; k < timings.size(); ++k) {
+    const auto ticks_and_lost_before = static_cast<std::int64_t>(k) + lost;
+    EXPECT_EQ(timings[k].lateness, timings[k].started - (start + ticks_and_lost_before * 1ms));
+    lost += timings[k].lost_periods;
+    EXPECT_EQ((timings[k].started - start) / 1ms, static_cast<std::int64_t>(k) + lost);
+  }
+  EXPECT_GT(lost, 0);
+}
+
+// ---------------------------------------------------------------- late ticks, by the clock
+
+TEST(RealtimeRunner, StartsATickAtOnceThatAnOverrunMadeLateAndKeepsTheSchedule) {
+  FakeClockTicks ticks;
+  const Time start = ticks.now();
+  const auto timings = run_ticks(ticks, 5, [&](int tick) { ticks.work(tick == 1 ? 1700us : 200us); });
+  EXPECT_EQ(timings[2].started, start + 2700us);
+  EXPECT_EQ(timings[2].lateness, Time(700us));
+  EXPECT_TRUE(timings[2].late);
+  EXPECT_EQ(timings[2].lost_periods, 0);
+  EXPECT_EQ(timings[3].started, start + 3ms);
+  EXPECT_FALSE(timings[3].late);
+}
+
+TEST(RealtimeRunner, CountsPeriodsThatPassedWithoutATickAsLostAndKeepsThePhase) {
+  FakeClockTicks ticks;
+  const Time start = ticks.now();
+  const auto timings = run_ticks(ticks, 5, [&](int tick) { ticks.work(tick == 1 ? 3300us : 200us); });
+  EXPECT_EQ(timings[2].started, start + 4300us);
+  EXPECT_EQ(timings[2].lateness, Time(2300us));
+  EXPECT_EQ(timings[2].lost_periods, 2);
+  EXPECT_EQ(timings[3].started, start + 5ms);
+  EXPECT_EQ(timings[3].lateness, Time(0));
+}
+
+TEST(RealtimeRunner, TellsATickHowLongTheOneBeforeTook) {
+  FakeClockTicks ticks;
+  const auto timings = run_ticks(ticks, 3, [&](int tick) { ticks.work(tick == 1 ? 1001us : 1000us); });
+  EXPECT_TRUE(timings[0].valid);
+  EXPECT_FALSE(timings[0].previous.valid);
+  EXPECT_TRUE(timings[1].previous.valid);
+  EXPECT_EQ(timings[1].previous.evaluation, Time(1000us));
+  EXPECT_EQ(timings[1].previous.update, Time(0));
+  EXPECT_EQ(timings[1].previous.whole, Time(1000us));
+  EXPECT_FALSE(timings[1].previous.overran);
+  EXPECT_TRUE(timings[2].previous.overran);
+}
+
+TEST(RealtimeRunner, CallsATickLateOnlyBeyondHalfAMillisecond) {
+  FakeClockTicks ticks;
+  ticks.wake_delay = 500us;
+  const auto timings = run_ticks(ticks, 2, [&](int) { ticks.wake_delay = 501us; });
+  EXPECT_FALSE(timings[0].late);
+  EXPECT_TRUE(timings[1].late);
+}
+
+// ---------------------------------------------------------------- ticks by samples
+
+struct Start {
+  Time when;
+  bool without_sample;
+  bool operator==(const Start&) const = default;
+};
+
+std::vector<Start> starts(const std::vector<TickTiming>& timings) {
+  std::vector<Start> result;
+  for (const TickTiming& timing : timings) result.push_back({timing.started, timing.without_sample});
+  return result;
+}
+
+TEST(RealtimeRunner, TicksWhenASampleComes) {
+  FakeSampleTicks ticks({100us, 1250us, 2050us}, 500us);
+  const auto timings = run_ticks(ticks, 3, [](int) {});
+  EXPECT_EQ(starts(timings), (std::vector<Start>{{100us, false}, {1250us, false}, {2050us, false}}));
+  EXPECT_EQ(timings[1].lateness, Time(150us));
+  EXPECT_EQ(timings[2].lateness, Time(0));  // early is not late
+}
+
+TEST(RealtimeRunner, TicksWithoutTheSampleThatIsLostAndNoSoonerThanItsPatienceEnds) {
+  FakeSampleTicks ticks({0us, 1ms, 3ms, 4ms}, 500us);
+  EXPECT_EQ(starts(run_ticks(ticks, 5, [](int) {})),
+            (std::vector<Start>{{0us, false}, {1ms, false}, {2500us, true}, {3ms, false}, {4ms, false}}));
+}
+
+TEST(RealtimeRunner, KeepsItsRateWhenSamplesStop) {
+  FakeSampleTicks ticks({0us}, 500us);
+  EXPECT_EQ(starts(run_ticks(ticks, 4, [](int) {})),
+            (std::vector<Start>{{0us, false}, {1500us, true}, {2500us, true}, {3500us, true}}));
+}
+
+TEST(RealtimeRunner, TakesOnlyTheLatestOfTheSamplesThatCameDuringAnOverrun) {
+  FakeSampleTicks ticks({0us, 1ms, 2ms, 3ms}, 500us);
+  const auto timings = run_ticks(ticks, 3, [&](int tick) { ticks.work(tick == 0 ? 2600us : 100us); });
+  EXPECT_EQ(starts(timings), (std::vector<Start>{{0us, false}, {2600us, false}, {3ms, false}}));
+  EXPECT_EQ(timings[1].lateness, Time(1600us));
+  EXPECT_EQ(timings[1].lost_periods, 1);
+}
+
+}  // namespace
+}  // namespace flinch
