@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <functional>
+#include <new>
 #include <nlohmann/json.hpp>
 
 #include "systems/foundation/nearest_name.h"
@@ -135,6 +136,9 @@ int run_command_line(int argc, const char* const* argv) {
     return static_cast<int>(verbs.chosen());
   } catch (const SetupError& error) {
     return complain(error.problems(), verbs.common->json);
+  } catch (const std::bad_alloc&) {
+    return complain({"there is not enough memory; a run needs some 4 MB for each second of its duration"},
+                    verbs.common->json);
   }
 }
 
