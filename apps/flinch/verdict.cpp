@@ -217,7 +217,7 @@ void judge_contacts(const Verdict& verdict, const Expectations& expected,
 void expect_at_most(const char* what, double value, std::optional<double> bound, const char* unit,
                     double scale, std::vector<std::string>& failures) {
   if (!bound || value <= *bound) return;
-  failures.push_back(fmt::format("the {} reached {:.3g} {}, above {:.3g} {}", what, scale * value, unit,
+  failures.push_back(fmt::format("the {} reached {:.4g} {}, above {:.4g} {}", what, scale * value, unit,
                                  scale * *bound, unit));
 }
 
