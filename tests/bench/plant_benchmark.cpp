@@ -22,6 +22,7 @@
 #include "tests/plant/servoed_station.h"
 #include "tests/plant/truth_servo.h"
 #include "tests/support/allocations.h"
+#include "tests/support/processor_time.h"
 
 namespace flinch {
 namespace {
@@ -135,17 +136,10 @@ int steps_of_equal_accuracy(const BenchDynamics& dynamics, const std::vector<Run
 
 // ---------------------------------------------------------------- timing
 
-/// Processor time that this thread has used: other programs do not count.
-Seconds processor_time() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return std::chrono::seconds(now.tv_sec) + std::chrono::nanoseconds(now.tv_nsec);
-}
-
 /// Repeats all ticks of the runs, one by one, as fast as it can.
 template <class Work>
 Seconds time_ticks(Tick& tick, const std::vector<Run>& runs, Work&& work) {
-  const Seconds begin = processor_time();
+  const Seconds begin = test::processor_time();
   for (const Run& run : runs) {
     for (const Start& start : run) {
       tick.drives.torque = start.torque;
@@ -155,7 +149,7 @@ Seconds time_ticks(Tick& tick, const std::vector<Run>& runs, Work&& work) {
       benchmark::DoNotOptimize(y);
     }
   }
-  return processor_time() - begin;
+  return test::processor_time() - begin;
 }
 
 Seconds time_integrator(Tick& tick, const std::vector<Run>& runs, Integrator& integrator) {
