@@ -78,7 +78,7 @@ TEST(TableIv, IsDetectedInTimeAndInOrderWithinTheForceLimits) {
 }
 
 TEST(TableIv, HoldsForOtherNoise) {
-  for (const std::uint64_t seed : {2, 3, 4, 5}) {
+  for (const std::uint64_t seed : {2U, 3U, 4U, 5U}) {
     std::printf("  seed %llu: detected ms", static_cast<unsigned long long>(seed));
     for (const ContactVerdict& contact : collide(seed)) std::printf(" %6.1f", 1e3 * detection_time(contact));
     std::printf("\n");
@@ -89,7 +89,7 @@ TEST(TableIv, HoldsForOtherNoise) {
 
 TEST(Square, IsFollowedWithoutAFalseDetection) {
   std::printf("  [SafePR] V-B        observer N (<= 5)   Nm (<= 0.3)   tracking mm (<= 10)\n");
-  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U}) {
     const Verdict verdict = verdict_of(scenario_called("square", seed));
     std::printf("  square, seed %llu %14.2f %15.3f %16.2f\n", static_cast<unsigned long long>(seed),
                 verdict.max_observer_error_force, verdict.max_observer_error_moment,
