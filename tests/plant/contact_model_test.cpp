@@ -1,6 +1,7 @@
 #include "plant/contact_model.h"
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <cmath>
 
