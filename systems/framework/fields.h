@@ -182,9 +182,19 @@ struct RowWriter {
   }
 };
 
-/// The inverse of RowWriter.
+/// Whether a T can have this size.
+template <class T>
+constexpr bool fits(std::int64_t rows, std::int64_t columns) {
+  const bool row_count = T::RowsAtCompileTime == Eigen::Dynamic ? rows >= 0 : rows == T::RowsAtCompileTime;
+  const bool column_count =
+      T::ColsAtCompileTime == Eigen::Dynamic ? columns >= 0 : columns == T::ColsAtCompileTime;
+  return row_count && column_count && rows <= T::MaxRowsAtCompileTime && columns <= T::MaxColsAtCompileTime;
+}
+
+/// The inverse of RowWriter. Sizes that a matrix cannot have leave it as it is and make the row not good.
 struct RowReader {
   const Number* next;
+  bool good = true;
 
   template <class T>
   void operator()(T& value) {
@@ -194,7 +204,11 @@ struct RowReader {
       if constexpr (T::SizeAtCompileTime == Eigen::Dynamic) {
         const std::int64_t rows = (next++)->integer;
         const std::int64_t columns = (next++)->integer;
-        value.resize(rows, columns);
+        if (fits<T>(rows, columns)) {
+          value.resize(rows, columns);
+        } else {
+          good = false;
+        }
       }
       for (Eigen::Index i = 0; i < value.size(); ++i) value.data()[i] = next[i].real;
       next += T::MaxSizeAtCompileTime;
@@ -228,11 +242,13 @@ void write_row(const T& value, internal::Number* row) {
   internal::for_each_leaf(value, writer);
 }
 
-/// Reads back what write_row wrote, bit for bit.
+/// Reads back what write_row wrote, bit for bit. Returns false where a matrix of the row has a size that it
+/// cannot have.
 template <Recordable T>
-void read_row(const internal::Number* row, T& value) {
+[[nodiscard]] bool read_row(const internal::Number* row, T& value) {
   internal::RowReader reader{row};
   internal::for_each_leaf(value, reader);
+  return reader.good;
 }
 
 }  // namespace flinch

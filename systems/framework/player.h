@@ -22,7 +22,10 @@ class Player final : public System {
     const Signal& signal = recording.signal(path);
     check_layout(signal);
     for (std::size_t k = 0; k < values_.size(); ++k) {
-      read_row(signal.rows.data() + k * signal.layout.numbers, values_[k]);
+      if (!read_row(signal.rows.data() + k * signal.layout.numbers, values_[k])) {
+        throw SetupError("the signal '" + path +
+                         "' has a sample with an impossible size; the recording is broken");
+      }
     }
   }
 

@@ -24,7 +24,6 @@ struct ValueType {
   /// Recording: null for types that cannot be recorded.
   RowLayout (*layout)();
   void (*to_row)(const void* value, internal::Number* row);
-  void (*from_row)(const internal::Number* row, void* value);
 };
 
 /// A value that a port or state can hold. Its copies must not touch the heap: use fixed or bounded Eigen
@@ -60,7 +59,6 @@ constexpr ValueType make_value_type() {
   if constexpr (Recordable<T>) {
     type.layout = &row_layout<T>;
     type.to_row = [](const void* value, Number* row) { write_row(*static_cast<const T*>(value), row); };
-    type.from_row = [](const Number* row, void* value) { read_row(row, *static_cast<T*>(value)); };
   }
   return type;
 }

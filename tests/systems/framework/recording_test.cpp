@@ -217,6 +217,19 @@ TEST(Player, IsNotValidBeforeAndAfterTheRecording) {
   EXPECT_EQ(context.get(player.played).bounded.size(), 0);
 }
 
+TEST(Player, RefusesASampleOfImpossibleSize) {
+  Recording recording = record_source(10);
+  for (Signal& signal : recording.signals) {
+    if (signal.path != "source/sample") continue;
+    // Before the bounded vector stand five scalars and a vector of three, then its rows and columns.
+    const std::size_t rows = 3 * signal.layout.numbers + 8;
+    ASSERT_LE(signal.rows[rows].integer, 6);
+    ASSERT_EQ(signal.rows[rows + 1].integer, 1);
+    signal.rows[rows].integer = 1'000'000;
+  }
+  EXPECT_THROW(Player<Sample>(recording, "source/sample"), SetupError);
+}
+
 TEST(Player, RefusesAnotherTypeThanWasRecorded) {
   const Recording recording = record_source(10);
   EXPECT_THROW(Player<double>(recording, "source/sample"), SetupError);
