@@ -1,5 +1,7 @@
 #include "systems/robot/planar_rrr_parameters.h"
 
+#include <gtest/gtest.h>
+
 #include <functional>
 #include <limits>
 
