@@ -20,10 +20,14 @@ template <class Message>
 class Ros2Reader {
  public:
   Ros2Reader(const DdsBus& bus, const Topic& topic)
-      : topic_(dds_create_topic(bus.participant(), topic.type, topic.name, nullptr, nullptr)),
+      : type_(topic.type),
+        topic_(dds_create_topic(bus.participant(), topic.type, topic.name, nullptr, nullptr)),
         reader_(dds_create_reader(bus.participant(), topic_.handle(), nullptr, nullptr)) {}
+  Ros2Reader(const Ros2Reader&) = delete;
+  Ros2Reader& operator=(const Ros2Reader&) = delete;
+  ~Ros2Reader() { dds_sample_free(&message, type_, DDS_FREE_CONTENTS); }
 
-  /// Whether a message has come; it is then in `message`, which is never freed.
+  /// Whether a message has come; it is then in `message`.
   bool take() {
     void* samples[1] = {&message};
     dds_sample_info_t info{};
@@ -33,6 +37,7 @@ class Ros2Reader {
   Message message{};
 
  private:
+  const dds_topic_descriptor_t* type_;
   DdsEntity topic_, reader_;
 };
 
