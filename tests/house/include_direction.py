@@ -21,7 +21,6 @@ MAY_INCLUDE = {
     "plant": ["plant", *DIAGRAMS],
     "drivers": ["drivers", *DIAGRAMS],
 }
-ABOVE_ALL = ("apps", "tests")  # may include everything below them, and tests the apps
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"')
 
 
