@@ -165,11 +165,13 @@ ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
   builder.connect(joints, safety.monitor.joints);
   const auto drives = builder.export_input("drives", sensing.torque.drives);
   builder.connect(drives, safety.monitor.drives);
+  const auto buttons = builder.export_input("operator_command", reaction.buttons.buttons);
+  builder.connect(buttons, safety.monitor.buttons);
   const ContactControl control{
       .joints = joints,
       .drives = drives,
       .status = builder.export_input("status", safety.monitor.station),
-      .operator_command = builder.export_input("operator_command", reaction.buttons.buttons),
+      .operator_command = buttons,
       .torque_command = builder.export_output("torque_command", safety.gate.torque_command),
       .brake = builder.export_output("brake", safety.gate.brake),
       .joint_motion = builder.export_output("joint_motion", sensing.velocity.motion),

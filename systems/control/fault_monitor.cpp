@@ -24,7 +24,7 @@ FaultReport FaultMonitor::judge(Time now, const FaultMonitorMemory& memory, cons
                                 const JointReading& angles, const DriveReading& currents,
                                 const JointMotion& rates, const PlatformMotion& pose,
                                 const WorkspaceMeasures& workspace, const ContactDetection& contact,
-                                const PlatformReference& followed) const {
+                                const PlatformReference& followed, const OperatorCommand& pressed) const {
   const Evidence evidence{.robot = *robot_,
                           .limits = limits_,
                           .now = now,
@@ -40,7 +40,8 @@ FaultReport FaultMonitor::judge(Time now, const FaultMonitorMemory& memory, cons
                           .detection = contact,
                           .reference = followed,
                           .command = memory.command,
-                          .last_command = memory.last_command};
+                          .last_command = memory.last_command,
+                          .buttons = pressed};
   return {.valid = true, .present = find_faults(evidence)};
 }
 

@@ -34,14 +34,16 @@ class FaultMonitor final : public System {
   InputPort<ContactDetection> detection = input<ContactDetection>("detection");
   InputPort<PlatformReference> reference = input<PlatformReference>("reference");  ///< that is being followed
   InputPort<TorqueCommand> command = input<TorqueCommand>("command");
+  InputPort<OperatorCommand> buttons = input<OperatorCommand>("buttons");
 
  private:
   OutputPort<FaultMonitorMemory> now_ =
       output<&FaultMonitor::advance>("memory", clock, last_, station, joints, drives, command);
 
  public:
-  OutputPort<FaultReport> faults = output<&FaultMonitor::judge>(
-      "faults", clock, now_, station, joints, drives, motion, platform, measures, detection, reference);
+  OutputPort<FaultReport> faults =
+      output<&FaultMonitor::judge>("faults", clock, now_, station, joints, drives, motion, platform, measures,
+                                   detection, reference, buttons);
 
  private:
   Update remember_ = update<&FaultMonitor::remember>(last_, now_);
@@ -52,7 +54,8 @@ class FaultMonitor final : public System {
   FaultReport judge(Time now, const FaultMonitorMemory& memory, const StationStatus& status,
                     const JointReading& angles, const DriveReading& currents, const JointMotion& rates,
                     const PlatformMotion& pose, const WorkspaceMeasures& workspace,
-                    const ContactDetection& contact, const PlatformReference& followed) const;
+                    const ContactDetection& contact, const PlatformReference& followed,
+                    const OperatorCommand& pressed) const;
   FaultMonitorMemory remember(const FaultMonitorMemory& now) const { return now; }
 
   std::shared_ptr<const ParallelRobot> robot_;

@@ -123,6 +123,8 @@ bool torque_jump(const Evidence& e) {
          e.limits.max_torque_jump;
 }
 
+bool operator_stop(const Evidence& e) { return e.buttons.stop; }
+
 // ---------------------------------------------------------------- the table
 
 constexpr GateReaction stop = GateReaction::controlled_stop;
@@ -155,6 +157,7 @@ constexpr std::array rows{
     FaultRow{GateFault::command_stale, stop, 3, command_stale, "the laws' torques are too old"},
     FaultRow{GateFault::command_not_finite, stop, 0, command_not_finite, "the laws' torques are no numbers"},
     FaultRow{GateFault::torque_jump, stop, 0, torque_jump, "the laws' torques jump"},
+    FaultRow{GateFault::operator_stop, stop, 0, operator_stop, "the operator stops the robot"},
 };
 
 constexpr bool in_order() {

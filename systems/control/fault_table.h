@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "systems/control/gate_fault.h"
+#include "systems/control/operator_command.h"
 #include "systems/control/platform_reference.h"
 #include "systems/control/torque_command.h"
 #include "systems/framework/time.h"
@@ -60,6 +61,7 @@ struct Evidence {
   const PlatformReference& reference;  ///< that is being followed; not valid where none is
   const TorqueCommand& command;
   const TorqueCommand& last_command;  ///< of the tick before
+  const OperatorCommand& buttons;
 };
 
 /// One fault: when it is present, what the gate then does, how soon.

@@ -31,6 +31,7 @@ enum class GateFault : std::uint8_t {
   command_stale,
   command_not_finite,
   torque_jump,
+  operator_stop,
 };
 
 /// What the torque gate does about a fault, in order of severity.

@@ -82,6 +82,9 @@ const std::map<GateFault, Cause>& causes() {
       {GateFault::command_not_finite, {[](Inputs& in) { in.command.torque[0] = nan; }}},
       {GateFault::torque_jump,
        {[](Inputs& in) { in.command.torque[1] = -40.01; }, [](Inputs& in) { in.command.torque[1] = -40.0; }}},
+      {GateFault::operator_stop,
+       {[](Inputs& in) { in.buttons.stop = true; },
+        [](Inputs& in) { in.buttons = {.start = true, .reset = true, .stop = false}; }}},
   };
   return all;
 }

@@ -28,6 +28,7 @@ struct Inputs {
   ContactDetection detection;
   PlatformReference reference;
   TorqueCommand command;
+  OperatorCommand buttons;
   Time last_seen = 10ms;  ///< for what hangs: the last tick of open()
 };
 
@@ -43,6 +44,7 @@ struct Safety {
     ticking.set(detection, inputs.detection);
     ticking.set(reference, inputs.reference);
     ticking.set(command, inputs.command);
+    ticking.set(buttons, inputs.buttons);
     ticking.set(stop, {.computed = ticking.now(), .valid = true, .torque = Eigen::Vector3d(7.0, 8.0, 9.0)});
     ticking.set(reset, {.reset = reset_now});
     ticking.tick();
@@ -65,6 +67,7 @@ struct Safety {
   InputPort<WorkspaceMeasures> measures = builder.export_input("measures", monitor.measures);
   InputPort<ContactDetection> detection = builder.export_input("detection", monitor.detection);
   InputPort<PlatformReference> reference = builder.export_input("reference", monitor.reference);
+  InputPort<OperatorCommand> buttons = builder.export_input("buttons", monitor.buttons);
   InputPort<TorqueCommand> stop = builder.export_input("stop", gate.stop);
   InputPort<ResetCommand> reset = builder.export_input("reset", gate.reset);
   Ticking ticking{builder};
