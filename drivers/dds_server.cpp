@@ -47,7 +47,7 @@ class ReadingOutlet {
 class DdsServer::Implementation {
  public:
   Implementation(const DdsBus& bus, const Diagram& diagram, const Station& station,
-                 const DdsServerSettings& settings)
+                 const DdsServerSettings& settings, const PoweredStation* powered = nullptr)
       : settings_(settings),
         sender_{draw_session(), settings.robot},
         clock_(diagram.tick()),
@@ -63,19 +63,23 @@ class DdsServer::Implementation {
     if (station.force_torque) {
       force_torque_.emplace(bus, force_torque_topic, sender_, diagram.slot(*station.force_torque));
     }
+    if (powered != nullptr) {
+      power_ = {.wish = diagram.slot(powered->wish), .statusword = diagram.slot(powered->statusword)};
+    }
     thread_.emplace([this] { send(); }, settings.realtime_priority);
   }
 
   void set_inputs(Context& context) noexcept {
     clock_.start_tick(context.time());
     if (commands_.take(last_)) obeying_ = true;
-    requests_.take(request_);
+    take_request();
     age_ = MonotonicClock::now() - last_.sent;
     if (obeying_ && age_ > settings_.longest_silence) {
       obeying_ = false;
       ++silences_;
     }
     command(context[torque_command_], context[brake_]);
+    if (power_) wish(context[power_->wish]);
   }
 
   void take_outputs(const Context& context) noexcept {
@@ -83,7 +87,7 @@ class DdsServer::Implementation {
     drives_.take_outputs(context, clock_);
     imu_.take_outputs(context, clock_);
     if (force_torque_) force_torque_->take_outputs(context, clock_);
-    leave_status(context[station_status_]);
+    leave_status(context[station_status_], drive_state(context));
     thread_->wake();
   }
 
@@ -96,6 +100,11 @@ class DdsServer::Implementation {
   }
 
  private:
+  struct Power {
+    Slot<DriveWish> wish;
+    Slot<Statusword> statusword;
+  };
+
   static AdmissionSettings admission(const DdsServerSettings& settings) {
     return {.robot = settings.robot,
             .longest_silence = settings.longest_silence,
@@ -109,11 +118,35 @@ class DdsServer::Implementation {
     return {.robot = settings.robot, .longest_silence = Time::zero(), .longest_way = 1h};
   }
 
+  /// Counts the resets that are asked for; the count of a session begins with its first request.
+  void take_request() noexcept {
+    const flinch_Header last = request_.sample.header;
+    const std::uint32_t resets = request_.sample.fault_resets;
+    if (!requests_.take(request_) || request_.sample.header.session != last.session) return;
+    if (request_.sample.fault_resets > resets) ++fault_resets_;
+  }
+
+  /// Whether the last request is of who commands.
+  bool is_asked() const noexcept {
+    return obeying_ && request_.sample.header.session == last_.sample.header.session;
+  }
+
   /// Whether who commands has asked for brakes, or for less than operation.
   bool is_held() const noexcept {
     const flinch_DriveRequest& request = request_.sample;
-    return request.header.session == last_.sample.header.session &&
-           (request.engage_brake != 0 || request.wanted != operation_enabled);
+    return is_asked() && (request.engage_brake != 0 || request.wanted != operation_enabled);
+  }
+
+  void wish(DriveWish& wish) const noexcept {
+    wish = DriveWish{.fault_resets = fault_resets_};
+    if (!is_asked() || request_.sample.wanted > 3) return;
+    wish.state = static_cast<DriveWish::State>(request_.sample.wanted);
+    wish.engage_brake = request_.sample.engage_brake != 0;
+  }
+
+  DriveState drive_state(const Context& context) const noexcept {
+    if (power_) return context[power_->statusword].state();
+    return context[station_status_].enabled ? DriveState::operation_enabled : DriveState::switch_on_disabled;
   }
 
   void command(TorqueCommand& torque, BrakeCommand& brake) const noexcept {
@@ -126,11 +159,12 @@ class DdsServer::Implementation {
     torque.computed = clock_.to_tick_time(last_.acquired);
   }
 
-  void leave_status(StationStatus status) noexcept {
+  void leave_status(StationStatus status, DriveState drives) noexcept {
     status.acquired = clock_.to_monotonic(status.acquired);
     status.enabled = status.enabled && obeying_;
     flinch_StatusSample sample;
     to_wire(status, sample);
+    sample.drive_state = static_cast<std::uint8_t>(drives);
     const DdsCommander now = commander();
     sample.commander = now.session;
     sample.commands_refused = now.refused;
@@ -142,12 +176,13 @@ class DdsServer::Implementation {
     status_.leave(sample);
   }
 
+  /// Joints last: they start a tick at the other end, which shall find all the rest.
   void send() noexcept {
-    joints_.send();
     drives_.send();
     imu_.send();
     if (force_torque_) force_torque_->send();
     status_.send();
+    joints_.send();
   }
 
   DdsServerSettings settings_;
@@ -156,10 +191,12 @@ class DdsServer::Implementation {
   Slot<TorqueCommand> torque_command_;
   Slot<BrakeCommand> brake_;
   Slot<StationStatus> station_status_;
+  std::optional<Power> power_;
 
   bool obeying_ = false;
   Time age_{};
   std::uint32_t silences_ = 0;
+  std::uint32_t fault_resets_ = 0;
   ReceivedSample<flinch_TorqueSample> last_;
   SampleReceiver<flinch_TorqueSample> commands_;
   ReceivedSample<flinch_DriveRequest> request_;
@@ -172,6 +209,10 @@ class DdsServer::Implementation {
   SampleSender<flinch_StatusSample> status_;
   std::optional<SendingThread> thread_;  // last: ends before what it sends with
 };
+
+DdsServer::DdsServer(const DdsBus& bus, const Diagram& diagram, const PoweredStation& station,
+                     const DdsServerSettings& settings)
+    : implementation_(std::make_unique<Implementation>(bus, diagram, station, settings, &station)) {}
 
 DdsServer::DdsServer(const DdsBus& bus, const Diagram& diagram, const Station& station,
                      const DdsServerSettings& settings)

@@ -5,6 +5,7 @@
 
 #include "diagrams/station.h"
 #include "drivers/dds_bus.h"
+#include "drivers/powered_station.h"
 #include "systems/framework/context.h"
 #include "systems/framework/exchange.h"
 
@@ -35,13 +36,17 @@ struct DdsCommander {
 /// session at a time, which begins with a command of no torque or with brakes, in time and in order; to all
 /// others, and when the session falls silent, the answer is no torque and closed brakes. A station on the
 /// bus says that it is enabled only while it obeys somebody. A drive request of that session for brakes, or
-/// for less than operation, closes the brakes whatever its torque commands say; without one they decide.
+/// for less than operation, closes the brakes whatever its torque commands say. It also says what the drives
+/// shall be, where the station's drives must be switched on; while nobody is obeyed, without voltage.
 ///
 /// Receiving and sending happen on other threads; what is called from the loop neither blocks, allocates nor
-/// throws. `torque_command` and `brake` must be inputs of the outermost diagram.
+/// throws. `torque_command`, `brake` and `wish` must be inputs of the outermost diagram.
 class DdsServer final : public Exchange {
  public:
   /// Throws SetupError.
+  DdsServer(const DdsBus& bus, const Diagram& diagram, const PoweredStation& station,
+            const DdsServerSettings& settings);
+  /// For a station whose drives are always on. Throws SetupError.
   DdsServer(const DdsBus& bus, const Diagram& diagram, const Station& station,
             const DdsServerSettings& settings);
   ~DdsServer() override;

@@ -19,16 +19,25 @@ template <class Sample, class Reading>
 class ReadingInlet {
  public:
   ReadingInlet(const DdsBus& bus, const Topic& topic, const AdmissionSettings& admission,
-               Slot<Arrival<Reading>> input)
-      : input_(input), receiver_(bus, topic, admission) {}
+               Slot<Arrival<Reading>> input, SampleSignal* arrived = nullptr)
+      : input_(input), receiver_(bus, topic, admission, nullptr, arrived) {}
 
-  void set_inputs(Context& context, const TickClock& clock) noexcept {
-    if (!receiver_.take(last_)) return;
+  /// Whether something has come that set_inputs() has not yet brought in.
+  bool look() noexcept {
+    if (receiver_.take(last_)) waiting_ = true;
+    return waiting_;
+  }
+
+  /// Returns whether there was something new.
+  bool set_inputs(Context& context, const TickClock& clock) noexcept {
+    if (!look()) return false;
+    waiting_ = false;
     Arrival<Reading>& arrival = context[input_];
     from_wire(last_.sample, arrival.reading);
     arrival.reading.acquired = clock.to_tick_time(last_.acquired);
     arrival.source = last_.sample.header.session;
     arrival.number = last_.sample.header.number;
+    return true;
   }
 
   const ReceivedSample<Sample>& last() const noexcept { return last_; }
@@ -36,6 +45,7 @@ class ReadingInlet {
 
  private:
   Slot<Arrival<Reading>> input_;
+  bool waiting_ = false;
   ReceivedSample<Sample> last_;
   SampleReceiver<Sample> receiver_;
 };
@@ -51,7 +61,7 @@ class DdsStation::Implementation {
         torque_command_(diagram.slot(station.torque_command)),
         brake_(diagram.slot(station.brake)),
         admission_{.robot = settings.robot, .longest_silence = settings.longest_silence},
-        joints_(bus, joints_topic, admission_, diagram.slot(station.arriving_joints)),
+        joints_(bus, joints_topic, admission_, diagram.slot(station.arriving_joints), &joints_arrived_),
         drives_(bus, drives_topic, admission_, diagram.slot(station.arriving_drives)),
         imu_(bus, imu_topic, admission_, diagram.slot(station.arriving_imu)),
         status_(bus, status_topic, admission_, diagram.slot(station.arriving_status)),
@@ -66,10 +76,11 @@ class DdsStation::Implementation {
 
   void set_inputs(Context& context) noexcept {
     clock_.start_tick(context.time());
-    joints_.set_inputs(context, clock_);
+    const Time arrived = joints_.last().arrived;
+    if (joints_.set_inputs(context, clock_)) time_joints(arrived);
     drives_.set_inputs(context, clock_);
     imu_.set_inputs(context, clock_);
-    status_.set_inputs(context, clock_);
+    if (status_.set_inputs(context, clock_)) time_echo();
     if (force_torque_) force_torque_->set_inputs(context, clock_);
   }
 
@@ -80,6 +91,13 @@ class DdsStation::Implementation {
     to_wire(command, context[brake_], sample);
     commands_.leave(sample);
     thread_->wake();
+  }
+
+  bool wait_for_joints(Time deadline) noexcept {
+    while (!joints_.look()) {
+      if (!joints_arrived_.wait_until(deadline)) return joints_.look();
+    }
+    return true;
   }
 
   void request(const DriveWish& wish) noexcept {
@@ -102,15 +120,32 @@ class DdsStation::Implementation {
     add_refusals(drives_.receiver(), link);
     add_refusals(imu_.receiver(), link);
     add_refusals(status_.receiver(), link);
+    link.lost = joints_.receiver().lost();
     const ReceivedSample<flinch_StatusSample>& last = status_.last();
+    link.enabled = last.sample.enabled != 0;
+    link.drive_state = static_cast<DriveState>(last.sample.drive_state);
     link.commands_obeyed = last.sample.commander == sender_.session;
     if (link.commands_obeyed) link.round_trip = round_trip(last);
     return link;
   }
 
+  const DdsLinkTimes& times() const noexcept { return times_; }
   std::uint32_t session() const noexcept { return sender_.session; }
 
  private:
+  void time_joints(Time last_arrived) noexcept {
+    times_.age.add(MonotonicClock::now() - joints_.last().acquired);
+    if (last_arrived != Time::zero()) times_.interval.add(joints_.last().arrived - last_arrived);
+  }
+
+  /// Of each command once: an echo stands until the next command comes.
+  void time_echo() noexcept {
+    const flinch_StatusSample& status = status_.last().sample;
+    if (status.commander != sender_.session || status.command_number == last_echo_) return;
+    last_echo_ = status.command_number;
+    times_.round_trip.add(round_trip(status_.last()));
+  }
+
   template <class Sample>
   static void add_refusals(const SampleReceiver<Sample>& receiver, DdsLink& link) noexcept {
     link.refused += receiver.refused();
@@ -130,7 +165,10 @@ class DdsStation::Implementation {
   Slot<TorqueCommand> torque_command_;
   Slot<BrakeCommand> brake_;
   AdmissionSettings admission_;
+  DdsLinkTimes times_;
+  std::uint32_t last_echo_ = 0;
 
+  SampleSignal joints_arrived_;
   ReadingInlet<flinch_JointSample, JointReading> joints_;
   ReadingInlet<flinch_DriveSample, DriveReading> drives_;
   ReadingInlet<flinch_ImuSample, ImuReading> imu_;
@@ -150,8 +188,12 @@ DdsStation::~DdsStation() = default;
 
 void DdsStation::set_inputs(Context& context) { implementation_->set_inputs(context); }
 void DdsStation::take_outputs(const Context& context) { implementation_->take_outputs(context); }
+bool DdsStation::wait_for_joints(Time deadline) noexcept {
+  return implementation_->wait_for_joints(deadline);
+}
 void DdsStation::request(const DriveWish& wish) noexcept { implementation_->request(wish); }
 DdsLink DdsStation::link() const noexcept { return implementation_->link(); }
+const DdsLinkTimes& DdsStation::times() const noexcept { return implementation_->times(); }
 std::uint32_t DdsStation::session() const noexcept { return implementation_->session(); }
 
 }  // namespace flinch

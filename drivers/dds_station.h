@@ -5,7 +5,10 @@
 
 #include "diagrams/external_station.h"
 #include "drivers/dds_bus.h"
+#include "drivers/drive_state.h"
+#include "drivers/drive_wish.h"
 #include "systems/framework/context.h"
+#include "systems/framework/duration_histogram.h"
 #include "systems/framework/exchange.h"
 
 namespace flinch {
@@ -17,14 +20,6 @@ struct DdsStationSettings {
   int realtime_priority = 0;     ///< of the thread that sends, SCHED_FIFO, 1 to 99; 0: an ordinary thread
 };
 
-/// What the drives shall be, by an operator or a supervisor. CiA 402.
-struct DriveWish {
-  enum class State : std::uint8_t { without_voltage, switched_on, operation_enabled, quick_stop };
-  State state = State::without_voltage;
-  bool engage_brake = true;        ///< the brakes shall close whatever the torque commands say
-  std::uint32_t fault_resets = 0;  ///< a larger number than before asks to reset a fault
-};
-
 /// How the link has been since the start.
 struct DdsLink {
   int peers = 0;               ///< that send joint readings
@@ -32,8 +27,18 @@ struct DdsLink {
   std::uint32_t refused = 0;   ///< samples of any kind: another protocol version, robot or sender, or old
   std::uint32_t other_version = 0;  ///< of these
   std::uint32_t other_robot = 0;
-  bool commands_obeyed = false;  ///< the other end obeys this session
-  Time round_trip{};             ///< of the last echoed command, without the time that the other end kept it
+  std::uint32_t lost = 0;  ///< joint samples that never came, by their numbers
+  bool enabled = false;    ///< by the last status
+  DriveState drive_state = DriveState::not_ready_to_switch_on;  ///< likewise
+  bool commands_obeyed = false;                                 ///< the other end obeys this session
+  Time round_trip{};  ///< of the last echoed command, without the time that the other end kept it
+};
+
+/// How long things took on the link, one count a tick that found something new. Never allocates.
+struct DdsLinkTimes {
+  DurationHistogram round_trip;  ///< of an echoed command, without the time that the other end kept it
+  DurationHistogram age;         ///< of joint readings when their tick started, by their acquisition
+  DurationHistogram interval;    ///< between arrivals of joint readings
 };
 
 /// Carries an ExternalStation's readings from the bus and its commands to it. Receiving and sending happen on
@@ -41,7 +46,8 @@ struct DdsLink {
 ///
 /// A reading's stamp of acquisition is translated twice: from the sender's monotonic clock to ours by the
 /// smallest delay seen (ClockMap), and to the time of the ticks by the most punctual tick (TickClock). It is
-/// late by the smallest delay on the way. No wall clock takes part.
+/// late by the smallest delay on the way. No wall clock takes part. A context whose time is earlier than that
+/// of the last tick begins a new run on the same link.
 class DdsStation final : public Exchange {
  public:
   /// `diagram` is the one to run, with the inputs of `station`. Throws SetupError.
@@ -54,11 +60,18 @@ class DdsStation final : public Exchange {
   /// Hands torque command and brake to the bus.
   void take_outputs(const Context& context) override;
 
+  /// Blocks until joint readings arrive that no tick has seen, or until MonotonicClock::now() reaches
+  /// `deadline`; returns whether there are any. What SampleTicks waits for; of the loop's thread. The other
+  /// readings of the same tick were sent before.
+  bool wait_for_joints(Time deadline) noexcept;
+
   /// Asks for a state of the drives, until the next call. From one thread at a time, not from the loop.
   void request(const DriveWish& wish) noexcept;
 
   /// Of the thread that calls set_inputs(), or while it does not.
   DdsLink link() const noexcept;
+  /// Likewise.
+  const DdsLinkTimes& times() const noexcept;
   /// The session under which commands are sent.
   std::uint32_t session() const noexcept;
 

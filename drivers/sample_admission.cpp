@@ -30,6 +30,7 @@ Admission SampleAdmission::judge(const flinch_Header& header, Time now, bool neu
   if (now - clock.to_here(Time(header.sent_ns)) > settings_.longest_way) return Admission::too_late;
   if (session_ == 0 && settings_.begins_neutral && !neutral) return Admission::not_neutral;
 
+  if (known) missed_ += header.number - last_number_ - 1;
   clock_ = clock;
   session_ = last_session_ = header.session;
   last_number_ = header.number;

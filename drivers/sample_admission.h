@@ -41,6 +41,9 @@ class SampleAdmission {
   /// A time of the admitted sender's clock in the own one.
   Time to_own_clock(Time senders) const noexcept { return clock_.to_here(senders); }
 
+  /// How many samples of admitted senders never came, by their numbers.
+  std::uint32_t missed() const noexcept { return missed_; }
+
   /// The session that is listened to; 0 for none.
   std::uint32_t session() const noexcept { return session_; }
 
@@ -51,6 +54,7 @@ class SampleAdmission {
   std::uint32_t session_ = 0;
   std::uint32_t last_session_ = 0;
   std::uint32_t last_number_ = 0;
+  std::uint32_t missed_ = 0;
   Time last_{};
   ClockMap clock_;
 };

@@ -7,6 +7,7 @@
 #include "drivers/dds_reader.h"
 #include "drivers/sample_admission.h"
 #include "systems/framework/monotonic_clock.h"
+#include "systems/framework/sample_signal.h"
 #include "systems/framework/triple_buffer.h"
 
 namespace flinch {
@@ -28,10 +29,13 @@ class SampleReceiver {
   /// Whether a sample asks for nothing: see AdmissionSettings::begins_neutral.
   using IsNeutral = bool (*)(const Sample&);
 
-  /// Throws SetupError, as DdsReader.
+  /// `arrived`, where given, is notified of each admitted sample. Throws SetupError, as DdsReader.
   SampleReceiver(const DdsBus& bus, const Topic& topic, const AdmissionSettings& admission,
-                 IsNeutral is_neutral = nullptr)
-      : is_neutral_(is_neutral), admission_(admission), reader_(bus, topic, &SampleReceiver::receive, this) {}
+                 IsNeutral is_neutral = nullptr, SampleSignal* arrived = nullptr)
+      : is_neutral_(is_neutral),
+        arrived_(arrived),
+        admission_(admission),
+        reader_(bus, topic, &SampleReceiver::receive, this) {}
 
   /// Copies the last admitted sample if there is one that was not taken before. For one thread.
   bool take(ReceivedSample<Sample>& received) noexcept { return last_.take(received); }
@@ -45,6 +49,9 @@ class SampleReceiver {
     for (const auto& count : counts_) sum += count.load(std::memory_order_relaxed);
     return sum - count(Admission::admitted);
   }
+
+  /// How many samples were lost on the way, by their numbers.
+  std::uint32_t lost() const noexcept { return lost_.load(std::memory_order_relaxed); }
 
   /// How many writers send.
   int writers() const noexcept { return reader_.writers(); }
@@ -61,17 +68,21 @@ class SampleReceiver {
     const bool neutral = is_neutral_ == nullptr || is_neutral_(next.sample);
     const Admission verdict = admission_.judge(next.sample.header, next.arrived, neutral);
     counts_[static_cast<std::size_t>(verdict)].fetch_add(1, std::memory_order_relaxed);
+    lost_.store(admission_.missed(), std::memory_order_relaxed);
     if (verdict != Admission::admitted) return;
     next.sent = admission_.to_own_clock(Time(next.sample.header.sent_ns));
     next.acquired = admission_.to_own_clock(Time(next.sample.header.acquired_ns));
     last_.publish(next);
+    if (arrived_ != nullptr) arrived_->notify();
   }
 
   IsNeutral is_neutral_;
+  SampleSignal* arrived_;
   SampleAdmission admission_;  // this and next_: only where samples arrive
   ReceivedSample<Sample> next_;
   TripleBuffer<ReceivedSample<Sample>> last_;
   std::array<std::atomic<std::uint32_t>, admission_count> counts_{};
+  std::atomic<std::uint32_t> lost_{0};
   DdsReader reader_;  // last
 };
 

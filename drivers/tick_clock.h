@@ -20,6 +20,7 @@ class TickClock {
   void start_tick(Time tick) noexcept { start_tick(tick, MonotonicClock::now()); }
   /// The same at a given monotonic time.
   void start_tick(Time tick, Time now) noexcept {
+    if (tick < tick_) map_ = ClockMap();  // a new run
     const Time late = map_.started() ? now - map_.to_here(tick) : Time::zero();
     if (late >= period_) map_.shift(late / period_ * period_);
     map_.observe(tick, now);
