@@ -35,6 +35,7 @@ void SendingThread::run() {
   while (!ending_) {
     if (woken_.wait_until(MonotonicClock::now() + 1h)) work_();
   }
+  work_();  // it may have been woken while it worked
 }
 
 }  // namespace flinch

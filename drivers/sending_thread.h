@@ -18,7 +18,7 @@ class SendingThread {
   SendingThread(std::function<void()> work, int priority);
   SendingThread(const SendingThread&) = delete;
   SendingThread& operator=(const SendingThread&) = delete;
-  /// Works once more if it was woken, then ends.
+  /// Works once more, then ends.
   ~SendingThread();
 
   void wake() noexcept { woken_.notify(); }
