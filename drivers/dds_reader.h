@@ -24,8 +24,7 @@ class DdsReader {
   /// that has arrived.
   using OnData = void (*)(DdsArrivals arrivals, void* owner);
 
-  /// `owner` is handed to `on_data`, which may be called before this returns. Throws SetupError, e.g. where
-  /// the topic already exists with another type.
+  /// `owner` is handed to `on_data`, which may be called before this returns. Throws SetupError.
   DdsReader(const DdsBus& bus, const Topic& topic, OnData on_data, void* owner);
   DdsReader(const DdsReader&) = delete;  // the bus holds its address
   DdsReader& operator=(const DdsReader&) = delete;

@@ -11,7 +11,7 @@ namespace flinch {
 /// milliseconds.
 class DdsWriter {
  public:
-  /// Throws SetupError, e.g. where the topic already exists with another type.
+  /// Throws SetupError.
   DdsWriter(const DdsBus& bus, const Topic& topic);
 
   /// Sends `sample`, a struct of the topic's type. Returns whether it was handed to the bus.
