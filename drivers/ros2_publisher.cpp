@@ -5,12 +5,12 @@
 #include <chrono>
 
 #include "drivers/dds_writer.h"
+#include "drivers/optional_slot.h"
 #include "drivers/ros2_messages.h"
 #include "drivers/sending_thread.h"
 #include "drivers/tick_clock.h"
 #include "systems/control/fault_table.h"
 #include "systems/foundation/setup_error.h"
-#include "systems/framework/diagram.h"
 #include "systems/framework/triple_buffer.h"
 
 namespace flinch {
@@ -24,22 +24,6 @@ struct Snapshot {
   ImuReading imu;
   WrenchEstimate wrench;
   GateStatus gate;
-};
-
-/// Copies the value of a port where there is one.
-template <class T>
-class Source {
- public:
-  Source(const Diagram& diagram, const std::optional<OutputPort<T>>& port) {
-    if (port) slot_ = diagram.slot(*port);
-  }
-  void copy(const Context& context, T& value) const noexcept {
-    if (slot_) value = context[*slot_];
-  }
-  bool exists() const noexcept { return slot_.has_value(); }
-
- private:
-  std::optional<Slot<T>> slot_;
 };
 
 /// The wall-clock time of a monotonic one.
@@ -141,11 +125,11 @@ class Ros2Publisher::Implementation {
   Ros2Settings settings_;
   std::vector<char*> names_;  // of the joints, into settings_
   TickClock clock_;
-  Source<JointMotion> joints_;
-  Source<DriveTorque> torque_;
-  Source<ImuReading> imu_;
-  Source<WrenchEstimate> wrench_;
-  Source<GateStatus> gate_;
+  OptionalSlot<JointMotion> joints_;
+  OptionalSlot<DriveTorque> torque_;
+  OptionalSlot<ImuReading> imu_;
+  OptionalSlot<WrenchEstimate> wrench_;
+  OptionalSlot<GateStatus> gate_;
 
   std::int64_t tick_ = 0;
   Snapshot next_;

@@ -14,7 +14,7 @@ enum class TopicKind : std::uint8_t {
   /// is.
   command,
   request,  ///< the last value counts and arrives, also at who comes later
-  event,    ///< each arrives, up to 100 waiting
+  event,    ///< each arrives at who listens by then, up to 100 waiting for one that is slow
 };
 
 /// A topic: its name on the bus and the type of its samples.

@@ -105,6 +105,15 @@ void to_wire(const TorqueCommand& command, const BrakeCommand& brake, flinch_Tor
   copy(command.torque, sample.torque, command.torque.size());
 }
 
+void to_wire(const ContactDetection& detection, const ReactionState& reaction, Time now,
+             flinch_ContactEvent& event) noexcept {
+  const Eigen::Index count = detection.wrench_in_base.size();
+  begin(event, now, detection.valid, count);
+  event.level = static_cast<std::uint8_t>(detection.level);
+  event.reaction = static_cast<std::uint8_t>(reaction.mode);
+  copy(detection.wrench_in_base, event.wrench_in_base, count);
+}
+
 void from_wire(const flinch_TorqueSample& sample, TorqueCommand& command) noexcept {
   command.computed = Time(sample.header.acquired_ns);
   command.valid = has(sample.header, flag_valid) && has_joints(sample.header);

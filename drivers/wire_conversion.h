@@ -1,7 +1,9 @@
 #pragma once
 
 #include "systems/control/brake_command.h"
+#include "systems/control/reaction_state.h"
 #include "systems/control/torque_command.h"
+#include "systems/observers/contact_detection.h"
 #include "systems/sensors/drive_reading.h"
 #include "systems/sensors/force_torque_reading.h"
 #include "systems/sensors/imu_reading.h"
@@ -14,6 +16,7 @@ struct flinch_ImuSample;
 struct flinch_ForceTorqueSample;
 struct flinch_StatusSample;
 struct flinch_TorqueSample;
+struct flinch_ContactEvent;
 
 /// Between flinch's values and those on the bus. Of times only `acquired` is copied, as it is: both ends have
 /// clocks of their own. Values that do not count are zero on the bus, so that no memory leaks there. A sample
@@ -26,6 +29,9 @@ void to_wire(const ImuReading& reading, flinch_ImuSample& sample) noexcept;
 void to_wire(const ForceTorqueReading& reading, flinch_ForceTorqueSample& sample) noexcept;
 void to_wire(const StationStatus& status, flinch_StatusSample& sample) noexcept;
 void to_wire(const TorqueCommand& command, const BrakeCommand& brake, flinch_TorqueSample& sample) noexcept;
+/// `now`: when both were computed.
+void to_wire(const ContactDetection& detection, const ReactionState& reaction, Time now,
+             flinch_ContactEvent& event) noexcept;
 
 void from_wire(const flinch_JointSample& sample, JointReading& reading) noexcept;
 void from_wire(const flinch_DriveSample& sample, DriveReading& reading) noexcept;

@@ -8,12 +8,14 @@ struct flinch_Header;  // drivers/idl/flinch.idl
 namespace flinch {
 
 /// Which wire format and meaning this version of flinch speaks. Samples of any other are refused.
-inline constexpr std::uint16_t protocol_version = 1;
+inline constexpr std::uint16_t protocol_version = 2;
 
 /// Bits of flinch_Header::flags.
 inline constexpr std::uint8_t flag_valid = 1;
 inline constexpr std::uint8_t flag_passive_valid = 2;  ///< of a joint sample
 inline constexpr std::uint8_t flag_engage_brake = 2;   ///< of a torque sample
+inline constexpr std::uint8_t flag_timing_known = 2;   ///< of diagnostics
+inline constexpr std::uint8_t flag_links_known = 4;    ///< of diagnostics
 
 /// Who sends, as its samples say.
 struct SenderIdentity {
