@@ -9,11 +9,31 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
+#if FLINCH_HAS_BUS
+#include "apps/flinch/bus/bus_verbs.h"
+#endif
 #include "systems/foundation/nearest_name.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
 namespace {
+
+void add_bus(CLI::App& verb, BusOptions& bus) {
+  verb.add_option("--domain", bus.domain, "Number of the bus: who shares it hears each other [0]")
+      ->type_name("N")
+      ->group("Bus");
+  verb.add_option("--interface", bus.interface,
+                  "Network interface, name or address; lo stays in this machine [lo]")
+      ->type_name("NAME")
+      ->group("Bus");
+  verb.add_option("--peer", bus.peers, "Address of another end, where the network has no multicast")
+      ->type_name("ADDRESS")
+      ->group("Bus");
+  verb.add_option("--priority", bus.priority, "Real-time priority, 1 to 99, where permitted; 0 for none [80]")
+      ->check(CLI::Range(0, 99))
+      ->type_name("N")
+      ->group("Bus");
+}
 
 void add_common(CLI::App& verb, CommonOptions& common) {
   verb.add_flag("--json", common.json, "Print one JSON object on stdout; messages go to stderr");
@@ -44,6 +64,9 @@ std::string problem_with_seed(const std::string& text) {
 /// The verbs and their options.
 struct Verbs {
   RunOptions run;
+#if FLINCH_HAS_BUS
+  ServeOptions serve;
+#endif
   ReportOptions report;
   GraphOptions graph;
   CheckOptions check;
@@ -66,16 +89,36 @@ struct Verbs {
 
 void add_verbs(CLI::App& app, Verbs& verbs) {
   CLI::App& run_verb =
-      verbs.add(app, "run", "Run one experiment in simulation: verdict, recording, report",
+      verbs.add(app, "run", "Run one experiment: verdict, recording, report",
                 "flinch run apps/scenarios/platform_collision.yaml --out out/demo", verbs.run, &run);
-  run_verb.add_option("scenario", verbs.run.scenario, "Scenario file (YAML)")
+  run_verb
+      .add_option("input", verbs.run.input,
+                  "Scenario file (YAML); with --station recorded, a recording (HDF5)")
       ->required()
+      ->type_name("FILE");
+  const std::map<std::string, StationKind> stations = {
+      {"simulated", StationKind::simulated}, {"dds", StationKind::dds}, {"recorded", StationKind::recorded}};
+  run_verb
+      .add_option("--station", verbs.run.station,
+                  "What stands for the robot: simulated, dds (a robot on the bus), recorded [simulated]")
+      ->transform(CLI::CheckedTransformer(stations).description(""))
+      ->type_name("KIND");
+  run_verb
+      .add_option("--control", verbs.run.control,
+                  "With a recorded station: the scenario to take the control path from")
       ->type_name("SCENARIO.yaml");
   run_verb.add_option("--out", verbs.run.out, "Folder for run.h5 and report.html [out/NAME]")
       ->type_name("DIR");
   run_verb.add_option("--seed", verbs.run.seed, "Seed of all noise, instead of the scenario's")
       ->check(problem_with_seed)
       ->type_name("N");
+  add_bus(run_verb, verbs.run.bus);
+  run_verb.add_option("--patience", verbs.run.patience, "Seconds to wait for the robot and its drives [10]")
+      ->check(CLI::PositiveNumber)
+      ->type_name("S")
+      ->group("Bus");
+  run_verb.add_flag("--reset-faults", verbs.run.reset_faults, "Reset faults of the drives before the run")
+      ->group("Bus");
 
   CLI::App& report_verb = verbs.add(app, "report", "Make the report page of a recording",
                                     "flinch report out/demo/run.h5", verbs.report, &report);
@@ -101,6 +144,24 @@ void add_verbs(CLI::App& app, Verbs& verbs) {
       ->type_name("FILE");
 }
 
+#if FLINCH_HAS_BUS
+void add_bus_verbs(CLI::App& app, Verbs& verbs) {
+  CLI::App& serve_verb =
+      verbs.add(app, "serve", "Put the simulated robot of a scenario on the bus, in real time",
+                "flinch serve apps/scenarios/platform_collision.yaml", verbs.serve, &serve);
+  serve_verb.add_option("scenario", verbs.serve.scenario, "Scenario file (YAML)")
+      ->required()
+      ->type_name("SCENARIO.yaml");
+  serve_verb.add_option("--seed", verbs.serve.seed, "Seed of all noise, instead of the scenario's")
+      ->check(problem_with_seed)
+      ->type_name("N");
+  serve_verb.add_option("--duration", verbs.serve.duration, "Seconds to serve [until interrupted]")
+      ->check(CLI::PositiveNumber)
+      ->type_name("S");
+  add_bus(serve_verb, verbs.serve.bus);
+}
+#endif
+
 /// The error of the parser, with the way out.
 std::string usage_problem(const CLI::App& app, const CLI::ParseError& error, const std::string& first) {
   const auto chosen = app.get_subcommands();
@@ -124,6 +185,9 @@ int run_command_line(int argc, const char* const* argv) {
   app.footer("Exit status: 0 done, 1 the verdict is bad, 2 bad input or usage, 3 a fault stopped the run.");
   Verbs verbs;
   add_verbs(app, verbs);
+#if FLINCH_HAS_BUS
+  add_bus_verbs(app, verbs);
+#endif
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

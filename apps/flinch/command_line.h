@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "apps/flinch/bus_options.h"
+
 namespace flinch {
 
 /// How a program ends.
@@ -22,11 +24,21 @@ struct CommonOptions {
   std::string command_line;  ///< as typed, for the record
 };
 
+/// What stands for the robot.
+enum class StationKind { simulated, dds, recorded };
+
 struct RunOptions {
   CommonOptions common;
-  std::filesystem::path scenario;
-  std::filesystem::path out;  ///< empty: out/NAME
+  std::filesystem::path input;  ///< a scenario; with a recorded station, the recording
+  std::filesystem::path out;    ///< empty: out/NAME
   std::optional<std::uint64_t> seed;
+  StationKind station = StationKind::simulated;
+  std::filesystem::path control;  ///< a scenario whose control path replaces the recorded one's; empty: none
+
+  // A robot on the bus.
+  BusOptions bus;
+  double patience = 10.0;     ///< with a robot that does not answer, or is not enabled [s]
+  bool reset_faults = false;  ///< of the drives, before the run
 };
 
 struct ReportOptions {

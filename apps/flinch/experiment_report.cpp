@@ -16,6 +16,7 @@ using Column = std::vector<double>;
 
 /// "leg1_link2" as a reader says it.
 std::string spoken(const std::string& body) {
+  if (body.empty()) return "body not measured";
   if (body == "platform") return body;
   const std::string leg = body.substr(3, 1);
   if (body.ends_with("link1")) return "first link of leg " + leg;
@@ -56,7 +57,7 @@ std::vector<ReportMeasure> measures(const Verdict& verdict, const Expectations& 
   const auto millimetres = [](const std::optional<double>& metres) {
     return metres ? std::optional(1e3 * *metres) : std::nullopt;
   };
-  return {
+  std::vector<ReportMeasure> rows = {
       measure("False detections", verdict.false_detections, "", 0.0, "contacts seen where there was none"),
       measure("Observer error, force", verdict.max_observer_error_force, "N", expected.observer_error,
               before),
@@ -64,9 +65,13 @@ std::vector<ReportMeasure> measures(const Verdict& verdict, const Expectations& 
               expected.observer_error_moment, before),
       measure("Tracking error", 1e3 * verdict.max_tracking_error, "mm", millimetres(expected.tracking_error),
               before),
-      measure("Orientation error", verdict.max_orientation_error * 180.0 / M_PI, "deg", std::nullopt, before),
-      measure("Loop closure", verdict.loop_closure, "m", expected.loop_closure,
-              "largest miss of a leg followed along its joint angles")};
+      measure("Orientation error", verdict.max_orientation_error * 180.0 / M_PI, "deg", std::nullopt,
+              before)};
+  if (verdict.loop_closure) {
+    rows.push_back(measure("Loop closure", *verdict.loop_closure, "m", expected.loop_closure,
+                           "largest miss of a leg followed along its joint angles"));
+  }
+  return rows;
 }
 
 ReportRobot drawn_robot(const PlanarRrrParameters& parameters) {
@@ -117,8 +122,12 @@ void add_touch(const Recording& recording, const std::string& field, const std::
       where(touched, recording.column("contact", field + ".force_in_base", 1));
 }
 
-void add_motion(const Recording& recording, Report& report) {
-  const auto truth = [&recording](const char* field, int i) { return recording.column("truth", field, i); };
+/// As they truly were, or as the controller took them to be.
+void add_motion(const Recording& recording, Witness witness, Report& report) {
+  const bool simulated = witness == Witness::truth;
+  const auto truth = [&recording, simulated](const char* field, int i) {
+    return recording.column(simulated ? "truth" : "motion", field, i);
+  };
   const auto target = [&recording](int i) { return recording.column("reference", "pose", i); };
   const Column followed = recording.column("reference", "valid");
   report.columns["pose_x"] = truth("pose", 0);
@@ -132,8 +141,9 @@ void add_motion(const Recording& recording, Report& report) {
   report.columns["orientation_error"] = where(followed, turn);
   for (int leg = 0; leg < 3; ++leg) {
     const std::string number = std::to_string(leg + 1);
-    report.columns["qa_" + number] = truth("active", leg);
-    report.columns["torque_applied_" + number] = truth("drive_torque", leg);
+    report.columns["qa_" + number] =
+        simulated ? truth("active", leg) : recording.column("joints", "active", leg);
+    if (simulated) report.columns["torque_applied_" + number] = truth("drive_torque", leg);
     report.columns["torque_commanded_" + number] =
         where(recording.column("torque_command", "valid"), recording.column("torque_command", "torque", leg));
   }
@@ -142,16 +152,29 @@ void add_motion(const Recording& recording, Report& report) {
   report.columns["sigma_sc"] = where(measured, recording.column("measures", "sigma_sc"));
 }
 
-void add_forces(const Recording& recording, Report& report) {
+/// Of an instrument, "no data" where it said that it had none.
+void add_contact_force(const Recording& recording, Witness witness, Report& report) {
+  if (witness == Witness::none) return;
+  const bool simulated = witness == Witness::truth;
+  const std::string path = simulated ? "contact" : "force_torque";
+  const std::string field = simulated ? "strongest.force_in_base" : "force_in_base";
+  Column force = magnitude(recording.column(path, field, 0), recording.column(path, field, 1));
+  report.columns["contact_force"] =
+      simulated ? force : where(recording.column(path, "valid"), std::move(force));
+}
+
+void add_forces(const Recording& recording, Witness witness, Report& report) {
   const Column estimated = recording.column("wrench", "valid");
   const std::array<std::string, 3> names = {"force_x", "force_y", "moment"};
   for (int i = 0; i < 3; ++i) {
     const std::string& name = names[static_cast<std::size_t>(i)];
-    report.columns["external_" + name] = recording.column("truth", "wrench_in_base", i);
+    if (witness == Witness::truth) {
+      report.columns["external_" + name] = recording.column("truth", "wrench_in_base", i);
+    }
     report.columns["estimated_" + name] = where(estimated, recording.column("wrench", "wrench_in_base", i));
   }
-  report.columns["contact_force"] = magnitude(recording.column("contact", "strongest.force_in_base", 0),
-                                              recording.column("contact", "strongest.force_in_base", 1));
+  add_contact_force(recording, witness, report);
+  if (witness != Witness::truth) return;
   add_touch(recording, "strongest", "contact_1", report);
   add_touch(recording, "second", "contact_2", report);
 }
@@ -163,15 +186,35 @@ ReportLane lane(const Recording& recording, std::string name, const std::string&
   return result;
 }
 
-std::vector<ReportLane> lanes(const Recording& recording) {
+std::vector<ReportLane> lanes(const Recording& recording, Witness witness) {
   ReportLane mode =
       lane(recording, "mode", "reaction", "mode", {"nominal", "stopped", "react", "hold", "zero-g"});
   for (int& state : mode.state) {  // the page's quiet state comes first: nominal before stopped
     if (state < 2) state = 1 - state;
   }
-  return {lane(recording, "contact", "contact", "in_contact", {"free", "touching"}),
-          lane(recording, "detector", "detection", "level", {"quiet", "contact", "hard contact"}), mode,
-          lane(recording, "torque gate", "gate", "phase", {"waiting", "open", "closed"})};
+  std::vector<ReportLane> rows = {
+      lane(recording, "detector", "detection", "level", {"quiet", "contact", "hard contact"}), mode,
+      lane(recording, "torque gate", "gate", "phase", {"waiting", "open", "closed"})};
+  if (witness == Witness::truth) {
+    rows.insert(rows.begin(), lane(recording, "contact", "contact", "in_contact", {"free", "touching"}));
+  }
+  return rows;
+}
+
+std::string caveat(Witness witness) {
+  const std::string common =
+      " flinch is not a certified safety function; take force limits from the standard itself.";
+  switch (witness) {
+    case Witness::truth:
+      return "Simulation." + common;
+    case Witness::force_torque:
+      return "Measured: contact forces by the force-torque sensor below the pylon, motions by the controller "
+             "itself." +
+             common;
+    case Witness::none:
+      break;
+  }
+  return "No instrument measured contact forces; contacts are not judged." + common;
 }
 
 std::vector<ReportBound> bounds(const Scenario& scenario, const Verdict& verdict) {
@@ -232,8 +275,7 @@ Report experiment_report(const Scenario& scenario, const Recording& recording, c
   Report report;
   report.title = scenario.title;
   report.subtitle = scenario.description;
-  report.note =
-      "Simulation. flinch is not a certified safety function; take force limits from the standard itself.";
+  report.note = caveat(verdict.witness);
   report.good = verdict.good();
   for (const ContactVerdict& contact : verdict.contacts) report.contacts.push_back(report_contact(contact));
   report.measures = measures(verdict, scenario.expected);
@@ -245,9 +287,9 @@ Report experiment_report(const Scenario& scenario, const Recording& recording, c
   }
   report.period = to_seconds(recording.period);
   if (!recording.time_ns.empty()) report.start = 1e-9 * static_cast<double>(recording.time_ns.front());
-  add_motion(recording, report);
-  add_forces(recording, report);
-  report.lanes = lanes(recording);
+  add_motion(recording, verdict.witness, report);
+  add_forces(recording, verdict.witness, report);
+  report.lanes = lanes(recording, verdict.witness);
   report.bounds = bounds(scenario, verdict);
   report.parameters = scenario_parameters(scenario);
   for (ReportParameter& row : parameters("robot", scenario.robot.values))

@@ -29,7 +29,8 @@ struct Expectations {
 /// One contact: from the first force above `contact_force` to the last, where interruptions shorter than
 /// `same_contact` do not count.
 struct ContactVerdict {
-  std::string body;    ///< "platform", "leg1_link2"; "leg1_clamping" where both links of a leg are touched
+  std::string body;    ///< "platform", "leg1_link2"; "leg1_clamping" where both links of a leg are touched;
+                       ///< "" where nobody saw
   double onset = 0.0;  ///< t_c, when the force rose above `contact_force`, between samples [s]
   std::optional<double> detected;       ///< t_det, when the estimate reached the reaction threshold [s]
   std::optional<double> removed;        ///< t_rem; none: still touching at the end [s]
@@ -43,6 +44,14 @@ struct ContactVerdict {
   bool within_limit = false;  ///< both forces are
 };
 
+/// What a verdict rests on, besides what the controller itself says.
+enum class Witness {
+  truth,         ///< the simulation: exact, for verdicts only
+  force_torque,  ///< the sensor below the pylon, as in [SafePR]; motions are those that the controller
+                 ///< measured
+  none,          ///< nothing: contacts are not judged, and errors only until the first detection
+};
+
 /// What a run shows, judged.
 struct Verdict {
   static constexpr double contact_force = 1.0;  ///< below it there is no contact, as in the papers [N]
@@ -50,13 +59,15 @@ struct Verdict {
   static constexpr double contact_moment = 0.1;
   static constexpr double same_contact = 0.1;  ///< [s]
 
+  Witness witness = Witness::truth;
   std::vector<ContactVerdict> contacts;
-  int false_detections = 0;                ///< while nothing has touched the robot in the last `same_contact`
-  double max_observer_error_force = 0.0;   ///< of any component, before anything touches the robot [N]
+  std::vector<double> detections;         ///< when the detector noticed something after it had been quiet [s]
+  int false_detections = 0;               ///< while nothing has touched the robot in the last `same_contact`
+  double max_observer_error_force = 0.0;  ///< of any component, before anything touches the robot [N]
   double max_observer_error_moment = 0.0;  ///< [Nm]
   double max_tracking_error = 0.0;         ///< in the nominal mode, before anything touches the robot [m]
   double max_orientation_error = 0.0;      ///< likewise [rad]
-  double loop_closure = 0.0;               ///< largest miss of a leg [m]
+  std::optional<double> loop_closure;      ///< largest miss of a leg; of simulations [m]
   std::string fault;                       ///< why the torque gate closed; "" if it did not
   double simulated = 0.0;                  ///< [s]
 
@@ -64,7 +75,8 @@ struct Verdict {
   bool good() const { return failures.empty(); }
 };
 
-/// Judges what was recorded by record_experiment(). Throws SetupError when signals are missing.
+/// Judges what was recorded of a run, by the best witness that the recording holds. Throws SetupError when
+/// signals are missing.
 Verdict judge(const Recording& recording, const Expectations& expected, const ForceLimits& limits);
 
 }  // namespace flinch

@@ -21,7 +21,7 @@ std::string milliseconds_text(double start, const std::optional<double>& end) {
 }
 
 Json contact_json(const ContactVerdict& contact) {
-  return {{"body", contact.body},
+  return {{"body", contact.body.empty() ? Json(nullptr) : Json(contact.body)},
           {"detected", contact.detected.has_value()},
           {"detection_ms", milliseconds(contact.onset, contact.detected)},
           {"removal_ms", milliseconds(contact.onset, contact.removed)},
@@ -35,10 +35,31 @@ Json contact_json(const ContactVerdict& contact) {
 }
 
 std::string contact_line(const ContactVerdict& contact) {
-  return fmt::format("{:<15} {:>8.3f} {:>6.2f} {:>10} {:>10} {:>8.0f} {:>8.0f}  {}\n", contact.body,
-                     contact.onset, contact.speed, milliseconds_text(contact.onset, contact.detected),
+  return fmt::format("{:<15} {:>8.3f} {:>6.2f} {:>10} {:>10} {:>8.0f} {:>8.0f}  {}\n",
+                     contact.body.empty() ? "not measured" : contact.body, contact.onset, contact.speed,
+                     milliseconds_text(contact.onset, contact.detected),
                      milliseconds_text(contact.onset, contact.removed), contact.peak_force, contact.limit,
                      contact.within_limit ? "yes" : "NO");
+}
+
+std::string no_contact_line(const Verdict& verdict) {
+  if (!verdict.contacts.empty()) return "";
+  if (verdict.witness != Witness::none) return "nothing was touched\n";
+  std::string times;
+  for (const double time : verdict.detections) times += fmt::format(" {:.3f} s", time);
+  return "no instrument saw what touched the robot; noticed at:" + (times.empty() ? " never" : times) + "\n";
+}
+
+const char* name(Witness witness) {
+  switch (witness) {
+    case Witness::truth:
+      return "truth";
+    case Witness::force_torque:
+      return "force_torque";
+    case Witness::none:
+      break;
+  }
+  return "none";
 }
 
 }  // namespace
@@ -47,14 +68,17 @@ std::string verdict_table(const Verdict& verdict, const RunFacts& facts) {
   std::string text = fmt::format("{:<15} {:>8} {:>6} {:>10} {:>10} {:>8} {:>8}  {}\n", "contact with", "at s",
                                  "m/s", "noticed ms", "removed ms", "peak N", "limit N", "within");
   for (const ContactVerdict& contact : verdict.contacts) text += contact_line(contact);
-  if (verdict.contacts.empty()) text += "nothing was touched\n";
+  text += no_contact_line(verdict);
   text += fmt::format(
       "\nfalse detections   {}\nobserver error     {:.2f} N, {:.3f} Nm before any contact\n"
-      "tracking error     {:.2f} mm, {:.2f} deg before any contact\nloop closure       {:.1e} m\n"
-      "simulated          {:.3f} s in {:.2f} s, seed {}\n\n",
-      verdict.false_detections, verdict.max_observer_error_force, verdict.max_observer_error_moment,
-      1e3 * verdict.max_tracking_error, verdict.max_orientation_error * 57.29577951308232,
-      verdict.loop_closure, verdict.simulated, facts.wall, facts.seed);
+      "tracking error     {:.2f} mm, {:.2f} deg before any contact\n",
+      verdict.witness == Witness::none ? "not judged" : std::to_string(verdict.false_detections),
+      verdict.max_observer_error_force, verdict.max_observer_error_moment, 1e3 * verdict.max_tracking_error,
+      verdict.max_orientation_error * 57.29577951308232);
+  if (verdict.loop_closure) text += fmt::format("loop closure       {:.1e} m\n", *verdict.loop_closure);
+  text += fmt::format("{:<18} {:.3f} s in {:.2f} s, seed {}\n\n",
+                      verdict.witness == Witness::truth ? "simulated" : "ran", verdict.simulated, facts.wall,
+                      facts.seed);
   text += verdict.good() ? "verdict: good\n" : "verdict: bad\n";
   for (const std::string& failure : verdict.failures) text += "  - " + failure + "\n";
   return text;
@@ -64,12 +88,14 @@ std::string verdict_json(const Verdict& verdict, const RunFacts& facts) {
   Json contacts = Json::array();
   for (const ContactVerdict& contact : verdict.contacts) contacts.push_back(contact_json(contact));
   const Json json = {{"verdict", verdict.good() ? "good" : "bad"},
+                     {"witness", name(verdict.witness)},
                      {"contacts", contacts},
+                     {"detections_s", verdict.detections},
                      {"false_detections", verdict.false_detections},
                      {"max_observer_error_N", verdict.max_observer_error_force},
                      {"max_observer_error_Nm", verdict.max_observer_error_moment},
                      {"max_tracking_error_mm", 1e3 * verdict.max_tracking_error},
-                     {"loop_closure_m", verdict.loop_closure},
+                     {"loop_closure_m", verdict.loop_closure ? Json(*verdict.loop_closure) : Json(nullptr)},
                      {"simulated_s", verdict.simulated},
                      {"wall_s", facts.wall},
                      {"seed", facts.seed},

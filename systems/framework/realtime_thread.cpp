@@ -108,6 +108,15 @@ std::string RealtimeReport::text() const {
   return text;
 }
 
+bool permits_realtime(int priority) {
+  int policy = 0;
+  sched_param before{};
+  pthread_getschedparam(pthread_self(), &policy, &before);
+  const bool granted = ask_for_priority(Insistence::prefer, priority).granted;
+  pthread_setschedparam(pthread_self(), policy, &before);
+  return granted;
+}
+
 RealtimeThread::RealtimeThread(const RealtimeSettings& settings) {
   pthread_getschedparam(pthread_self(), &policy_, &parameters_);
   pthread_getaffinity_np(pthread_self(), sizeof processors_, &processors_);

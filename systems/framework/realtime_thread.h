@@ -42,6 +42,9 @@ struct RealtimeReport {
   std::string text() const;
 };
 
+/// Whether a thread of this program may run with SCHED_FIFO and `priority`, 1 to 99.
+bool permits_realtime(int priority);
+
 /// The calling thread as a control thread, until destroyed by the same thread. Threads that it starts
 /// meanwhile inherit its priority and processor. It runs
 /// - SCHED_FIFO: before all ordinary threads, so that a busy machine does not delay it;

@@ -1,7 +1,6 @@
-// What the verbs of the command line do.
+// What the verbs do that only look at files.
 #include <fmt/core.h>
 
-#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -9,11 +8,10 @@
 #include "apps/flinch/command_line.h"
 #include "apps/flinch/experiment.h"
 #include "apps/flinch/experiment_report.h"
-#include "apps/flinch/progress.h"
+#include "apps/flinch/problems_of_file.h"
 #include "apps/flinch/report_page.h"
 #include "apps/flinch/scenario.h"
 #include "apps/flinch/verdict.h"
-#include "apps/flinch/verdict_output.h"
 #include "systems/config/config_file.h"
 #include "systems/config/config_reader.h"
 #include "systems/config/robot_file.h"
@@ -24,24 +22,6 @@ namespace flinch {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw SetupError(folder.string() + ": the folder cannot be made: " + error.message());
-}
-
-/// What `make` returns; what is wrong is told with the name of `file`, where it comes from.
-template <class Make>
-auto out_of(const std::filesystem::path& file, Make&& make) {
-  try {
-    return make();
-  } catch (const SetupError& error) {
-    std::vector<std::string> problems;
-    for (const std::string& problem : error.problems()) problems.push_back(file.string() + ": " + problem);
-    throw SetupError(std::move(problems));
-  }
-}
 
 Experiment built(const Scenario& scenario) {
   return out_of(scenario.file, [&scenario] { return build_experiment(scenario); });
@@ -58,16 +38,6 @@ Report recorded_report(const std::filesystem::path& file) {
 bool is_robot(const std::filesystem::path& file) {
   const ConfigReader reader = ConfigReader::open(file);
   return reader.has("kind") || reader.has("legs");
-}
-
-ExitStatus status_of(const Verdict& verdict) {
-  if (!verdict.fault.empty()) return ExitStatus::fault;
-  return verdict.good() ? ExitStatus::done : ExitStatus::bad_verdict;
-}
-
-void print_verdict(const Verdict& verdict, const RunFacts& facts, const CommonOptions& common) {
-  const std::string text = common.json ? verdict_json(verdict, facts) + "\n" : verdict_table(verdict, facts);
-  fmt::print("{}", text);
 }
 
 void write_text(const std::string& text, const std::filesystem::path& file) {
@@ -106,33 +76,6 @@ void require_folder_of(const std::filesystem::path& file) {
 }
 
 }  // namespace
-
-ExitStatus run(const RunOptions& options) {
-  const Scenario scenario = read_scenario(options.scenario, options.seed);
-  const std::filesystem::path folder =
-      options.out.empty() ? std::filesystem::path("out") / scenario.name : options.out;
-  built(scenario);  // says what does not fit before anything is written
-  make_folder(folder);
-
-  const auto started = std::chrono::steady_clock::now();
-  Recording recording;
-  {
-    Progress progress("simulating " + scenario.name, options.common.quiet || options.common.json);
-    recording = run_experiment(scenario, {{"command_line", options.common.command_line}},
-                               [&progress](double share) { progress.show(share); });
-  }
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
-
-  const Verdict verdict = judge(recording, scenario.expected, scenario.force_limits);
-  write_recording(recording, folder / "run.h5");
-  write_report_page(experiment_report(scenario, recording, verdict), folder / "report.html");
-  print_verdict(verdict, {wall.count(), scenario.seed}, options.common);
-  if (!options.common.quiet) {
-    fmt::print(stderr, "recording: {}\nreport:    {}\n", (folder / "run.h5").string(),
-               (folder / "report.html").string());
-  }
-  return status_of(verdict);
-}
 
 ExitStatus report(const ReportOptions& options) {
   const std::filesystem::path page =

@@ -1,0 +1,39 @@
+#include "apps/flinch/bus/bus_start.h"
+
+#include <fmt/core.h>
+
+namespace flinch {
+
+BusSettings bus_settings(const BusOptions& options, bool quiet) {
+  const bool urgent = options.priority > 0 && permits_realtime(options.priority);
+  BusSettings settings{.domain = options.domain,
+                       .interface = options.interface,
+                       .peers = options.peers,
+                       .realtime_priority = urgent ? options.priority : 0};
+  for (const std::string& warning : warnings(settings)) {
+    if (!quiet) fmt::print(stderr, "warning: {}\n", warning);
+  }
+  return settings;
+}
+
+RealtimeSettings loop_settings(const BusOptions& options) {
+  RealtimeSettings settings;
+  if (options.priority == 0) return {.scheduling = Insistence::none, .locked_memory = Insistence::none};
+  settings.priority = options.priority;
+  return settings;
+}
+
+void tell_what_is_missing(const RealtimeReport& report, bool quiet) {
+  if (quiet) return;
+  for (const Privilege& privilege : report.privileges) {
+    if (privilege.granted) continue;
+    fmt::print(stderr, "warning: {} was not granted: {}; {}\n", privilege.name, privilege.reason,
+               privilege.remedy);
+  }
+}
+
+std::string name_of(const BusOptions& options) {
+  return fmt::format("domain {} on {}", options.domain, options.interface);
+}
+
+}  // namespace flinch

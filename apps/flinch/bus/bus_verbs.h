@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "apps/flinch/command_line.h"
+
+namespace flinch {
+
+struct ServeOptions {
+  CommonOptions common;
+  std::filesystem::path scenario;
+  std::optional<std::uint64_t> seed;
+  BusOptions bus;
+  std::optional<double> duration;  ///< none: until interrupted [s]
+};
+
+struct LinkOptions {
+  CommonOptions common;
+  std::filesystem::path robot;  ///< robot file or scenario
+  BusOptions bus;
+  double duration = 10.0;  ///< [s]
+  double patience = 10.0;  ///< [s]
+};
+
+/// The verbs that need the bus. Each throws SetupError for bad input.
+ExitStatus serve(const ServeOptions& options);
+ExitStatus link(const LinkOptions& options);
+/// flinch run --station dds
+ExitStatus run_on_bus(const RunOptions& options);
+
+}  // namespace flinch

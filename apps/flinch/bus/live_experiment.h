@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+
+#include "diagrams/contact_control.h"
+#include "diagrams/external_station.h"
+#include "systems/framework/diagram.h"
+
+namespace flinch {
+
+struct Scenario;
+
+/// The control path of a scenario before a robot outside this program. The outputs of the diagram are what is
+/// recorded, under the names that 'flinch run' uses in simulation; its inputs are the operator's buttons, the
+/// timing of its ticks, and what comes from the robot.
+struct LiveExperiment {
+  std::unique_ptr<Diagram> diagram;
+  ExternalStation station;
+  ContactControl control;
+  InputPort<OperatorCommand> operator_command;
+};
+
+/// Throws SetupError for settings that do not fit together.
+LiveExperiment build_live_experiment(const Scenario& scenario);
+
+/// How long the platform takes from `pose` to the start of the scenario's motion; 0 where there is none.
+Time approach_from(const PlatformVector& pose, const Scenario& scenario);
+
+}  // namespace flinch

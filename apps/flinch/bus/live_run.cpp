@@ -1,0 +1,184 @@
+#include "apps/flinch/bus/live_run.h"
+
+#include <fmt/core.h>
+
+#include "apps/flinch/bus/interrupts.h"
+#include "apps/flinch/bus/names.h"
+#include "apps/flinch/bus/status_line.h"
+#include "apps/flinch/recorded_signals.h"
+#include "apps/flinch/scenario.h"
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+constexpr Time slice = 10ms;  // between two looks at what unrecorded ticks have brought
+
+void throw_if_interrupted() {
+  if (Interrupts::count() > 0)
+    throw SetupError("interrupted before the robot was enabled; nothing has moved");
+}
+
+/// Why the samples that have come cannot be used; "" if they can.
+std::string misunderstanding(const DdsLink& link) {
+  if (link.received > 0) return "";
+  if (link.other_version > 0)
+    return "the robot speaks another version of the protocol: build both ends alike";
+  if (link.other_robot > 0) {
+    return "the robot uses another robot description: give both ends the same robot file";
+  }
+  return "";
+}
+
+std::string attribute(const DurationHistogram& histogram) {
+  const auto summary = histogram.summary();
+  if (!summary) return "none";
+  const auto us = [](Time time) { return 1e6 * to_seconds(time); };
+  return fmt::format("p50 {:.0f}, p99 {:.0f}, p99.9 {:.0f}, max {:.0f} us", us(summary->p50),
+                     us(summary->p99), us(summary->p99_9), us(summary->max));
+}
+
+}  // namespace
+
+LiveRun::LiveRun(const Scenario& scenario, const LiveExperiment& experiment, const LiveLink& link,
+                 Time patience)
+    : scenario_(scenario),
+      experiment_(experiment),
+      link_(link),
+      patience_(patience),
+      ticks_([this](Time deadline) { return link_.station.wait_for_joints(deadline); }, 500us),
+      unrecorded_(*experiment.diagram, ticks_, link.exchange),
+      context_(experiment.diagram->make_context()) {}
+
+void LiveRun::tick(Time duration) { unrecorded_.run(context_, context_.time() + duration); }
+
+void LiveRun::connect() {
+  const Time deadline = MonotonicClock::now() + patience_;
+  while (link_.station.link().received == 0) {
+    throw_if_interrupted();
+    const DdsLink link = link_.station.link();
+    throw_if_any(misunderstanding(link).empty() ? std::vector<std::string>{}
+                                                : std::vector{misunderstanding(link)});
+    if (MonotonicClock::now() > deadline) {
+      throw SetupError(
+          link.peers == 0
+              ? "nobody sends joint readings there; start the robot's driver, or 'flinch serve' with "
+                "the same scenario, --domain and --interface"
+              : "the robot is there, but none of its joint readings arrives");
+    }
+    MonotonicClock::sleep_until(MonotonicClock::now() + slice);
+  }
+  while (!context_.get(experiment_.control.platform_motion).valid()) {
+    throw_if_interrupted();
+    if (MonotonicClock::now() > deadline)
+      throw SetupError("the platform's pose is not known: check the encoders");
+    tick(slice);
+  }
+  const PlatformMotion& platform = context_.get(experiment_.control.platform_motion);
+  end_ = scenario_.duration + approach_from(platform.pose, scenario_);
+}
+
+void LiveRun::prepare(const RealtimeSettings& settings) {
+  const Diagram& diagram = *experiment_.diagram;
+  recorder_ = std::make_unique<Recorder>(diagram, recorded_paths(diagram),
+                                         static_cast<std::size_t>(end_ / diagram.tick()) + 1);
+  profile_ = std::make_unique<BlockProfile>(diagram);
+  recorded_ = std::make_unique<RealtimeRunner>(diagram, ticks_, link_.exchange);
+  recorded_->record(*recorder_);
+  recorded_->profile(*profile_);
+  thread_ = std::make_unique<RealtimeThread>(settings);
+}
+
+bool LiveRun::stands_ready() const {
+  const DdsLink link = link_.station.link();
+  return link.commands_obeyed && link.enabled;
+}
+
+std::string LiveRun::why_not_enabled() const {
+  const DdsLink link = link_.station.link();
+  const std::string state = std::string("the drives are in the state '") + name(link.drive_state) + "'";
+  if (link.drive_state == DriveState::fault) return state + "; find out why, then use --reset-faults";
+  if (!link.commands_obeyed)
+    return "the robot obeys another program, or our commands do not arrive; " + state;
+  return "the robot does not enable its drives; " + state;
+}
+
+void LiveRun::enable(bool reset_faults) {
+  const Time deadline = MonotonicClock::now() + patience_;
+  DriveWish wish{.state = DriveWish::State::operation_enabled, .engage_brake = false};
+  link_.station.request(wish);
+  while (!stands_ready()) {
+    throw_if_interrupted();
+    const DdsLink link = link_.station.link();
+    const bool faulty = link.commands_obeyed && link.drive_state == DriveState::fault;
+    if (MonotonicClock::now() > deadline || (faulty && !reset_faults)) throw SetupError(why_not_enabled());
+    if (faulty && wish.fault_resets == 0) {
+      wish.fault_resets = 1;
+      link_.station.request(wish);
+    }
+    tick(slice);
+  }
+}
+
+Tidings LiveRun::watch() {
+  const LiveState& now = link_.panel.last();
+  if (Interrupts::count() > 0) link_.panel.press_stop();
+  const bool rests = link_.panel.stop_pressed() && now.gate.phase == GatePhase::closed && now.at_rest;
+  if (Interrupts::count() > 1 || rests) recorded_->request_stop();
+  constexpr const char* phases[] = {"waiting", "open", "closed"};
+  return {fmt::format("{}; gate {}; drives: {}", name(now.mode), phases[static_cast<int>(now.gate.phase)],
+                      name(now.link.drive_state)),
+          fmt::format("at {:.1f} of {:.1f} s, force {:.0f} N, round trip {:.0f} us, lost {}, refused {}",
+                      to_seconds(now.time), to_seconds(end_), now.force,
+                      1e6 * to_seconds(now.link.round_trip), now.link.lost, now.link.refused)};
+}
+
+void LiveRun::run(bool quiet) {
+  context_ = experiment_.diagram->make_context();
+  const StatusLine line([this] { return watch(); }, quiet);
+  recorded_->run(context_, end_);
+}
+
+void LiveRun::end() {
+  link_.panel.press_stop();
+  const bool at_once = Interrupts::count() > 1;
+  const auto wait_for = [this](Time longest, auto&& done) {
+    for (Time waited{}; waited < longest && !done(); waited += slice) tick(slice);
+  };
+  if (!at_once) {
+    wait_for(3s, [this] {
+      const LiveState& now = link_.panel.last();
+      return now.gate.phase != GatePhase::open && (now.at_rest || !now.link.enabled);
+    });
+  }
+  link_.station.request({.state = DriveWish::State::switched_on});
+  wait_for(500ms, [this] { return !link_.station.link().enabled; });
+  link_.station.request({.state = DriveWish::State::without_voltage});
+  tick(50ms);
+}
+
+Recording LiveRun::recording(std::map<std::string, std::string> attributes) const {
+  const TickStatistics& loop = recorded_->statistics();
+  const DdsLink link = link_.station.link();
+  const DdsLinkTimes& times = link_.station.times();
+  attributes["loop.granted"] = granted().text();
+  attributes["loop.late_starts"] = std::to_string(loop.late_starts);
+  attributes["loop.overruns"] = std::to_string(loop.overruns);
+  attributes["loop.lost_periods"] = std::to_string(loop.lost_periods);
+  attributes["loop.without_sample"] = std::to_string(loop.without_sample);
+  attributes["loop.lateness"] = attribute(loop.lateness);
+  attributes["loop.tick"] = attribute(loop.whole);
+  attributes["link.lost"] = std::to_string(link.lost);
+  attributes["link.refused"] = std::to_string(link.refused);
+  attributes["link.round_trip"] = attribute(times.round_trip);
+  attributes["link.age"] = attribute(times.age);
+  std::string blocks;
+  for (const BlockProfile::Row& row : profile_->rows()) {
+    blocks += fmt::format("{}: worst {:.1f} us, mean {:.2f} us\n", row.path, 1e6 * to_seconds(row.worst),
+                          1e6 * to_seconds(row.total) / static_cast<double>(profile_->ticks()));
+  }
+  attributes["loop.blocks"] = blocks;
+  return recorder_->recording(recorded_attributes(scenario_, attributes));
+}
+
+}  // namespace flinch

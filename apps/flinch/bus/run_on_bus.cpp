@@ -1,0 +1,90 @@
+// flinch run --station dds
+#include <fmt/core.h>
+
+#include "apps/flinch/bus/bus_start.h"
+#include "apps/flinch/bus/bus_verbs.h"
+#include "apps/flinch/bus/interrupts.h"
+#include "apps/flinch/bus/live_run.h"
+#include "apps/flinch/problems_of_file.h"
+#include "apps/flinch/run_folder.h"
+#include "apps/flinch/scenario.h"
+#include "drivers/ros2_publisher.h"
+#include "drivers/wire_header.h"
+#include "systems/foundation/setup_error.h"
+#include "systems/framework/exchange_list.h"
+
+namespace flinch {
+namespace {
+
+Ros2Publisher shown_to_ros2(const DdsBus& bus, const LiveExperiment& experiment, int legs) {
+  Ros2Settings settings;
+  settings.ticks_between_messages = 10;
+  for (int leg = 1; leg <= legs; ++leg) settings.joint_names.push_back("drive" + std::to_string(leg));
+  return {bus,
+          *experiment.diagram,
+          {.joint_motion = experiment.control.joint_motion,
+           .drive_torque = experiment.control.drive_torque,
+           .imu = experiment.station.imu,
+           .wrench = experiment.control.wrench_estimate,
+           .gate = experiment.control.gate},
+          settings};
+}
+
+void tell_of_loop_and_link(const LiveRun& run, const DdsStation& station) {
+  const TickStatistics& loop = run.statistics();
+  fmt::print(stderr, "loop:      {} ticks, {} late starts, {} overruns, {} lost, {} without a sample\n",
+             loop.ticks, loop.late_starts, loop.overruns, loop.lost_periods, loop.without_sample);
+  const auto round_trip = station.times().round_trip.summary();
+  const DdsLink link = station.link();
+  if (!round_trip) return;
+  fmt::print(stderr, "link:      round trip p50 {:.0f}, p99 {:.0f}, most {:.0f} us; {} lost, {} refused\n",
+             1e6 * to_seconds(round_trip->p50), 1e6 * to_seconds(round_trip->p99),
+             1e6 * to_seconds(round_trip->max), link.lost, link.refused);
+}
+
+/// The problems, with where the robot was looked for.
+SetupError on_bus(const SetupError& error, const BusOptions& options) {
+  std::vector<std::string> problems;
+  for (const std::string& problem : error.problems()) problems.push_back(name_of(options) + ": " + problem);
+  return SetupError(std::move(problems));
+}
+
+}  // namespace
+
+ExitStatus run_on_bus(const RunOptions& options) {
+  const bool silent = options.common.quiet || options.common.json;
+  const Scenario scenario = read_scenario(options.input);
+  const LiveExperiment experiment = out_of(scenario.file, [&] { return build_live_experiment(scenario); });
+
+  const Interrupts interrupts;
+  const BusSettings settings = bus_settings(options.bus, silent);
+  const DdsBus bus(settings);
+  DdsStation station(
+      bus, *experiment.diagram, experiment.station,
+      {.robot = robot_hash(scenario.robot_text), .realtime_priority = settings.realtime_priority});
+  OperatorPanel panel(experiment, station);
+  Ros2Publisher ros2 = shown_to_ros2(bus, experiment, scenario.robot.robot->legs());
+  ExchangeList exchange({station, panel, ros2});
+  LiveRun run(scenario, experiment, {station, panel, exchange}, from_seconds(options.patience));
+  try {
+    if (!silent) fmt::print(stderr, "waiting for the robot, {}\n", name_of(options.bus));
+    run.connect();
+    run.prepare(loop_settings(options.bus));
+    tell_what_is_missing(run.granted(), silent);
+    run.enable(options.reset_faults);
+  } catch (const SetupError& error) {
+    throw on_bus(error, options.bus);
+  }
+  const std::filesystem::path folder = make_run_folder(options, scenario.name);
+  const Time started = MonotonicClock::now();
+  run.run(silent);
+  const double wall = to_seconds(MonotonicClock::now() - started);
+  run.end();
+
+  const Recording recording = run.recording(
+      {{"command_line", options.common.command_line}, {"station", "dds, " + name_of(options.bus)}});
+  if (!silent) tell_of_loop_and_link(run, station);
+  return conclude_run(scenario, recording, wall, folder, options.common);
+}
+
+}  // namespace flinch

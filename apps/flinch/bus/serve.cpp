@@ -1,0 +1,130 @@
+// flinch serve: the simulated bench on the bus, in real time, as a driver program for real drives would be.
+#include <fmt/core.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/flinch/bus/bus_start.h"
+#include "apps/flinch/bus/bus_verbs.h"
+#include "apps/flinch/bus/interrupts.h"
+#include "apps/flinch/bus/names.h"
+#include "apps/flinch/bus/served_bench.h"
+#include "apps/flinch/bus/status_line.h"
+#include "apps/flinch/problems_of_file.h"
+#include "apps/flinch/scenario.h"
+#include "drivers/dds_server.h"
+#include "drivers/wire_header.h"
+#include "plant/sundials_integrator.h"
+#include "systems/framework/exchange_list.h"
+#include "systems/framework/realtime_runner.h"
+#include "systems/framework/triple_buffer.h"
+
+namespace flinch {
+namespace {
+
+/// What is told of a served bench.
+struct ServedState {
+  Time time{};
+  DriveState drives = DriveState::not_ready_to_switch_on;
+  bool braked = true;
+  DdsCommander commander;
+};
+
+/// Takes it from the loop to whoever tells it.
+class ServedWatch final : public Exchange {
+ public:
+  ServedWatch(const ServedBench& bench, const DdsServer& server)
+      : server_(server),
+        statusword_(bench.diagram->slot(bench.station.statusword)),
+        status_(bench.diagram->slot(bench.station.status)) {}
+
+  void take_outputs(const Context& context) override {
+    states_.publish({.time = context.time(),
+                     .drives = context[statusword_].state(),
+                     .braked = context[status_].braked,
+                     .commander = server_.commander()});
+  }
+
+  /// For one thread.
+  const ServedState& last() {
+    states_.take(last_);
+    return last_;
+  }
+
+ private:
+  const DdsServer& server_;
+  Slot<Statusword> statusword_;
+  Slot<StationStatus> status_;
+  TripleBuffer<ServedState> states_;
+  ServedState last_;
+};
+
+Tidings tidings(const ServedState& now) {
+  const bool commanded = now.commander.session != 0;
+  return {fmt::format("drives: {}; brakes {}; {}", name(now.drives), now.braked ? "closed" : "open",
+                      commanded ? fmt::format("commanded by {:08x}", now.commander.session)
+                                : std::string("nobody commands")),
+          fmt::format("at {:.1f} s, {} commands, {} refused, {} silences", to_seconds(now.time),
+                      now.commander.received, now.commander.refused, now.commander.silences)};
+}
+
+nlohmann::ordered_json json_of(const DurationHistogram& histogram) {
+  const auto summary = histogram.summary();
+  if (!summary) return nullptr;
+  return {{"p50_us", 1e6 * to_seconds(summary->p50)},
+          {"p99_us", 1e6 * to_seconds(summary->p99)},
+          {"max_us", 1e6 * to_seconds(summary->max)}};
+}
+
+void tell_the_end(const DdsCommander& commander, const TickStatistics& ticks, const CommonOptions& common) {
+  if (common.json) {
+    const nlohmann::ordered_json json = {{"ticks", ticks.ticks},         {"late_starts", ticks.late_starts},
+                                         {"overruns", ticks.overruns},   {"lost_periods", ticks.lost_periods},
+                                         {"tick", json_of(ticks.whole)}, {"commands", commander.received},
+                                         {"refused", commander.refused}, {"silences", commander.silences}};
+    fmt::print("{}\n", json.dump());
+  } else if (!common.quiet) {
+    fmt::print(
+        "served {} ticks: {} late starts, {} overruns, {} lost; {} commands, {} refused, {} silences\n",
+        ticks.ticks, ticks.late_starts, ticks.overruns, ticks.lost_periods, commander.received,
+        commander.refused, commander.silences);
+  }
+}
+
+}  // namespace
+
+ExitStatus serve(const ServeOptions& options) {
+  const bool silent = options.common.quiet || options.common.json;
+  const Scenario scenario = read_scenario(options.scenario, options.seed);
+  DdsServerSettings settings{.robot = robot_hash(scenario.robot_text)};
+  const ServedBench bench =
+      out_of(scenario.file, [&] { return build_served_bench(scenario, settings.longest_silence); });
+  Context context = bench.diagram->make_context();
+
+  const Interrupts interrupts;
+  const BusSettings bus_is = bus_settings(options.bus, silent);
+  settings.realtime_priority = bus_is.realtime_priority;
+  const DdsBus bus(bus_is);
+  DdsServer server(bus, *bench.diagram, bench.station, settings);
+  ServedWatch watch(bench, server);
+  ExchangeList exchange({server, watch});
+  ClockTicks ticks;
+  RealtimeRunner runner(*bench.diagram, ticks, exchange, std::make_unique<SundialsIntegrator>());
+  if (!silent) {
+    fmt::print(stderr, "serving {} on {}; Ctrl-C ends it\n", scenario.name, name_of(options.bus));
+  }
+  {
+    const StatusLine line(
+        [&] {
+          if (Interrupts::count() > 0) runner.request_stop();
+          return tidings(watch.last());
+        },
+        silent);
+    const RealtimeThread thread(loop_settings(options.bus));
+    tell_what_is_missing(thread.report(), silent);
+    runner.run(context, options.duration ? from_seconds(*options.duration) : Time::max());
+  }
+  tell_the_end(server.commander(), runner.statistics(), options.common);
+  return ExitStatus::done;
+}
+
+}  // namespace flinch

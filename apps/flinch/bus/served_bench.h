@@ -1,0 +1,22 @@
+#pragma once
+
+#include <memory>
+
+#include "drivers/powered_station.h"
+#include "systems/framework/diagram.h"
+
+namespace flinch {
+
+struct Scenario;
+
+/// The simulated bench of a scenario with drives that must be switched on, to be put on the bus. The inputs
+/// of `station` are those of the diagram.
+struct ServedBench {
+  std::unique_ptr<Diagram> diagram;
+  PoweredStation station;
+};
+
+/// `longest_silence`: after which the drives brake without a command. Throws SetupError.
+ServedBench build_served_bench(const Scenario& scenario, Time longest_silence);
+
+}  // namespace flinch

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <thread>
+
+namespace flinch {
+
+/// What a running program says of itself.
+struct Tidings {
+  std::string state;    ///< changes seldom
+  std::string figures;  ///< change all the time
+};
+
+/// Tells on stderr how a running program is, from a thread of its own: one line that redraws itself ten times
+/// a second on a terminal; where stderr is a pipe or file, a plain line whenever the state changes. Says
+/// nothing when quiet.
+class StatusLine {
+ public:
+  /// `ask` is called on that thread, also when quiet.
+  StatusLine(std::function<Tidings()> ask, bool quiet);
+  StatusLine(const StatusLine&) = delete;
+  StatusLine& operator=(const StatusLine&) = delete;
+  /// Tells the last state and wipes the line.
+  ~StatusLine();
+
+ private:
+  void run(const std::stop_token& ending);
+  void tell(const Tidings& now);
+
+  std::function<Tidings()> ask_;
+  bool quiet_;
+  bool terminal_;
+  std::string last_state_;
+  std::jthread thread_;  // last
+};
+
+}  // namespace flinch

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace flinch {
+
+/// Where a verb finds the bus, and how urgent it is there.
+struct BusOptions {
+  std::uint32_t domain = 0;
+  std::string interface = "lo";
+  std::vector<std::string> peers;
+  std::filesystem::path security;  ///< folder of keys; empty: without
+  int priority = 80;               ///< SCHED_FIFO of loop and bus, where permitted; 0: not wanted
+};
+
+}  // namespace flinch
