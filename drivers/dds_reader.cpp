@@ -17,22 +17,37 @@ bool DdsArrivals::take(void* sample) noexcept {
   return false;
 }
 
+/// What the bus calls, on its threads.
+struct DdsReader::Listener {
+  static void arrived(std::int32_t reader, void* self) {
+    const DdsReader& receiver = *static_cast<const DdsReader*>(self);
+    receiver.on_data_(DdsArrivals(reader), receiver.owner_);
+  }
+
+  static void deadline_missed(std::int32_t, dds_requested_deadline_missed_status_t status, void* self) {
+    static_cast<DdsReader*>(self)->deadlines_.store(status.total_count, std::memory_order_relaxed);
+  }
+
+  static void liveliness_changed(std::int32_t, dds_liveliness_changed_status_t status, void* self) {
+    if (status.alive_count_change >= 0) return;
+    const auto silent = static_cast<std::uint32_t>(-status.alive_count_change);
+    static_cast<DdsReader*>(self)->silences_.fetch_add(silent, std::memory_order_relaxed);
+  }
+};
+
 DdsReader::DdsReader(const DdsBus& bus, const Topic& topic, OnData on_data, void* owner)
     : on_data_(on_data), owner_(owner) {
   const std::string what = std::string("the topic ") + topic.name;
   const DdsQos qos = qos_of(topic.kind);
   const std::unique_ptr<dds_listener_t, void (*)(dds_listener_t*)> listener(dds_create_listener(this),
                                                                             dds_delete_listener);
-  dds_lset_data_available(listener.get(), &DdsReader::arrived);
+  dds_lset_data_available(listener.get(), &Listener::arrived);
+  dds_lset_requested_deadline_missed(listener.get(), &Listener::deadline_missed);
+  dds_lset_liveliness_changed(listener.get(), &Listener::liveliness_changed);
   topic_ = DdsEntity(
       check_dds(dds_create_topic(bus.participant(), topic.type, topic.name, nullptr, nullptr), what));
   reader_ = DdsEntity(
       check_dds(dds_create_reader(bus.participant(), topic_.handle(), qos.get(), listener.get()), what));
-}
-
-void DdsReader::arrived(std::int32_t reader, void* self) {
-  const DdsReader& receiver = *static_cast<const DdsReader*>(self);
-  receiver.on_data_(DdsArrivals(reader), receiver.owner_);
 }
 
 int DdsReader::writers() const noexcept {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <atomic>
+#include <cstdint>
+
 #include "drivers/dds_bus.h"
 #include "drivers/topics.h"
 
@@ -15,6 +18,12 @@ class DdsArrivals {
 
  private:
   std::int32_t reader_;
+};
+
+/// What a writer has promised with its topic and not kept, since the start.
+struct BrokenPromises {
+  std::uint32_t deadlines = 0;  ///< periods in which no sample came although one was due
+  std::uint32_t silences = 0;   ///< how often one did not show in time that it lives, or left
 };
 
 /// Receives samples of one topic, each as it arrives.
@@ -33,11 +42,18 @@ class DdsReader {
   /// How many writers send.
   int writers() const noexcept;
 
+  /// From any thread, also that of a control loop.
+  BrokenPromises broken_promises() const noexcept {
+    return {deadlines_.load(std::memory_order_relaxed), silences_.load(std::memory_order_relaxed)};
+  }
+
  private:
-  static void arrived(std::int32_t reader, void* self);
+  struct Listener;
 
   OnData on_data_;
   void* owner_;
+  std::atomic<std::uint32_t> deadlines_ = 0;
+  std::atomic<std::uint32_t> silences_ = 0;
   DdsEntity topic_;
   DdsEntity reader_;  // last: goes first, and nothing arrives any more
 };

@@ -55,6 +55,7 @@ class SampleReceiver {
 
   /// How many writers send.
   int writers() const noexcept { return reader_.writers(); }
+  BrokenPromises broken_promises() const noexcept { return reader_.broken_promises(); }
 
  private:
   static void receive(DdsArrivals arrivals, void* self) {
