@@ -55,10 +55,4 @@ std::vector<std::string> FastDdsProgram::messages(const std::string& topic) cons
   return found == messages_.end() ? std::vector<std::string>() : found->second;
 }
 
-std::size_t FastDdsProgram::count(const std::string& topic) const {
-  const std::lock_guard lock(mutex_);
-  const auto found = messages_.find(topic);
-  return found == messages_.end() ? 0 : found->second.size();
-}
-
 }  // namespace flinch::test

@@ -21,7 +21,6 @@ class FastDdsProgram {
 
   /// What has arrived there so far on a topic, each message as MessageText writes it.
   std::vector<std::string> messages(const std::string& topic) const;
-  std::size_t count(const std::string& topic) const;
 
  private:
   void read_lines();

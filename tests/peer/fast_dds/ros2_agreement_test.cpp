@@ -7,7 +7,6 @@
 #include <functional>
 #include <iostream>
 #include <limits>
-#include <map>
 #include <span>
 
 #include "drivers/ros2_publisher.h"
@@ -305,63 +304,6 @@ std::vector<std::unique_ptr<Witness>> witnesses(const DdsBus& bus) {
 
 // ---------------------------------------------------------------- the comparison
 
-/// Publishes until both ends have seen enough and nothing is under way; everything is compared afterwards.
-class Exchanged {
- public:
-  explicit Exchanged(const char* reliability)
-      : domain_(test::free_domain()),
-        program_(domain_, reliability),
-        bus_({.domain = domain_}),
-        witnesses_(witnesses(bus_)) {
-    const auto shown = show_everything(bus_);
-    run(shown, 20s,
-        [this] { return every([this](const Witness& w) { return program_.count(w.topic()) > 0; }); });
-    run({}, 200ms, [] { return false; });  // nothing is under way any more
-    for (const auto& witness : witnesses_) {
-      witness->mark();
-      received_before_[witness->topic()] = program_.count(witness->topic());
-    }
-    run(shown, 20s, [this] {
-      return every([this](const Witness& w) {
-        return std::min(w.seen_since_mark().size(), received_since_mark(w)) >= asked;
-      });
-    });
-    run({}, 5s, [this] {
-      return every([this](const Witness& w) { return received_since_mark(w) >= w.seen_since_mark().size(); });
-    });
-  }
-
-  const std::vector<std::unique_ptr<Witness>>& topics() const { return witnesses_; }
-  std::vector<std::string> received(const Witness& witness) const {
-    return program_.messages(witness.topic());
-  }
-
- private:
-  bool every(const std::function<bool(const Witness&)>& holds) const {
-    return std::all_of(witnesses_.begin(), witnesses_.end(), [&](const auto& w) { return holds(*w); });
-  }
-
-  std::size_t received_since_mark(const Witness& witness) const {
-    return program_.count(witness.topic()) - received_before_.at(witness.topic());
-  }
-
-  void run(const std::vector<std::unique_ptr<Shown>>& shown, Time longest,
-           const std::function<bool()>& done) {
-    const Time start = MonotonicClock::now();
-    for (Time due = start; due < start + longest && !done(); due += between_ticks) {
-      MonotonicClock::sleep_until(due);
-      for (const auto& diagram : shown) diagram->tick();
-      for (const auto& witness : witnesses_) witness->look();
-    }
-  }
-
-  std::uint32_t domain_;
-  FastDdsProgram program_;  // begins before the threads of the bus
-  DdsBus bus_;
-  std::vector<std::unique_ptr<Witness>> witnesses_;
-  std::map<std::string, std::size_t> received_before_;
-};
-
 /// Those of `part` that `whole` does not have, each as often as it is missing.
 std::vector<std::string> missing(std::vector<std::string> part, std::vector<std::string> whole) {
   std::sort(part.begin(), part.end());
@@ -370,6 +312,63 @@ std::vector<std::string> missing(std::vector<std::string> part, std::vector<std:
   std::set_difference(part.begin(), part.end(), whole.begin(), whole.end(), std::back_inserter(difference));
   return difference;
 }
+
+/// Publishes until both ends have seen enough and nothing is under way; everything is compared afterwards.
+class Exchanged {
+ public:
+  explicit Exchanged(const char* reliability)
+      : domain_(test::free_domain()),
+        program_(domain_, reliability),
+        bus_({.domain = domain_}),
+        witnesses_(witnesses(bus_)) {
+    auto shown = show_everything(bus_);
+    run(shown, 20s, [this](const Witness& w) { return hears_all(w); });
+    for (const auto& witness : witnesses_) witness->mark();
+    run(shown, 20s, [this](const Witness& w) {
+      return w.seen_since_mark().size() >= asked && w.seen_since_mark().size() - lost(w).size() >= asked;
+    });
+    shown.clear();  // what they have still to send goes out
+    run(shown, 5s, [this](const Witness& w) { return lost(w).empty(); });
+  }
+
+  const std::vector<std::unique_ptr<Witness>>& topics() const { return witnesses_; }
+  std::vector<std::string> received(const Witness& witness) const {
+    return program_.messages(witness.topic());
+  }
+  /// Those since the mark that have not arrived.
+  std::vector<std::string> lost(const Witness& witness) const {
+    const auto published = witness.seen_since_mark();
+    return missing({published.begin(), published.end()}, received(witness));
+  }
+
+ private:
+  /// Whether every sender of the topic is heard: each has sent one of the messages that must have arrived.
+  bool hears_all(const Witness& witness) const {
+    constexpr std::size_t under_way = diagnosers, arrived = 2 * diagnosers;
+    const auto& seen = witness.seen();
+    if (seen.size() < arrived + under_way) return false;
+    const auto end = seen.end() - under_way;
+    return missing({end - arrived, end}, received(witness)).empty();
+  }
+
+  /// Ticks until `holds` does for each topic.
+  void run(const std::vector<std::unique_ptr<Shown>>& shown, Time longest,
+           const std::function<bool(const Witness&)>& holds) {
+    const Time end = MonotonicClock::now() + longest;
+    bool done = false;
+    for (Time due = MonotonicClock::now(); due < end && !done; due += between_ticks) {
+      MonotonicClock::sleep_until(due);
+      for (const auto& diagram : shown) diagram->tick();
+      for (const auto& witness : witnesses_) witness->look();
+      done = std::all_of(witnesses_.begin(), witnesses_.end(), [&](const auto& w) { return holds(*w); });
+    }
+  }
+
+  std::uint32_t domain_;
+  FastDdsProgram program_;  // begins before the threads of the bus
+  DdsBus bus_;
+  std::vector<std::unique_ptr<Witness>> witnesses_;
+};
 
 /// Whether `part` keeps the order of `whole`.
 bool is_subsequence(const std::vector<std::string>& part, const std::vector<std::string>& whole) {
@@ -386,7 +385,7 @@ bool is_subsequence(const std::vector<std::string>& part, const std::vector<std:
 std::vector<std::string> compare(const Exchanged& exchanged, const Witness& witness) {
   const std::vector<std::string> received = exchanged.received(witness);
   const auto published = witness.seen_since_mark();
-  const auto lost = missing({published.begin(), published.end()}, received);
+  const std::vector<std::string> lost = exchanged.lost(witness);
   std::cout << witness.topic() << ": " << published.size() << " published, " << published.size() - lost.size()
             << " received bit for bit, " << lost.size() << " lost" << std::endl;
   EXPECT_GE(published.size(), asked);
