@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 namespace flinch {
 namespace {
@@ -64,13 +65,18 @@ std::vector<std::string> problems(const BusSettings& settings) {
   if (settings.realtime_priority < 0 || settings.realtime_priority > 99) {
     found.push_back("the real-time priority of the bus must be 1 to 99, or 0 for none");
   }
+  if (settings.security) {
+    for (std::string& problem : key_problems(*settings.security)) found.push_back(std::move(problem));
+  }
   return found;
 }
 
 std::vector<std::string> warnings(const BusSettings& settings) {
+  if (settings.security) return key_warnings(*settings.security);
   if (is_loopback(settings)) return {};
   return {"whoever reaches the interface '" + settings.interface +
-          "' can command the robot: the bus leaves this machine without security"};
+          "' can command the robot: the bus leaves this machine without security; 'flinch keys' makes keys "
+          "for it"};
 }
 
 std::string cyclone_configuration(const BusSettings& settings) {

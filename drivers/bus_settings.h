@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "drivers/bus_security.h"
 
 namespace flinch {
 
@@ -13,12 +16,14 @@ struct BusSettings {
       "lo";  ///< name or address of the network interface; "lo": nothing leaves the machine
   std::vector<std::string> peers = {};  ///< addresses of the other ends where the network has no multicast
   int realtime_priority = 0;            ///< of the threads of the bus, SCHED_FIFO, 1 to 99; 0: as all threads
+  std::optional<BusSecurity> security = {};  ///< without: whoever reaches the bus can read it and command
 };
 
 /// All that is wrong with `settings`, one sentence each.
 std::vector<std::string> problems(const BusSettings& settings);
 
-/// What the user should know before going on, one sentence each: a bus that others can reach and command.
+/// What the user should know before going on, one sentence each: a bus that others can reach and command,
+/// keys to care for.
 std::vector<std::string> warnings(const BusSettings& settings);
 
 /// The configuration of Cyclone DDS that makes this bus, in its XML.

@@ -2,16 +2,39 @@
 
 #include <dds/dds.h>
 
+#include "drivers/dds_qos.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
+namespace {
+
+/// Names what DDS Security refuses: its plugins say why on stderr only.
+std::int32_t check_participant(std::int32_t result, const BusSettings& settings, const std::string& name) {
+  if (result < 0 && settings.security) {
+    throw SetupError(
+        name + ": the keys of the " + flinch::name(settings.security->role) + " in " +
+        settings.security->folder.string() +
+        " are refused: expired, not yet valid, not for this domain, changed, or not made together; "
+        "'flinch keys' makes new ones");
+  }
+  return check_dds(result, name);
+}
+
+}  // namespace
 
 DdsBus::DdsBus(const BusSettings& settings) {
   throw_if_any(problems(settings));
   const std::string name = "the bus " + std::to_string(settings.domain) + " on '" + settings.interface + "'";
   domain_ =
       DdsEntity(check_dds(dds_create_domain(settings.domain, cyclone_configuration(settings).c_str()), name));
-  participant_ = DdsEntity(check_dds(dds_create_participant(settings.domain, nullptr, nullptr), name));
+  const DdsQos qos(dds_create_qos());
+  if (settings.security) {
+    for (const auto& [property, value] : participant_properties(*settings.security)) {
+      dds_qset_prop(qos.get(), property.c_str(), value.c_str());
+    }
+  }
+  participant_ = DdsEntity(
+      check_participant(dds_create_participant(settings.domain, qos.get(), nullptr), settings, name));
 }
 
 }  // namespace flinch

@@ -8,8 +8,8 @@ namespace flinch {
 /// This program's place on the bus. It must outlive whatever sends and receives there.
 class DdsBus {
  public:
-  /// Throws SetupError for settings that make no bus, an interface that is not there, or a second bus of the
-  /// same domain in one program.
+  /// Throws SetupError for settings that make no bus, an interface that is not there, keys that do not
+  /// fit, or a second bus of the same domain in one program.
   explicit DdsBus(const BusSettings& settings = {});
 
   std::int32_t participant() const noexcept { return participant_.handle(); }

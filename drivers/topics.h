@@ -1,6 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+
+#include "drivers/bus_role.h"
 
 struct dds_topic_descriptor;
 
@@ -22,7 +25,11 @@ struct Topic {
   const char* name;
   const dds_topic_descriptor* type;
   TopicKind kind;
+  BusRole sender;  ///< the only one who may send on a secured bus
 };
+
+/// Every topic below.
+std::span<const Topic* const> all_topics();
 
 extern const Topic joints_topic;          ///< flinch_JointSample
 extern const Topic drives_topic;          ///< flinch_DriveSample

@@ -1,41 +1,18 @@
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <iostream>
 
 #include "tests/drivers/free_domain.h"
 #include "tests/drivers/link_ends.h"
+#include "tests/drivers/other_program.h"
 
 namespace flinch {
 namespace {
 
 using test::FarEnd;
 using test::NearEnd;
-
-/// A program of its own, until killed. Made before this one is on any bus: threads do not survive a fork.
-class OtherProgram {
- public:
-  explicit OtherProgram(const std::function<void()>& body) : id_(::fork()) {
-    if (id_ != 0) return;
-    body();
-    ::_exit(0);
-  }
-  OtherProgram(const OtherProgram&) = delete;
-  OtherProgram& operator=(const OtherProgram&) = delete;
-  ~OtherProgram() {
-    if (id_ > 0) kill(), ::waitpid(id_, nullptr, 0);
-  }
-
-  void kill() { ::kill(id_, SIGKILL); }
-  void stop() { ::kill(id_, SIGSTOP); }
-  void resume() { ::kill(id_, SIGCONT); }
-
- private:
-  pid_t id_;
-};
+using test::OtherProgram;
 
 OtherProgram far_program(std::uint32_t domain) {
   return OtherProgram([domain] {
