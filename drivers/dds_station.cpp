@@ -76,8 +76,7 @@ class DdsStation::Implementation {
 
   void set_inputs(Context& context) noexcept {
     clock_.start_tick(context.time());
-    const Time arrived = joints_.last().arrived;
-    if (joints_.set_inputs(context, clock_)) time_joints(arrived);
+    if (joints_.set_inputs(context, clock_)) time_joints();
     drives_.set_inputs(context, clock_);
     imu_.set_inputs(context, clock_);
     if (status_.set_inputs(context, clock_)) time_echo();
@@ -114,7 +113,6 @@ class DdsStation::Implementation {
 
   DdsLink link() const noexcept {
     DdsLink link;
-    link.peers = joints_.receiver().writers();
     link.received = joints_.receiver().count(Admission::admitted);
     add_refusals(joints_.receiver(), link);
     add_refusals(drives_.receiver(), link);
@@ -129,13 +127,20 @@ class DdsStation::Implementation {
     return link;
   }
 
+  int peers() const noexcept { return joints_.receiver().writers(); }
   const DdsLinkTimes& times() const noexcept { return times_; }
+  void forget_times() noexcept {
+    times_ = DdsLinkTimes();
+    last_joints_ = Time::zero();
+  }
   std::uint32_t session() const noexcept { return sender_.session; }
 
  private:
-  void time_joints(Time last_arrived) noexcept {
-    times_.age.add(MonotonicClock::now() - joints_.last().acquired);
-    if (last_arrived != Time::zero()) times_.interval.add(joints_.last().arrived - last_arrived);
+  void time_joints() noexcept {
+    const ReceivedSample<flinch_JointSample>& joints = joints_.last();
+    times_.age.add(MonotonicClock::now() - joints.acquired);
+    if (last_joints_ != Time::zero()) times_.interval.add(joints.arrived - last_joints_);
+    last_joints_ = joints.arrived;
   }
 
   /// Of each command once: an echo stands until the next command comes.
@@ -167,6 +172,7 @@ class DdsStation::Implementation {
   AdmissionSettings admission_;
   DdsLinkTimes times_;
   std::uint32_t last_echo_ = 0;
+  Time last_joints_{};
 
   SampleSignal joints_arrived_;
   ReadingInlet<flinch_JointSample, JointReading> joints_;
@@ -193,7 +199,9 @@ bool DdsStation::wait_for_joints(Time deadline) noexcept {
 }
 void DdsStation::request(const DriveWish& wish) noexcept { implementation_->request(wish); }
 DdsLink DdsStation::link() const noexcept { return implementation_->link(); }
+int DdsStation::peers() const noexcept { return implementation_->peers(); }
 const DdsLinkTimes& DdsStation::times() const noexcept { return implementation_->times(); }
+void DdsStation::forget_times() noexcept { implementation_->forget_times(); }
 std::uint32_t DdsStation::session() const noexcept { return implementation_->session(); }
 
 }  // namespace flinch

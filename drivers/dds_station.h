@@ -22,7 +22,6 @@ struct DdsStationSettings {
 
 /// How the link has been since the start.
 struct DdsLink {
-  int peers = 0;               ///< that send joint readings
   std::uint32_t received = 0;  ///< joint samples
   std::uint32_t refused = 0;   ///< samples of any kind: another protocol version, robot or sender, or old
   std::uint32_t other_version = 0;  ///< of these
@@ -70,8 +69,12 @@ class DdsStation final : public Exchange {
 
   /// Of the thread that calls set_inputs(), or while it does not.
   DdsLink link() const noexcept;
+  /// How many others send joint readings. It asks the bus: from any thread but that of the loop.
+  int peers() const noexcept;
   /// Likewise.
   const DdsLinkTimes& times() const noexcept;
+  /// Begins them anew. Likewise.
+  void forget_times() noexcept;
   /// The session under which commands are sent.
   std::uint32_t session() const noexcept;
 

@@ -9,8 +9,9 @@ namespace flinch {
 
 /// Tells monotonic times in the time of a loop's ticks and back. A tick starts when it is due or, the machine
 /// being busy, later; the most punctual starts are right, as ClockMap says. A start that is late by whole
-/// periods means that these were lost (RealtimeRunner): from then on the ticks lie behind the clock by as
-/// much.
+/// periods means that these were lost (RealtimeRunner): the ticks lie behind the clock by as much. This clock
+/// follows in small steps, a hundredth of a period each tick, so that the spacing of stamps, by which others
+/// differentiate, never jumps; until it has caught up, stamps look older than they are.
 class TickClock {
  public:
   /// `period`: from tick to tick.
@@ -20,10 +21,13 @@ class TickClock {
   void start_tick(Time tick) noexcept { start_tick(tick, MonotonicClock::now()); }
   /// The same at a given monotonic time.
   void start_tick(Time tick, Time now) noexcept {
-    if (tick < tick_) map_ = ClockMap();  // a new run
-    const Time late = map_.started() ? now - map_.to_here(tick) : Time::zero();
-    if (late >= period_) map_.shift(late / period_ * period_);
-    map_.observe(tick, now);
+    if (tick < tick_) *this = TickClock(period_);  // a new run
+    const Time late = map_.started() ? now - map_.to_here(tick) - behind_ : Time::zero();
+    if (late >= period_) behind_ += late / period_ * period_;
+    const Time step = std::min(behind_, period_ / 100);
+    behind_ -= step;
+    map_.shift(step);
+    map_.observe(tick, now - behind_);
     tick_ = tick;
   }
 
@@ -35,6 +39,7 @@ class TickClock {
  private:
   Time period_;
   Time tick_{};
+  Time behind_{};  ///< what was lost and is not yet caught up
   ClockMap map_;
 };
 

@@ -66,6 +66,7 @@ struct Verbs {
   RunOptions run;
 #if FLINCH_HAS_BUS
   ServeOptions serve;
+  LinkOptions link;
 #endif
   ReportOptions report;
   GraphOptions graph;
@@ -159,6 +160,22 @@ void add_bus_verbs(CLI::App& app, Verbs& verbs) {
       ->check(CLI::PositiveNumber)
       ->type_name("S");
   add_bus(serve_verb, verbs.serve.bus);
+
+  CLI::App& link_verb =
+      verbs.add(app, "link", "Measure the way to a robot on the bus, without moving it",
+                "flinch link apps/robots/planar_3rrr.yaml --duration 60", verbs.link, &link);
+  link_verb
+      .add_option("robot", verbs.link.robot,
+                  "Robot or scenario file (YAML): both ends must have the same robot")
+      ->required()
+      ->type_name("FILE");
+  link_verb.add_option("--duration", verbs.link.duration, "Seconds to measure [10]")
+      ->check(CLI::PositiveNumber)
+      ->type_name("S");
+  link_verb.add_option("--patience", verbs.link.patience, "Seconds to wait for the robot [10]")
+      ->check(CLI::PositiveNumber)
+      ->type_name("S");
+  add_bus(link_verb, verbs.link.bus);
 }
 #endif
 

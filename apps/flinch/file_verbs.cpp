@@ -10,6 +10,7 @@
 #include "apps/flinch/experiment_report.h"
 #include "apps/flinch/problems_of_file.h"
 #include "apps/flinch/report_page.h"
+#include "apps/flinch/robot_input.h"
 #include "apps/flinch/scenario.h"
 #include "apps/flinch/verdict.h"
 #include "systems/config/config_file.h"
@@ -33,11 +34,6 @@ Report recorded_report(const std::filesystem::path& file) {
   return out_of(file, [&] {
     return experiment_report(scenario, recording, judge(recording, scenario.expected, scenario.force_limits));
   });
-}
-
-bool is_robot(const std::filesystem::path& file) {
-  const ConfigReader reader = ConfigReader::open(file);
-  return reader.has("kind") || reader.has("legs");
 }
 
 void write_text(const std::string& text, const std::filesystem::path& file) {
@@ -120,7 +116,7 @@ ExitStatus check(const CheckOptions& options) {
   if (options.file.extension() == ".h5") {
     recorded_report(options.file);
     what = "recording";
-  } else if (is_robot(options.file)) {
+  } else if (is_robot_file(options.file)) {
     read_robot_file(options.file);
     what = "robot";
   } else {

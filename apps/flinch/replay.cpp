@@ -57,11 +57,11 @@ Replay replay(const Scenario& scenario, const Recording& recorded,
   Simulator simulator(*diagram);
   simulator.record(recorder);
   Context context = diagram->make_context();
-  if (recorded.samples() > 0) context.set_time(Time(recorded.time_ns.front()));
   for (std::size_t tick = 0; tick < recorded.samples(); ++tick) {
     if (progress && tick % 50 == 0) {
       progress(static_cast<double>(tick) / static_cast<double>(recorded.samples()));
     }
+    context.set_time(Time(recorded.time_ns[tick]));  // where the clock was followed, periods may be missing
     simulator.step(context);
   }
 

@@ -21,6 +21,14 @@ void RealtimeRunner::feed_timing(InputPort<TickTiming> input) {
   timing_slot_ = diagram_.slot(input);
 }
 
+void RealtimeRunner::follow_clock() {
+  if (diagram_.continuous_size() > 0) {
+    throw SetupError("the time of the diagram '" + diagram_.name() +
+                     "' cannot follow the clock, for it has continuous states to integrate");
+  }
+  follows_clock_ = true;
+}
+
 TickTiming RealtimeRunner::time_start(Wake wake, Time due, const TickDurations& previous) {
   TickTiming timing;
   timing.valid = true;
@@ -50,17 +58,19 @@ TickDurations RealtimeRunner::tick(Context& context, const TickTiming& timing) {
           .whole = whole};
 }
 
-void RealtimeRunner::run(Context& context, Time end) {
+void RealtimeRunner::run(Context& context, Time end, const std::function<bool()>& done) {
   const Time period = diagram_.tick();
   TickDurations durations;
-  Time due = ticks_.now();
+  Time due = ticks_.first_due(ticks_.now(), period);
   while (context.time() < end && !stop_requested()) {
     const Wake wake = ticks_.wait(due);
     if (stop_requested()) return;
     const TickTiming timing = time_start(wake, due, durations);
     statistics_.count_start(timing);
+    if (follows_clock_) context.set_time(context.time() + timing.lost_periods * period);
     durations = tick(context, timing);
     statistics_.count_end(durations);
+    if (done && done()) return;
     due = wake == Wake::sample ? timing.started + period : due + (timing.lost_periods + 1) * period;
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -16,7 +17,7 @@ class Exchange;
 /// Runs a diagram in real time, on the thread that calls run(). It is the diagram that Simulator runs, and
 /// with the same inputs it computes the same bits. With the tick period T:
 ///
-///   t := the context's time,  d := now
+///   t := the context's time,  d := when the first tick is due (TickSource::first_due)
 ///   while t < end and nobody asked to stop
 ///     wait until d, or for a sample (see TickSource)
 ///     s := now,  n := floor((s - d) / T)
@@ -33,6 +34,10 @@ class Exchange;
 /// passed without a tick, they are lost: counted, told in TickTiming, and t, which counts ticks, is n T
 /// further behind the clock. What shall follow from late ticks is decided by blocks, from an input that
 /// feed_timing() fills.
+///
+/// A controller of a real robot does better with a time that does not fall behind: with follow_clock() the
+/// tick after n lost periods runs at t + n T. That is for diagrams without continuous states, which have
+/// nothing to integrate over what was lost.
 ///
 /// In steady state the thread allocates nothing and takes no lock. What the machine grants it is asked for
 /// apart, and before: see RealtimeThread.
@@ -60,8 +65,13 @@ class RealtimeRunner {
   /// input of a block inside.
   void feed_timing(InputPort<TickTiming> input);
 
-  /// Runs ticks until the context's time reaches `end` or somebody asks to stop.
-  void run(Context& context, Time end = Time::max());
+  /// Lets the time of ticks skip what was lost. Throws SetupError for a diagram with continuous states.
+  void follow_clock();
+
+  /// Runs ticks until the context's time reaches `end`, a tick has brought about what `done` asks for, or
+  /// somebody asks to stop. `done` is called on this thread after each tick and may not allocate, lock or
+  /// block.
+  void run(Context& context, Time end = Time::max(), const std::function<bool()>& done = {});
 
   /// Lets run() return after the current tick, for good. From any thread or signal handler.
   void request_stop() noexcept { stop_requested_.store(true, std::memory_order_relaxed); }
@@ -83,6 +93,7 @@ class RealtimeRunner {
   Exchange& exchange_;
   Simulator simulator_;
   std::optional<Slot<TickTiming>> timing_slot_;
+  bool follows_clock_ = false;
   TickStatistics statistics_;
   std::atomic<bool> stop_requested_ = false;
 };

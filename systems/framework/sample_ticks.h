@@ -34,6 +34,7 @@ class SampleTicks : public TickSource {
   SampleTicks(Wait wait_for_sample, Time patience)
       : wait_for_sample_(std::move(wait_for_sample)), patience_(patience) {}
 
+  Time first_due(Time now, Time period) override { return now + period; }
   Wake wait(Time due) override { return wait_for_sample_(due + patience_) ? Wake::sample : Wake::no_sample; }
 
  private:

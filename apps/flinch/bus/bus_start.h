@@ -1,7 +1,10 @@
 #pragma once
 
+#include <string>
+
 #include "apps/flinch/bus_options.h"
 #include "drivers/bus_settings.h"
+#include "systems/foundation/setup_error.h"
 #include "systems/framework/realtime_thread.h"
 
 namespace flinch {
@@ -18,5 +21,8 @@ void tell_what_is_missing(const RealtimeReport& report, bool quiet);
 
 /// "domain 3 on lo", for messages and recordings.
 std::string name_of(const BusOptions& options);
+
+/// `error` with the name of the bus before each of its problems.
+SetupError named_with(const BusOptions& options, const SetupError& error);
 
 }  // namespace flinch

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "apps/flinch/bus/await_robot.h"
 #include "apps/flinch/bus/interrupts.h"
 #include "apps/flinch/bus/names.h"
 #include "apps/flinch/bus/status_line.h"
@@ -12,23 +13,7 @@
 namespace flinch {
 namespace {
 
-constexpr Time slice = 10ms;  // between two looks at what unrecorded ticks have brought
-
-void throw_if_interrupted() {
-  if (Interrupts::count() > 0)
-    throw SetupError("interrupted before the robot was enabled; nothing has moved");
-}
-
-/// Why the samples that have come cannot be used; "" if they can.
-std::string misunderstanding(const DdsLink& link) {
-  if (link.received > 0) return "";
-  if (link.other_version > 0)
-    return "the robot speaks another version of the protocol: build both ends alike";
-  if (link.other_robot > 0) {
-    return "the robot uses another robot description: give both ends the same robot file";
-  }
-  return "";
-}
+constexpr Time readings_first = 300us;  // how long a tick starts after the readings that it shall see
 
 std::string attribute(const DurationHistogram& histogram) {
   const auto summary = histogram.summary();
@@ -46,34 +31,28 @@ LiveRun::LiveRun(const Scenario& scenario, const LiveExperiment& experiment, con
       experiment_(experiment),
       link_(link),
       patience_(patience),
-      ticks_([this](Time deadline) { return link_.station.wait_for_joints(deadline); }, 500us),
       unrecorded_(*experiment.diagram, ticks_, link.exchange),
-      context_(experiment.diagram->make_context()) {}
+      context_(experiment.diagram->make_context()) {
+  unrecorded_.follow_clock();
+}
 
-void LiveRun::tick(Time duration) { unrecorded_.run(context_, context_.time() + duration); }
+void LiveRun::fall_into_step() {
+  if (link_.station.wait_for_joints(MonotonicClock::now() + 100ms)) {
+    ticks_.begin_at(MonotonicClock::now() + readings_first);
+  }
+}
+
+void LiveRun::tick_until(Time longest, const std::function<bool()>& done) {
+  unrecorded_.run(context_, context_.time() + longest, done);
+}
 
 void LiveRun::connect() {
-  const Time deadline = MonotonicClock::now() + patience_;
-  while (link_.station.link().received == 0) {
-    throw_if_interrupted();
-    const DdsLink link = link_.station.link();
-    throw_if_any(misunderstanding(link).empty() ? std::vector<std::string>{}
-                                                : std::vector{misunderstanding(link)});
-    if (MonotonicClock::now() > deadline) {
-      throw SetupError(
-          link.peers == 0
-              ? "nobody sends joint readings there; start the robot's driver, or 'flinch serve' with "
-                "the same scenario, --domain and --interface"
-              : "the robot is there, but none of its joint readings arrives");
-    }
-    MonotonicClock::sleep_until(MonotonicClock::now() + slice);
-  }
-  while (!context_.get(experiment_.control.platform_motion).valid()) {
-    throw_if_interrupted();
-    if (MonotonicClock::now() > deadline)
-      throw SetupError("the platform's pose is not known: check the encoders");
-    tick(slice);
-  }
+  await_robot(link_.station, patience_);
+  fall_into_step();
+  const auto sees_the_platform = [this] { return context_.get(experiment_.control.platform_motion).valid(); };
+  tick_until(patience_, [&] { return sees_the_platform() || Interrupts::count() > 0; });
+  throw_if_interrupted();
+  if (!sees_the_platform()) throw SetupError("the platform's pose is not known: check the encoders");
   const PlatformMotion& platform = context_.get(experiment_.control.platform_motion);
   end_ = scenario_.duration + approach_from(platform.pose, scenario_);
 }
@@ -86,6 +65,7 @@ void LiveRun::prepare(const RealtimeSettings& settings) {
   recorded_ = std::make_unique<RealtimeRunner>(diagram, ticks_, link_.exchange);
   recorded_->record(*recorder_);
   recorded_->profile(*profile_);
+  recorded_->follow_clock();
   thread_ = std::make_unique<RealtimeThread>(settings);
 }
 
@@ -104,20 +84,23 @@ std::string LiveRun::why_not_enabled() const {
 }
 
 void LiveRun::enable(bool reset_faults) {
-  const Time deadline = MonotonicClock::now() + patience_;
   DriveWish wish{.state = DriveWish::State::operation_enabled, .engage_brake = false};
   link_.station.request(wish);
-  while (!stands_ready()) {
-    throw_if_interrupted();
+  const auto faulty = [this] {
     const DdsLink link = link_.station.link();
-    const bool faulty = link.commands_obeyed && link.drive_state == DriveState::fault;
-    if (MonotonicClock::now() > deadline || (faulty && !reset_faults)) throw SetupError(why_not_enabled());
-    if (faulty && wish.fault_resets == 0) {
-      wish.fault_resets = 1;
-      link_.station.request(wish);
-    }
-    tick(slice);
+    return link.commands_obeyed && link.drive_state == DriveState::fault;
+  };
+  const auto wait_for = [this](const std::function<bool()>& other) {
+    tick_until(patience_, [&] { return stands_ready() || other() || Interrupts::count() > 0; });
+    throw_if_interrupted();
+  };
+  wait_for(faulty);
+  if (faulty() && reset_faults) {
+    wish.fault_resets = 1;
+    link_.station.request(wish);
+    wait_for([] { return false; });
   }
+  if (!stands_ready()) throw SetupError(why_not_enabled());
 }
 
 Tidings LiveRun::watch() {
@@ -133,28 +116,25 @@ Tidings LiveRun::watch() {
                       1e6 * to_seconds(now.link.round_trip), now.link.lost, now.link.refused)};
 }
 
-void LiveRun::run(bool quiet) {
+void LiveRun::run() {
+  fall_into_step();
+  link_.station.forget_times();
   context_ = experiment_.diagram->make_context();
-  const StatusLine line([this] { return watch(); }, quiet);
   recorded_->run(context_, end_);
 }
 
 void LiveRun::end() {
   link_.panel.press_stop();
-  const bool at_once = Interrupts::count() > 1;
-  const auto wait_for = [this](Time longest, auto&& done) {
-    for (Time waited{}; waited < longest && !done(); waited += slice) tick(slice);
+  const auto rests = [this] {
+    const bool closed = context_.get(experiment_.control.gate).phase != GatePhase::open;
+    return closed &&
+           (is_at_rest(context_.get(experiment_.control.joint_motion)) || !link_.station.link().enabled);
   };
-  if (!at_once) {
-    wait_for(3s, [this] {
-      const LiveState& now = link_.panel.last();
-      return now.gate.phase != GatePhase::open && (now.at_rest || !now.link.enabled);
-    });
-  }
+  tick_until(3s, [&] { return rests() || Interrupts::count() > 1; });
   link_.station.request({.state = DriveWish::State::switched_on});
-  wait_for(500ms, [this] { return !link_.station.link().enabled; });
+  tick_until(500ms, [this] { return !link_.station.link().enabled; });
   link_.station.request({.state = DriveWish::State::without_voltage});
-  tick(50ms);
+  tick_until(50ms, {});
 }
 
 Recording LiveRun::recording(std::map<std::string, std::string> attributes) const {

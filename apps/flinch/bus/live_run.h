@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -11,7 +12,6 @@
 #include "systems/framework/realtime_runner.h"
 #include "systems/framework/realtime_thread.h"
 #include "systems/framework/recorder.h"
-#include "systems/framework/sample_ticks.h"
 
 namespace flinch {
 
@@ -44,27 +44,31 @@ class LiveRun {
 
   /// The scenario from its start, recorded; ends when it is over or, after the operator has stopped the
   /// robot, when that rests.
-  void run(bool quiet);
+  void run();
 
   /// Brings the robot to rest, closes the brakes, switches the drives off. What does not happen in time is
   /// left: the silence that follows lets the other end brake.
   void end();
+
+  /// For a StatusLine around run() and end(): how the run is. It also hands on interrupts: the first presses
+  /// the stop button, the second ends the run at once.
+  Tidings watch();
 
   /// What was recorded, with what is known of loop and link as attributes.
   Recording recording(std::map<std::string, std::string> attributes) const;
   const TickStatistics& statistics() const { return recorded_->statistics(); }
 
  private:
-  void tick(Time duration);
+  void fall_into_step();
+  void tick_until(Time longest, const std::function<bool()>& done);
   bool stands_ready() const;
   std::string why_not_enabled() const;
-  Tidings watch();
 
   const Scenario& scenario_;
   const LiveExperiment& experiment_;
   LiveLink link_;
   Time patience_;
-  SampleTicks ticks_;
+  ClockTicks ticks_;
   RealtimeRunner unrecorded_;
   Context context_;
   std::unique_ptr<Recorder> recorder_;

@@ -2,6 +2,11 @@
 
 namespace flinch {
 
+bool is_at_rest(const JointMotion& joints) {
+  constexpr double resting_speed = 0.05;  // [rad/s]
+  return joints.valid && joints.velocity.cwiseAbs().maxCoeff() < resting_speed;
+}
+
 OperatorPanel::OperatorPanel(const LiveExperiment& experiment, const DdsStation& station)
     : station_(station),
       buttons_(experiment.diagram->slot(experiment.operator_command)),
@@ -16,13 +21,12 @@ void OperatorPanel::set_inputs(Context& context) {
 
 void OperatorPanel::take_outputs(const Context& context) {
   const WrenchEstimate& wrench = context[wrench_];
-  const JointMotion& joints = context[joints_];
   LiveState now;
   now.time = context.time();
   now.mode = context[reaction_].mode;
   now.gate = context[gate_];
   if (wrench.valid) now.force = wrench.wrench_in_base.head<2>().norm();
-  now.at_rest = joints.valid && joints.velocity.cwiseAbs().maxCoeff() < resting_speed;
+  now.at_rest = is_at_rest(context[joints_]);
   now.link = station_.link();
   states_.publish(now);
 }

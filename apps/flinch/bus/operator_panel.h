@@ -16,15 +16,16 @@ struct LiveState {
   ReactionMode mode = ReactionMode::stopped;
   GateStatus gate;
   double force = 0.0;    ///< of the estimate, a norm [N]
-  bool at_rest = false;  ///< every drive is slower than OperatorPanel::resting_speed
+  bool at_rest = false;  ///< see is_at_rest()
   DdsLink link;
 };
+
+/// Whether every drive is known to be slower than 0.05 rad/s.
+bool is_at_rest(const JointMotion& joints);
 
 /// The operator's part of a run: brings the buttons to the loop, and what the operator wants to see from it.
 class OperatorPanel final : public Exchange {
  public:
-  static constexpr double resting_speed = 0.05;  ///< [rad/s]
-
   OperatorPanel(const LiveExperiment& experiment, const DdsStation& station);
 
   void set_inputs(Context& context) override;

@@ -42,13 +42,6 @@ void tell_of_loop_and_link(const LiveRun& run, const DdsStation& station) {
              1e6 * to_seconds(round_trip->max), link.lost, link.refused);
 }
 
-/// The problems, with where the robot was looked for.
-SetupError on_bus(const SetupError& error, const BusOptions& options) {
-  std::vector<std::string> problems;
-  for (const std::string& problem : error.problems()) problems.push_back(name_of(options) + ": " + problem);
-  return SetupError(std::move(problems));
-}
-
 }  // namespace
 
 ExitStatus run_on_bus(const RunOptions& options) {
@@ -73,13 +66,17 @@ ExitStatus run_on_bus(const RunOptions& options) {
     tell_what_is_missing(run.granted(), silent);
     run.enable(options.reset_faults);
   } catch (const SetupError& error) {
-    throw on_bus(error, options.bus);
+    throw named_with(options.bus, error);
   }
   const std::filesystem::path folder = make_run_folder(options, scenario.name);
   const Time started = MonotonicClock::now();
-  run.run(silent);
-  const double wall = to_seconds(MonotonicClock::now() - started);
-  run.end();
+  double wall = 0.0;
+  {
+    const StatusLine line([&run] { return run.watch(); }, silent);
+    run.run();
+    wall = to_seconds(MonotonicClock::now() - started);
+    run.end();
+  }
 
   const Recording recording = run.recording(
       {{"command_line", options.common.command_line}, {"station", "dds, " + name_of(options.bus)}});

@@ -1,0 +1,108 @@
+// flinch link: how good the way to the robot is, before anything moves.
+#include <fmt/core.h>
+
+#include <atomic>
+
+#include "apps/flinch/bus/await_robot.h"
+#include "apps/flinch/bus/bus_start.h"
+#include "apps/flinch/bus/bus_verbs.h"
+#include "apps/flinch/bus/interrupts.h"
+#include "apps/flinch/bus/link_report.h"
+#include "apps/flinch/bus/status_line.h"
+#include "apps/flinch/robot_input.h"
+#include "drivers/wire_header.h"
+#include "systems/foundation/setup_error.h"
+#include "systems/framework/constant.h"
+#include "systems/framework/exchange_list.h"
+#include "systems/framework/realtime_runner.h"
+
+namespace flinch {
+namespace {
+
+constexpr Time warm_up = 300ms;
+
+/// Reads a station and commands it nothing: no torque, brakes closed.
+struct Listener {
+  ExternalStation station;
+  std::unique_ptr<Diagram> diagram;
+};
+
+Listener build_listener(const std::shared_ptr<const ParallelRobot>& robot) {
+  DiagramBuilder builder("listener");
+  Listener listener;
+  listener.station = add_external_station(builder, robot);
+  builder.connect(builder.add<Constant<TorqueCommand>>("no_torque", TorqueCommand()).value,
+                  listener.station.torque_command);
+  builder.connect(builder.add<Constant<BrakeCommand>>("brakes_closed", BrakeCommand()).value,
+                  listener.station.brake);
+  listener.diagram = builder.build();
+  return listener;
+}
+
+/// What has happened since `before`.
+DdsLink since(const DdsLink& before, DdsLink now) {
+  now.received -= before.received;
+  now.refused -= before.refused;
+  now.lost -= before.lost;
+  return now;
+}
+
+/// Lets others see how far the loop is.
+class LoopTime final : public Exchange {
+ public:
+  void take_outputs(const Context& context) override { time_ = context.time(); }
+  Time now() const noexcept { return time_; }
+
+ private:
+  std::atomic<Time> time_ = Time::zero();
+};
+
+}  // namespace
+
+ExitStatus link(const LinkOptions& options) {
+  const bool silent = options.common.quiet || options.common.json;
+  const RobotInput input = read_robot_input(options.robot);
+  const Listener listener = build_listener(input.robot.robot);
+  const Interrupts interrupts;
+  const BusSettings settings = bus_settings(options.bus, silent);
+  const DdsBus bus(settings);
+  DdsStation station(bus, *listener.diagram, listener.station,
+                     {.robot = robot_hash(input.text), .realtime_priority = settings.realtime_priority});
+  if (!silent) fmt::print(stderr, "waiting for the robot, {}\n", name_of(options.bus));
+  try {
+    await_robot(station, from_seconds(options.patience));
+  } catch (const SetupError& error) {
+    throw named_with(options.bus, error);
+  }
+
+  ClockTicks ticks;
+  LoopTime time;
+  ExchangeList exchange({station, time});
+  RealtimeRunner warming_up(*listener.diagram, ticks, exchange);
+  RealtimeRunner runner(*listener.diagram, ticks, exchange);
+  runner.follow_clock();
+  Context context = listener.diagram->make_context();
+  const Time end = warm_up + from_seconds(options.duration);
+  DdsLink before;
+  {
+    const StatusLine line(
+        [&] {
+          if (Interrupts::count() > 0) runner.request_stop();
+          return Tidings{"measuring",
+                         fmt::format("{:.1f} of {:.1f} s", to_seconds(time.now()), to_seconds(end))};
+        },
+        silent);
+    const RealtimeThread thread(loop_settings(options.bus));
+    tell_what_is_missing(thread.report(), silent);
+    warming_up.run(context, warm_up);
+    if (station.wait_for_joints(MonotonicClock::now() + 100ms)) ticks.begin_at(MonotonicClock::now() + 300us);
+    station.forget_times();
+    before = station.link();
+    runner.run(context, end);
+  }
+  const LinkReport report{since(before, station.link()), station.times(), runner.statistics()};
+  fmt::print("{}", options.common.json ? report.json() + "\n" : report.table());
+  return report.objections().empty() ? ExitStatus::done : ExitStatus::bad_verdict;
+}
+
+}  // namespace flinch
