@@ -6,6 +6,7 @@
 #include "diagrams/station.h"
 #include "systems/control/operator_command.h"
 #include "systems/framework/diagram_builder.h"
+#include "systems/framework/tick_timing.h"
 
 namespace flinch {
 
@@ -15,6 +16,7 @@ struct ContactControl {
   InputPort<DriveReading> drives;
   InputPort<StationStatus> status;
   InputPort<OperatorCommand> operator_command;
+  InputPort<TickTiming> tick_timing;  ///< for RealtimeRunner::feed_timing(); not valid in simulated time
 
   OutputPort<TorqueCommand> torque_command;  ///< from the torque gate, as is `brake`
   OutputPort<BrakeCommand> brake;

@@ -5,6 +5,7 @@
 #include "diagrams/contact_control.h"
 #include "plant/simulated_station.h"
 #include "plant/sundials_integrator.h"
+#include "systems/framework/constant.h"
 #include "systems/framework/diagram_builder.h"
 #include "systems/framework/recorder.h"
 #include "systems/framework/simulator.h"
@@ -17,6 +18,7 @@ Experiment build_experiment(const Scenario& scenario) {
   const ContactControl control = add_contact_control(builder, scenario.robot.robot, scenario.control);
   connect(builder, station, control);
   const auto operator_command = builder.export_input("operator", control.operator_command);
+  builder.connect(builder.add<Constant<TickTiming>>("tick_timing", TickTiming()).value, control.tick_timing);
   builder.export_output("truth", station.plant_truth);
   builder.export_output("contact", station.contact_truth);
   export_readings(builder, station);

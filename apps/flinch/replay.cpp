@@ -8,6 +8,7 @@
 #include "apps/flinch/scenario.h"
 #include "diagrams/contact_control.h"
 #include "diagrams/recorded_station.h"
+#include "systems/framework/constant.h"
 #include "systems/framework/diagram_builder.h"
 #include "systems/framework/player.h"
 #include "systems/framework/recorder.h"
@@ -16,6 +17,22 @@
 namespace flinch {
 namespace {
 
+const Signal* find(const Recording& recording, const std::string& path) {
+  const auto found = std::find_if(recording.signals.begin(), recording.signals.end(),
+                                  [&path](const Signal& signal) { return signal.path == path; });
+  return found == recording.signals.end() ? nullptr : &*found;
+}
+
+/// As it was recorded in real time; in simulated time there was none.
+OutputPort<TickTiming> add_timing(DiagramBuilder& builder, const Recording& recorded) {
+  if (find(recorded, "tick_timing") == nullptr) {
+    return builder.add<Constant<TickTiming>>("tick_timing", TickTiming()).value;
+  }
+  const auto& timing = builder.add<Player<TickTiming>>("tick_timing", recorded, "tick_timing");
+  builder.export_output("tick_timing", timing.played);
+  return timing.played;
+}
+
 std::unique_ptr<Diagram> build_replay(const Scenario& scenario, const Recording& recorded) {
   DiagramBuilder builder("replay", recorded.period);
   const Station station = add_recorded_station(builder, recorded);
@@ -23,16 +40,11 @@ std::unique_ptr<Diagram> build_replay(const Scenario& scenario, const Recording&
   const auto& buttons = builder.add<Player<OperatorCommand>>("operator", recorded, "operator");
   connect(builder, station, control);
   builder.connect(buttons.played, control.operator_command);
+  builder.connect(add_timing(builder, recorded), control.tick_timing);
   builder.export_output("operator", buttons.played);
   export_readings(builder, station);
   export_control(builder, control);
   return builder.build();
-}
-
-const Signal* find(const Recording& recording, const std::string& path) {
-  const auto found = std::find_if(recording.signals.begin(), recording.signals.end(),
-                                  [&path](const Signal& signal) { return signal.path == path; });
-  return found == recording.signals.end() ? nullptr : &*found;
 }
 
 bool is_same(const Signal& a, const Signal& b) {

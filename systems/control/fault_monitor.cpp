@@ -12,28 +12,39 @@ FaultMonitor::FaultMonitor(std::shared_ptr<const ParallelRobot> robot, const Fau
 
 FaultMonitorMemory FaultMonitor::advance(Time now, const FaultMonitorMemory& last,
                                          const StationStatus& status, const JointReading& angles,
-                                         const DriveReading& currents, const TorqueCommand& asked) const {
+                                         const DriveReading& currents, const PlatformMotion& pose,
+                                         const TorqueCommand& asked) const {
+  EncoderWatch watch = last.encoders;
+  flinch::advance(watch, {.robot = *robot_,
+                          .joints = angles,
+                          .platform = pose,
+                          .drives = currents,
+                          .braked = status.valid && status.braked});
   return {.station = status.valid ? now : last.station,
           .joints = is_usable(angles, *robot_) ? now : last.joints,
           .drives = is_usable(currents, *robot_) ? now : last.drives,
           .last_command = last.command,
-          .command = asked};
+          .command = asked,
+          .encoders = watch};
 }
 
-FaultReport FaultMonitor::judge(Time now, const FaultMonitorMemory& memory, const StationStatus& status,
-                                const JointReading& angles, const DriveReading& currents,
-                                const JointMotion& rates, const PlatformMotion& pose,
-                                const WorkspaceMeasures& workspace, const ContactDetection& contact,
-                                const PlatformReference& followed, const OperatorCommand& pressed) const {
+FaultReport FaultMonitor::judge(Time now, const FaultMonitorMemory& memory, const TickTiming& tick,
+                                const StationStatus& status, const JointReading& angles,
+                                const DriveReading& currents, const JointMotion& rates,
+                                const PlatformMotion& pose, const WorkspaceMeasures& workspace,
+                                const ContactDetection& contact, const PlatformReference& followed,
+                                const OperatorCommand& pressed) const {
   const Evidence evidence{.robot = *robot_,
                           .limits = limits_,
                           .now = now,
+                          .timing = tick,
                           .station = status,
                           .joints = angles,
                           .drives = currents,
                           .station_gap = now - memory.station,
                           .joints_gap = now - memory.joints,
                           .drives_gap = now - memory.drives,
+                          .encoders = memory.encoders,
                           .motion = rates,
                           .platform = pose,
                           .measures = workspace,

@@ -15,6 +15,7 @@ struct FaultMonitorMemory {
   Time drives = never;
   TorqueCommand last_command;
   TorqueCommand command;
+  EncoderWatch encoders;
 };
 
 /// Looks for every fault of the fault table, every tick, for the torque gate.
@@ -25,6 +26,7 @@ class FaultMonitor final : public System {
   /// Throws SetupError with every limit that could not be kept.
   FaultMonitor(std::shared_ptr<const ParallelRobot> robot, const FaultLimits& limits);
 
+  InputPort<TickTiming> timing = input<TickTiming>("timing");  ///< of this tick in a real-time run
   InputPort<StationStatus> station = input<StationStatus>("station");
   InputPort<JointReading> joints = input<JointReading>("joints");
   InputPort<DriveReading> drives = input<DriveReading>("drives");
@@ -38,22 +40,22 @@ class FaultMonitor final : public System {
 
  private:
   OutputPort<FaultMonitorMemory> now_ =
-      output<&FaultMonitor::advance>("memory", clock, last_, station, joints, drives, command);
+      output<&FaultMonitor::advance>("memory", clock, last_, station, joints, drives, platform, command);
 
  public:
   OutputPort<FaultReport> faults =
-      output<&FaultMonitor::judge>("faults", clock, now_, station, joints, drives, motion, platform, measures,
-                                   detection, reference, buttons);
+      output<&FaultMonitor::judge>("faults", clock, now_, timing, station, joints, drives, motion, platform,
+                                   measures, detection, reference, buttons);
 
  private:
   Update remember_ = update<&FaultMonitor::remember>(last_, now_);
 
   FaultMonitorMemory advance(Time now, const FaultMonitorMemory& last, const StationStatus& status,
                              const JointReading& angles, const DriveReading& currents,
-                             const TorqueCommand& asked) const;
-  FaultReport judge(Time now, const FaultMonitorMemory& memory, const StationStatus& status,
-                    const JointReading& angles, const DriveReading& currents, const JointMotion& rates,
-                    const PlatformMotion& pose, const WorkspaceMeasures& workspace,
+                             const PlatformMotion& pose, const TorqueCommand& asked) const;
+  FaultReport judge(Time now, const FaultMonitorMemory& memory, const TickTiming& tick,
+                    const StationStatus& status, const JointReading& angles, const DriveReading& currents,
+                    const JointMotion& rates, const PlatformMotion& pose, const WorkspaceMeasures& workspace,
                     const ContactDetection& contact, const PlatformReference& followed,
                     const OperatorCommand& pressed) const;
   FaultMonitorMemory remember(const FaultMonitorMemory& now) const { return now; }

@@ -32,6 +32,8 @@ bool has_command(const Evidence& e) { return e.command.valid && fits(e.command.t
 
 // ---------------------------------------------------------------- station and sensors
 
+bool loop_late(const Evidence& e) { return e.timing.valid && e.timing.lateness > e.limits.max_lateness; }
+
 bool station_silent(const Evidence& e) {
   return e.station_gap > e.limits.longest_gap || (e.station.valid && is_old(e.station.acquired, e));
 }
@@ -43,6 +45,21 @@ bool station_disabled(const Evidence& e) { return e.station.valid && !e.station.
 bool joints_invalid(const Evidence& e) { return e.joints_gap > e.limits.longest_gap; }
 
 bool joints_stale(const Evidence& e) { return e.joints.valid && is_old(e.joints.acquired, e); }
+
+bool encoder_jump(const Evidence& e) {
+  const double interval = std::max(to_seconds(e.encoders.interval), 1e-3);
+  return largest(e.encoders.step) > e.limits.max_encoder_rate * interval;
+}
+
+bool encoder_frozen(const Evidence& e) {
+  if (e.encoders.step.size() == 0) return false;  // no reading, which is another fault
+  for (Eigen::Index i = 0; i < e.encoders.angle.size(); ++i) {
+    const bool should_have_moved = e.encoders.unseen_motion(i) > e.limits.max_unseen_motion ||
+                                   e.encoders.unseen_current(i) > e.limits.max_unseen_current;
+    if (should_have_moved && e.encoders.repeated(i) > e.limits.longest_repetition) return true;
+  }
+  return false;
+}
 
 bool velocity_invalid(const Evidence& e) { return !has_motion(e); }
 
@@ -131,11 +148,14 @@ constexpr GateReaction stop = GateReaction::controlled_stop;
 constexpr GateReaction brake = GateReaction::zero_torque_and_brake;
 
 constexpr std::array rows{
+    FaultRow{GateFault::loop_late, brake, 0, loop_late, "the control loop is late"},
     FaultRow{GateFault::station_silent, brake, 2, station_silent, "the station does not say how it is"},
     FaultRow{GateFault::station_fault, brake, 0, station_fault, "the station reports a fault"},
     FaultRow{GateFault::station_disabled, brake, 0, station_disabled, "the station does not act on torques"},
     FaultRow{GateFault::joints_invalid, brake, 2, joints_invalid, "no usable angles of the drives"},
     FaultRow{GateFault::joints_stale, brake, 3, joints_stale, "the angles of the drives are too old"},
+    FaultRow{GateFault::encoder_jump, brake, 0, encoder_jump, "the angle of a drive jumps"},
+    FaultRow{GateFault::encoder_frozen, brake, 6, encoder_frozen, "the angle of a drive does not follow it"},
     FaultRow{GateFault::velocity_invalid, brake, 0, velocity_invalid, "no rates of the drives"},
     FaultRow{GateFault::drives_invalid, stop, 2, drives_invalid, "no usable motor currents"},
     FaultRow{GateFault::drives_stale, stop, 3, drives_stale, "the motor currents are too old"},
@@ -175,6 +195,11 @@ std::vector<std::string> problems(const FaultLimits& limits, const ParallelRobot
   const auto require = [&found](bool good, const char* what) {
     if (!good) found.emplace_back(what);
   };
+  require(limits.max_lateness >= Time::zero(), "max_lateness must not be negative");
+  require(limits.max_encoder_rate > limits.max_joint_speed, "max_encoder_rate must exceed max_joint_speed");
+  require(limits.longest_repetition >= Time::zero(), "longest_repetition must not be negative");
+  require(limits.max_unseen_motion > 0, "max_unseen_motion must be positive");
+  require(limits.max_unseen_current > 0, "max_unseen_current must be positive");
   require(limits.longest_gap >= Time::zero(), "longest_gap must not be negative");
   require(limits.max_age >= Time::zero(), "max_age must not be negative");
   require(limits.max_joint_speed > 0, "max_joint_speed must be positive");

@@ -5,10 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "systems/control/encoder_watch.h"
 #include "systems/control/gate_fault.h"
 #include "systems/control/operator_command.h"
 #include "systems/control/platform_reference.h"
 #include "systems/control/torque_command.h"
+#include "systems/framework/tick_timing.h"
 #include "systems/framework/time.h"
 #include "systems/observers/contact_detection.h"
 #include "systems/observers/workspace_measures.h"
@@ -24,8 +26,22 @@ namespace flinch {
 
 /// Where a fault begins. The defaults are those of the bench.
 struct FaultLimits {
-  Time longest_gap = 2ms;  ///< without a usable sample; the filters hold their last one as long
-  Time max_age = 3ms;      ///< of a sample, by its acquisition time, and of the laws' command
+  Time max_lateness = 2ms;  ///< of a tick, in real time
+  Time longest_gap = 2ms;   ///< without a usable sample; the filters hold their last one as long
+  Time max_age = 3ms;       ///< of a sample, by its acquisition time, and of the laws' command
+
+  /// Between two readings, whose interval counts as 1 ms at least. Half as much again as `max_joint_speed`,
+  /// at which the robot is stopped: left for the stamps to be off by a third of a millisecond. Noise is 1e-5
+  /// rad.
+  double max_encoder_rate = 12.0;  ///< [rad/s]
+  /// An encoder may repeat itself to the last bit for as long, whatever it should have seen. The bench's
+  /// noise of 33 increments alone makes six equal readings a matter of 1e-10.
+  Time longest_repetition = 5ms;
+  /// And for longer, if the passive encoders have not left it by more than ten of their increments meanwhile,
+  double max_unseen_motion = 0.25 * std::numbers::pi / 180.0;  ///< [rad]
+  /// nor its drive's torque has changed by ten times the friction of a drive: 6 Nm, which no obstacle is
+  /// stiff enough to hold within one increment.
+  double max_unseen_current = 1.0;  ///< [A]
 
   WorkspaceLimits workspace{.max_distance = 0.35,
                             .max_rotation = 29.0 * std::numbers::pi / 180.0,
@@ -49,11 +65,13 @@ struct Evidence {
   const FaultLimits& limits;
   Time now;
 
+  const TickTiming& timing;  ///< of this tick; not valid in simulated time
   const StationStatus& station;
   const JointReading& joints;
   const DriveReading& drives;
   Time station_gap, joints_gap, drives_gap;  ///< since their last usable sample
 
+  const EncoderWatch& encoders;
   const JointMotion& motion;
   const PlatformMotion& platform;
   const WorkspaceMeasures& measures;

@@ -8,11 +8,14 @@ namespace flinch {
 /// reported.
 enum class GateFault : std::uint8_t {
   none,
+  loop_late,
   station_silent,
   station_fault,
   station_disabled,
   joints_invalid,
   joints_stale,
+  encoder_jump,
+  encoder_frozen,
   velocity_invalid,
   drives_invalid,
   drives_stale,

@@ -29,6 +29,7 @@ class Bench {
         control(add_contact_control(builder_, robot, experiment.control)),
         joints_(builder_.add<Dropout>("dropout")),
         operator_(builder_.export_input("operator", control.operator_command)),
+        timing_(builder_.export_input("tick_timing", control.tick_timing)),
         wrench_(builder_.export_input("wrench", station.wrench)),
         broken_(builder_.export_input("broken", joints_.broken)),
         diagram(build()),
@@ -104,6 +105,7 @@ class Bench {
  private:
   Dropout& joints_;
   InputPort<OperatorCommand> operator_;
+  InputPort<TickTiming> timing_;
   InputPort<PlatformVector> wrench_;
   InputPort<bool> broken_;
 

@@ -244,6 +244,7 @@ TEST(ContactControl, WritesNoTorqueThatIsNoNumberWhateverTheStationSays) {
   const auto drives = builder.export_input("drives", control.drives);
   const auto status = builder.export_input("status", control.status);
   const auto buttons = builder.export_input("operator", control.operator_command);
+  builder.export_input("tick_timing", control.tick_timing);
   const auto diagram = builder.build();
   Context context = diagram->make_context();
   RandomGenerator random(23);

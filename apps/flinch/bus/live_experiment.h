@@ -18,6 +18,7 @@ struct LiveExperiment {
   ExternalStation station;
   ContactControl control;
   InputPort<OperatorCommand> operator_command;
+  InputPort<TickTiming> tick_timing;  ///< for RealtimeRunner::feed_timing()
 };
 
 /// Throws SetupError for settings that do not fit together.

@@ -11,6 +11,7 @@
 #include "diagrams/contact_control.h"
 #include "diagrams/recorded_station.h"
 #include "plant/sundials_integrator.h"
+#include "systems/framework/constant.h"
 #include "systems/framework/diagram_builder.h"
 #include "systems/framework/player.h"
 #include "systems/framework/recorder.h"
@@ -107,6 +108,7 @@ Recording replay(const Scenario& scenario, const Recording& recording) {
   const auto& buttons = builder.add<Player<OperatorCommand>>("operator", recording, "operator");
   connect(builder, station, control);
   builder.connect(buttons.played, control.operator_command);
+  builder.connect(builder.add<Constant<TickTiming>>("tick_timing", TickTiming()).value, control.tick_timing);
   builder.export_output("torque_command", control.torque_command);
   builder.export_output("brake", control.brake);
   builder.export_output("motion", control.platform_motion);

@@ -15,6 +15,7 @@ struct Inputs {
   Inputs(const ParallelRobot& robot, Time now)
       : posture(robot, PlatformVector::Zero(3), PlatformVector::Zero(3), now) {
     const JointVector zero = JointVector::Zero(3);
+    posture.joints.active.array() += encoder_noise(now);
     station = {.acquired = now, .valid = true, .enabled = true, .braked = false, .fault = false};
     drives = {.acquired = now, .valid = true, .current = zero};
     detection = {.valid = true, .wrench_in_base = {}};
@@ -22,6 +23,10 @@ struct Inputs {
     command = {.computed = now, .valid = true, .torque = zero};
   }
 
+  /// Never the same in two ticks that follow each other [rad].
+  static double encoder_noise(Time now) { return 1e-6 * static_cast<double>(1 + now / 1ms % 7); }
+
+  TickTiming timing;
   Posture posture;
   StationStatus station;
   DriveReading drives;
@@ -35,6 +40,7 @@ struct Inputs {
 /// Fault monitor and torque gate, wired as in the pipeline.
 struct Safety {
   void tick(const Inputs& inputs, bool reset_now = false) {
+    ticking.set(timing, inputs.timing);
     ticking.set(station, inputs.station);
     ticking.set(joints, inputs.posture.joints);
     ticking.set(drives, inputs.drives);
@@ -59,6 +65,7 @@ struct Safety {
   TorqueGate& gate =
       builder.add<TorqueGate>("gate", TorqueGateSettings{.max_torque = 100.0, .max_torque_rate = 1e9});
   InputPort<TorqueCommand> command = connect();
+  InputPort<TickTiming> timing = builder.export_input("timing", monitor.timing);
   InputPort<StationStatus> station = builder.export_input("station", monitor.station);
   InputPort<JointReading> joints = builder.export_input("joints", monitor.joints);
   InputPort<DriveReading> drives = builder.export_input("drives", monitor.drives);
