@@ -29,6 +29,9 @@ void add_bus(CLI::App& verb, BusOptions& bus) {
   verb.add_option("--peer", bus.peers, "Address of another end, where the network has no multicast")
       ->type_name("ADDRESS")
       ->group("Bus");
+  verb.add_option("--security", bus.security, "Keys that flinch keys made; both ends need them [none]")
+      ->type_name("DIR")
+      ->group("Bus");
   verb.add_option("--priority", bus.priority, "Real-time priority, 1 to 99, where permitted; 0 for none [80]")
       ->check(CLI::Range(0, 99))
       ->type_name("N")
@@ -67,6 +70,7 @@ struct Verbs {
 #if FLINCH_HAS_BUS
   ServeOptions serve;
   LinkOptions link;
+  KeysOptions keys;
 #endif
   ReportOptions report;
   GraphOptions graph;
@@ -177,6 +181,19 @@ void add_bus_verbs(CLI::App& app, Verbs& verbs) {
       ->type_name("S");
   add_bus(link_verb, verbs.link.bus);
 }
+
+void add_keys_verb(CLI::App& app, Verbs& verbs) {
+  CLI::App& keys_verb = verbs.add(app, "keys", "Make keys that keep others off the bus of a robot",
+                                  "flinch keys keys --days 365", verbs.keys, &keys);
+  keys_verb.add_option("folder", verbs.keys.folder, "New folder for the keys")->required()->type_name("DIR");
+  keys_verb.add_option("--days", verbs.keys.days, "How long they are good [1096]")
+      ->check(CLI::Range(1, 36500))
+      ->type_name("N");
+  keys_verb.add_option("--domain", verbs.keys.domain, "The only domain of the bus they are good for [all]")
+      ->check(CLI::Range(0, 230))
+      ->type_name("N");
+  keys_verb.add_flag("--force", verbs.keys.force, "Replace the keys that are there");
+}
 #endif
 
 /// The error of the parser, with the way out.
@@ -204,6 +221,7 @@ int run_command_line(int argc, const char* const* argv) {
   add_verbs(app, verbs);
 #if FLINCH_HAS_BUS
   add_bus_verbs(app, verbs);
+  add_keys_verb(app, verbs);
 #endif
   try {
     app.parse(argc, argv);

@@ -4,12 +4,13 @@
 
 namespace flinch {
 
-BusSettings bus_settings(const BusOptions& options, bool quiet) {
+BusSettings bus_settings(const BusOptions& options, bool quiet, BusRole role) {
   const bool urgent = options.priority > 0 && permits_realtime(options.priority);
   BusSettings settings{.domain = options.domain,
                        .interface = options.interface,
                        .peers = options.peers,
                        .realtime_priority = urgent ? options.priority : 0};
+  if (!options.security.empty()) settings.security = BusSecurity{.folder = options.security, .role = role};
   for (const std::string& warning : warnings(settings)) {
     if (!quiet) fmt::print(stderr, "warning: {}\n", warning);
   }

@@ -11,7 +11,8 @@ namespace flinch {
 
 /// The bus that the options name. Threads of the bus get the wanted priority only where it is permitted.
 /// Tells on stderr, unless `quiet`, what the user should know: a bus without security that others can reach.
-BusSettings bus_settings(const BusOptions& options, bool quiet);
+/// `role`: whose keys to use, where there are keys.
+BusSettings bus_settings(const BusOptions& options, bool quiet, BusRole role = BusRole::controller);
 
 /// What a control loop asks the machine for.
 RealtimeSettings loop_settings(const BusOptions& options);

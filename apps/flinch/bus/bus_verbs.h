@@ -24,9 +24,18 @@ struct LinkOptions {
   double patience = 10.0;  ///< [s]
 };
 
+struct KeysOptions {
+  CommonOptions common;
+  std::filesystem::path folder;
+  int days = 1096;
+  std::optional<std::uint32_t> domain;  ///< none: all
+  bool force = false;
+};
+
 /// The verbs that need the bus. Each throws SetupError for bad input.
 ExitStatus serve(const ServeOptions& options);
 ExitStatus link(const LinkOptions& options);
+ExitStatus keys(const KeysOptions& options);
 /// flinch run --station dds
 ExitStatus run_on_bus(const RunOptions& options);
 

@@ -101,7 +101,7 @@ ExitStatus serve(const ServeOptions& options) {
   Context context = bench.diagram->make_context();
 
   const Interrupts interrupts;
-  const BusSettings bus_is = bus_settings(options.bus, silent);
+  const BusSettings bus_is = bus_settings(options.bus, silent, BusRole::robot);
   settings.realtime_priority = bus_is.realtime_priority;
   const DdsBus bus(bus_is);
   DdsServer server(bus, *bench.diagram, bench.station, settings);

@@ -1,0 +1,36 @@
+#include <fmt/chrono.h>
+#include <fmt/core.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/flinch/bus/bus_verbs.h"
+#include "drivers/bus_keys.h"
+
+namespace flinch {
+namespace {
+
+std::string utc_day(std::time_t time) { return fmt::format("{:%Y-%m-%d}", fmt::gmtime(time)); }
+
+void print_json(const std::filesystem::path& folder, const std::string& end) {
+  nlohmann::ordered_json roles;
+  for (const BusRole role : all_bus_roles) roles[name(role)] = (folder / name(role)).string();
+  fmt::print("{}\n", nlohmann::ordered_json{{"keys", roles}, {"good_until", end}}.dump());
+}
+
+}  // namespace
+
+ExitStatus keys(const KeysOptions& options) {
+  BusKeySettings settings{.days = options.days, .domains = {}, .replace = options.force};
+  if (options.domain) settings.domains = {.first = *options.domain, .last = *options.domain};
+  const std::string end = utc_day(make_bus_keys(options.folder, settings).to);
+  if (options.common.json) {
+    print_json(options.folder, end);
+  } else if (!options.common.quiet) {
+    fmt::print("keys: {}, good until {}\n", options.folder.string(), end);
+    fmt::print(stderr,
+               "Give each computer only the subfolder of what runs there: controller, robot or observer.\n");
+  }
+  return ExitStatus::done;
+}
+
+}  // namespace flinch
