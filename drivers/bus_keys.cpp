@@ -95,6 +95,11 @@ bool has_only_keys(const fs::path& folder) {
 /// Throws SetupError where keys must not be put at `folder`.
 void require_place(const fs::path& folder, bool replace) {
   std::error_code error;
+  const fs::path parent = folder.parent_path();
+  if (!parent.empty() && !fs::is_directory(parent, error)) {
+    throw SetupError(folder.string() + ": keys cannot be put here, for there is no folder " +
+                     parent.string() + "; make it first");
+  }
   const fs::file_status status = fs::symlink_status(folder, error);
   if (!fs::exists(status)) return;
   if (!fs::is_directory(status)) throw SetupError(folder.string() + ": keys need a folder, and this is none");

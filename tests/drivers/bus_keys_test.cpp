@@ -178,6 +178,7 @@ TEST(BusKeys, ReplaceKeysOnlyWhenToldToAndNothingElseEver) {
   EXPECT_THAT(problem_of(keys.path(), {.replace = true}), HasSubstr("other things than keys"));
   EXPECT_EQ(text_of(key), second);
   EXPECT_THAT(problem_of(key, {.replace = true}), HasSubstr("this is none"));
+  EXPECT_THAT(problem_of(keys.path() / "a" / "b", {}), HasSubstr("make it first"));
 }
 
 TEST(BusKeys, LeaveNothingBehindWhereTheyCannotBeWritten) {
