@@ -228,11 +228,11 @@ TEST_F(BadInput, GraphThatIsNeitherSvgNorDot) {
 TEST_F(BadInput, VerbThatNobodyKnows) {
   EXPECT_EQ(complaint({"reprot", place.at(collision)}),
             "error: 'reprot' is no verb; did you mean 'report'?\n");
-  EXPECT_EQ(complaint({}), "error: there is no verb; known are: run, report, graph, check\n");
+  EXPECT_THAT(complaint({}), StartsWith("error: there is no verb; known are: run, report, graph, check"));
 }
 
 TEST_F(BadInput, ArgumentThatIsMissingOrTooMuch) {
-  EXPECT_EQ(complaint({"run"}), "error: scenario is required; 'flinch run --help' shows how\n");
+  EXPECT_EQ(complaint({"run"}), "error: input is required; 'flinch run --help' shows how\n");
   const std::string said = complaint({"check", place.at(collision), "--jason"});
   EXPECT_THAT(said, HasSubstr("--jason"));
   EXPECT_THAT(said, HasSubstr("; 'flinch check --help' shows how"));
