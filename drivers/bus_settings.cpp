@@ -38,16 +38,6 @@ std::string discovery(const BusSettings& settings) {
          list + "</Peers></Discovery>";
 }
 
-std::string threads(const BusSettings& settings) {
-  if (settings.realtime_priority == 0) return "";
-  std::string list;
-  for (const char* name : {"recv", "tev", "dq.user"}) {
-    list += std::string("<Thread Name=\"") + name + "\"><Scheduling><Class>Realtime</Class><Priority>" +
-            std::to_string(settings.realtime_priority) + "</Priority></Scheduling></Thread>";
-  }
-  return "<Threads>" + list + "</Threads>";
-}
-
 }  // namespace
 
 std::vector<std::string> problems(const BusSettings& settings) {
@@ -81,7 +71,7 @@ std::vector<std::string> warnings(const BusSettings& settings) {
 
 std::string cyclone_configuration(const BusSettings& settings) {
   return "<CycloneDDS xmlns=\"https://cdds.io/config\"><Domain Id=\"any\">" + network(settings) +
-         discovery(settings) + threads(settings) + "</Domain></CycloneDDS>";
+         discovery(settings) + "</Domain></CycloneDDS>";
 }
 
 }  // namespace flinch

@@ -2,6 +2,7 @@
 
 #include <dds/dds.h>
 
+#include "drivers/bus_threads.h"
 #include "drivers/dds_qos.h"
 #include "systems/foundation/setup_error.h"
 
@@ -24,6 +25,7 @@ std::int32_t check_participant(std::int32_t result, const BusSettings& settings,
 
 DdsBus::DdsBus(const BusSettings& settings) {
   throw_if_any(problems(settings));
+  const std::set<pid_t> others = threads_of_program();
   const std::string name = "the bus " + std::to_string(settings.domain) + " on '" + settings.interface + "'";
   domain_ =
       DdsEntity(check_dds(dds_create_domain(settings.domain, cyclone_configuration(settings).c_str()), name));
@@ -35,6 +37,9 @@ DdsBus::DdsBus(const BusSettings& settings) {
   }
   participant_ = DdsEntity(
       check_participant(dds_create_participant(settings.domain, qos.get(), nullptr), settings, name));
+  // All of them: the configuration cannot name the one that receives our samples, nor the one that, holding
+  // locks which the others wait for, makes friends with every program that joins.
+  if (settings.realtime_priority > 0) make_urgent_since(others, settings.realtime_priority);
 }
 
 }  // namespace flinch

@@ -72,7 +72,7 @@ class DdsServer::Implementation {
   void set_inputs(Context& context) noexcept {
     clock_.start_tick(context.time());
     if (commands_.take(last_)) obeying_ = true;
-    take_request();
+    take_requests();
     age_ = MonotonicClock::now() - last_.sent;
     if (obeying_ && age_ > settings_.longest_silence) {
       obeying_ = false;
@@ -118,30 +118,42 @@ class DdsServer::Implementation {
     return {.robot = settings.robot, .longest_silence = Time::zero(), .longest_way = 1h};
   }
 
+  /// What others than the commander ask for waits, until they command themselves.
+  void take_requests() noexcept {
+    const std::uint32_t commander = last_.sample.header.session;
+    while (requests_.take(new_request_)) {
+      if (new_request_.sample.header.session == commander) {
+        heed(new_request_.sample);
+      } else {
+        others_request_ = new_request_.sample;
+      }
+    }
+    const bool commands_now = others_request_.header.session == commander;
+    if (commands_now && request_.header.session != commander) heed(others_request_);
+  }
+
   /// Counts the resets that are asked for; the count of a session begins with its first request.
-  void take_request() noexcept {
-    const flinch_Header last = request_.sample.header;
-    const std::uint32_t resets = request_.sample.fault_resets;
-    if (!requests_.take(request_) || request_.sample.header.session != last.session) return;
-    if (request_.sample.fault_resets > resets) ++fault_resets_;
+  void heed(const flinch_DriveRequest& request) noexcept {
+    const bool same_session = request.header.session == request_.header.session;
+    if (same_session && request.fault_resets > request_.fault_resets) ++fault_resets_;
+    request_ = request;
   }
 
   /// Whether the last request is of who commands.
   bool is_asked() const noexcept {
-    return obeying_ && request_.sample.header.session == last_.sample.header.session;
+    return obeying_ && request_.header.session == last_.sample.header.session;
   }
 
   /// Whether who commands has asked for brakes, or for less than operation.
   bool is_held() const noexcept {
-    const flinch_DriveRequest& request = request_.sample;
-    return is_asked() && (request.engage_brake != 0 || request.wanted != operation_enabled);
+    return is_asked() && (request_.engage_brake != 0 || request_.wanted != operation_enabled);
   }
 
   void wish(DriveWish& wish) const noexcept {
     wish = DriveWish{.fault_resets = fault_resets_};
-    if (!is_asked() || request_.sample.wanted > 3) return;
-    wish.state = static_cast<DriveWish::State>(request_.sample.wanted);
-    wish.engage_brake = request_.sample.engage_brake != 0;
+    if (!is_asked() || request_.wanted > 3) return;
+    wish.state = static_cast<DriveWish::State>(request_.wanted);
+    wish.engage_brake = request_.engage_brake != 0;
   }
 
   DriveState drive_state(const Context& context) const noexcept {
@@ -199,8 +211,10 @@ class DdsServer::Implementation {
   std::uint32_t fault_resets_ = 0;
   ReceivedSample<flinch_TorqueSample> last_;
   SampleReceiver<flinch_TorqueSample> commands_;
-  ReceivedSample<flinch_DriveRequest> request_;
-  SampleReceiver<flinch_DriveRequest> requests_;
+  flinch_DriveRequest request_{};         ///< of who commands, or commanded last
+  flinch_DriveRequest others_request_{};  ///< the last of anybody else
+  ReceivedSample<flinch_DriveRequest> new_request_;
+  SampleReceiver<flinch_DriveRequest, EachInTurn> requests_;
 
   ReadingOutlet<flinch_JointSample, JointReading> joints_;
   ReadingOutlet<flinch_DriveSample, DriveReading> drives_;

@@ -6,6 +6,7 @@
 
 #include "drivers/dds_reader.h"
 #include "drivers/sample_admission.h"
+#include "systems/framework/bounded_queue.h"
 #include "systems/framework/monotonic_clock.h"
 #include "systems/framework/sample_signal.h"
 #include "systems/framework/triple_buffer.h"
@@ -21,9 +22,21 @@ struct ReceivedSample {
   Time acquired{};  ///< likewise
 };
 
+/// Keeps each value until it is taken, in order, where TripleBuffer keeps the last. Of values that nobody
+/// takes those after the sixteenth are dropped.
+template <class T>
+class EachInTurn {
+ public:
+  void publish(const T& value) noexcept { queue_.push(value); }
+  bool take(T& value) noexcept { return queue_.pop(value); }
+
+ private:
+  BoundedQueue<T, 16> queue_;
+};
+
 /// Receives samples of one topic, admits or refuses each as it arrives, and keeps the last admitted one for a
-/// control loop, which takes it without waiting.
-template <class Sample>
+/// control loop, which takes it without waiting; or, with EachInTurn, each of them.
+template <class Sample, template <class> class Keep = TripleBuffer>
 class SampleReceiver {
  public:
   /// Whether a sample asks for nothing: see AdmissionSettings::begins_neutral.
@@ -37,8 +50,8 @@ class SampleReceiver {
         admission_(admission),
         reader_(bus, topic, &SampleReceiver::receive, this) {}
 
-  /// Copies the last admitted sample if there is one that was not taken before. For one thread.
-  bool take(ReceivedSample<Sample>& received) noexcept { return last_.take(received); }
+  /// Copies the kept sample if there is one that was not taken before. For one thread.
+  bool take(ReceivedSample<Sample>& received) noexcept { return kept_.take(received); }
 
   /// How many samples met with `verdict`.
   std::uint32_t count(Admission verdict) const noexcept {
@@ -73,7 +86,7 @@ class SampleReceiver {
     if (verdict != Admission::admitted) return;
     next.sent = admission_.to_own_clock(Time(next.sample.header.sent_ns));
     next.acquired = admission_.to_own_clock(Time(next.sample.header.acquired_ns));
-    last_.publish(next);
+    kept_.publish(next);
     if (arrived_ != nullptr) arrived_->notify();
   }
 
@@ -81,7 +94,7 @@ class SampleReceiver {
   SampleSignal* arrived_;
   SampleAdmission admission_;  // this and next_: only where samples arrive
   ReceivedSample<Sample> next_;
-  TripleBuffer<ReceivedSample<Sample>> last_;
+  Keep<ReceivedSample<Sample>> kept_;
   std::array<std::atomic<std::uint32_t>, admission_count> counts_{};
   std::atomic<std::uint32_t> lost_{0};
   DdsReader reader_;  // last

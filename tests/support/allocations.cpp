@@ -3,6 +3,8 @@
 #include <cerrno>
 #include <cstddef>
 
+#include "tests/support/sanitized.h"
+
 namespace {
 
 thread_local std::int64_t count = 0;
@@ -14,14 +16,6 @@ namespace flinch::test {
 std::int64_t allocations() { return count; }
 
 }  // namespace flinch::test
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define FLINCH_SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define FLINCH_SANITIZED 1
-#endif
-#endif
 
 #ifndef FLINCH_SANITIZED
 // The C library's own allocator under the names by which it can be reached when ours stand before it.

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "tests/support/allocations.h"
-#include "tests/systems/framework/locks.h"
+#include "tests/support/locks.h"
 
 namespace flinch {
 namespace {

@@ -18,7 +18,7 @@
 #include "systems/framework/sample_ticks.h"
 #include "systems/framework/triple_buffer.h"
 #include "tests/support/allocations.h"
-#include "tests/systems/framework/locks.h"
+#include "tests/support/locks.h"
 #include "tests/systems/framework/realtime_station.h"
 
 namespace flinch {

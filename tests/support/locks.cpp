@@ -1,7 +1,9 @@
-#include "tests/systems/framework/locks.h"
+#include "tests/support/locks.h"
 
 #include <dlfcn.h>
 #include <pthread.h>
+
+#include "tests/support/sanitized.h"
 
 namespace {
 
@@ -14,14 +16,6 @@ namespace flinch::test {
 std::int64_t locks() { return count; }
 
 }  // namespace flinch::test
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define FLINCH_SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define FLINCH_SANITIZED 1
-#endif
-#endif
 
 #ifdef FLINCH_SANITIZED
 bool flinch::test::sanitized() { return true; }

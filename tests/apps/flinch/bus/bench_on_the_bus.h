@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tests/apps/flinch/bus/other_program.h"
+#include "tests/apps/flinch/program.h"
+#include "tests/drivers/free_domain.h"
+
+namespace flinch::test {
+
+/// A scenario's bench, served by another program on a bus of its own, with a place for results.
+struct BenchOnTheBus {
+  explicit BenchOnTheBus(const std::string& scenario = "platform_collision")
+      : scenario_file(place.at("scenarios/" + scenario + ".yaml")),
+        server({"serve", scenario_file, "--domain", domain, "--json"}, place.at("served.txt")) {}
+
+  /// The arguments of a verb on this bus.
+  std::vector<std::string> on_bus(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.end(), {"--domain", domain});
+    return arguments;
+  }
+  std::vector<std::string> run_arguments(const std::string& out = "live") const {
+    return on_bus({"run", scenario_file, "--station", "dds", "--out", place.at(out)});
+  }
+
+  Workplace place;
+  std::string domain = std::to_string(free_domain());
+  std::string scenario_file;
+  OtherProgram server;
+};
+
+}  // namespace flinch::test

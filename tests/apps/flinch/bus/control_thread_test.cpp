@@ -1,0 +1,79 @@
+// What the thread that commands a robot on the bus may not do, shown by standing before the functions in
+// question.
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "apps/flinch/bus/live_experiment.h"
+#include "apps/flinch/bus/operator_panel.h"
+#include "apps/flinch/scenario.h"
+#include "drivers/ros2_publisher.h"
+#include "drivers/wire_header.h"
+#include "systems/framework/exchange_list.h"
+#include "systems/framework/realtime_runner.h"
+#include "systems/framework/recorder.h"
+#include "tests/apps/flinch/bus/bench_on_the_bus.h"
+#include "tests/apps/flinch/bus/dds_calls.h"
+#include "tests/support/allocations.h"
+#include "tests/support/locks.h"
+
+namespace flinch {
+namespace {
+
+TEST(ControlThread, TakesNoMemoryAndNoLockAndNeverCallsTheBus) {
+  if (test::sanitized()) GTEST_SKIP() << "a sanitizer replaces what is counted here";
+  const test::BenchOnTheBus bench;
+  const Scenario scenario = read_scenario(bench.scenario_file);
+  const LiveExperiment experiment = build_live_experiment(scenario);
+  const DdsBus bus({.domain = static_cast<std::uint32_t>(std::stoul(bench.domain))});
+  DdsStation station(bus, *experiment.diagram, experiment.station,
+                     {.robot = robot_hash(scenario.robot_text)});
+  OperatorPanel panel(experiment, station);
+  Ros2Settings settings;
+  settings.joint_names = {"a", "b", "c"};
+  Ros2Publisher ros2(bus, *experiment.diagram,
+                     {.joint_motion = experiment.control.joint_motion,
+                      .drive_torque = experiment.control.drive_torque,
+                      .imu = experiment.station.imu,
+                      .wrench = experiment.control.wrench_estimate,
+                      .gate = experiment.control.gate},
+                     settings);
+  ExchangeList exchange({station, panel, ros2});
+  ClockTicks ticks;
+  RealtimeRunner runner(*experiment.diagram, ticks, exchange);
+  Recorder recorder(*experiment.diagram, recordable_paths(*experiment.diagram), 4000);
+  runner.record(recorder);
+  Context context = experiment.diagram->make_context();
+  station.request({.state = DriveWish::State::operation_enabled, .engage_brake = false});
+  runner.run(context, 60s, [&] { return station.link().enabled; });
+
+  bool opened = false;
+  const std::function<bool()> watch_the_gate = [&] {
+    opened |= context.get(experiment.control.gate).phase == GatePhase::open;
+    return false;
+  };
+  const std::int64_t calls = test::dds_calls(), locks = test::locks(), allocations = test::allocations();
+  runner.run(context, context.time() + 1200ms, watch_the_gate);
+  const std::int64_t called = test::dds_calls() - calls, locked = test::locks() - locks,
+                     allocated = test::allocations() - allocations;
+  EXPECT_EQ(allocated, 0);
+  EXPECT_EQ(locked, 0);
+  EXPECT_EQ(called, 0);
+  EXPECT_TRUE(opened) << "the loop has not commanded anything";
+}
+
+TEST(ControlThread, IsWatchedByCountersThatCount) {
+  if (test::sanitized()) GTEST_SKIP() << "a sanitizer replaces what is counted here";
+  const test::BenchOnTheBus bench;
+  const Scenario scenario = read_scenario(bench.scenario_file);
+  const LiveExperiment experiment = build_live_experiment(scenario);
+  const DdsBus bus({.domain = static_cast<std::uint32_t>(std::stoul(bench.domain))});
+  const DdsStation station(bus, *experiment.diagram, experiment.station, {});
+  const std::int64_t calls = test::dds_calls(), locks = test::locks();
+  EXPECT_GE(station.peers(), 0);
+  EXPECT_GT(test::dds_calls(), calls);
+  EXPECT_GT(test::locks(), locks);
+}
+
+}  // namespace
+}  // namespace flinch

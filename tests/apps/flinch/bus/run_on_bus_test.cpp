@@ -1,0 +1,167 @@
+// A scenario against the bench that another program serves: what it shows, and what stops it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "systems/control/gate_fault.h"
+#include "systems/control/reaction_state.h"
+#include "systems/framework/recording.h"
+#include "tests/apps/flinch/bus/bench_on_the_bus.h"
+
+namespace flinch {
+namespace {
+
+using nlohmann::json;
+using test::BenchOnTheBus;
+using testing::HasSubstr;
+
+/// The modes of a run, in order, each once.
+std::vector<double> modes_of(const Recording& recording) {
+  std::vector<double> modes = recording.column("reaction", "mode");
+  modes.erase(std::unique(modes.begin(), modes.end()), modes.end());
+  return modes;
+}
+
+TEST(RunOnBus, ShowsWhatTheSimulationShows) {
+  const BenchOnTheBus bench;
+  const test::Outcome simulated =
+      test::flinch({"run", bench.scenario_file, "--out", bench.place.at("simulated"), "--json"});
+  std::vector<std::string> arguments = bench.run_arguments();
+  arguments.push_back("--json");
+  const test::Outcome live = test::flinch(arguments);
+  ASSERT_EQ(simulated.status, 0) << simulated.err;
+  ASSERT_EQ(live.status, 0) << live.out << live.err;
+
+  const json expected = json::parse(simulated.out), found = json::parse(live.out);
+  EXPECT_EQ(found["verdict"], expected["verdict"]);
+  EXPECT_EQ(found["witness"], "force_torque");
+  ASSERT_EQ(found["contacts"].size(), 1U);
+  const double in_process = expected["contacts"][0]["detection_ms"],
+               on_bus = found["contacts"][0]["detection_ms"];
+  std::cout << "detection [ms]: in process " << in_process << ", on the bus " << on_bus << std::endl;
+  EXPECT_NEAR(on_bus, in_process, 2.0);
+  EXPECT_NEAR(found["contacts"][0]["peak_force_N"], expected["contacts"][0]["peak_force_N"].get<double>(),
+              10.0);
+  EXPECT_EQ(modes_of(read_recording(bench.place / "live/run.h5")),
+            modes_of(read_recording(bench.place / "simulated/run.h5")));
+}
+
+TEST(RunOnBus, IsReplayedBitForBitFromItsRecording) {
+  const BenchOnTheBus bench;
+  ASSERT_EQ(test::flinch(bench.run_arguments()).status, 0);
+  const test::Outcome replayed = test::flinch(
+      {"run", bench.place.at("live/run.h5"), "--station", "recorded", "--out", bench.place.at("replayed")});
+  EXPECT_EQ(replayed.status, 0) << replayed.err;
+  EXPECT_THAT(replayed.err, HasSubstr("every signal is the same as before, bit for bit"));
+}
+
+TEST(RunOnBus, FindsTheRobotAgainWhereTheLastRunLeftIt) {
+  const BenchOnTheBus bench;
+  for (int run = 0; run < 2; ++run) {
+    const test::Outcome live = test::flinch(bench.run_arguments());
+    EXPECT_EQ(live.status, 0) << live.out << live.err;
+  }
+}
+
+TEST(RunOnBus, ComesToRestInOrderOnCtrlC) {
+  const BenchOnTheBus bench("square");
+  test::OtherProgram run(bench.run_arguments(), bench.place.at("run.txt"));
+  std::this_thread::sleep_for(std::chrono::milliseconds(2500));  // in the middle of the square
+  run.signal(SIGINT);
+  EXPECT_EQ(run.wait(), 3) << test::bytes_of(bench.place / "run.txt");
+
+  const Recording recording = read_recording(bench.place / "live/run.h5");
+  const std::vector<double> fault = recording.column("gate", "fault");
+  EXPECT_EQ(fault.back(), static_cast<double>(GateFault::operator_stop));
+  const auto speed = [&recording](std::size_t k) {
+    return std::hypot(recording.column("motion", "velocity", 0)[k],
+                      recording.column("motion", "velocity", 1)[k]);
+  };
+  const std::size_t stopped = static_cast<std::size_t>(
+      std::find_if(fault.begin(), fault.end(), [](double f) { return f != 0.0; }) - fault.begin());
+  std::cout << "Ctrl-C at " << speed(stopped) << " m/s, at rest after " << fault.size() - stopped << " ms"
+            << std::endl;
+  double fastest = 0.0;  // it may have been in a corner just then
+  for (std::size_t k = stopped - std::min<std::size_t>(stopped, 500); k < stopped; ++k) {
+    fastest = std::max(fastest, speed(k));
+  }
+  EXPECT_GT(fastest, 0.05) << "it was not moving";
+  EXPECT_LT(speed(fault.size() - 1), 0.03);
+  EXPECT_LT(fault.size() - stopped, 1000U);
+}
+
+TEST(RunOnBus, ServesUntilCtrlC) {
+  BenchOnTheBus bench;
+  ASSERT_EQ(test::flinch(bench.run_arguments()).status, 0);
+  bench.server.signal(SIGINT);
+  EXPECT_EQ(bench.server.wait(), 0);
+  const json served = json::parse(test::bytes_of(bench.place / "served.txt"));
+  EXPECT_GT(served["commands"], 1000);
+}
+
+TEST(RunOnBus, RefusesARobotThatItDoesNotKnow) {
+  const BenchOnTheBus bench;
+  test::flinch(
+      bench.on_bus({"link", bench.scenario_file, "--duration", "0.1", "--quiet"}));  // it has read its file
+  bench.place.replace("robots/planar_3rrr.yaml", "platform:", "platform:  # another text");
+  const test::Outcome live = test::flinch(bench.run_arguments());
+  EXPECT_EQ(live.status, 2);
+  EXPECT_THAT(live.err, HasSubstr("another robot description"));
+  EXPECT_FALSE(std::filesystem::exists(bench.place / "live"));
+}
+
+TEST(RunOnBus, SaysWhereItLookedForARobotThatIsNotThere) {
+  const test::Workplace place;
+  const test::Outcome live =
+      test::flinch({"run", place.at("scenarios/square.yaml"), "--station", "dds", "--domain",
+                    std::to_string(test::free_domain()), "--patience", "0.3"});
+  EXPECT_EQ(live.status, 2);
+  EXPECT_THAT(live.err, HasSubstr("on lo: nobody sends joint readings there"));
+}
+
+TEST(RunOnBus, RefusesOptionsThatMeanNothing) {
+  const test::Workplace place;
+  const test::Outcome seeded =
+      test::flinch({"run", place.at("scenarios/square.yaml"), "--station", "dds", "--seed", "3"});
+  EXPECT_EQ(seeded.status, 2);
+  EXPECT_THAT(seeded.err, HasSubstr("--seed"));
+  const test::Outcome controlled = test::flinch(
+      {"run", place.at("scenarios/square.yaml"), "--control", place.at("scenarios/square.yaml")});
+  EXPECT_EQ(controlled.status, 2);
+  EXPECT_THAT(controlled.err, HasSubstr("--control"));
+  EXPECT_EQ(test::flinch({"run", place.at("scenarios/square.yaml"), "--station", "real"}).status, 2);
+}
+
+TEST(RunOnBus, TakesOneCommanderOnly) {
+  const BenchOnTheBus bench("square");
+  test::OtherProgram first(bench.run_arguments("first"), bench.place.at("first.txt"));
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  std::vector<std::string> arguments = bench.run_arguments("second");
+  arguments.insert(arguments.end(), {"--patience", "1"});
+  const test::Outcome second = test::flinch(arguments);
+  EXPECT_EQ(second.status, 2) << second.out << test::bytes_of(bench.place / "first.txt");
+  EXPECT_THAT(second.err, HasSubstr("obeys another program"));
+  EXPECT_EQ(first.wait(), 0) << test::bytes_of(bench.place / "first.txt");
+}
+
+TEST(Link, IsMeasuredWithoutMovingAnything) {
+  const BenchOnTheBus bench;
+  const test::Outcome link = test::flinch(
+      bench.on_bus({"link", bench.place.at("robots/planar_3rrr.yaml"), "--duration", "1", "--json"}));
+  const json report = json::parse(link.out);
+  std::cout << report.dump() << std::endl;
+  EXPECT_EQ(report["ticks"], 1000);
+  EXPECT_GT(report["received"], 900);
+  EXPECT_GT(report["round_trip"]["count"], 800);
+  EXPECT_GT(report["round_trip"]["p50_us"], 0.0);
+  EXPECT_LE(report["round_trip"]["p50_us"], report["round_trip"]["max_us"]);
+  EXPECT_EQ(report["good"].get<bool>(), report["objections"].empty());
+  EXPECT_EQ(link.status, report["good"].get<bool>() ? 0 : 1);
+}
+
+}  // namespace
+}  // namespace flinch
