@@ -16,7 +16,7 @@ using Column = std::vector<double>;
 
 /// "leg1_link2" as a reader says it.
 std::string spoken(const std::string& body) {
-  if (body.empty()) return "body not measured";
+  if (body.empty()) return "robot";
   if (body == "platform") return body;
   const std::string leg = body.substr(3, 1);
   if (body.ends_with("link1")) return "first link of leg " + leg;
@@ -273,6 +273,7 @@ std::vector<ReportParameter> provenance(const Recording& recording) {
 
 Report experiment_report(const Scenario& scenario, const Recording& recording, const Verdict& verdict) {
   Report report;
+  report.kind = verdict.witness == Witness::truth ? "simulated experiment" : "experiment on a robot";
   report.title = scenario.title;
   report.subtitle = scenario.description;
   report.note = caveat(verdict.witness);

@@ -91,8 +91,9 @@ struct ReportText {
   std::string text;
 };
 
-/// Everything that the page of one simulated experiment shows. What is left empty is left out of the page.
+/// Everything that the page of one experiment shows. What is left empty is left out of the page.
 struct Report {
+  std::string kind;  ///< "simulated experiment"; empty: it does not say.
   std::string title;
   std::string subtitle;  ///< What was tried, in one sentence: which observer, which reaction.
   std::string note;      ///< A caveat to be read before anything else; empty: none.

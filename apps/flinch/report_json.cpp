@@ -111,6 +111,7 @@ nlohmann::json report_json(const Report& report) {
     columns[name] = list(values, [](double value) { return rounded(value); });
   }
   return {{"title", report.title},
+          {"kind", report.kind},
           {"subtitle", report.subtitle},
           {"note", report.note},
           {"good", report.good},

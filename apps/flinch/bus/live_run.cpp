@@ -34,6 +34,7 @@ LiveRun::LiveRun(const Scenario& scenario, const LiveExperiment& experiment, con
       unrecorded_(*experiment.diagram, ticks_, link.exchange),
       context_(experiment.diagram->make_context()) {
   unrecorded_.follow_clock();
+  unrecorded_.feed_timing(experiment_.tick_timing);
 }
 
 void LiveRun::fall_into_step() {
@@ -66,6 +67,7 @@ void LiveRun::prepare(const RealtimeSettings& settings) {
   recorded_->record(*recorder_);
   recorded_->profile(*profile_);
   recorded_->follow_clock();
+  recorded_->feed_timing(experiment_.tick_timing);
   thread_ = std::make_unique<RealtimeThread>(settings);
 }
 

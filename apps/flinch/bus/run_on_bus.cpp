@@ -8,6 +8,7 @@
 #include "apps/flinch/problems_of_file.h"
 #include "apps/flinch/run_folder.h"
 #include "apps/flinch/scenario.h"
+#include "drivers/event_publisher.h"
 #include "drivers/ros2_publisher.h"
 #include "drivers/wire_header.h"
 #include "systems/foundation/setup_error.h"
@@ -28,6 +29,15 @@ Ros2Publisher shown_to_ros2(const DdsBus& bus, const LiveExperiment& experiment,
            .wrench = experiment.control.wrench_estimate,
            .gate = experiment.control.gate},
           settings};
+}
+
+EventSources told_of(const LiveExperiment& experiment) {
+  const ExternalStation& station = experiment.station;
+  return {.detection = experiment.control.detection,
+          .reaction = experiment.control.reaction_state,
+          .gate = experiment.control.gate,
+          .timing = experiment.tick_timing,
+          .links = {station.joints_link, station.drives_link, station.imu_link, station.status_link}};
 }
 
 void tell_of_loop_and_link(const LiveRun& run, const DdsStation& station) {
@@ -57,7 +67,9 @@ ExitStatus run_on_bus(const RunOptions& options) {
       {.robot = robot_hash(scenario.robot_text), .realtime_priority = settings.realtime_priority});
   OperatorPanel panel(experiment, station);
   Ros2Publisher ros2 = shown_to_ros2(bus, experiment, scenario.robot.robot->legs());
-  ExchangeList exchange({station, panel, ros2});
+  EventPublisher events(bus, *experiment.diagram, told_of(experiment),
+                        {.robot = robot_hash(scenario.robot_text), .session = station.session()});
+  ExchangeList exchange({station, panel, ros2, events});
   LiveRun run(scenario, experiment, {station, panel, exchange}, from_seconds(options.patience));
   try {
     if (!silent) fmt::print(stderr, "waiting for the robot, {}\n", name_of(options.bus));

@@ -4,6 +4,7 @@
 function showHeadline() {
   document.title = `${report.title} · flinch`;
   byId("title").textContent = report.title;
+  byId("kind").textContent = report.kind && ` · ${report.kind}`;
   byId("subtitle").textContent = report.subtitle;
   byId("note").textContent = report.note;
   byId("note").hidden = !report.note;

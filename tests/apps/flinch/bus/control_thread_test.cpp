@@ -7,6 +7,7 @@
 #include "apps/flinch/bus/live_experiment.h"
 #include "apps/flinch/bus/operator_panel.h"
 #include "apps/flinch/scenario.h"
+#include "drivers/event_publisher.h"
 #include "drivers/ros2_publisher.h"
 #include "drivers/wire_header.h"
 #include "systems/framework/exchange_list.h"
@@ -38,11 +39,20 @@ TEST(ControlThread, TakesNoMemoryAndNoLockAndNeverCallsTheBus) {
                       .wrench = experiment.control.wrench_estimate,
                       .gate = experiment.control.gate},
                      settings);
-  ExchangeList exchange({station, panel, ros2});
+  EventPublisher events(bus, *experiment.diagram,
+                        {.detection = experiment.control.detection,
+                         .reaction = experiment.control.reaction_state,
+                         .gate = experiment.control.gate,
+                         .timing = experiment.tick_timing,
+                         .links = {experiment.station.joints_link}},
+                        {});
+  ExchangeList exchange({station, panel, ros2, events});
   ClockTicks ticks;
   RealtimeRunner runner(*experiment.diagram, ticks, exchange);
   Recorder recorder(*experiment.diagram, recordable_paths(*experiment.diagram), 4000);
   runner.record(recorder);
+  runner.follow_clock();
+  runner.feed_timing(experiment.tick_timing);
   Context context = experiment.diagram->make_context();
   station.request({.state = DriveWish::State::operation_enabled, .engage_brake = false});
   runner.run(context, 60s, [&] { return station.link().enabled; });

@@ -32,7 +32,7 @@ TEST(RunOnBus, ShowsWhatTheSimulationShows) {
       test::flinch({"run", bench.scenario_file, "--out", bench.place.at("simulated"), "--json"});
   std::vector<std::string> arguments = bench.run_arguments();
   arguments.push_back("--json");
-  const test::Outcome live = test::flinch(arguments);
+  const test::Outcome live = bench.run(arguments);
   ASSERT_EQ(simulated.status, 0) << simulated.err;
   ASSERT_EQ(live.status, 0) << live.out << live.err;
 
@@ -52,7 +52,7 @@ TEST(RunOnBus, ShowsWhatTheSimulationShows) {
 
 TEST(RunOnBus, IsReplayedBitForBitFromItsRecording) {
   const BenchOnTheBus bench;
-  ASSERT_EQ(test::flinch(bench.run_arguments()).status, 0);
+  ASSERT_EQ(bench.run(bench.run_arguments()).status, 0);
   const test::Outcome replayed = test::flinch(
       {"run", bench.place.at("live/run.h5"), "--station", "recorded", "--out", bench.place.at("replayed")});
   EXPECT_EQ(replayed.status, 0) << replayed.err;
@@ -62,7 +62,7 @@ TEST(RunOnBus, IsReplayedBitForBitFromItsRecording) {
 TEST(RunOnBus, FindsTheRobotAgainWhereTheLastRunLeftIt) {
   const BenchOnTheBus bench;
   for (int run = 0; run < 2; ++run) {
-    const test::Outcome live = test::flinch(bench.run_arguments());
+    const test::Outcome live = bench.run(bench.run_arguments());
     EXPECT_EQ(live.status, 0) << live.out << live.err;
   }
 }
@@ -96,7 +96,7 @@ TEST(RunOnBus, ComesToRestInOrderOnCtrlC) {
 
 TEST(RunOnBus, ServesUntilCtrlC) {
   BenchOnTheBus bench;
-  ASSERT_EQ(test::flinch(bench.run_arguments()).status, 0);
+  ASSERT_EQ(bench.run(bench.run_arguments()).status, 0);
   bench.server.signal(SIGINT);
   EXPECT_EQ(bench.server.wait(), 0);
   const json served = json::parse(test::bytes_of(bench.place / "served.txt"));
