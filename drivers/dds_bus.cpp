@@ -9,14 +9,14 @@
 namespace flinch {
 namespace {
 
-/// Names what DDS Security refuses: its plugins say why on stderr only.
+/// Names the keys where there are some: the result says only that there was an error, the log what it was.
 std::int32_t check_participant(std::int32_t result, const BusSettings& settings, const std::string& name) {
   if (result < 0 && settings.security) {
     throw SetupError(
         name + ": the keys of the " + flinch::name(settings.security->role) + " in " +
         settings.security->folder.string() +
-        " are refused: expired, not yet valid, not for this domain, changed, or not made together; "
-        "'flinch keys' makes new ones");
+        " are refused, Cyclone DDS says why above; they may be expired, for another domain, changed, "
+        "or not made together; 'flinch keys' makes new ones");
   }
   return check_dds(result, name);
 }
