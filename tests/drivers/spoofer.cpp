@@ -95,6 +95,7 @@ std::vector<std::uint8_t> forged(const Datagram& sent, std::uint32_t count, bool
   if (at == 0) return {};
   auto sample = read<flinch_TorqueSample>(bytes, at);
   sample.torque[0] = spoofed_torque;
+  sample.header.count = 3;
   sample.header.flags =
       count % 64 < 4 ? 0 : flag_valid;  // begins anew in case that the robot has given it up
   sample.header.sent_ns = MonotonicClock::now().count();
