@@ -58,6 +58,7 @@ class DdsStation::Implementation {
                  const DdsStationSettings& settings)
       : sender_{draw_session(), settings.robot},
         clock_(diagram.tick()),
+        arriving_status_(diagram.slot(station.arriving_status)),
         torque_command_(diagram.slot(station.torque_command)),
         brake_(diagram.slot(station.brake)),
         admission_{.robot = settings.robot, .longest_silence = settings.longest_silence},
@@ -79,7 +80,11 @@ class DdsStation::Implementation {
     if (joints_.set_inputs(context, clock_)) time_joints();
     drives_.set_inputs(context, clock_);
     imu_.set_inputs(context, clock_);
-    if (status_.set_inputs(context, clock_)) time_echo();
+    if (status_.set_inputs(context, clock_)) {
+      StationStatus& told = context[arriving_status_].reading;
+      told.enabled = told.enabled && obeys_us();
+      time_echo();
+    }
     if (force_torque_) force_torque_->set_inputs(context, clock_);
   }
 
@@ -122,7 +127,7 @@ class DdsStation::Implementation {
     const ReceivedSample<flinch_StatusSample>& last = status_.last();
     link.enabled = last.sample.enabled != 0;
     link.drive_state = static_cast<DriveState>(last.sample.drive_state);
-    link.commands_obeyed = last.sample.commander == sender_.session;
+    link.commands_obeyed = obeys_us();
     if (link.commands_obeyed) link.round_trip = round_trip(last);
     return link;
   }
@@ -136,6 +141,8 @@ class DdsStation::Implementation {
   std::uint32_t session() const noexcept { return sender_.session; }
 
  private:
+  bool obeys_us() const noexcept { return status_.last().sample.commander == sender_.session; }
+
   void time_joints() noexcept {
     const ReceivedSample<flinch_JointSample>& joints = joints_.last();
     times_.age.add(MonotonicClock::now() - joints.acquired);
@@ -146,7 +153,7 @@ class DdsStation::Implementation {
   /// Of each command once: an echo stands until the next command comes.
   void time_echo() noexcept {
     const flinch_StatusSample& status = status_.last().sample;
-    if (status.commander != sender_.session || status.command_number == last_echo_) return;
+    if (!obeys_us() || status.command_number == last_echo_) return;
     last_echo_ = status.command_number;
     times_.round_trip.add(round_trip(status_.last()));
   }
@@ -167,6 +174,7 @@ class DdsStation::Implementation {
 
   SenderIdentity sender_;
   TickClock clock_;
+  Slot<Arrival<StationStatus>> arriving_status_;
   Slot<TorqueCommand> torque_command_;
   Slot<BrakeCommand> brake_;
   AdmissionSettings admission_;

@@ -46,7 +46,8 @@ struct DdsLinkTimes {
 /// A reading's stamp of acquisition is translated twice: from the sender's monotonic clock to ours by the
 /// smallest delay seen (ClockMap), and to the time of the ticks by the most punctual tick (TickClock). It is
 /// late by the smallest delay on the way. No wall clock takes part. A context whose time is earlier than that
-/// of the last tick begins a new run on the same link.
+/// of the last tick begins a new run on the same link. Drives that obey somebody else are not enabled for this
+/// diagram.
 class DdsStation final : public Exchange {
  public:
   /// `diagram` is the one to run, with the inputs of `station`. Throws SetupError.

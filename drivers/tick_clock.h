@@ -11,7 +11,9 @@ namespace flinch {
 /// being busy, later; the most punctual starts are right, as ClockMap says. A start that is late by whole
 /// periods means that these were lost (RealtimeRunner): the ticks lie behind the clock by as much. This clock
 /// follows in small steps, a hundredth of a period each tick, so that the spacing of stamps, by which others
-/// differentiate, never jumps; until it has caught up, stamps look older than they are.
+/// differentiate, does not jump; until it has caught up, stamps look older than they are. More than two
+/// periods behind it catches up at once, which others must take for the interruption that it is. Loops whose
+/// time follows the clock (RealtimeRunner::follow_clock) are never behind.
 class TickClock {
  public:
   /// `period`: from tick to tick.
@@ -24,7 +26,7 @@ class TickClock {
     if (tick < tick_) *this = TickClock(period_);  // a new run
     const Time late = map_.started() ? now - map_.to_here(tick) - behind_ : Time::zero();
     if (late >= period_) behind_ += late / period_ * period_;
-    const Time step = std::min(behind_, period_ / 100);
+    const Time step = behind_ > 2 * period_ ? behind_ : std::min(behind_, period_ / 100);
     behind_ -= step;
     map_.shift(step);
     map_.observe(tick, now - behind_);

@@ -79,15 +79,34 @@ TEST(TickClock, FallsBehindTheClockByTheWholePeriodsThatWereLostWithoutAJump) {
   TickClock clock(1ms);
   for (int k = 0; k <= 10; ++k) clock.start_tick(k * 1ms, 5s + k * 1ms);
   Time last = clock.to_monotonic(10ms);
-  clock.start_tick(11ms, 5s + 11ms + 7300us);  // seven periods lost
+  clock.start_tick(11ms, 5s + 11ms + 2300us);  // two periods lost
   for (int k = 11; k <= 1000; ++k) {
-    if (k > 11) clock.start_tick(k * 1ms, 5s + k * 1ms + 7ms);
+    if (k > 11) clock.start_tick(k * 1ms, 5s + k * 1ms + 2ms);
     const Time told = clock.to_monotonic(k * 1ms);
     EXPECT_GE(told - last, 1ms);
     EXPECT_LE(told - last, 1011us);
     last = told;
   }
-  EXPECT_NEAR(to_seconds(last), 5.0 + 1.0 + 7e-3, 1e-6);
+  EXPECT_NEAR(to_seconds(last), 5.0 + 1.0 + 2e-3, 1e-6);
+}
+
+TEST(TickClock, CatchesUpAtOnceWithMoreThanTwoLostPeriods) {
+  TickClock clock(1ms);
+  for (int k = 0; k <= 10; ++k) clock.start_tick(k * 1ms, 5s + k * 1ms);
+  clock.start_tick(11ms, 5s + 11ms + 7300us);
+  clock.start_tick(12ms, 5s + 12ms + 7ms);
+  EXPECT_NEAR(to_seconds(clock.to_monotonic(12ms)), 5.0 + 19e-3, 1e-6);
+}
+
+TEST(TickClock, NeverFallsFurtherBehindHoweverOftenPeriodsAreLost) {
+  TickClock clock(1ms);
+  Time lost{};
+  for (int k = 0; k <= 5000; ++k) {
+    if (k % 20 == 19) lost += 1ms;
+    const Time now = 5s + k * 1ms + lost;
+    clock.start_tick(k * 1ms, now);
+    EXPECT_LE(now - clock.to_monotonic(k * 1ms), 2ms + 1us);
+  }
 }
 
 TEST(TickClock, BeginsANewRunWhereTheTimeOfTicksFallsBack) {

@@ -166,6 +166,34 @@ TEST(DdsLink, RefusesASecondCommanderAndObeysTheFirst) {
   EXPECT_GT(far.server().commander().refused, 100u);
 }
 
+TEST(DdsLink, TellsASecondControllerThatItsDrivesAreNotEnabled) {
+  const DdsBus bus({.domain = test::free_domain()});
+  FarEnd far(bus);
+  NearEnd first(bus), second(bus);
+  std::atomic<bool> first_obeyed = false, first_ends = false;
+  const FarThread running(far);
+  std::thread commanding([&] {
+    first.run([&] {
+      first_obeyed = first_obeyed || first.dds().link().commands_obeyed;
+      return first_ends || too_long(first);
+    });
+  });
+  while (!first_obeyed) std::this_thread::sleep_for(1ms);
+  int enabled_for_the_other = 0;
+  second.run([&] {
+    const StationStatus& status = second.get(second.station().status);
+    const DdsLink link = second.dds().link();
+    if (link.enabled && !link.commands_obeyed) {
+      ++enabled_for_the_other;
+      EXPECT_FALSE(status.valid && status.enabled);
+    }
+    return enabled_for_the_other >= 100 || too_long(second);
+  });
+  first_ends = true;
+  commanding.join();
+  EXPECT_GE(enabled_for_the_other, 100);
+}
+
 TEST(DdsLink, ClosesTheBrakesOnRequestWhateverTheCommandsSay) {
   const DdsBus bus({.domain = test::free_domain()});
   FarEnd far(bus);

@@ -33,7 +33,7 @@ function decimalsFor(values) {
 function chartList() {
   const list = [
     { id: "contact_force", title: "Contact force", unit: "N", least: 20, reach: true, fromZero: true, series: [
-      ...one("contact_force", "true", "--true", true),
+      ...one("contact_force", report.columns.external_force_x ? "true" : "measured", "--true", true),
       ...derived(magnitude("estimated_force_x", "estimated_force_y"), "estimated, on the platform", "--estimate")] },
     { id: "force", title: "External force on the platform", unit: "N", least: 24, series: [
       ...one("external_force_x", "x true", "--leg-2", true), ...one("estimated_force_x", "x estimated", "--leg-2"),
