@@ -121,7 +121,7 @@ TEST(SpoofedPackets, HaveNoEffectWithTheKeysAsTheyAreMade) {
   print("with keys", *spoofing, seen);
   expect_much_was_sent(*spoofing);
   EXPECT_EQ(seen.spoofed, 0);
-  EXPECT_GT(seen.obeyed, 0);
+  EXPECT_GT(seen.obeyed, 1000);
   EXPECT_GT(seen.received, 1000u);  // the controller's own
   EXPECT_LE(seen.received, spoofing->captured);
 }
