@@ -26,4 +26,14 @@ std::string name_of(const BusOptions& options);
 /// `error` with the name of the bus before each of its problems.
 SetupError named_with(const BusOptions& options, const SetupError& error);
 
+/// Does `step`; what goes wrong is told with the name of the bus.
+template <class Step>
+void on_bus(const BusOptions& options, Step&& step) {
+  try {
+    step();
+  } catch (const SetupError& error) {
+    throw named_with(options, error);
+  }
+}
+
 }  // namespace flinch

@@ -69,11 +69,7 @@ ExitStatus link(const LinkOptions& options) {
   DdsStation station(bus, *listener.diagram, listener.station,
                      {.robot = robot_hash(input.text), .realtime_priority = settings.realtime_priority});
   if (!silent) fmt::print(stderr, "waiting for the robot, {}\n", name_of(options.bus));
-  try {
-    await_robot(station, from_seconds(options.patience));
-  } catch (const SetupError& error) {
-    throw named_with(options.bus, error);
-  }
+  on_bus(options.bus, [&] { await_robot(station, from_seconds(options.patience)); });
 
   ClockTicks ticks;
   LoopTime time;

@@ -69,6 +69,7 @@ void LiveRun::prepare(const RealtimeSettings& settings) {
   recorded_->follow_clock();
   recorded_->feed_timing(experiment_.tick_timing);
   thread_ = std::make_unique<RealtimeThread>(settings);
+  granted_ = thread_->report();
 }
 
 bool LiveRun::stands_ready() const {
@@ -137,6 +138,7 @@ void LiveRun::end() {
   tick_until(500ms, [this] { return !link_.station.link().enabled; });
   link_.station.request({.state = DriveWish::State::without_voltage});
   tick_until(50ms, {});
+  thread_.reset();
 }
 
 Recording LiveRun::recording(std::map<std::string, std::string> attributes) const {

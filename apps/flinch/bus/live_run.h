@@ -37,7 +37,7 @@ class LiveRun {
   /// Makes ready all that the run needs, so that later nothing has to be allocated.
   void prepare(const RealtimeSettings& settings);
   /// What the machine has granted.
-  const RealtimeReport& granted() const { return thread_->report(); }
+  const RealtimeReport& granted() const { return granted_; }
 
   /// Switches the drives on, and if wanted resets their faults first. The brakes stay closed.
   void enable(bool reset_faults);
@@ -75,6 +75,7 @@ class LiveRun {
   std::unique_ptr<BlockProfile> profile_;
   std::unique_ptr<RealtimeRunner> recorded_;
   std::unique_ptr<RealtimeThread> thread_;
+  RealtimeReport granted_;
   Time end_{};
 };
 

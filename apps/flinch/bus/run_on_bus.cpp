@@ -71,16 +71,12 @@ ExitStatus run_on_bus(const RunOptions& options) {
                         {.robot = robot_hash(scenario.robot_text), .session = station.session()});
   ExchangeList exchange({station, panel, ros2, events});
   LiveRun run(scenario, experiment, {station, panel, exchange}, from_seconds(options.patience));
-  try {
-    if (!silent) fmt::print(stderr, "waiting for the robot, {}\n", name_of(options.bus));
-    run.connect();
-    run.prepare(loop_settings(options.bus));
-    tell_what_is_missing(run.granted(), silent);
-    run.enable(options.reset_faults);
-  } catch (const SetupError& error) {
-    throw named_with(options.bus, error);
-  }
+  if (!silent) fmt::print(stderr, "waiting for the robot, {}\n", name_of(options.bus));
+  on_bus(options.bus, [&] { run.connect(); });
   const std::filesystem::path folder = make_run_folder(options, scenario.name);
+  run.prepare(loop_settings(options.bus));
+  tell_what_is_missing(run.granted(), silent);
+  on_bus(options.bus, [&] { run.enable(options.reset_faults); });
   const Time started = MonotonicClock::now();
   double wall = 0.0;
   {
