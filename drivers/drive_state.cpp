@@ -1,5 +1,6 @@
 #include "drivers/drive_state.h"
 
+#include <algorithm>
 #include <array>
 
 namespace flinch {
@@ -64,6 +65,11 @@ int height(DriveState state) {
   }
 }
 
+/// The states from the one that is heard least among others to the one that is always heard.
+constexpr std::array<DriveState, drive_state_count> by_weight = {
+    operation_enabled,      switched_on, ready_to_switch_on,   switch_on_disabled, quick_stop_active,
+    not_ready_to_switch_on, fault,       fault_reaction_active};
+
 }  // namespace
 
 DriveCommand command_in(std::uint16_t controlword, std::uint16_t previous) noexcept {
@@ -123,6 +129,11 @@ DriveCommand step_towards(DriveState wanted, DriveState state) noexcept {
   if (goal == 2) return now == 0 ? shutdown : switch_on;
   constexpr DriveCommand upwards[] = {shutdown, switch_on, enable_operation};
   return upwards[now];
+}
+
+DriveState together(DriveState a, DriveState b) noexcept {
+  return *std::find_if(by_weight.rbegin(), by_weight.rend(),
+                       [a, b](DriveState state) { return state == a || state == b; });
 }
 
 }  // namespace flinch

@@ -48,4 +48,9 @@ DriveState after(DriveState state, DriveCommand command) noexcept;
 /// resets a fault: that is for people to decide.
 DriveCommand step_towards(DriveState wanted, DriveState state) noexcept;
 
+/// The state in which two drives are together, and so any number of them: what is wrong with one is wrong
+/// with both, and they are as far up as the lower one. Commands that follow from it, given to all, bring
+/// drives in different states to the same.
+DriveState together(DriveState a, DriveState b) noexcept;
+
 }  // namespace flinch

@@ -17,8 +17,8 @@ struct PoweredStation : Station {
 ///
 ///   wish -> DriveMaster -> DriveStateMachine -> PowerStage -> torque and brakes of the bare station
 ///
-/// A program that has real servo amplifiers keeps DriveMaster and brings controlword and statusword to and
-/// from their fieldbus; the state machine and the power stage are then the amplifiers' own.
+/// For drives that are nothing but simulated; real servo amplifiers have state machines of their own, see
+/// add_amplifier_station().
 PoweredStation add_powered_station(DiagramBuilder& builder, const Station& bare);
 
 }  // namespace flinch

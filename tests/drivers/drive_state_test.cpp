@@ -104,5 +104,32 @@ TEST(DriveCommand, NeverResetsAFaultByItself) {
   }
 }
 
+TEST(DrivesTogether, AreInTheOnlyStateThatAllOfThemHave) {
+  for (const DriveState state : {nr, sod, rtso, so, oe, qs, fr, f}) EXPECT_EQ(together(state, state), state);
+}
+
+TEST(DrivesTogether, DoNotDependOnTheirOrder) {
+  for (const DriveState a : {nr, sod, rtso, so, oe, qs, fr, f}) {
+    for (const DriveState b : {nr, sod, rtso, so, oe, qs, fr, f}) {
+      EXPECT_EQ(together(a, b), together(b, a));
+      for (const DriveState c : {nr, sod, rtso, so, oe, qs, fr, f}) {
+        EXPECT_EQ(together(together(a, b), c), together(a, together(b, c)));
+      }
+    }
+  }
+}
+
+TEST(DrivesTogether, AreAsFarUpAsTheLowestAndFaultyOnceAllHaveReacted) {
+  EXPECT_EQ(together(oe, so), so);
+  EXPECT_EQ(together(so, rtso), rtso);
+  EXPECT_EQ(together(rtso, sod), sod);
+  EXPECT_EQ(together(oe, qs), qs);
+  EXPECT_EQ(together(sod, qs), qs);
+  for (const DriveState other : {nr, sod, rtso, so, oe, qs, f}) {
+    EXPECT_EQ(together(f, other), f);
+    EXPECT_EQ(together(fr, other), fr);
+  }
+}
+
 }  // namespace
 }  // namespace flinch

@@ -1,0 +1,168 @@
+#include "drivers/powered_station.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "diagrams/external_station.h"
+#include "systems/robot/planar_rrr.h"
+#include "systems/robot/planar_rrr_presets.h"
+
+namespace flinch {
+namespace {
+
+using enum DriveState;
+
+constexpr DriveWish operation{.state = DriveWish::State::operation_enabled, .engage_brake = false};
+constexpr DriveWish quick_stop{.state = DriveWish::State::quick_stop, .engage_brake = false};
+
+/// A powered station whose bare one says what the test wants, commanded 1, 2, 3 Nm without brakes.
+class PoweredBench {
+ public:
+  PoweredBench() : diagram_(build()), context_(diagram_->make_context()) {}
+
+  /// One tick; returns the state that the drives tell in it.
+  DriveState tick(const DriveWish& wish) {
+    const Time now = context_.time();
+    ++number_;
+    angle_ += speed * 1e-3;
+    if (status.valid) {
+      status.acquired = now;
+      context_.set(bare_.arriving_status, {.reading = status, .source = 1, .number = number_});
+    }
+    const JointReading joints{.acquired = now,
+                              .valid = true,
+                              .passive_valid = false,
+                              .active = JointVector::Constant(3, angle_),
+                              .passive = JointVector()};
+    context_.set(bare_.arriving_joints, {.reading = joints, .source = 1, .number = number_});
+    context_.set(wish_, wish);
+    context_.set(torque_, {.computed = now, .valid = true, .torque = Eigen::Vector3d(1, 2, 3)});
+    context_.set(brake_, {.engage = false});
+    diagram_->evaluate(context_);
+    moves = context_.get(bare_.torque_command).valid && !context_.get(bare_.brake).engage;
+    is_held = !context_.get(bare_.torque_command).valid && context_.get(bare_.brake).engage;
+    told = context_.get(station_.status);
+    const DriveState state = context_.get(station_.statusword).state();
+    diagram_->update(context_);
+    context_.set_time(now + 1ms);
+    return state;
+  }
+
+  std::vector<DriveState> tick(const DriveWish& wish, int ticks) {
+    std::vector<DriveState> states;
+    for (int i = 0; i < ticks; ++i) states.push_back(tick(wish));
+    return states;
+  }
+
+  StationStatus status{.acquired = {}, .valid = true, .enabled = true, .braked = false, .fault = false};
+  double speed = 0.0;  // of the drives [rad/s]
+
+  bool moves = false;  // what reaches the bare station
+  bool is_held = false;
+  StationStatus told;
+
+ private:
+  std::unique_ptr<Diagram> build() {
+    DiagramBuilder builder;
+    const auto robot =
+        std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::none));
+    bare_ = add_external_station(builder, robot);
+    station_ = add_powered_station(builder, bare_);
+    wish_ = builder.export_input("wish", station_.wish);
+    torque_ = builder.export_input("torque_command", station_.torque_command);
+    brake_ = builder.export_input("brake", station_.brake);
+    return builder.build();
+  }
+
+  double angle_ = 0.0;
+  std::uint32_t number_ = 0;
+  ExternalStation bare_;
+  PoweredStation station_;
+  InputPort<DriveWish> wish_;
+  InputPort<TorqueCommand> torque_;
+  InputPort<BrakeCommand> brake_;
+  std::unique_ptr<Diagram> diagram_;
+  Context context_;
+};
+
+TEST(PoweredStation, IsSwitchedOnStepByStepAndPassesTorqueInOperationOnly) {
+  PoweredBench bench;
+  const DriveState expected[] = {not_ready_to_switch_on, switch_on_disabled, ready_to_switch_on, switched_on,
+                                 operation_enabled,      operation_enabled};
+  for (const DriveState state : expected) {
+    EXPECT_EQ(bench.tick(operation), state);
+    EXPECT_EQ(bench.moves, state == operation_enabled);
+    EXPECT_EQ(bench.is_held, state != operation_enabled);
+    EXPECT_EQ(bench.told.enabled, state == operation_enabled);
+  }
+}
+
+TEST(PoweredStation, StaysWithoutVoltageWhereNobodyWishesAnything) {
+  PoweredBench bench;
+  for (const DriveState state : bench.tick(DriveWish(), 20)) {
+    EXPECT_TRUE(state == not_ready_to_switch_on || state == switch_on_disabled);
+  }
+  EXPECT_TRUE(bench.is_held);
+}
+
+TEST(PoweredStation, IsNotReadyBeforeItsStationSaysAnything) {
+  PoweredBench bench;
+  bench.status.valid = false;
+  for (const DriveState state : bench.tick(operation, 20)) EXPECT_EQ(state, not_ready_to_switch_on);
+}
+
+TEST(PoweredStation, DropsOutOfOperationAtAFaultAndIsResetByANewRequestOnly) {
+  PoweredBench bench;
+  bench.tick(operation, 10);
+  ASSERT_TRUE(bench.moves);
+  bench.status.fault = true;
+  bench.tick(operation, 2);
+  EXPECT_TRUE(bench.is_held);
+  EXPECT_TRUE(bench.told.fault);
+
+  DriveWish reset = operation;
+  reset.fault_resets = 1;  // while the fault is still there
+  EXPECT_EQ(bench.tick(reset, 10).back(), fault);
+  bench.status.fault = false;
+  EXPECT_EQ(bench.tick(reset, 10).back(), fault);  // the same request does not count twice
+  EXPECT_TRUE(bench.told.fault);
+  reset.fault_resets = 2;
+  EXPECT_EQ(bench.tick(reset, 10).back(), operation_enabled);
+  EXPECT_TRUE(bench.moves);
+  EXPECT_FALSE(bench.told.fault);
+}
+
+TEST(PoweredStation, ReactsToAFaultUntilItStandsStill) {
+  PoweredBench bench;
+  bench.tick(operation, 10);
+  bench.status.fault = true;
+  bench.speed = 1.0;
+  EXPECT_EQ(bench.tick(operation, 20).back(), fault_reaction_active);
+  EXPECT_TRUE(bench.is_held);
+  bench.speed = 0.0;
+  EXPECT_EQ(bench.tick(operation, 3).back(), fault);
+}
+
+TEST(PoweredStation, LosesTorqueWithAQuickStopAndItsVoltageAtStandstill) {
+  PoweredBench bench;
+  bench.tick(operation, 10);
+  bench.speed = 1.0;
+  bench.tick(quick_stop);
+  for (const DriveState state : bench.tick(quick_stop, 20)) EXPECT_EQ(state, quick_stop_active);
+  EXPECT_TRUE(bench.is_held);
+  bench.speed = 0.0;
+  EXPECT_EQ(bench.tick(quick_stop, 3).back(), switch_on_disabled);
+}
+
+TEST(PoweredStation, IsBrakedWithinTwoTicksWhereTheWishFallsBackToNothing) {
+  PoweredBench bench;
+  bench.tick(operation, 10);
+  ASSERT_TRUE(bench.moves);
+  bench.tick(DriveWish(), 2);  // as DdsServer wishes when who commands falls silent
+  EXPECT_TRUE(bench.is_held);
+  EXPECT_EQ(bench.tick(DriveWish()), switch_on_disabled);
+}
+
+}  // namespace
+}  // namespace flinch
