@@ -18,22 +18,29 @@
 namespace flinch {
 namespace {
 
+/// Checks without a name of their own, which would stand in the help beside the option's.
+CLI::Validator between(int low, int high) { return CLI::Range(low, high).description(""); }
+CLI::Validator positive() { return CLI::Validator(CLI::PositiveNumber).description(""); }
+
 void add_bus(CLI::App& verb, BusOptions& bus) {
-  verb.add_option("--domain", bus.domain, "Number of the bus: who shares it hears each other [0]")
+  verb.add_option("--domain", bus.domain,
+                  "Number of the bus; programs with the same number hear each other [0]")
       ->type_name("N")
       ->group("Bus");
   verb.add_option("--interface", bus.interface,
-                  "Network interface, name or address; lo stays in this machine [lo]")
+                  "Network interface, name or address; with lo nothing leaves this machine [lo]")
       ->type_name("NAME")
       ->group("Bus");
-  verb.add_option("--peer", bus.peers, "Address of another end, where the network has no multicast")
+  verb.add_option("--peer", bus.peers,
+                  "Address of the other end, where the network has no multicast; any number of them")
       ->type_name("ADDRESS")
       ->group("Bus");
-  verb.add_option("--security", bus.security, "Keys that flinch keys made; both ends need them [none]")
+  verb.add_option("--security", bus.security, "Folder that flinch keys made; both ends need it [none]")
       ->type_name("DIR")
       ->group("Bus");
-  verb.add_option("--priority", bus.priority, "Real-time priority, 1 to 99, where permitted; 0 for none [80]")
-      ->check(CLI::Range(0, 99))
+  verb.add_option("--priority", bus.priority,
+                  "Real-time priority of loop and bus, 1 to 99, where permitted; 0 for none [80]")
+      ->check(between(0, 99))
       ->type_name("N")
       ->group("Bus");
 }
@@ -109,8 +116,9 @@ void add_verbs(CLI::App& app, Verbs& verbs) {
       ->transform(CLI::CheckedTransformer(stations).description(""))
       ->type_name("KIND");
   run_verb
-      .add_option("--control", verbs.run.control,
-                  "With a recorded station: the scenario to take the control path from")
+      .add_option(
+          "--control", verbs.run.control,
+          "With --station recorded: the scenario whose control path shall run [that of the recording]")
       ->type_name("SCENARIO.yaml");
   run_verb.add_option("--out", verbs.run.out, "Folder for run.h5 and report.html [out/NAME]")
       ->type_name("DIR");
@@ -118,11 +126,15 @@ void add_verbs(CLI::App& app, Verbs& verbs) {
       ->check(problem_with_seed)
       ->type_name("N");
   add_bus(run_verb, verbs.run.bus);
-  run_verb.add_option("--patience", verbs.run.patience, "Seconds to wait for the robot and its drives [10]")
-      ->check(CLI::PositiveNumber)
+  run_verb
+      .add_option("--patience", verbs.run.patience,
+                  "Seconds to wait until the robot answers, and as long again for its drives [10]")
+      ->check(positive())
       ->type_name("S")
       ->group("Bus");
-  run_verb.add_flag("--reset-faults", verbs.run.reset_faults, "Reset faults of the drives before the run")
+  run_verb
+      .add_flag("--reset-faults", verbs.run.reset_faults,
+                "Reset faults that the drives report; without it they end the run before it begins")
       ->group("Bus");
 
   CLI::App& report_verb = verbs.add(app, "report", "Make the report page of a recording",
@@ -151,33 +163,33 @@ void add_verbs(CLI::App& app, Verbs& verbs) {
 
 #if FLINCH_HAS_BUS
 void add_bus_verbs(CLI::App& app, Verbs& verbs) {
-  CLI::App& serve_verb =
-      verbs.add(app, "serve", "Put the simulated robot of a scenario on the bus, in real time",
-                "flinch serve apps/scenarios/platform_collision.yaml", verbs.serve, &serve);
+  CLI::App& serve_verb = verbs.add(
+      app, "serve", "Put the simulated robot of a scenario on the bus, in real time, as if it were there",
+      "flinch serve apps/scenarios/platform_collision.yaml --duration 60", verbs.serve, &serve);
   serve_verb.add_option("scenario", verbs.serve.scenario, "Scenario file (YAML)")
       ->required()
       ->type_name("SCENARIO.yaml");
   serve_verb.add_option("--seed", verbs.serve.seed, "Seed of all noise, instead of the scenario's")
       ->check(problem_with_seed)
       ->type_name("N");
-  serve_verb.add_option("--duration", verbs.serve.duration, "Seconds to serve [until interrupted]")
-      ->check(CLI::PositiveNumber)
+  serve_verb.add_option("--duration", verbs.serve.duration, "Seconds to serve [until Ctrl-C]")
+      ->check(positive())
       ->type_name("S");
   add_bus(serve_verb, verbs.serve.bus);
 
   CLI::App& link_verb =
-      verbs.add(app, "link", "Measure the way to a robot on the bus, without moving it",
+      verbs.add(app, "link", "Measure how fast and how surely a robot on the bus answers, without moving it",
                 "flinch link apps/robots/planar_3rrr.yaml --duration 60", verbs.link, &link);
   link_verb
       .add_option("robot", verbs.link.robot,
-                  "Robot or scenario file (YAML): both ends must have the same robot")
+                  "Robot file, or a scenario that names it (YAML); both ends must have the same")
       ->required()
       ->type_name("FILE");
   link_verb.add_option("--duration", verbs.link.duration, "Seconds to measure [10]")
-      ->check(CLI::PositiveNumber)
+      ->check(positive())
       ->type_name("S");
   link_verb.add_option("--patience", verbs.link.patience, "Seconds to wait for the robot [10]")
-      ->check(CLI::PositiveNumber)
+      ->check(positive())
       ->type_name("S");
   add_bus(link_verb, verbs.link.bus);
 }
@@ -187,10 +199,10 @@ void add_keys_verb(CLI::App& app, Verbs& verbs) {
                                   "flinch keys keys --days 365", verbs.keys, &keys);
   keys_verb.add_option("folder", verbs.keys.folder, "New folder for the keys")->required()->type_name("DIR");
   keys_verb.add_option("--days", verbs.keys.days, "How long they are good [1096]")
-      ->check(CLI::Range(1, 36500))
+      ->check(between(1, 36500))
       ->type_name("N");
   keys_verb.add_option("--domain", verbs.keys.domain, "The only domain of the bus they are good for [all]")
-      ->check(CLI::Range(0, 230))
+      ->check(between(0, 230))
       ->type_name("N");
   keys_verb.add_flag("--force", verbs.keys.force, "Replace the keys that are there");
 }
@@ -216,7 +228,11 @@ int run_command_line(int argc, const char* const* argv) {
                "flinch");
   app.set_version_flag("--version", std::string("flinch ") + FLINCH_VERSION);
   app.require_subcommand(1);
-  app.footer("Exit status: 0 done, 1 the verdict is bad, 2 bad input or usage, 3 a fault stopped the run.");
+  app.get_formatter()->label("SUBCOMMAND", "VERB");
+  app.footer(
+      "Exit status: 0 done, 1 the verdict is bad, or the link, 2 bad input or usage, 3 a fault stopped the "
+      "run.\n"
+      "'flinch VERB --help' shows the options of a verb.");
   Verbs verbs;
   add_verbs(app, verbs);
 #if FLINCH_HAS_BUS
