@@ -96,7 +96,8 @@ ExitStatus link(const LinkOptions& options) {
     before = station.link();
     runner.run(context, end);
   }
-  const LinkReport report{since(before, station.link()), station.times(), runner.statistics()};
+  const LinkReport report{since(before, station.link()), station.times(), runner.statistics(),
+                          see_pose(*input.robot.robot, context.get(listener.station.joints))};
   fmt::print("{}", options.common.json ? report.json() + "\n" : report.table());
   return report.objections().empty() ? ExitStatus::done : ExitStatus::bad_verdict;
 }

@@ -31,6 +31,11 @@ Json json_of(const DurationHistogram& histogram) {
           {"max_us", microseconds(summary->max)}};
 }
 
+Json json_of(bool known, const PlatformVector& numbers) {
+  if (!known) return nullptr;
+  return std::vector<double>(numbers.begin(), numbers.end());
+}
+
 }  // namespace
 
 std::vector<std::string> LinkReport::objections() const {
@@ -65,10 +70,10 @@ std::string LinkReport::table() const {
   text += row("lateness of ticks", loop.lateness);
   text += fmt::format(
       "\nreadings  {} received, {} lost, {} refused\nticks     {}: {} late starts, {} overruns, {} lost, {} "
-      "without "
-      "a reading\n\n",
+      "without a reading\n",
       link.received, link.lost, link.refused, loop.ticks, loop.late_starts, loop.overruns, loop.lost_periods,
       loop.without_sample);
+  text += pose.text() + "\n";
   const std::vector<std::string> against = objections();
   text += against.empty() ? "link: good for control at 1 kHz\n" : "link: not good for control at 1 kHz\n";
   for (const std::string& objection : against) text += "  - " + objection + "\n";
@@ -77,20 +82,25 @@ std::string LinkReport::table() const {
 
 std::string LinkReport::json() const {
   const std::vector<std::string> against = objections();
-  const Json json = {{"good", against.empty()},
-                     {"round_trip", json_of(times.round_trip)},
-                     {"age", json_of(times.age)},
-                     {"interval", json_of(times.interval)},
-                     {"lateness", json_of(loop.lateness)},
-                     {"received", link.received},
-                     {"lost", link.lost},
-                     {"refused", link.refused},
-                     {"ticks", loop.ticks},
-                     {"late_starts", loop.late_starts},
-                     {"overruns", loop.overruns},
-                     {"lost_periods", loop.lost_periods},
-                     {"without_reading", loop.without_sample},
-                     {"objections", against}};
+  const Json json = {
+      {"good", against.empty()},
+      {"round_trip", json_of(times.round_trip)},
+      {"age", json_of(times.age)},
+      {"interval", json_of(times.interval)},
+      {"lateness", json_of(loop.lateness)},
+      {"received", link.received},
+      {"lost", link.lost},
+      {"refused", link.refused},
+      {"ticks", loop.ticks},
+      {"late_starts", loop.late_starts},
+      {"overruns", loop.overruns},
+      {"lost_periods", loop.lost_periods},
+      {"without_reading", loop.without_sample},
+      {"active_rad", json_of(pose.joints.valid, pose.joints.active)},
+      {"passive_rad", json_of(pose.joints.passive_valid, pose.joints.passive)},
+      {"platform", json_of(pose.platform.has_value(), pose.platform.value_or(PlatformVector()))},
+      {"closure_error_m", pose.closure_error ? Json(*pose.closure_error) : Json(nullptr)},
+      {"objections", against}};
   return json.dump();
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/flinch/bus/seen_pose.h"
 #include "drivers/dds_station.h"
 #include "systems/framework/tick_statistics.h"
 
@@ -13,6 +14,7 @@ struct LinkReport {
   DdsLink link;
   DdsLinkTimes times;
   TickStatistics loop;
+  SeenPose pose;  ///< at the end
 
   /// What speaks against moving a robot over this link, one sentence each: commands that take longer than a
   /// tick, readings older than the station lets in, more than one lost in a thousand, lost ticks.

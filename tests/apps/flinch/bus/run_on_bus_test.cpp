@@ -159,6 +159,8 @@ TEST(Link, IsMeasuredWithoutMovingAnything) {
   EXPECT_GT(report["round_trip"]["count"], 800);
   EXPECT_GT(report["round_trip"]["p50_us"], 0.0);
   EXPECT_LE(report["round_trip"]["p50_us"], report["round_trip"]["max_us"]);
+  EXPECT_EQ(report["platform"].size(), 3U);
+  EXPECT_LT(report["closure_error_m"], 0.005);
   EXPECT_EQ(report["good"].get<bool>(), report["objections"].empty());
   EXPECT_EQ(link.status, report["good"].get<bool>() ? 0 : 1);
 }

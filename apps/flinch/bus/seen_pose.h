@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "systems/robot/parallel_robot.h"
+#include "systems/sensors/joint_reading.h"
+
+namespace flinch {
+
+/// Where a robot stands by its encoders: what shows whether their signs, zeros and units are right.
+struct SeenPose {
+  JointReading joints;
+  std::optional<PlatformVector> platform;  ///< none: the drive angles fit no pose [m, m, rad]
+  std::optional<double> closure_error;     ///< by which passive angles and platform disagree [m]
+
+  /// Two lines; of a robot that told no angles, one.
+  std::string text() const;
+};
+
+/// The passive angles are the start of the search, else the home pose is.
+SeenPose see_pose(const ParallelRobot& robot, const JointReading& joints);
+
+}  // namespace flinch
