@@ -135,8 +135,9 @@ TEST_F(CommandLine, PrintsOneJsonObjectForEveryVerb) {
 TEST_F(CommandLine, HelpsWithAnExampleOfEveryVerb) {
   const Outcome help = flinch({"--help"});
   EXPECT_EQ(help.status, 0);
-  EXPECT_THAT(help.out,
-              HasSubstr("Exit status: 0 done, 1 the verdict is bad, or the link, 2 bad input or usage, 3 a fault"));
+  EXPECT_THAT(
+      help.out,
+      HasSubstr("Exit status: 0 done, 1 the verdict is bad, or the link, 2 bad input or usage, 3 a fault"));
   for (const std::string& verb : verbs) {
     EXPECT_THAT(help.out, HasSubstr("  " + verb + " "));
     const Outcome of_verb = flinch({verb, "--help"});
@@ -144,7 +145,8 @@ TEST_F(CommandLine, HelpsWithAnExampleOfEveryVerb) {
     EXPECT_EQ(of_verb.err, "");
     EXPECT_THAT(of_verb.out, HasSubstr("Example:\n  flinch " + verb + " "));
     for (const std::string option : {"--json", "--quiet"}) EXPECT_THAT(of_verb.out, HasSubstr(option));
-    for (const std::string clutter : {"POSITIVE", " in [0"}) EXPECT_THAT(of_verb.out, Not(HasSubstr(clutter)));
+    for (const std::string clutter : {"POSITIVE", " in [0"})
+      EXPECT_THAT(of_verb.out, Not(HasSubstr(clutter)));
   }
 }
 
