@@ -17,6 +17,7 @@ AmplifierStation add_amplifier_station(DiagramBuilder& builder, const ExternalSt
   static_cast<Station&>(station) = static_cast<const Station&>(fieldbus);
   const auto statuswords = inside.export_input("statuswords", group.drives);
   const auto wish = inside.export_input("wish", master.wish);
+  inside.connect(wish, stage.wish);
   const auto wanted_torque = inside.export_input("torque_command", stage.wanted_torque);
   const auto wanted_brake = inside.export_input("brake", stage.wanted_brake);
   const auto bare_status = inside.export_input("bare_status", stage.bare_status);

@@ -71,11 +71,12 @@ class DdsServer::Implementation {
 
   void set_inputs(Context& context) noexcept {
     clock_.start_tick(context.time());
-    if (commands_.take(last_)) obeying_ = true;
+    if (commands_.take(last_)) obeying_ = obeying_ || asks_for_nothing(last_.sample);
     take_requests();
     age_ = MonotonicClock::now() - last_.sent;
     if (obeying_ && age_ > settings_.longest_silence) {
       obeying_ = false;
+      request_ = {};  // who comes back asks anew before the drives are switched on
       ++silences_;
     }
     command(context[torque_command_], context[brake_]);
@@ -122,14 +123,18 @@ class DdsServer::Implementation {
   void take_requests() noexcept {
     const std::uint32_t commander = last_.sample.header.session;
     while (requests_.take(new_request_)) {
-      if (new_request_.sample.header.session == commander) {
-        heed(new_request_.sample);
-      } else {
+      const bool of_commander = obeying_ && new_request_.sample.header.session == commander;
+      if (!of_commander) {
         others_request_ = new_request_.sample;
+        continue;
       }
+      heed(new_request_.sample);
+      if (others_request_.header.session == commander) others_request_ = {};
     }
-    const bool commands_now = others_request_.header.session == commander;
-    if (commands_now && request_.header.session != commander) heed(others_request_);
+    if (obeying_ && others_request_.header.session == commander) {
+      heed(others_request_);
+      others_request_ = {};
+    }
   }
 
   /// Counts the resets that are asked for; the count of a session begins with its first request.

@@ -22,15 +22,17 @@ class ReadingInlet {
                Slot<Arrival<Reading>> input, SampleSignal* arrived = nullptr)
       : input_(input), receiver_(bus, topic, admission, nullptr, arrived) {}
 
-  /// Whether something has come that set_inputs() has not yet brought in.
-  bool look() noexcept {
-    if (receiver_.take(last_)) waiting_ = true;
-    return waiting_;
+  /// Whether something has come since the last look.
+  bool look_for_newer() noexcept {
+    const bool newer = receiver_.take(last_);
+    waiting_ = waiting_ || newer;
+    return newer;
   }
 
   /// Returns whether there was something new.
   bool set_inputs(Context& context, const TickClock& clock) noexcept {
-    if (!look()) return false;
+    look_for_newer();
+    if (!waiting_) return false;
     waiting_ = false;
     Arrival<Reading>& arrival = context[input_];
     from_wire(last_.sample, arrival.reading);
@@ -98,8 +100,9 @@ class DdsStation::Implementation {
   }
 
   bool wait_for_joints(Time deadline) noexcept {
-    while (!joints_.look()) {
-      if (!joints_arrived_.wait_until(deadline)) return joints_.look();
+    joints_.look_for_newer();
+    while (!joints_.look_for_newer()) {
+      if (!joints_arrived_.wait_until(deadline)) return joints_.look_for_newer();
     }
     return true;
   }
@@ -124,6 +127,7 @@ class DdsStation::Implementation {
     add_refusals(imu_.receiver(), link);
     add_refusals(status_.receiver(), link);
     link.lost = joints_.receiver().lost();
+    link.deadlines_missed = joints_.receiver().broken_promises().deadlines;
     const ReceivedSample<flinch_StatusSample>& last = status_.last();
     link.enabled = last.sample.enabled != 0;
     link.drive_state = static_cast<DriveState>(last.sample.drive_state);

@@ -26,8 +26,9 @@ struct DdsLink {
   std::uint32_t refused = 0;   ///< samples of any kind: another protocol version, robot or sender, or old
   std::uint32_t other_version = 0;  ///< of these
   std::uint32_t other_robot = 0;
-  std::uint32_t lost = 0;  ///< joint samples that never came, by their numbers
-  bool enabled = false;    ///< by the last status
+  std::uint32_t lost = 0;              ///< joint samples that never came, by their numbers
+  std::uint32_t deadlines_missed = 0;  ///< periods of 5 ms without joint samples
+  bool enabled = false;                ///< by the last status
   DriveState drive_state = DriveState::not_ready_to_switch_on;  ///< likewise
   bool commands_obeyed = false;                                 ///< the other end obeys this session
   Time round_trip{};  ///< of the last echoed command, without the time that the other end kept it
@@ -46,8 +47,8 @@ struct DdsLinkTimes {
 /// A reading's stamp of acquisition is translated twice: from the sender's monotonic clock to ours by the
 /// smallest delay seen (ClockMap), and to the time of the ticks by the most punctual tick (TickClock). It is
 /// late by the smallest delay on the way. No wall clock takes part. A context whose time is earlier than that
-/// of the last tick begins a new run on the same link. Drives that obey somebody else are not enabled for this
-/// diagram.
+/// of the last tick begins a new run on the same link. Drives that obey somebody else are not enabled for
+/// this diagram.
 class DdsStation final : public Exchange {
  public:
   /// `diagram` is the one to run, with the inputs of `station`. Throws SetupError.
@@ -60,9 +61,9 @@ class DdsStation final : public Exchange {
   /// Hands torque command and brake to the bus.
   void take_outputs(const Context& context) override;
 
-  /// Blocks until joint readings arrive that no tick has seen, or until MonotonicClock::now() reaches
-  /// `deadline`; returns whether there are any. What SampleTicks waits for; of the loop's thread. The other
-  /// readings of the same tick were sent before.
+  /// Blocks until the next joint readings arrive, or until MonotonicClock::now() reaches `deadline`; returns
+  /// whether they have. Of the loop's thread, between runs: to bring ticks into step with the readings. The
+  /// other readings of the same tick were sent before.
   bool wait_for_joints(Time deadline) noexcept;
 
   /// Asks for a state of the drives, until the next call. From one thread at a time, not from the loop.

@@ -19,10 +19,4 @@ DdsWriter::DdsWriter(const DdsBus& bus, const Topic& topic) {
 
 bool DdsWriter::write(const void* sample) noexcept { return dds_write(writer_.handle(), sample) == 0; }
 
-int DdsWriter::readers() const noexcept {
-  dds_publication_matched_status_t matched{};
-  if (dds_get_publication_matched_status(writer_.handle(), &matched) != 0) return 0;
-  return static_cast<int>(matched.current_count);
-}
-
 }  // namespace flinch

@@ -17,9 +17,6 @@ class DdsWriter {
   /// Sends `sample`, a struct of the topic's type. Returns whether it was handed to the bus.
   bool write(const void* sample) noexcept;
 
-  /// How many readers listen.
-  int readers() const noexcept;
-
  private:
   DdsEntity topic_;
   DdsEntity writer_;

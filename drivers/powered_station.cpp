@@ -20,6 +20,7 @@ PoweredStation add_powered_station(DiagramBuilder& builder, const Station& bare)
   PoweredStation station;
   static_cast<Station&>(station) = bare;
   station.wish = inside.export_input("wish", master.wish);
+  inside.connect(station.wish, stage.wish);
   station.torque_command = inside.export_input("torque_command", stage.wanted_torque);
   station.brake = inside.export_input("brake", stage.wanted_brake);
   const auto bare_status = inside.export_input("bare_status", stage.bare_status);

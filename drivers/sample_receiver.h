@@ -23,7 +23,7 @@ struct ReceivedSample {
 };
 
 /// Keeps each value until it is taken, in order, where TripleBuffer keeps the last. Of values that nobody
-/// takes those after the sixteenth are dropped.
+/// takes the seventeenth and later are dropped.
 template <class T>
 class EachInTurn {
  public:

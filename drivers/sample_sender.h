@@ -31,9 +31,6 @@ class SampleSender {
     writer_.write(&next_);
   }
 
-  /// How many readers listen.
-  int readers() const noexcept { return writer_.readers(); }
-
  private:
   SenderIdentity sender_;
   std::uint32_t number_ = 0;

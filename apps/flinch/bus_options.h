@@ -14,6 +14,8 @@ struct BusOptions {
   std::vector<std::string> peers;
   std::filesystem::path security;  ///< folder of keys; empty: without
   int priority = 80;               ///< SCHED_FIFO of loop and bus, where permitted; 0: not wanted
+
+  bool operator==(const BusOptions&) const = default;
 };
 
 }  // namespace flinch

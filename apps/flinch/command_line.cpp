@@ -20,7 +20,14 @@ namespace {
 
 /// Checks without a name of their own, which would stand in the help beside the option's.
 CLI::Validator between(int low, int high) { return CLI::Range(low, high).description(""); }
-CLI::Validator positive() { return CLI::Validator(CLI::PositiveNumber).description(""); }
+
+/// A finite number of seconds; "" if it is.
+std::string problem_with_seconds(const std::string& text) {
+  double seconds = 0.0;
+  const bool is_number = CLI::detail::lexical_cast(text, seconds);
+  if (is_number && seconds > 0.0 && seconds <= 1e6) return "";
+  return "is '" + text + "'; it must be a number of seconds above 0 and up to 1e6";
+}
 
 void add_bus(CLI::App& verb, BusOptions& bus) {
   verb.add_option("--domain", bus.domain,
@@ -129,7 +136,7 @@ void add_verbs(CLI::App& app, Verbs& verbs) {
   run_verb
       .add_option("--patience", verbs.run.patience,
                   "Seconds to wait until the robot answers, and as long again for its drives [10]")
-      ->check(positive())
+      ->check(problem_with_seconds)
       ->type_name("S")
       ->group("Bus");
   run_verb
@@ -173,7 +180,7 @@ void add_bus_verbs(CLI::App& app, Verbs& verbs) {
       ->check(problem_with_seed)
       ->type_name("N");
   serve_verb.add_option("--duration", verbs.serve.duration, "Seconds to serve [until Ctrl-C]")
-      ->check(positive())
+      ->check(problem_with_seconds)
       ->type_name("S");
   add_bus(serve_verb, verbs.serve.bus);
 
@@ -186,10 +193,10 @@ void add_bus_verbs(CLI::App& app, Verbs& verbs) {
       ->required()
       ->type_name("FILE");
   link_verb.add_option("--duration", verbs.link.duration, "Seconds to measure [10]")
-      ->check(positive())
+      ->check(problem_with_seconds)
       ->type_name("S");
   link_verb.add_option("--patience", verbs.link.patience, "Seconds to wait for the robot [10]")
-      ->check(positive())
+      ->check(problem_with_seconds)
       ->type_name("S");
   add_bus(link_verb, verbs.link.bus);
 }
@@ -254,6 +261,8 @@ int run_command_line(int argc, const char* const* argv) {
   } catch (const std::bad_alloc&) {
     return complain({"there is not enough memory; a run needs some 4 MB for each second of its duration"},
                     verbs.common->json);
+  } catch (const std::exception& error) {  // of the system: a folder that may not be read, no more threads
+    return complain({error.what()}, verbs.common->json);
   }
 }
 

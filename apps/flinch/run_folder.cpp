@@ -31,8 +31,8 @@ std::filesystem::path make_run_folder(const RunOptions& options, const std::stri
 
 ExitStatus conclude_run(const Scenario& scenario, const Recording& recording, double wall,
                         const std::filesystem::path& folder, const CommonOptions& common) {
-  const Verdict verdict = judge(recording, scenario.expected, scenario.force_limits);
   write_recording(recording, folder / "run.h5");
+  const Verdict verdict = judge(recording, scenario.expected, scenario.force_limits);
   write_report_page(experiment_report(scenario, recording, verdict), folder / "report.html");
   const RunFacts facts{wall, scenario.seed};
   fmt::print("{}", common.json ? verdict_json(verdict, facts) + "\n" : verdict_table(verdict, facts));

@@ -1,7 +1,6 @@
 // flinch run: one experiment, with whatever stands for the robot.
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <chrono>
 
 #include "apps/flinch/command_line.h"
@@ -72,6 +71,11 @@ ExitStatus run_recorded(const RunOptions& options) {
     });
   }
   const std::filesystem::path folder = make_run_folder(options, scenario.name + "_replayed");
+  std::error_code no_such_file;
+  if (std::filesystem::equivalent(folder / "run.h5", options.input, no_such_file)) {
+    throw SetupError(options.input.string() +
+                     ": the replay would replace it; choose another folder with --out");
+  }
   tell_what_differs(replayed, options.common);
   return conclude_run(scenario, replayed.recording, watch.seconds(), folder, options.common);
 }
@@ -93,6 +97,10 @@ void check(const RunOptions& options) {
   }
   if (options.seed && options.station != StationKind::simulated) {
     problems.push_back("--seed: only a simulated station has noise that could be drawn anew");
+  }
+  const bool names_a_bus = options.bus != BusOptions() || options.reset_faults;
+  if (names_a_bus && options.station != StationKind::dds) {
+    problems.push_back("the options of the bus mean something only with --station dds");
   }
   throw_if_any(std::move(problems));
 }

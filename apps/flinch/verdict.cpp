@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "systems/control/fault_table.h"
+#include "systems/control/gate_status.h"
 #include "systems/control/reaction_state.h"
 #include "systems/framework/recording.h"
 #include "systems/robot/body_id.h"
@@ -42,7 +43,9 @@ struct Samples {
         mode(recording.column("reaction", "mode")),
         estimate_valid(recording.column("wrench", "valid")),
         reference_valid(recording.column("reference", "valid")),
-        fault(recording.column("gate", "fault")) {
+        fault(recording.column("gate", "fault")),
+        gate(recording.column("gate", "phase")),
+        faults_present(recording.column("gate", "faults")) {
     for (const std::int64_t ns : recording.time_ns) time.push_back(1e-9 * static_cast<double>(ns));
     if (witness == Witness::truth) {
       take_truth(recording);
@@ -71,7 +74,7 @@ struct Samples {
   std::vector<double> time;
   std::vector<double> force_x, force_y, body, clamping;  // the last two by the simulation only
   std::vector<double> level, present_level, mode;
-  std::vector<double> estimate_valid, reference_valid, loop_closure, fault;
+  std::vector<double> estimate_valid, reference_valid, loop_closure, fault, gate, faults_present;
   std::vector<std::vector<double>> pose, velocity, external, estimate, reference;
 
  private:
@@ -155,6 +158,7 @@ void limit_force(const Samples& samples, const Span& span, const ForceLimits& li
 double onset_of(const Samples& samples, std::size_t first) {
   if (first == 0) return samples.time[0];
   const double before = samples.force(first - 1);
+  if (std::isnan(before)) return samples.time[first];
   const double share = (Verdict::contact_force - before) / (samples.force(first) - before);
   return samples.time[first - 1] + share * (samples.time[first] - samples.time[first - 1]);
 }
@@ -221,14 +225,25 @@ void measure_errors(const Samples& samples, Verdict& verdict) {
   }
 }
 
-std::string first_fault(const Samples& samples) {
-  for (const double fault : samples.fault) {
-    if (fault == 0.0) continue;
-    for (const FaultRow& row : fault_table()) {
-      if (static_cast<double>(row.fault) == fault) return row.description;
-    }
+std::string description_of(double fault) {
+  for (const FaultRow& row : fault_table()) {
+    if (static_cast<double>(row.fault) == fault) return row.description;
   }
-  return "";
+  return "the run was too short";
+}
+
+std::string what_closed_the_gate(const Samples& samples) {
+  const auto fault =
+      std::find_if(samples.fault.begin(), samples.fault.end(), [](double f) { return f != 0.0; });
+  return fault == samples.fault.end() ? "" : description_of(*fault);
+}
+
+void expect_open_gate(const Samples& samples, std::vector<std::string>& failures) {
+  const auto waits = [](double phase) { return phase == static_cast<double>(GatePhase::waiting); };
+  if (samples.size() == 0 || !std::all_of(samples.gate.begin(), samples.gate.end(), waits)) return;
+  const auto faults = static_cast<FaultMask>(samples.faults_present.back());
+  failures.push_back("the torque gate never opened: " +
+                     description_of(static_cast<double>(first_fault(faults))));
 }
 
 void expect_contact(const Verdict& verdict, const Expectations& expected,
@@ -287,11 +302,12 @@ Verdict judge(const Recording& recording, const Expectations& expected, const Fo
   for (const double miss : samples.loop_closure) {
     verdict.loop_closure = std::max(verdict.loop_closure.value_or(0.0), miss);
   }
-  verdict.fault = first_fault(samples);
-  verdict.simulated = samples.period * static_cast<double>(samples.size());
+  verdict.fault = what_closed_the_gate(samples);
+  if (samples.size() > 0) verdict.simulated = samples.time.back() - samples.time.front() + samples.period;
 
   expect_contact(verdict, expected, verdict.failures);
   judge_contacts(verdict, expected, verdict.failures);
+  expect_open_gate(samples, verdict.failures);
   if (verdict.false_detections > 0) verdict.failures.push_back("a contact was detected where there was none");
   if (!verdict.fault.empty()) verdict.failures.push_back("the torque gate closed: " + verdict.fault);
   expect_at_most("observer error", verdict.max_observer_error_force, expected.observer_error, "N", 1.0,

@@ -166,6 +166,61 @@ TEST(DdsLink, RefusesASecondCommanderAndObeysTheFirst) {
   EXPECT_GT(far.server().commander().refused, 100u);
 }
 
+/// A far end whose drives must be switched on.
+struct PoweredFarEnd {
+  explicit PoweredFarEnd(const DdsBus& bus)
+      : ticking(build()), server(bus, ticking.diagram(), station, {.robot = test::link_robot}) {}
+
+  std::unique_ptr<Diagram> build() {
+    DiagramBuilder builder("far");
+    auto& robot = builder.add<test::FarRobot>("robot");
+    const Station bare{.torque_command = robot.torque_command,
+                       .brake = robot.brake,
+                       .joints = robot.joints,
+                       .drives = robot.drives,
+                       .imu = robot.imu,
+                       .status = robot.status,
+                       .force_torque = std::nullopt};
+    station = add_powered_station(builder, bare);
+    station.torque_command = builder.export_input("torque_command", station.torque_command);
+    station.brake = builder.export_input("brake", station.brake);
+    station.wish = builder.export_input("wish", station.wish);
+    return builder.build();
+  }
+
+  PoweredStation station;
+  test::Ticking ticking;
+  DdsServer server;
+};
+
+TEST(DdsLink, SwitchesTheDrivesOnAgainAfterASilenceOnlyWhenAskedAnew) {
+  const DdsBus bus({.domain = test::free_domain()});
+  PoweredFarEnd far(bus);
+  NearEnd near(bus);
+  std::atomic<bool> far_ends = false;
+  std::thread serving([&] { far.ticking.run(far.server, [&] { return far_ends.load(); }); });
+  const DriveWish operation{.state = DriveWish::State::operation_enabled, .engage_brake = false};
+  const auto enabled = [&near] { return near.dds().link().drive_state == DriveState::operation_enabled; };
+
+  near.dds().request(operation);
+  near.run([&] { return enabled() || too_long(near); });
+  EXPECT_TRUE(enabled());
+  std::this_thread::sleep_for(50ms);  // the link is cut
+  near.run([&] { return !enabled() || too_long(near); });
+  EXPECT_FALSE(enabled());
+  int ticks = 0;
+  near.run([&] {
+    EXPECT_FALSE(enabled());
+    return ++ticks == 300;
+  });
+  EXPECT_TRUE(near.dds().link().commands_obeyed);
+  near.dds().request(operation);
+  near.run([&] { return enabled() || too_long(near); });
+  EXPECT_TRUE(enabled());
+  far_ends = true;
+  serving.join();
+}
+
 TEST(DdsLink, TellsASecondControllerThatItsDrivesAreNotEnabled) {
   const DdsBus bus({.domain = test::free_domain()});
   FarEnd far(bus);

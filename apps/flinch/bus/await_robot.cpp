@@ -21,8 +21,7 @@ void throw_if_misunderstood(const DdsLink& link) {
 }  // namespace
 
 void throw_if_interrupted() {
-  if (Interrupts::count() > 0)
-    throw SetupError("interrupted before the robot was enabled; nothing has moved");
+  if (Interrupts::count() > 0) throw SetupError("interrupted; nothing has moved");
 }
 
 void await_robot(const DdsStation& station, Time patience) {
@@ -37,6 +36,13 @@ void await_robot(const DdsStation& station, Time patience) {
                            : "the robot is there, but none of its joint readings arrives");
     }
     MonotonicClock::sleep_until(MonotonicClock::now() + 10ms);
+  }
+}
+
+void fall_into_step(DdsStation& station, ClockTicks& ticks) {
+  constexpr Time readings_first = 300us;
+  if (station.wait_for_joints(MonotonicClock::now() + 100ms)) {
+    ticks.begin_at(MonotonicClock::now() + readings_first);
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "drivers/dds_station.h"
+#include "systems/framework/tick_source.h"
 #include "systems/framework/time.h"
 
 namespace flinch {
@@ -11,5 +12,9 @@ void throw_if_interrupted();
 /// Blocks until readings arrive that this program understands. Throws SetupError where that does not happen
 /// within `patience`, with what was seen instead, and where somebody interrupts.
 void await_robot(const DdsStation& station, Time patience);
+
+/// Lets the next tick start shortly after the readings that it shall see, and so all that follow. Blocks for
+/// one reading, at most 100 ms.
+void fall_into_step(DdsStation& station, ClockTicks& ticks);
 
 }  // namespace flinch

@@ -9,19 +9,21 @@ namespace {
 std::atomic<int> interrupts = 0;
 static_assert(std::atomic<int>::is_always_lock_free);
 
+constexpr int noted[] = {SIGINT, SIGTERM, SIGHUP};
+
 void take_note(int) { interrupts.fetch_add(1, std::memory_order_relaxed); }
 
 }  // namespace
 
 Interrupts::Interrupts() {
   interrupts = 0;
-  std::signal(SIGINT, take_note);
-  std::signal(SIGTERM, take_note);
+  for (const int signal : noted) std::signal(signal, take_note);
+  std::signal(SIGPIPE, SIG_IGN);
 }
 
 Interrupts::~Interrupts() {
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  for (const int signal : noted) std::signal(signal, SIG_DFL);
+  std::signal(SIGPIPE, SIG_DFL);
 }
 
 int Interrupts::count() noexcept { return interrupts.load(std::memory_order_relaxed); }

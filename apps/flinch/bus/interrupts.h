@@ -2,7 +2,8 @@
 
 namespace flinch {
 
-/// Catches SIGINT (Ctrl-C) and SIGTERM while it lives, so that a program can end in order.
+/// Catches SIGINT (Ctrl-C), SIGTERM and SIGHUP (its terminal is gone) while it lives, so that a program can
+/// end in order; nor does it die of a pipe that nobody reads.
 class Interrupts {
  public:
   Interrupts();

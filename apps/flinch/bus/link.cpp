@@ -83,7 +83,6 @@ ExitStatus link(const LinkOptions& options) {
   {
     const StatusLine line(
         [&] {
-          if (Interrupts::count() > 0) runner.request_stop();
           return Tidings{"measuring",
                          fmt::format("{:.1f} of {:.1f} s", to_seconds(time.now()), to_seconds(end))};
         },
@@ -91,10 +90,10 @@ ExitStatus link(const LinkOptions& options) {
     const RealtimeThread thread(loop_settings(options.bus));
     tell_what_is_missing(thread.report(), silent);
     warming_up.run(context, warm_up);
-    if (station.wait_for_joints(MonotonicClock::now() + 100ms)) ticks.begin_at(MonotonicClock::now() + 300us);
+    fall_into_step(station, ticks);
     station.forget_times();
     before = station.link();
-    runner.run(context, end);
+    runner.run(context, end, [] { return Interrupts::count() > 0; });
   }
   const LinkReport report{since(before, station.link()), station.times(), runner.statistics(),
                           see_pose(*input.robot.robot, context.get(listener.station.joints))};

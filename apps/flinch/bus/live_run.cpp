@@ -13,7 +13,11 @@
 namespace flinch {
 namespace {
 
-constexpr Time readings_first = 300us;  // how long a tick starts after the readings that it shall see
+/// Whether every drive is known to be so slow that the platform moves by some mm/s at most.
+bool is_at_rest(const JointMotion& joints) {
+  constexpr double resting_speed = 0.02;  // [rad/s]
+  return joints.valid && joints.velocity.cwiseAbs().maxCoeff() < resting_speed;
+}
 
 std::string attribute(const DurationHistogram& histogram) {
   const auto summary = histogram.summary();
@@ -37,19 +41,13 @@ LiveRun::LiveRun(const Scenario& scenario, const LiveExperiment& experiment, con
   unrecorded_.feed_timing(experiment_.tick_timing);
 }
 
-void LiveRun::fall_into_step() {
-  if (link_.station.wait_for_joints(MonotonicClock::now() + 100ms)) {
-    ticks_.begin_at(MonotonicClock::now() + readings_first);
-  }
-}
-
 void LiveRun::tick_until(Time longest, const std::function<bool()>& done) {
   unrecorded_.run(context_, context_.time() + longest, done);
 }
 
 void LiveRun::connect() {
   await_robot(link_.station, patience_);
-  fall_into_step();
+  fall_into_step(link_.station, ticks_);
   const auto sees_the_platform = [this] { return context_.get(experiment_.control.platform_motion).valid(); };
   tick_until(patience_, [&] { return sees_the_platform() || Interrupts::count() > 0; });
   throw_if_interrupted();
@@ -68,6 +66,7 @@ void LiveRun::prepare(const RealtimeSettings& settings) {
   recorded_->profile(*profile_);
   recorded_->follow_clock();
   recorded_->feed_timing(experiment_.tick_timing);
+  start_ = std::make_unique<Context>(diagram.make_context());
   thread_ = std::make_unique<RealtimeThread>(settings);
   granted_ = thread_->report();
 }
@@ -87,8 +86,8 @@ std::string LiveRun::why_not_enabled() const {
 }
 
 void LiveRun::enable(bool reset_faults) {
-  DriveWish wish{.state = DriveWish::State::operation_enabled, .engage_brake = false};
-  link_.station.request(wish);
+  wish_ = {.state = DriveWish::State::operation_enabled, .engage_brake = false};
+  link_.station.request(wish_);
   const auto faulty = [this] {
     const DdsLink link = link_.station.link();
     return link.commands_obeyed && link.drive_state == DriveState::fault;
@@ -99,8 +98,8 @@ void LiveRun::enable(bool reset_faults) {
   };
   wait_for(faulty);
   if (faulty() && reset_faults) {
-    wish.fault_resets = 1;
-    link_.station.request(wish);
+    wish_.fault_resets = 1;
+    link_.station.request(wish_);
     wait_for([] { return false; });
   }
   if (!stands_ready()) throw SetupError(why_not_enabled());
@@ -108,9 +107,6 @@ void LiveRun::enable(bool reset_faults) {
 
 Tidings LiveRun::watch() {
   const LiveState& now = link_.panel.last();
-  if (Interrupts::count() > 0) link_.panel.press_stop();
-  const bool rests = link_.panel.stop_pressed() && now.gate.phase == GatePhase::closed && now.at_rest;
-  if (Interrupts::count() > 1 || rests) recorded_->request_stop();
   constexpr const char* phases[] = {"waiting", "open", "closed"};
   return {fmt::format("{}; gate {}; drives: {}", name(now.mode), phases[static_cast<int>(now.gate.phase)],
                       name(now.link.drive_state)),
@@ -119,21 +115,30 @@ Tidings LiveRun::watch() {
                       1e6 * to_seconds(now.link.round_trip), now.link.lost, now.link.refused)};
 }
 
+/// By its own motion or by its brakes.
+bool LiveRun::is_stopped() const {
+  const GateStatus& gate = context_.get(experiment_.control.gate);
+  if (gate.phase == GatePhase::open) return false;
+  return gate.reaction == GateReaction::zero_torque_and_brake ||
+         is_at_rest(context_.get(experiment_.control.joint_motion)) || !link_.station.link().enabled;
+}
+
 void LiveRun::run() {
-  fall_into_step();
+  const std::function<bool()> interrupted = [this] {
+    return Interrupts::count() > 1 || (Interrupts::count() == 1 && is_stopped());
+  };
+  fall_into_step(link_.station, ticks_);
   link_.station.forget_times();
-  context_ = experiment_.diagram->make_context();
-  recorded_->run(context_, end_);
+  link_.station.request(
+      wish_);  // again, in case that the way here took so long that the robot has given us up
+  link_.panel.release_stop();
+  context_ = *start_;
+  recorded_->run(context_, end_, interrupted);
 }
 
 void LiveRun::end() {
   link_.panel.press_stop();
-  const auto rests = [this] {
-    const bool closed = context_.get(experiment_.control.gate).phase != GatePhase::open;
-    return closed &&
-           (is_at_rest(context_.get(experiment_.control.joint_motion)) || !link_.station.link().enabled);
-  };
-  tick_until(3s, [&] { return rests() || Interrupts::count() > 1; });
+  tick_until(3s, [this] { return is_stopped() || Interrupts::count() > 1; });
   link_.station.request({.state = DriveWish::State::switched_on});
   tick_until(500ms, [this] { return !link_.station.link().enabled; });
   link_.station.request({.state = DriveWish::State::without_voltage});

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <atomic>
-
 #include "apps/flinch/bus/live_experiment.h"
 #include "drivers/dds_station.h"
 #include "systems/framework/context.h"
@@ -15,13 +13,9 @@ struct LiveState {
   Time time{};
   ReactionMode mode = ReactionMode::stopped;
   GateStatus gate;
-  double force = 0.0;    ///< of the estimate, a norm [N]
-  bool at_rest = false;  ///< see is_at_rest()
+  double force = 0.0;  ///< of the estimate, a norm [N]
   DdsLink link;
 };
-
-/// Whether every drive is known to be slower than 0.05 rad/s.
-bool is_at_rest(const JointMotion& joints);
 
 /// The operator's part of a run: brings the buttons to the loop, and what the operator wants to see from it.
 class OperatorPanel final : public Exchange {
@@ -31,9 +25,10 @@ class OperatorPanel final : public Exchange {
   void set_inputs(Context& context) override;
   void take_outputs(const Context& context) override;
 
-  /// Keeps the stop button down from the next tick on. From any thread.
-  void press_stop() noexcept { stop_.store(true, std::memory_order_relaxed); }
-  bool stop_pressed() const noexcept { return stop_.load(std::memory_order_relaxed); }
+  /// The stop button is down from the start until it is released, and again once it is pressed or somebody
+  /// has interrupted the program. Of the loop's thread.
+  void release_stop() noexcept { stop_ = false; }
+  void press_stop() noexcept { stop_ = true; }
 
   /// The last state. For one thread at a time.
   const LiveState& last() noexcept {
@@ -47,8 +42,7 @@ class OperatorPanel final : public Exchange {
   Slot<ReactionState> reaction_;
   Slot<GateStatus> gate_;
   Slot<WrenchEstimate> wrench_;
-  Slot<JointMotion> joints_;
-  std::atomic<bool> stop_ = false;
+  bool stop_ = true;
   TripleBuffer<LiveState> states_;
   LiveState last_;
 };

@@ -113,15 +113,11 @@ ExitStatus serve(const ServeOptions& options) {
     fmt::print(stderr, "serving {} on {}; Ctrl-C ends it\n", scenario.name, name_of(options.bus));
   }
   {
-    const StatusLine line(
-        [&] {
-          if (Interrupts::count() > 0) runner.request_stop();
-          return tidings(watch.last());
-        },
-        silent);
+    const StatusLine line([&] { return tidings(watch.last()); }, silent);
     const RealtimeThread thread(loop_settings(options.bus));
     tell_what_is_missing(thread.report(), silent);
-    runner.run(context, options.duration ? from_seconds(*options.duration) : Time::max());
+    runner.run(context, options.duration ? from_seconds(*options.duration) : Time::max(),
+               [] { return Interrupts::count() > 0; });
   }
   tell_the_end(server.commander(), runner.statistics(), options.common);
   return ExitStatus::done;

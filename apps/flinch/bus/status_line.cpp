@@ -1,6 +1,6 @@
 #include "apps/flinch/bus/status_line.h"
 
-#include <fmt/core.h>
+#include <pthread.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -18,10 +18,12 @@ StatusLine::StatusLine(std::function<Tidings()> ask, bool quiet)
 StatusLine::~StatusLine() {
   thread_.request_stop();
   thread_.join();
-  if (!quiet_ && terminal_) fmt::print(stderr, "\r\x1b[K");
+  if (!quiet_ && terminal_) std::fputs("\r\x1b[K", stderr);
 }
 
 void StatusLine::run(const std::stop_token& ending) {
+  const sched_param ordinary{};  // whoever made this may be in more of a hurry
+  pthread_setschedparam(pthread_self(), SCHED_OTHER, &ordinary);
   while (!ending.stop_requested()) {
     tell(ask_());
     std::this_thread::sleep_for(std::chrono::milliseconds(terminal_ ? 100 : 20));
@@ -31,11 +33,12 @@ void StatusLine::run(const std::stop_token& ending) {
 
 void StatusLine::tell(const Tidings& now) {
   if (quiet_) return;
+  const std::string line = now.state + "  " + now.figures;
   if (terminal_) {
-    fmt::print(stderr, "\r\x1b[K{}  {}", now.state, now.figures);
+    std::fputs(("\r\x1b[K" + line).c_str(), stderr);
     std::fflush(stderr);
   } else if (now.state != last_state_) {
-    fmt::print(stderr, "{}  {}\n", now.state, now.figures);
+    std::fputs((line + "\n").c_str(), stderr);
   }
   last_state_ = now.state;
 }

@@ -17,7 +17,7 @@ struct Tidings {
 /// nothing when quiet.
 class StatusLine {
  public:
-  /// `ask` is called on that thread, also when quiet.
+  /// `ask` is called on that thread, of ordinary priority, also when quiet.
   StatusLine(std::function<Tidings()> ask, bool quiet);
   StatusLine(const StatusLine&) = delete;
   StatusLine& operator=(const StatusLine&) = delete;

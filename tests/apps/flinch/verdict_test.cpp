@@ -275,6 +275,17 @@ TEST(Fault, IsTheFirstOneOfTheGate) {
   EXPECT_NE(judged(other).fault, verdict.fault);
 }
 
+TEST(Gate, ThatNeverOpensMakesTheVerdictBad) {
+  SyntheticRun run(100);
+  for (int k = 0; k < 100; ++k) {
+    run.at(k).gate.phase = GatePhase::waiting;
+    run.at(k).gate.faults = fault_bit(GateFault::workspace_radius);
+  }
+  EXPECT_THAT(judged(run).failures, ElementsAre("the torque gate never opened: the platform is too far out"));
+  run.at(50).gate.phase = GatePhase::open;
+  EXPECT_TRUE(judged(run).good());
+}
+
 // ---------------------------------------------------------------- expectations
 
 TEST(Expectation, OfNothingIsMetByAQuietRun) {

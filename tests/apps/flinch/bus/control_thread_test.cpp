@@ -12,6 +12,7 @@
 #include "drivers/wire_header.h"
 #include "systems/framework/exchange_list.h"
 #include "systems/framework/realtime_runner.h"
+#include "systems/framework/realtime_thread.h"
 #include "systems/framework/recorder.h"
 #include "tests/apps/flinch/bus/bench_on_the_bus.h"
 #include "tests/apps/flinch/bus/dds_calls.h"
@@ -26,9 +27,13 @@ TEST(ControlThread, TakesNoMemoryAndNoLockAndNeverCallsTheBus) {
   const test::BenchOnTheBus bench;
   const Scenario scenario = read_scenario(bench.scenario_file);
   const LiveExperiment experiment = build_live_experiment(scenario);
-  const DdsBus bus({.domain = static_cast<std::uint32_t>(std::stoul(bench.domain))});
+  const int priority = permits_realtime(80) ? 80 : 0;
+  const DdsBus bus({.domain = static_cast<std::uint32_t>(std::stoul(bench.domain)),
+                    .interface = "lo",
+                    .peers = {},
+                    .realtime_priority = priority});
   DdsStation station(bus, *experiment.diagram, experiment.station,
-                     {.robot = robot_hash(scenario.robot_text)});
+                     {.robot = robot_hash(scenario.robot_text), .realtime_priority = priority});
   OperatorPanel panel(experiment, station);
   Ros2Settings settings;
   settings.joint_names = {"a", "b", "c"};
@@ -54,18 +59,26 @@ TEST(ControlThread, TakesNoMemoryAndNoLockAndNeverCallsTheBus) {
   runner.follow_clock();
   runner.feed_timing(experiment.tick_timing);
   Context context = experiment.diagram->make_context();
-  station.request({.state = DriveWish::State::operation_enabled, .engage_brake = false});
-  runner.run(context, 60s, [&] { return station.link().enabled; });
-
   bool opened = false;
+  const std::function<bool()> enabled = [&] { return station.link().enabled; };
   const std::function<bool()> watch_the_gate = [&] {
     opened |= context.get(experiment.control.gate).phase == GatePhase::open;
     return false;
   };
-  const std::int64_t calls = test::dds_calls(), locks = test::locks(), allocations = test::allocations();
-  runner.run(context, context.time() + 1200ms, watch_the_gate);
-  const std::int64_t called = test::dds_calls() - calls, locked = test::locks() - locks,
-                     allocated = test::allocations() - allocations;
+  const RealtimeThread thread{RealtimeSettings()};
+  runner.run(context, 100ms);
+
+  std::int64_t called = 0, locked = 0, allocated = 0;
+  for (int attempt = 0; attempt < 5 && !opened; ++attempt) {  // a busy machine may let the robot give us up
+    station.request({.state = DriveWish::State::operation_enabled, .engage_brake = false});
+    panel.release_stop();
+    const std::int64_t calls = test::dds_calls(), locks = test::locks(), allocations = test::allocations();
+    runner.run(context, context.time() + 10s, enabled);
+    runner.run(context, context.time() + 600ms, watch_the_gate);
+    called += test::dds_calls() - calls;
+    locked += test::locks() - locks;
+    allocated += test::allocations() - allocations;
+  }
   EXPECT_EQ(allocated, 0);
   EXPECT_EQ(locked, 0);
   EXPECT_EQ(called, 0);
