@@ -110,7 +110,8 @@ class DdsServer::Implementation {
     return {.robot = settings.robot,
             .longest_silence = settings.longest_silence,
             .longest_way = settings.longest_way,
-            .begins_neutral = true};
+            .begins_neutral = true,
+            .once = true};
   }
 
   /// A request says little and seldom: whoever commands is judged by the commands, and only its request

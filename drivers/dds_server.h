@@ -34,7 +34,8 @@ struct DdsCommander {
 
 /// Puts a station on the bus: sends its readings after each tick, and lets commands in before. It obeys one
 /// session at a time, which begins with a command of no torque or with brakes, in time and in order; to all
-/// others, and when the session falls silent, the answer is no torque and closed brakes. A station on the
+/// others, and when the session falls silent, the answer is no torque and closed brakes; once it has obeyed
+/// another, it does not listen to that session again. A station on the
 /// bus says that it is enabled only while it obeys somebody. A drive request of that session for brakes, or
 /// for less than operation, closes the brakes whatever its torque commands say. It also says what the drives
 /// shall be, where the station's drives must be switched on; while nobody is obeyed, without voltage.

@@ -2,6 +2,8 @@
 
 #include <drivers/idl/flinch.h>
 
+#include <algorithm>
+
 namespace flinch {
 namespace {
 
@@ -16,11 +18,25 @@ void SampleAdmission::give_up_the_silent(Time now) noexcept {
   if (session_ != 0 && now - last_ > settings_.longest_silence) session_ = 0;
 }
 
+bool SampleAdmission::is_over(std::uint32_t session) const noexcept {
+  return settings_.once && session != last_session_ &&
+         std::find(over_.begin(), over_.end(), session) != over_.end();
+}
+
+void SampleAdmission::listen_to(std::uint32_t session) noexcept {
+  session_ = session;
+  if (session == last_session_) return;
+  over_[next_over_] = last_session_;
+  next_over_ = (next_over_ + 1) % over_.size();
+  last_session_ = session;
+}
+
 Admission SampleAdmission::judge(const flinch_Header& header, Time now, bool neutral) noexcept {
   if (header.version != protocol_version) return Admission::other_version;
   if (header.robot != settings_.robot) return Admission::other_robot;
   give_up_the_silent(now);
   if (header.session == 0 || (session_ != 0 && header.session != session_)) return Admission::other_session;
+  if (is_over(header.session)) return Admission::other_session;
 
   const bool known = header.session == last_session_;
   if (known && !is_after(header.number, last_number_)) return Admission::not_newer;
@@ -32,7 +48,7 @@ Admission SampleAdmission::judge(const flinch_Header& header, Time now, bool neu
 
   if (known) missed_ += header.number - last_number_ - 1;
   clock_ = clock;
-  session_ = last_session_ = header.session;
+  listen_to(header.session);
   last_number_ = header.number;
   last_ = now;
   return Admission::admitted;

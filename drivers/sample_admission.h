@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "drivers/clock_map.h"
@@ -13,7 +14,7 @@ enum class Admission : std::uint8_t {
   admitted,
   other_version,  ///< speaks another protocol
   other_robot,    ///< uses another robot description
-  other_session,  ///< comes from another sender than the one that is being listened to
+  other_session,  ///< comes from another sender than the one that is being listened to, or may be
   not_neutral,    ///< would begin a session with more than a neutral command
   not_newer,      ///< its number has been seen, or overtaken
   too_late,       ///< was on its way for too long
@@ -25,12 +26,14 @@ struct AdmissionSettings {
   Time longest_silence = 100ms;  ///< after which a sender is given up, and another one listened to
   Time longest_way = 20ms;       ///< from sending to arrival, as far as it varies
   bool begins_neutral = false;   ///< a session begins only with a sample that asks for nothing
+  bool once = false;             ///< a session that another one has followed never comes back
 };
 
 /// Who is listened to, and which of its samples count: one sender at a time, the first that speaks, until it
 /// falls silent; only what is newer than the last; only what is not late. Neither a second sender, however
 /// loud, nor a late or repeated sample can push in. Where a session must begin neutral, so must what comes
-/// after a silence. Constant time, no memory; for one thread.
+/// after a silence. Where sessions do not come back, the last 64 are remembered: what was recorded of them
+/// and is sent again has no effect. Constant time; for one thread.
 class SampleAdmission {
  public:
   explicit SampleAdmission(const AdmissionSettings& settings) : settings_(settings) {}
@@ -49,10 +52,14 @@ class SampleAdmission {
 
  private:
   void give_up_the_silent(Time now) noexcept;
+  bool is_over(std::uint32_t session) const noexcept;
+  void listen_to(std::uint32_t session) noexcept;
 
   AdmissionSettings settings_;
   std::uint32_t session_ = 0;
   std::uint32_t last_session_ = 0;
+  std::array<std::uint32_t, 64> over_{};  ///< sessions that others have followed, 0 where there are none yet
+  std::size_t next_over_ = 0;
   std::uint32_t last_number_ = 0;
   std::uint32_t missed_ = 0;
   Time last_{};

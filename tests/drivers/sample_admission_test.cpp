@@ -125,5 +125,25 @@ TEST(Session, IsNeverZeroAndNeverTheSame) {
   EXPECT_NE(first, second);
 }
 
+TEST(SampleAdmission, DoesNotListenAgainToASessionThatAnotherHasFollowed) {
+  SampleAdmission admission({.robot = robot, .longest_silence = 100ms, .longest_way = 5ms, .once = true});
+  EXPECT_EQ(admission.judge(header(7, 1, 1ms), 1ms), admitted);
+  EXPECT_EQ(admission.judge(header(7, 2, 500ms), 500ms), admitted);  // it was silent, but nobody came
+  EXPECT_EQ(admission.judge(header(8, 1, 1s), 1s), admitted);
+  EXPECT_EQ(admission.judge(header(7, 3, 2s), 2s), other_session);
+  EXPECT_EQ(admission.judge(header(8, 2, 2s), 2s), admitted);
+  EXPECT_EQ(admission.judge(header(9, 1, 3s), 3s), admitted);
+  EXPECT_EQ(admission.judge(header(7, 4, 4s), 4s), other_session);
+  EXPECT_EQ(admission.judge(header(8, 3, 4s), 4s), other_session);
+  EXPECT_EQ(admission.judge(header(9, 2, 4s), 4s), admitted);
+}
+
+TEST(SampleAdmission, ListensAgainWhereSessionsMayComeBack) {
+  Gate gate;
+  EXPECT_EQ(gate.judge(7, 1, 1ms), admitted);
+  EXPECT_EQ(gate.judge(8, 1, 1s), admitted);
+  EXPECT_EQ(gate.judge(7, 2, 2s), admitted);
+}
+
 }  // namespace
 }  // namespace flinch
