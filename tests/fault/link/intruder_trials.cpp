@@ -1,0 +1,128 @@
+// Others on the bus.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "drivers/wire_header.h"
+#include "tests/fault/link/link_course.h"
+#include "tests/fault/link/link_trial.h"
+#include "tests/fault/link/stranger.h"
+#include "tests/fault/link/trials.h"
+
+namespace flinch::test {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* robot_file = "robots/planar_3rrr.yaml";
+
+bool is_open(const BusLog& log) { return log.status[log.status.count - 1].braked == 0; }
+
+/// What was sent to the robot until now.
+struct Recorded {
+  explicit Recorded(const BusLog& log) {
+    for (std::uint32_t i = 0; i < log.commands.count; ++i) commands.push_back(log.commands[i]);
+    for (std::uint32_t i = 0; i < log.requests.count; ++i) requests.push_back(log.requests[i]);
+  }
+  std::vector<flinch_TorqueSample> commands;
+  std::vector<flinch_DriveRequest> requests;
+};
+
+/// The robot obeys nobody, and its brakes stay closed.
+void expect_nothing_moves(const BusLog& log, const LogEnd& begin) {
+  const Course stood = course(log, begin, 0);
+  EXPECT_EQ(stood.silent, stood.ticks);
+  EXPECT_EQ(stood.braked, stood.ticks);
+}
+
+/// A robot that stands there alone hears commands for a second, and obeys none.
+void expect_refusal(LinkTrial& trial, std::uint32_t robot, std::uint16_t version) {
+  trial.start_robot();
+  EXPECT_TRUE(wait_until(5s, [&] { return trial.at_robot().status.count > 100; }));
+  const OtherProgram other = stranger(trial.domain(), robot, version);
+  const LogEnd begin(trial.at_robot());
+  EXPECT_TRUE(wait_until(5s, [&] { return course(trial.at_robot(), begin, 0).refused > 300; }));
+  expect_nothing_moves(trial.at_robot(), begin);
+}
+
+void expect_message(StartedProgram& program, const std::string& message) {
+  EXPECT_EQ(program.wait(8s), 2);
+  EXPECT_THAT(program.output(), HasSubstr(message));
+}
+
+}  // namespace
+
+TrialOutcome second_commander() {
+  expect_undisturbed([] {
+    LinkTrial trial;
+    trial.get_moving();
+    const BusLog& log = trial.at_robot();
+    const std::uint32_t session = present_commander(log);
+    const LogEnd begin(log);
+    const OtherProgram other = stranger(trial.domain(), shipped_robot(robot_file), protocol_version);
+    const auto program = trial.other_commander({"--patience", "1"});
+    EXPECT_TRUE(wait_until(3s, [&] { return course(log, begin, session).refused > 500; }));
+    const Course went = course(log, begin, session);
+    expect_message(*program, "the robot obeys another program");
+    return went;
+  });
+  return {};
+}
+
+TrialOutcome replay_commands() {
+  expect_undisturbed([] {
+    LinkTrial trial;
+    trial.get_moving();
+    const BusLog& log = trial.at_robot();
+    const Recorded recorded(log);
+    const auto lose_commander = [&] {
+      trial.commander().kill();
+      EXPECT_TRUE(wait_until(1s, [&] { return present_commander(log) == 0 && !is_open(log); }));
+    };
+    const auto expect_refused_while_nobody_commands = [&] {
+      const LogEnd begin(log);
+      const OtherProgram replay = replayer(trial.domain(), recorded.requests, recorded.commands);
+      const auto all = static_cast<std::uint32_t>(recorded.commands.size() * 9 / 10);
+      EXPECT_TRUE(wait_until(3s, [&] { return course(log, begin, 0).refused > all; }));
+      expect_nothing_moves(log, begin);
+    };
+    lose_commander();
+    expect_refused_while_nobody_commands();
+
+    trial.start_commander();
+    EXPECT_TRUE(trial.wait_for_motion());
+    const LogEnd begin(log);
+    const std::uint32_t session = present_commander(log);
+    Course went;
+    {
+      const OtherProgram replay = replayer(trial.domain(), recorded.requests, recorded.commands);
+      EXPECT_TRUE(wait_until(3s, [&] { return course(log, begin, session).refused > 200; }));
+      went = course(log, begin, session);
+    }
+    lose_commander();
+    expect_refused_while_nobody_commands();
+    return went;
+  });
+  return {};
+}
+
+TrialOutcome wrong_version() {
+  LinkTrial trial;
+  expect_refusal(trial, shipped_robot(robot_file), protocol_version + 1);
+  trial.robot().kill();
+  const OtherProgram robot = strange_robot(trial.domain(), shipped_robot(robot_file), protocol_version + 1);
+  StartedProgram program({"run", shipped_file("scenarios/square.yaml"), "--station", "dds", "--domain",
+                          std::to_string(trial.domain())});
+  expect_message(program, "another version of the protocol");
+  return {};
+}
+
+TrialOutcome other_robot_file() {
+  LinkTrial trial;
+  expect_refusal(trial, shipped_robot("robots/planar_3rrr_nominal.yaml"), protocol_version);
+  StartedProgram program(
+      {"link", shipped_file("robots/planar_3rrr_nominal.yaml"), "--domain", std::to_string(trial.domain())});
+  expect_message(program, "another robot description");
+  return {};
+}
+
+}  // namespace flinch::test

@@ -1,0 +1,134 @@
+#include "tests/fault/link/link_trial.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <map>
+
+#include "systems/framework/monotonic_clock.h"
+#include "tests/drivers/free_domain.h"
+#include "tests/fault/link/two_networks.h"
+
+namespace flinch::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint32_t moving_ticks = 300;
+
+fs::path new_folder() {
+  std::string name = (fs::temp_directory_path() / "flinch_link_XXXXXX").string();
+  if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no folder for a test");
+  return name;
+}
+
+/// The programs bring their own bus; this one is for the taps.
+BusSettings tapped_bus(std::uint32_t domain, const TwoNetworks* networks) {
+  if (networks == nullptr) return {.domain = domain};
+  return {.domain = domain,
+          .interface = TwoNetworks::interface,
+          .peers = {TwoNetworks::first_address, TwoNetworks::second_address}};
+}
+
+}  // namespace
+
+std::string shipped_file(const std::string& name) { return FLINCH_SOURCE_DIR "/apps/" + name; }
+
+TroubleFile::TroubleFile(const fs::path& file) {
+  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+  const bool sized = ::ftruncate(descriptor, sizeof(Trouble)) == 0;
+  void* const memory = ::mmap(nullptr, sizeof(Trouble), PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
+  ::close(descriptor);
+  if (!sized || memory == MAP_FAILED) throw std::runtime_error("no file for a trouble");
+  trouble_ = static_cast<Trouble*>(memory);
+}
+
+TroubleFile::~TroubleFile() { ::munmap(trouble_, sizeof(Trouble)); }
+
+LinkTrial::LinkTrial() : LinkTrial({}, nullptr) {}
+LinkTrial::LinkTrial(OwnRobot robot) : LinkTrial(std::move(robot), nullptr) {}
+LinkTrial::LinkTrial(const TwoNetworks& networks) : LinkTrial({}, &networks) {}
+
+LinkTrial::LinkTrial(OwnRobot robot, const TwoNetworks* networks)
+    : folder_(new_folder()),
+      own_robot_(std::move(robot)),
+      networks_(networks),
+      domain_(free_domain()),
+      trouble_(folder_ / "trouble") {
+  const BusSettings bus = tapped_bus(domain_, networks_);
+  robots_tap_ = std::make_unique<BusTap>(bus, networks_ != nullptr ? networks_->first() : "");
+  if (networks_ != nullptr) commanders_tap_ = std::make_unique<BusTap>(bus, networks_->second());
+}
+
+LinkTrial::~LinkTrial() { fs::remove_all(folder_); }
+
+std::vector<std::string> LinkTrial::bus_arguments() const {
+  std::vector<std::string> arguments = {"--domain", std::to_string(domain_)};
+  if (networks_ == nullptr) return arguments;
+  for (const char* word : {"--interface", TwoNetworks::interface, "--peer", TwoNetworks::first_address,
+                           "--peer", TwoNetworks::second_address}) {
+    arguments.emplace_back(word);
+  }
+  return arguments;
+}
+
+void LinkTrial::start_robot() {
+  robot_.reset();
+  own_program_.reset();
+  if (own_robot_) {
+    own_program_ = std::make_unique<OtherProgram>([this] { own_robot_(domain_); });
+    return;
+  }
+  std::vector<std::string> arguments = {"serve", shipped_file("scenarios/square.yaml")};
+  for (const std::string& argument : bus_arguments()) arguments.push_back(argument);
+  robot_ = std::make_unique<StartedProgram>(
+      arguments,
+      std::map<std::string, std::string>{{"LD_PRELOAD", BAD_NETWORK},
+                                         {Trouble::variable, (folder_ / "trouble").string()}},
+      networks_ != nullptr ? networks_->first() : "");
+}
+
+std::unique_ptr<StartedProgram> LinkTrial::other_commander(const std::vector<std::string>& arguments,
+                                                           const std::string& scenario) const {
+  std::vector<std::string> all = {"run", shipped_file(scenario), "--station", "dds"};
+  for (const std::string& argument : bus_arguments()) all.push_back(argument);
+  for (const std::string& argument : arguments) all.push_back(argument);
+  return std::make_unique<StartedProgram>(
+      all,
+      std::map<std::string, std::string>{{"LD_PRELOAD", BAD_NETWORK},
+                                         {Trouble::variable, (folder_ / "trouble").string()}},
+      networks_ != nullptr ? networks_->second() : "");
+}
+
+void LinkTrial::start_commander() {
+  commander_.reset();
+  commands_before_ = at_commander().commands.count;
+  commander_ = other_commander({"--out", (folder_ / "out").string()});
+}
+
+bool LinkTrial::wait_for_motion() {
+  const auto moves = [this] {
+    const Track<flinch_StatusSample>& status = at_robot().status;
+    const std::uint32_t count = status.count;
+    if (at_commander().commands.count < commands_before_ + moving_ticks || count < moving_ticks) return false;
+    for (std::uint32_t i = count - moving_ticks; i < count; ++i) {
+      if (status[i].braked != 0) return false;
+    }
+    return true;
+  };
+  return wait_until(10s, [&] { return moves() || !commander_->is_running(); }) && commander_->is_running() &&
+         moves();
+}
+
+void LinkTrial::get_moving() {
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    start_robot();
+    start_commander();
+    if (wait_for_motion()) return;
+  }
+  throw TooBusy("no run has got going: " + commander_->output());
+}
+
+}  // namespace flinch::test
