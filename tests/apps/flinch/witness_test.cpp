@@ -59,7 +59,7 @@ TEST(Witness, DoesNotTakeAMissingMeasurementForAForceOfZero) {
   std::size_t flag = 0;  // the column of `valid`: the one that holds 1 where the first reading is valid
   for (const Field& field : sensor->layout.fields) {
     if (field.name == "valid") break;
-    flag += field.capacity;
+    flag += static_cast<std::size_t>(field.capacity);
   }
   ASSERT_EQ(valid.at(before), 1.0);
   sensor->rows.at(before * numbers + flag) = {};
