@@ -44,6 +44,7 @@ DdsLink since(const DdsLink& before, DdsLink now) {
   now.received -= before.received;
   now.refused -= before.refused;
   now.lost -= before.lost;
+  now.deadlines_missed -= before.deadlines_missed;
   return now;
 }
 

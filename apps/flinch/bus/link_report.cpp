@@ -56,7 +56,7 @@ std::vector<std::string> LinkReport::objections() const {
   if (1000ull * link.lost > link.received) {
     found.push_back(fmt::format("{} of {} readings were lost", link.lost, link.received + link.lost));
   }
-  if (loop.lost_periods > 0)
+  if (1000 * loop.lost_periods > loop.ticks)
     found.push_back(fmt::format("{} ticks of this program were lost", loop.lost_periods));
   return found;
 }
@@ -69,10 +69,11 @@ std::string LinkReport::table() const {
   text += row("between two readings", times.interval);
   text += row("lateness of ticks", loop.lateness);
   text += fmt::format(
-      "\nreadings  {} received, {} lost, {} refused\nticks     {}: {} late starts, {} overruns, {} lost, {} "
-      "without a reading\n",
-      link.received, link.lost, link.refused, loop.ticks, loop.late_starts, loop.overruns, loop.lost_periods,
-      loop.without_sample);
+      "\nreadings  {} received, {} lost, {} refused, {} times none for 5 ms\nticks     {}: {} late starts, "
+      "{} "
+      "overruns, {} lost\n",
+      link.received, link.lost, link.refused, link.deadlines_missed, loop.ticks, loop.late_starts,
+      loop.overruns, loop.lost_periods);
   text += pose.text() + "\n";
   const std::vector<std::string> against = objections();
   text += against.empty() ? "link: good for control at 1 kHz\n" : "link: not good for control at 1 kHz\n";
@@ -91,11 +92,11 @@ std::string LinkReport::json() const {
       {"received", link.received},
       {"lost", link.lost},
       {"refused", link.refused},
+      {"deadlines_missed", link.deadlines_missed},
       {"ticks", loop.ticks},
       {"late_starts", loop.late_starts},
       {"overruns", loop.overruns},
       {"lost_periods", loop.lost_periods},
-      {"without_reading", loop.without_sample},
       {"active_rad", json_of(pose.joints.valid, pose.joints.active)},
       {"passive_rad", json_of(pose.joints.passive_valid, pose.joints.passive)},
       {"platform", json_of(pose.platform.has_value(), pose.platform.value_or(PlatformVector()))},

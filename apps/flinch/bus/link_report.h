@@ -17,7 +17,8 @@ struct LinkReport {
   SeenPose pose;  ///< at the end
 
   /// What speaks against moving a robot over this link, one sentence each: commands that take longer than a
-  /// tick, readings older than the station lets in, more than one lost in a thousand, lost ticks.
+  /// tick, readings older than the station lets in, more than one lost in a thousand, of readings or of
+  /// this program's ticks.
   std::vector<std::string> objections() const;
 
   std::string table() const;

@@ -154,7 +154,6 @@ Recording LiveRun::recording(std::map<std::string, std::string> attributes) cons
   attributes["loop.late_starts"] = std::to_string(loop.late_starts);
   attributes["loop.overruns"] = std::to_string(loop.overruns);
   attributes["loop.lost_periods"] = std::to_string(loop.lost_periods);
-  attributes["loop.without_sample"] = std::to_string(loop.without_sample);
   attributes["loop.lateness"] = attribute(loop.lateness);
   attributes["loop.tick"] = attribute(loop.whole);
   attributes["link.lost"] = std::to_string(link.lost);

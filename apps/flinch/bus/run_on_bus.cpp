@@ -42,8 +42,8 @@ EventSources told_of(const LiveExperiment& experiment) {
 
 void tell_of_loop_and_link(const LiveRun& run, const DdsStation& station) {
   const TickStatistics& loop = run.statistics();
-  fmt::print(stderr, "loop:      {} ticks, {} late starts, {} overruns, {} lost, {} without a sample\n",
-             loop.ticks, loop.late_starts, loop.overruns, loop.lost_periods, loop.without_sample);
+  fmt::print(stderr, "loop:      {} ticks, {} late starts, {} overruns, {} lost\n", loop.ticks,
+             loop.late_starts, loop.overruns, loop.lost_periods);
   const auto round_trip = station.times().round_trip.summary();
   const DdsLink link = station.link();
   if (!round_trip) return;

@@ -14,7 +14,8 @@ namespace flinch::test {
 struct BenchOnTheBus {
   explicit BenchOnTheBus(const std::string& scenario = "platform_collision")
       : scenario_file(place.at("scenarios/" + scenario + ".yaml")),
-        server({"serve", scenario_file, "--domain", domain, "--json"}, place.at("served.txt")) {}
+        server({"serve", scenario_file, "--domain", domain, "--json", "--duration", "120"},
+               place.at("served.txt")) {}
 
   /// The arguments of a verb on this bus.
   std::vector<std::string> on_bus(std::vector<std::string> arguments) const {
