@@ -16,7 +16,7 @@ std::span<const LinkFault> link_fault_table() {
       LinkFault{"robot_hung", "the robot's program hangs",
                 "commander: no torque, brakes; robot: when it goes on, brakes", 10, &hang_robot},
       LinkFault{"link_cut", "the link is cut", "robot: brakes; commander: no torque, brakes", 10, &cut_link},
-      LinkFault{"samples_lost", "30 % of the datagrams are lost",
+      LinkFault{"samples_lost", "of the datagrams 30 % are lost",
                 "short gaps are bridged; after a longer one as when the link is cut", 10, &lose_samples},
       LinkFault{"samples_delayed", "all datagrams are held up for 20 ms",
                 "as when the link is cut; the late commands are refused", 10, &delay_samples},
