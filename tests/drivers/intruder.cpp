@@ -46,7 +46,7 @@ flinch_TorqueSample command(std::uint32_t number) {
   stamp(sample.header, {.session = 666, .robot = link_robot}, number);
   sample.header.acquired_ns = sample.header.sent_ns;
   sample.header.count = 3;
-  sample.header.flags = number < 50 ? 0 : flag_valid;
+  sample.header.flags = number % 64 < 4 ? 0 : flag_valid;  // begins anew should the robot not have heard it
   sample.torque[0] = intruders_torque;
   return sample;
 }
