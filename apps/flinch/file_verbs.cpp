@@ -8,7 +8,7 @@
 #include "apps/flinch/command_line.h"
 #include "apps/flinch/experiment.h"
 #include "apps/flinch/experiment_report.h"
-#include "apps/flinch/problems_of_file.h"
+#include "apps/flinch/problems_of_place.h"
 #include "apps/flinch/report_page.h"
 #include "apps/flinch/robot_input.h"
 #include "apps/flinch/scenario.h"

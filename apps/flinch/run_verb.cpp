@@ -5,7 +5,7 @@
 
 #include "apps/flinch/command_line.h"
 #include "apps/flinch/experiment.h"
-#include "apps/flinch/problems_of_file.h"
+#include "apps/flinch/problems_of_place.h"
 #include "apps/flinch/progress.h"
 #include "apps/flinch/replay.h"
 #include "apps/flinch/run_folder.h"

@@ -37,10 +37,4 @@ std::string name_of(const BusOptions& options) {
   return fmt::format("domain {} on {}", options.domain, options.interface);
 }
 
-SetupError named_with(const BusOptions& options, const SetupError& error) {
-  std::vector<std::string> problems;
-  for (const std::string& problem : error.problems()) problems.push_back(name_of(options) + ": " + problem);
-  return SetupError(std::move(problems));
-}
-
 }  // namespace flinch

@@ -4,7 +4,6 @@
 
 #include "apps/flinch/bus_options.h"
 #include "drivers/bus_settings.h"
-#include "systems/foundation/setup_error.h"
 #include "systems/framework/realtime_thread.h"
 
 namespace flinch {
@@ -22,18 +21,5 @@ void tell_what_is_missing(const RealtimeReport& report, bool quiet);
 
 /// "domain 3 on lo", for messages and recordings.
 std::string name_of(const BusOptions& options);
-
-/// `error` with the name of the bus before each of its problems.
-SetupError named_with(const BusOptions& options, const SetupError& error);
-
-/// Does `step`; what goes wrong is told with the name of the bus.
-template <class Step>
-void on_bus(const BusOptions& options, Step&& step) {
-  try {
-    step();
-  } catch (const SetupError& error) {
-    throw named_with(options, error);
-  }
-}
 
 }  // namespace flinch

@@ -9,9 +9,9 @@
 #include "apps/flinch/bus/interrupts.h"
 #include "apps/flinch/bus/link_report.h"
 #include "apps/flinch/bus/status_line.h"
+#include "apps/flinch/problems_of_place.h"
 #include "apps/flinch/robot_input.h"
 #include "drivers/wire_header.h"
-#include "systems/foundation/setup_error.h"
 #include "systems/framework/constant.h"
 #include "systems/framework/exchange_list.h"
 #include "systems/framework/realtime_runner.h"
@@ -70,7 +70,7 @@ ExitStatus link(const LinkOptions& options) {
   DdsStation station(bus, *listener.diagram, listener.station,
                      {.robot = robot_hash(input.text), .realtime_priority = settings.realtime_priority});
   if (!silent) fmt::print(stderr, "waiting for the robot, {}\n", name_of(options.bus));
-  on_bus(options.bus, [&] { await_robot(station, from_seconds(options.patience)); });
+  out_of(name_of(options.bus), [&] { await_robot(station, from_seconds(options.patience)); });
 
   ClockTicks ticks;
   LoopTime time;

@@ -70,8 +70,7 @@ std::string LinkReport::table() const {
   text += row("lateness of ticks", loop.lateness);
   text += fmt::format(
       "\nreadings  {} received, {} lost, {} refused, {} times none for 5 ms\nticks     {}: {} late starts, "
-      "{} "
-      "overruns, {} lost\n",
+      "{} overruns, {} lost\n",
       link.received, link.lost, link.refused, link.deadlines_missed, loop.ticks, loop.late_starts,
       loop.overruns, loop.lost_periods);
   text += pose.text() + "\n";

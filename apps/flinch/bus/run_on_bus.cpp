@@ -5,13 +5,12 @@
 #include "apps/flinch/bus/bus_verbs.h"
 #include "apps/flinch/bus/interrupts.h"
 #include "apps/flinch/bus/live_run.h"
-#include "apps/flinch/problems_of_file.h"
+#include "apps/flinch/problems_of_place.h"
 #include "apps/flinch/run_folder.h"
 #include "apps/flinch/scenario.h"
 #include "drivers/event_publisher.h"
 #include "drivers/ros2_publisher.h"
 #include "drivers/wire_header.h"
-#include "systems/foundation/setup_error.h"
 #include "systems/framework/exchange_list.h"
 
 namespace flinch {
@@ -72,11 +71,11 @@ ExitStatus run_on_bus(const RunOptions& options) {
   ExchangeList exchange({station, panel, ros2, events});
   LiveRun run(scenario, experiment, {station, panel, exchange}, from_seconds(options.patience));
   if (!silent) fmt::print(stderr, "waiting for the robot, {}\n", name_of(options.bus));
-  on_bus(options.bus, [&] { run.connect(); });
+  out_of(name_of(options.bus), [&] { run.connect(); });
   const std::filesystem::path folder = make_run_folder(options, scenario.name);
   run.prepare(loop_settings(options.bus));
   tell_what_is_missing(run.granted(), silent);
-  on_bus(options.bus, [&] { run.enable(options.reset_faults); });
+  out_of(name_of(options.bus), [&] { run.enable(options.reset_faults); });
   const Time started = MonotonicClock::now();
   double wall = 0.0;
   {

@@ -9,7 +9,7 @@
 #include "apps/flinch/bus/names.h"
 #include "apps/flinch/bus/served_bench.h"
 #include "apps/flinch/bus/status_line.h"
-#include "apps/flinch/problems_of_file.h"
+#include "apps/flinch/problems_of_place.h"
 #include "apps/flinch/scenario.h"
 #include "drivers/dds_server.h"
 #include "drivers/wire_header.h"

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,14 +8,14 @@
 
 namespace flinch {
 
-/// What `make` returns; what is wrong is told with the name of `file`, where it comes from.
+/// What `make` returns; what is wrong is told with where it comes from: a file, a bus.
 template <class Make>
-auto out_of(const std::filesystem::path& file, Make&& make) {
+auto out_of(const std::string& place, Make&& make) {
   try {
     return make();
   } catch (const SetupError& error) {
     std::vector<std::string> problems;
-    for (const std::string& problem : error.problems()) problems.push_back(file.string() + ": " + problem);
+    for (const std::string& problem : error.problems()) problems.push_back(place + ": " + problem);
     throw SetupError(std::move(problems));
   }
 }
