@@ -78,6 +78,15 @@ std::string problem_with_seed(const std::string& text) {
   return "is '" + text + "'; it must be a whole number between 0 and 2^64 - 1";
 }
 
+/// Puts the number of the station that `text` names in its place; what is wrong with it, "" if nothing is.
+std::string number_of_station(std::string& text) {
+  const std::vector<std::string> names = {"simulated", "dds", "recorded"};  // as StationKind
+  const auto found = std::find(names.begin(), names.end(), text);
+  if (found == names.end()) return "is '" + text + "', which is no station" + did_you_mean(text, names);
+  text = std::to_string(found - names.begin());
+  return "";
+}
+
 /// The verbs and their options.
 struct Verbs {
   RunOptions run;
@@ -115,12 +124,10 @@ void add_verbs(CLI::App& app, Verbs& verbs) {
                   "Scenario file (YAML); with --station recorded, a recording (HDF5)")
       ->required()
       ->type_name("FILE");
-  const std::map<std::string, StationKind> stations = {
-      {"simulated", StationKind::simulated}, {"dds", StationKind::dds}, {"recorded", StationKind::recorded}};
   run_verb
       .add_option("--station", verbs.run.station,
                   "What stands for the robot: simulated, dds (a robot on the bus), recorded [simulated]")
-      ->transform(CLI::CheckedTransformer(stations).description(""))
+      ->transform(CLI::Validator(number_of_station, ""))
       ->type_name("KIND");
   run_verb
       .add_option(

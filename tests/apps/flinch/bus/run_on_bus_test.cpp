@@ -133,7 +133,9 @@ TEST(RunOnBus, RefusesOptionsThatMeanNothing) {
       {"run", place.at("scenarios/square.yaml"), "--control", place.at("scenarios/square.yaml")});
   EXPECT_EQ(controlled.status, 2);
   EXPECT_THAT(controlled.err, HasSubstr("--control"));
-  EXPECT_EQ(test::flinch({"run", place.at("scenarios/square.yaml"), "--station", "real"}).status, 2);
+  const test::Outcome unknown = test::flinch({"run", place.at("scenarios/square.yaml"), "--station", "ddss"});
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("--station: is 'ddss', which is no station"));
   const test::Outcome simulated =
       test::flinch({"run", place.at("scenarios/square.yaml"), "--security", place.at("keys")});
   EXPECT_EQ(simulated.status, 2);
