@@ -1,10 +1,10 @@
 #include "diagrams/contact_control.h"
 
-#include "systems/control/fault_monitor.h"
-#include "systems/control/operator_buttons.h"
-#include "systems/control/zero_gravity.h"
 #include "systems/foundation/setup_error.h"
-#include "systems/observers/robot_model.h"
+#include "systems/laws/operator_buttons.h"
+#include "systems/laws/zero_gravity.h"
+#include "systems/model/robot_model.h"
+#include "systems/safety/fault_monitor.h"
 
 namespace flinch {
 namespace {

@@ -4,9 +4,9 @@
 
 #include "diagrams/contact_control_settings.h"
 #include "diagrams/station.h"
-#include "systems/control/operator_command.h"
 #include "systems/framework/diagram_builder.h"
 #include "systems/framework/tick_timing.h"
+#include "systems/signals/operator_command.h"
 
 namespace flinch {
 

@@ -1,17 +1,17 @@
 #pragma once
 
-#include "systems/control/controlled_stop.h"
-#include "systems/control/fault_table.h"
-#include "systems/control/impedance_controller.h"
-#include "systems/control/mode_selector.h"
-#include "systems/control/platform_trajectory.h"
-#include "systems/control/reaction_sequence.h"
-#include "systems/control/retraction.h"
-#include "systems/control/torque_gate.h"
-#include "systems/observers/contact_detector.h"
-#include "systems/observers/momentum_observer.h"
+#include "systems/contact/contact_detector.h"
+#include "systems/estimators/momentum_observer.h"
+#include "systems/laws/controlled_stop.h"
+#include "systems/laws/impedance_controller.h"
+#include "systems/laws/mode_selector.h"
+#include "systems/laws/reaction_sequence.h"
+#include "systems/model/forward_kinematics.h"
+#include "systems/motion/platform_trajectory.h"
+#include "systems/motion/retraction.h"
+#include "systems/safety/fault_table.h"
+#include "systems/safety/torque_gate.h"
 #include "systems/sensors/drive_torque_mapping.h"
-#include "systems/sensors/forward_kinematics.h"
 #include "systems/sensors/velocity_filter.h"
 
 namespace flinch {

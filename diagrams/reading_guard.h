@@ -6,11 +6,11 @@
 #include "diagrams/arrival.h"
 #include "diagrams/link_status.h"
 #include "systems/framework/system.h"
-#include "systems/sensors/drive_reading.h"
-#include "systems/sensors/force_torque_reading.h"
-#include "systems/sensors/imu_reading.h"
-#include "systems/sensors/joint_reading.h"
-#include "systems/sensors/station_status.h"
+#include "systems/signals/drive_reading.h"
+#include "systems/signals/force_torque_reading.h"
+#include "systems/signals/imu_reading.h"
+#include "systems/signals/joint_reading.h"
+#include "systems/signals/station_status.h"
 
 namespace flinch {
 

@@ -2,14 +2,14 @@
 
 #include <optional>
 
-#include "systems/control/brake_command.h"
-#include "systems/control/torque_command.h"
 #include "systems/framework/port.h"
-#include "systems/sensors/drive_reading.h"
-#include "systems/sensors/force_torque_reading.h"
-#include "systems/sensors/imu_reading.h"
-#include "systems/sensors/joint_reading.h"
-#include "systems/sensors/station_status.h"
+#include "systems/signals/brake_command.h"
+#include "systems/signals/drive_reading.h"
+#include "systems/signals/force_torque_reading.h"
+#include "systems/signals/imu_reading.h"
+#include "systems/signals/joint_reading.h"
+#include "systems/signals/station_status.h"
+#include "systems/signals/torque_command.h"
 
 namespace flinch {
 

@@ -2,8 +2,8 @@
 
 #include "drivers/drive_state_machine.h"
 #include "systems/framework/system.h"
-#include "systems/sensors/joint_reading.h"
-#include "systems/sensors/station_status.h"
+#include "systems/signals/joint_reading.h"
+#include "systems/signals/station_status.h"
 
 namespace flinch {
 

@@ -7,12 +7,12 @@
 
 #include "diagrams/link_status.h"
 #include "drivers/dds_bus.h"
-#include "systems/control/gate_status.h"
-#include "systems/control/reaction_state.h"
 #include "systems/framework/context.h"
 #include "systems/framework/exchange.h"
 #include "systems/framework/tick_timing.h"
-#include "systems/observers/contact_detection.h"
+#include "systems/signals/contact_detection.h"
+#include "systems/signals/gate_status.h"
+#include "systems/signals/reaction_state.h"
 
 namespace flinch {
 

@@ -2,10 +2,10 @@
 
 #include "drivers/drive_state_machine.h"
 #include "drivers/drive_wish.h"
-#include "systems/control/brake_command.h"
-#include "systems/control/torque_command.h"
 #include "systems/framework/system.h"
-#include "systems/sensors/station_status.h"
+#include "systems/signals/brake_command.h"
+#include "systems/signals/station_status.h"
+#include "systems/signals/torque_command.h"
 
 namespace flinch {
 

@@ -3,12 +3,12 @@
 #include <string>
 #include <vector>
 
-#include "systems/control/gate_status.h"
 #include "systems/framework/time.h"
-#include "systems/observers/wrench_estimate.h"
-#include "systems/sensors/drive_torque.h"
-#include "systems/sensors/imu_reading.h"
-#include "systems/sensors/joint_motion.h"
+#include "systems/signals/drive_torque.h"
+#include "systems/signals/gate_status.h"
+#include "systems/signals/imu_reading.h"
+#include "systems/signals/joint_motion.h"
+#include "systems/signals/wrench_estimate.h"
 
 struct sensor_msgs_msg_dds__JointState_;  // drivers/idl/ros2.idl
 struct sensor_msgs_msg_dds__Imu_;

@@ -9,9 +9,9 @@
 #include "drivers/ros2_messages.h"
 #include "drivers/sending_thread.h"
 #include "drivers/tick_clock.h"
-#include "systems/control/fault_table.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/triple_buffer.h"
+#include "systems/safety/fault_table.h"
 
 namespace flinch {
 namespace {

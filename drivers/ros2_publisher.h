@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "drivers/dds_bus.h"
-#include "systems/control/gate_status.h"
 #include "systems/framework/context.h"
 #include "systems/framework/exchange.h"
-#include "systems/observers/wrench_estimate.h"
-#include "systems/sensors/drive_torque.h"
-#include "systems/sensors/imu_reading.h"
-#include "systems/sensors/joint_motion.h"
+#include "systems/signals/drive_torque.h"
+#include "systems/signals/gate_status.h"
+#include "systems/signals/imu_reading.h"
+#include "systems/signals/joint_motion.h"
+#include "systems/signals/wrench_estimate.h"
 
 namespace flinch {
 

@@ -1,14 +1,14 @@
 #pragma once
 
-#include "systems/control/brake_command.h"
-#include "systems/control/reaction_state.h"
-#include "systems/control/torque_command.h"
-#include "systems/observers/contact_detection.h"
-#include "systems/sensors/drive_reading.h"
-#include "systems/sensors/force_torque_reading.h"
-#include "systems/sensors/imu_reading.h"
-#include "systems/sensors/joint_reading.h"
-#include "systems/sensors/station_status.h"
+#include "systems/signals/brake_command.h"
+#include "systems/signals/contact_detection.h"
+#include "systems/signals/drive_reading.h"
+#include "systems/signals/force_torque_reading.h"
+#include "systems/signals/imu_reading.h"
+#include "systems/signals/joint_reading.h"
+#include "systems/signals/reaction_state.h"
+#include "systems/signals/station_status.h"
+#include "systems/signals/torque_command.h"
 
 struct flinch_JointSample;  // drivers/idl/flinch.idl
 struct flinch_DriveSample;

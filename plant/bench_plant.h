@@ -7,7 +7,7 @@
 #include "plant/drive_action.h"
 #include "plant/plant_truth.h"
 #include "systems/framework/system.h"
-#include "systems/sensors/platform_motion.h"
+#include "systems/signals/platform_motion.h"
 
 namespace flinch {
 

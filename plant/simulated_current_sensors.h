@@ -5,7 +5,7 @@
 #include "plant/drive_action.h"
 #include "plant/sensor_noise.h"
 #include "systems/framework/system.h"
-#include "systems/sensors/drive_reading.h"
+#include "systems/signals/drive_reading.h"
 
 namespace flinch {
 

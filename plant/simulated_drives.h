@@ -6,10 +6,10 @@
 
 #include "plant/drive_action.h"
 #include "plant/plant_truth.h"
-#include "systems/control/brake_command.h"
-#include "systems/control/torque_command.h"
 #include "systems/framework/system.h"
-#include "systems/sensors/station_status.h"
+#include "systems/signals/brake_command.h"
+#include "systems/signals/station_status.h"
+#include "systems/signals/torque_command.h"
 
 namespace flinch {
 

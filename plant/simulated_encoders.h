@@ -6,7 +6,7 @@
 #include "plant/plant_truth.h"
 #include "plant/sensor_noise.h"
 #include "systems/framework/system.h"
-#include "systems/sensors/joint_reading.h"
+#include "systems/signals/joint_reading.h"
 
 namespace flinch {
 

@@ -9,7 +9,7 @@
 #include "plant/delay_line.h"
 #include "plant/sensor_noise.h"
 #include "systems/framework/system.h"
-#include "systems/sensors/force_torque_reading.h"
+#include "systems/signals/force_torque_reading.h"
 
 namespace flinch {
 

@@ -10,7 +10,7 @@
 #include "plant/plant_truth.h"
 #include "plant/sensor_noise.h"
 #include "systems/framework/system.h"
-#include "systems/sensors/imu_reading.h"
+#include "systems/signals/imu_reading.h"
 
 namespace flinch {
 

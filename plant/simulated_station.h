@@ -15,7 +15,7 @@
 #include "plant/simulated_force_torque_sensor.h"
 #include "plant/simulated_imu.h"
 #include "systems/framework/diagram_builder.h"
-#include "systems/sensors/platform_motion.h"
+#include "systems/signals/platform_motion.h"
 
 namespace flinch {
 

@@ -13,8 +13,8 @@
 #include "plant/sundials_integrator.h"
 #include "systems/framework/recorder.h"
 #include "systems/framework/simulator.h"
+#include "systems/model/forward_kinematics.h"
 #include "systems/robot/planar_rrr_presets.h"
-#include "systems/sensors/forward_kinematics.h"
 #include "systems/sensors/velocity_filter.h"
 
 int main() {

@@ -9,9 +9,9 @@
 #include "plant/simulated_station.h"
 #include "plant/sundials_integrator.h"
 #include "systems/framework/simulator.h"
-#include "systems/observers/robot_model.h"
+#include "systems/model/forward_kinematics.h"
+#include "systems/model/robot_model.h"
 #include "systems/robot/planar_rrr_presets.h"
-#include "systems/sensors/forward_kinematics.h"
 #include "systems/sensors/velocity_filter.h"
 
 using namespace flinch;

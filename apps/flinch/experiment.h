@@ -5,9 +5,9 @@
 #include <memory>
 #include <string>
 
-#include "systems/control/operator_command.h"
 #include "systems/framework/diagram.h"
 #include "systems/framework/recording.h"
+#include "systems/signals/operator_command.h"
 
 namespace flinch {
 

@@ -5,7 +5,7 @@
 
 #include "plant/simulated_station.h"
 #include "systems/config/config_reader.h"
-#include "systems/control/platform_path.h"
+#include "systems/motion/platform_path.h"
 
 namespace flinch {
 namespace {

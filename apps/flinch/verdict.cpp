@@ -6,11 +6,11 @@
 #include <cmath>
 #include <cstdint>
 
-#include "systems/control/fault_table.h"
-#include "systems/control/gate_status.h"
-#include "systems/control/reaction_state.h"
 #include "systems/framework/recording.h"
 #include "systems/robot/body_id.h"
+#include "systems/safety/fault_table.h"
+#include "systems/signals/gate_status.h"
+#include "systems/signals/reaction_state.h"
 
 namespace flinch {
 namespace {

@@ -5,10 +5,10 @@
 
 #include "systems/framework/system.h"
 #include "systems/robot/parallel_robot.h"
-#include "systems/sensors/drive_reading.h"
-#include "systems/sensors/drive_torque.h"
 #include "systems/sensors/first_order_low_pass.h"
-#include "systems/sensors/sampling.h"
+#include "systems/signals/drive_reading.h"
+#include "systems/signals/drive_torque.h"
+#include "systems/signals/sampling.h"
 
 namespace flinch {
 

@@ -5,9 +5,9 @@
 #include "systems/framework/system.h"
 #include "systems/robot/parallel_robot.h"
 #include "systems/sensors/first_order_low_pass.h"
-#include "systems/sensors/joint_motion.h"
-#include "systems/sensors/joint_reading.h"
-#include "systems/sensors/sampling.h"
+#include "systems/signals/joint_motion.h"
+#include "systems/signals/joint_reading.h"
+#include "systems/signals/sampling.h"
 
 namespace flinch {
 

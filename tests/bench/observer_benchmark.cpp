@@ -2,13 +2,13 @@
 // Every number contains the setting of the block's inputs and one tick of a diagram that holds nothing else.
 #include <benchmark/benchmark.h>
 
-#include "systems/observers/contact_detector.h"
-#include "systems/observers/momentum_observer.h"
-#include "systems/observers/robot_model.h"
+#include "systems/contact/contact_detector.h"
+#include "systems/estimators/momentum_observer.h"
+#include "systems/model/forward_kinematics.h"
+#include "systems/model/robot_model.h"
 #include "systems/robot/planar_rrr.h"
 #include "systems/robot/planar_rrr_presets.h"
 #include "systems/sensors/drive_torque_mapping.h"
-#include "systems/sensors/forward_kinematics.h"
 #include "systems/sensors/velocity_filter.h"
 #include "tests/support/smooth_trajectory.h"
 #include "tests/support/ticking.h"

@@ -5,7 +5,10 @@ import tree
 FOUNDATION = ["systems/foundation"]
 FRAMEWORK = ["systems/framework", *FOUNDATION]
 ROBOT = ["systems/robot", *FOUNDATION]
-BLOCKS = ["systems/sensors", "systems/observers", "systems/contact", "systems/control", *FRAMEWORK, *ROBOT]
+SIGNALS = ["systems/signals", *FRAMEWORK, *ROBOT]
+# Rooms of blocks: what passes between them is a signal, so none includes another.
+ROOMS = [f"systems/{room}" for room in ("sensors", "model", "estimators", "contact", "motion", "laws", "safety")]
+BLOCKS = [*ROOMS, *SIGNALS]
 DIAGRAMS = ["diagrams", *BLOCKS]
 
 MAY_INCLUDE = {
@@ -13,10 +16,8 @@ MAY_INCLUDE = {
     "systems/framework": FRAMEWORK,
     "systems/robot": ROBOT,
     "systems/config": ["systems/config", *ROBOT],
-    "systems/sensors": BLOCKS,
-    "systems/observers": BLOCKS,
-    "systems/contact": BLOCKS,
-    "systems/control": BLOCKS,
+    "systems/signals": SIGNALS,
+    **{room: [room, *SIGNALS] for room in ROOMS},
     "diagrams": DIAGRAMS,
     "plant": ["plant", *DIAGRAMS],
     "drivers": ["drivers", *DIAGRAMS],

@@ -4,12 +4,12 @@
 
 #include "plant/simulated_station.h"
 #include "plant/sundials_integrator.h"
-#include "systems/control/brake_command.h"
 #include "systems/framework/constant.h"
 #include "systems/framework/context.h"
 #include "systems/framework/diagram_builder.h"
 #include "systems/framework/simulator.h"
 #include "systems/robot/planar_rrr_presets.h"
+#include "systems/signals/brake_command.h"
 #include "tests/plant/truth_servo.h"
 
 namespace flinch::test {

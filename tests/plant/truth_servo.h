@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "plant/plant_truth.h"
-#include "systems/control/torque_command.h"
 #include "systems/framework/system.h"
 #include "systems/robot/planar_rrr.h"
+#include "systems/signals/torque_command.h"
 
 namespace flinch::test {
 

@@ -6,16 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "systems/control/brake_command.h"
-#include "systems/control/gate_fault.h"
-#include "systems/control/gate_status.h"
-#include "systems/control/torque_command.h"
 #include "systems/framework/recording.h"
 #include "systems/framework/time.h"
-#include "systems/sensors/drive_reading.h"
-#include "systems/sensors/imu_reading.h"
-#include "systems/sensors/joint_reading.h"
-#include "systems/sensors/station_status.h"
+#include "systems/signals/brake_command.h"
+#include "systems/signals/drive_reading.h"
+#include "systems/signals/gate_fault.h"
+#include "systems/signals/gate_status.h"
+#include "systems/signals/imu_reading.h"
+#include "systems/signals/joint_reading.h"
+#include "systems/signals/station_status.h"
+#include "systems/signals/torque_command.h"
 
 /// What a test has happen at a station, and what came of it.
 namespace flinch::test {

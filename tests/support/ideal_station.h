@@ -4,14 +4,14 @@
 #include <memory>
 #include <utility>
 
-#include "systems/control/brake_command.h"
-#include "systems/control/torque_command.h"
 #include "systems/framework/random.h"
 #include "systems/framework/system.h"
 #include "systems/robot/planar_rrr.h"
-#include "systems/sensors/drive_reading.h"
-#include "systems/sensors/joint_reading.h"
-#include "systems/sensors/station_status.h"
+#include "systems/signals/brake_command.h"
+#include "systems/signals/drive_reading.h"
+#include "systems/signals/joint_reading.h"
+#include "systems/signals/station_status.h"
+#include "systems/signals/torque_command.h"
 
 namespace flinch::test {
 

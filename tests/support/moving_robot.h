@@ -8,8 +8,8 @@
 #include "systems/framework/system.h"
 #include "systems/framework/zero_order_hold.h"
 #include "systems/robot/planar_rrr.h"
-#include "systems/sensors/drive_reading.h"
-#include "systems/sensors/joint_reading.h"
+#include "systems/signals/drive_reading.h"
+#include "systems/signals/joint_reading.h"
 #include "tests/support/smooth_trajectory.h"
 
 /// A simulated planar robot to try blocks with, driven along SmoothTrajectory: exact sensors, ideal drives.

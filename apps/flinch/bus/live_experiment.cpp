@@ -2,8 +2,8 @@
 
 #include "apps/flinch/recorded_signals.h"
 #include "apps/flinch/scenario.h"
-#include "systems/control/pose_motion.h"
 #include "systems/framework/diagram_builder.h"
+#include "systems/motion/pose_motion.h"
 
 namespace flinch {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "drivers/drive_state.h"
-#include "systems/control/reaction_state.h"
+#include "systems/signals/reaction_state.h"
 
 namespace flinch {
 

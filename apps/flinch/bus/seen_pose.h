@@ -4,7 +4,7 @@
 #include <string>
 
 #include "systems/robot/parallel_robot.h"
-#include "systems/sensors/joint_reading.h"
+#include "systems/signals/joint_reading.h"
 
 namespace flinch {
 

@@ -5,13 +5,13 @@
 
 #include "plant/contact_truth.h"
 #include "plant/plant_truth.h"
-#include "systems/control/gate_status.h"
-#include "systems/control/platform_reference.h"
-#include "systems/control/reaction_state.h"
 #include "systems/framework/recording.h"
-#include "systems/observers/contact_detection.h"
-#include "systems/observers/wrench_estimate.h"
 #include "systems/robot/body_id.h"
+#include "systems/signals/contact_detection.h"
+#include "systems/signals/gate_status.h"
+#include "systems/signals/platform_reference.h"
+#include "systems/signals/reaction_state.h"
+#include "systems/signals/wrench_estimate.h"
 
 namespace flinch::test {
 

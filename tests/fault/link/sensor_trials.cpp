@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "systems/control/gate_status.h"
 #include "systems/framework/monotonic_clock.h"
 #include "systems/framework/recording.h"
+#include "systems/signals/gate_status.h"
 #include "tests/fault/link/link_course.h"
 #include "tests/fault/link/link_trial.h"
 #include "tests/fault/link/spoilt_bench.h"

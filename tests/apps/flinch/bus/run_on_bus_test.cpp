@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "systems/control/gate_fault.h"
-#include "systems/control/reaction_state.h"
 #include "systems/framework/recording.h"
+#include "systems/signals/gate_fault.h"
+#include "systems/signals/reaction_state.h"
 #include "tests/apps/flinch/bus/bench_on_the_bus.h"
 
 namespace flinch {

@@ -1,0 +1,60 @@
+#include "systems/contact/contact_detector.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+std::vector<std::string> problems(const ContactDetectorSettings& settings) {
+  const auto& [reaction, hard, period] = settings;
+  std::vector<std::string> found;
+  if (!(reaction.force > 0.0 && reaction.moment > 0.0)) {
+    found.emplace_back("reaction has a threshold that is not positive [N, Nm]");
+  }
+  if (!(hard.force >= reaction.force && hard.moment >= reaction.moment)) {
+    found.emplace_back("hard has a threshold below that of reaction [N, Nm]");
+  }
+  return found;
+}
+
+// One threshold a component: forces first.
+PlatformVector components(const WrenchThreshold& threshold, const ParallelRobot& robot) {
+  PlatformVector components = PlatformVector::Constant(robot.dof(), threshold.moment);
+  components.head(std::min(robot.dof(), robot.space_dimension())).setConstant(threshold.force);
+  return components;
+}
+
+}  // namespace
+
+ContactDetector::ContactDetector(const std::shared_ptr<const ParallelRobot>& robot,
+                                 const ContactDetectorSettings& settings)
+    : reaction_(components(settings.reaction, *robot)), hard_(components(settings.hard, *robot)) {
+  throw_if_any(problems(settings));
+  update<&ContactDetector::keep>(Every{settings.period}, previous_, contact);
+}
+
+ContactLevel ContactDetector::level(const PlatformVector& estimate) const {
+  if ((estimate.array().abs() >= hard_.array()).any()) return ContactLevel::hard;
+  if ((estimate.array().abs() >= reaction_.array()).any()) return ContactLevel::reaction;
+  return ContactLevel::none;
+}
+
+ContactDetection ContactDetector::detect(const WrenchEstimate& estimate, const ResetCommand& command,
+                                         const ContactDetection& previous, Time now) const {
+  ContactDetection result = command.reset ? ContactDetection() : previous;
+  result.valid = estimate.valid && estimate.wrench_in_base.size() == reaction_.size() &&
+                 estimate.wrench_in_base.allFinite();
+  result.present_level = result.valid ? level(estimate.wrench_in_base) : ContactLevel::none;
+  if (result.level == ContactLevel::none && result.present_level != ContactLevel::none) {
+    result.detected = now;
+    result.wrench_in_base = estimate.wrench_in_base;
+  }
+  result.level = std::max(result.level, result.present_level);
+  return result;
+}
+
+}  // namespace flinch

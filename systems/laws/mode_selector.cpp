@@ -1,0 +1,87 @@
+#include "systems/laws/mode_selector.h"
+
+#include <algorithm>
+
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+using Law = ModeSelector::Law;
+
+Law law_of(ReactionMode mode) {
+  switch (mode) {
+    case ReactionMode::nominal:
+      return Law::nominal;
+    case ReactionMode::react:
+    case ReactionMode::hold:
+      return Law::reacting;
+    case ReactionMode::zero_g:
+    case ReactionMode::stopped:
+      break;
+  }
+  return Law::zero_gravity;
+}
+
+/// Goes on from the torques that were last handed on, if there were any.
+void freeze(ModeSelector::Blend& blend, const TorqueCommand& last) {
+  blend.frozen = true;
+  blend.held = last.valid ? last.torque : JointVector();
+}
+
+TorqueCommand mixed(const JointVector& old, double weight, const TorqueCommand& wanted) {
+  TorqueCommand torque = wanted;
+  torque.torque *= weight;
+  if (weight < 1.0 && old.size() == torque.torque.size()) torque.torque += (1.0 - weight) * old;
+  torque.valid = wanted.valid && torque.torque.allFinite();
+  return torque;
+}
+
+}  // namespace
+
+ModeSelector::ModeSelector(const ModeSelectorSettings& settings) : settings_(settings) {
+  if (settings.blend < Time::zero()) throw SetupError("mode selector: blend must not be negative");
+}
+
+ModeSelector::Blend ModeSelector::advanced(Time now, const Blend& last, Law wanted) const {
+  Blend next = last;
+  if (wanted != last.to) {
+    next.from = last.to;
+    next.to = wanted;
+    next.progress = Time::zero();
+    next.frozen = false;
+    if (last.weight < 1.0) freeze(next, last.torque);
+  }
+  next.tick = now;
+  next.progress += now - last.tick;
+  const bool done = next.progress >= settings_.blend;
+  next.weight = done ? 1.0 : to_seconds(next.progress) / to_seconds(settings_.blend);
+  return next;
+}
+
+void ModeSelector::blend(Time now, const Blend& last, const ReactionState& state,
+                         const TorqueCommand& nominal_law, const TorqueCommand& reaction_law,
+                         const TorqueCommand& gravity_law, Blend& next) const {
+  const auto torque_of = [&](Law law) -> const TorqueCommand& {
+    return law == Law::nominal ? nominal_law : law == Law::reacting ? reaction_law : gravity_law;
+  };
+  next = advanced(now, last, law_of(state.mode));
+  if (!next.frozen && !torque_of(next.from).valid) freeze(next, last.torque);
+  const JointVector& old = next.frozen ? next.held : torque_of(next.from).torque;
+  next.torque = mixed(old, next.weight, torque_of(next.to));
+}
+
+PlatformReference ModeSelector::select(const ReactionState& state, const PlatformReference& nominal_motion,
+                                       const PlatformReference& reaction_motion) const {
+  switch (law_of(state.mode)) {
+    case Law::nominal:
+      return nominal_motion;
+    case Law::reacting:
+      return reaction_motion;
+    case Law::zero_gravity:
+      break;
+  }
+  return {};
+}
+
+}  // namespace flinch

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+
+#include "systems/framework/system.h"
+#include "systems/signals/platform_reference.h"
+#include "systems/signals/reaction_state.h"
+#include "systems/signals/torque_command.h"
+
+namespace flinch {
+
+struct ModeSelectorSettings {
+  Time blend = 10ms;  ///< from one law to the next, 0 for none
+};
+
+/// Hands on the torques of the mode that the reaction sequence is in:
+///
+///   nominal: those of the nominal law,  react and hold: of the reaction law,  zero_g and stopped: of zero
+///   gravity.
+///
+/// At a change of the law it blends, tau = (1 - w) tau_old + w tau_new, where w grows by tick / blend at
+/// every tick and is one such step at the first. The old law goes on being evaluated, unless it has no valid
+/// torques or was itself still being blended in: then its last torques are frozen. Not valid where the new
+/// law is not.
+class ModeSelector final : public System {
+ public:
+  enum class Law : std::uint8_t { zero_gravity, nominal, reacting };
+
+  /// How far the change from one law to the next has come.
+  struct Blend {
+    Time tick{};  ///< at which this was so
+    Law from = Law::zero_gravity;
+    Law to = Law::zero_gravity;
+    Time progress = 1h;    ///< of the change
+    double weight = 1.0;   ///< w, of `to`
+    bool frozen = false;   ///< blending from `held` instead of the torques of `from`
+    JointVector held;      ///< [Nm]; empty for no torques
+    TorqueCommand torque;  ///< what is handed on
+  };
+
+ private:
+  State<Blend> last_ = state<Blend>("last");
+
+ public:
+  /// Throws SetupError for a negative time.
+  explicit ModeSelector(const ModeSelectorSettings& settings = {});
+
+  InputPort<ReactionState> reaction = input<ReactionState>("reaction");
+  InputPort<TorqueCommand> nominal = input<TorqueCommand>("nominal");
+  InputPort<TorqueCommand> reacting = input<TorqueCommand>("reacting");
+  InputPort<TorqueCommand> zero_gravity = input<TorqueCommand>("zero_gravity");
+  InputPort<PlatformReference> nominal_reference = input<PlatformReference>("nominal_reference");
+  InputPort<PlatformReference> reaction_reference = input<PlatformReference>("reaction_reference");
+
+ private:
+  OutputPort<Blend> blend_ =
+      output<&ModeSelector::blend>("blend", clock, last_, reaction, nominal, reacting, zero_gravity);
+
+ public:
+  OutputPort<TorqueCommand> torque = output<&ModeSelector::torque_of>("torque", blend_);
+  /// The reference that is being followed; not valid where none is.
+  OutputPort<PlatformReference> reference =
+      output<&ModeSelector::select>("reference", reaction, nominal_reference, reaction_reference);
+
+ private:
+  Update remember_ = update<&ModeSelector::remember>(last_, blend_);
+
+  Blend advanced(Time now, const Blend& last, Law wanted) const;
+  void blend(Time now, const Blend& last, const ReactionState& state, const TorqueCommand& nominal_law,
+             const TorqueCommand& reaction_law, const TorqueCommand& gravity_law, Blend& next) const;
+  TorqueCommand torque_of(const Blend& now) const { return now.torque; }
+  PlatformReference select(const ReactionState& state, const PlatformReference& nominal_motion,
+                           const PlatformReference& reaction_motion) const;
+  Blend remember(const Blend& now) const { return now; }
+
+  ModeSelectorSettings settings_;
+};
+
+}  // namespace flinch

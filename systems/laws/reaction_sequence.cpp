@@ -1,0 +1,50 @@
+#include "systems/laws/reaction_sequence.h"
+
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+
+ReactionMode next_mode(ReactionMode mode, const ReactionEvents& events) noexcept {
+  using enum ReactionMode;
+  if (!events.gate_open) return stopped;
+  if (events.struck) return zero_g;
+  switch (mode) {
+    case stopped:
+      return nominal;
+    case nominal:
+      return events.touched ? react : nominal;
+    case react:
+      return events.arrived ? hold : react;
+    case hold:
+      return events.reset ? nominal : hold;
+    case zero_g:
+      return events.reset && events.quiet ? nominal : zero_g;
+  }
+  return stopped;
+}
+
+ReactionSequence::ReactionSequence(const ReactionSequenceSettings& settings) : settings_(settings) {
+  if (!(settings.rest_speed > 0)) throw SetupError("reaction sequence: rest_speed must be positive");
+}
+
+ReactionState ReactionSequence::advance(Time now, const ReactionState& last, bool arrived, bool gate_open,
+                                        const ContactDetection& contact, const JointMotion& motion,
+                                        const ResetCommand& command) const {
+  const ContactLevel level = contact.valid ? contact.present_level : ContactLevel::none;
+  const ReactionEvents events{.gate_open = gate_open,
+                              .touched = level != ContactLevel::none,
+                              .struck = level == ContactLevel::hard && settings_.zero_g_when_struck,
+                              .arrived = arrived,
+                              .quiet = is_quiet(contact, motion),
+                              .reset = command.reset};
+  const ReactionMode mode = next_mode(last.mode, events);
+  return mode == last.mode ? last : ReactionState{mode, last.mode, now};
+}
+
+bool ReactionSequence::is_quiet(const ContactDetection& contact, const JointMotion& motion) const {
+  const bool free = contact.valid && contact.present_level == ContactLevel::none;
+  const bool at_rest = motion.valid && (motion.velocity.array().abs() < settings_.rest_speed).all();
+  return free && at_rest && motion.velocity.size() > 0;
+}
+
+}  // namespace flinch

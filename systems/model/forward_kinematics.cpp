@@ -1,0 +1,88 @@
+#include "systems/model/forward_kinematics.h"
+
+#include <string>
+#include <vector>
+
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+std::vector<std::string> problems(const ForwardKinematicsSettings& settings, const ParallelRobot& robot) {
+  std::vector<std::string> found;
+  if (!(settings.largest_closure_error > 0.0)) {
+    found.push_back("largest_closure_error is " + std::to_string(settings.largest_closure_error) +
+                    " m; it must be positive");
+  }
+  if (settings.initial_pose &&
+      !robot.inverse_kinematics(*settings.initial_pose, robot.home_working_mode()).reachable) {
+    found.emplace_back("initial_pose is out of reach of the legs");
+  }
+  return found;
+}
+
+bool is_usable(const JointMotion& motion, int legs) {
+  return motion.valid && motion.position.size() == legs && motion.position.allFinite() &&
+         motion.velocity.size() == legs && motion.velocity.allFinite();
+}
+
+}  // namespace
+
+ForwardKinematics::ForwardKinematics(std::shared_ptr<const ParallelRobot> robot,
+                                     const ForwardKinematicsSettings& settings)
+    : robot_(std::move(robot)), settings_(settings), mode_(robot_->home_working_mode()) {
+  throw_if_any(problems(settings, *robot_));
+  update<&ForwardKinematics::keep>(Every{settings.sampling.period}, previous_, platform, previous_, clock);
+}
+
+std::optional<PlatformVector> ForwardKinematics::start_pose(const JointMotion& active,
+                                                            const JointVector* passive,
+                                                            const ForwardKinematicsMemory& previous) const {
+  const bool prefer_previous = settings_.start == ForwardKinematicsStart::previous_pose;
+  if (previous.valid && (prefer_previous || passive == nullptr)) return previous.pose;
+  if (passive != nullptr) return robot_->start_pose(active.position, *passive);
+  return settings_.initial_pose;
+}
+
+PlatformMotion::Status ForwardKinematics::solve_pose(const JointMotion& active, const JointReading& reading,
+                                                     const ForwardKinematicsMemory& previous,
+                                                     PlatformVector& pose) const {
+  using Status = PlatformMotion::Status;
+  if (!is_usable(active, robot_->legs())) return Status::no_data;
+  const bool passive_usable = reading.passive_valid && reading.acquired == active.acquired;
+  const JointVector* passive = passive_usable ? &reading.passive : nullptr;
+  const std::optional<PlatformVector> start = start_pose(active, passive, previous);
+  if (!start) return Status::no_data;
+
+  const ForwardSolution solution = robot_->forward_kinematics(active.position, *start, mode_);
+  if (!solution.converged) return Status::not_converged;
+  pose = solution.pose;
+  if (passive == nullptr) return Status::valid;
+  const double closure_error = robot_->chain_closure_error(active.position, *passive, pose);
+  return closure_error <= settings_.largest_closure_error ? Status::valid : Status::implausible;
+}
+
+void ForwardKinematics::solve(const JointMotion& active, const JointReading& reading,
+                              const ForwardKinematicsMemory& previous, PlatformMotion& result) const {
+  result.acquired = active.acquired;
+  result.pose.setZero(robot_->dof());
+  result.velocity.setZero(robot_->dof());
+  result.status = solve_pose(active, reading, previous, result.pose);
+  if (!result.valid()) return;
+
+  Kinematics at_rest;
+  robot_->kinematics(result.pose, result.velocity, mode_, at_rest);
+  if (at_rest.valid) {
+    result.velocity = at_rest.J_x_qa * active.velocity;  // [SafePR] (2)
+  } else {
+    result.status = PlatformMotion::Status::singular;
+  }
+}
+
+ForwardKinematicsMemory ForwardKinematics::keep(const PlatformMotion& result,
+                                                const ForwardKinematicsMemory& previous, Time now) const {
+  if (result.valid()) return {true, now, result.pose};
+  return settings_.sampling.expired(previous.arrived, now) ? ForwardKinematicsMemory() : previous;
+}
+
+}  // namespace flinch

@@ -1,0 +1,25 @@
+#include "systems/model/robot_model.h"
+
+#include "systems/robot/link_segments.h"
+
+namespace flinch {
+
+void RobotModel::kinematics_of(const PlatformMotion& motion, Kinematics& result) const {
+  const PlatformVector nothing;  // which no robot can serve
+  const bool valid = motion.valid();
+  robot_->kinematics(valid ? motion.pose : nothing, valid ? motion.velocity : nothing, result);
+}
+
+void RobotModel::dynamics_of(const Kinematics& now, Dynamics& result) const { robot_->dynamics(now, result); }
+
+WorkspaceMeasures RobotModel::measures_of(const Kinematics& now) const {
+  if (!now.reachable) return {};
+  return {.valid = true,
+          .sigma_kappa = now.sigma_kappa,
+          .sigma_sc = self_collision_distance(now),
+          .det_A = now.det_A,
+          .det_B = now.det_B,
+          .largest_passive_angle = now.joints.passive.lpNorm<Eigen::Infinity>()};
+}
+
+}  // namespace flinch

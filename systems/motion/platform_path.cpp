@@ -1,0 +1,115 @@
+#include "systems/motion/platform_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+constexpr double check_interval = 0.005;  // [s]
+
+std::string text(const PlatformVector& pose) {
+  std::ostringstream stream;
+  stream << pose.transpose().format({5, Eigen::DontAlignCols, ", ", ", ", "", "", "(", ")"});
+  return stream.str();
+}
+
+void check_reach(const ParallelRobot& robot, const PlatformPath& path) {
+  const int samples = static_cast<int>(std::ceil(path.duration() / check_interval));
+  for (int i = 0; i <= samples; ++i) {
+    const double time = samples == 0 ? 0.0 : path.duration() * i / samples;
+    const PlatformVector pose = path.evaluate(time).pose;
+    if (pose.size() != robot.dof() || !robot.inverse_kinematics(pose, robot.home_working_mode()).reachable) {
+      throw SetupError("platform path: the legs do not reach the pose " + text(pose) + " at " +
+                       std::to_string(time) + " s");
+    }
+  }
+}
+
+/// Time and distance from rest to `speed`.
+struct RunUp {
+  double time;
+  double distance;
+};
+
+RunUp run_up(double speed, double acceleration, double jerk) {
+  const bool reaches_limit = speed * jerk >= acceleration * acceleration;
+  const double time =
+      reaches_limit ? speed / acceleration + acceleration / jerk : 2.0 * std::sqrt(speed / jerk);
+  return {time, speed * time / 2.0};
+}
+
+}  // namespace
+
+PlatformPath::PlatformPath(const ParallelRobot& robot, std::variant<Legs, WaypointCircuit> course,
+                           double duration)
+    : course_(std::move(course)), duration_(duration) {
+  start_ = evaluate(0.0).pose;
+  check_reach(robot, *this);
+}
+
+PlatformPath PlatformPath::through(const ParallelRobot& robot, const std::vector<PlatformVector>& poses,
+                                   const PoseLimits& limits) {
+  if (poses.empty()) throw SetupError("platform path: there must be at least one pose");
+  Legs legs;
+  double begin = 0.0;
+  PlatformVector from = poses.front();
+  for (std::size_t i = std::min<std::size_t>(1, poses.size() - 1); i < poses.size(); ++i) {
+    if (poses[i].size() != robot.dof() || from.size() != robot.dof() || !from.allFinite() ||
+        !poses[i].allFinite()) {
+      throw SetupError("platform path: pose " + std::to_string(i) + " is not one of this robot");
+    }
+    const PlatformVector to = from + robot.difference(poses[i], from);
+    const PlatformVector rest = PlatformVector::Zero(from.size());
+    legs.push_back({begin, PoseMotion::plan(from, rest, to, robot.space_dimension(), limits)});
+    if (!legs.back().motion.valid()) throw SetupError("platform path: limits must be positive and finite");
+    begin += legs.back().motion.duration();
+    from = to;
+  }
+  return {robot, std::move(legs), begin};
+}
+
+PlatformPath PlatformPath::around(const ParallelRobot& robot, const WaypointCircuit& circuit) {
+  if (!circuit.valid()) throw SetupError("platform path: the circuit could not be planned");
+  return {robot, circuit, circuit.duration()};
+}
+
+PlatformPath PlatformPath::square(const ParallelRobot& robot, const PlatformVector& centre, double side,
+                                  const PoseLimits& limits, int laps) {
+  return around(robot,
+                WaypointCircuit::plan(square_corners(centre, side), robot.space_dimension(), limits, laps));
+}
+
+PlatformReference PlatformPath::evaluate(double time) const noexcept {
+  if (const auto* circuit = std::get_if<WaypointCircuit>(&course_)) return circuit->evaluate(time);
+  const Legs& legs = *std::get_if<Legs>(&course_);
+  const auto later =
+      std::find_if(legs.begin() + 1, legs.end(), [time](const Leg& leg) { return time < leg.begin; });
+  const Leg& leg = *(later - 1);
+  PlatformReference reference = leg.motion.evaluate(time - leg.begin);
+  reference.finished = reference.finished && later == legs.end();
+  return reference;
+}
+
+Passage passage(const ParallelRobot& robot, const PassageSettings& settings) {
+  const auto& [pose, direction, speed, cruise, acceleration, jerk] = settings;
+  const bool usable = pose.size() == robot.dof() && direction.size() == robot.space_dimension() &&
+                      direction.allFinite() && direction.norm() > 0 && cruise >= 0;
+  if (!usable || !can_be_planned_with({speed, acceleration, jerk})) {
+    throw SetupError(
+        "passage: pose and direction must fit the robot, speed, acceleration and jerk be positive");
+  }
+  const RunUp up = run_up(speed, acceleration, jerk);
+  PlatformVector half = PlatformVector::Zero(robot.dof());
+  half.head(robot.space_dimension()) = (up.distance + cruise) * direction.normalized();
+  const MotionLimits limits{speed, acceleration, jerk};
+  return {PlatformPath::through(robot, {pose - half, pose + half}, {limits, limits}),
+          up.time + cruise / speed};
+}
+
+}  // namespace flinch

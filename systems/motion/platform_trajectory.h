@@ -1,0 +1,76 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "systems/framework/system.h"
+#include "systems/motion/platform_path.h"
+#include "systems/signals/platform_motion.h"
+#include "systems/signals/reaction_state.h"
+#include "systems/signals/start_command.h"
+
+namespace flinch {
+
+struct PlatformTrajectorySettings {
+  std::optional<PlatformPath> path = std::nullopt;  ///< none: stay where the robot is
+  std::optional<Time> start =
+      Time::zero();  ///< from then on it starts by itself, once; none: on command only
+  /// Of the way from where the robot is to the start of the path.
+  PoseLimits approach{.translation = {.velocity = 0.2, .acceleration = 2.0, .jerk = 50.0},
+                      .rotation = {.velocity = 0.5, .acceleration = 5.0, .jerk = 100.0}};
+};
+
+/// The nominal motion. It never jumps: whenever the nominal mode begins, at first or after a reaction or a
+/// fault, the platform is brought to rest where it is and held there. From rest it starts, moving slowly to
+/// the start of the path and then along it,
+///   by itself at the given time or as soon as the nominal mode has begun, but only before the first
+///   interruption; on a start command, as often as wanted, whenever it is at rest.
+/// While another mode is active, the clock goes on; what it says then is not meant to be followed.
+/// Not valid before the nominal mode has begun, or if the pose was not known then.
+class PlatformTrajectory final : public System {
+ public:
+  /// What it is doing, and since when.
+  struct Course {
+    enum class Phase : std::uint8_t { none, hold, approach, path };
+    Phase phase = Phase::none;
+    Time begin{};
+    PoseMotion to_start;    ///< while holding, to rest; while approaching, to the start of the path
+    bool automatic = true;  ///< may still start by itself
+  };
+
+ private:
+  State<Course> last_ = state<Course>("last");
+
+ public:
+  /// Throws SetupError for limits that are not positive.
+  PlatformTrajectory(std::shared_ptr<const ParallelRobot> robot, PlatformTrajectorySettings settings);
+
+  InputPort<ReactionState> reaction = input<ReactionState>("reaction");
+  InputPort<PlatformMotion> platform = input<PlatformMotion>("platform");
+  InputPort<StartCommand> start = input<StartCommand>("start");
+
+ private:
+  OutputPort<Course> course_ =
+      output<&PlatformTrajectory::advance>("course", clock, last_, reaction, platform, start);
+
+ public:
+  OutputPort<PlatformReference> reference =
+      output<&PlatformTrajectory::evaluate>("reference", clock, course_);
+
+ private:
+  Update remember_ = update<&PlatformTrajectory::remember>(last_, course_);
+
+  void advance(Time now, const Course& last, const ReactionState& state, const PlatformMotion& motion,
+               const StartCommand& command, Course& course) const;
+  void evaluate(Time now, const Course& course, PlatformReference& result) const;
+  void remember(const Course& course, Course& last) const { last = course; }
+
+  PoseMotion rest_at(const PlatformMotion& motion) const;
+  bool starts(Time now, const Course& course, const StartCommand& command) const;
+  PoseMotion way_to_path(Time now, const Course& course) const;
+
+  std::shared_ptr<const ParallelRobot> robot_;
+  PlatformTrajectorySettings settings_;
+};
+
+}  // namespace flinch

@@ -1,0 +1,83 @@
+#include "systems/safety/encoder_watch.h"
+
+#include <cmath>
+
+namespace flinch {
+namespace {
+
+bool fits(const JointVector& vector, const ParallelRobot& robot) {
+  return vector.size() == robot.legs() && vector.allFinite();
+}
+
+bool is_new_reading(const EncoderWatch& watch, const EncoderTick& tick) {
+  return tick.joints.valid && fits(tick.joints.active, tick.robot) &&
+         (watch.angle.size() == 0 || tick.joints.acquired > watch.acquired);
+}
+
+JointVector acting_current(const EncoderTick& tick) {
+  const bool acts = !tick.braked && tick.drives.valid && fits(tick.drives.current, tick.robot);
+  return acts ? tick.drives.current : JointVector();
+}
+
+/// Forward kinematics leaves the pose of the active angles also where the passive ones contradict it.
+JointVector mismatch(const EncoderTick& tick) {
+  using Status = PlatformMotion::Status;
+  const PlatformMotion& platform = tick.platform;
+  const bool solved = platform.valid() || platform.status == Status::implausible;
+  if (!solved || platform.acquired != tick.joints.acquired) return {};
+  if (!tick.joints.passive_valid || !fits(tick.joints.passive, tick.robot)) return {};
+  const InverseSolution implied =
+      tick.robot.inverse_kinematics(platform.pose, tick.robot.home_working_mode());
+  if (!implied.reachable) return {};
+  return ParallelRobot::joint_difference(tick.joints.passive, implied.joints.passive);
+}
+
+void note_current(const EncoderTick& tick, const JointVector& current, int drive, EncoderStandstill& still) {
+  if (tick.braked) still.current.reset();
+  if (!still.current && current.size() > 0) still.current = current[drive];
+}
+
+void take_reading(EncoderWatch& watch, const EncoderTick& tick) {
+  const bool first = watch.angle.size() == 0;
+  watch.mismatch = mismatch(tick);
+  for (int i = 0; i < tick.robot.legs(); ++i) {
+    EncoderStandstill& still = watch.standstill[static_cast<std::size_t>(i)];
+    if (first || tick.joints.active[i] != watch.angle[i]) {
+      still = {.since = tick.joints.acquired, .current = std::nullopt, .mismatch = watch.mismatch};
+    } else if (still.mismatch.size() == 0) {
+      still.mismatch = watch.mismatch;
+    }
+    note_current(tick, watch.current, i, still);
+  }
+  if (!first) {
+    watch.step = ParallelRobot::joint_difference(tick.joints.active, watch.angle);
+    watch.interval = tick.joints.acquired - watch.acquired;
+  }
+  watch.angle = tick.joints.active;
+  watch.acquired = tick.joints.acquired;
+}
+
+}  // namespace
+
+Time EncoderWatch::repeated(Eigen::Index drive) const {
+  return angle.size() == 0 ? Time::zero() : acquired - standstill[static_cast<std::size_t>(drive)].since;
+}
+
+double EncoderWatch::unseen_motion(Eigen::Index drive) const {
+  const JointVector& before = standstill[static_cast<std::size_t>(drive)].mismatch;
+  if (mismatch.size() == 0 || mismatch.size() != before.size()) return 0.0;
+  return ParallelRobot::joint_difference(mismatch, before).lpNorm<Eigen::Infinity>();
+}
+
+double EncoderWatch::unseen_current(Eigen::Index drive) const {
+  const std::optional<double>& before = standstill[static_cast<std::size_t>(drive)].current;
+  return before && current.size() > 0 ? std::abs(current[drive] - *before) : 0.0;
+}
+
+void advance(EncoderWatch& watch, const EncoderTick& tick) noexcept {
+  watch.step.resize(0);
+  watch.current = acting_current(tick);
+  if (is_new_reading(watch, tick)) take_reading(watch, tick);
+}
+
+}  // namespace flinch

@@ -1,0 +1,59 @@
+#include "systems/safety/fault_monitor.h"
+
+#include <utility>
+
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+FaultMonitor::FaultMonitor(std::shared_ptr<const ParallelRobot> robot, const FaultLimits& limits)
+    : robot_(std::move(robot)), limits_(limits) {
+  throw_if_any(problems(limits, *robot_));
+}
+
+FaultMonitorMemory FaultMonitor::advance(Time now, const FaultMonitorMemory& last,
+                                         const StationStatus& status, const JointReading& angles,
+                                         const DriveReading& currents, const PlatformMotion& pose,
+                                         const TorqueCommand& asked) const {
+  EncoderWatch watch = last.encoders;
+  flinch::advance(watch, {.robot = *robot_,
+                          .joints = angles,
+                          .platform = pose,
+                          .drives = currents,
+                          .braked = status.valid && status.braked});
+  return {.station = status.valid ? now : last.station,
+          .joints = is_usable(angles, *robot_) ? now : last.joints,
+          .drives = is_usable(currents, *robot_) ? now : last.drives,
+          .last_command = last.command,
+          .command = asked,
+          .encoders = watch};
+}
+
+FaultReport FaultMonitor::judge(Time now, const FaultMonitorMemory& memory, const TickTiming& tick,
+                                const StationStatus& status, const JointReading& angles,
+                                const DriveReading& currents, const JointMotion& rates,
+                                const PlatformMotion& pose, const WorkspaceMeasures& workspace,
+                                const ContactDetection& contact, const PlatformReference& followed,
+                                const OperatorCommand& pressed) const {
+  const Evidence evidence{.robot = *robot_,
+                          .limits = limits_,
+                          .now = now,
+                          .timing = tick,
+                          .station = status,
+                          .joints = angles,
+                          .drives = currents,
+                          .station_gap = now - memory.station,
+                          .joints_gap = now - memory.joints,
+                          .drives_gap = now - memory.drives,
+                          .encoders = memory.encoders,
+                          .motion = rates,
+                          .platform = pose,
+                          .measures = workspace,
+                          .detection = contact,
+                          .reference = followed,
+                          .command = memory.command,
+                          .last_command = memory.last_command,
+                          .buttons = pressed};
+  return {.valid = true, .present = find_faults(evidence)};
+}
+
+}  // namespace flinch

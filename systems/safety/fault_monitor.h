@@ -1,0 +1,67 @@
+#pragma once
+
+#include <memory>
+
+#include "systems/framework/system.h"
+#include "systems/safety/fault_table.h"
+
+namespace flinch {
+
+/// What the fault monitor remembers.
+struct FaultMonitorMemory {
+  static constexpr Time never = -24h;
+  Time station = never;  ///< ticks of the last usable samples
+  Time joints = never;
+  Time drives = never;
+  TorqueCommand last_command;
+  TorqueCommand command;
+  EncoderWatch encoders;
+};
+
+/// Looks for every fault of the fault table, every tick, for the torque gate.
+class FaultMonitor final : public System {
+  State<FaultMonitorMemory> last_ = state<FaultMonitorMemory>("last");
+
+ public:
+  /// Throws SetupError with every limit that could not be kept.
+  FaultMonitor(std::shared_ptr<const ParallelRobot> robot, const FaultLimits& limits);
+
+  InputPort<TickTiming> timing = input<TickTiming>("timing");  ///< of this tick in a real-time run
+  InputPort<StationStatus> station = input<StationStatus>("station");
+  InputPort<JointReading> joints = input<JointReading>("joints");
+  InputPort<DriveReading> drives = input<DriveReading>("drives");
+  InputPort<JointMotion> motion = input<JointMotion>("motion");
+  InputPort<PlatformMotion> platform = input<PlatformMotion>("platform");
+  InputPort<WorkspaceMeasures> measures = input<WorkspaceMeasures>("measures");
+  InputPort<ContactDetection> detection = input<ContactDetection>("detection");
+  InputPort<PlatformReference> reference = input<PlatformReference>("reference");  ///< that is being followed
+  InputPort<TorqueCommand> command = input<TorqueCommand>("command");
+  InputPort<OperatorCommand> buttons = input<OperatorCommand>("buttons");
+
+ private:
+  OutputPort<FaultMonitorMemory> now_ =
+      output<&FaultMonitor::advance>("memory", clock, last_, station, joints, drives, platform, command);
+
+ public:
+  OutputPort<FaultReport> faults =
+      output<&FaultMonitor::judge>("faults", clock, now_, timing, station, joints, drives, motion, platform,
+                                   measures, detection, reference, buttons);
+
+ private:
+  Update remember_ = update<&FaultMonitor::remember>(last_, now_);
+
+  FaultMonitorMemory advance(Time now, const FaultMonitorMemory& last, const StationStatus& status,
+                             const JointReading& angles, const DriveReading& currents,
+                             const PlatformMotion& pose, const TorqueCommand& asked) const;
+  FaultReport judge(Time now, const FaultMonitorMemory& memory, const TickTiming& tick,
+                    const StationStatus& status, const JointReading& angles, const DriveReading& currents,
+                    const JointMotion& rates, const PlatformMotion& pose, const WorkspaceMeasures& workspace,
+                    const ContactDetection& contact, const PlatformReference& followed,
+                    const OperatorCommand& pressed) const;
+  FaultMonitorMemory remember(const FaultMonitorMemory& now) const { return now; }
+
+  std::shared_ptr<const ParallelRobot> robot_;
+  FaultLimits limits_;
+};
+
+}  // namespace flinch

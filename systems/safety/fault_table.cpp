@@ -1,0 +1,242 @@
+#include "systems/safety/fault_table.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <chrono>
+#include <cmath>
+
+namespace flinch {
+namespace {
+
+template <class Vector>
+bool fits(const Vector& vector, const ParallelRobot& robot) {
+  return vector.size() == robot.dof() && vector.allFinite();
+}
+
+double largest(const auto& vector) {
+  return vector.size() == 0 ? 0.0 : vector.template lpNorm<Eigen::Infinity>();
+}
+
+bool is_old(Time time, const Evidence& e) { return std::chrono::abs(e.now - time) > e.limits.max_age; }
+
+bool has_motion(const Evidence& e) {
+  return e.motion.valid && fits(e.motion.position, e.robot) && fits(e.motion.velocity, e.robot);
+}
+
+bool has_pose(const Evidence& e) {
+  return e.platform.valid() && fits(e.platform.pose, e.robot) && fits(e.platform.velocity, e.robot);
+}
+
+bool has_command(const Evidence& e) { return e.command.valid && fits(e.command.torque, e.robot); }
+
+// ---------------------------------------------------------------- station and sensors
+
+bool loop_late(const Evidence& e) { return e.timing.valid && e.timing.lateness > e.limits.max_lateness; }
+
+bool station_silent(const Evidence& e) {
+  return e.station_gap > e.limits.longest_gap || (e.station.valid && is_old(e.station.acquired, e));
+}
+
+bool station_fault(const Evidence& e) { return e.station.valid && e.station.fault; }
+
+bool station_disabled(const Evidence& e) { return e.station.valid && !e.station.enabled; }
+
+bool joints_invalid(const Evidence& e) { return e.joints_gap > e.limits.longest_gap; }
+
+bool joints_stale(const Evidence& e) { return e.joints.valid && is_old(e.joints.acquired, e); }
+
+bool encoder_jump(const Evidence& e) {
+  const double interval = std::max(to_seconds(e.encoders.interval), 1e-3);
+  return largest(e.encoders.step) > e.limits.max_encoder_rate * interval;
+}
+
+bool encoder_frozen(const Evidence& e) {
+  if (e.encoders.step.size() == 0) return false;  // no reading, which is another fault
+  for (Eigen::Index i = 0; i < e.encoders.angle.size(); ++i) {
+    const bool should_have_moved = e.encoders.unseen_motion(i) > e.limits.max_unseen_motion ||
+                                   e.encoders.unseen_current(i) > e.limits.max_unseen_current;
+    if (should_have_moved && e.encoders.repeated(i) > e.limits.longest_repetition) return true;
+  }
+  return false;
+}
+
+bool velocity_invalid(const Evidence& e) { return !has_motion(e); }
+
+bool drives_invalid(const Evidence& e) { return e.drives_gap > e.limits.longest_gap; }
+
+bool drives_stale(const Evidence& e) { return e.drives.valid && is_old(e.drives.acquired, e); }
+
+// ---------------------------------------------------------------- where the robot is
+
+bool forward_kinematics(const Evidence& e) {
+  using Status = PlatformMotion::Status;
+  const Status status = e.platform.status;
+  return status == Status::no_data || status == Status::not_converged || (e.platform.valid() && !has_pose(e));
+}
+
+bool encoders_implausible(const Evidence& e) {
+  return e.platform.status == PlatformMotion::Status::implausible;
+}
+
+bool type_1_singularity(const Evidence& e) {
+  return has_pose(e) && !(e.measures.valid && std::abs(e.measures.det_B) >= e.limits.workspace.min_abs_det_B);
+}
+
+bool type_2_singularity(const Evidence& e) {
+  if (e.platform.status == PlatformMotion::Status::singular) return true;
+  return has_pose(e) && !(e.measures.valid && std::abs(e.measures.det_A) >= e.limits.workspace.min_abs_det_A);
+}
+
+bool workspace_radius(const Evidence& e) {
+  return has_pose(e) &&
+         e.platform.pose.head(e.robot.space_dimension()).norm() > e.limits.workspace.max_distance;
+}
+
+bool orientation(const Evidence& e) {
+  const int rotations = e.robot.dof() - e.robot.space_dimension();
+  return has_pose(e) && largest(e.platform.pose.tail(rotations)) > e.limits.workspace.max_rotation;
+}
+
+bool joint_range(const Evidence& e) {
+  return has_motion(e) && (e.motion.position.minCoeff() < e.limits.workspace.min_active_angle ||
+                           e.motion.position.maxCoeff() > e.limits.workspace.max_active_angle);
+}
+
+bool joint_speed(const Evidence& e) {
+  return has_motion(e) && largest(e.motion.velocity) > e.limits.max_joint_speed;
+}
+
+bool self_collision(const Evidence& e) {
+  return has_pose(e) &&
+         !(e.measures.valid && e.measures.sigma_sc >= e.limits.workspace.min_self_collision_distance);
+}
+
+// ---------------------------------------------------------------- observers and laws
+
+bool contact_unmonitored(const Evidence& e) { return !e.detection.valid; }
+
+/// A reference that the legs do not reach cannot be followed.
+bool control_error(const Evidence& e) {
+  if (!e.reference.valid || !has_motion(e)) return false;
+  if (!fits(e.reference.pose, e.robot)) return true;
+  const InverseSolution wanted = e.robot.inverse_kinematics(e.reference.pose, e.robot.home_working_mode());
+  if (!wanted.reachable) return true;
+  const JointVector error = ParallelRobot::joint_difference(wanted.joints.active, e.motion.position);
+  return largest(error) > e.limits.max_control_error;
+}
+
+bool command_invalid(const Evidence& e) { return !e.command.valid; }
+
+bool command_stale(const Evidence& e) { return e.command.valid && is_old(e.command.computed, e); }
+
+bool command_not_finite(const Evidence& e) { return e.command.valid && !has_command(e); }
+
+bool torque_jump(const Evidence& e) {
+  if (!has_command(e) || !e.last_command.valid || !fits(e.last_command.torque, e.robot)) return false;
+  const double range = e.limits.torque_range;
+  const auto within = [range](const JointVector& torque) { return torque.cwiseMin(range).cwiseMax(-range); };
+  return largest((within(e.command.torque) - within(e.last_command.torque)).eval()) >
+         e.limits.max_torque_jump;
+}
+
+bool operator_stop(const Evidence& e) { return e.buttons.stop; }
+
+// ---------------------------------------------------------------- the table
+
+constexpr GateReaction stop = GateReaction::controlled_stop;
+constexpr GateReaction brake = GateReaction::zero_torque_and_brake;
+
+constexpr std::array rows{
+    FaultRow{GateFault::loop_late, brake, 0, loop_late, "the control loop is late"},
+    FaultRow{GateFault::station_silent, brake, 2, station_silent, "the station does not say how it is"},
+    FaultRow{GateFault::station_fault, brake, 0, station_fault, "the station reports a fault"},
+    FaultRow{GateFault::station_disabled, brake, 0, station_disabled, "the station does not act on torques"},
+    FaultRow{GateFault::joints_invalid, brake, 2, joints_invalid, "no usable angles of the drives"},
+    FaultRow{GateFault::joints_stale, brake, 3, joints_stale, "the angles of the drives are too old"},
+    FaultRow{GateFault::encoder_jump, brake, 0, encoder_jump, "the angle of a drive jumps"},
+    FaultRow{GateFault::encoder_frozen, brake, 6, encoder_frozen, "the angle of a drive does not follow it"},
+    FaultRow{GateFault::velocity_invalid, brake, 0, velocity_invalid, "no rates of the drives"},
+    FaultRow{GateFault::drives_invalid, stop, 2, drives_invalid, "no usable motor currents"},
+    FaultRow{GateFault::drives_stale, stop, 3, drives_stale, "the motor currents are too old"},
+    FaultRow{GateFault::forward_kinematics, stop, 0, forward_kinematics, "the platform's pose is not known"},
+    FaultRow{GateFault::encoders_implausible, stop, 0, encoders_implausible,
+             "active and passive encoders contradict each other"},
+    FaultRow{GateFault::type_1_singularity, stop, 0, type_1_singularity,
+             "a leg is nearly stretched or folded"},
+    FaultRow{GateFault::type_2_singularity, stop, 0, type_2_singularity,
+             "the drives nearly lose hold of the platform"},
+    FaultRow{GateFault::workspace_radius, stop, 0, workspace_radius, "the platform is too far out"},
+    FaultRow{GateFault::orientation, stop, 0, orientation, "the platform is turned too far"},
+    FaultRow{GateFault::joint_range, stop, 0, joint_range, "a drive is outside its range"},
+    FaultRow{GateFault::joint_speed, stop, 0, joint_speed, "a drive is too fast"},
+    FaultRow{GateFault::self_collision, stop, 0, self_collision, "links of different legs are too close"},
+    FaultRow{GateFault::contact_unmonitored, stop, 0, contact_unmonitored, "contacts would not be noticed"},
+    FaultRow{GateFault::control_error, stop, 0, control_error, "a drive is too far from its reference"},
+    FaultRow{GateFault::command_invalid, stop, 0, command_invalid, "the laws have no torques"},
+    FaultRow{GateFault::command_stale, stop, 3, command_stale, "the laws' torques are too old"},
+    FaultRow{GateFault::command_not_finite, stop, 0, command_not_finite, "the laws' torques are no numbers"},
+    FaultRow{GateFault::torque_jump, stop, 0, torque_jump, "the laws' torques jump"},
+    FaultRow{GateFault::operator_stop, stop, 0, operator_stop, "the operator stops the robot"},
+};
+
+constexpr bool in_order() {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (static_cast<std::size_t>(rows[i].fault) != i + 1) return false;
+  }
+  return true;
+}
+static_assert(in_order(), "the table has one row for each fault, in their order");
+
+}  // namespace
+
+std::vector<std::string> problems(const FaultLimits& limits, const ParallelRobot& robot) {
+  std::vector<std::string> found = problems(limits.workspace, robot);
+  const auto require = [&found](bool good, const char* what) {
+    if (!good) found.emplace_back(what);
+  };
+  require(limits.max_lateness >= Time::zero(), "max_lateness must not be negative");
+  require(limits.max_encoder_rate > limits.max_joint_speed, "max_encoder_rate must exceed max_joint_speed");
+  require(limits.longest_repetition >= Time::zero(), "longest_repetition must not be negative");
+  require(limits.max_unseen_motion > 0, "max_unseen_motion must be positive");
+  require(limits.max_unseen_current > 0, "max_unseen_current must be positive");
+  require(limits.longest_gap >= Time::zero(), "longest_gap must not be negative");
+  require(limits.max_age >= Time::zero(), "max_age must not be negative");
+  require(limits.max_joint_speed > 0, "max_joint_speed must be positive");
+  require(limits.max_control_error > 0, "max_control_error must be positive");
+  require(limits.max_torque_jump > 0, "max_torque_jump must be positive");
+  require(limits.torque_range > 0, "torque_range must be positive");
+  return found;
+}
+
+std::span<const FaultRow> fault_table() noexcept { return rows; }
+
+bool is_usable(const JointReading& joints, const ParallelRobot& robot) noexcept {
+  return joints.valid && fits(joints.active, robot);
+}
+
+bool is_usable(const DriveReading& drives, const ParallelRobot& robot) noexcept {
+  return drives.valid && fits(drives.current, robot);
+}
+
+FaultMask find_faults(const Evidence& evidence) noexcept {
+  FaultMask found = 0;
+  for (const FaultRow& row : rows) {
+    if (row.present(evidence)) found |= fault_bit(row.fault);
+  }
+  return found;
+}
+
+GateFault first_fault(FaultMask faults) noexcept {
+  return faults == 0 ? GateFault::none : static_cast<GateFault>(std::countr_zero(faults));
+}
+
+GateReaction worst_reaction(FaultMask faults) noexcept {
+  GateReaction worst = GateReaction::none;
+  for (const FaultRow& row : rows) {
+    if ((faults & fault_bit(row.fault)) != 0) worst = std::max(worst, row.reaction);
+  }
+  return worst;
+}
+
+}  // namespace flinch

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <memory>
+
+#include "systems/framework/diagram_builder.h"
+#include "systems/safety/fault_monitor.h"
+#include "systems/safety/torque_gate.h"
+#include "tests/support/planar_bench.h"
+#include "tests/support/ticking.h"
+
+namespace flinch::test {
+
+/// All that monitor and gate see at a tick. Healthy by default: the bench at rest at home.
+struct Inputs {
+  Inputs(const ParallelRobot& robot, Time now)
+      : posture(robot, PlatformVector::Zero(3), PlatformVector::Zero(3), now) {
+    const JointVector zero = JointVector::Zero(3);
+    posture.joints.active.array() += encoder_noise(now);
+    station = {.acquired = now, .valid = true, .enabled = true, .braked = false, .fault = false};
+    drives = {.acquired = now, .valid = true, .current = zero};
+    detection = {.valid = true, .wrench_in_base = {}};
+    reference = {true, true, posture.platform.pose, zero, zero};
+    command = {.computed = now, .valid = true, .torque = zero};
+  }
+
+  /// Never the same in two ticks that follow each other [rad].
+  static double encoder_noise(Time now) { return 1e-6 * static_cast<double>(1 + now / 1ms % 7); }
+
+  TickTiming timing;
+  Posture posture;
+  StationStatus station;
+  DriveReading drives;
+  ContactDetection detection;
+  PlatformReference reference;
+  TorqueCommand command;
+  OperatorCommand buttons;
+  Time last_seen = 10ms;  ///< for what hangs: the last tick of open()
+};
+
+/// Fault monitor and torque gate, wired as in the pipeline.
+struct Safety {
+  void tick(const Inputs& inputs, bool reset_now = false) {
+    ticking.set(timing, inputs.timing);
+    ticking.set(station, inputs.station);
+    ticking.set(joints, inputs.posture.joints);
+    ticking.set(drives, inputs.drives);
+    ticking.set(motion, inputs.posture.motion);
+    ticking.set(platform, inputs.posture.platform);
+    ticking.set(measures, inputs.posture.measures);
+    ticking.set(detection, inputs.detection);
+    ticking.set(reference, inputs.reference);
+    ticking.set(command, inputs.command);
+    ticking.set(buttons, inputs.buttons);
+    ticking.set(stop, {.computed = ticking.now(), .valid = true, .torque = Eigen::Vector3d(7.0, 8.0, 9.0)});
+    ticking.set(reset, {.reset = reset_now});
+    ticking.tick();
+  }
+  void tick(bool reset_now = false) { tick(Inputs(*robot, ticking.now()), reset_now); }
+  FaultMask present() const { return ticking.get(monitor.faults).present; }
+  const GateStatus& status() const { return ticking.get(gate.status); }
+
+  std::shared_ptr<const PlanarRrr> robot = planar_bench();
+  DiagramBuilder builder;
+  FaultMonitor& monitor = builder.add<FaultMonitor>("monitor", robot, FaultLimits());
+  TorqueGate& gate =
+      builder.add<TorqueGate>("gate", TorqueGateSettings{.max_torque = 100.0, .max_torque_rate = 1e9});
+  InputPort<TorqueCommand> command = connect();
+  InputPort<TickTiming> timing = builder.export_input("timing", monitor.timing);
+  InputPort<StationStatus> station = builder.export_input("station", monitor.station);
+  InputPort<JointReading> joints = builder.export_input("joints", monitor.joints);
+  InputPort<DriveReading> drives = builder.export_input("drives", monitor.drives);
+  InputPort<JointMotion> motion = builder.export_input("motion", monitor.motion);
+  InputPort<PlatformMotion> platform = builder.export_input("platform", monitor.platform);
+  InputPort<WorkspaceMeasures> measures = builder.export_input("measures", monitor.measures);
+  InputPort<ContactDetection> detection = builder.export_input("detection", monitor.detection);
+  InputPort<PlatformReference> reference = builder.export_input("reference", monitor.reference);
+  InputPort<OperatorCommand> buttons = builder.export_input("buttons", monitor.buttons);
+  InputPort<TorqueCommand> stop = builder.export_input("stop", gate.stop);
+  InputPort<ResetCommand> reset = builder.export_input("reset", gate.reset);
+  Ticking ticking{builder};
+
+ private:
+  InputPort<TorqueCommand> connect() {
+    const auto asked = builder.export_input("command", monitor.command);
+    builder.connect(asked, gate.command);
+    builder.connect(monitor.faults, gate.faults);
+    return asked;
+  }
+};
+
+}  // namespace flinch::test
