@@ -6,16 +6,16 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/flinch/command_line.h"
-#include "apps/flinch/experiment.h"
-#include "apps/flinch/experiment_report.h"
-#include "apps/flinch/problems_of_place.h"
-#include "apps/flinch/report_page.h"
-#include "apps/flinch/robot_input.h"
-#include "apps/flinch/scenario.h"
-#include "apps/flinch/verdict.h"
+#include "experiments/report/experiment_report.h"
+#include "experiments/report/report_page.h"
+#include "experiments/scenario/robot_input.h"
+#include "experiments/scenario/scenario.h"
+#include "experiments/simulated/experiment.h"
+#include "experiments/verdict/verdict.h"
 #include "systems/config/config_file.h"
 #include "systems/config/config_reader.h"
 #include "systems/config/robot_file.h"
+#include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recording.h"
 

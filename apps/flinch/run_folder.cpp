@@ -2,11 +2,11 @@
 
 #include <fmt/core.h>
 
-#include "apps/flinch/experiment_report.h"
-#include "apps/flinch/report_page.h"
-#include "apps/flinch/scenario.h"
-#include "apps/flinch/verdict.h"
-#include "apps/flinch/verdict_output.h"
+#include "experiments/report/experiment_report.h"
+#include "experiments/report/report_page.h"
+#include "experiments/scenario/scenario.h"
+#include "experiments/verdict/verdict.h"
+#include "experiments/verdict/verdict_output.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recording.h"
 

@@ -4,12 +4,12 @@
 #include <chrono>
 
 #include "apps/flinch/command_line.h"
-#include "apps/flinch/experiment.h"
-#include "apps/flinch/problems_of_place.h"
 #include "apps/flinch/progress.h"
-#include "apps/flinch/replay.h"
 #include "apps/flinch/run_folder.h"
-#include "apps/flinch/scenario.h"
+#include "experiments/recorded/replay.h"
+#include "experiments/scenario/scenario.h"
+#include "experiments/simulated/experiment.h"
+#include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recording.h"
 #if FLINCH_HAS_BUS

@@ -6,8 +6,8 @@
 #include <chrono>
 #include <string>
 
-#include "apps/flinch/experiment.h"
-#include "apps/flinch/scenario.h"
+#include "experiments/scenario/scenario.h"
+#include "experiments/simulated/experiment.h"
 #include "plant/sundials_integrator.h"
 #include "systems/framework/recorder.h"
 #include "systems/framework/simulator.h"

@@ -10,6 +10,9 @@ SIGNALS = ["systems/signals", *FRAMEWORK, *ROBOT]
 ROOMS = [f"systems/{room}" for room in ("sensors", "model", "estimators", "contact", "motion", "laws", "safety")]
 BLOCKS = [*ROOMS, *SIGNALS]
 DIAGRAMS = ["diagrams", *BLOCKS]
+# What reads and judges an experiment, whatever stands for the robot.
+EXPERIMENT_ROOMS = [f"experiments/{room}" for room in ("scenario", "verdict", "report", "recorded")]
+EXPERIMENTS = [*EXPERIMENT_ROOMS, "systems/config", *DIAGRAMS]
 
 MAY_INCLUDE = {
     "systems/foundation": FOUNDATION,
@@ -21,6 +24,10 @@ MAY_INCLUDE = {
     "diagrams": DIAGRAMS,
     "plant": ["plant", *DIAGRAMS],
     "drivers": ["drivers", *DIAGRAMS],
+    **{room: [*EXPERIMENTS, "plant"] for room in EXPERIMENT_ROOMS},
+    "experiments/simulated": ["experiments/simulated", "plant", *EXPERIMENTS],
+    "experiments/bus": ["experiments/bus", "drivers", *EXPERIMENTS],
+    "experiments/served": ["experiments/served", "experiments/simulated", "plant", "drivers", *EXPERIMENTS],
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"')
 

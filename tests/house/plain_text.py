@@ -2,7 +2,7 @@
 import re
 import tree
 
-LIBRARIES = ("systems/", "diagrams/", "plant/")
+LIBRARIES = ("systems/", "diagrams/", "plant/", "experiments/")
 CONTROL = ("systems/", "diagrams/")
 EVERYWHERE = ("",)
 

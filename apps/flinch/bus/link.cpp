@@ -3,15 +3,15 @@
 
 #include <atomic>
 
-#include "apps/flinch/bus/await_robot.h"
 #include "apps/flinch/bus/bus_start.h"
 #include "apps/flinch/bus/bus_verbs.h"
-#include "apps/flinch/bus/interrupts.h"
-#include "apps/flinch/bus/link_report.h"
 #include "apps/flinch/bus/status_line.h"
-#include "apps/flinch/problems_of_place.h"
-#include "apps/flinch/robot_input.h"
 #include "drivers/wire_header.h"
+#include "experiments/bus/await_robot.h"
+#include "experiments/bus/interrupts.h"
+#include "experiments/bus/link_report.h"
+#include "experiments/scenario/robot_input.h"
+#include "systems/foundation/problems_of_place.h"
 #include "systems/framework/constant.h"
 #include "systems/framework/exchange_list.h"
 #include "systems/framework/realtime_runner.h"

@@ -3,14 +3,15 @@
 
 #include "apps/flinch/bus/bus_start.h"
 #include "apps/flinch/bus/bus_verbs.h"
-#include "apps/flinch/bus/interrupts.h"
-#include "apps/flinch/bus/live_run.h"
-#include "apps/flinch/problems_of_place.h"
+#include "apps/flinch/bus/status_line.h"
 #include "apps/flinch/run_folder.h"
-#include "apps/flinch/scenario.h"
 #include "drivers/event_publisher.h"
 #include "drivers/ros2_publisher.h"
 #include "drivers/wire_header.h"
+#include "experiments/bus/interrupts.h"
+#include "experiments/bus/live_run.h"
+#include "experiments/scenario/scenario.h"
+#include "systems/foundation/problems_of_place.h"
 #include "systems/framework/exchange_list.h"
 
 namespace flinch {

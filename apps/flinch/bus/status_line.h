@@ -4,13 +4,9 @@
 #include <string>
 #include <thread>
 
-namespace flinch {
+#include "experiments/bus/tidings.h"
 
-/// What a running program says of itself.
-struct Tidings {
-  std::string state;    ///< changes seldom
-  std::string figures;  ///< change all the time
-};
+namespace flinch {
 
 /// Tells on stderr how a running program is, from a thread of its own: one line that redraws itself ten times
 /// a second on a terminal; where stderr is a pipe or file, a plain line whenever the state changes. Says

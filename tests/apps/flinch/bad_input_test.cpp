@@ -7,6 +7,7 @@
 
 #include "systems/framework/recording.h"
 #include "tests/apps/flinch/program.h"
+#include "tests/support/workplace.h"
 
 namespace flinch {
 namespace {

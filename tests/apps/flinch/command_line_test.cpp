@@ -9,6 +9,7 @@
 
 #include "systems/framework/recording.h"
 #include "tests/apps/flinch/program.h"
+#include "tests/support/workplace.h"
 
 namespace flinch {
 namespace {
@@ -248,6 +249,13 @@ TEST_F(CommandLine, ChecksScenariosRobotsAndRecordings) {
             place.at("robots/planar_3rrr.yaml") + ": a good robot file\n");
   EXPECT_EQ(flinch({"check", place.at("out/run.h5")}).out,
             place.at("out/run.h5") + ": a good recording file\n");
+}
+
+TEST_F(CommandLine, FindsEveryShippedRobotGood) {
+  for (const auto& entry : std::filesystem::directory_iterator(place / "robots")) {
+    EXPECT_EQ(flinch({"check", entry.path().string()}).out,
+              entry.path().string() + ": a good robot file\n");
+  }
 }
 
 TEST_F(CommandLine, WritesNothingWhenItChecks) {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/apps/flinch/program.h"
+#include "tests/support/workplace.h"
 
 namespace flinch {
 namespace {

@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "apps/flinch/bus/bus_start.h"
-#include "apps/flinch/scenario.h"
 #include "drivers/dds_server.h"
 #include "drivers/wire_header.h"
+#include "experiments/scenario/scenario.h"
 #include "plant/sundials_integrator.h"
 #include "systems/framework/diagram_builder.h"
 #include "systems/framework/realtime_runner.h"

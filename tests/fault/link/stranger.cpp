@@ -2,10 +2,10 @@
 
 #include <sys/prctl.h>
 
-#include "apps/flinch/robot_input.h"
 #include "drivers/dds_writer.h"
 #include "drivers/sample_sender.h"
 #include "drivers/topics.h"
+#include "experiments/scenario/robot_input.h"
 #include "systems/framework/monotonic_clock.h"
 #include "tests/fault/link/link_trial.h"
 

@@ -7,6 +7,7 @@
 #include "tests/apps/flinch/bus/other_program.h"
 #include "tests/apps/flinch/program.h"
 #include "tests/drivers/free_domain.h"
+#include "tests/support/workplace.h"
 
 namespace flinch::test {
 

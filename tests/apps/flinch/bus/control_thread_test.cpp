@@ -4,12 +4,12 @@
 
 #include <functional>
 
-#include "apps/flinch/bus/live_experiment.h"
-#include "apps/flinch/bus/operator_panel.h"
-#include "apps/flinch/scenario.h"
 #include "drivers/event_publisher.h"
 #include "drivers/ros2_publisher.h"
 #include "drivers/wire_header.h"
+#include "experiments/bus/live_experiment.h"
+#include "experiments/bus/operator_panel.h"
+#include "experiments/scenario/scenario.h"
 #include "systems/framework/exchange_list.h"
 #include "systems/framework/realtime_runner.h"
 #include "systems/framework/realtime_thread.h"

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "drivers/dds_station.h"
+#include "experiments/bus/seen_pose.h"
+#include "systems/framework/tick_statistics.h"
+
+namespace flinch {
+
+/// How a link was while it was tried.
+struct LinkReport {
+  DdsLink link;
+  DdsLinkTimes times;
+  TickStatistics loop;
+  SeenPose pose;  ///< at the end
+
+  /// What speaks against moving a robot over this link, one sentence each: commands that take longer than a
+  /// tick, readings older than the station lets in, more than one lost in a thousand, of readings or of
+  /// this program's ticks.
+  std::vector<std::string> objections() const;
+
+  std::string table() const;
+  std::string json() const;
+};
+
+}  // namespace flinch

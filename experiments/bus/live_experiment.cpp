@@ -1,0 +1,39 @@
+#include "experiments/bus/live_experiment.h"
+
+#include "experiments/recorded/recorded_signals.h"
+#include "experiments/scenario/scenario.h"
+#include "systems/framework/diagram_builder.h"
+#include "systems/motion/pose_motion.h"
+
+namespace flinch {
+
+LiveExperiment build_live_experiment(const Scenario& scenario) {
+  DiagramBuilder builder("experiment");
+  LiveExperiment experiment;
+  const bool has_instrument = scenario.station.bench.pylon && scenario.station.force_torque;
+  experiment.station = add_external_station(builder, scenario.robot.robot, {.force_torque = has_instrument});
+  experiment.control = add_contact_control(builder, scenario.robot.robot, scenario.control);
+  connect(builder, experiment.station, experiment.control);
+  experiment.operator_command = builder.export_input("operator", experiment.control.operator_command);
+  experiment.tick_timing = builder.export_input("tick_timing", experiment.control.tick_timing);
+  export_readings(builder, experiment.station);
+  export_control(builder, experiment.control);
+  builder.export_output("joints_link", experiment.station.joints_link);
+  builder.export_output("drives_link", experiment.station.drives_link);
+  builder.export_output("imu_link", experiment.station.imu_link);
+  builder.export_output("status_link", experiment.station.status_link);
+  experiment.diagram = builder.build();
+  return experiment;
+}
+
+Time approach_from(const PlatformVector& pose, const Scenario& scenario) {
+  const PlatformTrajectorySettings& trajectory = scenario.control.trajectory;
+  const ParallelRobot& robot = *scenario.robot.robot;
+  if (!trajectory.path || pose.size() != robot.dof()) return Time::zero();
+  const PlatformVector goal = pose + robot.difference(trajectory.path->start(), pose);
+  const PoseMotion way = PoseMotion::plan(pose, PlatformVector::Zero(pose.size()), goal,
+                                          robot.space_dimension(), trajectory.approach);
+  return from_seconds(way.duration());
+}
+
+}  // namespace flinch

@@ -1,0 +1,172 @@
+#include "experiments/bus/live_run.h"
+
+#include <fmt/core.h>
+
+#include "experiments/bus/await_robot.h"
+#include "experiments/bus/interrupts.h"
+#include "experiments/bus/names.h"
+#include "experiments/bus/tidings.h"
+#include "experiments/recorded/recorded_signals.h"
+#include "experiments/scenario/scenario.h"
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+/// Whether every drive is known to be so slow that the platform moves by some mm/s at most.
+bool is_at_rest(const JointMotion& joints) {
+  constexpr double resting_speed = 0.02;  // [rad/s]
+  return joints.valid && joints.velocity.cwiseAbs().maxCoeff() < resting_speed;
+}
+
+std::string attribute(const DurationHistogram& histogram) {
+  const auto summary = histogram.summary();
+  if (!summary) return "none";
+  const auto us = [](Time time) { return 1e6 * to_seconds(time); };
+  return fmt::format("p50 {:.0f}, p99 {:.0f}, p99.9 {:.0f}, max {:.0f} us", us(summary->p50),
+                     us(summary->p99), us(summary->p99_9), us(summary->max));
+}
+
+}  // namespace
+
+LiveRun::LiveRun(const Scenario& scenario, const LiveExperiment& experiment, const LiveLink& link,
+                 Time patience)
+    : scenario_(scenario),
+      experiment_(experiment),
+      link_(link),
+      patience_(patience),
+      unrecorded_(*experiment.diagram, ticks_, link.exchange),
+      context_(experiment.diagram->make_context()) {
+  unrecorded_.follow_clock();
+  unrecorded_.feed_timing(experiment_.tick_timing);
+}
+
+void LiveRun::tick_until(Time longest, const std::function<bool()>& done) {
+  unrecorded_.run(context_, context_.time() + longest, done);
+}
+
+void LiveRun::connect() {
+  await_robot(link_.station, patience_);
+  fall_into_step(link_.station, ticks_);
+  const auto sees_the_platform = [this] { return context_.get(experiment_.control.platform_motion).valid(); };
+  tick_until(patience_, [&] { return sees_the_platform() || Interrupts::count() > 0; });
+  throw_if_interrupted();
+  if (!sees_the_platform()) throw SetupError("the platform's pose is not known: check the encoders");
+  const PlatformMotion& platform = context_.get(experiment_.control.platform_motion);
+  end_ = scenario_.duration + approach_from(platform.pose, scenario_);
+}
+
+void LiveRun::prepare(const RealtimeSettings& settings) {
+  const Diagram& diagram = *experiment_.diagram;
+  recorder_ = std::make_unique<Recorder>(diagram, recorded_paths(diagram),
+                                         static_cast<std::size_t>(end_ / diagram.tick()) + 1);
+  profile_ = std::make_unique<BlockProfile>(diagram);
+  recorded_ = std::make_unique<RealtimeRunner>(diagram, ticks_, link_.exchange);
+  recorded_->record(*recorder_);
+  recorded_->profile(*profile_);
+  recorded_->follow_clock();
+  recorded_->feed_timing(experiment_.tick_timing);
+  start_ = std::make_unique<Context>(diagram.make_context());
+  thread_ = std::make_unique<RealtimeThread>(settings);
+  granted_ = thread_->report();
+}
+
+bool LiveRun::stands_ready() const {
+  const DdsLink link = link_.station.link();
+  return link.commands_obeyed && link.enabled;
+}
+
+std::string LiveRun::why_not_enabled() const {
+  const DdsLink link = link_.station.link();
+  const std::string state = std::string("the drives are in the state '") + name(link.drive_state) + "'";
+  if (link.drive_state == DriveState::fault) return state + "; find out why, then use --reset-faults";
+  if (!link.commands_obeyed)
+    return "the robot obeys another program, or our commands do not arrive; " + state;
+  return "the robot does not enable its drives; " + state;
+}
+
+void LiveRun::enable(bool reset_faults) {
+  wish_ = {.state = DriveWish::State::operation_enabled, .engage_brake = false};
+  link_.station.request(wish_);
+  const auto faulty = [this] {
+    const DdsLink link = link_.station.link();
+    return link.commands_obeyed && link.drive_state == DriveState::fault;
+  };
+  const auto wait_for = [this](const std::function<bool()>& other) {
+    tick_until(patience_, [&] { return stands_ready() || other() || Interrupts::count() > 0; });
+    throw_if_interrupted();
+  };
+  wait_for(faulty);
+  if (faulty() && reset_faults) {
+    wish_.fault_resets = 1;
+    link_.station.request(wish_);
+    wait_for([] { return false; });
+  }
+  if (!stands_ready()) throw SetupError(why_not_enabled());
+}
+
+Tidings LiveRun::watch() {
+  const LiveState& now = link_.panel.last();
+  constexpr const char* phases[] = {"waiting", "open", "closed"};
+  return {fmt::format("{}; gate {}; drives: {}", name(now.mode), phases[static_cast<int>(now.gate.phase)],
+                      name(now.link.drive_state)),
+          fmt::format("at {:.1f} of {:.1f} s, force {:.0f} N, round trip {:.0f} us, lost {}, refused {}",
+                      to_seconds(now.time), to_seconds(end_), now.force,
+                      1e6 * to_seconds(now.link.round_trip), now.link.lost, now.link.refused)};
+}
+
+/// By its own motion or by its brakes.
+bool LiveRun::is_stopped() const {
+  const GateStatus& gate = context_.get(experiment_.control.gate);
+  if (gate.phase == GatePhase::open) return false;
+  return gate.reaction == GateReaction::zero_torque_and_brake ||
+         is_at_rest(context_.get(experiment_.control.joint_motion)) || !link_.station.link().enabled;
+}
+
+void LiveRun::run() {
+  const std::function<bool()> interrupted = [this] {
+    return Interrupts::count() > 1 || (Interrupts::count() == 1 && is_stopped());
+  };
+  fall_into_step(link_.station, ticks_);
+  link_.station.forget_times();
+  link_.station.request(
+      wish_);  // again, in case that the way here took so long that the robot has given us up
+  link_.panel.release_stop();
+  context_ = *start_;
+  recorded_->run(context_, end_, interrupted);
+}
+
+void LiveRun::end() {
+  link_.panel.press_stop();
+  tick_until(3s, [this] { return is_stopped() || Interrupts::count() > 1; });
+  link_.station.request({.state = DriveWish::State::switched_on});
+  tick_until(500ms, [this] { return !link_.station.link().enabled; });
+  link_.station.request({.state = DriveWish::State::without_voltage});
+  tick_until(50ms, {});
+  thread_.reset();
+}
+
+Recording LiveRun::recording(std::map<std::string, std::string> attributes) const {
+  const TickStatistics& loop = recorded_->statistics();
+  const DdsLink link = link_.station.link();
+  const DdsLinkTimes& times = link_.station.times();
+  attributes["loop.granted"] = granted().text();
+  attributes["loop.late_starts"] = std::to_string(loop.late_starts);
+  attributes["loop.overruns"] = std::to_string(loop.overruns);
+  attributes["loop.lost_periods"] = std::to_string(loop.lost_periods);
+  attributes["loop.lateness"] = attribute(loop.lateness);
+  attributes["loop.tick"] = attribute(loop.whole);
+  attributes["link.lost"] = std::to_string(link.lost);
+  attributes["link.refused"] = std::to_string(link.refused);
+  attributes["link.round_trip"] = attribute(times.round_trip);
+  attributes["link.age"] = attribute(times.age);
+  std::string blocks;
+  for (const BlockProfile::Row& row : profile_->rows()) {
+    blocks += fmt::format("{}: worst {:.1f} us, mean {:.2f} us\n", row.path, 1e6 * to_seconds(row.worst),
+                          1e6 * to_seconds(row.total) / static_cast<double>(profile_->ticks()));
+  }
+  attributes["loop.blocks"] = blocks;
+  return recorder_->recording(recorded_attributes(scenario_, attributes));
+}
+
+}  // namespace flinch

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "drivers/dds_station.h"
+#include "experiments/bus/live_experiment.h"
+#include "systems/framework/context.h"
+#include "systems/framework/exchange.h"
+#include "systems/framework/triple_buffer.h"
+
+namespace flinch {
+
+/// How a run is at a tick.
+struct LiveState {
+  Time time{};
+  ReactionMode mode = ReactionMode::stopped;
+  GateStatus gate;
+  double force = 0.0;  ///< of the estimate, a norm [N]
+  DdsLink link;
+};
+
+/// The operator's part of a run: brings the buttons to the loop, and what the operator wants to see from it.
+class OperatorPanel final : public Exchange {
+ public:
+  OperatorPanel(const LiveExperiment& experiment, const DdsStation& station);
+
+  void set_inputs(Context& context) override;
+  void take_outputs(const Context& context) override;
+
+  /// The stop button is down from the start until it is released, and again once it is pressed or somebody
+  /// has interrupted the program. Of the loop's thread.
+  void release_stop() noexcept { stop_ = false; }
+  void press_stop() noexcept { stop_ = true; }
+
+  /// The last state. For one thread at a time.
+  const LiveState& last() noexcept {
+    states_.take(last_);
+    return last_;
+  }
+
+ private:
+  const DdsStation& station_;
+  Slot<OperatorCommand> buttons_;
+  Slot<ReactionState> reaction_;
+  Slot<GateStatus> gate_;
+  Slot<WrenchEstimate> wrench_;
+  bool stop_ = true;
+  TripleBuffer<LiveState> states_;
+  LiveState last_;
+};
+
+}  // namespace flinch

@@ -1,0 +1,52 @@
+#include "experiments/recorded/recorded_signals.h"
+
+#include "diagrams/contact_control.h"
+#include "diagrams/station.h"
+#include "experiments/scenario/scenario.h"
+#include "systems/framework/diagram.h"
+#include "systems/framework/diagram_builder.h"
+
+namespace flinch {
+
+void export_readings(DiagramBuilder& builder, const Station& station) {
+  builder.export_output("joints", station.joints);
+  builder.export_output("drives", station.drives);
+  builder.export_output("imu", station.imu);
+  builder.export_output("status", station.status);
+  if (station.force_torque) builder.export_output("force_torque", *station.force_torque);
+}
+
+void export_control(DiagramBuilder& builder, const ContactControl& control) {
+  builder.export_output("motion", control.platform_motion);
+  builder.export_output("measures", control.measures);
+  builder.export_output("wrench", control.wrench_estimate);
+  builder.export_output("detection", control.detection);
+  builder.export_output("reaction", control.reaction_state);
+  builder.export_output("reference", control.reference);
+  builder.export_output("requested_torque", control.requested_torque);
+  builder.export_output("torque_command", control.torque_command);
+  builder.export_output("brake", control.brake);
+  builder.export_output("gate", control.gate);
+}
+
+std::vector<std::string> recorded_paths(const Diagram& diagram) {
+  std::vector<std::string> paths;
+  for (const System::Input& input : diagram.inputs()) paths.push_back(input.name);
+  for (const System::Output& output : diagram.outputs()) paths.push_back(output.name);
+  return paths;
+}
+
+std::map<std::string, std::string> recorded_attributes(const Scenario& scenario,
+                                                       const std::map<std::string, std::string>& provenance) {
+  std::map<std::string, std::string> attributes = provenance;
+  attributes["flinch.version"] = FLINCH_VERSION;
+  attributes["seed"] = std::to_string(scenario.seed);
+  attributes["scenario.name"] = scenario.name;
+  attributes["scenario.file"] = scenario.file.filename().string();
+  attributes["scenario.text"] = scenario.text;
+  attributes["robot.file"] = scenario.robot_file.filename().string();
+  attributes["robot.text"] = scenario.robot_text;
+  return attributes;
+}
+
+}  // namespace flinch

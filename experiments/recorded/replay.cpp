@@ -1,0 +1,89 @@
+#include "experiments/recorded/replay.h"
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+
+#include "diagrams/contact_control.h"
+#include "diagrams/recorded_station.h"
+#include "experiments/recorded/recorded_signals.h"
+#include "experiments/scenario/scenario.h"
+#include "systems/framework/constant.h"
+#include "systems/framework/diagram_builder.h"
+#include "systems/framework/player.h"
+#include "systems/framework/recorder.h"
+#include "systems/framework/simulator.h"
+
+namespace flinch {
+namespace {
+
+const Signal* find(const Recording& recording, const std::string& path) {
+  const auto found = std::find_if(recording.signals.begin(), recording.signals.end(),
+                                  [&path](const Signal& signal) { return signal.path == path; });
+  return found == recording.signals.end() ? nullptr : &*found;
+}
+
+/// As it was recorded in real time; in simulated time there was none.
+OutputPort<TickTiming> add_timing(DiagramBuilder& builder, const Recording& recorded) {
+  if (find(recorded, "tick_timing") == nullptr) {
+    return builder.add<Constant<TickTiming>>("tick_timing", TickTiming()).value;
+  }
+  const auto& timing = builder.add<Player<TickTiming>>("tick_timing", recorded, "tick_timing");
+  builder.export_output("tick_timing", timing.played);
+  return timing.played;
+}
+
+std::unique_ptr<Diagram> build_replay(const Scenario& scenario, const Recording& recorded) {
+  DiagramBuilder builder("replay", recorded.period);
+  const Station station = add_recorded_station(builder, recorded);
+  const ContactControl control = add_contact_control(builder, scenario.robot.robot, scenario.control);
+  const auto& buttons = builder.add<Player<OperatorCommand>>("operator", recorded, "operator");
+  connect(builder, station, control);
+  builder.connect(buttons.played, control.operator_command);
+  builder.connect(add_timing(builder, recorded), control.tick_timing);
+  builder.export_output("operator", buttons.played);
+  export_readings(builder, station);
+  export_control(builder, control);
+  return builder.build();
+}
+
+bool is_same(const Signal& a, const Signal& b) {
+  return a.rows.size() == b.rows.size() &&
+         std::memcmp(a.rows.data(), b.rows.data(), a.rows.size() * sizeof(a.rows[0])) == 0;
+}
+
+/// Signals of `from` that `recording` has not: the truth, instruments of others, links.
+void take_over_the_rest(const Recording& from, Recording& recording) {
+  for (const Signal& signal : from.signals) {
+    if (find(recording, signal.path) == nullptr) recording.signals.push_back(signal);
+  }
+}
+
+}  // namespace
+
+Replay replay(const Scenario& scenario, const Recording& recorded,
+              const std::map<std::string, std::string>& provenance,
+              const std::function<void(double share)>& progress) {
+  const auto diagram = build_replay(scenario, recorded);
+  Recorder recorder(*diagram, recorded_paths(*diagram), recorded.samples());
+  Simulator simulator(*diagram);
+  simulator.record(recorder);
+  Context context = diagram->make_context();
+  for (std::size_t tick = 0; tick < recorded.samples(); ++tick) {
+    if (progress && tick % 50 == 0) {
+      progress(static_cast<double>(tick) / static_cast<double>(recorded.samples()));
+    }
+    context.set_time(Time(recorded.time_ns[tick]));  // where the clock was followed, periods may be missing
+    simulator.step(context);
+  }
+
+  Replay result{recorder.recording(recorded_attributes(scenario, provenance)), {}};
+  for (const Signal& signal : result.recording.signals) {
+    const Signal* const old = find(recorded, signal.path);
+    if (old == nullptr || !is_same(*old, signal)) result.differing.push_back(signal.path);
+  }
+  take_over_the_rest(recorded, result.recording);
+  return result;
+}
+
+}  // namespace flinch

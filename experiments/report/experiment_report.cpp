@@ -1,0 +1,304 @@
+#include "experiments/report/experiment_report.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "experiments/scenario/scenario.h"
+#include "experiments/verdict/verdict.h"
+#include "systems/framework/recording.h"
+#include "systems/robot/planar_rrr.h"
+
+namespace flinch {
+namespace {
+
+using Column = std::vector<double>;
+
+/// "leg1_link2" as a reader says it.
+std::string spoken(const std::string& body) {
+  if (body.empty()) return "robot";
+  if (body == "platform") return body;
+  const std::string leg = body.substr(3, 1);
+  if (body.ends_with("link1")) return "first link of leg " + leg;
+  if (body.ends_with("link2")) return "second link of leg " + leg;
+  return "both links of leg " + leg + " (clamping)";
+}
+
+ReportContact report_contact(const ContactVerdict& contact) {
+  ReportContact row;
+  row.body = spoken(contact.body);
+  row.object = "pylon";
+  row.start = contact.onset;
+  row.detected = contact.detected;
+  row.removed = contact.removed;
+  row.speed = contact.speed;
+  row.peak_force = contact.peak_force;
+  row.peak_time = contact.peak_time;
+  row.force_limit = contact.limit;
+  row.limit_name = "ISO/TS 15066, " + contact.limit_name + ", hand, as quoted in [SafePR]";
+  row.within_limit = contact.within_limit;
+  return row;
+}
+
+ReportMeasure measure(std::string name, double value, std::string unit, std::optional<double> bound,
+                      std::string note) {
+  ReportMeasure row;
+  row.name = std::move(name);
+  row.value = value;
+  row.unit = std::move(unit);
+  row.bound = bound;
+  if (bound) row.good = value <= *bound;
+  row.note = std::move(note);
+  return row;
+}
+
+std::vector<ReportMeasure> measures(const Verdict& verdict, const Expectations& expected) {
+  const std::string before = "largest before anything touched the robot";
+  const auto millimetres = [](const std::optional<double>& metres) {
+    return metres ? std::optional(1e3 * *metres) : std::nullopt;
+  };
+  std::vector<ReportMeasure> rows = {
+      measure("False detections", verdict.false_detections, "", 0.0, "contacts seen where there was none"),
+      measure("Observer error, force", verdict.max_observer_error_force, "N", expected.observer_error,
+              before),
+      measure("Observer error, moment", verdict.max_observer_error_moment, "Nm",
+              expected.observer_error_moment, before),
+      measure("Tracking error", 1e3 * verdict.max_tracking_error, "mm", millimetres(expected.tracking_error),
+              before),
+      measure("Orientation error", verdict.max_orientation_error * 180.0 / M_PI, "deg", std::nullopt,
+              before)};
+  if (verdict.loop_closure) {
+    rows.push_back(measure("Loop closure", *verdict.loop_closure, "m", expected.loop_closure,
+                           "largest miss of a leg followed along its joint angles"));
+  }
+  return rows;
+}
+
+ReportRobot drawn_robot(const PlanarRrrParameters& parameters) {
+  ReportRobot robot;
+  for (const PlanarRrrLeg& leg : parameters.legs) {
+    robot.legs.push_back(
+        {{leg.base_radius * std::sin(leg.base_angle), -leg.base_radius * std::cos(leg.base_angle)},
+         leg.base_angle,
+         leg.link1_length,
+         {parameters.coupling_radius * std::cos(leg.coupling_angle),
+          parameters.coupling_radius * std::sin(leg.coupling_angle)}});
+  }
+  robot.link_radius = parameters.link_radius;
+  robot.platform_radius = parameters.platform_hull_radius;
+  return robot;
+}
+
+Column magnitude(const Column& x, const Column& y) {
+  Column result(x.size());
+  for (std::size_t k = 0; k < x.size(); ++k) result[k] = std::hypot(x[k], y[k]);
+  return result;
+}
+
+Column difference(const Column& a, const Column& b) {
+  Column result(a.size());
+  for (std::size_t k = 0; k < a.size(); ++k) result[k] = a[k] - b[k];
+  return result;
+}
+
+/// `column` where `flag` is set, "no data" elsewhere.
+Column where(const Column& flag, Column column) {
+  for (std::size_t k = 0; k < column.size(); ++k) {
+    if (flag[k] == 0.0 || std::isnan(flag[k])) column[k] = std::nan("");
+  }
+  return column;
+}
+
+/// A contact point is only shown while its body is touched.
+void add_touch(const Recording& recording, const std::string& field, const std::string& name,
+               Report& report) {
+  Column touched = recording.column("contact", field + ".body");
+  for (double& body : touched) body = body >= 0.0 ? 1.0 : 0.0;
+  report.columns[name + "_x"] = where(touched, recording.column("contact", field + ".point_in_base", 0));
+  report.columns[name + "_y"] = where(touched, recording.column("contact", field + ".point_in_base", 1));
+  report.columns[name + "_force_x"] =
+      where(touched, recording.column("contact", field + ".force_in_base", 0));
+  report.columns[name + "_force_y"] =
+      where(touched, recording.column("contact", field + ".force_in_base", 1));
+}
+
+/// As they truly were, or as the controller took them to be.
+void add_motion(const Recording& recording, Witness witness, Report& report) {
+  const bool simulated = witness == Witness::truth;
+  const auto truth = [&recording, simulated](const char* field, int i) {
+    return recording.column(simulated ? "truth" : "motion", field, i);
+  };
+  const auto target = [&recording](int i) { return recording.column("reference", "pose", i); };
+  const Column followed = recording.column("reference", "valid");
+  report.columns["pose_x"] = truth("pose", 0);
+  report.columns["pose_y"] = truth("pose", 1);
+  report.columns["pose_phi"] = truth("pose", 2);
+  report.columns["speed"] = magnitude(truth("velocity", 0), truth("velocity", 1));
+  report.columns["position_error"] = where(
+      followed, magnitude(difference(truth("pose", 0), target(0)), difference(truth("pose", 1), target(1))));
+  Column turn = difference(truth("pose", 2), target(2));
+  for (double& angle : turn) angle = std::abs(std::remainder(angle, 2.0 * M_PI));
+  report.columns["orientation_error"] = where(followed, turn);
+  for (int leg = 0; leg < 3; ++leg) {
+    const std::string number = std::to_string(leg + 1);
+    report.columns["qa_" + number] =
+        simulated ? truth("active", leg) : recording.column("joints", "active", leg);
+    if (simulated) report.columns["torque_applied_" + number] = truth("drive_torque", leg);
+    report.columns["torque_commanded_" + number] =
+        where(recording.column("torque_command", "valid"), recording.column("torque_command", "torque", leg));
+  }
+  const Column measured = recording.column("measures", "valid");
+  report.columns["sigma_kappa"] = where(measured, recording.column("measures", "sigma_kappa"));
+  report.columns["sigma_sc"] = where(measured, recording.column("measures", "sigma_sc"));
+}
+
+/// Of an instrument, "no data" where it said that it had none.
+void add_contact_force(const Recording& recording, Witness witness, Report& report) {
+  if (witness == Witness::none) return;
+  const bool simulated = witness == Witness::truth;
+  const std::string path = simulated ? "contact" : "force_torque";
+  const std::string field = simulated ? "strongest.force_in_base" : "force_in_base";
+  Column force = magnitude(recording.column(path, field, 0), recording.column(path, field, 1));
+  report.columns["contact_force"] =
+      simulated ? force : where(recording.column(path, "valid"), std::move(force));
+}
+
+void add_forces(const Recording& recording, Witness witness, Report& report) {
+  const Column estimated = recording.column("wrench", "valid");
+  const std::array<std::string, 3> names = {"force_x", "force_y", "moment"};
+  for (int i = 0; i < 3; ++i) {
+    const std::string& name = names[static_cast<std::size_t>(i)];
+    if (witness == Witness::truth) {
+      report.columns["external_" + name] = recording.column("truth", "wrench_in_base", i);
+    }
+    report.columns["estimated_" + name] = where(estimated, recording.column("wrench", "wrench_in_base", i));
+  }
+  add_contact_force(recording, witness, report);
+  if (witness != Witness::truth) return;
+  add_touch(recording, "strongest", "contact_1", report);
+  add_touch(recording, "second", "contact_2", report);
+}
+
+ReportLane lane(const Recording& recording, std::string name, const std::string& path,
+                const std::string& field, std::vector<std::string> states) {
+  ReportLane result{std::move(name), std::move(states), {}};
+  for (const double state : recording.column(path, field)) result.state.push_back(static_cast<int>(state));
+  return result;
+}
+
+std::vector<ReportLane> lanes(const Recording& recording, Witness witness) {
+  ReportLane mode =
+      lane(recording, "mode", "reaction", "mode", {"nominal", "stopped", "react", "hold", "zero-g"});
+  for (int& state : mode.state) {  // the page's quiet state comes first: nominal before stopped
+    if (state < 2) state = 1 - state;
+  }
+  std::vector<ReportLane> rows = {
+      lane(recording, "detector", "detection", "level", {"quiet", "contact", "hard contact"}), mode,
+      lane(recording, "torque gate", "gate", "phase", {"waiting", "open", "closed"})};
+  if (witness == Witness::truth) {
+    rows.insert(rows.begin(), lane(recording, "contact", "contact", "in_contact", {"free", "touching"}));
+  }
+  return rows;
+}
+
+std::string caveat(Witness witness) {
+  const std::string common =
+      " flinch is not a certified safety function; take force limits from the standard itself.";
+  switch (witness) {
+    case Witness::truth:
+      return "Simulation." + common;
+    case Witness::force_torque:
+      return "Measured: contact forces by the force-torque sensor below the pylon, motions by the controller "
+             "itself." +
+             common;
+    case Witness::none:
+      break;
+  }
+  return "No instrument measured contact forces; contacts are not judged." + common;
+}
+
+std::vector<ReportBound> bounds(const Scenario& scenario, const Verdict& verdict) {
+  const ContactDetectorSettings& detector = scenario.control.contact_detector;
+  std::vector<ReportBound> lines;
+  for (const double sign : {1.0, -1.0}) {
+    lines.push_back({"force", "reaction threshold", sign * detector.reaction.force});
+    lines.push_back({"force", "hard threshold", sign * detector.hard.force});
+    lines.push_back({"moment", "reaction threshold", sign * detector.reaction.moment});
+    lines.push_back({"moment", "hard threshold", sign * detector.hard.moment});
+  }
+  for (const ContactVerdict& contact : verdict.contacts) {
+    lines.push_back({"contact_force", contact.limit_name + " limit", contact.limit});
+  }
+  lines.push_back({"sigma_sc", "torque gate closes", scenario.robot.limits.min_self_collision_distance});
+  return lines;
+}
+
+std::vector<ReportParameter> parameters(const std::string& group, const std::vector<ReadValue>& values) {
+  std::vector<ReportParameter> rows;
+  for (const ReadValue& value : values) {
+    const std::size_t dot = value.key.find('.');
+    const bool nested = dot != std::string::npos;
+    rows.push_back({nested ? group + ": " + value.key.substr(0, dot) : group,
+                    nested ? value.key.substr(dot + 1) : value.key, value.value, value.unit,
+                    value.from_file ? "from the file" : "default"});
+  }
+  return rows;
+}
+
+/// As they took effect: the seed may come from the command line. In which folder the robot file lay is left
+/// out, so that a recording gives the same page wherever it is; title and description head the page.
+std::vector<ReportParameter> scenario_parameters(const Scenario& scenario) {
+  std::vector<ReportParameter> rows = parameters("scenario", scenario.values);
+  std::erase_if(rows,
+                [](const ReportParameter& row) { return row.name == "title" || row.name == "description"; });
+  for (ReportParameter& row : rows) {
+    if (row.group != "scenario") continue;
+    if (row.name == "robot") row.value = scenario.robot_file.filename().string();
+    if (row.name != "seed" || row.value == std::to_string(scenario.seed)) continue;
+    row.value = std::to_string(scenario.seed);
+    row.note = "from the command line";
+  }
+  return rows;
+}
+
+std::vector<ReportParameter> provenance(const Recording& recording) {
+  std::vector<ReportParameter> rows;
+  for (const auto& [name, text] : recording.attributes) {
+    if (!name.ends_with(".text")) rows.push_back({"", name, text, "", ""});
+  }
+  return rows;
+}
+
+}  // namespace
+
+Report experiment_report(const Scenario& scenario, const Recording& recording, const Verdict& verdict) {
+  Report report;
+  report.kind = verdict.witness == Witness::truth ? "simulated experiment" : "experiment on a robot";
+  report.title = scenario.title;
+  report.subtitle = scenario.description;
+  report.note = caveat(verdict.witness);
+  report.good = verdict.good();
+  for (const ContactVerdict& contact : verdict.contacts) report.contacts.push_back(report_contact(contact));
+  report.measures = measures(verdict, scenario.expected);
+  report.robot = drawn_robot(scenario.station.bench.robot);
+  if (scenario.station.bench.pylon) {
+    const Pylon& pylon = *scenario.station.bench.pylon;
+    report.obstacles.push_back(
+        {"pylon", {pylon.position_in_base.x(), pylon.position_in_base.y()}, pylon.radius});
+  }
+  report.period = to_seconds(recording.period);
+  if (!recording.time_ns.empty()) report.start = 1e-9 * static_cast<double>(recording.time_ns.front());
+  add_motion(recording, verdict.witness, report);
+  add_forces(recording, verdict.witness, report);
+  report.lanes = lanes(recording, verdict.witness);
+  report.bounds = bounds(scenario, verdict);
+  report.parameters = scenario_parameters(scenario);
+  for (ReportParameter& row : parameters("robot", scenario.robot.values))
+    report.parameters.push_back(std::move(row));
+  report.provenance = provenance(recording);
+  report.texts = {{"Scenario " + scenario.file.filename().string(), scenario.text},
+                  {"Robot " + scenario.robot_file.filename().string(), scenario.robot_text}};
+  return report;
+}
+
+}  // namespace flinch

@@ -1,0 +1,87 @@
+#include "experiments/report/report.h"
+
+#include <algorithm>
+
+#include "systems/foundation/nearest_name.h"
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+using Names = std::vector<std::string>;
+
+const Names charts{"contact_force",     "force",  "moment",      "speed",   "position_error",
+                   "orientation_error", "torque", "sigma_kappa", "sigma_sc"};
+
+Names column_names() {
+  Names names{"pose_x",           "pose_y",           "pose_phi",          "speed",
+              "contact_force",    "external_force_x", "external_force_y",  "external_moment",
+              "isolated_x",       "isolated_y",       "estimated_force_x", "estimated_force_y",
+              "estimated_moment", "position_error",   "orientation_error", "sigma_kappa",
+              "sigma_sc"};
+  for (const std::string contact : {"contact_1_", "contact_2_"}) {
+    for (const std::string part : {"x", "y", "force_x", "force_y"}) names.push_back(contact + part);
+  }
+  for (const std::string quantity : {"qa_", "torque_commanded_", "torque_applied_"}) {
+    for (int leg = 1; leg <= 6; ++leg) names.push_back(quantity + std::to_string(leg));
+  }
+  return names;
+}
+
+bool contains(const Names& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+void check_length(const std::string& what, size_t length, const Report& report, Names& problems) {
+  if (length == report.sample_count()) return;
+  problems.push_back("report: " + what + " has " + std::to_string(length) + " samples, others have " +
+                     std::to_string(report.sample_count()));
+}
+
+void check_columns(const Report& report, Names& problems) {
+  const Names known = column_names();
+  for (const auto& [name, values] : report.columns) {
+    if (!contains(known, name)) {
+      problems.push_back("report: the page has no column '" + name + "'" + did_you_mean(name, known));
+    }
+    check_length("column '" + name + "'", values.size(), report, problems);
+  }
+}
+
+void check_lanes(const Report& report, Names& problems) {
+  for (const ReportLane& lane : report.lanes) {
+    check_length("lane '" + lane.name + "'", lane.state.size(), report, problems);
+    const auto highest = std::max_element(lane.state.begin(), lane.state.end());
+    if (highest == lane.state.end() || *highest < static_cast<int>(lane.states.size())) continue;
+    problems.push_back("report: lane '" + lane.name + "' has no name for state " + std::to_string(*highest));
+  }
+}
+
+void check_bounds(const Report& report, Names& problems) {
+  for (const ReportBound& bound : report.bounds) {
+    if (contains(charts, bound.chart)) continue;
+    problems.push_back("report: bound '" + bound.name + "' is for chart '" + bound.chart +
+                       "', which the page has not" + did_you_mean(bound.chart, charts));
+  }
+}
+
+}  // namespace
+
+size_t Report::sample_count() const {
+  if (!columns.empty()) return columns.begin()->second.size();
+  return lanes.empty() ? 0 : lanes.front().state.size();
+}
+
+void check_report(const Report& report) {
+  Names problems;
+  check_columns(report, problems);
+  check_lanes(report, problems);
+  check_bounds(report, problems);
+  if (report.sample_count() > 0 && !(report.period > 0.0)) {
+    problems.push_back("report: the period of the samples is " + std::to_string(report.period) +
+                       " s, it must be positive");
+  }
+  throw_if_any(std::move(problems));
+}
+
+}  // namespace flinch

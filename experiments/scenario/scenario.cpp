@@ -1,0 +1,135 @@
+#include "experiments/scenario/scenario.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "experiments/scenario/scenario_control.h"
+#include "experiments/scenario/scenario_station.h"
+#include "systems/config/config_file.h"
+#include "systems/config/config_reader.h"
+#include "systems/foundation/nearest_name.h"
+#include "systems/foundation/setup_error.h"
+#include "systems/framework/recording.h"
+#include "systems/robot/body_id.h"
+#include "systems/robot/planar_rrr.h"
+#include "systems/robot/planar_rrr_presets.h"
+
+namespace flinch {
+namespace {
+
+/// What can be touched, by the names of the verdict.
+std::vector<std::string> touchable(const ParallelRobot& robot) {
+  std::vector<std::string> names = {"none"};
+  for (int i = 0; i < robot.body_count(); ++i) names.push_back(body_name(BodyId::from_index(i)));
+  for (int leg = 1; leg <= robot.legs(); ++leg) names.push_back("leg" + std::to_string(leg) + "_clamping");
+  return names;
+}
+
+void read_expectations(ConfigReader expect, const ParallelRobot& robot, Expectations& expected) {
+  if (expect.has("contact")) {
+    std::string body;
+    expect.text("contact", body);
+    const std::vector<std::string> known = touchable(robot);
+    if (std::find(known.begin(), known.end(), body) == known.end()) {
+      expect.problem("contact",
+                     "is '" + body + "', which is no body of this robot" + did_you_mean(body, known));
+    }
+    expected.contact = body;
+  }
+  expect.number("detection_time", unit::s, expected.detection_time, positive);
+  expect.number("observer_error_force", unit::N, expected.observer_error, positive);
+  expect.number("observer_error_moment", unit::Nm, expected.observer_error_moment, positive);
+  expect.number("tracking_error", unit::m, expected.tracking_error, positive);
+  expect.number("loop_closure", unit::m, expected.loop_closure, positive);
+}
+
+void read_force_limits(ConfigReader reader, ForceLimits& limits) {
+  reader.number("transient", unit::N, limits.transient, positive);
+  reader.number("quasi_static", unit::N, limits.quasi_static, positive);
+  reader.number("transient_duration", unit::s, limits.transient_duration, positive);
+}
+
+/// What `read` returns; where that is no good its problems are noted, and the bench stands in so that the
+/// rest of the scenario can be checked as well.
+template <class Read>
+RobotFile robot_or_stand_in(ConfigReader& reader, Read&& read) {
+  try {
+    return read();
+  } catch (const SetupError& error) {
+    reader.add_problems(error.problems());
+  }
+  return {std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::none)), {}, {}};
+}
+
+/// Everything but the robot.
+void read_rest(ConfigReader& reader, std::optional<std::uint64_t> seed, Scenario& scenario) {
+  const auto& robot = dynamic_cast<const PlanarRrr&>(*scenario.robot.robot);
+  scenario.title = scenario.name;
+  reader.text("title", scenario.title);
+  reader.text("description", scenario.description);
+  reader.required().duration("duration", scenario.duration, between(1e-3, 3600.0));
+  reader.seed("seed", scenario.seed);
+  if (seed) scenario.seed = *seed;
+  apply_limits(scenario.robot.limits, scenario.control);
+  read_control(reader.section("control"), scenario.control);
+  read_motion(reader.section("motion"), robot, scenario.control);
+  read_station(reader, robot.parameters(), scenario.control.trajectory.path, scenario.seed, scenario.station);
+  read_expectations(reader.section("expect"), robot, scenario.expected);
+  read_force_limits(reader.section("force_limits"), scenario.force_limits);
+  scenario.values = reader.finish();
+}
+
+const std::string& attribute(const Recording& recording, const std::string& name,
+                             const std::filesystem::path& file) {
+  const auto found = recording.attributes.find(name);
+  if (found == recording.attributes.end()) {
+    throw SetupError(file.string() + ": the recording has no attribute '" + name +
+                     "'; it was not made by 'flinch run'");
+  }
+  return found->second;
+}
+
+std::uint64_t recorded_seed(const Recording& recording, const std::filesystem::path& file) {
+  const std::string& text = attribute(recording, "seed", file);
+  std::uint64_t seed = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, seed);
+  if (error == std::errc{} && rest == end) return seed;
+  throw SetupError(file.string() + ": the attribute 'seed' is '" + text +
+                   "'; it must be a whole number between 0 and 2^64 - 1");
+}
+
+}  // namespace
+
+Scenario read_scenario(const std::filesystem::path& file, std::optional<std::uint64_t> seed) {
+  Scenario scenario;
+  scenario.file = file;
+  scenario.name = file.stem().string();
+  scenario.text = read_config_file(file);
+  ConfigReader reader = ConfigReader::parse(scenario.text, file.string());
+  reader.required().file("robot", scenario.robot_file);
+  scenario.robot = robot_or_stand_in(reader, [&] {
+    if (scenario.robot_file.empty()) throw SetupError(std::vector<std::string>{});
+    return read_robot_file(scenario.robot_file);
+  });
+  read_rest(reader, seed, scenario);
+  scenario.robot_text = read_config_file(scenario.robot_file);
+  return scenario;
+}
+
+Scenario recorded_scenario(const Recording& recording, const std::filesystem::path& file) {
+  Scenario scenario;
+  scenario.file = attribute(recording, "scenario.file", file);
+  scenario.name = attribute(recording, "scenario.name", file);
+  scenario.text = attribute(recording, "scenario.text", file);
+  scenario.robot_file = attribute(recording, "robot.file", file);
+  scenario.robot_text = attribute(recording, "robot.text", file);
+  ConfigReader reader = ConfigReader::parse(scenario.text, file.string() + ":" + scenario.file.string());
+  std::string unused;
+  reader.text("robot", unused);
+  scenario.robot = parse_robot_file(scenario.robot_text, file.string() + ":" + scenario.robot_file.string());
+  read_rest(reader, recorded_seed(recording, file), scenario);
+  return scenario;
+}
+
+}  // namespace flinch

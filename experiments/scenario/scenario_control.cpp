@@ -1,0 +1,150 @@
+#include "experiments/scenario/scenario_control.h"
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
+
+#include "diagrams/contact_control_settings.h"
+#include "systems/config/config_reader.h"
+#include "systems/foundation/setup_error.h"
+#include "systems/robot/parallel_robot.h"
+#include "systems/robot/workspace_limits.h"
+
+namespace flinch {
+namespace {
+
+std::span<double> entries(PlatformVector& vector) {
+  return {vector.data(), static_cast<std::size_t>(vector.size())};
+}
+
+void read_limits(ConfigReader reader, PoseLimits& limits) {
+  reader.number("velocity", unit::m_per_s, limits.translation.velocity, positive);
+  reader.number("acceleration", unit::m_per_s2, limits.translation.acceleration, positive);
+  reader.number("jerk", unit::m_per_s3, limits.translation.jerk, positive);
+  reader.number("angular_velocity", unit::rad_per_s, limits.rotation.velocity, positive);
+  reader.number("angular_acceleration", unit::rad_per_s2, limits.rotation.acceleration, positive);
+  reader.number("angular_jerk", unit::rad_per_s3, limits.rotation.jerk, positive);
+}
+
+void read_sensing(ConfigReader& control, ContactControlSettings& settings) {
+  ConfigReader filter = control.section("velocity_filter");
+  filter.number("cutoff_frequency", unit::Hz, settings.velocity_filter.low_pass.cutoff_frequency, positive);
+  filter.choice("form", settings.velocity_filter.low_pass.form,
+                {{"tustin", LowPassForm::tustin}, {"backward_difference", LowPassForm::backward_difference}});
+
+  ConfigReader drives = control.section("drive_torque");
+  drives.numbers("torque_constant", unit::Nm_per_A, entries(settings.drive_torque.torque_constant), positive);
+  bool aligned = settings.drive_torque.low_pass.has_value();
+  drives.flag("aligned_with_velocity", aligned);
+  settings.drive_torque.low_pass = aligned ? std::optional(settings.velocity_filter.low_pass) : std::nullopt;
+}
+
+void read_detection(ConfigReader& control, ContactControlSettings& settings) {
+  control.section("momentum_observer")
+      .numbers("gain", unit::per_s, entries(settings.momentum_observer.gain), positive);
+
+  ConfigReader detector = control.section("contact_detector");
+  detector.number("reaction_force", unit::N, settings.contact_detector.reaction.force, positive);
+  detector.number("reaction_moment", unit::Nm, settings.contact_detector.reaction.moment, positive);
+  detector.number("hard_force", unit::N, settings.contact_detector.hard.force, positive);
+  detector.number("hard_moment", unit::Nm, settings.contact_detector.hard.moment, positive);
+}
+
+void read_laws(ConfigReader& control, ContactControlSettings& settings) {
+  ConfigReader impedance = control.section("impedance");
+  const std::span<double> stiffness = entries(settings.impedance.stiffness);
+  impedance.numbers("translational_stiffness", unit::N_per_m, stiffness.first(2), not_negative);
+  impedance.number("rotational_stiffness", unit::Nm_per_rad, stiffness.back(), not_negative);
+  impedance.numbers("damping_ratio", unit::none, entries(settings.impedance.damping_ratio), positive);
+  impedance.flag("compensate_friction", settings.impedance.compensate_friction);
+
+  ConfigReader retraction = control.section("retraction");
+  retraction.number("distance", unit::m, settings.retraction.distance, positive);
+  retraction.number("angle", unit::rad, settings.retraction.angle, positive);
+  retraction.number("stiffness_share", unit::none, settings.reaction_stiffness, fraction);
+  read_limits(retraction.section("limits"), settings.retraction.limits);
+
+  control.section("sequence").flag("zero_g_when_struck", settings.sequence.zero_g_when_struck);
+}
+
+PlatformVector read_pose(ConfigReader pose) {
+  PlatformVector x = PlatformVector::Zero(3);
+  pose.number("x", unit::m, x[0]);
+  pose.number("y", unit::m, x[1]);
+  pose.number("phi", unit::rad, x[2]);
+  return x;
+}
+
+std::optional<PlatformPath> read_through(ConfigReader& motion, const ParallelRobot& robot) {
+  std::vector<PlatformVector> poses;
+  for (ConfigReader& pose : motion.sections("poses")) poses.push_back(read_pose(pose));
+  PoseLimits limits{.translation = {.velocity = 1.0, .acceleration = 12.0, .jerk = 600.0},
+                    .rotation = {.velocity = 4.0, .acceleration = 80.0, .jerk = 8000.0}};
+  read_limits(motion.section("limits"), limits);
+  if (!motion.good()) return std::nullopt;
+  return PlatformPath::through(robot, poses, limits);
+}
+
+std::optional<PlatformPath> read_passage(ConfigReader& motion, const ParallelRobot& robot) {
+  PassageSettings settings;
+  double direction = 0.0;
+  settings.pose = read_pose(motion.section("pose"));
+  motion.required().number("direction", unit::rad, direction);
+  motion.required().number("speed", unit::m_per_s, settings.speed, positive);
+  motion.number("cruise", unit::m, settings.cruise, positive);
+  motion.number("acceleration", unit::m_per_s2, settings.acceleration, positive);
+  motion.number("jerk", unit::m_per_s3, settings.jerk, positive);
+  settings.direction = Eigen::Vector2d(std::cos(direction), std::sin(direction));
+  if (!motion.good()) return std::nullopt;
+  return passage(robot, settings).path;
+}
+
+std::optional<PlatformPath> read_square(ConfigReader& motion, const ParallelRobot& robot) {
+  double side = 0.3;
+  int laps = 1;
+  PoseLimits limits{.translation = {.velocity = 1.5, .acceleration = 12.0, .jerk = 600.0},
+                    .rotation = {.velocity = 4.0, .acceleration = 80.0, .jerk = 8000.0}};
+  const PlatformVector centre = read_pose(motion.section("centre"));
+  motion.number("side", unit::m, side, positive);
+  motion.integer("laps", laps, 1, 1000);
+  read_limits(motion.section("limits"), limits);
+  if (!motion.good()) return std::nullopt;
+  return PlatformPath::square(robot, centre, side, limits, laps);
+}
+
+enum class MotionKind { hold, through, passage, square };
+
+}  // namespace
+
+void apply_limits(const WorkspaceLimits& limits, ContactControlSettings& control) {
+  control.faults.workspace = limits;
+}
+
+void read_control(ConfigReader control, ContactControlSettings& settings) {
+  read_sensing(control, settings);
+  read_detection(control, settings);
+  read_laws(control, settings);
+}
+
+void read_motion(ConfigReader motion, const ParallelRobot& robot, ContactControlSettings& settings) {
+  MotionKind kind = MotionKind::hold;
+  Time start = Time::zero();
+  motion.choice("kind", kind,
+                {{"hold", MotionKind::hold},
+                 {"through", MotionKind::through},
+                 {"passage", MotionKind::passage},
+                 {"square", MotionKind::square}});
+  motion.duration("start", start, not_negative);
+  settings.trajectory.start = start;
+  try {
+    if (kind == MotionKind::through) settings.trajectory.path = read_through(motion, robot);
+    if (kind == MotionKind::passage) settings.trajectory.path = read_passage(motion, robot);
+    if (kind == MotionKind::square) settings.trajectory.path = read_square(motion, robot);
+  } catch (const SetupError& error) {
+    for (const std::string& problem : error.problems())
+      motion.problem("", "the robot cannot move like this: " + problem);
+  }
+}
+
+}  // namespace flinch

@@ -1,0 +1,20 @@
+#include "experiments/served/served_bench.h"
+
+#include "experiments/scenario/scenario.h"
+#include "plant/simulated_station.h"
+#include "systems/framework/diagram_builder.h"
+
+namespace flinch {
+
+ServedBench build_served_bench(const Scenario& scenario, Time longest_silence) {
+  DiagramBuilder builder("bench");
+  SimulatedStationSettings settings = scenario.station;
+  settings.drives.longest_silence = longest_silence;
+  PoweredStation station = add_powered_station(builder, add_simulated_station(builder, settings));
+  station.torque_command = builder.export_input("torque_command", station.torque_command);
+  station.brake = builder.export_input("brake", station.brake);
+  station.wish = builder.export_input("wish", station.wish);
+  return {builder.build(), station};
+}
+
+}  // namespace flinch

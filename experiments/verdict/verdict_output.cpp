@@ -1,0 +1,107 @@
+#include "experiments/verdict/verdict_output.h"
+
+#include <fmt/core.h>
+
+#include <nlohmann/json.hpp>
+
+#include "experiments/verdict/verdict.h"
+
+namespace flinch {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// `end` - `start` in ms; null where it has no end.
+Json milliseconds(double start, const std::optional<double>& end) {
+  return end ? Json(1e3 * (*end - start)) : Json(nullptr);
+}
+
+std::string milliseconds_text(double start, const std::optional<double>& end) {
+  return end ? fmt::format("{:.1f}", 1e3 * (*end - start)) : "never";
+}
+
+Json contact_json(const ContactVerdict& contact) {
+  return {{"body", contact.body.empty() ? Json(nullptr) : Json(contact.body)},
+          {"detected", contact.detected.has_value()},
+          {"detection_ms", milliseconds(contact.onset, contact.detected)},
+          {"removal_ms", milliseconds(contact.onset, contact.removed)},
+          {"peak_force_N", contact.peak_force},
+          {"limit_N", contact.limit},
+          {"within_limit", contact.within_limit},
+          {"limit", contact.limit_name},
+          {"lasting_force_N", contact.lasting_force ? Json(*contact.lasting_force) : Json(nullptr)},
+          {"onset_s", contact.onset},
+          {"speed_m_per_s", contact.speed}};
+}
+
+std::string contact_line(const ContactVerdict& contact) {
+  return fmt::format("{:<15} {:>8.3f} {:>6.2f} {:>10} {:>10} {:>8.0f} {:>8.0f}  {}\n",
+                     contact.body.empty() ? "not measured" : contact.body, contact.onset, contact.speed,
+                     milliseconds_text(contact.onset, contact.detected),
+                     milliseconds_text(contact.onset, contact.removed), contact.peak_force, contact.limit,
+                     contact.within_limit ? "yes" : "NO");
+}
+
+std::string no_contact_line(const Verdict& verdict) {
+  if (!verdict.contacts.empty()) return "";
+  if (verdict.witness != Witness::none) return "nothing was touched\n";
+  std::string times;
+  for (const double time : verdict.detections) times += fmt::format(" {:.3f} s", time);
+  return "no instrument saw what touched the robot; noticed at:" + (times.empty() ? " never" : times) + "\n";
+}
+
+const char* name(Witness witness) {
+  switch (witness) {
+    case Witness::truth:
+      return "truth";
+    case Witness::force_torque:
+      return "force_torque";
+    case Witness::none:
+      break;
+  }
+  return "none";
+}
+
+}  // namespace
+
+std::string verdict_table(const Verdict& verdict, const RunFacts& facts) {
+  std::string text = fmt::format("{:<15} {:>8} {:>6} {:>10} {:>10} {:>8} {:>8}  {}\n", "contact with", "at s",
+                                 "m/s", "noticed ms", "removed ms", "peak N", "limit N", "within");
+  for (const ContactVerdict& contact : verdict.contacts) text += contact_line(contact);
+  text += no_contact_line(verdict);
+  text += fmt::format(
+      "\nfalse detections   {}\nobserver error     {:.2f} N, {:.3f} Nm before any contact\n"
+      "tracking error     {:.2f} mm, {:.2f} deg before any contact\n",
+      verdict.witness == Witness::none ? "not judged" : std::to_string(verdict.false_detections),
+      verdict.max_observer_error_force, verdict.max_observer_error_moment, 1e3 * verdict.max_tracking_error,
+      verdict.max_orientation_error * 57.29577951308232);
+  if (verdict.loop_closure) text += fmt::format("loop closure       {:.1e} m\n", *verdict.loop_closure);
+  text += fmt::format("{:<18} {:.3f} s in {:.2f} s, seed {}\n\n",
+                      verdict.witness == Witness::truth ? "simulated" : "ran", verdict.simulated, facts.wall,
+                      facts.seed);
+  text += verdict.good() ? "verdict: good\n" : "verdict: bad\n";
+  for (const std::string& failure : verdict.failures) text += "  - " + failure + "\n";
+  return text;
+}
+
+std::string verdict_json(const Verdict& verdict, const RunFacts& facts) {
+  Json contacts = Json::array();
+  for (const ContactVerdict& contact : verdict.contacts) contacts.push_back(contact_json(contact));
+  const Json json = {{"verdict", verdict.good() ? "good" : "bad"},
+                     {"witness", name(verdict.witness)},
+                     {"contacts", contacts},
+                     {"detections_s", verdict.detections},
+                     {"false_detections", verdict.false_detections},
+                     {"max_observer_error_N", verdict.max_observer_error_force},
+                     {"max_observer_error_Nm", verdict.max_observer_error_moment},
+                     {"max_tracking_error_mm", 1e3 * verdict.max_tracking_error},
+                     {"loop_closure_m", verdict.loop_closure ? Json(*verdict.loop_closure) : Json(nullptr)},
+                     {"simulated_s", verdict.simulated},
+                     {"wall_s", facts.wall},
+                     {"seed", facts.seed},
+                     {"fault", verdict.fault},
+                     {"failures", verdict.failures}};
+  return json.dump();
+}
+
+}  // namespace flinch

@@ -1,0 +1,258 @@
+#!/usr/bin/env python3
+"""Opens a report page in headless Chromium, uses it as a reader would, and finds nothing wrong.
+
+    tests/experiments/report/page_in_browser.py PAGE.html [--pictures FOLDER]
+
+Exit status 0: nothing wrong; 1: what is wrong is printed; 77: there is no chromedriver to try it with.
+"""
+
+import argparse
+import os
+import pathlib
+import re
+import shutil
+import sys
+import tempfile
+
+from browser import Browser
+
+LOOKS = [(1400, 900, "light"), (1400, 900, "dark"), (1240, 768, "light"), (1100, 800, "light"), (800, 1000, "light"), (800, 1000, "dark"), (390, 800, "light")]
+
+
+class Page:
+    """The page under test and what was found wrong with it."""
+
+    def __init__(self, browser, path):
+        self.browser = browser
+        self.path = path
+        self.problems = []
+
+    def open(self):
+        self.browser.open(self.path.resolve().as_uri())
+
+    def value(self, expression):
+        return self.browser.run(f"return {expression}")
+
+    def expect(self, condition, problem):
+        if not condition:
+            self.problems.append(problem)
+
+    def expect_silence(self, doing):
+        for message in self.browser.console_errors():
+            self.problems.append(f"{doing}: the console says: {message}")
+
+    def has(self, selector):
+        return self.value(f"(e => e !== null && e.checkVisibility())(document.querySelector({selector!r}))")
+
+
+def stands_alone(page):
+    """It loads nothing, and no link or source in it points anywhere else."""
+    page.expect(page.value("performance.getEntriesByType('resource').length") == 0, "it loads other files")
+    outside = page.value("[...document.querySelectorAll('[src], link[href], img, iframe, object')]"
+                         ".map(e => e.src || e.href).filter(url => !url.startsWith('data:'))")
+    page.expect(outside == [], f"it refers to {outside}")
+
+
+def tells_the_verdict(page):
+    page.expect(page.value("document.title.length > 0 && document.documentElement.lang === 'en'"), "no title or language")
+    page.expect(page.value("byId('verdict-mark').textContent") in ("✓ Passed", "✗ Not passed"), "no verdict")
+    page.expect(page.value("byId('verdict-mark').classList.contains('good') === report.good"), "the verdict is not the report's")
+    for table, entries in (("#contacts tbody tr", "contacts"), ("#measure-table tbody tr", "measures"),
+                           ("#parameters tbody tr", "parameters"), ("#provenance div", "provenance")):
+        rows = page.value(f"document.querySelectorAll({table!r}).length")
+        page.expect(rows == page.value(f"report.{entries}.length"), f"{rows} rows for the {entries} of the report")
+    text = page.value("document.body.innerText")
+    wrong = re.findall(r"\b(?:NaN|undefined|null|Infinity|\[object \w+\])", text)
+    page.expect(not wrong, f"the text of the page contains {wrong}")
+
+
+def has_names_for_everything(page):
+    nameless = page.value("[...document.querySelectorAll('button, input, select, svg[role]')]"
+                          ".filter(e => e.checkVisibility() && !(e.innerText || e.getAttribute('aria-label') || e.labels?.length)).map(e => e.outerHTML)")
+    page.expect(nameless == [], f"without a name: {nameless}")
+
+
+def picture(page):
+    """Everything that the reader sees of one time."""
+    return page.value("[byId('clock').innerText, byId('scene').innerHTML, byId('overview').innerHTML,"
+                      " [...document.querySelectorAll('.reading, .cursor')].map(e => e.innerText + e.style.cssText).join()].join()")
+
+
+def slider_moves_everything(page):
+    last = page.value("lastSample")
+    seen = set()
+    for share in (0.0, 0.25, 0.5, 0.75, 1.0):
+        sample = round(share * last)
+        page.browser.run("const s = byId('time'); s.value = String(arguments[0]);"
+                         "s.dispatchEvent(new Event('input', {bubbles: true}))", sample)
+        page.expect(page.value("clock.sample") == sample, f"the slider at {sample} shows sample {page.value('clock.sample')}")
+        page.expect(f"{page.value(f'timeOf({sample})'):.3f} s" in page.value("byId('clock').innerText"), "the clock is wrong")
+        page.expect(page.value("""charts.all.every(({graph, cursor}) => Math.abs(
+            graph.toDomXCoord(timeOf(clock.sample)) - new DOMMatrix(cursor.style.transform).e) < 0.6)"""), "a cursor is off")
+        seen.add(picture(page))
+    page.expect(len(seen) == 5, "the picture does not follow the slider")
+    page.expect_silence("moving the slider")
+
+
+def keys_step(page):
+    page.browser.run("document.activeElement.blur(); clock.seek(20)")
+    for keys, sample in ((["right"], 21), (["right", "right"], 23), (["left"], 22), (["shift+right"], 32), (["shift+left"], 22)):
+        page.browser.press(*keys)
+        found = page.value("clock.sample")
+        page.expect(found == sample, f"{keys} lead to sample {found}, not {sample}")
+    page.browser.press("space")
+    page.browser.run("return new Promise(done => setTimeout(done, 400))")
+    page.browser.press("space")
+    stopped = page.value("clock.sample")
+    page.expect(stopped > 22, "space does not play")
+    page.expect(page.value("!clock.playing"), "space does not pause")
+    page.browser.run("clock.seek(lastSample - 2); clock.play(); return new Promise(done => setTimeout(done, 400))")
+    page.expect(page.value("!clock.playing && clock.sample === lastSample"), "it does not stop at the end")
+    page.expect_silence("stepping and playing")
+
+
+def first_plot(page):
+    """A function that gives the window's coordinates of a place in the first chart, 0 ... 1 from its left."""
+    page.browser.run("document.querySelector('.plot').scrollIntoView({block: 'center'})")
+    x, y, width, height = page.value("(({x, y, width, height}) => [x, y, width, height])"
+                                     "(document.querySelector('.plot').getBoundingClientRect())")
+    return lambda share: (x + share * width, y + 0.5 * height)
+
+
+def charts_read_under_the_mouse(page):
+    page.browser.click("#window-whole")
+    place = first_plot(page)
+    page.browser.run("clock.seek(0); window.readAt = []; const read = charts.read;"
+                     "charts.read = function (sample) { window.readAt.push(sample); read.call(charts, sample); }")
+    page.browser.hover(place(0.75))
+    page.expect(page.value("window.readAt.at(-1) > 0.5 * lastSample"), "the readings do not follow the mouse")
+    page.expect(page.value("clock.sample") == 0, "the mouse moves the time")
+    page.browser.hover((2, 2))
+    page.expect(page.value("window.readAt.at(-1)") == 0, "the readings do not return to the time shown")
+    page.expect_silence("hovering over a chart")
+
+
+def charts_zoom_together(page):
+    page.browser.click("#window-whole")
+    place = first_plot(page)
+    page.browser.drag(place(0.4), place(0.6))
+    windows = page.value("charts.all.map(({graph}) => graph.xAxisRange())")
+    page.expect(all(window == windows[0] for window in windows), f"the charts show different windows: {windows}")
+    share = page.value("(charts.window[1] - charts.window[0]) / (wholeRun[1] - wholeRun[0])")
+    page.expect(0.1 < share < 0.35, f"dragging over a fifth of the chart shows {share:.2f} of the run")
+    page.browser.click("#window-whole")
+    page.expect(page.value("charts.window.join() === wholeRun.join()"), "'Whole run' does not show the whole run")
+    if page.value("report.contacts.length") > 0:
+        for name in ("contact", "detection"):
+            page.browser.click(f"#window-{name}")
+            page.expect(page.value("charts.window[1] - charts.window[0] < wholeRun[1] - wholeRun[0]"), f"'{name}' does not zoom")
+    page.expect_silence("zooming the charts")
+
+
+def charts_keep_peaks(page):
+    lost = page.value("""charts.all.filter(chart => chart.series.some(({values}, i) => {
+        const drawn = rowsOf(chart, wholeRun).map(row => row[i + 1]);
+        const [a, b] = [lowestAndHighest(drawn, 0, drawn.length), lowestAndHighest(values, 0, values.length)];
+        return a[0] !== b[0] || a[1] !== b[1]; })).map(chart => chart.id)""")
+    page.expect(lost == [], f"peaks are lost in the charts {lost}")
+
+
+def buttons_do_what_they_say(page):
+    if page.has("#view-close"):
+        page.browser.click("#view-close")
+        page.expect(page.value("byId('view-close').getAttribute('aria-pressed')") == "true", "the close-up does not open")
+        page.browser.click("#view-whole")
+    if page.has(".legend button"):
+        page.browser.run("document.querySelector('.legend button').click()")
+        page.expect(page.value("charts.all.some(({graph}) => graph.visibility().includes(false))"), "a series cannot be hidden")
+        page.browser.run("document.querySelector('.legend button').click()")
+    if page.has("#events button"):
+        page.browser.run("[...document.querySelectorAll('#events button')].at(-1).click()")
+    if page.has("#watch"):
+        page.browser.run("byId('watch').click(); return new Promise(done => setTimeout(done, 300))")
+        page.expect(page.value("clock.playing"), "the contact is not played")
+        page.browser.run("clock.pause()")
+    page.expect_silence("pressing buttons")
+
+
+def parameters_can_be_searched(page):
+    count = page.value("report.parameters.length")
+    if count == 0:
+        return
+    page.browser.run("byId('parameters-box').open = true; const s = byId('search'); s.value = report.parameters[0].name;"
+                     "s.dispatchEvent(new Event('input'))")
+    shown = page.value("[...document.querySelectorAll('#parameters tbody tr')].filter(row => !row.hidden).length")
+    page.expect(1 <= shown <= count, f"searching for a parameter shows {shown}")
+    page.browser.run("const s = byId('search'); s.value = 'no such thing'; s.dispatchEvent(new Event('input'))")
+    shown = page.value("[...document.querySelectorAll('#parameters tbody tr')].filter(row => !row.hidden).length")
+    page.expect(shown == 0, f"searching for nonsense shows {shown} parameters")
+    page.expect_silence("searching")
+
+
+def fits_every_window(page, pictures):
+    for width, height, scheme in LOOKS:
+        page.browser.devtools("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
+        page.browser.devtools("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+        page.open()
+        over = page.value("document.documentElement.scrollWidth - innerWidth")
+        page.expect(over <= 0, f"at a width of {width} the page is {over} pixels too wide")
+        if width >= 800:
+            cut = page.value("[...document.querySelectorAll('.scroll')].filter(e => e.scrollWidth > e.clientWidth).length")
+            page.expect(cut == 0, f"at a width of {width}, {cut} tables are cut off")
+        page.expect_silence(f"{width} pixels, {scheme}")
+        if pictures:
+            page.browser.screenshot(pictures / f"{width}_{scheme}.png")
+    page.browser.devtools("Emulation.clearDeviceMetricsOverride")
+
+
+def broken_page_is_noticed(page):
+    """The test itself can fail: a copy of the page with an error in its script is found out."""
+    text = page.path.read_text(encoding="utf-8")
+    with tempfile.TemporaryDirectory() as folder:
+        broken = pathlib.Path(folder) / "broken.html"
+        broken.write_text(text.replace("showVerdict();", "showVerdikt();", 1), encoding="utf-8")
+        page.browser.open(broken.as_uri())
+        page.expect(any("showVerdikt" in message for message in page.browser.console_errors()),
+                    "an error in the script of the page went unnoticed")
+
+
+def use(page, pictures):
+    page.open()
+    page.expect_silence("opening the page")
+    if page.problems:
+        return
+    stands_alone(page)
+    tells_the_verdict(page)
+    has_names_for_everything(page)
+    if page.value("lastSample") > 100:
+        slider_moves_everything(page)
+        keys_step(page)
+        charts_read_under_the_mouse(page)
+        charts_zoom_together(page)
+        charts_keep_peaks(page)
+        buttons_do_what_they_say(page)
+    parameters_can_be_searched(page)
+    fits_every_window(page, pictures)
+    broken_page_is_noticed(page)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("page", type=pathlib.Path)
+    parser.add_argument("--pictures", type=pathlib.Path, help="folder for a screenshot of every size and colour scheme")
+    arguments = parser.parse_args()
+    if not shutil.which("chromedriver"):
+        print("there is no chromedriver (Debian: chromium-driver)")
+        return 77
+    if arguments.pictures:
+        os.makedirs(arguments.pictures, exist_ok=True)
+    with Browser() as browser:
+        page = Page(browser, arguments.page)
+        use(page, arguments.pictures)
+    for problem in page.problems:
+        print(f"{arguments.page}: {problem}")
+    return 1 if page.problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,38 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "experiments/scenario/scenario.h"
+#include "experiments/simulated/experiment.h"
+
+namespace flinch {
+namespace {
+
+/// The one block of docs/files.md that is marked as YAML.
+std::string documented_scenario() {
+  std::ifstream file(FLINCH_SOURCE_DIR "/docs/files.md");
+  const std::string document((std::istreambuf_iterator<char>(file)), {});
+  const std::string mark = "```yaml\n";
+  const std::size_t begin = document.find(mark) + mark.size();
+  return document.substr(begin, document.find("```\n", begin) - begin);
+}
+
+TEST(DocumentedScenario, CanBeRunAndSaysEveryKey) {
+  std::string text = documented_scenario();
+  const std::string folder = "../robots/";
+  text.replace(text.find(folder), folder.size(), FLINCH_SOURCE_DIR "/apps/robots/");
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "documented_scenario.yaml";
+  std::ofstream(file) << text;
+
+  const Scenario scenario = read_scenario(file);
+  EXPECT_NO_THROW(build_experiment(scenario));
+  EXPECT_GT(scenario.values.size(), 50U);
+  for (const ReadValue& value : scenario.values) EXPECT_TRUE(value.from_file) << value.key;
+  std::filesystem::remove(file);
+}
+
+}  // namespace
+}  // namespace flinch

@@ -1,0 +1,124 @@
+// The closed loop of every scenario that ships: that it takes no memory while it runs, never comes apart, and
+// gives the same bits again, from the start, in two threads, and from what was recorded of its sensors.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <thread>
+
+#include "experiments/recorded/replay.h"
+#include "experiments/scenario/scenario.h"
+#include "experiments/simulated/experiment.h"
+#include "experiments/verdict/verdict.h"
+#include "plant/sundials_integrator.h"
+#include "systems/framework/recorder.h"
+#include "systems/framework/simulator.h"
+#include "tests/support/allocations.h"
+#include "tests/support/workplace.h"
+
+namespace flinch {
+namespace {
+
+Scenario scenario_called(const std::string& name, std::optional<std::uint64_t> seed = std::nullopt) {
+  return read_scenario(test::shipped("scenarios/" + name + ".yaml"), seed);
+}
+
+/// Whether all numbers of a signal are the same bits, at the same times.
+bool is_same(const Recording& a, const Recording& b, const std::string& path) {
+  const auto& rows_a = a.signal(path).rows;
+  const auto& rows_b = b.signal(path).rows;
+  return a.time_ns == b.time_ns && rows_a.size() == rows_b.size() &&
+         std::memcmp(rows_a.data(), rows_b.data(), rows_a.size() * sizeof(rows_a[0])) == 0;
+}
+
+void expect_same(const Recording& a, const Recording& b) {
+  ASSERT_EQ(a.signals.size(), b.signals.size());
+  for (const Signal& signal : a.signals) EXPECT_TRUE(is_same(a, b, signal.path)) << signal.path;
+  EXPECT_EQ(a.attributes, b.attributes);
+}
+
+class ClosedLoop : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Of, ClosedLoop, ::testing::ValuesIn(test::shipped_scenarios()),
+                         [](const auto& tested) { return tested.param; });
+
+TEST_P(ClosedLoop, TakesNoMemoryThroughContactAndReaction) {
+  const Scenario scenario = scenario_called(GetParam());
+  const Experiment experiment = build_experiment(scenario);
+  const auto ticks = static_cast<std::size_t>(scenario.duration / 1ms);
+  Recorder recorder(*experiment.diagram, recordable_paths(*experiment.diagram), ticks);
+  Simulator simulator(*experiment.diagram, std::make_unique<SundialsIntegrator>());
+  simulator.record(recorder);
+  Context context = experiment.diagram->make_context();
+  for (int tick = 0; tick < 3; ++tick) simulator.step(context);
+
+  const test::AllocationCounter allocations;
+  for (std::size_t tick = 3; tick < ticks; ++tick) simulator.step(context);
+  EXPECT_EQ(allocations.count(), 0);
+  EXPECT_EQ(recorder.dropped(), 0);
+  EXPECT_EQ(simulator.inaccurate_steps(), 0);
+}
+
+TEST_P(ClosedLoop, GoesThroughWhatItIsMeantToShow) {
+  const Scenario scenario = scenario_called(GetParam());
+  const Recording recording = run_experiment(scenario);
+  const std::vector<double> modes = recording.column("reaction", "mode");
+  const auto reached = [&modes](ReactionMode mode) {
+    return std::find(modes.begin(), modes.end(), static_cast<double>(mode)) != modes.end();
+  };
+  const bool touches = scenario.expected.contact != "none";
+  EXPECT_TRUE(reached(ReactionMode::nominal));
+  EXPECT_EQ(reached(ReactionMode::react), touches);
+  EXPECT_EQ(judge(recording, scenario.expected, scenario.force_limits).contacts.empty(), !touches);
+}
+
+TEST_P(ClosedLoop, KeepsItsLegsTogether) {
+  const Recording recording = run_experiment(scenario_called(GetParam()));
+  double largest = 0.0;
+  for (const double miss : recording.column("truth", "loop_closure_error")) largest = std::max(largest, miss);
+  EXPECT_LE(largest, 1e-9);
+  for (const double valid : recording.column("truth", "valid")) ASSERT_EQ(valid, 1.0);
+}
+
+TEST_P(ClosedLoop, GivesTheSameBitsInTwoThreadsAtOnce) {
+  const Scenario scenario = scenario_called(GetParam());
+  Recording first, second;
+  std::thread a([&] { first = run_experiment(scenario); });
+  std::thread b([&] { second = run_experiment(scenario); });
+  a.join();
+  b.join();
+  expect_same(first, second);
+  expect_same(first, run_experiment(scenario));
+}
+
+TEST_P(ClosedLoop, MeasuresOtherNoiseWithAnotherSeed) {
+  const Recording one = run_experiment(scenario_called(GetParam(), 1));
+  const Recording two = run_experiment(scenario_called(GetParam(), 2));
+  EXPECT_FALSE(is_same(one, two, "joints"));
+  EXPECT_FALSE(is_same(one, two, "torque_command"));
+}
+
+TEST_P(ClosedLoop, IsReplayedBitForBitFromItsRecordingFile) {
+  const test::Workplace place;
+  const Scenario scenario = scenario_called(GetParam());
+  write_recording(run_experiment(scenario), place / "run.h5");
+  const Recording recorded = read_recording(place / "run.h5");
+  const Replay replayed = replay(recorded_scenario(recorded, place / "run.h5"), recorded);
+  EXPECT_THAT(replayed.differing, testing::IsEmpty());
+  for (const std::string path : {"wrench", "detection", "reaction", "torque_command", "brake", "gate"}) {
+    EXPECT_TRUE(is_same(recorded, replayed.recording, path)) << path;
+  }
+}
+
+TEST(Replay, TellsAnotherControlPathFromTheRecordedOne) {
+  Scenario scenario = scenario_called("platform_collision");
+  const Recording recorded = run_experiment(scenario);
+  scenario.control.momentum_observer.gain *= 2.0;
+  const Replay replayed = replay(scenario, recorded);
+  EXPECT_TRUE(is_same(recorded, replayed.recording, "motion"));
+  EXPECT_FALSE(is_same(recorded, replayed.recording, "wrench"));
+  EXPECT_THAT(replayed.differing, testing::Contains("wrench"));
+  EXPECT_THAT(replayed.differing, testing::Not(testing::Contains("motion")));
+}
+
+}  // namespace
+}  // namespace flinch
