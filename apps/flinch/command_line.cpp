@@ -9,9 +9,7 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
-#if FLINCH_HAS_BUS
 #include "apps/flinch/bus/bus_verbs.h"
-#endif
 #include "systems/foundation/nearest_name.h"
 #include "systems/foundation/setup_error.h"
 
@@ -90,11 +88,9 @@ std::string number_of_station(std::string& text) {
 /// The verbs and their options.
 struct Verbs {
   RunOptions run;
-#if FLINCH_HAS_BUS
   ServeOptions serve;
   LinkOptions link;
   KeysOptions keys;
-#endif
   ReportOptions report;
   GraphOptions graph;
   CheckOptions check;
@@ -175,7 +171,6 @@ void add_verbs(CLI::App& app, Verbs& verbs) {
       ->type_name("FILE");
 }
 
-#if FLINCH_HAS_BUS
 void add_bus_verbs(CLI::App& app, Verbs& verbs) {
   CLI::App& serve_verb = verbs.add(
       app, "serve", "Put the simulated robot of a scenario on the bus, in real time, as if it were there",
@@ -220,7 +215,6 @@ void add_keys_verb(CLI::App& app, Verbs& verbs) {
       ->type_name("N");
   keys_verb.add_flag("--force", verbs.keys.force, "Replace the keys that are there");
 }
-#endif
 
 /// The error of the parser, with the way out.
 std::string usage_problem(const CLI::App& app, const CLI::ParseError& error, const std::string& first) {
@@ -249,10 +243,8 @@ int run_command_line(int argc, const char* const* argv) {
       "'flinch VERB --help' shows the options of a verb.");
   Verbs verbs;
   add_verbs(app, verbs);
-#if FLINCH_HAS_BUS
   add_bus_verbs(app, verbs);
   add_keys_verb(app, verbs);
-#endif
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -6,17 +6,17 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/flinch/command_line.h"
+#include "apps/flinch/simulated/simulated_parts.h"
 #include "experiments/report/experiment_report.h"
 #include "experiments/report/report_page.h"
 #include "experiments/scenario/robot_input.h"
-#include "experiments/scenario/scenario.h"
-#include "experiments/simulated/experiment.h"
 #include "experiments/verdict/verdict.h"
 #include "systems/config/config_file.h"
 #include "systems/config/config_reader.h"
 #include "systems/config/robot_file.h"
 #include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/framework/diagram.h"
 #include "systems/framework/recording.h"
 
 namespace flinch {
@@ -24,13 +24,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Experiment built(const Scenario& scenario) {
-  return out_of(scenario.file, [&scenario] { return build_experiment(scenario); });
-}
-
 Report recorded_report(const std::filesystem::path& file) {
   const Recording recording = read_recording(file);
-  const Scenario scenario = recorded_scenario(recording, file);
+  const Scenario scenario = scenario_of(recording, file);
   return out_of(file, [&] {
     return experiment_report(scenario, recording, judge(recording, scenario.expected, scenario.force_limits));
   });
@@ -93,7 +89,7 @@ ExitStatus graph(const GraphOptions& options) {
                      "'");
   }
   require_folder_of(options.out);
-  const std::string dot = built(read_scenario(options.scenario)).diagram->graphviz();
+  const std::string dot = closed_loop(options.scenario)->graphviz();
   if (options.out.empty()) {
     fmt::print("{}", options.common.json ? Json{{"dot", dot}}.dump() + "\n" : dot);
     return ExitStatus::done;
@@ -120,7 +116,7 @@ ExitStatus check(const CheckOptions& options) {
     read_robot_file(options.file);
     what = "robot";
   } else {
-    built(read_scenario(options.file));
+    closed_loop(options.file);
     what = "scenario";
   }
   if (options.common.json) {

@@ -1,50 +1,19 @@
 // flinch run: one experiment, with whatever stands for the robot.
 #include <fmt/core.h>
 
-#include <chrono>
-
+#include "apps/flinch/bus/bus_verbs.h"
 #include "apps/flinch/command_line.h"
 #include "apps/flinch/progress.h"
 #include "apps/flinch/run_folder.h"
+#include "apps/flinch/simulated/simulated_parts.h"
+#include "apps/flinch/stop_watch.h"
 #include "experiments/recorded/replay.h"
-#include "experiments/scenario/scenario.h"
-#include "experiments/simulated/experiment.h"
 #include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recording.h"
-#if FLINCH_HAS_BUS
-#include "apps/flinch/bus/bus_verbs.h"
-#endif
 
 namespace flinch {
 namespace {
-
-/// Time since it was made [s].
-class StopWatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
-};
-
-bool is_silent(const CommonOptions& common) { return common.quiet || common.json; }
-
-ExitStatus run_simulated(const RunOptions& options) {
-  const Scenario scenario = read_scenario(options.input, options.seed);
-  out_of(scenario.file, [&] { return build_experiment(scenario); });  // before anything is written
-  const std::filesystem::path folder = make_run_folder(options, scenario.name);
-  const StopWatch watch;
-  Recording recording;
-  {
-    Progress progress("simulating " + scenario.name, is_silent(options.common));
-    recording = run_experiment(scenario, {{"command_line", options.common.command_line}},
-                               [&progress](double share) { progress.show(share); });
-  }
-  return conclude_run(scenario, recording, watch.seconds(), folder, options.common);
-}
 
 void tell_what_differs(const Replay& replayed, const CommonOptions& common) {
   if (common.quiet) return;
@@ -59,12 +28,11 @@ void tell_what_differs(const Replay& replayed, const CommonOptions& common) {
 
 ExitStatus run_recorded(const RunOptions& options) {
   const Recording recorded = read_recording(options.input);
-  const Scenario scenario =
-      options.control.empty() ? recorded_scenario(recorded, options.input) : read_scenario(options.control);
+  const Scenario scenario = scenario_of(recorded, options.input, options.control);
   const StopWatch watch;
   Replay replayed;
   {
-    Progress progress("replaying " + scenario.name, is_silent(options.common));
+    Progress progress("replaying " + scenario.name, options.common.quiet || options.common.json);
     replayed = out_of(options.input, [&] {
       return replay(scenario, recorded, {{"command_line", options.common.command_line}},
                     [&progress](double share) { progress.show(share); });
@@ -78,15 +46,6 @@ ExitStatus run_recorded(const RunOptions& options) {
   }
   tell_what_differs(replayed, options.common);
   return conclude_run(scenario, replayed.recording, watch.seconds(), folder, options.common);
-}
-
-ExitStatus run_on_dds(const RunOptions& options) {
-#if FLINCH_HAS_BUS
-  return run_on_bus(options);
-#else
-  throw SetupError("--station dds: " + options.input.string() +
-                   " cannot be run on the bus, for this flinch was built without Cyclone DDS");
-#endif
 }
 
 /// Says which options mean nothing for this station.
@@ -113,7 +72,7 @@ ExitStatus run(const RunOptions& options) {
     case StationKind::recorded:
       return run_recorded(options);
     case StationKind::dds:
-      return run_on_dds(options);
+      return run_on_bus(options);
     case StationKind::simulated:
       break;
   }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "drivers/dds_station.h"
-#include "experiments/bus/seen_pose.h"
+#include "experiments/live/seen_pose.h"
 #include "systems/framework/tick_statistics.h"
 
 namespace flinch {

@@ -5,9 +5,9 @@
 #include <memory>
 #include <string>
 
-#include "experiments/bus/live_experiment.h"
 #include "experiments/bus/operator_panel.h"
 #include "experiments/bus/tidings.h"
+#include "experiments/live/live_experiment.h"
 #include "systems/framework/block_profile.h"
 #include "systems/framework/realtime_runner.h"
 #include "systems/framework/realtime_thread.h"

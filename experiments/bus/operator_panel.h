@@ -1,7 +1,7 @@
 #pragma once
 
 #include "drivers/dds_station.h"
-#include "experiments/bus/live_experiment.h"
+#include "experiments/live/live_experiment.h"
 #include "systems/framework/context.h"
 #include "systems/framework/exchange.h"
 #include "systems/framework/triple_buffer.h"

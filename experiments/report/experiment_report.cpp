@@ -74,7 +74,11 @@ std::vector<ReportMeasure> measures(const Verdict& verdict, const Expectations& 
   return rows;
 }
 
-ReportRobot drawn_robot(const PlanarRrrParameters& parameters) {
+/// Nothing for a mechanism that the page cannot draw.
+std::optional<ReportRobot> drawn_robot(const ParallelRobot& mechanism) {
+  const auto* const planar = dynamic_cast<const PlanarRrr*>(&mechanism);
+  if (planar == nullptr) return std::nullopt;
+  const PlanarRrrParameters& parameters = planar->parameters();
   ReportRobot robot;
   for (const PlanarRrrLeg& leg : parameters.legs) {
     robot.legs.push_back(
@@ -280,11 +284,10 @@ Report experiment_report(const Scenario& scenario, const Recording& recording, c
   report.good = verdict.good();
   for (const ContactVerdict& contact : verdict.contacts) report.contacts.push_back(report_contact(contact));
   report.measures = measures(verdict, scenario.expected);
-  report.robot = drawn_robot(scenario.station.bench.robot);
-  if (scenario.station.bench.pylon) {
-    const Pylon& pylon = *scenario.station.bench.pylon;
+  report.robot = drawn_robot(*scenario.robot.robot);
+  for (const ScenarioObstacle& obstacle : scenario.obstacles) {
     report.obstacles.push_back(
-        {"pylon", {pylon.position_in_base.x(), pylon.position_in_base.y()}, pylon.radius});
+        {obstacle.name, {obstacle.position_in_base.x(), obstacle.position_in_base.y()}, obstacle.radius});
   }
   report.period = to_seconds(recording.period);
   if (!recording.time_ns.empty()) report.start = 1e-9 * static_cast<double>(recording.time_ns.front());

@@ -4,7 +4,6 @@
 #include <charconv>
 
 #include "experiments/scenario/scenario_control.h"
-#include "experiments/scenario/scenario_station.h"
 #include "systems/config/config_file.h"
 #include "systems/config/config_reader.h"
 #include "systems/foundation/nearest_name.h"
@@ -61,9 +60,18 @@ RobotFile robot_or_stand_in(ConfigReader& reader, Read&& read) {
   return {std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::none)), {}, {}};
 }
 
+ScenarioObstacle read_pylon(ConfigReader reader) {
+  ScenarioObstacle pylon{.name = "pylon"};
+  reader.required().number("x", unit::m, pylon.position_in_base.x());
+  reader.required().number("y", unit::m, pylon.position_in_base.y());
+  reader.number("radius", unit::m, pylon.radius, positive);
+  return pylon;
+}
+
 /// Everything but the robot.
-void read_rest(ConfigReader& reader, std::optional<std::uint64_t> seed, Scenario& scenario) {
-  const auto& robot = dynamic_cast<const PlanarRrr&>(*scenario.robot.robot);
+void read_rest(ConfigReader& reader, std::optional<std::uint64_t> seed, const SectionReader& others,
+               Scenario& scenario) {
+  const ParallelRobot& robot = *scenario.robot.robot;
   scenario.title = scenario.name;
   reader.text("title", scenario.title);
   reader.text("description", scenario.description);
@@ -73,7 +81,8 @@ void read_rest(ConfigReader& reader, std::optional<std::uint64_t> seed, Scenario
   apply_limits(scenario.robot.limits, scenario.control);
   read_control(reader.section("control"), scenario.control);
   read_motion(reader.section("motion"), robot, scenario.control);
-  read_station(reader, robot.parameters(), scenario.control.trajectory.path, scenario.seed, scenario.station);
+  if (reader.has("pylon")) scenario.obstacles.push_back(read_pylon(reader.section("pylon")));
+  others(reader, scenario);
   read_expectations(reader.section("expect"), robot, scenario.expected);
   read_force_limits(reader.section("force_limits"), scenario.force_limits);
   scenario.values = reader.finish();
@@ -101,7 +110,13 @@ std::uint64_t recorded_seed(const Recording& recording, const std::filesystem::p
 
 }  // namespace
 
-Scenario read_scenario(const std::filesystem::path& file, std::optional<std::uint64_t> seed) {
+void leave_simulation_unread(ConfigReader& file, const Scenario&) {
+  for (const char* const section : {"plant", "applied_wrench", "sensors"}) file.leave_unread(section);
+  if (file.has("pylon")) file.section("pylon").leave_rest_unread();
+}
+
+Scenario read_scenario(const std::filesystem::path& file, std::optional<std::uint64_t> seed,
+                       const SectionReader& others) {
   Scenario scenario;
   scenario.file = file;
   scenario.name = file.stem().string();
@@ -112,12 +127,13 @@ Scenario read_scenario(const std::filesystem::path& file, std::optional<std::uin
     if (scenario.robot_file.empty()) throw SetupError(std::vector<std::string>{});
     return read_robot_file(scenario.robot_file);
   });
-  read_rest(reader, seed, scenario);
+  read_rest(reader, seed, others, scenario);
   scenario.robot_text = read_config_file(scenario.robot_file);
   return scenario;
 }
 
-Scenario recorded_scenario(const Recording& recording, const std::filesystem::path& file) {
+Scenario recorded_scenario(const Recording& recording, const std::filesystem::path& file,
+                           const SectionReader& others) {
   Scenario scenario;
   scenario.file = attribute(recording, "scenario.file", file);
   scenario.name = attribute(recording, "scenario.name", file);
@@ -128,7 +144,7 @@ Scenario recorded_scenario(const Recording& recording, const std::filesystem::pa
   std::string unused;
   reader.text("robot", unused);
   scenario.robot = parse_robot_file(scenario.robot_text, file.string() + ":" + scenario.robot_file.string());
-  read_rest(reader, recorded_seed(recording, file), scenario);
+  read_rest(reader, recorded_seed(recording, file), others, scenario);
   return scenario;
 }
 

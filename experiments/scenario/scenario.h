@@ -1,22 +1,32 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "diagrams/contact_control_settings.h"
 #include "experiments/verdict/verdict.h"
-#include "plant/simulated_station.h"
 #include "systems/config/read_value.h"
 #include "systems/config/robot_file.h"
 
 namespace flinch {
 
+class ConfigReader;
 struct Recording;
 
-/// One experiment in simulation: what a scenario file says. apps/scenarios holds some, and explains the keys.
+/// A round post beside the robot, to be run into.
+struct ScenarioObstacle {
+  std::string name;
+  Eigen::Vector2d position_in_base{0.0, 0.0};  ///< of its axis [m]
+  double radius = 0.04;                        ///< [m]
+};
+
+/// One experiment, whatever stands for the robot: what a scenario file says of it. docs/files.md has the
+/// keys.
 struct Scenario {
   std::filesystem::path file;
   std::string name;  ///< the file's name without ".yaml"
@@ -26,9 +36,9 @@ struct Scenario {
   Time duration = 1s;
 
   std::filesystem::path robot_file;
-  RobotFile robot;                   ///< what the controller believes
-  SimulatedStationSettings station;  ///< what stands there really
+  RobotFile robot;  ///< what the controller believes
   ContactControlSettings control;
+  std::vector<ScenarioObstacle> obstacles;
   Expectations expected;
   ForceLimits force_limits;
 
@@ -37,12 +47,21 @@ struct Scenario {
   std::string robot_text;         ///< of the robot file
 };
 
+/// Reads sections of a scenario file that a Scenario has no place for. `so_far` has robot, motion, control,
+/// obstacles and seed; where the robot file is no good, a stand-in for the robot.
+using SectionReader = std::function<void(ConfigReader& file, const Scenario& so_far)>;
+
+/// The sections that only a simulation reads are left unread: whatever they say, nothing is wrong with them.
+void leave_simulation_unread(ConfigReader& file, const Scenario& so_far);
+
 /// Reads a scenario and the robot file it names; `seed` replaces the file's. Throws SetupError with all that
 /// is wrong with both, a motion that the legs do not reach included.
-Scenario read_scenario(const std::filesystem::path& file, std::optional<std::uint64_t> seed = std::nullopt);
+Scenario read_scenario(const std::filesystem::path& file, std::optional<std::uint64_t> seed = std::nullopt,
+                       const SectionReader& others = leave_simulation_unread);
 
 /// The scenario that a recording was made from, out of the texts that it keeps. Throws SetupError naming
 /// `file`, where the recording comes from, when it keeps none.
-Scenario recorded_scenario(const Recording& recording, const std::filesystem::path& file);
+Scenario recorded_scenario(const Recording& recording, const std::filesystem::path& file,
+                           const SectionReader& others = leave_simulation_unread);
 
 }  // namespace flinch

@@ -1,12 +1,12 @@
 #include "experiments/served/served_bench.h"
 
-#include "experiments/scenario/scenario.h"
+#include "experiments/simulated/simulated_scenario.h"
 #include "plant/simulated_station.h"
 #include "systems/framework/diagram_builder.h"
 
 namespace flinch {
 
-ServedBench build_served_bench(const Scenario& scenario, Time longest_silence) {
+ServedBench build_served_bench(const SimulatedScenario& scenario, Time longest_silence) {
   DiagramBuilder builder("bench");
   SimulatedStationSettings settings = scenario.station;
   settings.drives.longest_silence = longest_silence;

@@ -7,7 +7,7 @@
 
 namespace flinch {
 
-struct Scenario;
+struct SimulatedScenario;
 
 /// The simulated bench of a scenario with drives that must be switched on, to be put on the bus. The inputs
 /// of `station` are those of the diagram.
@@ -17,6 +17,6 @@ struct ServedBench {
 };
 
 /// `longest_silence`: after which the drives brake without a command. Throws SetupError.
-ServedBench build_served_bench(const Scenario& scenario, Time longest_silence);
+ServedBench build_served_bench(const SimulatedScenario& scenario, Time longest_silence);
 
 }  // namespace flinch

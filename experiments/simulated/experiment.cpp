@@ -2,7 +2,7 @@
 
 #include "diagrams/contact_control.h"
 #include "experiments/recorded/recorded_signals.h"
-#include "experiments/scenario/scenario.h"
+#include "experiments/simulated/simulated_scenario.h"
 #include "plant/simulated_station.h"
 #include "plant/sundials_integrator.h"
 #include "systems/framework/constant.h"
@@ -12,7 +12,7 @@
 
 namespace flinch {
 
-Experiment build_experiment(const Scenario& scenario) {
+Experiment build_experiment(const SimulatedScenario& scenario) {
   DiagramBuilder builder("experiment", 1ms);
   const SimulatedStation station = add_simulated_station(builder, scenario.station);
   const ContactControl control = add_contact_control(builder, scenario.robot.robot, scenario.control);
@@ -26,7 +26,8 @@ Experiment build_experiment(const Scenario& scenario) {
   return {builder.build(), operator_command};
 }
 
-Recording run_experiment(const Scenario& scenario, const std::map<std::string, std::string>& provenance,
+Recording run_experiment(const SimulatedScenario& scenario,
+                         const std::map<std::string, std::string>& provenance,
                          const std::function<void(double share)>& progress) {
   const Experiment experiment = build_experiment(scenario);
   const Diagram& diagram = *experiment.diagram;

@@ -11,7 +11,7 @@
 
 namespace flinch {
 
-struct Scenario;
+struct SimulatedScenario;
 
 /// The closed loop of a scenario: the simulated station and the control path. The outputs of the diagram are
 /// what is recorded; its input are the operator's buttons.
@@ -21,12 +21,13 @@ struct Experiment {
 };
 
 /// Throws SetupError for settings that do not fit together.
-Experiment build_experiment(const Scenario& scenario);
+Experiment build_experiment(const SimulatedScenario& scenario);
 
 /// Runs the scenario from its start to its end and returns all that was recorded, with what made it as
 /// attributes: version, seed, scenario and robot file, steps that missed their accuracy, and `provenance`.
 /// `progress` is told now and then which share is done. Throws SetupError as build_experiment() does.
-Recording run_experiment(const Scenario& scenario, const std::map<std::string, std::string>& provenance = {},
+Recording run_experiment(const SimulatedScenario& scenario,
+                         const std::map<std::string, std::string>& provenance = {},
                          const std::function<void(double share)>& progress = {});
 
 }  // namespace flinch

@@ -249,6 +249,12 @@ std::vector<ConfigReader> ConfigReader::read_sections(std::string_view name, Cou
   return readers;
 }
 
+void ConfigReader::leave_unread(std::string_view name) {
+  document_->find(*section_, name, unit::none, false);
+}
+
+void ConfigReader::leave_rest_unread() { std::fill(section_->taken.begin(), section_->taken.end(), char{1}); }
+
 // ---------------------------------------------------------------- the end
 
 void ConfigReader::problem(std::string_view name, const std::string& complaint) {

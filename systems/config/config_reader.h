@@ -92,6 +92,11 @@ class ConfigReader {
   /// The same for exactly `count`; of a longer list the first `count`.
   std::vector<ConfigReader> sections(std::string_view name, std::size_t count);
 
+  /// Lets `name` be, whatever stands there: what it says is for another reader. Nothing is wrong with it.
+  void leave_unread(std::string_view name);
+  /// The same for all keys of this section that nobody asks for.
+  void leave_rest_unread();
+
   /// Notes that values do not fit together: `complaint` goes on after the name of a value, section or entry
   /// of a list that was read, as in problem("mass", "is 0 kg; it must be positive"); "" names this section.
   /// It is not told where that value itself is missing or wrong.

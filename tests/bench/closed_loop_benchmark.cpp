@@ -6,8 +6,8 @@
 #include <chrono>
 #include <string>
 
-#include "experiments/scenario/scenario.h"
 #include "experiments/simulated/experiment.h"
+#include "experiments/simulated/simulated_scenario.h"
 #include "plant/sundials_integrator.h"
 #include "systems/framework/recorder.h"
 #include "systems/framework/simulator.h"
@@ -32,7 +32,7 @@ std::string scenario_file(const std::string& name) {
 class ClosedLoop {
  public:
   explicit ClosedLoop(const std::string& name)
-      : scenario_(read_scenario(scenario_file(name))),
+      : scenario_(read_simulated_scenario(scenario_file(name))),
         experiment_(build_experiment(scenario_)),
         recorder_(*experiment_.diagram, recordable_paths(*experiment_.diagram), samples()),
         simulator_(*experiment_.diagram, std::make_unique<SundialsIntegrator>()),
@@ -52,7 +52,7 @@ class ClosedLoop {
  private:
   std::size_t samples() const { return static_cast<std::size_t>(scenario_.duration / 1ms); }
 
-  Scenario scenario_;
+  SimulatedScenario scenario_;
   Experiment experiment_;
   Recorder recorder_;
   Simulator simulator_;

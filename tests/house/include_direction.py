@@ -11,7 +11,7 @@ ROOMS = [f"systems/{room}" for room in ("sensors", "model", "estimators", "conta
 BLOCKS = [*ROOMS, *SIGNALS]
 DIAGRAMS = ["diagrams", *BLOCKS]
 # What reads and judges an experiment, whatever stands for the robot.
-EXPERIMENT_ROOMS = [f"experiments/{room}" for room in ("scenario", "verdict", "report", "recorded")]
+EXPERIMENT_ROOMS = [f"experiments/{room}" for room in ("scenario", "verdict", "report", "recorded", "live")]
 EXPERIMENTS = [*EXPERIMENT_ROOMS, "systems/config", *DIAGRAMS]
 
 MAY_INCLUDE = {
@@ -24,7 +24,7 @@ MAY_INCLUDE = {
     "diagrams": DIAGRAMS,
     "plant": ["plant", *DIAGRAMS],
     "drivers": ["drivers", *DIAGRAMS],
-    **{room: [*EXPERIMENTS, "plant"] for room in EXPERIMENT_ROOMS},
+    **{room: EXPERIMENTS for room in EXPERIMENT_ROOMS},
     "experiments/simulated": ["experiments/simulated", "plant", *EXPERIMENTS],
     "experiments/bus": ["experiments/bus", "drivers", *EXPERIMENTS],
     "experiments/served": ["experiments/served", "experiments/simulated", "plant", "drivers", *EXPERIMENTS],

@@ -3,11 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "experiments/simulated/experiment.h"
-#include "systems/config/robot_file.h"
-#include "systems/framework/diagram.h"
-#include "systems/framework/recording.h"
-#include "systems/robot/planar_rrr.h"
+#include "systems/config/config_reader.h"
+#include "systems/foundation/setup_error.h"
 #include "tests/support/workplace.h"
 
 namespace flinch {
@@ -15,7 +12,12 @@ namespace {
 
 using test::shipped;
 using ::testing::Contains;
+using ::testing::Each;
 using ::testing::ElementsAre;
+using ::testing::Field;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
 
 /// The least that a scenario can say.
 constexpr const char* least = "robot: ../robots/planar_3rrr.yaml\nduration_s: 0.25\n";
@@ -25,22 +27,13 @@ Scenario scenario_of(const test::Workplace& place, const std::string& text) {
   return read_scenario(place / "scenarios/own.yaml");
 }
 
-const PlanarRrrParameters& believed(const Scenario& scenario) {
-  return dynamic_cast<const PlanarRrr&>(*scenario.robot.robot).parameters();
-}
-
-TEST(ShippedScenarios, AreThoseOfThePapers) {
-  EXPECT_THAT(test::shipped_scenarios(), ElementsAre("clamping", "first_link_collision", "platform_collision",
-                                                     "second_link_collision", "square", "stiffness"));
-}
-
-TEST(ShippedScenarios, AreAllGood) {
-  for (const std::string& name : test::shipped_scenarios()) {
-    const Scenario scenario = read_scenario(shipped("scenarios/" + name + ".yaml"));
-    EXPECT_EQ(scenario.name, name);
-    EXPECT_FALSE(scenario.title.empty() || scenario.description.empty()) << name;
-    EXPECT_NE(build_experiment(scenario).diagram, nullptr);
+std::vector<std::string> problems_with(const test::Workplace& place, const std::string& text) {
+  try {
+    scenario_of(place, text);
+  } catch (const SetupError& error) {
+    return error.problems();
   }
+  return {};
 }
 
 TEST(Scenario, NeedsNoMoreThanARobotAndADuration) {
@@ -51,10 +44,8 @@ TEST(Scenario, NeedsNoMoreThanARobotAndADuration) {
   EXPECT_EQ(scenario.seed, 1U);
   EXPECT_EQ(scenario.duration, 250ms);
   EXPECT_FALSE(scenario.control.trajectory.path.has_value());
-  EXPECT_FALSE(scenario.station.bench.pylon.has_value());
-  EXPECT_TRUE(scenario.station.applied_wrench.empty());
+  EXPECT_TRUE(scenario.obstacles.empty());
   EXPECT_FALSE(scenario.expected.contact.has_value());
-  EXPECT_EQ(run_experiment(scenario).samples(), 250U);
 }
 
 TEST(Scenario, HasTheDefaultsOfThePapers) {
@@ -66,74 +57,69 @@ TEST(Scenario, HasTheDefaultsOfThePapers) {
   EXPECT_EQ(control.contact_detector.reaction.moment, 1.0);
   EXPECT_EQ(control.impedance.stiffness, PlatformVector(Eigen::Vector3d(2000.0, 2000.0, 85.0)));
   EXPECT_EQ(control.retraction.distance, 0.1);
+  EXPECT_EQ(control.faults.workspace.max_distance, scenario.robot.limits.max_distance);
   EXPECT_EQ(scenario.force_limits.transient, 280.0);
   EXPECT_EQ(scenario.force_limits.quasi_static, 140.0);
-}
-
-TEST(Scenario, SimulatesTheRobotThatTheControllerBelievesIn) {
-  const test::Workplace place;
-  const Scenario scenario = scenario_of(place, least);
-  EXPECT_EQ(scenario.station.bench.robot.platform_mass, believed(scenario).platform_mass);
-  EXPECT_EQ(scenario.station.bench.robot.legs[1].active_friction.coulomb,
-            believed(scenario).legs[1].active_friction.coulomb);
-  EXPECT_EQ(scenario.control.faults.workspace.max_distance, scenario.robot.limits.max_distance);
-}
-
-TEST(Scenario, CanLetThePlantDifferFromTheModel) {
-  const test::Workplace place;
-  const Scenario scenario = scenario_of(
-      place, std::string(least) + "plant: {friction: none, payload_kg: 0.5, leg_inertia_scale: 1.1}\n");
-  const PlanarRrrParameters& plant = scenario.station.bench.robot;
-  EXPECT_EQ(plant.platform_mass, believed(scenario).platform_mass + 0.5);
-  EXPECT_EQ(plant.legs[2].inertia.p1, believed(scenario).legs[2].inertia.p1 * 1.1);
-  EXPECT_EQ(plant.legs[0].active_friction.coulomb, 0.0);
-  EXPECT_GT(believed(scenario).legs[0].active_friction.coulomb, 0.0);
-}
-
-TEST(Scenario, StartsWhereItsMotionStarts) {
-  for (const std::string& name : test::shipped_scenarios()) {
-    const Scenario scenario = read_scenario(shipped("scenarios/" + name + ".yaml"));
-    const auto& path = scenario.control.trajectory.path;
-    const auto& start = scenario.station.bench.initial_pose;
-    ASSERT_EQ(start.has_value(), path.has_value()) << name;
-    if (path) {
-      EXPECT_EQ(PlatformVector(*start), path->start()) << name;
-    }
-  }
 }
 
 TEST(Scenario, TakesTheSeedOfTheCommandLine) {
   const std::filesystem::path file = shipped("scenarios/square.yaml");
   EXPECT_EQ(read_scenario(file).seed, 1U);
-  EXPECT_EQ(read_scenario(file).station.seed, 1U);
   EXPECT_EQ(read_scenario(file, 18446744073709551615U).seed, 18446744073709551615U);
-  EXPECT_EQ(read_scenario(file, 7).station.seed, 7U);
 }
 
-TEST(Scenario, ListsEveryParameterWithItsOrigin) {
+TEST(Scenario, KnowsWhatCanBeRunInto) {
+  const Scenario scenario = read_scenario(shipped("scenarios/platform_collision.yaml"));
+  ASSERT_EQ(scenario.obstacles.size(), 1U);
+  EXPECT_EQ(scenario.obstacles[0].name, "pylon");
+  EXPECT_NEAR(scenario.obstacles[0].radius, 0.04, 1e-15);
+}
+
+// ---------------------------------------------------------------- what only a simulation reads
+
+TEST(Scenario, SaysNothingOfWhatOnlyASimulationReads) {
+  const test::Workplace place;
+  EXPECT_THAT(
+      problems_with(place, std::string(least) + "plant: {payload_kg: -3, nonsense: true}\n"
+                                                "applied_wrench: not even a list\n"
+                                                "sensors: {ideal: perhaps}\n"
+                                                "pylon: {x_mm: -240, y_mm: -20, stiffness_N_per_m: soft}\n"),
+      ElementsAre());
+}
+
+TEST(Scenario, IsStillStrictWithAllElse) {
+  const test::Workplace place;
+  const auto problems = problems_with(place, std::string(least) +
+                                                 "plants: {friction: none}\n"
+                                                 "pylon: {x_mm: far, y_mm: -20}\n");
+  EXPECT_THAT(problems, ElementsAre(HasSubstr("own.yaml:3: plants: is not a known key"),
+                                    HasSubstr("own.yaml:4: pylon.x_mm: ")));
+}
+
+TEST(Scenario, ListsEveryParameterThatItReadsWithItsOrigin) {
   const Scenario scenario = read_scenario(shipped("scenarios/platform_collision.yaml"));
   const auto is = [](const std::string& key, const std::string& value, bool from_file) {
-    return ::testing::AllOf(::testing::Field(&ReadValue::key, key),
-                            ::testing::Field(&ReadValue::value, value),
-                            ::testing::Field(&ReadValue::from_file, from_file));
+    return ::testing::AllOf(Field(&ReadValue::key, key), Field(&ReadValue::value, value),
+                            Field(&ReadValue::from_file, from_file));
   };
   EXPECT_THAT(scenario.values, Contains(is("motion.cruise", "0.08", true)));
   EXPECT_THAT(scenario.values, Contains(is("control.momentum_observer.gain", "[20, 20, 20]", true)));
   EXPECT_THAT(scenario.values, Contains(is("control.contact_detector.hard_force", "60", false)));
-  EXPECT_THAT(scenario.values, Contains(is("plant.friction", "as_robot_file", false)));
+  EXPECT_THAT(scenario.values, Each(Field(&ReadValue::key, Not(StartsWith("plant")))));
 }
 
-TEST(Scenario, ComesBackOutOfItsRecording) {
-  test::Workplace place;
-  place.replace("scenarios/platform_collision.yaml", "duration_s: 1.2", "duration_s: 0.05");
-  const Scenario scenario = read_scenario(place / "scenarios/platform_collision.yaml", 42);
-  const Scenario again = recorded_scenario(run_experiment(scenario), "run.h5");
-  EXPECT_EQ(again.name, scenario.name);
-  EXPECT_EQ(again.seed, 42U);
-  EXPECT_EQ(again.text, scenario.text);
-  EXPECT_EQ(again.robot_text, scenario.robot_text);
-  EXPECT_EQ(again.expected.contact, scenario.expected.contact);
-  EXPECT_EQ(again.station.bench.initial_pose, scenario.station.bench.initial_pose);
+TEST(Scenario, LetsOthersReadSectionsOfTheirOwn) {
+  const test::Workplace place;
+  place.write("scenarios/own.yaml", std::string(least) + "my_observer: {gain_per_s: 30}\n");
+  double gain = 0.0;
+  const Scenario scenario = read_scenario(
+      place / "scenarios/own.yaml", std::nullopt, [&gain](ConfigReader& file, const Scenario& so_far) {
+        EXPECT_EQ(so_far.robot.robot->dof(), 3);
+        leave_simulation_unread(file, so_far);
+        file.section("my_observer").number("gain", unit::per_s, gain, positive);
+      });
+  EXPECT_EQ(gain, 30.0);
+  EXPECT_THAT(scenario.values, Contains(Field(&ReadValue::key, "my_observer.gain")));
 }
 
 }  // namespace

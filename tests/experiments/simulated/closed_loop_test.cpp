@@ -7,8 +7,8 @@
 #include <thread>
 
 #include "experiments/recorded/replay.h"
-#include "experiments/scenario/scenario.h"
 #include "experiments/simulated/experiment.h"
+#include "experiments/simulated/simulated_scenario.h"
 #include "experiments/verdict/verdict.h"
 #include "plant/sundials_integrator.h"
 #include "systems/framework/recorder.h"
@@ -19,8 +19,8 @@
 namespace flinch {
 namespace {
 
-Scenario scenario_called(const std::string& name, std::optional<std::uint64_t> seed = std::nullopt) {
-  return read_scenario(test::shipped("scenarios/" + name + ".yaml"), seed);
+SimulatedScenario scenario_called(const std::string& name, std::optional<std::uint64_t> seed = std::nullopt) {
+  return read_simulated_scenario(test::shipped("scenarios/" + name + ".yaml"), seed);
 }
 
 /// Whether all numbers of a signal are the same bits, at the same times.
@@ -42,7 +42,7 @@ INSTANTIATE_TEST_SUITE_P(Of, ClosedLoop, ::testing::ValuesIn(test::shipped_scena
                          [](const auto& tested) { return tested.param; });
 
 TEST_P(ClosedLoop, TakesNoMemoryThroughContactAndReaction) {
-  const Scenario scenario = scenario_called(GetParam());
+  const SimulatedScenario scenario = scenario_called(GetParam());
   const Experiment experiment = build_experiment(scenario);
   const auto ticks = static_cast<std::size_t>(scenario.duration / 1ms);
   Recorder recorder(*experiment.diagram, recordable_paths(*experiment.diagram), ticks);
@@ -59,7 +59,7 @@ TEST_P(ClosedLoop, TakesNoMemoryThroughContactAndReaction) {
 }
 
 TEST_P(ClosedLoop, GoesThroughWhatItIsMeantToShow) {
-  const Scenario scenario = scenario_called(GetParam());
+  const SimulatedScenario scenario = scenario_called(GetParam());
   const Recording recording = run_experiment(scenario);
   const std::vector<double> modes = recording.column("reaction", "mode");
   const auto reached = [&modes](ReactionMode mode) {
@@ -80,7 +80,7 @@ TEST_P(ClosedLoop, KeepsItsLegsTogether) {
 }
 
 TEST_P(ClosedLoop, GivesTheSameBitsInTwoThreadsAtOnce) {
-  const Scenario scenario = scenario_called(GetParam());
+  const SimulatedScenario scenario = scenario_called(GetParam());
   Recording first, second;
   std::thread a([&] { first = run_experiment(scenario); });
   std::thread b([&] { second = run_experiment(scenario); });
@@ -99,7 +99,7 @@ TEST_P(ClosedLoop, MeasuresOtherNoiseWithAnotherSeed) {
 
 TEST_P(ClosedLoop, IsReplayedBitForBitFromItsRecordingFile) {
   const test::Workplace place;
-  const Scenario scenario = scenario_called(GetParam());
+  const SimulatedScenario scenario = scenario_called(GetParam());
   write_recording(run_experiment(scenario), place / "run.h5");
   const Recording recorded = read_recording(place / "run.h5");
   const Replay replayed = replay(recorded_scenario(recorded, place / "run.h5"), recorded);
@@ -110,7 +110,7 @@ TEST_P(ClosedLoop, IsReplayedBitForBitFromItsRecordingFile) {
 }
 
 TEST(Replay, TellsAnotherControlPathFromTheRecordedOne) {
-  Scenario scenario = scenario_called("platform_collision");
+  SimulatedScenario scenario = scenario_called("platform_collision");
   const Recording recorded = run_experiment(scenario);
   scenario.control.momentum_observer.gain *= 2.0;
   const Replay replayed = replay(scenario, recorded);

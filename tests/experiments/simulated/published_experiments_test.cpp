@@ -8,8 +8,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "experiments/scenario/scenario.h"
 #include "experiments/simulated/experiment.h"
+#include "experiments/simulated/simulated_scenario.h"
 #include "experiments/verdict/verdict.h"
 #include "systems/framework/recording.h"
 #include "systems/robot/planar_rrr.h"
@@ -18,11 +18,11 @@
 namespace flinch {
 namespace {
 
-Scenario scenario_called(const std::string& name, std::uint64_t seed = 1) {
-  return read_scenario(test::shipped("scenarios/" + name + ".yaml"), seed);
+SimulatedScenario scenario_called(const std::string& name, std::uint64_t seed = 1) {
+  return read_simulated_scenario(test::shipped("scenarios/" + name + ".yaml"), seed);
 }
 
-Verdict verdict_of(const Scenario& scenario) {
+Verdict verdict_of(const SimulatedScenario& scenario) {
   return judge(run_experiment(scenario), scenario.expected, scenario.force_limits);
 }
 
@@ -114,8 +114,8 @@ std::shared_ptr<const PlanarRrr> without_friction(const ParallelRobot& robot) {
 }
 
 /// A push in x that moves the platform by 50 mm at most, against `stiffness` [N/m].
-Scenario push_against(double stiffness, Friction friction) {
-  Scenario scenario = scenario_called("stiffness");
+SimulatedScenario push_against(double stiffness, Friction friction) {
+  SimulatedScenario scenario = scenario_called("stiffness");
   scenario.control.impedance.stiffness.head(2).setConstant(stiffness);
   scenario.control.impedance.compensate_friction = friction != Friction::not_compensated;
   WrenchRamp& push = scenario.station.applied_wrench.front();
@@ -135,7 +135,7 @@ struct StiffnessFit {
 };
 
 /// Fitted while the force rises, from when the first swing has settled.
-StiffnessFit fit(const Scenario& scenario) {
+StiffnessFit fit(const SimulatedScenario& scenario) {
   const Recording recording = run_experiment(scenario);
   const std::vector<double> x = recording.column("truth", "pose", 0);
   const std::vector<double> force = recording.column("truth", "wrench_in_base", 0);

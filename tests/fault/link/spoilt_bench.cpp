@@ -8,7 +8,7 @@
 #include "apps/flinch/bus/bus_start.h"
 #include "drivers/dds_server.h"
 #include "drivers/wire_header.h"
-#include "experiments/scenario/scenario.h"
+#include "experiments/simulated/simulated_scenario.h"
 #include "plant/sundials_integrator.h"
 #include "systems/framework/diagram_builder.h"
 #include "systems/framework/realtime_runner.h"
@@ -55,7 +55,7 @@ class Spoiler final : public System {
 
 void serve_spoilt_bench(std::uint32_t domain, const Spoilt& spoilt) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  const Scenario scenario = read_scenario(shipped_file("scenarios/square.yaml"));
+  const SimulatedScenario scenario = read_simulated_scenario(shipped_file("scenarios/square.yaml"));
   DdsServerSettings settings{.robot = robot_hash(scenario.robot_text)};
   SimulatedStationSettings bench = scenario.station;
   bench.drives.longest_silence = settings.longest_silence;

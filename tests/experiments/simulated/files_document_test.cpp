@@ -5,8 +5,8 @@
 #include <iterator>
 #include <string>
 
-#include "experiments/scenario/scenario.h"
 #include "experiments/simulated/experiment.h"
+#include "experiments/simulated/simulated_scenario.h"
 
 namespace flinch {
 namespace {
@@ -27,7 +27,7 @@ TEST(DocumentedScenario, CanBeRunAndSaysEveryKey) {
   const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "documented_scenario.yaml";
   std::ofstream(file) << text;
 
-  const Scenario scenario = read_scenario(file);
+  const SimulatedScenario scenario = read_simulated_scenario(file);
   EXPECT_NO_THROW(build_experiment(scenario));
   EXPECT_GT(scenario.values.size(), 50U);
   for (const ReadValue& value : scenario.values) EXPECT_TRUE(value.from_file) << value.key;

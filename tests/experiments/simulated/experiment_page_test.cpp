@@ -3,8 +3,8 @@
 
 #include "experiments/report/experiment_report.h"
 #include "experiments/report/report_page.h"
-#include "experiments/scenario/scenario.h"
 #include "experiments/simulated/experiment.h"
+#include "experiments/simulated/simulated_scenario.h"
 #include "experiments/verdict/verdict.h"
 #include "systems/framework/recording.h"
 #include "tests/experiments/report/chromium.h"
@@ -13,7 +13,7 @@ namespace flinch {
 namespace {
 
 Report report_of(const std::string& scenario_file) {
-  const Scenario scenario = read_scenario(scenario_file);
+  const SimulatedScenario scenario = read_simulated_scenario(scenario_file);
   const Recording recording = run_experiment(scenario, {{"command_line", "flinch run " + scenario_file}});
   return experiment_report(scenario, recording, judge(recording, scenario.expected, scenario.force_limits));
 }

@@ -1,4 +1,4 @@
-#include "experiments/bus/seen_pose.h"
+#include "experiments/live/seen_pose.h"
 
 #include <gmock/gmock.h>
 

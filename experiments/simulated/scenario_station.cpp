@@ -1,11 +1,12 @@
-#include "experiments/scenario/scenario_station.h"
+#include "experiments/simulated/scenario_station.h"
 
 #include <span>
 #include <string>
 
+#include "experiments/scenario/scenario.h"
 #include "plant/simulated_station.h"
 #include "systems/config/config_reader.h"
-#include "systems/motion/platform_path.h"
+#include "systems/robot/planar_rrr.h"
 
 namespace flinch {
 namespace {
@@ -20,20 +21,18 @@ void read_material(ConfigReader& reader, ContactMaterial& material) {
   reader.number("friction", unit::none, material.friction, not_negative);
 }
 
-void read_pylon(ConfigReader reader, std::optional<Pylon>& station_pylon) {
+/// What only a simulation needs to know of the pylon: how it gives way.
+Pylon read_pylon(ConfigReader reader, const ScenarioObstacle& obstacle) {
   Pylon pylon;
-  double x = 0.0, y = 0.0;
-  reader.required().number("x", unit::m, x);
-  reader.required().number("y", unit::m, y);
-  pylon.position_in_base = {x, y};
-  reader.number("radius", unit::m, pylon.radius, positive);
+  pylon.position_in_base = obstacle.position_in_base;
+  pylon.radius = obstacle.radius;
   read_material(reader, pylon.material);
   reader.choice("mounting", pylon.mounting,
                 {{"fixed", Pylon::Mounting::fixed}, {"compliant", Pylon::Mounting::compliant}});
   reader.number("mass", unit::kg, pylon.mass, positive);
   reader.number("mount_stiffness", unit::N_per_m, pylon.mount_stiffness, positive);
   reader.number("mount_damping", unit::Ns_per_m, pylon.mount_damping, not_negative);
-  station_pylon = pylon;
+  return pylon;
 }
 
 enum class PlantFriction { as_robot_file, none };
@@ -124,20 +123,25 @@ WrenchRamp read_ramp(ConfigReader reader) {
 
 }  // namespace
 
-void read_station(ConfigReader& scenario, const PlanarRrrParameters& robot,
-                  const std::optional<PlatformPath>& path, std::uint64_t seed,
-                  SimulatedStationSettings& station) {
-  station.seed = seed;
-  station.bench.robot = robot;
+void read_station(ConfigReader& file, const Scenario& scenario, SimulatedStationSettings& station) {
+  const auto* const robot = dynamic_cast<const PlanarRrr*>(scenario.robot.robot.get());
+  if (robot == nullptr) {
+    leave_simulation_unread(file, scenario);
+    file.problem("robot", "is of a kind that cannot be simulated; only planar_3rrr can");
+    return;
+  }
+  station.seed = scenario.seed;
+  station.bench.robot = robot->parameters();
+  const std::optional<PlatformPath>& path = scenario.control.trajectory.path;
   if (path) station.bench.initial_pose = path->start();
-  read_plant(scenario.section("plant"), station);
-  if (scenario.has("pylon")) read_pylon(scenario.section("pylon"), station.bench.pylon);
-  for (ConfigReader& ramp : scenario.sections("applied_wrench"))
+  for (const ScenarioObstacle& obstacle : scenario.obstacles)
+    station.bench.pylon = read_pylon(file.section(obstacle.name), obstacle);
+  read_plant(file.section("plant"), station);
+  for (ConfigReader& ramp : file.sections("applied_wrench"))
     station.applied_wrench.push_back(read_ramp(ramp));
-  read_sensors(scenario.section("sensors"), station);
-  for (const std::string& complaint : problems(station.bench)) scenario.add_problems({"plant: " + complaint});
-  for (const std::string& complaint : problems(station.imu))
-    scenario.add_problems({"sensors.imu: " + complaint});
+  read_sensors(file.section("sensors"), station);
+  for (const std::string& complaint : problems(station.bench)) file.add_problems({"plant: " + complaint});
+  for (const std::string& complaint : problems(station.imu)) file.add_problems({"sensors.imu: " + complaint});
 }
 
 }  // namespace flinch

@@ -7,8 +7,8 @@
 
 #include "experiments/report/experiment_report.h"
 #include "experiments/report/report.h"
-#include "experiments/scenario/scenario.h"
 #include "experiments/simulated/experiment.h"
+#include "experiments/simulated/simulated_scenario.h"
 #include "experiments/verdict/verdict.h"
 #include "systems/framework/recording.h"
 #include "tests/support/workplace.h"
@@ -17,7 +17,7 @@ namespace flinch {
 namespace {
 
 struct SimulatedRun {
-  Scenario scenario = read_scenario(test::shipped("scenarios/platform_collision.yaml"));
+  SimulatedScenario scenario = read_simulated_scenario(test::shipped("scenarios/platform_collision.yaml"));
   Recording recording = run_experiment(scenario);
 
   void forget(const std::string& path) {

@@ -10,8 +10,8 @@
 #include "drivers/wire_header.h"
 #include "experiments/bus/interrupts.h"
 #include "experiments/bus/names.h"
-#include "experiments/scenario/scenario.h"
 #include "experiments/served/served_bench.h"
+#include "experiments/simulated/simulated_scenario.h"
 #include "plant/sundials_integrator.h"
 #include "systems/foundation/problems_of_place.h"
 #include "systems/framework/exchange_list.h"
@@ -94,7 +94,7 @@ void tell_the_end(const DdsCommander& commander, const TickStatistics& ticks, co
 
 ExitStatus serve(const ServeOptions& options) {
   const bool silent = options.common.quiet || options.common.json;
-  const Scenario scenario = read_scenario(options.scenario, options.seed);
+  const SimulatedScenario scenario = read_simulated_scenario(options.scenario, options.seed);
   DdsServerSettings settings{.robot = robot_hash(scenario.robot_text)};
   const ServedBench bench =
       out_of(scenario.file, [&] { return build_served_bench(scenario, settings.longest_silence); });

@@ -1,4 +1,4 @@
-#include "experiments/bus/live_experiment.h"
+#include "experiments/live/live_experiment.h"
 
 #include "experiments/recorded/recorded_signals.h"
 #include "experiments/scenario/scenario.h"
@@ -10,7 +10,7 @@ namespace flinch {
 LiveExperiment build_live_experiment(const Scenario& scenario) {
   DiagramBuilder builder("experiment");
   LiveExperiment experiment;
-  const bool has_instrument = scenario.station.bench.pylon && scenario.station.force_torque;
+  const bool has_instrument = !scenario.obstacles.empty();  // the sensor below the pylon
   experiment.station = add_external_station(builder, scenario.robot.robot, {.force_torque = has_instrument});
   experiment.control = add_contact_control(builder, scenario.robot.robot, scenario.control);
   connect(builder, experiment.station, experiment.control);

@@ -1,0 +1,53 @@
+#include "apps/flinch/simulated/simulated_parts.h"
+
+#include <algorithm>
+
+#include "apps/flinch/progress.h"
+#include "apps/flinch/run_folder.h"
+#include "apps/flinch/stop_watch.h"
+#include "experiments/simulated/experiment.h"
+#include "experiments/simulated/simulated_scenario.h"
+#include "systems/foundation/problems_of_place.h"
+#include "systems/framework/recording.h"
+
+namespace flinch {
+namespace {
+
+Experiment built(const SimulatedScenario& scenario) {
+  return out_of(scenario.file, [&scenario] { return build_experiment(scenario); });
+}
+
+bool was_simulated(const Recording& recording) {
+  return std::any_of(recording.signals.begin(), recording.signals.end(),
+                     [](const Signal& signal) { return signal.path == "truth"; });
+}
+
+}  // namespace
+
+ExitStatus run_simulated(const RunOptions& options) {
+  const SimulatedScenario scenario = read_simulated_scenario(options.input, options.seed);
+  built(scenario);  // before anything is written
+  const std::filesystem::path folder = make_run_folder(options, scenario.name);
+  const StopWatch watch;
+  Recording recording;
+  {
+    Progress progress("simulating " + scenario.name, options.common.quiet || options.common.json);
+    recording = run_experiment(scenario, {{"command_line", options.common.command_line}},
+                               [&progress](double share) { progress.show(share); });
+  }
+  return conclude_run(scenario, recording, watch.seconds(), folder, options.common);
+}
+
+std::unique_ptr<Diagram> closed_loop(const std::filesystem::path& scenario) {
+  return built(read_simulated_scenario(scenario)).diagram;
+}
+
+Scenario scenario_of(const Recording& recording, const std::filesystem::path& file,
+                     const std::filesystem::path& control) {
+  if (!was_simulated(recording)) {
+    return control.empty() ? recorded_scenario(recording, file) : read_scenario(control);
+  }
+  return control.empty() ? recorded_simulated_scenario(recording, file) : read_simulated_scenario(control);
+}
+
+}  // namespace flinch

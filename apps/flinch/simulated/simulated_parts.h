@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "apps/flinch/command_line.h"
+#include "experiments/scenario/scenario.h"
+
+namespace flinch {
+
+class Diagram;
+
+/// flinch run --station simulated. Throws SetupError for bad input.
+ExitStatus run_simulated(const RunOptions& options);
+
+/// The closed loop of a scenario: its control path with the simulated station, or, where this program was
+/// built without the simulation, with a robot outside. Throws SetupError for all that is wrong with the file.
+std::unique_ptr<Diagram> closed_loop(const std::filesystem::path& scenario);
+
+/// The scenario that a recording was made from, or that of the file `control` if it is named. Where the run
+/// was simulated, and this program can, its parameters are those of the simulation, too. Throws SetupError
+/// naming `file`, where the recording comes from, when it keeps none, and as read_scenario().
+Scenario scenario_of(const Recording& recording, const std::filesystem::path& file,
+                     const std::filesystem::path& control = {});
+
+}  // namespace flinch

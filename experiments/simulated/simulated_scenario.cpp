@@ -1,0 +1,27 @@
+#include "experiments/simulated/simulated_scenario.h"
+
+#include "experiments/simulated/scenario_station.h"
+
+namespace flinch {
+namespace {
+
+SectionReader station_into(SimulatedStationSettings& station) {
+  return [&station](ConfigReader& file, const Scenario& scenario) { read_station(file, scenario, station); };
+}
+
+}  // namespace
+
+SimulatedScenario read_simulated_scenario(const std::filesystem::path& file,
+                                          std::optional<std::uint64_t> seed) {
+  SimulatedStationSettings station;
+  Scenario scenario = read_scenario(file, seed, station_into(station));
+  return {std::move(scenario), std::move(station)};
+}
+
+SimulatedScenario recorded_simulated_scenario(const Recording& recording, const std::filesystem::path& file) {
+  SimulatedStationSettings station;
+  Scenario scenario = recorded_scenario(recording, file, station_into(station));
+  return {std::move(scenario), std::move(station)};
+}
+
+}  // namespace flinch

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "experiments/scenario/scenario.h"
+#include "plant/simulated_station.h"
+
+namespace flinch {
+
+/// A scenario with what stands behind its control path in simulation.
+struct SimulatedScenario : Scenario {
+  SimulatedStationSettings station;
+};
+
+/// As read_scenario() and recorded_scenario(), with the sections that describe the simulation.
+SimulatedScenario read_simulated_scenario(const std::filesystem::path& file,
+                                          std::optional<std::uint64_t> seed = std::nullopt);
+SimulatedScenario recorded_simulated_scenario(const Recording& recording, const std::filesystem::path& file);
+
+}  // namespace flinch

@@ -1,0 +1,139 @@
+#include "experiments/simulated/simulated_scenario.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "experiments/simulated/experiment.h"
+#include "systems/config/robot_file.h"
+#include "systems/foundation/setup_error.h"
+#include "systems/framework/diagram.h"
+#include "systems/framework/recording.h"
+#include "systems/robot/planar_rrr.h"
+#include "tests/support/workplace.h"
+
+namespace flinch {
+namespace {
+
+using test::shipped;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+
+/// The least that a scenario can say.
+constexpr const char* least = "robot: ../robots/planar_3rrr.yaml\nduration_s: 0.25\n";
+
+SimulatedScenario scenario_of(const test::Workplace& place, const std::string& text) {
+  place.write("scenarios/own.yaml", text);
+  return read_simulated_scenario(place / "scenarios/own.yaml");
+}
+
+const PlanarRrrParameters& believed(const SimulatedScenario& scenario) {
+  return dynamic_cast<const PlanarRrr&>(*scenario.robot.robot).parameters();
+}
+
+TEST(ShippedScenarios, AreThoseOfThePapers) {
+  EXPECT_THAT(test::shipped_scenarios(), ElementsAre("clamping", "first_link_collision", "platform_collision",
+                                                     "second_link_collision", "square", "stiffness"));
+}
+
+TEST(ShippedScenarios, AreAllGood) {
+  for (const std::string& name : test::shipped_scenarios()) {
+    const SimulatedScenario scenario = read_simulated_scenario(shipped("scenarios/" + name + ".yaml"));
+    EXPECT_EQ(scenario.name, name);
+    EXPECT_FALSE(scenario.title.empty() || scenario.description.empty()) << name;
+    EXPECT_NE(build_experiment(scenario).diagram, nullptr);
+  }
+}
+
+TEST(SimulatedScenario, HasNothingThatTouchesTheRobotUnlessItSaysSo) {
+  const test::Workplace place;
+  const SimulatedScenario scenario = scenario_of(place, least);
+  EXPECT_FALSE(scenario.station.bench.pylon.has_value());
+  EXPECT_TRUE(scenario.station.applied_wrench.empty());
+  EXPECT_EQ(run_experiment(scenario).samples(), 250U);
+}
+
+TEST(SimulatedScenario, PutsThePylonWhereTheScenarioSays) {
+  const SimulatedScenario scenario = read_simulated_scenario(shipped("scenarios/platform_collision.yaml"));
+  ASSERT_TRUE(scenario.station.bench.pylon.has_value());
+  EXPECT_EQ(scenario.station.bench.pylon->position_in_base, scenario.obstacles.at(0).position_in_base);
+  EXPECT_EQ(scenario.station.bench.pylon->radius, scenario.obstacles.at(0).radius);
+}
+
+TEST(SimulatedScenario, TellsWhatIsWrongWithItsOwnSectionsAsWell) {
+  const test::Workplace place;
+  try {
+    scenario_of(place, std::string(least) + "plant: {payload_kg: -3}\nsensors: {ideal: perhaps}\n");
+    ADD_FAILURE() << "nothing was wrong";
+  } catch (const SetupError& error) {
+    EXPECT_THAT(error.problems(), ElementsAre(::testing::HasSubstr("own.yaml:3: plant.payload_kg: "),
+                                              ::testing::HasSubstr("own.yaml:4: sensors.ideal: ")));
+  }
+}
+
+TEST(SimulatedScenario, SimulatesTheRobotThatTheControllerBelievesIn) {
+  const test::Workplace place;
+  const SimulatedScenario scenario = scenario_of(place, least);
+  EXPECT_EQ(scenario.station.bench.robot.platform_mass, believed(scenario).platform_mass);
+  EXPECT_EQ(scenario.station.bench.robot.legs[1].active_friction.coulomb,
+            believed(scenario).legs[1].active_friction.coulomb);
+}
+
+TEST(SimulatedScenario, CanLetThePlantDifferFromTheModel) {
+  const test::Workplace place;
+  const SimulatedScenario scenario = scenario_of(
+      place, std::string(least) + "plant: {friction: none, payload_kg: 0.5, leg_inertia_scale: 1.1}\n");
+  const PlanarRrrParameters& plant = scenario.station.bench.robot;
+  EXPECT_EQ(plant.platform_mass, believed(scenario).platform_mass + 0.5);
+  EXPECT_EQ(plant.legs[2].inertia.p1, believed(scenario).legs[2].inertia.p1 * 1.1);
+  EXPECT_EQ(plant.legs[0].active_friction.coulomb, 0.0);
+  EXPECT_GT(believed(scenario).legs[0].active_friction.coulomb, 0.0);
+}
+
+TEST(SimulatedScenario, StartsWhereItsMotionStarts) {
+  for (const std::string& name : test::shipped_scenarios()) {
+    const SimulatedScenario scenario = read_simulated_scenario(shipped("scenarios/" + name + ".yaml"));
+    const auto& path = scenario.control.trajectory.path;
+    const auto& start = scenario.station.bench.initial_pose;
+    ASSERT_EQ(start.has_value(), path.has_value()) << name;
+    if (path) {
+      EXPECT_EQ(PlatformVector(*start), path->start()) << name;
+    }
+  }
+}
+
+TEST(SimulatedScenario, TakesTheSeedOfTheCommandLine) {
+  const std::filesystem::path file = shipped("scenarios/square.yaml");
+  EXPECT_EQ(read_simulated_scenario(file).seed, 1U);
+  EXPECT_EQ(read_simulated_scenario(file).station.seed, 1U);
+  EXPECT_EQ(read_simulated_scenario(file, 18446744073709551615U).seed, 18446744073709551615U);
+  EXPECT_EQ(read_simulated_scenario(file, 7).station.seed, 7U);
+}
+
+TEST(SimulatedScenario, ListsEveryParameterWithItsOrigin) {
+  const SimulatedScenario scenario = read_simulated_scenario(shipped("scenarios/platform_collision.yaml"));
+  const auto is = [](const std::string& key, const std::string& value, bool from_file) {
+    return ::testing::AllOf(::testing::Field(&ReadValue::key, key),
+                            ::testing::Field(&ReadValue::value, value),
+                            ::testing::Field(&ReadValue::from_file, from_file));
+  };
+  EXPECT_THAT(scenario.values, Contains(is("motion.cruise", "0.08", true)));
+  EXPECT_THAT(scenario.values, Contains(is("control.momentum_observer.gain", "[20, 20, 20]", true)));
+  EXPECT_THAT(scenario.values, Contains(is("control.contact_detector.hard_force", "60", false)));
+  EXPECT_THAT(scenario.values, Contains(is("plant.friction", "as_robot_file", false)));
+}
+
+TEST(SimulatedScenario, ComesBackOutOfItsRecording) {
+  test::Workplace place;
+  place.replace("scenarios/platform_collision.yaml", "duration_s: 1.2", "duration_s: 0.05");
+  const SimulatedScenario scenario = read_simulated_scenario(place / "scenarios/platform_collision.yaml", 42);
+  const SimulatedScenario again = recorded_simulated_scenario(run_experiment(scenario), "run.h5");
+  EXPECT_EQ(again.name, scenario.name);
+  EXPECT_EQ(again.seed, 42U);
+  EXPECT_EQ(again.text, scenario.text);
+  EXPECT_EQ(again.robot_text, scenario.robot_text);
+  EXPECT_EQ(again.expected.contact, scenario.expected.contact);
+  EXPECT_EQ(again.station.bench.initial_pose, scenario.station.bench.initial_pose);
+}
+
+}  // namespace
+}  // namespace flinch
