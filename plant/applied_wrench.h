@@ -13,7 +13,7 @@ struct AppliedWrench {
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit("wrench_in_base", "N, N, Nm", self.wrench_in_base, "base");
+    visit("wrench_in_base", "<wrench>", self.wrench_in_base, "base");
   }
 };
 

@@ -51,13 +51,13 @@ struct ContactTruth {
     visit("clamping", "", self.clamping);
     visit("strongest", "", self.strongest);
     visit("second", "", self.second);
-    visit("wrench_in_base", "N, N, Nm", self.wrench_in_base, "base");
+    visit("wrench_in_base", "<wrench>", self.wrench_in_base, "base");
     visit("contacts", "", self.contacts);
     visit("onset", "ns", self.onset);
     visit("end", "ns", self.end);
     visit("peak_force", "N", self.peak_force);
     visit("self_contact", "", self.self_contact);
-    visit("self_wrench_in_base", "N, N, Nm", self.self_wrench_in_base, "base");
+    visit("self_wrench_in_base", "<wrench>", self.self_wrench_in_base, "base");
   }
 };
 

@@ -13,7 +13,7 @@ struct DriveAction {
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit("torque", "Nm", self.torque);
+    visit("torque", "<drive force>", self.torque);
     visit("current", "A", self.current);
     visit("enabled", "", self.enabled);
     visit("braked", "", self.braked);

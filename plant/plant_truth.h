@@ -27,14 +27,14 @@ struct PlantTruth {
   static void fields(Self& self, Visit&& visit) {
     visit("acquired", "ns", self.acquired);
     visit("valid", "", self.valid);
-    visit("pose", "m, m, rad", self.pose, "base");
-    visit("velocity", "m/s, m/s, rad/s", self.velocity, "base");
-    visit("acceleration", "m/s^2, m/s^2, rad/s^2", self.acceleration, "base");
-    visit("active", "rad", self.active);
-    visit("passive", "rad", self.passive);
-    visit("coupling", "rad", self.coupling);
-    visit("drive_torque", "Nm", self.drive_torque);
-    visit("wrench_in_base", "N, N, Nm", self.wrench_in_base, "base");
+    visit("pose", "<pose>", self.pose, "base");
+    visit("velocity", "<velocity>", self.velocity, "base");
+    visit("acceleration", "<acceleration>", self.acceleration, "base");
+    visit("active", "<drive position>", self.active);
+    visit("passive", "<passive position>", self.passive);
+    visit("coupling", "<passive position>", self.coupling);
+    visit("drive_torque", "<drive force>", self.drive_torque);
+    visit("wrench_in_base", "<wrench>", self.wrench_in_base, "base");
     visit("loop_closure_error", "m", self.loop_closure_error);
     visit("kinetic_energy", "J", self.kinetic_energy);
   }

@@ -15,6 +15,7 @@
 #include "systems/framework/simulator.h"
 #include "systems/model/forward_kinematics.h"
 #include "systems/robot/planar_rrr_presets.h"
+#include "systems/robot/quantity_units.h"
 #include "systems/sensors/velocity_filter.h"
 
 int main() {
@@ -36,7 +37,8 @@ int main() {
   const auto diagram = builder.build();  // throws, naming every input that is not connected
 
   constexpr int ticks = 400;
-  Recorder recorder(*diagram, {"forward_kinematics/platform", "station/platform_truth"}, ticks);
+  Recorder recorder(*diagram, {"forward_kinematics/platform", "station/platform_truth"}, ticks,
+                    quantity_units(*robot));
   Simulator simulator(*diagram, std::make_unique<SundialsIntegrator>());
   simulator.record(recorder);
   Context context = diagram->make_context();

@@ -9,6 +9,7 @@
 #include "experiments/recorded/recorded_signals.h"
 #include "experiments/scenario/scenario.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/robot/quantity_units.h"
 
 namespace flinch {
 namespace {
@@ -59,7 +60,8 @@ void LiveRun::connect() {
 void LiveRun::prepare(const RealtimeSettings& settings) {
   const Diagram& diagram = *experiment_.diagram;
   recorder_ = std::make_unique<Recorder>(diagram, recorded_paths(diagram),
-                                         static_cast<std::size_t>(end_ / diagram.tick()) + 1);
+                                         static_cast<std::size_t>(end_ / diagram.tick()) + 1,
+                                         quantity_units(*scenario_.robot.robot));
   profile_ = std::make_unique<BlockProfile>(diagram);
   recorded_ = std::make_unique<RealtimeRunner>(diagram, ticks_, link_.exchange);
   recorded_->record(*recorder_);

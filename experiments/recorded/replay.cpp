@@ -13,6 +13,7 @@
 #include "systems/framework/player.h"
 #include "systems/framework/recorder.h"
 #include "systems/framework/simulator.h"
+#include "systems/robot/quantity_units.h"
 
 namespace flinch {
 namespace {
@@ -65,7 +66,8 @@ Replay replay(const Scenario& scenario, const Recording& recorded,
               const std::map<std::string, std::string>& provenance,
               const std::function<void(double share)>& progress) {
   const auto diagram = build_replay(scenario, recorded);
-  Recorder recorder(*diagram, recorded_paths(*diagram), recorded.samples());
+  Recorder recorder(*diagram, recorded_paths(*diagram), recorded.samples(),
+                    quantity_units(*scenario.robot.robot));
   Simulator simulator(*diagram);
   simulator.record(recorder);
   Context context = diagram->make_context();

@@ -9,6 +9,7 @@
 #include "systems/framework/diagram_builder.h"
 #include "systems/framework/recorder.h"
 #include "systems/framework/simulator.h"
+#include "systems/robot/quantity_units.h"
 
 namespace flinch {
 
@@ -32,7 +33,7 @@ Recording run_experiment(const SimulatedScenario& scenario,
   const Experiment experiment = build_experiment(scenario);
   const Diagram& diagram = *experiment.diagram;
   const auto ticks = static_cast<std::size_t>(scenario.duration / diagram.tick());
-  Recorder recorder(diagram, recorded_paths(diagram), ticks);
+  Recorder recorder(diagram, recorded_paths(diagram), ticks, quantity_units(*scenario.robot.robot));
   Simulator simulator(diagram, std::make_unique<SundialsIntegrator>());
   simulator.record(recorder);
 

@@ -24,6 +24,9 @@ namespace flinch {
 ///     }
 ///   };
 ///
+/// A unit that is not the same for every mechanism is the name of a quantity in angle brackets, "<pose>":
+/// see unit_table.h.
+///
 /// Fields are numbers, bool, enumerations, durations, Eigen matrices of bounded size, std::array of these,
 /// and other values with fields.
 template <class T>
@@ -60,7 +63,7 @@ concept Recordable = HasFields<T> || internal::Scalar<T> || internal::BoundedMat
 struct Field {
   enum class Kind : std::uint8_t { real, integer, boolean };
   std::string name;   ///< nested fields are joined by '.', e.g. "wrench.force"
-  std::string unit;   ///< SI; "" for a number without unit
+  std::string unit;   ///< SI; "" for a number without unit; "<pose>": that of a quantity
   std::string frame;  ///< "" where the value has none
   Kind kind{};
   int capacity = 1;        ///< most numbers that it can hold

@@ -2,13 +2,34 @@
 
 #include <algorithm>
 
+#include "systems/foundation/nearest_name.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/diagram.h"
 
 namespace flinch {
+namespace {
+
+/// Gives every field that names a quantity the unit of that quantity.
+void resolve_units(const UnitTable& units, Signal& signal, std::vector<std::string>& problems) {
+  for (Field& field : signal.layout.fields) {
+    if (!field.unit.starts_with('<')) continue;
+    if (const auto found = units.find(field.unit); found != units.end()) {
+      field.unit = found->second;
+      continue;
+    }
+    std::vector<std::string> names;
+    for (const auto& [name, unit] : units) names.push_back(name);
+    problems.push_back("the field '" + field.name + "' of the port '" + signal.path +
+                       "' has the unit of the quantity " + field.unit +
+                       ", which is not in the table of units that the recorder was given" +
+                       did_you_mean(field.unit, names));
+  }
+}
+
+}  // namespace
 
 Recorder::Recorder(const Diagram& diagram, const std::vector<std::string>& paths, std::size_t capacity,
-                   Every every)
+                   const UnitTable& units, Every every)
     : every_(every), capacity_(capacity) {
   if (every_.period == Time::zero()) every_.period = diagram.tick();
   std::vector<std::string> problems;
@@ -21,6 +42,7 @@ Recorder::Recorder(const Diagram& diagram, const std::vector<std::string>& paths
         continue;
       }
       Channel channel{tap.offset, tap.type, {path, tap.type->layout(), {}}};
+      resolve_units(units, channel.signal, problems);
       channel.signal.rows.resize(capacity * channel.signal.layout.numbers);
       channels_.push_back(std::move(channel));
     } catch (const SetupError& error) {

@@ -7,6 +7,7 @@
 
 #include "systems/framework/recording.h"
 #include "systems/framework/time.h"
+#include "systems/framework/unit_table.h"
 #include "systems/framework/value_type.h"
 
 namespace flinch {
@@ -18,10 +19,11 @@ class Diagram;
 class Recorder {
  public:
   /// `paths` name ports of `diagram` (Diagram::taps() lists them). At most `capacity` samples fit; of later
-  /// ones only the number is kept. Throws SetupError for unknown paths and for ports whose type has no
-  /// fields.
+  /// ones only the number is kept. `units` says what fields mean that give the name of a quantity as their
+  /// unit. Throws SetupError for unknown paths, for ports whose type has no fields, and for quantities that
+  /// `units` does not have.
   Recorder(const Diagram& diagram, const std::vector<std::string>& paths, std::size_t capacity,
-           Every every = Every{});
+           const UnitTable& units = {}, Every every = Every{});
 
   /// Records one sample when it is due. Never allocates.
   void record(const Context& context);

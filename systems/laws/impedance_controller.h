@@ -30,8 +30,8 @@ struct ImpedanceWrench {
   static void fields(Self& self, Visit&& visit) {
     visit("valid", "", self.valid);
     visit("damping", "", self.damping);
-    visit("error", "m, m, rad", self.error, "base");
-    visit("wrench_in_base", "N, N, Nm", self.wrench_in_base, "base");
+    visit("error", "<displacement>", self.error, "base");
+    visit("wrench_in_base", "<wrench>", self.wrench_in_base, "base");
   }
 };
 

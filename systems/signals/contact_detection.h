@@ -28,7 +28,7 @@ struct ContactDetection {
     visit("level", "", self.level);
     visit("present_level", "", self.present_level);
     visit("detected", "ns", self.detected);
-    visit("wrench_in_base", "N, N, Nm", self.wrench_in_base, "base");
+    visit("wrench_in_base", "<wrench>", self.wrench_in_base, "base");
   }
 };
 

@@ -15,7 +15,7 @@ struct DriveTorque {
   static void fields(Self& self, Visit&& visit) {
     visit("acquired", "ns", self.acquired);
     visit("valid", "", self.valid);
-    visit("torque", "Nm", self.torque);
+    visit("torque", "<drive force>", self.torque);
   }
 };
 

@@ -16,8 +16,8 @@ struct JointMotion {
   static void fields(Self& self, Visit&& visit) {
     visit("acquired", "ns", self.acquired);
     visit("valid", "", self.valid);
-    visit("position", "rad", self.position);
-    visit("velocity", "rad/s", self.velocity);
+    visit("position", "<drive position>", self.position);
+    visit("velocity", "<drive velocity>", self.velocity);
   }
 };
 

@@ -18,8 +18,8 @@ struct JointReading {
     visit("acquired", "ns", self.acquired);
     visit("valid", "", self.valid);
     visit("passive_valid", "", self.passive_valid);
-    visit("active", "rad", self.active);
-    visit("passive", "rad", self.passive);
+    visit("active", "<drive position>", self.active);
+    visit("passive", "<passive position>", self.passive);
   }
 };
 

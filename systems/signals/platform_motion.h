@@ -27,8 +27,8 @@ struct PlatformMotion {
   static void fields(Self& self, Visit&& visit) {
     visit("acquired", "ns", self.acquired);
     visit("status", "", self.status);
-    visit("pose", "m, m, rad", self.pose, "base");
-    visit("velocity", "m/s, m/s, rad/s", self.velocity, "base");
+    visit("pose", "<pose>", self.pose, "base");
+    visit("velocity", "<velocity>", self.velocity, "base");
   }
 };
 

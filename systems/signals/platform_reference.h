@@ -16,9 +16,9 @@ struct PlatformReference {
   static void fields(Self& self, Visit&& visit) {
     visit("valid", "", self.valid);
     visit("finished", "", self.finished);
-    visit("pose", "m, m, rad", self.pose, "base");
-    visit("velocity", "m/s, m/s, rad/s", self.velocity, "base");
-    visit("acceleration", "m/s^2, m/s^2, rad/s^2", self.acceleration, "base");
+    visit("pose", "<pose>", self.pose, "base");
+    visit("velocity", "<velocity>", self.velocity, "base");
+    visit("acceleration", "<acceleration>", self.acceleration, "base");
   }
 };
 

@@ -15,7 +15,7 @@ struct TorqueCommand {
   static void fields(Self& self, Visit&& visit) {
     visit("computed", "ns", self.computed);
     visit("valid", "", self.valid);
-    visit("torque", "Nm", self.torque);
+    visit("torque", "<drive force>", self.torque);
   }
 };
 

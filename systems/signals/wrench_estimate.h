@@ -16,8 +16,8 @@ struct WrenchEstimate {
   static void fields(Self& self, Visit&& visit) {
     visit("acquired", "ns", self.acquired);
     visit("valid", "", self.valid);
-    visit("wrench_in_base", "N, N, Nm", self.wrench_in_base, "base");
-    visit("drive_torque", "Nm", self.drive_torque);
+    visit("wrench_in_base", "<wrench>", self.wrench_in_base, "base");
+    visit("drive_torque", "<drive force>", self.drive_torque);
   }
 };
 

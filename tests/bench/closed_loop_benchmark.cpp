@@ -13,6 +13,7 @@
 #include "systems/framework/simulator.h"
 #include "systems/robot/planar_rrr.h"
 #include "systems/robot/planar_rrr_presets.h"
+#include "systems/robot/quantity_units.h"
 #include "tests/support/processor_time.h"
 #ifdef FLINCH_HAS_MUJOCO
 #include "tests/peer/mujoco_bench.h"
@@ -34,7 +35,8 @@ class ClosedLoop {
   explicit ClosedLoop(const std::string& name)
       : scenario_(read_simulated_scenario(scenario_file(name))),
         experiment_(build_experiment(scenario_)),
-        recorder_(*experiment_.diagram, recordable_paths(*experiment_.diagram), samples()),
+        recorder_(*experiment_.diagram, recordable_paths(*experiment_.diagram), samples(),
+                  quantity_units(*scenario_.robot.robot)),
         simulator_(*experiment_.diagram, std::make_unique<SundialsIntegrator>()),
         start_(experiment_.diagram->make_context()),
         context_(start_) {

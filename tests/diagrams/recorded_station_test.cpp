@@ -9,6 +9,9 @@
 #include "systems/framework/random.h"
 #include "systems/framework/recorder.h"
 #include "systems/framework/simulator.h"
+#include "systems/robot/planar_rrr.h"
+#include "systems/robot/planar_rrr_presets.h"
+#include "systems/robot/quantity_units.h"
 
 namespace flinch {
 namespace {
@@ -60,7 +63,8 @@ class RandomReadings final : public System {
 Recording record(const Diagram& diagram) {
   std::vector<std::string> paths;
   for (const System::Output& output : diagram.outputs()) paths.push_back(output.name);
-  Recorder recorder(diagram, paths, ticks);
+  const PlanarRrr robot(bench_robot(BenchGeometry::individual, BenchFriction::none));
+  Recorder recorder(diagram, paths, ticks, quantity_units(robot));
   Simulator simulator(diagram);
   simulator.record(recorder);
   Context context = diagram.make_context();

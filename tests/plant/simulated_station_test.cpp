@@ -7,6 +7,8 @@
 
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recorder.h"
+#include "systems/robot/planar_rrr.h"
+#include "systems/robot/quantity_units.h"
 #include "tests/plant/servoed_station.h"
 #include "tests/support/allocations.h"
 
@@ -63,7 +65,8 @@ class CommandedStation {
 Recording record(const SimulatedStationSettings& settings, Time duration) {
   test::ServoedStation station(settings);
   Recorder recorder(station.diagram(), recordable_paths(station.diagram()),
-                    static_cast<std::size_t>(duration / 1ms));
+                    static_cast<std::size_t>(duration / 1ms),
+                    quantity_units(PlanarRrr(settings.bench.robot)));
   station.simulator().record(recorder);
   for (Time now{}; now < duration; now += 1ms) station.step();
   return recorder.recording();

@@ -11,6 +11,7 @@
 #include "systems/framework/monotonic_clock.h"
 #include "systems/framework/recorder.h"
 #include "systems/framework/simulator.h"
+#include "systems/robot/quantity_units.h"
 #include "tests/drivers/free_domain.h"
 #include "tests/stations/contract_ends.h"
 
@@ -36,7 +37,8 @@ StationRun run_of(const Diagram& diagram, const ControlEnd& control) {
   const auto name = [](const auto& port) {
     return port.id.owner->name() + "/" + port.id.owner->port_name(port.id);
   };
-  Recorder recorder(diagram, {"station/joints", "station/drives", "station/imu", "station/status"}, 0);
+  Recorder recorder(diagram, {"station/joints", "station/drives", "station/imu", "station/status"}, 0,
+                    quantity_units(*contract_robot()));
   return {.inputs = {name(control.station.torque_command), name(control.station.brake)},
           .outputs = recorder.recording().signals,
           .before = {},
@@ -64,7 +66,7 @@ class OneProgram {
   }
   Recording record(const Script& script) {
     Recorder recorder(*run_.diagram, {"joints", "drives", "imu", "status"},
-                      static_cast<std::size_t>(script.duration / 1ms));
+                      static_cast<std::size_t>(script.duration / 1ms), quantity_units(*contract_robot()));
     run_.simulator.record(recorder);
     run(script);
     return recorder.recording();

@@ -13,6 +13,7 @@
 #include "plant/sundials_integrator.h"
 #include "systems/framework/recorder.h"
 #include "systems/framework/simulator.h"
+#include "systems/robot/quantity_units.h"
 #include "tests/support/allocations.h"
 #include "tests/support/workplace.h"
 
@@ -45,7 +46,8 @@ TEST_P(ClosedLoop, TakesNoMemoryThroughContactAndReaction) {
   const SimulatedScenario scenario = scenario_called(GetParam());
   const Experiment experiment = build_experiment(scenario);
   const auto ticks = static_cast<std::size_t>(scenario.duration / 1ms);
-  Recorder recorder(*experiment.diagram, recordable_paths(*experiment.diagram), ticks);
+  Recorder recorder(*experiment.diagram, recordable_paths(*experiment.diagram), ticks,
+                    quantity_units(*scenario.robot.robot));
   Simulator simulator(*experiment.diagram, std::make_unique<SundialsIntegrator>());
   simulator.record(recorder);
   Context context = experiment.diagram->make_context();

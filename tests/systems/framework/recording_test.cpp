@@ -196,13 +196,56 @@ TEST(Recorder, CountsWhatDoesNotFit) {
   DiagramBuilder builder;
   builder.add<Source>("source");
   const auto diagram = builder.build();
-  Recorder recorder(*diagram, {"source/sample"}, 5, Every{2ms});
+  Recorder recorder(*diagram, {"source/sample"}, 5, {}, Every{2ms});
   Simulator simulator(*diagram);
   simulator.record(recorder);
   Context context = diagram->make_context();
   simulator.advance_to(context, 20ms);
   EXPECT_EQ(recorder.samples(), 5U);
   EXPECT_EQ(recorder.dropped(), 5);
+}
+
+/// A value whose unit depends on the robot.
+struct Push {
+  double force = 0.0;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("force", "<drive force>", self.force);
+  }
+};
+
+class Pusher final : public System {
+ public:
+  OutputPort<Push> push = output<&Pusher::make>("push", clock);
+
+ private:
+  Push make(Time) const { return {}; }
+};
+
+std::unique_ptr<Diagram> pushing() {
+  DiagramBuilder builder;
+  builder.add<Pusher>("pusher");
+  return builder.build();
+}
+
+TEST(Recorder, GivesAQuantityTheUnitOfTheTable) {
+  const auto diagram = pushing();
+  const Recorder recorder(*diagram, {"pusher/push"}, 5, {{"<drive force>", "N"}, {"<wrench>", "N, N, Nm"}});
+  EXPECT_EQ(recorder.recording().signal("pusher/push").layout.fields.at(0).unit, "N");
+}
+
+TEST(Recorder, NamesSignalAndQuantityWhoseUnitItWasNotTold) {
+  const auto diagram = pushing();
+  try {
+    const Recorder recorder(*diagram, {"pusher/push"}, 5, {{"<drive fource>", "N"}});
+    FAIL() << "a quantity without unit was recorded";
+  } catch (const SetupError& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "the field 'force' of the port 'pusher/push' has the unit of the quantity <drive force>, which "
+        "is not in the table of units that the recorder was given; did you mean '<drive fource>'?");
+  }
 }
 
 TEST(Player, IsNotValidBeforeAndAfterTheRecording) {

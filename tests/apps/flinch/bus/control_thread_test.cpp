@@ -14,6 +14,7 @@
 #include "systems/framework/realtime_runner.h"
 #include "systems/framework/realtime_thread.h"
 #include "systems/framework/recorder.h"
+#include "systems/robot/quantity_units.h"
 #include "tests/apps/flinch/bus/bench_on_the_bus.h"
 #include "tests/apps/flinch/bus/dds_calls.h"
 #include "tests/support/allocations.h"
@@ -54,7 +55,8 @@ TEST(ControlThread, TakesNoMemoryAndNoLockAndNeverCallsTheBus) {
   ExchangeList exchange({station, panel, ros2, events});
   ClockTicks ticks;
   RealtimeRunner runner(*experiment.diagram, ticks, exchange);
-  Recorder recorder(*experiment.diagram, recordable_paths(*experiment.diagram), 4000);
+  Recorder recorder(*experiment.diagram, recordable_paths(*experiment.diagram), 4000,
+                    quantity_units(*scenario.robot.robot));
   runner.record(recorder);
   runner.follow_clock();
   runner.feed_timing(experiment.tick_timing);
