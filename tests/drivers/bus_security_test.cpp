@@ -10,12 +10,13 @@
 #include <sstream>
 
 #include "systems/foundation/setup_error.h"
-#include "tests/drivers/free_domain.h"
 #include "tests/drivers/intruder.h"
 #include "tests/drivers/key_folder.h"
 #include "tests/drivers/link_ends.h"
-#include "tests/drivers/other_program.h"
 #include "tests/support/allocations.h"
+#include "tests/support/free_domain.h"
+#include "tests/support/other_program.h"
+#include "tests/support/shared_memory.h"
 
 namespace flinch {
 namespace {

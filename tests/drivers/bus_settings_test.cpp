@@ -4,7 +4,7 @@
 
 #include "drivers/dds_bus.h"
 #include "systems/foundation/setup_error.h"
-#include "tests/drivers/free_domain.h"
+#include "tests/support/free_domain.h"
 
 namespace flinch {
 namespace {

@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "drivers/sample_sender.h"
-#include "tests/drivers/free_domain.h"
 #include "tests/drivers/link_ends.h"
 #include "tests/support/allocations.h"
+#include "tests/support/free_domain.h"
 
 namespace flinch {
 namespace {

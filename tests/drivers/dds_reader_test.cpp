@@ -2,9 +2,6 @@
 
 #include <drivers/idl/flinch.h>
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <functional>
@@ -14,21 +11,21 @@
 #include "drivers/dds_writer.h"
 #include "drivers/topics.h"
 #include "systems/framework/monotonic_clock.h"
-#include "tests/drivers/free_domain.h"
+#include "tests/support/free_domain.h"
+#include "tests/support/other_program.h"
 
 namespace flinch {
 namespace {
+
+using test::OtherProgram;
 
 void take_all(DdsArrivals arrivals, void* count) {
   flinch_TorqueSample sample;
   while (arrivals.take(&sample)) ++*static_cast<std::atomic<int>*>(count);
 }
 
-/// Writes every millisecond, until killed: a program of its own.
-class CommandingProgram {
- public:
-  explicit CommandingProgram(std::uint32_t domain) : id_(::fork()) {
-    if (id_ != 0) return;
+OtherProgram commanding_program(std::uint32_t domain) {
+  return OtherProgram([domain] {
     const DdsBus bus({.domain = domain});
     DdsWriter writer(bus, torque_command_topic);
     const flinch_TorqueSample sample{};
@@ -36,19 +33,8 @@ class CommandingProgram {
       writer.write(&sample);
       std::this_thread::sleep_for(1ms);
     }
-  }
-  CommandingProgram(const CommandingProgram&) = delete;
-  CommandingProgram& operator=(const CommandingProgram&) = delete;
-  ~CommandingProgram() {
-    signal(SIGKILL);
-    ::waitpid(id_, nullptr, 0);
-  }
-
-  void signal(int number) const { ::kill(id_, number); }
-
- private:
-  pid_t id_;
-};
+  });
+}
 
 bool wait_until(const std::function<bool()>& holds) {
   const Time end = MonotonicClock::now() + 10s;
@@ -69,7 +55,7 @@ class ListensToACommander : public testing::Test {
   }
 
   std::uint32_t domain_ = test::free_domain();
-  CommandingProgram commander_{domain_};
+  OtherProgram commander_ = commanding_program(domain_);
   DdsBus bus_{BusSettings{.domain = domain_}};
   std::atomic<int> arrived_ = 0;
   DdsReader reader_{bus_, torque_command_topic, &take_all, &arrived_};
@@ -78,7 +64,7 @@ class ListensToACommander : public testing::Test {
 
 TEST_F(ListensToACommander, ThatHangsAndCountsItsDeadlinesAndItsSilence) {
   EXPECT_LT(before_.deadlines, 50u);  // of more than 100 ms
-  commander_.signal(SIGSTOP);
+  commander_.stop();
   const Time stopped = MonotonicClock::now();
   ASSERT_TRUE(wait_until([this] { return since().silences >= 1; }));
   const Time noticed = MonotonicClock::now() - stopped;
@@ -86,16 +72,16 @@ TEST_F(ListensToACommander, ThatHangsAndCountsItsDeadlinesAndItsSilence) {
             << " deadlines missed by then" << std::endl;
   EXPECT_TRUE(wait_until([this] { return since().deadlines >= 3; }));
 
-  commander_.signal(SIGCONT);
+  commander_.resume();
   const int arrived = arrived_;
   EXPECT_TRUE(wait_until([&] { return arrived_ > arrived + 100; }));
   before_ = reader_.broken_promises();
-  commander_.signal(SIGSTOP);
+  commander_.stop();
   EXPECT_TRUE(wait_until([this] { return since().silences >= 1; }));
 }
 
 TEST_F(ListensToACommander, ThatIsKilledAndCountsItsDeadlinesAndItsSilence) {
-  commander_.signal(SIGKILL);
+  commander_.kill();
   EXPECT_TRUE(wait_until([this] { return since().silences >= 1 && since().deadlines >= 3; }));
 }
 

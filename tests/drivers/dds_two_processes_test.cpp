@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <iostream>
 
-#include "tests/drivers/free_domain.h"
 #include "tests/drivers/link_ends.h"
-#include "tests/drivers/other_program.h"
+#include "tests/support/free_domain.h"
+#include "tests/support/other_program.h"
 
 namespace flinch {
 namespace {

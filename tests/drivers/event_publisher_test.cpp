@@ -4,8 +4,6 @@
 #include <drivers/idl/flinch.h>
 #include <gtest/gtest.h>
 #include <poll.h>
-#include <signal.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <thread>
@@ -15,8 +13,9 @@
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/diagram_builder.h"
 #include "systems/framework/monotonic_clock.h"
-#include "tests/drivers/free_domain.h"
 #include "tests/support/allocations.h"
+#include "tests/support/free_domain.h"
+#include "tests/support/other_program.h"
 
 namespace flinch {
 namespace {
@@ -212,43 +211,48 @@ TEST(EventPublisher, SendsEachEventOfAContactOnceInOrder) {
   EXPECT_EQ(publisher.lost(), 0u);
 }
 
-/// A program of its own that reads the events of a bus and hands them on, until killed.
+/// A pipe that copies of this program share.
+struct Pipe {
+  Pipe() {
+    if (::pipe(ends) != 0) throw std::runtime_error("no pipe");
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+  ~Pipe() {
+    ::close(ends[0]);
+    ::close(ends[1]);
+  }
+  int ends[2] = {};
+};
+
+/// A program of its own that reads the events of a bus and hands them on.
 class ReadingProgram {
  public:
-  explicit ReadingProgram(std::uint32_t domain) {
-    if (::pipe(pipe_) != 0) throw std::runtime_error("no pipe");
-    id_ = ::fork();
-    if (id_ != 0) return;
-    const DdsBus bus({.domain = domain});
-    EventReader reader(bus, contact_event_topic);
-    for (;;) {
-      for (const flinch_ContactEvent& event : reader.wait_for(1)) {
-        if (::write(pipe_[1], &event, sizeof event) != sizeof event) ::_exit(1);
-      }
-    }
-  }
-  ReadingProgram(const ReadingProgram&) = delete;
-  ReadingProgram& operator=(const ReadingProgram&) = delete;
-  ~ReadingProgram() {
-    ::kill(id_, SIGKILL);
-    ::waitpid(id_, nullptr, 0);
-    ::close(pipe_[0]);
-    ::close(pipe_[1]);
-  }
+  explicit ReadingProgram(std::uint32_t domain) : program_([this, domain] { read(domain); }) {}
 
   /// The next event that the program has read, if it comes within `patience`.
   std::optional<flinch_ContactEvent> next(Time patience) {
-    pollfd wanted{.fd = pipe_[0], .events = POLLIN, .revents = 0};
+    pollfd wanted{.fd = pipe_.ends[0], .events = POLLIN, .revents = 0};
     const auto limit = std::chrono::duration_cast<std::chrono::milliseconds>(patience);
     flinch_ContactEvent event;
     if (::poll(&wanted, 1, static_cast<int>(limit.count())) != 1) return std::nullopt;
-    if (::read(pipe_[0], &event, sizeof event) != sizeof event) return std::nullopt;
+    if (::read(pipe_.ends[0], &event, sizeof event) != sizeof event) return std::nullopt;
     return event;
   }
 
  private:
-  int pipe_[2] = {};
-  pid_t id_ = -1;
+  [[noreturn]] void read(std::uint32_t domain) const {
+    const DdsBus bus({.domain = domain});
+    EventReader reader(bus, contact_event_topic);
+    for (;;) {
+      for (const flinch_ContactEvent& event : reader.wait_for(1)) {
+        if (::write(pipe_.ends[1], &event, sizeof event) != sizeof event) ::_exit(1);
+      }
+    }
+  }
+
+  Pipe pipe_;
+  test::OtherProgram program_;
 };
 
 TEST(EventPublisher, SendsABurstOf50EventsIn50TicksToAnotherProgram) {

@@ -10,7 +10,7 @@
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/constant.h"
 #include "systems/framework/diagram_builder.h"
-#include "tests/drivers/free_domain.h"
+#include "tests/support/free_domain.h"
 
 namespace flinch {
 namespace {

@@ -7,11 +7,12 @@
 #include <array>
 #include <iostream>
 
-#include "tests/drivers/free_domain.h"
 #include "tests/drivers/key_folder.h"
 #include "tests/drivers/link_ends.h"
-#include "tests/drivers/other_program.h"
 #include "tests/drivers/spoofer.h"
+#include "tests/support/free_domain.h"
+#include "tests/support/other_program.h"
+#include "tests/support/shared_memory.h"
 
 namespace flinch {
 namespace {

@@ -12,8 +12,8 @@
 #include "systems/framework/recorder.h"
 #include "systems/framework/simulator.h"
 #include "systems/robot/quantity_units.h"
-#include "tests/drivers/free_domain.h"
 #include "tests/stations/contract_ends.h"
+#include "tests/support/free_domain.h"
 
 namespace flinch::test {
 namespace {

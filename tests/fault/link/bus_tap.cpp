@@ -1,12 +1,10 @@
 #include "tests/fault/link/bus_tap.h"
 
-#include <sys/prctl.h>
-
 #include "drivers/dds_reader.h"
 #include "drivers/topics.h"
 #include "systems/framework/monotonic_clock.h"
 #include "systems/framework/realtime_thread.h"
-#include "tests/fault/link/started_program.h"
+#include "tests/fault/link/two_networks.h"
 
 namespace flinch::test {
 namespace {
@@ -18,7 +16,6 @@ void append(DdsArrivals arrivals, void* place) {
 }
 
 void listen(BusSettings settings, const std::string& network, BusLog& log) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (!enter_network(network)) return;
   settings.realtime_priority = permits_realtime(85) ? 85 : 0;
   const DdsBus bus(settings);

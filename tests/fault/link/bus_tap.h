@@ -10,7 +10,8 @@
 
 #include "drivers/bus_settings.h"
 #include "systems/framework/time.h"
-#include "tests/drivers/other_program.h"
+#include "tests/support/other_program.h"
+#include "tests/support/shared_memory.h"
 
 namespace flinch::test {
 
@@ -38,7 +39,7 @@ struct BusLog {
 /// A program of its own that only listens to a bus.
 class BusTap {
  public:
-  /// `network`: as StartedProgram.
+  /// `network`: the name of the network namespace to listen in; empty: ours.
   explicit BusTap(const BusSettings& settings, const std::string& network = "");
 
   const BusLog& log() const { return *log_; }

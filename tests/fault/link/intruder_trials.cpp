@@ -44,7 +44,7 @@ void expect_refusal(LinkTrial& trial, std::uint32_t robot, std::uint16_t version
   expect_nothing_moves(trial.at_robot(), begin);
 }
 
-void expect_message(StartedProgram& program, const std::string& message) {
+void expect_message(OtherProgram& program, const std::string& message) {
   EXPECT_EQ(program.wait(8s), 2);
   EXPECT_THAT(program.output(), HasSubstr(message));
 }
@@ -110,8 +110,8 @@ TrialOutcome wrong_version() {
   expect_refusal(trial, shipped_robot(robot_file), protocol_version + 1);
   trial.robot().kill();
   const OtherProgram robot = strange_robot(trial.domain(), shipped_robot(robot_file), protocol_version + 1);
-  StartedProgram program({"run", shipped_file("scenarios/square.yaml"), "--station", "dds", "--domain",
-                          std::to_string(trial.domain())});
+  OtherProgram program(flinch_program({"run", shipped_file("scenarios/square.yaml"), "--station", "dds",
+                                       "--domain", std::to_string(trial.domain())}));
   expect_message(program, "another version of the protocol");
   return {};
 }
@@ -119,8 +119,8 @@ TrialOutcome wrong_version() {
 TrialOutcome other_robot_file() {
   LinkTrial trial;
   expect_refusal(trial, shipped_robot("robots/planar_3rrr_nominal.yaml"), protocol_version);
-  StartedProgram program(
-      {"link", shipped_file("robots/planar_3rrr_nominal.yaml"), "--domain", std::to_string(trial.domain())});
+  OtherProgram program(flinch_program(
+      {"link", shipped_file("robots/planar_3rrr_nominal.yaml"), "--domain", std::to_string(trial.domain())}));
   expect_message(program, "another robot description");
   return {};
 }

@@ -8,8 +8,8 @@
 #include <map>
 
 #include "systems/framework/monotonic_clock.h"
-#include "tests/drivers/free_domain.h"
 #include "tests/fault/link/two_networks.h"
+#include "tests/support/free_domain.h"
 
 namespace flinch::test {
 namespace {
@@ -74,32 +74,32 @@ std::vector<std::string> LinkTrial::bus_arguments() const {
   return arguments;
 }
 
+std::unique_ptr<OtherProgram> LinkTrial::start(const std::vector<std::string>& arguments,
+                                               const std::string& network) const {
+  OtherProgram::Start start = flinch_program(arguments);
+  start.environment = {{Trouble::variable, (folder_ / "trouble").string()}};
+  start.preloaded = BAD_NETWORK;
+  start.prepare = [network] { return enter_network(network); };
+  return std::make_unique<OtherProgram>(start);
+}
+
 void LinkTrial::start_robot() {
   robot_.reset();
-  own_program_.reset();
   if (own_robot_) {
-    own_program_ = std::make_unique<OtherProgram>([this] { own_robot_(domain_); });
+    robot_ = std::make_unique<OtherProgram>([this] { own_robot_(domain_); });
     return;
   }
   std::vector<std::string> arguments = {"serve", shipped_file("scenarios/square.yaml")};
   for (const std::string& argument : bus_arguments()) arguments.push_back(argument);
-  robot_ = std::make_unique<StartedProgram>(
-      arguments,
-      std::map<std::string, std::string>{{"LD_PRELOAD", BAD_NETWORK},
-                                         {Trouble::variable, (folder_ / "trouble").string()}},
-      networks_ != nullptr ? networks_->first() : "");
+  robot_ = start(arguments, networks_ != nullptr ? networks_->first() : "");
 }
 
-std::unique_ptr<StartedProgram> LinkTrial::other_commander(const std::vector<std::string>& arguments,
-                                                           const std::string& scenario) const {
+std::unique_ptr<OtherProgram> LinkTrial::other_commander(const std::vector<std::string>& arguments,
+                                                         const std::string& scenario) const {
   std::vector<std::string> all = {"run", shipped_file(scenario), "--station", "dds"};
   for (const std::string& argument : bus_arguments()) all.push_back(argument);
   for (const std::string& argument : arguments) all.push_back(argument);
-  return std::make_unique<StartedProgram>(
-      all,
-      std::map<std::string, std::string>{{"LD_PRELOAD", BAD_NETWORK},
-                                         {Trouble::variable, (folder_ / "trouble").string()}},
-      networks_ != nullptr ? networks_->second() : "");
+  return start(all, networks_ != nullptr ? networks_->second() : "");
 }
 
 void LinkTrial::start_commander() {

@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "drivers/bus_settings.h"
-#include "tests/drivers/other_program.h"
 #include "tests/fault/link/bus_tap.h"
-#include "tests/fault/link/started_program.h"
+#include "tests/support/flinch_program.h"
 #include "tests/support/trouble.h"
 
 namespace flinch::test {
@@ -55,8 +54,8 @@ class LinkTrial {
   void start_robot();
   void start_commander();
   /// A program that wants to command the same robot, with these arguments besides.
-  std::unique_ptr<StartedProgram> other_commander(
-      const std::vector<std::string>& arguments, const std::string& scenario = "scenarios/square.yaml") const;
+  std::unique_ptr<OtherProgram> other_commander(const std::vector<std::string>& arguments,
+                                                const std::string& scenario = "scenarios/square.yaml") const;
 
   /// Starts both, and waits until the robot has been moving for 0.3 s. Begins anew, twice at most, where the
   /// machine is too busy for a run to get so far. Throws TooBusy where it never gets there.
@@ -64,8 +63,8 @@ class LinkTrial {
   /// Waits until the brakes have been open for 0.3 s since the commander was started.
   bool wait_for_motion();
 
-  StartedProgram& robot() { return *robot_; }
-  StartedProgram& commander() { return *commander_; }
+  OtherProgram& robot() { return *robot_; }
+  OtherProgram& commander() { return *commander_; }
   const TroubleFile& trouble() const { return trouble_; }
   std::uint32_t domain() const { return domain_; }
   std::filesystem::path recording() const { return folder_ / "out" / "run.h5"; }
@@ -77,6 +76,9 @@ class LinkTrial {
  private:
   LinkTrial(OwnRobot robot, const TwoNetworks* networks);
   std::vector<std::string> bus_arguments() const;
+  /// The flinch that is tested, in a network namespace or ours.
+  std::unique_ptr<OtherProgram> start(const std::vector<std::string>& arguments,
+                                      const std::string& network) const;
 
   std::filesystem::path folder_;
   OwnRobot own_robot_;
@@ -86,9 +88,8 @@ class LinkTrial {
   std::uint32_t commands_before_ = 0;
   std::unique_ptr<BusTap> robots_tap_;
   std::unique_ptr<BusTap> commanders_tap_;
-  std::unique_ptr<OtherProgram> own_program_;
-  std::unique_ptr<StartedProgram> robot_;
-  std::unique_ptr<StartedProgram> commander_;
+  std::unique_ptr<OtherProgram> robot_;
+  std::unique_ptr<OtherProgram> commander_;
 };
 
 }  // namespace flinch::test

@@ -10,6 +10,7 @@
 #include "tests/fault/link/link_trial.h"
 #include "tests/fault/link/spoilt_bench.h"
 #include "tests/fault/link/trials.h"
+#include "tests/support/shared_memory.h"
 
 namespace flinch::test {
 namespace {

@@ -1,8 +1,5 @@
 #include "tests/fault/link/spoilt_bench.h"
 
-#include <signal.h>
-#include <sys/prctl.h>
-
 #include <limits>
 
 #include "apps/flinch/bus/bus_start.h"
@@ -54,7 +51,6 @@ class Spoiler final : public System {
 }  // namespace
 
 void serve_spoilt_bench(std::uint32_t domain, const Spoilt& spoilt) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   const SimulatedScenario scenario = read_simulated_scenario(shipped_file("scenarios/square.yaml"));
   DdsServerSettings settings{.robot = robot_hash(scenario.robot_text)};
   SimulatedStationSettings bench = scenario.station;

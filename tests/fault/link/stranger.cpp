@@ -1,7 +1,5 @@
 #include "tests/fault/link/stranger.h"
 
-#include <sys/prctl.h>
-
 #include "drivers/dds_writer.h"
 #include "drivers/sample_sender.h"
 #include "drivers/topics.h"
@@ -14,7 +12,6 @@ namespace {
 
 /// Calls `send` every millisecond with 1, 2, 3 ...
 [[noreturn]] void every_millisecond(const std::function<void(std::uint32_t)>& send) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   for (std::uint32_t number = 1;; ++number) {
     send(number);
     MonotonicClock::sleep_until(MonotonicClock::now() + 1ms);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/drivers/other_program.h"
+#include "tests/support/other_program.h"
 
 namespace flinch::test {
 

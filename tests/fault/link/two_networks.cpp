@@ -1,5 +1,7 @@
 #include "tests/fault/link/two_networks.h"
 
+#include <fcntl.h>
+#include <sched.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -36,6 +38,14 @@ TwoNetworks::TwoNetworks()
 TwoNetworks::~TwoNetworks() {
   ip("netns del " + first_);
   ip("netns del " + second_);
+}
+
+bool enter_network(const std::string& network) {
+  if (network.empty()) return true;
+  const int space = ::open(("/run/netns/" + network).c_str(), O_RDONLY | O_CLOEXEC);
+  const bool entered = ::setns(space, CLONE_NEWNET) == 0;
+  ::close(space);
+  return entered;
 }
 
 void TwoNetworks::cut() const { ip("-n " + second_ + " link set flinch0 down"); }

@@ -31,4 +31,7 @@ class TwoNetworks {
   std::string missing_;
 };
 
+/// Makes this process part of a network namespace. Returns whether that worked.
+bool enter_network(const std::string& network);
+
 }  // namespace flinch::test

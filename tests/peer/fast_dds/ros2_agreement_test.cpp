@@ -13,9 +13,9 @@
 #include "drivers/topics.h"
 #include "systems/framework/diagram_builder.h"
 #include "systems/framework/monotonic_clock.h"
-#include "tests/drivers/free_domain.h"
 #include "tests/peer/fast_dds/fast_dds_program.h"
 #include "tests/peer/fast_dds/message_text.h"
+#include "tests/support/free_domain.h"
 
 namespace flinch {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "tests/apps/flinch/bus/other_program.h"
 #include "tests/apps/flinch/program.h"
-#include "tests/drivers/free_domain.h"
+#include "tests/support/flinch_program.h"
+#include "tests/support/free_domain.h"
 #include "tests/support/workplace.h"
 
 namespace flinch::test {
@@ -15,8 +15,7 @@ namespace flinch::test {
 struct BenchOnTheBus {
   explicit BenchOnTheBus(const std::string& scenario = "platform_collision")
       : scenario_file(place.at("scenarios/" + scenario + ".yaml")),
-        server({"serve", scenario_file, "--domain", domain, "--json", "--duration", "120"},
-               place.at("served.txt")) {}
+        server(flinch_program({"serve", scenario_file, "--domain", domain, "--json", "--duration", "120"})) {}
 
   /// The arguments of a verb on this bus.
   std::vector<std::string> on_bus(std::vector<std::string> arguments) const {
@@ -27,9 +26,9 @@ struct BenchOnTheBus {
     return on_bus({"run", scenario_file, "--station", "dds", "--out", place.at(out)});
   }
 
-  /// Runs the scenario there. Where a fault stops it the machine may have taken the processor away for too
-  /// long, which is no concern of who calls this: then it runs again, three times at most, and says so.
-  Outcome run(std::vector<std::string> arguments) const {
+  /// Runs the scenario there. Where a fault stops it and the machine has taken the processor away meanwhile,
+  /// which is no concern of who calls this, it runs again, three times at most, and says so.
+  Outcome run(const std::vector<std::string>& arguments) const {
     Outcome outcome = flinch(arguments);
     for (int again = 0; again < 2 && outcome.status == 3; ++again) {
       std::cout << "stopped by a fault, trying once more:\n" << outcome.out << outcome.err << std::endl;

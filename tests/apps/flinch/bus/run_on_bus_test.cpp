@@ -2,7 +2,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <csignal>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -69,10 +68,10 @@ TEST(RunOnBus, FindsTheRobotAgainWhereTheLastRunLeftIt) {
 
 TEST(RunOnBus, ComesToRestInOrderOnCtrlC) {
   const BenchOnTheBus bench("square");
-  test::OtherProgram run(bench.run_arguments(), bench.place.at("run.txt"));
+  test::OtherProgram run(test::flinch_program(bench.run_arguments()));
   std::this_thread::sleep_for(std::chrono::milliseconds(2500));  // in the middle of the square
-  run.signal(SIGINT);
-  EXPECT_EQ(run.wait(), 3) << test::bytes_of(bench.place / "run.txt");
+  run.interrupt();
+  EXPECT_EQ(run.wait(20s), 3) << run.output();
 
   const Recording recording = read_recording(bench.place / "live/run.h5");
   const std::vector<double> fault = recording.column("gate", "fault");
@@ -97,9 +96,9 @@ TEST(RunOnBus, ComesToRestInOrderOnCtrlC) {
 TEST(RunOnBus, ServesUntilCtrlC) {
   BenchOnTheBus bench;
   ASSERT_EQ(bench.run(bench.run_arguments()).status, 0);
-  bench.server.signal(SIGINT);
-  EXPECT_EQ(bench.server.wait(), 0);
-  const json served = json::parse(test::bytes_of(bench.place / "served.txt"));
+  bench.server.interrupt();
+  EXPECT_EQ(bench.server.wait(20s), 0);
+  const json served = json::parse(bench.server.output());
   EXPECT_GT(served["commands"], 1000);
 }
 
@@ -163,14 +162,14 @@ TEST(RunOnBus, RefusesAReplayThatWouldReplaceItsRecording) {
 
 TEST(RunOnBus, TakesOneCommanderOnly) {
   const BenchOnTheBus bench("square");
-  test::OtherProgram first(bench.run_arguments("first"), bench.place.at("first.txt"));
+  test::OtherProgram first(test::flinch_program(bench.run_arguments("first")));
   std::this_thread::sleep_for(std::chrono::milliseconds(1500));
   std::vector<std::string> arguments = bench.run_arguments("second");
   arguments.insert(arguments.end(), {"--patience", "1"});
   const test::Outcome second = test::flinch(arguments);
-  EXPECT_EQ(second.status, 2) << second.out << test::bytes_of(bench.place / "first.txt");
+  EXPECT_EQ(second.status, 2) << second.out << first.output();
   EXPECT_THAT(second.err, HasSubstr("obeys another program"));
-  EXPECT_EQ(first.wait(), 0) << test::bytes_of(bench.place / "first.txt");
+  EXPECT_EQ(first.wait(20s), 0) << first.output();
 }
 
 TEST(Link, IsMeasuredWithoutMovingAnything) {

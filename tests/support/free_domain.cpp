@@ -1,11 +1,16 @@
-#include "tests/drivers/free_domain.h"
+#include "tests/support/free_domain.h"
 
 #include <arpa/inet.h>
+#include <fcntl.h>
 #include <netinet/in.h>
+#include <sys/file.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <filesystem>
+#include <list>
 #include <stdexcept>
+#include <string>
 
 namespace flinch::test {
 namespace {
@@ -27,14 +32,39 @@ bool is_unused(std::uint32_t domain) {
   return is_free(base + 10) && is_free(base + 11) && is_free(base + 12) && is_free(base + 13);
 }
 
+/// A file that is locked by whoever has the domain, or is about to: its ports alone would be free until then. It stays
+/// locked while this program or one that it has made by copying itself lives.
+class Reservation {
+ public:
+  explicit Reservation(std::uint32_t domain) {
+    const auto name = std::filesystem::temp_directory_path() / ("flinch_domain_" + std::to_string(domain));
+    file_ = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    made_ = file_ >= 0 && ::flock(file_, LOCK_EX | LOCK_NB) == 0;
+  }
+  Reservation(const Reservation&) = delete;
+  Reservation& operator=(const Reservation&) = delete;
+  ~Reservation() { ::close(file_); }
+
+  bool made() const { return made_; }
+
+ private:
+  int file_ = -1;
+  bool made_ = false;
+};
+
 }  // namespace
 
 std::uint32_t free_domain() {
   constexpr std::uint32_t domains = 100;  // above, the ports are those that the kernel hands out
+  static std::list<Reservation> ours;
+  constexpr std::size_t most = 4;  // of one test; those of earlier tests of this program are given back
+  if (ours.size() == most) ours.pop_front();
   const auto start = static_cast<std::uint32_t>(::getpid());
   for (std::uint32_t i = 0; i < domains; ++i) {
     const std::uint32_t domain = 1 + (start + i) % domains;
-    if (is_unused(domain)) return domain;
+    ours.emplace_back(domain);
+    if (ours.back().made() && is_unused(domain)) return domain;
+    ours.pop_back();
   }
   throw std::runtime_error("every domain of the bus is in use on this machine");
 }

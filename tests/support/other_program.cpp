@@ -1,0 +1,95 @@
+#include "tests/support/other_program.h"
+
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdlib>
+#include <thread>
+
+#include "systems/framework/monotonic_clock.h"
+
+namespace flinch::test {
+namespace {
+
+/// A copy of this program that dies with it: 0 in the copy.
+pid_t copy_of_this_program() {
+  const pid_t parent = ::getpid();
+  const pid_t id = ::fork();
+  if (id != 0) return id;
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(127);  // it has died meanwhile
+  return id;
+}
+
+/// Before whatever is preloaded into this program.
+void preload(const std::string& library) {
+  if (library.empty()) return;
+  const char* const others = std::getenv("LD_PRELOAD");
+  ::setenv("LD_PRELOAD", (others == nullptr ? library : library + ":" + others).c_str(), 1);
+}
+
+}  // namespace
+
+OtherProgram::OtherProgram(const Start& start) : output_(::memfd_create("output", MFD_CLOEXEC)) {
+  std::vector<char*> words;
+  for (const std::string& word : start.command) words.push_back(const_cast<char*>(word.c_str()));
+  words.push_back(nullptr);
+  id_ = copy_of_this_program();
+  if (id_ != 0) return;
+  ::dup2(output_, STDOUT_FILENO);
+  ::dup2(output_, STDERR_FILENO);
+  for (const auto& [name, value] : start.environment) ::setenv(name.c_str(), value.c_str(), 1);
+  preload(start.preloaded);
+  if (!start.prepare || start.prepare()) ::execv(words.front(), words.data());
+  ::_exit(127);
+}
+
+OtherProgram::OtherProgram(const std::function<void()>& body) : id_(copy_of_this_program()) {
+  if (id_ != 0) return;
+  body();
+  ::_exit(0);
+}
+
+OtherProgram::~OtherProgram() {
+  if (is_running()) {
+    kill();
+    ::waitpid(id_, nullptr, 0);
+  }
+  if (output_ >= 0) ::close(output_);
+}
+
+void OtherProgram::send(int signal) {
+  if (is_running()) ::kill(id_, signal);
+}
+void OtherProgram::kill() { send(SIGKILL); }
+void OtherProgram::stop() { send(SIGSTOP); }
+void OtherProgram::resume() { send(SIGCONT); }
+void OtherProgram::interrupt() { send(SIGINT); }
+
+bool OtherProgram::is_running() {
+  if (!ended_) ended_ = ::waitpid(id_, &status_, WNOHANG) != 0;
+  return !ended_;
+}
+
+std::optional<int> OtherProgram::wait(Time patience) {
+  const Time deadline = MonotonicClock::now() + patience;
+  while (is_running() && MonotonicClock::now() < deadline) std::this_thread::sleep_for(1ms);
+  if (is_running() || !WIFEXITED(status_)) return std::nullopt;
+  return WEXITSTATUS(status_);
+}
+
+std::string OtherProgram::output() const {
+  std::string text;
+  std::array<char, 4096> part{};
+  for (ssize_t size = 0;
+       (size = ::pread(output_, part.data(), part.size(), static_cast<off_t>(text.size()))) > 0;) {
+    text.append(part.data(), static_cast<std::size_t>(size));
+  }
+  return text;
+}
+
+}  // namespace flinch::test
