@@ -8,6 +8,7 @@
 #include <iostream>
 #include <list>
 #include <memory>
+#include <sstream>
 
 #include "systems/framework/monotonic_clock.h"
 #include "tests/support/other_program.h"
@@ -58,10 +59,10 @@ std::unique_ptr<Watch> watch;
 class WatchEachTest final : public testing::EmptyTestEventListener {
   void OnTestStart(const testing::TestInfo&) override { watch = std::make_unique<Watch>(); }
   void OnTestEnd(const testing::TestInfo& test) override {
-    const Time stall = machine_stall();
+    if (test.result()->Failed() && machine_stall() >= noticeable_stall) {
+      std::cout << not_measured() << std::endl;
+    }
     watch.reset();
-    if (test.result()->Passed() || test.result()->Skipped() || stall < noticeable_stall) return;
-    std::cout << "not measured: the machine stalled for " << 1e3 * to_seconds(stall) << " ms" << std::endl;
   }
 };
 
@@ -73,5 +74,11 @@ const bool is_watching = [] {
 }  // namespace
 
 Time machine_stall() { return watch ? watch->longest() : Time::zero(); }
+
+std::string not_measured() {
+  std::ostringstream text;
+  text << "not measured: the machine stalled for " << 1e3 * to_seconds(machine_stall()) << " ms";
+  return text.str();
+}
 
 }  // namespace flinch::test

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "systems/framework/time.h"
 
 namespace flinch::test {
@@ -9,8 +11,11 @@ namespace flinch::test {
 /// beside each test of the executable that links this. What a test demands in milliseconds it can demand of a
 /// machine that is not later.
 ///
-/// A test that fails although its machine was late says so in a line that begins with "not measured:".
+/// A test that fails while its machine was late says so: not_measured().
 Time machine_stall();
+
+/// "not measured: the machine stalled for 3.2 ms".
+std::string not_measured();
 
 /// Stalls that matter to a loop of 1 kHz.
 constexpr Time noticeable_stall = 1ms;

@@ -104,26 +104,31 @@ std::unique_ptr<OtherProgram> LinkTrial::other_commander(const std::vector<std::
 
 void LinkTrial::start_commander() {
   commander_.reset();
-  commands_before_ = at_commander().commands.count;
+  status_before_ = at_robot().status.count;
   commander_ = other_commander({"--out", (folder_ / "out").string()});
 }
 
 bool LinkTrial::wait_for_motion() {
-  const auto moves = [this] {
-    const Track<flinch_StatusSample>& status = at_robot().status;
-    const std::uint32_t count = status.count;
-    if (at_commander().commands.count < commands_before_ + moving_ticks || count < moving_ticks) return false;
-    for (std::uint32_t i = count - moving_ticks; i < count; ++i) {
-      if (status[i].braked != 0) return false;
+  const Track<flinch_StatusSample>& status = at_robot().status;
+  std::uint32_t seen = status_before_;
+  std::uint32_t moving = 0;
+  const auto has_stopped = [&] {
+    while (seen < status.count) {
+      if (status[seen++].braked == 0) {
+        ++moving;
+      } else if (moving > 0) {
+        return true;
+      }
     }
-    return true;
+    return !commander_->is_running();
   };
-  return wait_until(10s, [&] { return moves() || !commander_->is_running(); }) && commander_->is_running() &&
-         moves();
+  bool stopped = false;
+  wait_until(10s, [&] { return (stopped = has_stopped()) || moving >= moving_ticks; });
+  return !stopped && moving >= moving_ticks;
 }
 
 void LinkTrial::get_moving() {
-  for (int attempt = 0; attempt < 3; ++attempt) {
+  for (int attempt = 0; attempt < 5; ++attempt) {
     start_robot();
     start_commander();
     if (wait_for_motion()) return;

@@ -57,10 +57,11 @@ class LinkTrial {
   std::unique_ptr<OtherProgram> other_commander(const std::vector<std::string>& arguments,
                                                 const std::string& scenario = "scenarios/square.yaml") const;
 
-  /// Starts both, and waits until the robot has been moving for 0.3 s. Begins anew, twice at most, where the
-  /// machine is too busy for a run to get so far. Throws TooBusy where it never gets there.
+  /// Starts both, and waits until the robot has been moving for 0.3 s. Begins anew, four times at most,
+  /// where the machine is too busy for a run to get so far. Throws TooBusy where it never gets there.
   void get_moving();
-  /// Waits until the brakes have been open for 0.3 s since the commander was started.
+  /// Waits until the brakes have been open for 0.3 s since the commander was started; false where they close
+  /// before.
   bool wait_for_motion();
 
   OtherProgram& robot() { return *robot_; }
@@ -85,7 +86,7 @@ class LinkTrial {
   const TwoNetworks* networks_;
   std::uint32_t domain_;
   TroubleFile trouble_;
-  std::uint32_t commands_before_ = 0;
+  std::uint32_t status_before_ = 0;  ///< what the robot had sent when the commander was started
   std::unique_ptr<BusTap> robots_tap_;
   std::unique_ptr<BusTap> commanders_tap_;
   std::unique_ptr<OtherProgram> robot_;
