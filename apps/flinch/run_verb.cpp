@@ -3,8 +3,8 @@
 
 #include "apps/flinch/bus/bus_verbs.h"
 #include "apps/flinch/command_line.h"
+#include "apps/flinch/conclusion.h"
 #include "apps/flinch/progress.h"
-#include "apps/flinch/run_folder.h"
 #include "apps/flinch/simulated/simulated_parts.h"
 #include "apps/flinch/stop_watch.h"
 #include "experiments/recorded/replay.h"
@@ -38,14 +38,14 @@ ExitStatus run_recorded(const RunOptions& options) {
                     [&progress](double share) { progress.show(share); });
     });
   }
-  const std::filesystem::path folder = make_run_folder(options, scenario.name + "_replayed");
+  const std::filesystem::path folder = folder_of(options, scenario.name + "_replayed");
   std::error_code no_such_file;
   if (std::filesystem::equivalent(folder / "run.h5", options.input, no_such_file)) {
     throw SetupError(options.input.string() +
                      ": the replay would replace it; choose another folder with --out");
   }
   tell_what_differs(replayed, options.common);
-  return conclude_run(scenario, replayed.recording, watch.seconds(), folder, options.common);
+  return conclude(scenario, replayed.recording, watch.seconds(), folder, options.common);
 }
 
 /// Says which options mean nothing for this station.

@@ -1,6 +1,5 @@
 #include "experiments/bus/await_robot.h"
 
-#include "experiments/bus/interrupts.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/monotonic_clock.h"
 
@@ -20,14 +19,14 @@ void throw_if_misunderstood(const DdsLink& link) {
 
 }  // namespace
 
-void throw_if_interrupted() {
-  if (Interrupts::count() > 0) throw SetupError("interrupted; nothing has moved");
+void throw_if_interrupted(const InterruptCount& interrupts) {
+  if (interrupts() > 0) throw SetupError("interrupted; nothing has moved");
 }
 
-void await_robot(const DdsStation& station, Time patience) {
+void await_robot(const DdsStation& station, Time patience, const InterruptCount& interrupts) {
   const Time deadline = MonotonicClock::now() + patience;
   for (DdsLink link = station.link(); link.received == 0; link = station.link()) {
-    throw_if_interrupted();
+    throw_if_interrupted(interrupts);
     throw_if_misunderstood(link);
     if (MonotonicClock::now() > deadline) {
       throw SetupError(station.peers() == 0

@@ -2,12 +2,14 @@
 
 #include <fmt/core.h>
 
+#include <utility>
+
+#include "drivers/wire_header.h"
 #include "experiments/bus/await_robot.h"
-#include "experiments/bus/interrupts.h"
 #include "experiments/bus/names.h"
-#include "experiments/bus/tidings.h"
 #include "experiments/recorded/recorded_signals.h"
 #include "experiments/scenario/scenario.h"
+#include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/quantity_units.h"
 
@@ -28,16 +30,47 @@ std::string attribute(const DurationHistogram& histogram) {
                      us(summary->p99), us(summary->p99_9), us(summary->max));
 }
 
+std::vector<std::string> names_of_drives(int legs) {
+  std::vector<std::string> names;
+  for (int leg = 1; leg <= legs; ++leg) names.push_back("drive" + std::to_string(leg));
+  return names;
+}
+
+Ros2Sources shown_to_ros2(const LiveExperiment& experiment) {
+  return {.joint_motion = experiment.control.joint_motion,
+          .drive_torque = experiment.control.drive_torque,
+          .imu = experiment.station.imu,
+          .wrench = experiment.control.wrench_estimate,
+          .gate = experiment.control.gate};
+}
+
+EventSources told_of(const LiveExperiment& experiment) {
+  const ExternalStation& station = experiment.station;
+  return {.detection = experiment.control.detection,
+          .reaction = experiment.control.reaction_state,
+          .gate = experiment.control.gate,
+          .timing = experiment.tick_timing,
+          .links = {station.joints_link, station.drives_link, station.imu_link, station.status_link}};
+}
+
 }  // namespace
 
-LiveRun::LiveRun(const Scenario& scenario, const LiveExperiment& experiment, const LiveLink& link,
-                 Time patience)
+LiveRun::LiveRun(const Scenario& scenario, const DdsBus& bus, LiveRunSettings settings)
     : scenario_(scenario),
-      experiment_(experiment),
-      link_(link),
-      patience_(patience),
-      unrecorded_(*experiment.diagram, ticks_, link.exchange),
-      context_(experiment.diagram->make_context()) {
+      settings_(std::move(settings)),
+      experiment_(out_of(scenario.file, [&] { return build_live_experiment(scenario); })),
+      station_(bus, *experiment_.diagram, experiment_.station,
+               {.robot = robot_hash(scenario.robot_text), .realtime_priority = settings_.bus_priority}),
+      panel_(experiment_, station_, settings_.interrupts),
+      ros2_(bus, *experiment_.diagram, shown_to_ros2(experiment_),
+            {.joint_names = names_of_drives(scenario.robot.robot->legs()),
+             .planar = scenario.robot.robot->space_dimension() == 2,
+             .ticks_between_messages = 10}),
+      events_(bus, *experiment_.diagram, told_of(experiment_),
+              {.robot = robot_hash(scenario.robot_text), .session = station_.session()}),
+      exchange_({station_, panel_, ros2_, events_}),
+      unrecorded_(*experiment_.diagram, ticks_, exchange_),
+      context_(experiment_.diagram->make_context()) {
   unrecorded_.follow_clock();
   unrecorded_.feed_timing(experiment_.tick_timing);
 }
@@ -47,39 +80,39 @@ void LiveRun::tick_until(Time longest, const std::function<bool()>& done) {
 }
 
 void LiveRun::connect() {
-  await_robot(link_.station, patience_);
-  fall_into_step(link_.station, ticks_);
+  await_robot(station_, settings_.patience, settings_.interrupts);
+  fall_into_step(station_, ticks_);
   const auto sees_the_platform = [this] { return context_.get(experiment_.control.platform_motion).valid(); };
-  tick_until(patience_, [&] { return sees_the_platform() || Interrupts::count() > 0; });
-  throw_if_interrupted();
+  tick_until(settings_.patience, [&] { return sees_the_platform() || is_interrupted(); });
+  throw_if_interrupted(settings_.interrupts);
   if (!sees_the_platform()) throw SetupError("the platform's pose is not known: check the encoders");
   const PlatformMotion& platform = context_.get(experiment_.control.platform_motion);
   end_ = scenario_.duration + approach_from(platform.pose, scenario_);
 }
 
-void LiveRun::prepare(const RealtimeSettings& settings) {
+void LiveRun::prepare() {
   const Diagram& diagram = *experiment_.diagram;
   recorder_ = std::make_unique<Recorder>(diagram, recorded_paths(diagram),
                                          static_cast<std::size_t>(end_ / diagram.tick()) + 1,
                                          quantity_units(*scenario_.robot.robot));
   profile_ = std::make_unique<BlockProfile>(diagram);
-  recorded_ = std::make_unique<RealtimeRunner>(diagram, ticks_, link_.exchange);
+  recorded_ = std::make_unique<RealtimeRunner>(diagram, ticks_, exchange_);
   recorded_->record(*recorder_);
   recorded_->profile(*profile_);
   recorded_->follow_clock();
   recorded_->feed_timing(experiment_.tick_timing);
   start_ = std::make_unique<Context>(diagram.make_context());
-  thread_ = std::make_unique<RealtimeThread>(settings);
+  thread_ = std::make_unique<RealtimeThread>(settings_.loop);
   granted_ = thread_->report();
 }
 
 bool LiveRun::stands_ready() const {
-  const DdsLink link = link_.station.link();
+  const DdsLink link = station_.link();
   return link.commands_obeyed && link.enabled;
 }
 
 std::string LiveRun::why_not_enabled() const {
-  const DdsLink link = link_.station.link();
+  const DdsLink link = station_.link();
   const std::string state = std::string("the drives are in the state '") + name(link.drive_state) + "'";
   if (link.drive_state == DriveState::fault) return state + "; find out why, then use --reset-faults";
   if (!link.commands_obeyed)
@@ -87,28 +120,28 @@ std::string LiveRun::why_not_enabled() const {
   return "the robot does not enable its drives; " + state;
 }
 
-void LiveRun::enable(bool reset_faults) {
+void LiveRun::enable() {
   wish_ = {.state = DriveWish::State::operation_enabled, .engage_brake = false};
-  link_.station.request(wish_);
+  station_.request(wish_);
   const auto faulty = [this] {
-    const DdsLink link = link_.station.link();
+    const DdsLink link = station_.link();
     return link.commands_obeyed && link.drive_state == DriveState::fault;
   };
   const auto wait_for = [this](const std::function<bool()>& other) {
-    tick_until(patience_, [&] { return stands_ready() || other() || Interrupts::count() > 0; });
-    throw_if_interrupted();
+    tick_until(settings_.patience, [&] { return stands_ready() || other() || is_interrupted(); });
+    throw_if_interrupted(settings_.interrupts);
   };
   wait_for(faulty);
-  if (faulty() && reset_faults) {
+  if (faulty() && settings_.reset_faults) {
     wish_.fault_resets = 1;
-    link_.station.request(wish_);
+    station_.request(wish_);
     wait_for([] { return false; });
   }
   if (!stands_ready()) throw SetupError(why_not_enabled());
 }
 
 Tidings LiveRun::watch() {
-  const LiveState& now = link_.panel.last();
+  const LiveState& now = panel_.last();
   constexpr const char* phases[] = {"waiting", "open", "closed"};
   return {fmt::format("{}; gate {}; drives: {}", name(now.mode), phases[static_cast<int>(now.gate.phase)],
                       name(now.link.drive_state)),
@@ -122,36 +155,35 @@ bool LiveRun::is_stopped() const {
   const GateStatus& gate = context_.get(experiment_.control.gate);
   if (gate.phase == GatePhase::open) return false;
   return gate.reaction == GateReaction::zero_torque_and_brake ||
-         is_at_rest(context_.get(experiment_.control.joint_motion)) || !link_.station.link().enabled;
+         is_at_rest(context_.get(experiment_.control.joint_motion)) || !station_.link().enabled;
 }
 
 void LiveRun::run() {
   const std::function<bool()> interrupted = [this] {
-    return Interrupts::count() > 1 || (Interrupts::count() == 1 && is_stopped());
+    return settings_.interrupts() > 1 || (is_interrupted() && is_stopped());
   };
-  fall_into_step(link_.station, ticks_);
-  link_.station.forget_times();
-  link_.station.request(
-      wish_);  // again, in case that the way here took so long that the robot has given us up
-  link_.panel.release_stop();
+  fall_into_step(station_, ticks_);
+  station_.forget_times();
+  station_.request(wish_);  // again, in case that the way here took so long that the robot has given us up
+  panel_.release_stop();
   context_ = *start_;
   recorded_->run(context_, end_, interrupted);
 }
 
 void LiveRun::end() {
-  link_.panel.press_stop();
-  tick_until(3s, [this] { return is_stopped() || Interrupts::count() > 1; });
-  link_.station.request({.state = DriveWish::State::switched_on});
-  tick_until(500ms, [this] { return !link_.station.link().enabled; });
-  link_.station.request({.state = DriveWish::State::without_voltage});
+  panel_.press_stop();
+  tick_until(3s, [this] { return is_stopped() || settings_.interrupts() > 1; });
+  station_.request({.state = DriveWish::State::switched_on});
+  tick_until(500ms, [this] { return !station_.link().enabled; });
+  station_.request({.state = DriveWish::State::without_voltage});
   tick_until(50ms, {});
   thread_.reset();
 }
 
 Recording LiveRun::recording(std::map<std::string, std::string> attributes) const {
   const TickStatistics& loop = recorded_->statistics();
-  const DdsLink link = link_.station.link();
-  const DdsLinkTimes& times = link_.station.times();
+  const DdsLink link = station_.link();
+  const DdsLinkTimes& times = station_.times();
   attributes["loop.granted"] = granted().text();
   attributes["loop.late_starts"] = std::to_string(loop.late_starts);
   attributes["loop.overruns"] = std::to_string(loop.overruns);
@@ -169,6 +201,17 @@ Recording LiveRun::recording(std::map<std::string, std::string> attributes) cons
   }
   attributes["loop.blocks"] = blocks;
   return recorder_->recording(recorded_attributes(scenario_, attributes));
+}
+
+Recording run_live_experiment(const Scenario& scenario, const DdsBus& bus, const LiveRunSettings& settings,
+                              const std::map<std::string, std::string>& provenance) {
+  LiveRun run(scenario, bus, settings);
+  run.connect();
+  run.prepare();
+  run.enable();
+  run.run();
+  run.end();
+  return run.recording(provenance);
 }
 
 }  // namespace flinch

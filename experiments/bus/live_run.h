@@ -1,14 +1,19 @@
 #pragma once
 
-#include <functional>
 #include <map>
 #include <memory>
 #include <string>
 
+#include "drivers/bus_settings.h"
+#include "drivers/dds_station.h"
+#include "drivers/event_publisher.h"
+#include "drivers/ros2_publisher.h"
+#include "experiments/bus/interrupt_count.h"
 #include "experiments/bus/operator_panel.h"
 #include "experiments/bus/tidings.h"
 #include "experiments/live/live_experiment.h"
 #include "systems/framework/block_profile.h"
+#include "systems/framework/exchange_list.h"
 #include "systems/framework/realtime_runner.h"
 #include "systems/framework/realtime_thread.h"
 #include "systems/framework/recorder.h"
@@ -17,32 +22,37 @@ namespace flinch {
 
 struct Scenario;
 
-/// What a run needs of the world outside.
-struct LiveLink {
-  DdsStation& station;
-  OperatorPanel& panel;
-  Exchange& exchange;  ///< of all that talks with the diagram, station and panel among them
+struct LiveRunSettings {
+  Time patience = 10s;         ///< with a robot that does not answer, or is not enabled
+  bool reset_faults = false;   ///< of the drives, before the run
+  int bus_priority = 0;        ///< SCHED_FIFO of the thread that receives, where permitted; 0: ordinary
+  RealtimeSettings loop = {};  ///< what the loop's thread asks the machine for
+  InterruptCount interrupts = no_interrupts;
 };
 
 /// A scenario against a robot on the bus. To be called in this order, on one thread: connect(),
 /// prepare(), enable(), run(), end(). The first three throw SetupError where the robot does not answer, or
-/// not as it should, within `patience`, or where somebody interrupts; end() may follow any of them.
+/// not as it should, within the patience, or where somebody interrupts; end() may follow any of them.
+/// What happens is told on the bus: events and diagnostics, and topics for tools of ROS 2.
 class LiveRun {
  public:
-  LiveRun(const Scenario& scenario, const LiveExperiment& experiment, const LiveLink& link, Time patience);
+  /// `scenario` and `bus` must outlive this. Throws SetupError for settings that do not fit together.
+  LiveRun(const Scenario& scenario, const DdsBus& bus, LiveRunSettings settings);
+  LiveRun(const LiveRun&) = delete;
+  LiveRun& operator=(const LiveRun&) = delete;
 
   /// Waits for readings that this program understands, and finds out where the platform is. Commands no
   /// torque and closed brakes, by which it takes the robot: nobody else can command it from then on.
   void connect();
 
   /// Makes ready all that the run needs, so that later nothing has to be allocated.
-  void prepare(const RealtimeSettings& settings);
+  void prepare();
   /// What the machine has granted.
   const RealtimeReport& granted() const { return granted_; }
 
   /// Switches the drives on, and if wanted resets their faults first. The brakes stay closed: the stop button
   /// is down until run().
-  void enable(bool reset_faults);
+  void enable();
 
   /// The scenario from its start, recorded; ends when it is over or, after an interrupt has stopped the
   /// robot, when that rests; at the second interrupt at once.
@@ -52,23 +62,29 @@ class LiveRun {
   /// left: the silence that follows lets the other end brake.
   void end();
 
-  /// For a StatusLine around run() and end(): how the run is.
+  /// How the run is. For one other thread, during run() and end().
   Tidings watch();
 
   /// What was recorded, with what is known of loop and link as attributes.
   Recording recording(std::map<std::string, std::string> attributes) const;
   const TickStatistics& statistics() const { return recorded_->statistics(); }
+  const DdsStation& station() const { return station_; }
 
  private:
   void tick_until(Time longest, const std::function<bool()>& done);
+  bool is_interrupted() const { return settings_.interrupts() > 0; }
   bool stands_ready() const;
   bool is_stopped() const;
   std::string why_not_enabled() const;
 
   const Scenario& scenario_;
-  const LiveExperiment& experiment_;
-  LiveLink link_;
-  Time patience_;
+  LiveRunSettings settings_;
+  LiveExperiment experiment_;
+  DdsStation station_;
+  OperatorPanel panel_;
+  Ros2Publisher ros2_;
+  EventPublisher events_;
+  ExchangeList exchange_;
   ClockTicks ticks_;
   RealtimeRunner unrecorded_;
   Context context_;
@@ -81,5 +97,11 @@ class LiveRun {
   RealtimeReport granted_;
   Time end_{};
 };
+
+/// The whole of such a run; what was recorded of it, with `provenance` among the attributes. Throws
+/// SetupError where it could not begin: then nothing has moved.
+Recording run_live_experiment(const Scenario& scenario, const DdsBus& bus,
+                              const LiveRunSettings& settings = {},
+                              const std::map<std::string, std::string>& provenance = {});
 
 }  // namespace flinch

@@ -1,18 +1,20 @@
 #include "experiments/bus/operator_panel.h"
 
-#include "experiments/bus/interrupts.h"
+#include <utility>
 
 namespace flinch {
 
-OperatorPanel::OperatorPanel(const LiveExperiment& experiment, const DdsStation& station)
+OperatorPanel::OperatorPanel(const LiveExperiment& experiment, const DdsStation& station,
+                             InterruptCount interrupts)
     : station_(station),
+      interrupts_(std::move(interrupts)),
       buttons_(experiment.diagram->slot(experiment.operator_command)),
       reaction_(experiment.diagram->slot(experiment.control.reaction_state)),
       gate_(experiment.diagram->slot(experiment.control.gate)),
       wrench_(experiment.diagram->slot(experiment.control.wrench_estimate)) {}
 
 void OperatorPanel::set_inputs(Context& context) {
-  context[buttons_] = {.start = false, .reset = false, .stop = stop_ || Interrupts::count() > 0};
+  context[buttons_] = {.start = false, .reset = false, .stop = stop_ || interrupts_() > 0};
 }
 
 void OperatorPanel::take_outputs(const Context& context) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "drivers/dds_station.h"
+#include "experiments/bus/interrupt_count.h"
 #include "experiments/live/live_experiment.h"
 #include "systems/framework/context.h"
 #include "systems/framework/exchange.h"
@@ -20,7 +21,7 @@ struct LiveState {
 /// The operator's part of a run: brings the buttons to the loop, and what the operator wants to see from it.
 class OperatorPanel final : public Exchange {
  public:
-  OperatorPanel(const LiveExperiment& experiment, const DdsStation& station);
+  OperatorPanel(const LiveExperiment& experiment, const DdsStation& station, InterruptCount interrupts);
 
   void set_inputs(Context& context) override;
   void take_outputs(const Context& context) override;
@@ -38,6 +39,7 @@ class OperatorPanel final : public Exchange {
 
  private:
   const DdsStation& station_;
+  InterruptCount interrupts_;
   Slot<OperatorCommand> buttons_;
   Slot<ReactionState> reaction_;
   Slot<GateStatus> gate_;

@@ -105,29 +105,30 @@ json encode_all(const std::vector<Value>& values) {
 
 }  // namespace
 
-nlohmann::json report_json(const Report& report) {
+std::string report_json(const Report& report) {
   json columns = json::object();
   for (const auto& [name, values] : report.columns) {
     columns[name] = list(values, [](double value) { return rounded(value); });
   }
-  return {{"title", report.title},
-          {"kind", report.kind},
-          {"subtitle", report.subtitle},
-          {"note", report.note},
-          {"good", report.good},
-          {"contacts", encode_all(report.contacts)},
-          {"measures", encode_all(report.measures)},
-          {"robot", report.robot ? encode(*report.robot) : json(nullptr)},
-          {"obstacles", encode_all(report.obstacles)},
-          {"start", report.start},
-          {"period", report.period},
-          {"count", report.sample_count()},
-          {"columns", columns},
-          {"lanes", encode_all(report.lanes)},
-          {"bounds", encode_all(report.bounds)},
-          {"parameters", encode_all(report.parameters)},
-          {"provenance", encode_all(report.provenance)},
-          {"texts", encode_all(report.texts)}};
+  const json data = {{"title", report.title},
+                     {"kind", report.kind},
+                     {"subtitle", report.subtitle},
+                     {"note", report.note},
+                     {"good", report.good},
+                     {"contacts", encode_all(report.contacts)},
+                     {"measures", encode_all(report.measures)},
+                     {"robot", report.robot ? encode(*report.robot) : json(nullptr)},
+                     {"obstacles", encode_all(report.obstacles)},
+                     {"start", report.start},
+                     {"period", report.period},
+                     {"count", report.sample_count()},
+                     {"columns", columns},
+                     {"lanes", encode_all(report.lanes)},
+                     {"bounds", encode_all(report.bounds)},
+                     {"parameters", encode_all(report.parameters)},
+                     {"provenance", encode_all(report.provenance)},
+                     {"texts", encode_all(report.texts)}};
+  return data.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
 }  // namespace flinch

@@ -1,13 +1,14 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include <string>
 
 #include "experiments/report/report.h"
 
 namespace flinch {
 
 /// The data object of the report page, as report/README.md describes it. Numbers are rounded to six
-/// significant digits; what is not finite is null. The report must have passed `check_report()`.
-nlohmann::json report_json(const Report& report);
+/// significant digits; what is not finite is null; bytes that are not UTF-8 become the replacement character.
+/// The report must have passed `check_report()`.
+std::string report_json(const Report& report);
 
 }  // namespace flinch

@@ -1,7 +1,6 @@
 #include "experiments/report/report_page.h"
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "experiments/report/page/page_template.h"
 #include "experiments/report/report_json.h"
@@ -11,10 +10,9 @@ namespace flinch {
 namespace {
 
 /// JSON that can stand inside a script element: without a "<" that could end the element or open a comment.
-/// Bytes that are not UTF-8 become the replacement character.
-std::string inside_script(const nlohmann::json& data) {
+std::string inside_script(const std::string& data) {
   std::string text;
-  for (const char c : data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)) {
+  for (const char c : data) {
     if (c == '<') {
       text += "\\u003c";
     } else {

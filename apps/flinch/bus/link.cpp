@@ -5,10 +5,10 @@
 
 #include "apps/flinch/bus/bus_start.h"
 #include "apps/flinch/bus/bus_verbs.h"
+#include "apps/flinch/bus/interrupts.h"
 #include "apps/flinch/bus/status_line.h"
 #include "drivers/wire_header.h"
 #include "experiments/bus/await_robot.h"
-#include "experiments/bus/interrupts.h"
 #include "experiments/bus/link_report.h"
 #include "experiments/scenario/robot_input.h"
 #include "systems/foundation/problems_of_place.h"
@@ -70,7 +70,8 @@ ExitStatus link(const LinkOptions& options) {
   DdsStation station(bus, *listener.diagram, listener.station,
                      {.robot = robot_hash(input.text), .realtime_priority = settings.realtime_priority});
   if (!silent) fmt::print(stderr, "waiting for the robot, {}\n", name_of(options.bus));
-  out_of(name_of(options.bus), [&] { await_robot(station, from_seconds(options.patience)); });
+  out_of(name_of(options.bus),
+         [&] { await_robot(station, from_seconds(options.patience), Interrupts::count); });
 
   ClockTicks ticks;
   LoopTime time;

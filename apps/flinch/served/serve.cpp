@@ -5,10 +5,10 @@
 
 #include "apps/flinch/bus/bus_start.h"
 #include "apps/flinch/bus/bus_verbs.h"
+#include "apps/flinch/bus/interrupts.h"
 #include "apps/flinch/bus/status_line.h"
 #include "drivers/dds_server.h"
 #include "drivers/wire_header.h"
-#include "experiments/bus/interrupts.h"
 #include "experiments/bus/names.h"
 #include "experiments/served/served_bench.h"
 #include "experiments/simulated/simulated_scenario.h"

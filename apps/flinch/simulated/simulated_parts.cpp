@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "apps/flinch/conclusion.h"
 #include "apps/flinch/progress.h"
-#include "apps/flinch/run_folder.h"
 #include "apps/flinch/stop_watch.h"
 #include "experiments/simulated/experiment.h"
 #include "experiments/simulated/simulated_scenario.h"
@@ -27,7 +27,7 @@ bool was_simulated(const Recording& recording) {
 ExitStatus run_simulated(const RunOptions& options) {
   const SimulatedScenario scenario = read_simulated_scenario(options.input, options.seed);
   built(scenario);  // before anything is written
-  const std::filesystem::path folder = make_run_folder(options, scenario.name);
+  const std::filesystem::path folder = folder_of(options, scenario.name);
   const StopWatch watch;
   Recording recording;
   {
@@ -35,7 +35,7 @@ ExitStatus run_simulated(const RunOptions& options) {
     recording = run_experiment(scenario, {{"command_line", options.common.command_line}},
                                [&progress](double share) { progress.show(share); });
   }
-  return conclude_run(scenario, recording, watch.seconds(), folder, options.common);
+  return conclude(scenario, recording, watch.seconds(), folder, options.common);
 }
 
 std::unique_ptr<Diagram> closed_loop(const std::filesystem::path& scenario) {

@@ -35,7 +35,7 @@ TEST(ControlThread, TakesNoMemoryAndNoLockAndNeverCallsTheBus) {
                     .realtime_priority = priority});
   DdsStation station(bus, *experiment.diagram, experiment.station,
                      {.robot = robot_hash(scenario.robot_text), .realtime_priority = priority});
-  OperatorPanel panel(experiment, station);
+  OperatorPanel panel(experiment, station, no_interrupts);
   Ros2Settings settings;
   settings.joint_names = {"a", "b", "c"};
   Ros2Publisher ros2(bus, *experiment.diagram,

@@ -1,4 +1,4 @@
-#include "experiments/bus/interrupts.h"
+#include "apps/flinch/bus/interrupts.h"
 
 #include <atomic>
 #include <csignal>

@@ -1,0 +1,38 @@
+#include "apps/flinch/conclusion.h"
+
+#include <fmt/core.h>
+
+#include "experiments/report/run_folder.h"
+#include "experiments/scenario/scenario.h"
+#include "experiments/verdict/verdict_output.h"
+
+namespace flinch {
+namespace {
+
+ExitStatus status_of(const Verdict& verdict) {
+  if (!verdict.fault.empty()) return ExitStatus::fault;
+  return verdict.good() ? ExitStatus::done : ExitStatus::bad_verdict;
+}
+
+}  // namespace
+
+std::filesystem::path folder_of(const RunOptions& options, const std::string& name) {
+  const std::filesystem::path folder =
+      options.out.empty() ? std::filesystem::path("out") / name : options.out;
+  make_run_folder(folder);
+  return folder;
+}
+
+ExitStatus conclude(const Scenario& scenario, const Recording& recording, double wall,
+                    const std::filesystem::path& folder, const CommonOptions& common) {
+  const Verdict verdict = conclude_run(scenario, recording, folder);
+  const RunFacts facts{wall, scenario.seed};
+  fmt::print("{}", common.json ? verdict_json(verdict, facts) + "\n" : verdict_table(verdict, facts));
+  if (!common.quiet) {
+    fmt::print(stderr, "recording: {}\nreport:    {}\n", (folder / "run.h5").string(),
+               (folder / "report.html").string());
+  }
+  return status_of(verdict);
+}
+
+}  // namespace flinch
