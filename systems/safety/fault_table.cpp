@@ -149,7 +149,7 @@ constexpr GateReaction brake = GateReaction::zero_torque_and_brake;
 
 constexpr std::array rows{
     FaultRow{GateFault::loop_late, brake, 0, loop_late, "the control loop is late"},
-    FaultRow{GateFault::station_silent, brake, 2, station_silent, "the station does not say how it is"},
+    FaultRow{GateFault::station_silent, brake, 3, station_silent, "the station does not say how it is"},
     FaultRow{GateFault::station_fault, brake, 0, station_fault, "the station reports a fault"},
     FaultRow{GateFault::station_disabled, brake, 0, station_disabled, "the station does not act on torques"},
     FaultRow{GateFault::joints_invalid, brake, 2, joints_invalid, "no usable angles of the drives"},

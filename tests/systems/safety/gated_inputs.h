@@ -12,8 +12,8 @@ namespace flinch::test {
 
 /// All that monitor and gate see at a tick. Healthy by default: the bench at rest at home.
 struct Inputs {
-  Inputs(const ParallelRobot& robot, Time now)
-      : posture(robot, PlatformVector::Zero(3), PlatformVector::Zero(3), now) {
+  Inputs(const ParallelRobot& robot, Time tick)
+      : now(tick), posture(robot, PlatformVector::Zero(3), PlatformVector::Zero(3), now) {
     const JointVector zero = JointVector::Zero(3);
     posture.joints.active.array() += encoder_noise(now);
     station = {.acquired = now, .valid = true, .enabled = true, .braked = false, .fault = false};
@@ -24,8 +24,9 @@ struct Inputs {
   }
 
   /// Never the same in two ticks that follow each other [rad].
-  static double encoder_noise(Time now) { return 1e-6 * static_cast<double>(1 + now / 1ms % 7); }
+  static double encoder_noise(Time tick) { return 1e-6 * static_cast<double>(1 + tick / 1ms % 7); }
 
+  Time now;
   TickTiming timing;
   Posture posture;
   StationStatus station;
