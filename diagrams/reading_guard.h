@@ -59,14 +59,15 @@ class ReadingGuard final : public System {
   InputPort<Arrival<Reading>> arrival = System::input<Arrival<Reading>>("arrival");
 
  private:
-  OutputPort<Memory> next_ = System::output<&ReadingGuard::advance>("next", arrival, memory_, System::clock);
+  Intermediate<Memory> next_ =
+      System::intermediate<&ReadingGuard::advance>("next", arrival, memory_, System::clock);
 
  public:
   OutputPort<Reading> reading = System::output<&ReadingGuard::read>("reading", next_);
   OutputPort<LinkStatus> link = System::output<&ReadingGuard::report>("link", next_);
 
  private:
-  Update remember_ = System::update<&ReadingGuard::remember>(memory_, next_);
+  Update remember_ = System::keep(memory_, next_);
 
   void advance(const Arrival<Reading>& came, const Memory& memory, Time now, Memory& next) const {
     next = memory;
@@ -115,7 +116,6 @@ class ReadingGuard final : public System {
 
   void read(const Memory& next, Reading& result) const { result = next.last.reading; }
   LinkStatus report(const Memory& next) const { return next.link; }
-  void remember(const Memory& next, Memory& memory) const { memory = next; }
 
   int legs_;
   Time max_age_;

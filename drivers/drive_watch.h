@@ -21,7 +21,7 @@ class DriveWatch final : public System {
   OutputPort<DriveCondition> condition = output<&DriveWatch::watch>("condition", last_, status, joints);
 
  private:
-  Update remember_ = update<&DriveWatch::remember>(last_, joints);
+  Update remember_ = keep(last_, joints);
 
   DriveCondition watch(const JointReading& last, const StationStatus& station,
                        const JointReading& now) const {
@@ -29,7 +29,6 @@ class DriveWatch final : public System {
     const bool rests = known && (now.active - last.active).cwiseAbs().maxCoeff() <= resting_step;
     return {.started = station.valid, .fault = station.valid && station.fault, .standstill = rests};
   }
-  JointReading remember(const JointReading& now) const { return now; }
 };
 
 }  // namespace flinch

@@ -34,7 +34,8 @@ class BenchPlant final : public System {
   OutputPort<PlatformMotion> platform = output<&BenchPlant::tell_platform>("platform", truth);
 
  private:
-  OutputPort<ContactHistory> history_now_ = output<&BenchPlant::follow>("history", clock, snapshot, history_);
+  Intermediate<ContactHistory> history_now_ =
+      intermediate<&BenchPlant::follow>("history", clock, snapshot, history_);
 
  public:
   OutputPort<ContactTruth> contact = output<&BenchPlant::tell_contact>("contact", snapshot, history_now_);
@@ -53,9 +54,8 @@ class BenchPlant final : public System {
   void follow(Time now, const BenchSnapshot& bench, const ContactHistory& before,
               ContactHistory& after) const;
   void tell_contact(const BenchSnapshot& bench, const ContactHistory& history, ContactTruth& out) const;
-  void remember(const ContactHistory& now, ContactHistory& kept) const { kept = now; }
 
-  Update remember_ = update<&BenchPlant::remember>(history_, history_now_);
+  Update remember_ = keep(history_, history_now_);
   Update look_ahead_ = update<&BenchPlant::look_ahead>(Every{tick_}, candidates_, state_);
   Derivative move_ = derivative<&BenchPlant::move>(state_, state_, drives, applied, candidates_);
 };

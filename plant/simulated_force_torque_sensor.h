@@ -43,8 +43,8 @@ class SimulatedForceTorqueSensor final : public System {
   InputPort<BenchSnapshot> snapshot = input<BenchSnapshot>("snapshot");
 
  private:
-  OutputPort<ForceTorqueReading> measured_ =
-      output<&SimulatedForceTorqueSensor::measure>("measured", clock, snapshot, noise_);
+  Intermediate<ForceTorqueReading> measured_ =
+      intermediate<&SimulatedForceTorqueSensor::measure>("measured", clock, snapshot, noise_);
 
  public:
   OutputPort<ForceTorqueReading> force_torque =

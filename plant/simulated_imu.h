@@ -63,7 +63,7 @@ class SimulatedImu final : public System {
   InputPort<PlantTruth> truth = input<PlantTruth>("truth");
 
  private:
-  OutputPort<ImuReading> measured_ = output<&SimulatedImu::measure>("measured", truth, noise_);
+  Intermediate<ImuReading> measured_ = intermediate<&SimulatedImu::measure>("measured", truth, noise_);
 
  public:
   OutputPort<ImuReading> imu = output<&SimulatedImu::deliver>("imu", clock, measured_, underway_);

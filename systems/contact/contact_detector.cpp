@@ -34,7 +34,7 @@ ContactDetector::ContactDetector(const std::shared_ptr<const ParallelRobot>& rob
                                  const ContactDetectorSettings& settings)
     : reaction_(components(settings.reaction, *robot)), hard_(components(settings.hard, *robot)) {
   throw_if_any(problems(settings));
-  update<&ContactDetector::keep>(Every{settings.period}, previous_, contact);
+  keep(Every{settings.period}, previous_, contact);
 }
 
 ContactLevel ContactDetector::level(const PlatformVector& estimate) const {

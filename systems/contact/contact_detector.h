@@ -42,7 +42,6 @@ class ContactDetector final : public System {
  private:
   ContactDetection detect(const WrenchEstimate& estimate, const ResetCommand& command,
                           const ContactDetection& previous, Time now) const;
-  void keep(const ContactDetection& now, ContactDetection& previous) const { previous = now; }
   ContactLevel level(const PlatformVector& components) const;
 
   PlatformVector reaction_;

@@ -35,7 +35,7 @@ MomentumObserver::MomentumObserver(std::shared_ptr<const ParallelRobot> robot,
   throw_if_any(problems(gain_, robot_->dof()));
   settling_time_ =
       std::max(from_seconds(settling_time_constants / gain_.minCoeff()), settings.input_settling_time);
-  update<&MomentumObserver::keep>(Every{sampling_.period}, memory_, next_);
+  keep(Every{sampling_.period}, memory_, next_);
 }
 
 MomentumSample MomentumObserver::sample(const PlatformMotion& motion, const Kinematics& at,

@@ -50,10 +50,10 @@ class MomentumObserver final : public System {
   InputPort<DriveTorque> torque = input<DriveTorque>("torque");
 
  private:
-  OutputPort<MomentumSample> sample_ =
-      output<&MomentumObserver::sample>("sample", platform, kinematics, dynamics, torque);
-  OutputPort<MomentumObserverMemory> next_ =
-      output<&MomentumObserver::advance>("next", sample_, kinematics, memory_, clock);
+  Intermediate<MomentumSample> sample_ =
+      intermediate<&MomentumObserver::sample>("sample", platform, kinematics, dynamics, torque);
+  Intermediate<MomentumObserverMemory> next_ =
+      intermediate<&MomentumObserver::advance>("next", sample_, kinematics, memory_, clock);
 
  public:
   OutputPort<WrenchEstimate> wrench = output<&MomentumObserver::read>("wrench", next_, clock);
@@ -64,7 +64,6 @@ class MomentumObserver final : public System {
   void advance(const MomentumSample& sample, const Kinematics& at, const MomentumObserverMemory& memory,
                Time now, MomentumObserverMemory& next) const;
   void read(const MomentumObserverMemory& next, Time now, WrenchEstimate& result) const;
-  void keep(const MomentumObserverMemory& next, MomentumObserverMemory& memory) const { memory = next; }
   bool can_continue(const MomentumObserverMemory& memory, Time acquired) const;
   PlatformVector step(const MomentumObserverMemory& memory, const MomentumSample& now) const;
 

@@ -6,13 +6,15 @@
 #include <type_traits>
 #include <utility>
 
+#include "systems/framework/place.h"
+
 namespace flinch {
 
 class System;
 
 /// A member function of a block with its types erased: reads its arguments from, and writes its result to,
-/// the memory of a Context at `offsets` (the arguments in order, then the result).
-using BlockFunction = void (*)(const System& block, std::byte* memory, const std::uint32_t* offsets);
+/// the memory of a Context at `places` (the arguments in order, then the result).
+using BlockFunction = void (*)(const System& block, std::byte* memory, const Place* places);
 
 namespace internal {
 
@@ -60,28 +62,27 @@ template <auto function>
 using Signature = MemberSignature<decltype(function)>;
 
 template <class T>
-T& at(std::byte* memory, std::uint32_t offset) {
-  return *reinterpret_cast<T*>(memory + offset);
+T& at(std::byte* memory, Place place) {
+  return *reinterpret_cast<T*>(place.in(memory));
 }
 
 template <auto function, std::size_t... i>
-void call_with(const System& system, std::byte* memory, const std::uint32_t* offsets,
-               std::index_sequence<i...>) {
+void call_with(const System& system, std::byte* memory, const Place* places, std::index_sequence<i...>) {
   using S = Signature<function>;
   const auto& block = static_cast<const typename S::Block&>(system);
-  auto& result = at<typename S::Result>(memory, offsets[sizeof...(i)]);
+  auto& result = at<typename S::Result>(memory, places[sizeof...(i)]);
   if constexpr (S::returns) {
-    result = (block.*function)(
-        std::as_const(at<std::tuple_element_t<i, typename S::Values>>(memory, offsets[i]))...);
+    result = (block.*
+              function)(std::as_const(at<std::tuple_element_t<i, typename S::Values>>(memory, places[i]))...);
   } else {
-    (block.*function)(std::as_const(at<std::tuple_element_t<i, typename S::Values>>(memory, offsets[i]))...,
+    (block.*function)(std::as_const(at<std::tuple_element_t<i, typename S::Values>>(memory, places[i]))...,
                       result);
   }
 }
 
 template <auto function>
-void call(const System& system, std::byte* memory, const std::uint32_t* offsets) {
-  call_with<function>(system, memory, offsets, std::make_index_sequence<Signature<function>::arguments>());
+void call(const System& system, std::byte* memory, const Place* places) {
+  call_with<function>(system, memory, places, std::make_index_sequence<Signature<function>::arguments>());
 }
 
 template <auto function, class... Values>

@@ -58,21 +58,22 @@ void Context::destroy_values() {
   for (const Layout::Cell& cell : diagram_->layout().cells()) cell.type->destroy(memory_.get() + cell.offset);
 }
 
-std::uint32_t Context::offset_of(PortId port) const { return diagram_->offset(port); }
+Place Context::place_of(PortId port) const { return diagram_->place(port); }
 
-std::uint32_t Context::offset_of_external(PortId port) const {
+Place Context::place_of_external(PortId port) const {
   if (port.owner != diagram_ || port.kind != PortId::Kind::input) {
     throw SetupError("only the inputs of the diagram '" + diagram_->name() +
                      "' itself can be set from outside");
   }
-  return diagram_->offset(port);
+  return diagram_->place(port);
 }
 
 void Context::set_state(PortId state, const void* value) {
   for (const Diagram::StateCell& cell : diagram_->state_cells()) {
     if (cell.state != state) continue;
-    cell.type->copy_assign(memory() + cell.current, value);
-    cell.type->copy_assign(memory() + cell.next, value);
+    if (cell.turns) cell.turns->part(memory());
+    cell.type->copy_assign(cell.now.in(memory()), value);
+    if (cell.next) cell.type->copy_assign(cell.next->in(memory()), value);
     return;
   }
   throw SetupError("the diagram '" + diagram_->name() + "' has no such state");

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <memory>
 
+#include "systems/framework/place.h"
 #include "systems/framework/port.h"
 #include "systems/framework/time.h"
 
@@ -11,11 +12,11 @@ namespace flinch {
 class Diagram;
 class Layout;
 
-/// Where one value lies in every Context of a diagram: Diagram::slot() finds it once, Context::operator[] is
-/// then one addition.
+/// Where one value lies in every Context of a diagram: Diagram::slot() finds it once, Context::operator[]
+/// then is one or two additions.
 template <class T>
 struct Slot {
-  std::uint32_t offset = 0;
+  Place place;
 };
 
 /// Everything of a running diagram that changes: the time, every port value and every state, in one block of
@@ -39,13 +40,13 @@ class Context {
   /// The value of a port or state. Input ports show the value of the output that they are connected to.
   template <class Port>
   const typename Port::Value& get(Port port) const {
-    return *reinterpret_cast<const typename Port::Value*>(memory_.get() + offset_of(port.id));
+    return *reinterpret_cast<const typename Port::Value*>(place_of(port.id).in(memory()));
   }
 
   /// Sets an input of the diagram itself, before a tick. Throws SetupError for any other input.
   template <class T>
   void set(InputPort<T> input, const T& value) {
-    *reinterpret_cast<T*>(memory_.get() + offset_of_external(input.id)) = value;
+    *reinterpret_cast<T*>(place_of_external(input.id).in(memory())) = value;
   }
 
   /// Overwrites a state.
@@ -56,11 +57,11 @@ class Context {
 
   template <class T>
   const T& operator[](Slot<T> slot) const {
-    return *reinterpret_cast<const T*>(memory_.get() + slot.offset);
+    return *reinterpret_cast<const T*>(slot.place.in(memory()));
   }
   template <class T>
   T& operator[](Slot<T> slot) {
-    return *reinterpret_cast<T*>(memory_.get() + slot.offset);
+    return *reinterpret_cast<T*>(slot.place.in(memory()));
   }
 
   std::byte* memory() { return memory_.get(); }
@@ -71,8 +72,8 @@ class Context {
     void operator()(std::byte* memory) const;
   };
 
-  std::uint32_t offset_of(PortId port) const;
-  std::uint32_t offset_of_external(PortId port) const;
+  Place place_of(PortId port) const;
+  Place place_of_external(PortId port) const;
   void set_state(PortId state, const void* value);
   void destroy_values();
 

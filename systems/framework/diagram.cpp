@@ -12,19 +12,20 @@ Diagram::~Diagram() = default;
 
 void Diagram::run(const std::vector<Call>& calls, std::byte* memory, BlockProfile* profile) const {
   if (profile != nullptr) return run_timed(calls, memory, *profile);
-  const std::uint32_t* offsets = offsets_.data();
-  for (const Call& call : calls) call.function(*call.block, memory, offsets + call.first_offset);
+  const Place* places = places_.data();
+  for (const Call& call : calls) call.function(*call.block, memory, places + call.first_place);
 }
 
 void Diagram::run_timed(const std::vector<Call>& calls, std::byte* memory, BlockProfile& profile) const {
   profile.start_calls();
   for (const Call& call : calls) {
-    call.function(*call.block, memory, offsets_.data() + call.first_offset);
+    call.function(*call.block, memory, places_.data() + call.first_place);
     profile.end_call(*call.block);
   }
 }
 
 void Diagram::evaluate(Context& context, BlockProfile* profile) const {
+  for (const Turns& turns : kept_outputs_) turns.begin(context.memory());
   run(outputs_in_order_, context.memory(), profile);
 }
 
@@ -36,15 +37,15 @@ void Diagram::update(Context& context, BlockProfile* profile) const {
   }
   for (const UpdateGroup& group : update_groups_) {
     if (!group.every.due(now)) continue;
-    for (const StateCell& cell : group.written)
-      cell.type->copy_assign(memory + cell.current, memory + cell.next);
+    for (const Copy& copy : group.copies) copy.type->copy_assign(copy.to.in(memory), copy.from.in(memory));
+    for (const Turns& turns : group.kept) turns.end(memory);
   }
 }
 
 void Diagram::get_continuous(const Context& context, std::span<double> numbers) const {
   auto to = numbers.begin();
   for (const StateCell& cell : continuous_cells_) {
-    auto* memory = const_cast<std::byte*>(context.memory() + cell.current);  // numbers() only looks
+    auto* memory = const_cast<std::byte*>(cell.now.in(context.memory()));  // numbers() only looks
     const std::span<const double> value = cell.type->numbers(memory);
     to = std::copy(value.begin(), value.end(), to);
   }
@@ -53,13 +54,14 @@ void Diagram::get_continuous(const Context& context, std::span<double> numbers) 
 void Diagram::set_continuous(Context& context, std::span<const double> numbers) const {
   auto from = numbers.begin();
   for (const StateCell& cell : continuous_cells_) {
-    const std::span<double> value = cell.type->numbers(context.memory() + cell.current);
+    const std::span<double> value = cell.type->numbers(cell.now.in(context.memory()));
     std::copy_n(from, value.size(), value.begin());
     from += static_cast<std::ptrdiff_t>(value.size());
   }
 }
 
 void Diagram::begin_step(Context& context, BlockProfile* profile) const {
+  for (const Turns& turns : kept_in_step_) turns.begin(context.memory());
   run(constant_in_step_, context.memory(), profile);
 }
 
@@ -68,22 +70,22 @@ void Diagram::derivatives(Context& context, std::span<double> rates, BlockProfil
   run(derivative_calls_, context.memory(), profile);
   auto to = rates.begin();
   for (const StateCell& cell : continuous_cells_) {
-    const std::span<double> rate = cell.type->numbers(context.memory() + cell.next);
+    const std::span<double> rate = cell.type->numbers(cell.next->in(context.memory()));
     to = std::copy(rate.begin(), rate.end(), to);
   }
 }
 
-std::uint32_t Diagram::offset(PortId port) const {
+Place Diagram::place(PortId port) const {
   if (!layout_.contains(port)) {
     throw SetupError("a port of a block that is not in the diagram '" + name() + "' was asked for");
   }
-  return layout_.offset(port);
+  return layout_.place(port);
 }
 
 void Diagram::collect_taps(const Diagram& diagram, const std::string& prefix, std::vector<Tap>& taps) const {
   for (std::size_t i = 0; i < diagram.outputs().size(); ++i) {
     const PortId port{&diagram, PortId::Kind::output, static_cast<int>(i)};
-    taps.push_back({prefix + diagram.outputs()[i].name, port, diagram.outputs()[i].type, offset(port)});
+    taps.push_back({prefix + diagram.outputs()[i].name, port, diagram.outputs()[i].type, place(port), false});
   }
   for (const auto& child : diagram.children_) {
     const std::string inner = prefix + child->name() + "/";
@@ -93,7 +95,8 @@ void Diagram::collect_taps(const Diagram& diagram, const std::string& prefix, st
     }
     for (std::size_t i = 0; i < child->outputs().size(); ++i) {
       const PortId port{child.get(), PortId::Kind::output, static_cast<int>(i)};
-      taps.push_back({inner + child->outputs()[i].name, port, child->outputs()[i].type, offset(port)});
+      const Output& output = child->outputs()[i];
+      taps.push_back({inner + output.name, port, output.type, place(port), output.intermediate});
     }
   }
 }
@@ -102,7 +105,7 @@ std::vector<Diagram::Tap> Diagram::taps() const {
   std::vector<Tap> taps;
   for (std::size_t i = 0; i < inputs().size(); ++i) {
     const PortId port{this, PortId::Kind::input, static_cast<int>(i)};
-    taps.push_back({inputs()[i].name, port, inputs()[i].type, offset(port)});
+    taps.push_back({inputs()[i].name, port, inputs()[i].type, place(port), false});
   }
   collect_taps(*this, "", taps);
   return taps;

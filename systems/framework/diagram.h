@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,6 +33,11 @@ class BlockProfile;
 ///
 /// So a state that an update writes at t_k acts from t_k on: a value held by it is a zero-order hold without
 /// delay in continuous time, and one tick of delay between discrete blocks.
+///
+/// What a Context shows: outputs show y from one evaluate() to the next, also after update(); states show x,
+/// the old one until update() and the new one after it. A state that keeps an output takes turns with it: its
+/// new value is y itself, and the next tick's y is written where its old value was. So the place of both
+/// changes, and is asked for anew at every access (Place).
 class Diagram : public System {
  public:
   ~Diagram() override;
@@ -60,7 +66,7 @@ class Diagram : public System {
   /// Where the value of `port` lies, for repeated access.
   template <class Port>
   Slot<typename Port::Value> slot(Port port) const {
-    return {offset(port.id)};
+    return {place(port.id)};
   }
 
   /// The blocks directly inside, in the order in which they were added.
@@ -72,7 +78,8 @@ class Diagram : public System {
     std::string path;
     PortId port;
     const ValueType* type;
-    std::uint32_t offset;
+    Place place;
+    bool intermediate;  ///< whether only the block itself reads it
   };
   /// All output ports and inputs of the diagram itself, in the order in which they are declared.
   std::vector<Tap> taps() const;
@@ -92,13 +99,14 @@ class Diagram : public System {
   struct StateCell {
     PortId state;
     const ValueType* type;
-    std::uint32_t current;
-    std::uint32_t next;  ///< where the update writes, or the derivative
+    Place now;
+    std::optional<Place> next;   ///< where an update writes its next value, or a derivative its rate
+    std::optional<Turns> turns;  ///< with the output that it keeps
   };
   const Layout& layout() const { return layout_; }
   const std::vector<Wire>& wires() const { return wires_; }
   const std::vector<StateCell>& state_cells() const { return state_cells_; }
-  std::uint32_t offset(PortId port) const;
+  Place place(PortId port) const;
 
  private:
   friend class DiagramBuilder;
@@ -108,12 +116,18 @@ class Diagram : public System {
   struct Call {
     const System* block;
     BlockFunction function;
-    std::uint32_t first_offset;  ///< into offsets_
+    std::uint32_t first_place;  ///< into places_
+  };
+  struct Copy {
+    const ValueType* type;
+    Place from;
+    Place to;
   };
   struct UpdateGroup {
     Every every;
     std::vector<Call> calls;
-    std::vector<StateCell> written;
+    std::vector<Copy> copies;  ///< to the states that the calls compute, and from inputs that are kept
+    std::vector<Turns> kept;   ///< of the states that keep an output
   };
 
   void run(const std::vector<Call>& calls, std::byte* memory, BlockProfile* profile) const;
@@ -125,10 +139,12 @@ class Diagram : public System {
   std::vector<Wire> wires_;
 
   Layout layout_;
-  std::vector<std::uint32_t> offsets_;
+  std::vector<Place> places_;
   std::vector<Call> outputs_in_order_;
+  std::vector<Turns> kept_outputs_;
   std::vector<UpdateGroup> update_groups_;
   std::vector<Call> constant_in_step_;
+  std::vector<Turns> kept_in_step_;  ///< those kept outputs that are computed again in a step
   std::vector<Call> varying_in_step_;
   std::vector<Call> derivative_calls_;
   std::vector<StateCell> state_cells_;

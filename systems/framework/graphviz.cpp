@@ -59,13 +59,18 @@ class Drawing {
   }
 
   void draw_block(const System& block, const std::string& indent) {
-    const std::size_t rows = std::max<std::size_t>({block.inputs().size(), block.outputs().size(), 1});
+    std::vector<std::size_t> shown;  // intermediate results are no ports
+    for (std::size_t i = 0; i < block.outputs().size(); ++i) {
+      if (!block.outputs()[i].intermediate) shown.push_back(i);
+    }
+    const std::size_t rows = std::max<std::size_t>({block.inputs().size(), shown.size(), 1});
     text_ << indent << id(block)
           << " [label=<<table border=\"1\" cellborder=\"0\" cellspacing=\"0\" cellpadding=\"3\" "
              "color=\"#4a5a70\">"
           << "<tr><td colspan=\"2\" bgcolor=\"#f3f1ea\"><b>" << block.name() << "</b></td></tr>";
     for (std::size_t i = 0; i < rows; ++i) {
-      text_ << "<tr>" << cell("i", i, block.inputs(), "left") << cell("o", i, block.outputs(), "right")
+      const std::size_t output = i < shown.size() ? shown[i] : block.outputs().size();
+      text_ << "<tr>" << cell("i", i, block.inputs(), "left") << cell("o", output, block.outputs(), "right")
             << "</tr>";
     }
     text_ << "</table>>];\n";

@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "systems/framework/place.h"
 #include "systems/framework/port.h"
 #include "systems/framework/value_type.h"
 
@@ -31,21 +32,21 @@ class Layout {
 
   Layout();
 
-  /// Adds a value that belongs to no port and returns its offset.
+  /// Adds a value and returns its offset.
   std::uint32_t add(const ValueType& type, std::shared_ptr<const void> initial);
-  /// Adds the value of `port`.
-  std::uint32_t add(PortId port, const ValueType& type, std::shared_ptr<const void> initial);
-  /// Lets `port` share the value at `offset`.
-  void alias(PortId port, std::uint32_t offset) { offsets_[port] = offset; }
+  /// Adds two cells that take turns: the first with the value `now`, the second with `next`.
+  Turns add_turns(const ValueType& type, std::shared_ptr<const void> now, std::shared_ptr<const void> next);
+  /// Says that the value of `port` lies at `place`; several ports may share one.
+  void put(PortId port, Place place) { places_[port] = place; }
 
-  bool contains(PortId port) const { return offsets_.contains(port); }
-  std::uint32_t offset(PortId port) const { return offsets_.at(port); }
+  bool contains(PortId port) const { return places_.contains(port); }
+  Place place(PortId port) const { return places_.at(port); }
   const std::vector<Cell>& cells() const { return cells_; }
   std::size_t size() const { return size_; }
 
  private:
   std::vector<Cell> cells_;
-  std::unordered_map<PortId, std::uint32_t, PortIdHash> offsets_;
+  std::unordered_map<PortId, Place, PortIdHash> places_;
   std::size_t size_ = 0;
 };
 

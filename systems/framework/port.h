@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 #include "systems/framework/time.h"
 
@@ -33,8 +34,16 @@ struct OutputPort {
   PortId id;
 };
 
-/// A value that lasts from tick to tick: written by one update, or integrated along one derivative. Private
-/// to its block.
+/// A result that other functions of the same block read, computed once a tick. It cannot be connected; graphs
+/// leave it out, and it is recorded only where its path is named.
+template <class T>
+struct Intermediate {
+  using Value = T;
+  PortId id;
+};
+
+/// A value that lasts from tick to tick: written by one update, kept from one port, or integrated along one
+/// derivative. Private to its block.
 template <class T>
 struct State {
   using Value = T;
@@ -47,8 +56,13 @@ struct Clock {
   PortId id;
 };
 
-/// What update<...>() and derivative<...>() return, so that both can be declared as members.
+/// What update<...>(), keep() and derivative<...>() return, so that all can be declared as members.
 struct Update {};
 struct Derivative {};
+
+/// A port whose value a State<T> can keep.
+template <class Port, class T>
+concept KeptBy = std::is_same_v<Port, InputPort<T>> || std::is_same_v<Port, OutputPort<T>> ||
+    std::is_same_v<Port, Intermediate<T>>;
 
 }  // namespace flinch

@@ -41,7 +41,7 @@ Recorder::Recorder(const Diagram& diagram, const std::vector<std::string>& paths
                            "' cannot be recorded: its type has no fields (see fields.h)");
         continue;
       }
-      Channel channel{tap.offset, tap.type, {path, tap.type->layout(), {}}};
+      Channel channel{tap.place, tap.type, {path, tap.type->layout(), {}}};
       resolve_units(units, channel.signal, problems);
       channel.signal.rows.resize(capacity * channel.signal.layout.numbers);
       channels_.push_back(std::move(channel));
@@ -63,7 +63,7 @@ void Recorder::record(const Context& context) {
   time_ns_.push_back(context.time().count());
   for (Channel& channel : channels_) {
     internal::Number* row = channel.signal.rows.data() + sample * channel.signal.layout.numbers;
-    channel.type->to_row(context.memory() + channel.offset, row);
+    channel.type->to_row(channel.place.in(context.memory()), row);
   }
 }
 
@@ -86,7 +86,7 @@ Recording Recorder::recording(std::map<std::string, std::string> attributes) con
 std::vector<std::string> recordable_paths(const Diagram& diagram) {
   std::vector<std::string> paths;
   for (Diagram::Tap& tap : diagram.taps()) {
-    if (tap.type->layout != nullptr) paths.push_back(std::move(tap.path));
+    if (tap.type->layout != nullptr && !tap.intermediate) paths.push_back(std::move(tap.path));
   }
   return paths;
 }

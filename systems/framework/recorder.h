@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "systems/framework/place.h"
 #include "systems/framework/recording.h"
 #include "systems/framework/time.h"
 #include "systems/framework/unit_table.h"
@@ -40,7 +41,7 @@ class Recorder {
 
  private:
   struct Channel {
-    std::uint32_t offset;
+    Place place;
     const ValueType* type;
     Signal signal;
   };
@@ -52,7 +53,8 @@ class Recorder {
   std::int64_t dropped_ = 0;
 };
 
-/// The paths of all ports of `diagram` that can be recorded, its own inputs included.
+/// The paths of all ports of `diagram` that can be recorded, its own inputs included; intermediate results
+/// are left out.
 std::vector<std::string> recordable_paths(const Diagram& diagram);
 
 }  // namespace flinch

@@ -5,43 +5,96 @@
 
 namespace flinch {
 
-void Scheduler::lay_out() {
-  Layout& layout = root_.layout_;
-  for (std::size_t i = 0; i < root_.inputs().size(); ++i) {
-    const System::Input& input = root_.inputs()[i];
-    layout.add({&root_, PortId::Kind::input, static_cast<int>(i)}, *input.type, input.type->make_default());
-  }
-  for (const std::size_t node :
-       order_) {  // in the order of computation: neighbours in time are neighbours in memory
-    const System::Output& output = output_of(nodes_[node]);
-    layout.add(nodes_[node].port, *output.type, output.type->make_default());
-  }
+namespace {
+
+const System::StateVariable& variable(PortId state) {
+  return state.owner->states()[static_cast<std::size_t>(state.index)];
+}
+
+}  // namespace
+
+void Scheduler::find_kept_outputs() {
   for (const Leaf& leaf : leaves_) {
-    for (std::size_t i = 0; i < leaf.block->states().size(); ++i) {
-      const System::StateVariable& state = leaf.block->states()[i];
-      const PortId port{leaf.block, PortId::Kind::state, static_cast<int>(i)};
-      const std::uint32_t current = layout.add(port, *state.type, state.initial);
-      const std::uint32_t next = layout.add(*state.type, state.initial);
-      root_.state_cells_.push_back({port, state.type, current, next});
-    }
-  }
-  for (const auto& [block, unused] : paths_) {
-    for (std::size_t i = 0; i < block->inputs().size(); ++i) {
-      const PortId port{block, PortId::Kind::input, static_cast<int>(i)};
-      if (block != &root_) layout.alias(port, layout.offset(source(port)));
-    }
-    for (std::size_t i = 0; i < block->outputs().size(); ++i) {
-      const PortId port{block, PortId::Kind::output, static_cast<int>(i)};
-      if (!layout.contains(port)) layout.alias(port, layout.offset(source(port)));
+    for (const System::Change& update : leaf.block->updates()) {
+      if (update.function != nullptr) continue;
+      const PortId kept = source(update.reads.front());
+      if (kept.kind == PortId::Kind::output)
+        kept_.try_emplace(kept, Kept{update.state, {}});  // the first one
     }
   }
 }
 
+void Scheduler::lay_out() {
+  find_kept_outputs();
+  lay_out_inputs();
+  lay_out_outputs();
+  lay_out_states();
+  for (const auto& [block, unused] : paths_) {
+    for (std::size_t i = 0; i < block->inputs().size(); ++i) {
+      const PortId port{block, PortId::Kind::input, static_cast<int>(i)};
+      if (block != &root_) root_.layout_.put(port, root_.layout_.place(source(port)));
+    }
+    for (std::size_t i = 0; i < block->outputs().size(); ++i) {
+      const PortId port{block, PortId::Kind::output, static_cast<int>(i)};
+      if (!root_.layout_.contains(port)) root_.layout_.put(port, root_.layout_.place(source(port)));
+    }
+  }
+}
+
+void Scheduler::lay_out_inputs() {
+  Layout& layout = root_.layout_;
+  for (std::size_t i = 0; i < root_.inputs().size(); ++i) {
+    const ValueType& type = *root_.inputs()[i].type;
+    layout.put({&root_, PortId::Kind::input, static_cast<int>(i)},
+               Place::fixed(layout.add(type, type.make_default())));
+  }
+}
+
+// In the order of computation: neighbours in time are neighbours in memory.
+void Scheduler::lay_out_outputs() {
+  Layout& layout = root_.layout_;
+  for (const std::size_t node : order_) {
+    const PortId port = nodes_[node].port;
+    const ValueType& type = *output_of(nodes_[node]).type;
+    const auto kept = kept_.find(port);
+    if (kept == kept_.end()) {
+      layout.put(port, Place::fixed(layout.add(type, type.make_default())));
+    } else {
+      auto& [state, turns] = kept->second;
+      turns = layout.add_turns(type, variable(state).initial, type.make_default());
+      layout.put(port, Place::moving(turns.next));
+      layout.put(state, Place::moving(turns.now));
+      root_.state_cells_.push_back({state, &type, Place::moving(turns.now), std::nullopt, turns});
+      root_.kept_outputs_.push_back(turns);
+    }
+  }
+}
+
+void Scheduler::lay_out_states() {
+  for (const Leaf& leaf : leaves_) {
+    for (const System::Change& update : leaf.block->updates()) {
+      if (update.function != nullptr) lay_out_state(update.state, true);
+      if (update.function == nullptr && !root_.layout_.contains(update.state))
+        lay_out_state(update.state, false);
+    }
+    for (const System::Change& derivative : leaf.block->derivatives()) lay_out_state(derivative.state, true);
+  }
+}
+
+void Scheduler::lay_out_state(PortId port, bool is_computed) {
+  const System::StateVariable& state = variable(port);
+  const auto add = [&] { return Place::fixed(root_.layout_.add(*state.type, state.initial)); };
+  const Place now = add();
+  const std::optional<Place> next = is_computed ? std::optional(add()) : std::nullopt;
+  root_.layout_.put(port, now);
+  root_.state_cells_.push_back({port, state.type, now, next, std::nullopt});
+}
+
 Diagram::Call Scheduler::make_call(const System& block, BlockFunction function,
-                                   const std::vector<PortId>& reads, std::uint32_t result) {
-  const auto first = static_cast<std::uint32_t>(root_.offsets_.size());
-  for (const PortId& read : reads) root_.offsets_.push_back(root_.layout_.offset(source(read)));
-  root_.offsets_.push_back(result);
+                                   const std::vector<PortId>& reads, Place result) {
+  const auto first = static_cast<std::uint32_t>(root_.places_.size());
+  for (const PortId& read : reads) root_.places_.push_back(root_.layout_.place(source(read)));
+  root_.places_.push_back(result);
   return {&block, function, first};
 }
 
@@ -57,7 +110,7 @@ void Scheduler::add_outputs() {
     const PortId port = nodes_[node].port;
     const System::Output& output = output_of(nodes_[node]);
     root_.outputs_in_order_.push_back(
-        make_call(*port.owner, output.function, output.reads, root_.layout_.offset(port)));
+        make_call(*port.owner, output.function, output.reads, root_.layout_.place(port)));
     add_line("output    ", output.reads, path(port));
   }
 }
@@ -73,16 +126,22 @@ void Scheduler::add_updates() {
       auto& groups = root_.update_groups_;
       auto group =
           std::find_if(groups.begin(), groups.end(), [&](const auto& each) { return each.every == every; });
-      if (group == groups.end()) group = groups.insert(groups.end(), {every, {}, {}});
+      if (group == groups.end()) group = groups.insert(groups.end(), {every, {}, {}, {}});
       const Diagram::StateCell cell = cell_of(update.state);
-      group->calls.push_back(make_call(*leaf.block, update.function, update.reads, cell.next));
-      group->written.push_back(cell);
-      add_line("update    ", update.reads, path(update.state));
+      if (update.function != nullptr) {
+        group->calls.push_back(make_call(*leaf.block, update.function, update.reads, *cell.next));
+        group->copies.push_back({cell.type, *cell.next, cell.now});
+      } else if (cell.turns) {
+        group->kept.push_back(*cell.turns);
+      } else {
+        group->copies.push_back({cell.type, root_.layout_.place(source(update.reads.front())), cell.now});
+      }
+      add_line(update.function != nullptr ? "update    " : "keep      ", update.reads, path(update.state));
     }
     for (const System::Change& derivative : leaf.block->derivatives()) {
       const Diagram::StateCell cell = cell_of(derivative.state);
       root_.derivative_calls_.push_back(
-          make_call(*leaf.block, derivative.function, derivative.reads, cell.next));
+          make_call(*leaf.block, derivative.function, derivative.reads, *cell.next));
       root_.continuous_cells_.push_back(cell);
       add_line("derivative", derivative.reads, path(derivative.state));
     }
@@ -122,6 +181,8 @@ void Scheduler::add_continuous() {
     if (!node.needed_in_step) continue;
     (node.varies_in_step ? root_.varying_in_step_ : root_.constant_in_step_)
         .push_back(root_.outputs_in_order_[i]);
+    const auto kept = kept_.find(node.port);
+    if (kept != kept_.end()) root_.kept_in_step_.push_back(kept->second.turns);
   }
   for (const Diagram::StateCell& cell : root_.continuous_cells_) {
     const System::StateVariable& state =

@@ -44,13 +44,18 @@ class Scheduler {
   void check_states(std::vector<std::string>& problems) const;
 
   void lay_out();
+  void find_kept_outputs();
+  void lay_out_inputs();
+  void lay_out_outputs();
+  void lay_out_states();
+  void lay_out_state(PortId state, bool is_computed);
   void add_outputs();
   void add_updates();
   void add_continuous();
   void mark_step_nodes();
   bool reads_varying(const std::vector<PortId>& reads) const;
   Diagram::Call make_call(const System& block, BlockFunction function, const std::vector<PortId>& reads,
-                          std::uint32_t result);
+                          Place result);
   void add_line(const std::string& what, const std::vector<PortId>& reads, const std::string& target);
 
   const System::Output& output_of(const Node& node) const {
@@ -64,6 +69,12 @@ class Scheduler {
   std::vector<Node> nodes_;
   std::unordered_map<PortId, std::size_t, PortIdHash> node_of_;
   std::vector<std::size_t> order_;
+  /// Output -> the state that keeps it and takes turns with it, and where both lie.
+  struct Kept {
+    PortId state;
+    Turns turns;
+  };
+  std::unordered_map<PortId, Kept, PortIdHash> kept_;
 };
 
 }  // namespace flinch

@@ -45,4 +45,9 @@ std::vector<PortId> System::own(std::vector<PortId> ports) const {
   return ports;
 }
 
+Update System::add_keep(std::optional<Every> every, PortId state, PortId kept) {
+  updates_.push_back({own({state}).front(), nullptr, own({kept}), every});
+  return {};
+}
+
 }  // namespace flinch

@@ -30,10 +30,10 @@ namespace flinch {
 ///     raw) const { return 0.9 * filtered + 0.1 * raw; }
 ///   };
 ///
-/// A function returns its result or takes it as last argument, `Result&` (which holds the previous value). So
-/// what an output depends on is its argument list, and a block is tested by calling a function. Nothing that
-/// a function of a block does may allocate, lock, throw or block; what it cannot compute it says in its
-/// result (`valid`).
+/// A function returns its result or takes it as last argument, `Result&`. There an update finds the present
+/// value of its state; other functions find any earlier value, and write all of it. So what an output depends
+/// on is its argument list, and a block is tested by calling a function. Nothing that a function of a block
+/// does may allocate, lock, throw or block; what it cannot compute it says in its result (`valid`).
 class System {
  public:
   virtual ~System() = default;
@@ -52,6 +52,7 @@ class System {
     const ValueType* type;
     BlockFunction function;     ///< null for the outputs of a diagram
     std::vector<PortId> reads;  ///< its arguments; for a diagram the one inner output which it exports
+    bool intermediate = false;  ///< read by functions of the same block only
   };
   struct StateVariable {
     std::string name;
@@ -60,7 +61,7 @@ class System {
   };
   struct Change {  ///< an update or a derivative
     PortId state;
-    BlockFunction function;
+    BlockFunction function;  ///< null: the state keeps the value of the one port that is read
     std::vector<PortId> reads;
     std::optional<Every> every;  ///< none: at every tick (updates), always (derivatives)
   };
@@ -95,9 +96,16 @@ class System {
   template <auto function, class... Reads>
   auto output(std::string name, Reads... reads) {
     using Value = typename internal::Signature<function>::Result;
-    internal::check_arguments<function, typename Reads::Value...>();
-    outputs_.push_back({std::move(name), &value_type<Value>, internal::call<function>, own({reads.id...})});
-    return OutputPort<Value>{{this, PortId::Kind::output, static_cast<int>(outputs_.size()) - 1}};
+    return OutputPort<Value>{
+        add_output<function, typename Reads::Value...>(std::move(name), {reads.id...}, false)};
+  }
+
+  /// Declares a result that only functions of this block read.
+  template <auto function, class... Reads>
+  auto intermediate(std::string name, Reads... reads) {
+    using Value = typename internal::Signature<function>::Result;
+    return Intermediate<Value>{
+        add_output<function, typename Reads::Value...>(std::move(name), {reads.id...}, true)};
   }
 
   /// Declares that at every tick `function`, evaluated from `reads`, becomes the next value of `written`.
@@ -110,6 +118,19 @@ class System {
   template <auto function, class T, class... Reads>
   Update update(Every every, State<T> written, Reads... reads) {
     return add_update<function, T, typename Reads::Value...>(every, written.id, {reads.id...});
+  }
+
+  /// Declares that at every tick the value of `kept` becomes the next value of `state`. An output of this
+  /// block or another is not copied: the next tick's is computed elsewhere.
+  template <class T, KeptBy<T> Port>
+  Update keep(State<T> state, Port kept) {
+    return add_keep(std::nullopt, state.id, kept.id);
+  }
+
+  /// The same, but only when due.
+  template <class T, KeptBy<T> Port>
+  Update keep(Every every, State<T> state, Port kept) {
+    return add_keep(every, state.id, kept.id);
   }
 
   /// Declares that `function`, evaluated from `reads`, is the time derivative of `integrated` [per second].
@@ -129,6 +150,15 @@ class System {
   friend class Diagram;
   friend class DiagramBuilder;
 
+  template <auto function, class... Values>
+  PortId add_output(std::string name, std::vector<PortId> reads, bool intermediate) {
+    using Value = typename internal::Signature<function>::Result;
+    internal::check_arguments<function, Values...>();
+    outputs_.push_back(
+        {std::move(name), &value_type<Value>, internal::call<function>, own(std::move(reads)), intermediate});
+    return {this, PortId::Kind::output, static_cast<int>(outputs_.size()) - 1};
+  }
+
   template <auto function, class T, class... Values>
   Update add_update(std::optional<Every> every, PortId written, std::vector<PortId> reads) {
     internal::check_result<function, T>();
@@ -137,6 +167,8 @@ class System {
     updates_.push_back({written, internal::call<function>, own(std::move(reads)), every});
     return {};
   }
+
+  Update add_keep(std::optional<Every> every, PortId state, PortId kept);
 
   /// Returns `ports` when all are declared and of this block; throws SetupError otherwise.
   std::vector<PortId> own(std::vector<PortId> ports) const;

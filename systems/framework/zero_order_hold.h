@@ -13,7 +13,7 @@ class ZeroOrderHold final : public System {
  public:
   explicit ZeroOrderHold(T initial = T{}) : value_(this->template state<T>("held", std::move(initial))) {
     held = this->template output<&ZeroOrderHold::read>("held", value_);
-    this->template update<&ZeroOrderHold::keep>(value_, input);
+    this->keep(value_, input);
   }
 
   InputPort<T> input = System::input<T>("input");
@@ -21,7 +21,6 @@ class ZeroOrderHold final : public System {
 
  private:
   void read(const T& value, T& held_value) const { held_value = value; }
-  void keep(const T& seen, T& value) const { value = seen; }
 };
 
 }  // namespace flinch

@@ -53,8 +53,8 @@ class ModeSelector final : public System {
   InputPort<PlatformReference> reaction_reference = input<PlatformReference>("reaction_reference");
 
  private:
-  OutputPort<Blend> blend_ =
-      output<&ModeSelector::blend>("blend", clock, last_, reaction, nominal, reacting, zero_gravity);
+  Intermediate<Blend> blend_ =
+      intermediate<&ModeSelector::blend>("blend", clock, last_, reaction, nominal, reacting, zero_gravity);
 
  public:
   OutputPort<TorqueCommand> torque = output<&ModeSelector::torque_of>("torque", blend_);
@@ -63,7 +63,7 @@ class ModeSelector final : public System {
       output<&ModeSelector::select>("reference", reaction, nominal_reference, reaction_reference);
 
  private:
-  Update remember_ = update<&ModeSelector::remember>(last_, blend_);
+  Update remember_ = keep(last_, blend_);
 
   Blend advanced(Time now, const Blend& last, Law wanted) const;
   void blend(Time now, const Blend& last, const ReactionState& state, const TorqueCommand& nominal_law,
@@ -71,7 +71,6 @@ class ModeSelector final : public System {
   TorqueCommand torque_of(const Blend& now) const { return now.torque; }
   PlatformReference select(const ReactionState& state, const PlatformReference& nominal_motion,
                            const PlatformReference& reaction_motion) const;
-  Blend remember(const Blend& now) const { return now; }
 
   ModeSelectorSettings settings_;
 };

@@ -10,6 +10,4 @@ ResetCommand OperatorButtons::reset_pressed(const OperatorCommand& before, const
   return {.reset = now.reset && !before.reset};
 }
 
-OperatorCommand OperatorButtons::remember(const OperatorCommand& now) const { return now; }
-
 }  // namespace flinch

@@ -19,11 +19,10 @@ class OperatorButtons final : public System {
   OutputPort<ResetCommand> reset = output<&OperatorButtons::reset_pressed>("reset", before_, buttons);
 
  private:
-  Update remember_ = update<&OperatorButtons::remember>(before_, buttons);
+  Update remember_ = keep(before_, buttons);
 
   StartCommand start_pressed(const OperatorCommand& before, const OperatorCommand& now) const;
   ResetCommand reset_pressed(const OperatorCommand& before, const OperatorCommand& now) const;
-  OperatorCommand remember(const OperatorCommand& now) const;
 };
 
 }  // namespace flinch

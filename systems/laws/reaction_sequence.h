@@ -59,14 +59,13 @@ class ReactionSequence final : public System {
       "state", clock, last_, arrived_, gate_open_, detection, joints, reset);
 
  private:
-  Update remember_ = update<&ReactionSequence::remember>(last_, reaction_state);
+  Update remember_ = keep(last_, reaction_state);
   Update arrive_ = update<&ReactionSequence::has_arrived>(arrived_, reaction);
   Update open_ = update<&ReactionSequence::is_open>(gate_open_, gate);
 
   ReactionState advance(Time now, const ReactionState& last, bool arrived, bool gate_open,
                         const ContactDetection& contact, const JointMotion& motion,
                         const ResetCommand& command) const;
-  ReactionState remember(const ReactionState& now) const { return now; }
   bool has_arrived(const PlatformReference& retreat) const { return retreat.valid && retreat.finished; }
   bool is_open(const GateStatus& status) const { return status.phase == GatePhase::open; }
   bool is_quiet(const ContactDetection& contact, const JointMotion& motion) const;

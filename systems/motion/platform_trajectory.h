@@ -50,20 +50,19 @@ class PlatformTrajectory final : public System {
   InputPort<StartCommand> start = input<StartCommand>("start");
 
  private:
-  OutputPort<Course> course_ =
-      output<&PlatformTrajectory::advance>("course", clock, last_, reaction, platform, start);
+  Intermediate<Course> course_ =
+      intermediate<&PlatformTrajectory::advance>("course", clock, last_, reaction, platform, start);
 
  public:
   OutputPort<PlatformReference> reference =
       output<&PlatformTrajectory::evaluate>("reference", clock, course_);
 
  private:
-  Update remember_ = update<&PlatformTrajectory::remember>(last_, course_);
+  Update remember_ = keep(last_, course_);
 
   void advance(Time now, const Course& last, const ReactionState& state, const PlatformMotion& motion,
                const StartCommand& command, Course& course) const;
   void evaluate(Time now, const Course& course, PlatformReference& result) const;
-  void remember(const Course& course, Course& last) const { last = course; }
 
   PoseMotion rest_at(const PlatformMotion& motion) const;
   bool starts(Time now, const Course& course, const StartCommand& command) const;

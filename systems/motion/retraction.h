@@ -53,18 +53,18 @@ class Retraction final : public System {
   InputPort<WrenchEstimate> estimate = input<WrenchEstimate>("estimate");
 
  private:
-  OutputPort<Plan> plan_ = output<&Retraction::plan>("plan", clock, last_, reaction, platform, estimate);
+  Intermediate<Plan> plan_ =
+      intermediate<&Retraction::plan>("plan", clock, last_, reaction, platform, estimate);
 
  public:
   OutputPort<PlatformReference> reference = output<&Retraction::evaluate>("reference", clock, plan_);
 
  private:
-  Update remember_ = update<&Retraction::remember>(last_, plan_);
+  Update remember_ = keep(last_, plan_);
 
   void plan(Time now, const Plan& last, const ReactionState& state, const PlatformMotion& motion,
             const WrenchEstimate& contact, Plan& next) const;
   PlatformReference evaluate(Time now, const Plan& active) const;
-  void remember(const Plan& active, Plan& last) const { last = active; }
   PlatformVector displacement(const WrenchEstimate& contact) const;
 
   std::shared_ptr<const ParallelRobot> robot_;

@@ -39,8 +39,8 @@ class FaultMonitor final : public System {
   InputPort<OperatorCommand> buttons = input<OperatorCommand>("buttons");
 
  private:
-  OutputPort<FaultMonitorMemory> now_ =
-      output<&FaultMonitor::advance>("memory", clock, last_, station, joints, drives, platform, command);
+  Intermediate<FaultMonitorMemory> now_ = intermediate<&FaultMonitor::advance>(
+      "memory", clock, last_, station, joints, drives, platform, command);
 
  public:
   OutputPort<FaultReport> faults =
@@ -48,7 +48,7 @@ class FaultMonitor final : public System {
                                    measures, detection, reference, buttons);
 
  private:
-  Update remember_ = update<&FaultMonitor::remember>(last_, now_);
+  Update remember_ = keep(last_, now_);
 
   FaultMonitorMemory advance(Time now, const FaultMonitorMemory& last, const StationStatus& status,
                              const JointReading& angles, const DriveReading& currents,
@@ -58,7 +58,6 @@ class FaultMonitor final : public System {
                     const JointMotion& rates, const PlatformMotion& pose, const WorkspaceMeasures& workspace,
                     const ContactDetection& contact, const PlatformReference& followed,
                     const OperatorCommand& pressed) const;
-  FaultMonitorMemory remember(const FaultMonitorMemory& now) const { return now; }
 
   std::shared_ptr<const ParallelRobot> robot_;
   FaultLimits limits_;

@@ -44,8 +44,8 @@ class TorqueGate final : public System {
   InputPort<ResetCommand> reset = input<ResetCommand>("reset");
 
  private:
-  OutputPort<Decision> decision_ =
-      output<&TorqueGate::decide>("decision", clock, last_, faults, command, stop, reset);
+  Intermediate<Decision> decision_ =
+      intermediate<&TorqueGate::decide>("decision", clock, last_, faults, command, stop, reset);
 
  public:
   OutputPort<TorqueCommand> torque_command = output<&TorqueGate::torque_of>("torque_command", decision_);
@@ -53,7 +53,7 @@ class TorqueGate final : public System {
   OutputPort<GateStatus> status = output<&TorqueGate::status_of>("status", decision_);
 
  private:
-  Update remember_ = update<&TorqueGate::remember>(last_, decision_);
+  Update remember_ = keep(last_, decision_);
 
   void decide(Time now, const Decision& last, const FaultReport& report, const TorqueCommand& asked,
               const TorqueCommand& stopping, const ResetCommand& button, Decision& decision) const;
@@ -64,7 +64,6 @@ class TorqueGate final : public System {
   TorqueCommand torque_of(const Decision& decision) const { return decision.torque; }
   BrakeCommand brake_of(const Decision& decision) const { return {.engage = !decision.torque.valid}; }
   GateStatus status_of(const Decision& decision) const { return decision.status; }
-  Decision remember(const Decision& decision) const { return decision; }
 
   TorqueGateSettings settings_;
 };

@@ -31,7 +31,7 @@ DriveTorqueMapping::DriveTorqueMapping(const std::shared_ptr<const ParallelRobot
     : torque_constant_(settings.torque_constant), sampling_(settings.sampling) {
   throw_if_any(problems(settings, robot->legs()));
   if (settings.low_pass) low_pass_.emplace(*settings.low_pass);
-  update<&DriveTorqueMapping::keep>(Every{sampling_.period}, memory_, next_);
+  keep(Every{sampling_.period}, memory_, next_);
 }
 
 bool DriveTorqueMapping::is_usable(const DriveReading& reading) const {

@@ -47,7 +47,8 @@ class DriveTorqueMapping final : public System {
   InputPort<DriveReading> drives = input<DriveReading>("drives");
 
  private:
-  OutputPort<DriveTorqueMemory> next_ = output<&DriveTorqueMapping::advance>("next", drives, memory_, clock);
+  Intermediate<DriveTorqueMemory> next_ =
+      intermediate<&DriveTorqueMapping::advance>("next", drives, memory_, clock);
 
  public:
   OutputPort<DriveTorque> torque = output<&DriveTorqueMapping::read>("torque", drives, next_);
@@ -56,7 +57,6 @@ class DriveTorqueMapping final : public System {
   void advance(const DriveReading& reading, const DriveTorqueMemory& memory, Time now,
                DriveTorqueMemory& next) const;
   void read(const DriveReading& reading, const DriveTorqueMemory& next, DriveTorque& result) const;
-  void keep(const DriveTorqueMemory& next, DriveTorqueMemory& memory) const { memory = next; }
   bool is_usable(const DriveReading& reading) const;
   JointVector torque_of(const DriveReading& reading) const;
 

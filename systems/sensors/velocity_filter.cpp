@@ -8,7 +8,7 @@ VelocityFilter::VelocityFilter(std::shared_ptr<const ParallelRobot> robot,
                                const VelocityFilterSettings& settings)
     : robot_(std::move(robot)), sampling_(settings.sampling), low_pass_(settings.low_pass) {
   throw_if_any(problems(settings.low_pass));
-  update<&VelocityFilter::keep>(Every{sampling_.period}, memory_, next_);
+  keep(Every{sampling_.period}, memory_, next_);
 }
 
 bool VelocityFilter::is_new(const JointReading& reading, const VelocityFilterMemory& memory) const {

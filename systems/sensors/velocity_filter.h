@@ -42,7 +42,8 @@ class VelocityFilter final : public System {
   InputPort<JointReading> joints = input<JointReading>("joints");
 
  private:
-  OutputPort<VelocityFilterMemory> next_ = output<&VelocityFilter::advance>("next", joints, memory_, clock);
+  Intermediate<VelocityFilterMemory> next_ =
+      intermediate<&VelocityFilter::advance>("next", joints, memory_, clock);
 
  public:
   OutputPort<JointMotion> motion = output<&VelocityFilter::read>("motion", next_);
@@ -51,7 +52,6 @@ class VelocityFilter final : public System {
   void advance(const JointReading& reading, const VelocityFilterMemory& memory, Time now,
                VelocityFilterMemory& next) const;
   void read(const VelocityFilterMemory& next, JointMotion& result) const;
-  void keep(const VelocityFilterMemory& next, VelocityFilterMemory& memory) const { memory = next; }
   bool is_new(const JointReading& reading, const VelocityFilterMemory& memory) const;
 
   std::shared_ptr<const ParallelRobot> robot_;

@@ -24,8 +24,8 @@ class FarRobot final : public System {
   OutputPort<StationStatus> status = output<&FarRobot::report>("status", clock, obeyed_, brake_);
 
  private:
-  Update obey_ = update<&FarRobot::obey>(obeyed_, torque_command);
-  Update close_ = update<&FarRobot::close>(brake_, brake);
+  Update obey_ = keep(obeyed_, torque_command);
+  Update close_ = keep(brake_, brake);
 
   static JointVector spread(Time now, double first) {
     return to_seconds(now) * JointVector::LinSpaced(3, first, first + 2.0);
@@ -54,8 +54,6 @@ class FarRobot final : public System {
             .braked = brakes.engage || !obeyed.valid,
             .fault = false};
   }
-  TorqueCommand obey(const TorqueCommand& command) const { return command; }
-  BrakeCommand close(const BrakeCommand& command) const { return command; }
 };
 
 /// What commands it: torques that follow the active angles it reads, without brakes, once the station is

@@ -31,7 +31,7 @@ class BreakableEncoders final : public System {
   OutputPort<JointReading> out = output<&BreakableEncoders::spoil>("out", in, damage, last_);
 
  private:
-  Update keep_ = update<&BreakableEncoders::keep>(last_, out);
+  Update keep_ = keep(last_, out);
 
   void spoil(const JointReading& reading, const EncoderDamage& wrong, const JointReading& last,
              JointReading& result) const {
@@ -43,7 +43,6 @@ class BreakableEncoders final : public System {
     if (wrong.passive_frozen) result.passive = last.passive;
     result.active += wrong.active_offset;
   }
-  JointReading keep(const JointReading& result) const { return result; }
 };
 
 struct GuardedBenchSettings {

@@ -23,7 +23,7 @@ class ReadingInjector final : public System {
   OutputPort<Reading> out = System::output<&ReadingInjector::harm>("out", in, damage, last_);
 
  private:
-  Update keep_ = System::update<&ReadingInjector::keep>(last_, out);
+  Update keep_ = System::keep(last_, out);
 
   void harm(const Reading& reading, const Damage& wrong, const Reading& last, Reading& result) const {
     result = reading;
@@ -47,7 +47,6 @@ class ReadingInjector final : public System {
         break;
     }
   }
-  Reading keep(const Reading& result) const { return result; }
 };
 
 }  // namespace flinch::test

@@ -48,13 +48,12 @@ class Delay final : public System {
   State<double> held_ = state<double>("held", 0.0);
 
  public:
-  explicit Delay(Every every = Every{1ms}) { update<&Delay::keep>(every, held_, in); }
+  explicit Delay(Every every = Every{1ms}) { keep(every, held_, in); }
   InputPort<double> in = input<double>("in");
   OutputPort<double> out = output<&Delay::read>("out", held_);
 
  private:
   double read(double held) const { return held; }
-  double keep(double value) const { return value; }
 };
 
 /// x' = rate * x + push.

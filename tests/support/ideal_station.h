@@ -65,9 +65,9 @@ class IdealStation final : public System {
   OutputPort<StationStatus> status = output<&IdealStation::report>("status", brake_, clock);
 
  private:
-  Update hold_torque_ = update<&IdealStation::keep_torque>(torque_, torque_command);
-  Update hold_brake_ = update<&IdealStation::keep_brake>(brake_, brake);
-  Update hold_wrench_ = update<&IdealStation::keep_wrench>(wrench_, wrench);
+  Update hold_torque_ = keep(torque_, torque_command);
+  Update hold_brake_ = keep(brake_, brake);
+  Update hold_wrench_ = keep(wrench_, wrench);
   Update draw_ = update<&IdealStation::draw>(random_, random_);
 
   static Motion initial(const IdealStationSettings& settings) {
@@ -77,9 +77,6 @@ class IdealStation final : public System {
   }
 
   Motion show(const Motion& now) const { return now; }
-  TorqueCommand keep_torque(const TorqueCommand& command) const { return command; }
-  BrakeCommand keep_brake(const BrakeCommand& command) const { return command; }
-  PlatformVector keep_wrench(const PlatformVector& external) const { return external; }
   RandomGenerator draw(RandomGenerator generator) const {
     generator();
     return generator;

@@ -71,7 +71,7 @@ TEST(BlockProfile, ChangesNoBitOfTheRun) {
   for (int k = 0; k < 100; ++k) {
     plain.step(one);
     profiled.step(other);
-    ASSERT_EQ(one[Slot<double>{x.offset}], other[Slot<double>{x.offset}]);
+    ASSERT_EQ(one[Slot<double>{x.place}], other[Slot<double>{x.place}]);
   }
 }
 
