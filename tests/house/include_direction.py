@@ -29,6 +29,12 @@ MAY_INCLUDE = {
     "experiments/bus": ["experiments/bus", "drivers", *EXPERIMENTS],
     "experiments/served": ["experiments/served", "experiments/simulated", "plant", "drivers", *EXPERIMENTS],
 }
+# Parts of the program that a build without the bus, or without the plant, leaves out: only they may include these.
+PARTS = {
+    ("drivers", "experiments/bus"): ["apps/flinch/bus", "apps/flinch/served"],
+    ("plant", "experiments/simulated"): ["apps/flinch/simulated", "apps/flinch/served"],
+    ("experiments/served",): ["apps/flinch/served"],
+}
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"')
 
 
@@ -36,8 +42,22 @@ def within(path, folder):
     return str(path).startswith(folder + "/")
 
 
+def within_any(path, folders):
+    return any(within(path, folder) for folder in folders)
+
+
 def floor_of(path):
     return next((floor for floor in MAY_INCLUDE if within(path, floor)), None)
+
+
+def problem_in_program(path, included):
+    if within(included, "tests"):
+        return "programs do not include tests"
+    if within(path, "apps/flinch"):
+        for optional, parts in PARTS.items():
+            if within_any(included, optional) and not within_any(path, parts):
+                return f"only {' and '.join(parts)} may include {included}, which is not in every build"
+    return None
 
 
 def problem_with(path, included):
@@ -46,11 +66,11 @@ def problem_with(path, included):
     if within(path, "tests"):
         return None
     if within(path, "apps"):
-        return "programs do not include tests" if within(included, "tests") else None
+        return problem_in_program(path, included)
     floor = floor_of(path)
     if floor is None:
         return f"no floor owns this file; name its folder in {__file__}"
-    if not any(within(included, allowed) for allowed in MAY_INCLUDE[floor]):
+    if not within_any(included, MAY_INCLUDE[floor]):
         return f"{floor} must not include {included}"
     return None
 

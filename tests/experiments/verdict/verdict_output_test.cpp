@@ -1,0 +1,62 @@
+#include "experiments/verdict/verdict_output.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "experiments/verdict/verdict.h"
+
+namespace flinch {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// A contact that was noticed after 12.3 ms and never ended.
+Verdict verdict_with_contact() {
+  ContactVerdict contact;
+  contact.body = "platform";
+  contact.onset = 0.5;
+  contact.detected = 0.5123;
+  contact.speed = 0.52;
+  contact.peak_force = 100.4;
+  contact.limit = 280.0;
+  contact.limit_name = "transient";
+  contact.within_limit = true;
+  Verdict verdict;
+  verdict.contacts.push_back(contact);
+  verdict.simulated = 1.2;
+  return verdict;
+}
+
+TEST(VerdictTable, TellsEveryContactAndWhyTheVerdictIsBad) {
+  Verdict verdict = verdict_with_contact();
+  EXPECT_THAT(verdict_table(verdict, {.wall = 0.5, .seed = 7}),
+              ::testing::AllOf(HasSubstr("12.3"), HasSubstr("never"), HasSubstr("verdict: good\n"),
+                               HasSubstr("1.200 s in 0.50 s, seed 7")));
+  verdict.failures.push_back("it fell over");
+  EXPECT_THAT(verdict_table(verdict, {}), HasSubstr("verdict: bad\n  - it fell over\n"));
+}
+
+TEST(VerdictTable, SaysNothingOfContactsThatNobodyCouldSee) {
+  Verdict verdict;
+  EXPECT_THAT(verdict_table(verdict, {}), HasSubstr("nothing was touched"));
+  verdict.witness = Witness::none;
+  verdict.detections = {0.25};
+  EXPECT_THAT(verdict_table(verdict, {}),
+              ::testing::AllOf(HasSubstr("noticed at: 0.250 s"), Not(HasSubstr("nothing was touched"))));
+}
+
+TEST(VerdictJson, IsOneLineThatHoldsTheTable) {
+  const std::string text = verdict_json(verdict_with_contact(), {.wall = 0.5, .seed = 7});
+  EXPECT_EQ(text.find('\n'), std::string::npos);
+  const auto json = nlohmann::json::parse(text);
+  EXPECT_EQ(json["verdict"], "good");
+  EXPECT_EQ(json["seed"], 7);
+  EXPECT_NEAR(json["contacts"][0]["detection_ms"].get<double>(), 12.3, 1e-9);
+  EXPECT_TRUE(json["contacts"][0]["removal_ms"].is_null());
+}
+
+}  // namespace
+}  // namespace flinch
