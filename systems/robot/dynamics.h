@@ -6,7 +6,8 @@ namespace flinch {
 
 /// Equations of motion in platform coordinates, [SafePR] (4):
 ///   M_x ddx + C_x dx + g_x + F_fr_x = F_a + F_ext.
-/// C_x is the Christoffel matrix, so that dM_x/dt = C_x + C_x^T. Planar units: rows 1, 2 in N, row 3 in Nm.
+/// dM_x/dt = C_x + C_x^T for every velocity. C_x itself is not unique; C_x v and C_x^T v are, and only these
+/// and congruences of C_x may be used. Wrenches have the units of the mechanism's space.
 struct Dynamics {
   PlatformMatrix M_x;
   PlatformMatrix C_x;

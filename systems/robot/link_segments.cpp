@@ -5,6 +5,9 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
+
+#include "systems/robot/mechanism.h"
 
 namespace flinch {
 namespace {
@@ -42,22 +45,6 @@ SegmentDistance closest_points(const Point& begin_a, const Point& end_a, const P
   return result;
 }
 
-struct LegInSpace {
-  std::array<Point, 3> joints;
-};
-
-double distance_of_legs(const LegInSpace& a, const LegInSpace& b) {
-  double smallest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < 2; ++i) {
-    for (std::size_t j = 0; j < 2; ++j) {
-      const double distance =
-          closest_points(a.joints[i], a.joints[i + 1], b.joints[j], b.joints[j + 1]).distance;
-      smallest = std::min(smallest, distance);
-    }
-  }
-  return smallest;
-}
-
 }  // namespace
 
 SegmentDistance segment_distance(const Segment& a, const Segment& b) noexcept {
@@ -70,18 +57,18 @@ Segment link_segment(const Kinematics& kinematics, BodyId link) noexcept {
   return {leg.passive_joint, leg.coupling_joint};
 }
 
-double self_collision_distance(const Kinematics& kinematics) noexcept {
+double self_collision_distance(const Mechanism& mechanism, const Kinematics& kinematics) noexcept {
   if (!kinematics.reachable) return 0.0;
-  const auto count = static_cast<std::size_t>(leg_count(kinematics));
-  std::array<LegInSpace, max_dof> legs;
-  for (std::size_t i = 0; i < count; ++i) {
-    const LegPoints& leg = kinematics.legs[i];
-    legs[i].joints = {in_space(leg.base_joint), in_space(leg.passive_joint), in_space(leg.coupling_joint)};
+  std::array<std::pair<Point, Point>, max_bodies> links;
+  for (int i = 1; i < mechanism.body_count(); ++i) {
+    const Segment link = link_segment(kinematics, BodyId::from_index(i));
+    links[static_cast<std::size_t>(i)] = {in_space(link.begin), in_space(link.end)};
   }
   double smallest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t j = i + 1; j < count; ++j)
-      smallest = std::min(smallest, distance_of_legs(legs[i], legs[j]));
+  for (const BodyPair& pair : mechanism.description().self_collision_pairs) {
+    const auto& [begin_a, end_a] = links[static_cast<std::size_t>(pair.a)];
+    const auto& [begin_b, end_b] = links[static_cast<std::size_t>(pair.b)];
+    smallest = std::min(smallest, closest_points(begin_a, end_a, begin_b, end_b).distance);
   }
   return smallest;
 }

@@ -6,6 +6,8 @@
 
 namespace flinch {
 
+class Mechanism;
+
 /// Axis of a link in the base frame, from its proximal to its distal joint [m].
 struct Segment {
   CartesianVector begin;
@@ -26,8 +28,8 @@ SegmentDistance segment_distance(const Segment& a, const Segment& b) noexcept;
 /// Axis of `link`, which must not be the platform.
 Segment link_segment(const Kinematics& kinematics, BodyId link) noexcept;
 
-/// sigma_sc: smallest distance between link axes of different legs [m], links without thickness.
-/// [SafePR] IV-F. NaN-free: 0 for unreachable kinematics.
-double self_collision_distance(const Kinematics& kinematics) noexcept;
+/// sigma_sc: smallest distance between the link axes of the mechanism's self-collision pairs [m], links
+/// without thickness. [SafePR] IV-F. NaN-free: 0 for unreachable kinematics, infinite without a pair.
+double self_collision_distance(const Mechanism& mechanism, const Kinematics& kinematics) noexcept;
 
 }  // namespace flinch

@@ -89,9 +89,9 @@ void differential_kinematics(const std::array<PlanarLegGeometry, 3>& geometry, c
 
 void set_unreachable(Kinematics& out) noexcept {
   out = Kinematics();
-  for (JointVector* vector :
-       {&out.pose, &out.velocity, &out.joints.active, &out.joints.passive, &out.joints.coupling,
-        &out.rates.active, &out.rates.passive, &out.rates.coupling}) {
+  out.pose.setZero(3);
+  for (JointVector* vector : {&out.velocity, &out.joints.active, &out.joints.passive, &out.joints.coupling,
+                              &out.rates.active, &out.rates.passive, &out.rates.coupling}) {
     vector->setZero(3);
   }
   for (PlatformMatrix* matrix : {&out.J_qa_x, &out.J_qp_x, &out.J_qc_x, &out.J_x_qa, &out.dJ_qa_x,

@@ -19,12 +19,15 @@ constexpr double largest_last_step = 1e-8;     // [m, rad]
 
 Eigen::Vector2d unit(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
-bool usable(const PlatformVector& v) { return v.size() == 3 && v.allFinite(); }
+template <class Vector>
+bool usable(const Vector& v) {
+  return v.size() == 3 && v.allFinite();
+}
 
-// Working mode as numbers; nothing unless it has three entries of +1 or -1.
+// Signs of the passive angles; nothing unless the working mode has three entries of 0 or 1.
 std::optional<std::array<double, 3>> elbow_signs(const WorkingMode& mode) {
-  if (mode.size() != 3 || (mode.array().abs() != 1).any()) return std::nullopt;
-  return std::array{static_cast<double>(mode[0]), static_cast<double>(mode[1]), static_cast<double>(mode[2])};
+  if (mode.size() != 3 || (mode.array() < 0).any() || (mode.array() > 1).any()) return std::nullopt;
+  return std::array{1.0 - 2.0 * mode[0], 1.0 - 2.0 * mode[1], 1.0 - 2.0 * mode[2]};
 }
 
 PlanarLegGeometry leg_geometry(const PlanarRrrLeg& leg, double coupling_radius) {
@@ -36,33 +39,59 @@ PlanarLegGeometry leg_geometry(const PlanarRrrLeg& leg, double coupling_radius) 
           .link2_length = leg.link2_length};
 }
 
+std::vector<Body> bodies(const PlanarRrrParameters& parameters) {
+  std::vector<Body> bodies = {
+      {body_name(BodyId::platform()), -1, {Sphere{.radius = parameters.platform_hull_radius}}}};
+  for (int leg = 0; leg < 3; ++leg) {
+    const PlanarRrrLeg& links = parameters.legs[static_cast<std::size_t>(leg)];
+    const auto link = [&](BodyId body, double length) {
+      const Capsule outline{.end = length * Eigen::Vector3d::UnitX(), .radius = parameters.link_radius};
+      bodies.push_back({body_name(body), leg, {outline}});
+    };
+    link(BodyId::link1(leg), links.link1_length);
+    link(BodyId::link2(leg), links.link2_length);
+  }
+  return bodies;
+}
+
+// All links of different legs.
+std::vector<BodyPair> self_collision_pairs(const std::vector<Body>& bodies) {
+  std::vector<BodyPair> pairs;
+  for (int a = 1; a < static_cast<int>(bodies.size()); ++a) {
+    for (int b = a + 1; b < static_cast<int>(bodies.size()); ++b) {
+      if (BodyId::from_index(a).leg() != BodyId::from_index(b).leg()) pairs.push_back({a, b});
+    }
+  }
+  return pairs;
+}
+
+MechanismDescription describe(const PlanarRrrParameters& parameters) {
+  throw_if_any(problems(parameters));
+  MechanismDescription description{.name = parameters.name,
+                                   .space = ConfigurationSpace::Kind::planar_pose,
+                                   .drives = std::vector<DriveKind>(3, DriveKind::revolute),
+                                   .bodies = bodies(parameters),
+                                   .self_collision_pairs = {},
+                                   .gravity = parameters.gravity,
+                                   .home_pose = parameters.home_pose};
+  description.self_collision_pairs = self_collision_pairs(description.bodies);
+  return description;
+}
+
 }  // namespace
 
-PlanarRrr::PlanarRrr(const PlanarRrrParameters& parameters) : parameters_(parameters) {
-  throw_if_any(problems(parameters));
+PlanarRrr::PlanarRrr(const PlanarRrrParameters& parameters)
+    : ParallelRobot(describe(parameters)), parameters_(parameters) {
   for (std::size_t i = 0; i < 3; ++i) {
     geometry_[i] = leg_geometry(parameters.legs[i], parameters.coupling_radius);
     home_signs_[i] = parameters.legs[i].elbow_sign;
   }
 }
 
-double PlanarRrr::link_length(BodyId body) const noexcept {
-  if (body.is_platform() || body.leg() >= 3) return 0.0;
-  const PlanarLegGeometry& geometry = geometry_[static_cast<std::size_t>(body.leg())];
-  return body.is_link1() ? geometry.link1_length : geometry.link2_length;
-}
-
 WorkingMode PlanarRrr::home_working_mode() const noexcept {
   WorkingMode mode(3);
-  for (int i = 0; i < 3; ++i) mode[i] = parameters_.legs[static_cast<std::size_t>(i)].elbow_sign;
+  for (int i = 0; i < 3; ++i) mode[i] = parameters_.legs[static_cast<std::size_t>(i)].elbow_sign > 0 ? 0 : 1;
   return mode;
-}
-
-PlatformVector PlanarRrr::difference(const PlatformVector& a, const PlatformVector& b) const noexcept {
-  if (a.size() != 3 || b.size() != 3) return PlatformVector::Zero(3);
-  PlatformVector difference = a - b;
-  difference[2] = wrap_angle(difference[2]);
-  return difference;
 }
 
 // ---------------------------------------------------------------- legs
@@ -124,7 +153,7 @@ Eigen::Vector2d PlanarRrr::chain_tip(int leg, double active, double passive) con
 
 // ---------------------------------------------------------------- inverse and forward kinematics
 
-InverseSolution PlanarRrr::inverse_kinematics(const PlatformVector& pose,
+InverseSolution PlanarRrr::inverse_kinematics(const Configuration& pose,
                                               const WorkingMode& mode) const noexcept {
   const auto zero = JointVector::Zero(3);
   InverseSolution solution{{zero, zero, zero}, false};
@@ -138,7 +167,7 @@ InverseSolution PlanarRrr::inverse_kinematics(const PlatformVector& pose,
 
 // Newton's method on the drive angles: x <- x + J_x,qa(x) (qa - IK(x)). A small error alone does not prove
 // convergence: near a singularity it still allows a long step.
-ForwardSolution PlanarRrr::forward_kinematics(const JointVector& active, const PlatformVector& start,
+ForwardSolution PlanarRrr::forward_kinematics(const JointVector& active, const Configuration& start,
                                               const WorkingMode& mode) const noexcept {
   ForwardSolution solution{home_pose(), 0, false};
   const auto signs = elbow_signs(mode);
@@ -162,7 +191,7 @@ ForwardSolution PlanarRrr::forward_kinematics(const JointVector& active, const P
 }
 
 // Rigid fit of the coupling joints, given in the platform frame, to the tips of the legs.
-PlatformVector PlanarRrr::start_pose(const JointVector& active, const JointVector& passive) const noexcept {
+Configuration PlanarRrr::start_pose(const JointVector& active, const JointVector& passive) const noexcept {
   if (!usable(active) || !usable(passive)) return home_pose();
   std::array<Eigen::Vector2d, 3> tips;
   Eigen::Vector2d mean_tip = Eigen::Vector2d::Zero();
@@ -188,11 +217,11 @@ PlatformVector PlanarRrr::start_pose(const JointVector& active, const JointVecto
 
 WorkingMode PlanarRrr::working_mode(const JointVector& passive) const noexcept {
   if (!usable(passive)) return home_working_mode();
-  return (passive.array() < 0.0).select(WorkingMode::Constant(3, -1), WorkingMode::Constant(3, 1));
+  return (passive.array() < 0.0).cast<int>();
 }
 
 double PlanarRrr::chain_closure_error(const JointVector& active, const JointVector& passive,
-                                      const PlatformVector& pose) const noexcept {
+                                      const Configuration& pose) const noexcept {
   if (!usable(active) || !usable(passive) || !usable(pose)) return std::numeric_limits<double>::infinity();
   const Eigen::Vector2d origin = pose.head<2>();
   const Eigen::Vector2d axis = unit(pose[2]);
@@ -207,8 +236,8 @@ double PlanarRrr::chain_closure_error(const JointVector& active, const JointVect
 
 // ---------------------------------------------------------------- differential kinematics
 
-void PlanarRrr::kinematics(const PlatformVector& pose, const PlatformVector& velocity,
-                           const WorkingMode& mode, Kinematics& out) const noexcept {
+void PlanarRrr::kinematics(const Configuration& pose, const PlatformVector& velocity, const WorkingMode& mode,
+                           Kinematics& out) const noexcept {
   const auto signs = elbow_signs(mode);
   if (!signs || !usable(pose) || !usable(velocity)) return set_unreachable(out);
   const PlanarMotion closed = motion(pose, velocity, *signs);

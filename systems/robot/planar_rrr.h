@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <optional>
-#include <string>
 
 #include "systems/robot/parallel_robot.h"
 #include "systems/robot/planar_motion.h"
@@ -13,7 +12,7 @@ namespace flinch {
 
 /// The planar 3-RRR of [SafePR], [ICRA23]: n = 3, platform coordinates (x, y, phi), singularities where a leg
 /// is stretched or folded (type I) or the lines of the second links meet in one point or are parallel (type
-/// II).
+/// II). Working mode of a leg: 0 where its passive angle is positive or zero, 1 where it is negative.
 class PlanarRrr final : public ParallelRobot {
  public:
   /// Throws SetupError with all `problems(parameters)`.
@@ -21,29 +20,20 @@ class PlanarRrr final : public ParallelRobot {
 
   const PlanarRrrParameters& parameters() const noexcept { return parameters_; }
 
-  const std::string& name() const noexcept override { return parameters_.name; }
-  int dof() const noexcept override { return 3; }
   int legs() const noexcept override { return 3; }
-  int space_dimension() const noexcept override { return 2; }
-  Eigen::Vector3d gravity() const noexcept override { return parameters_.gravity; }
-  double platform_hull_radius() const noexcept override { return parameters_.platform_hull_radius; }
-  double link_radius() const noexcept override { return parameters_.link_radius; }
-  double link_length(BodyId body) const noexcept override;
-  PlatformVector home_pose() const noexcept override { return parameters_.home_pose; }
+  int passive_joints() const noexcept override { return 3; }
   WorkingMode home_working_mode() const noexcept override;
-
-  PlatformVector difference(const PlatformVector& a, const PlatformVector& b) const noexcept override;
-  InverseSolution inverse_kinematics(const PlatformVector& pose,
-                                     const WorkingMode& mode) const noexcept override;
-  ForwardSolution forward_kinematics(const JointVector& active, const PlatformVector& start,
-                                     const WorkingMode& mode) const noexcept override;
-  PlatformVector start_pose(const JointVector& active, const JointVector& passive) const noexcept override;
   WorkingMode working_mode(const JointVector& passive) const noexcept override;
+  InverseSolution inverse_kinematics(const Configuration& pose,
+                                     const WorkingMode& mode) const noexcept override;
+  ForwardSolution forward_kinematics(const JointVector& active, const Configuration& start,
+                                     const WorkingMode& mode) const noexcept override;
+  Configuration start_pose(const JointVector& active, const JointVector& passive) const noexcept override;
   double chain_closure_error(const JointVector& active, const JointVector& passive,
-                             const PlatformVector& pose) const noexcept override;
+                             const Configuration& pose) const noexcept override;
 
   using ParallelRobot::kinematics;
-  void kinematics(const PlatformVector& pose, const PlatformVector& velocity, const WorkingMode& mode,
+  void kinematics(const Configuration& pose, const PlatformVector& velocity, const WorkingMode& mode,
                   Kinematics& out) const noexcept override;
   void dynamics(const Kinematics& kinematics, Dynamics& out) const noexcept override;
   CartesianVector point_on_body(const Kinematics& kinematics, BodyId body,

@@ -10,7 +10,7 @@ namespace {
 using Rows2 = Eigen::Matrix<double, 2, 3>;
 
 bool serves(const Kinematics& kinematics, BodyId body, const CartesianVector& point) {
-  return kinematics.reachable && leg_count(kinematics) == 3 && point.size() == 2 && point.allFinite() &&
+  return kinematics.reachable && drive_count(kinematics) == 3 && point.size() == 2 && point.allFinite() &&
          body.index() >= 0 && body.index() < 7;
 }
 

@@ -2,21 +2,28 @@
 
 #include <Eigen/Core>
 
-/// Vectors and matrices of bounded size: they live on the stack, and one compiled block serves a planar
-/// robot with three and a spatial one with six degrees of freedom. SI units and radians throughout.
+/// Vectors and matrices of bounded size: they live on the stack, and one compiled block serves mechanisms of
+/// every size. SI units and radians throughout; `ConfigurationSpace` says what the entries mean.
 namespace flinch {
 
-/// Largest number of platform coordinates, drives and legs of a fully-parallel robot.
+/// Largest number of platform coordinates, drives and legs.
 inline constexpr int max_dof = 6;
+/// Largest number of entries of a stored configuration: a position and a unit quaternion.
+inline constexpr int max_stored = 7;
+/// Largest number of bodies of a mechanism.
+inline constexpr int max_bodies = 16;
 
-/// One entry per platform coordinate: pose x, velocity, wrench. Planar: (x, y, phi) [m, m, rad], wrench
-/// (f_x, f_y, m_z) [N, N, Nm] in the base frame with the moment about the platform origin.
+/// A configuration x of the platform. Its entries are not a vector: sums and differences are made by
+/// `ConfigurationSpace`.
+using Configuration = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_stored, 1>;
+
+/// One entry per platform coordinate: velocity v, its derivative, conjugate wrench F, increment xi.
 using PlatformVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_dof, 1>;
 
-/// One entry per leg: angles [rad], rates [rad/s], drive torques [Nm].
+/// One entry per joint: positions [rad or m], rates, drive torques [Nm] or forces [N].
 using JointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_dof, 1>;
 
-/// Square maps between platform and joint coordinates.
+/// Maps between platform and joint coordinates.
 using PlatformMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_dof, max_dof>;
 
 /// Point, direction or force: 2 rows for a planar, 3 for a spatial robot.
@@ -25,7 +32,8 @@ using CartesianVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1>;
 /// Map from platform or joint rates to a Cartesian velocity (2 or 3 rows) or angular velocity (1 or 3 rows).
 using CartesianJacobian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, max_dof>;
 
-/// Side on which each leg's elbow lies: the sign (+1 or -1) of each passive angle.
+/// How each leg is assembled: an index from 0 on, which the mechanism explains. A leg that can be assembled
+/// in one way only has index 0.
 using WorkingMode = Eigen::Matrix<int, Eigen::Dynamic, 1, 0, max_dof, 1>;
 
 }  // namespace flinch

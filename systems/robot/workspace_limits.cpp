@@ -33,19 +33,18 @@ class Findings {
 }  // namespace
 
 std::vector<std::string> problems(const WorkspaceLimits& limits, const ParallelRobot& robot) {
-  const PlatformVector pose = robot.home_pose();
+  const Configuration pose = robot.home_pose();
   Kinematics home;
   robot.kinematics(pose, PlatformVector::Zero(robot.dof()), home);
   const int translations = robot.space_dimension();
 
   Findings findings;
   findings.most("max_distance", limits.max_distance, pose.head(translations).norm(), " m");
-  const double rotation = translations == 2 && robot.dof() == 3 ? std::abs(pose[2]) : 0.0;
-  findings.most("max_rotation", limits.max_rotation, rotation, " rad");
+  findings.most("max_rotation", limits.max_rotation, robot.space().rotation_angle(pose), " rad");
   findings.least("min_abs_det_A", limits.min_abs_det_A, std::abs(home.det_A), "");
   findings.least("min_abs_det_B", limits.min_abs_det_B, std::abs(home.det_B), "");
   findings.least("min_self_collision_distance", limits.min_self_collision_distance,
-                 self_collision_distance(home), " m");
+                 self_collision_distance(robot, home), " m");
   findings.least("min_active_angle", limits.min_active_angle, home.joints.active.minCoeff(), " rad");
   findings.most("max_active_angle", limits.max_active_angle, home.joints.active.maxCoeff(), " rad");
   return findings.take();

@@ -1,0 +1,28 @@
+#include "systems/robot/mechanism.h"
+
+#include "systems/robot/angles.h"
+
+namespace flinch {
+
+JointVector Mechanism::drive_difference(const JointVector& a, const JointVector& b) const noexcept {
+  JointVector difference = JointVector::Zero(drives());
+  if (a.size() != drives() || b.size() != drives()) return difference;
+  for (int i = 0; i < drives(); ++i) {
+    difference[i] = a[i] - b[i];
+    if (drive_kind(i) == DriveKind::revolute) difference[i] = wrap_angle(difference[i]);
+  }
+  return difference;
+}
+
+CartesianVector Mechanism::axis_point(BodyId body, double fraction) const noexcept {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  for (const Shape& shape : description_.bodies[static_cast<std::size_t>(body.index())].shapes) {
+    const auto* const capsule = std::get_if<Capsule>(&shape);
+    if (capsule == nullptr) continue;
+    point = capsule->begin + fraction * (capsule->end - capsule->begin);
+    break;
+  }
+  return point.head(space_dimension());
+}
+
+}  // namespace flinch
