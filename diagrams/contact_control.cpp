@@ -94,16 +94,17 @@ Reaction add_reaction(DiagramBuilder& builder, const Robot& robot, const Contact
   return reaction;
 }
 
-ImpedanceSettings softened(ImpedanceSettings settings, double share, int translations) {
+ImpedanceSettings softened(const ImpedanceSettings& nominal, double share, const ConfigurationSpace& space) {
   if (!(share >= 0.0 && share <= 1.0)) throw SetupError("reaction_stiffness must be between 0 and 1");
+  ImpedanceSettings settings = complete(nominal, space);
+  const int translations = space.translations();
   if (settings.stiffness.size() >= translations) settings.stiffness.head(translations) *= share;
   return settings;
 }
 
 Laws add_laws(DiagramBuilder& builder, const Robot& robot, const ContactControlSettings& settings,
               const Sensing& sensing, const Reaction& reaction) {
-  const ImpedanceSettings soft =
-      softened(settings.impedance, settings.reaction_stiffness, robot->space_dimension());
+  const ImpedanceSettings soft = softened(settings.impedance, settings.reaction_stiffness, robot->space());
   const Laws laws{builder.add<ImpedanceController>("nominal_impedance", robot, settings.impedance),
                   builder.add<ImpedanceController>("reaction_impedance", robot, soft),
                   builder.add<ZeroGravity>("zero_gravity"),

@@ -23,19 +23,16 @@ struct ContactControlSettings {
   VelocityFilterSettings velocity_filter;  ///< 30 Hz
   ForwardKinematicsSettings forward_kinematics;
   /// 6.1 Nm/A until calibrated, [ICRA23] III-B; filtered as the velocity is.
-  DriveTorqueSettings drive_torque{
-      .torque_constant = JointVector::Constant(3, 6.1), .low_pass = LowPassSettings{}, .sampling = {}};
+  DriveTorqueSettings drive_torque{.torque_constant = {}, .low_pass = LowPassSettings{}, .sampling = {}};
 
   // ---- contacts
-  MomentumObserverSettings momentum_observer{.gain = PlatformVector::Constant(3, 20.0),
-                                             .torque_timing = TorqueTiming::sampled,
-                                             .sampling = {}};  ///< [SafePR] V-A
-  ContactDetectorSettings contact_detector;                    ///< 10 N, 1 Nm; hard: 60 N, 3 Nm
+  MomentumObserverSettings momentum_observer;  ///< 20 1/s, [SafePR] V-A
+  ContactDetectorSettings contact_detector;    ///< 10 N, 1 Nm; hard: 60 N, 3 Nm
 
   // ---- what to do
-  PlatformTrajectorySettings trajectory;             ///< stays where the robot is
-  ImpedanceSettings impedance = planar_impedance();  ///< 2 N/mm, 85 Nm/rad, critically damped
-  RetractionSettings retraction;                     ///< 0.10 m along the force
+  PlatformTrajectorySettings trajectory;  ///< stays where the robot is
+  ImpedanceSettings impedance;            ///< 2 N/mm, 85 Nm/rad, critically damped
+  RetractionSettings retraction;          ///< 0.10 m along the force
   /// Share of the translational stiffness that is left while reacting, 0 to 1. [SafePR] IV-A
   double reaction_stiffness = 1.0;
   ReactionSequenceSettings sequence;

@@ -97,8 +97,8 @@ WorkspaceLimits read_limits(ConfigReader file) {
   file.number("min_abs_det_A", unit::none, limits.min_abs_det_A);
   file.number("min_abs_det_B", unit::none, limits.min_abs_det_B);
   file.number("min_self_collision_distance", unit::m, limits.min_self_collision_distance);
-  file.number("min_active_angle", unit::rad, limits.min_active_angle);
-  file.number("max_active_angle", unit::rad, limits.max_active_angle);
+  file.number("min_active_angle", unit::rad, limits.min_active);
+  file.number("max_active_angle", unit::rad, limits.max_active);
   return limits;
 }
 

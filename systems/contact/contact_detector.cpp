@@ -24,7 +24,7 @@ std::vector<std::string> problems(const ContactDetectorSettings& settings) {
 // One threshold a component: forces first.
 PlatformVector components(const WrenchThreshold& threshold, const ParallelRobot& robot) {
   PlatformVector components = PlatformVector::Constant(robot.dof(), threshold.moment);
-  components.head(std::min(robot.dof(), robot.space_dimension())).setConstant(threshold.force);
+  components.head(robot.space().translations()).setConstant(threshold.force);
   return components;
 }
 

@@ -29,7 +29,7 @@ std::vector<std::string> problems(const PlatformVector& gain, int dof) {
 MomentumObserver::MomentumObserver(std::shared_ptr<const ParallelRobot> robot,
                                    const MomentumObserverSettings& settings)
     : robot_(std::move(robot)),
-      gain_(settings.gain),
+      gain_(settings.gain.size() == 0 ? PlatformVector::Constant(robot_->dof(), 20.0).eval() : settings.gain),
       torque_timing_(settings.torque_timing),
       sampling_(settings.sampling) {
   throw_if_any(problems(gain_, robot_->dof()));
@@ -77,7 +77,7 @@ void MomentumObserver::read(const MomentumObserverMemory& next, Time now, Wrench
   result.acquired = next.last.acquired;
   result.valid = usable && now - next.started >= settling_time_;
   result.wrench_in_base = usable ? next.wrench : PlatformVector::Zero(robot_->dof());
-  result.drive_torque = usable ? next.drive_torque : JointVector::Zero(robot_->legs());
+  result.drive_torque = usable ? next.drive_torque : JointVector::Zero(robot_->drives());
 }
 
 }  // namespace flinch

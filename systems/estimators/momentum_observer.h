@@ -11,7 +11,7 @@
 namespace flinch {
 
 struct MomentumObserverSettings {
-  PlatformVector gain;  ///< Diagonal of K_o [1/s]; 20 in [SafePR] V-A.
+  PlatformVector gain;  ///< Diagonal of K_o [1/s]; empty: 20 for each, as in [SafePR] V-A.
   TorqueTiming torque_timing = TorqueTiming::sampled;
   Sampling sampling;
   /// How long a velocity that has just begun still adapts: five time constants of the 30 Hz filter.

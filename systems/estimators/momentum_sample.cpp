@@ -5,7 +5,7 @@ namespace flinch {
 MomentumSample momentum_sample(const PlatformMotion& platform, const Kinematics& kinematics,
                                const Dynamics& dynamics, const DriveTorque& torque) {
   if (!platform.valid() || !kinematics.valid || !dynamics.valid || !torque.valid) return {};
-  if (torque.torque.size() != leg_count(kinematics) || !torque.torque.allFinite()) return {};
+  if (torque.torque.size() != drive_count(kinematics) || !torque.torque.allFinite()) return {};
 
   const PlatformVector& dx = kinematics.velocity;
   MomentumSample sample;

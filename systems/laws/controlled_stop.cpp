@@ -15,7 +15,7 @@ ControlledStop::ControlledStop(std::shared_ptr<const ParallelRobot> robot,
 void ControlledStop::brake(Time now, const TorqueCommand& known, const TorqueCommand& compensation,
                            const JointMotion& motion, TorqueCommand& command) const {
   const TorqueCommand& gravity = compensation.valid ? compensation : known;
-  const int drives = robot_->dof();
+  const int drives = robot_->drives();
   command = {.computed = now, .valid = false, .torque = JointVector::Zero(drives)};
   if (!gravity.valid || !motion.valid) return;
   if (gravity.torque.size() != drives || motion.velocity.size() != drives) return;

@@ -6,6 +6,7 @@
 
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/contact_jacobian.h"
+#include "systems/robot/rotation.h"
 
 namespace flinch {
 namespace {
@@ -25,22 +26,55 @@ std::vector<std::string> problems(const ImpedanceSettings& settings, int dof) {
   return found;
 }
 
+/// The reference as seen from where the platform is: v_r and its derivative.
+struct Guidance {
+  PlatformVector error;
+  PlatformVector velocity;
+  PlatformVector acceleration;
+};
+
+Guidance guide(const ConfigurationSpace& space, const PlatformReference& desired, const Kinematics& at) {
+  Guidance guidance{space.difference(desired.pose, at.pose), desired.velocity, desired.acceleration};
+  if (space.rotations() < 3) return guidance;
+  const Eigen::Vector3d e_r = guidance.error.tail<3>();
+  const Eigen::Vector3d omega = at.velocity.tail<3>();
+  const Eigen::Matrix3d R_e = rotation_matrix(quaternion_exp(-e_r));  // R R_d^T
+  const Eigen::Vector3d omega_r = R_e * desired.velocity.tail<3>();
+  guidance.velocity.tail<3>() = omega_r;
+  guidance.acceleration.tail<3>() = R_e * desired.acceleration.tail<3>() + omega.cross(omega_r);
+  return guidance;
+}
+
+/// Gradient by the pose of the potential e^T K e / 2, from e and K e.
+PlatformVector gradient(const ConfigurationSpace& space, const PlatformVector& e, PlatformVector K_e) {
+  if (space.rotations() < 3) return K_e;
+  const Eigen::Vector3d moment = inverse_left_jacobian(e.tail<3>()) * K_e.tail<3>();
+  K_e.tail<3>() = moment;
+  return K_e;
+}
+
 }  // namespace
 
-ImpedanceSettings planar_impedance() {
-  return {.stiffness = Eigen::Vector3d(2000.0, 2000.0, 85.0), .damping_ratio = Eigen::Vector3d::Ones()};
+ImpedanceSettings complete(ImpedanceSettings settings, const ConfigurationSpace& space) {
+  if (settings.stiffness.size() == 0) {
+    settings.stiffness = PlatformVector::Constant(space.dimension(), 85.0);
+    settings.stiffness.head(space.translations()).setConstant(2000.0);
+  }
+  if (settings.damping_ratio.size() == 0) settings.damping_ratio.setOnes(space.dimension());
+  return settings;
 }
 
 ImpedanceController::ImpedanceController(std::shared_ptr<const ParallelRobot> robot,
                                          const ImpedanceSettings& settings)
-    : robot_(std::move(robot)), settings_(settings) {
-  throw_if_any(problems(settings, robot_->dof()));
-  K_d_ = settings.stiffness.asDiagonal();
+    : robot_(std::move(robot)), settings_(complete(settings, robot_->space())) {
+  throw_if_any(problems(settings_, robot_->dof()));
+  K_d_ = settings_.stiffness.asDiagonal();
 }
 
 bool ImpedanceController::can_follow(const PlatformReference& desired) const {
   const auto fits = [this](const PlatformVector& vector) { return vector.size() == robot_->dof(); };
-  return desired.valid && fits(desired.pose) && fits(desired.velocity) && fits(desired.acceleration);
+  return desired.valid && robot_->space().contains(desired.pose) && fits(desired.velocity) &&
+         fits(desired.acceleration);
 }
 
 void ImpedanceController::impede(const PlatformReference& desired, const Kinematics& at,
@@ -52,11 +86,12 @@ void ImpedanceController::impede(const PlatformReference& desired, const Kinemat
   const PlatformVector& dx = at.velocity;
   const ImpedanceDamping damping = impedance_damping(model.M_x, K_d_, settings_.damping_ratio);
   result.damping = damping.design;
-  result.error = robot_->difference(desired.pose, at.pose);
-  const PlatformVector de = desired.velocity - dx;
+  const Guidance guidance = guide(robot_->space(), desired, at);
+  result.error = guidance.error;
 
-  PlatformVector F_a = model.C_x * dx + model.g_x + model.M_x * desired.acceleration + K_d_ * result.error +
-                       damping.D * de;  // [SafePR] (7)
+  PlatformVector F_a = model.C_x * dx + model.g_x + model.M_x * guidance.acceleration +
+                       gradient(robot_->space(), guidance.error, K_d_ * guidance.error) +
+                       damping.D * (guidance.velocity - dx);  // [SafePR] (7)
   if (settings_.compensate_friction) F_a += model.F_fr_x;
   result.valid = damping.design != DampingDesign::none && F_a.allFinite();
   result.wrench_in_base = result.valid ? F_a : zero;
@@ -64,7 +99,7 @@ void ImpedanceController::impede(const PlatformReference& desired, const Kinemat
 
 void ImpedanceController::drive(Time now, const ImpedanceWrench& wanted, const Kinematics& at,
                                 TorqueCommand& command) const {
-  command = {.computed = now, .valid = false, .torque = JointVector::Zero(robot_->dof())};
+  command = {.computed = now, .valid = false, .torque = JointVector::Zero(robot_->drives())};
   if (!wanted.valid) return;
   command.torque = drive_torques(at, wanted.wrench_in_base);
   command.valid = command.torque.allFinite();

@@ -11,20 +11,21 @@
 namespace flinch {
 
 struct ImpedanceSettings {
-  PlatformVector stiffness;      ///< diagonal of K_d, none negative [N/m, Nm/rad]
-  PlatformVector damping_ratio;  ///< xi of each direction, positive; 1 is critical
+  /// Diagonal of K_d, none negative [N/m, Nm/rad]; empty: 2000 N/m and 85 Nm/rad. [ICRA23] II-C
+  PlatformVector stiffness;
+  PlatformVector damping_ratio;  ///< xi of each direction, positive; empty: 1, which is critical
   bool compensate_friction = true;
 };
 
-/// Of the planar bench: K_d = diag(2000 N/m, 2000 N/m, 85 Nm/rad), xi = 1. [ICRA23] II-C
-ImpedanceSettings planar_impedance();
+/// `settings` with what they leave empty filled in for `space`.
+ImpedanceSettings complete(ImpedanceSettings settings, const ConfigurationSpace& space);
 
 /// What the impedance asks of the platform.
 struct ImpedanceWrench {
   bool valid = false;
   DampingDesign damping = DampingDesign::none;  ///< by which D_d was found
-  PlatformVector error;                         ///< e = x_d - x [m, m, rad]
-  PlatformVector wrench_in_base;                ///< F_a [N, N, Nm]
+  PlatformVector error;                         ///< e = x_d (-) x
+  PlatformVector wrench_in_base;                ///< F_a
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
@@ -38,6 +39,9 @@ struct ImpedanceWrench {
 /// Cartesian impedance control, [SafePR] (7)-(10), [ICRA23] (9)-(11):
 ///   F_a = C_x dx + g_x + F_fr,x + M_x ddx_d + K_d e + D_d de,   tau = J_x,qa^T F_a,   e = x_d - x,
 /// with the damping D_d designed at every tick for M_x. In closed loop M_x dde + D_d de + K_d e = -F_ext.
+/// Where the platform turns about three axes, e ends in the rotation vector e_r from the orientation to its
+/// reference, the reference's rotation is carried over to where the platform is, and J_l(e_r)^-1 K_r e_r
+/// takes the place of K_r e_r: the gradient of e_r^T K_r e_r / 2.
 ///
 /// Where reference, kinematics or dynamics are not valid, so are wrench and torque.
 class ImpedanceController final : public System {

@@ -21,9 +21,9 @@ std::vector<std::string> problems(const ForwardKinematicsSettings& settings, con
   return found;
 }
 
-bool is_usable(const JointMotion& motion, int legs) {
-  return motion.valid && motion.position.size() == legs && motion.position.allFinite() &&
-         motion.velocity.size() == legs && motion.velocity.allFinite();
+bool is_usable(const JointMotion& motion, int drives) {
+  return motion.valid && motion.position.size() == drives && motion.position.allFinite() &&
+         motion.velocity.size() == drives && motion.velocity.allFinite();
 }
 
 }  // namespace
@@ -35,9 +35,9 @@ ForwardKinematics::ForwardKinematics(std::shared_ptr<const ParallelRobot> robot,
   update<&ForwardKinematics::keep>(Every{settings.sampling.period}, previous_, platform, previous_, clock);
 }
 
-std::optional<PlatformVector> ForwardKinematics::start_pose(const JointMotion& active,
-                                                            const JointVector* passive,
-                                                            const ForwardKinematicsMemory& previous) const {
+std::optional<Configuration> ForwardKinematics::start_pose(const JointMotion& active,
+                                                           const JointVector* passive,
+                                                           const ForwardKinematicsMemory& previous) const {
   const bool prefer_previous = settings_.start == ForwardKinematicsStart::previous_pose;
   if (previous.valid && (prefer_previous || passive == nullptr)) return previous.pose;
   if (passive != nullptr) return robot_->start_pose(active.position, *passive);
@@ -46,12 +46,13 @@ std::optional<PlatformVector> ForwardKinematics::start_pose(const JointMotion& a
 
 PlatformMotion::Status ForwardKinematics::solve_pose(const JointMotion& active, const JointReading& reading,
                                                      const ForwardKinematicsMemory& previous,
-                                                     PlatformVector& pose) const {
+                                                     Configuration& pose) const {
   using Status = PlatformMotion::Status;
-  if (!is_usable(active, robot_->legs())) return Status::no_data;
-  const bool passive_usable = reading.passive_valid && reading.acquired == active.acquired;
+  if (!is_usable(active, robot_->drives())) return Status::no_data;
+  const bool passive_usable =
+      reading.passive_valid && robot_->passive_joints() > 0 && reading.acquired == active.acquired;
   const JointVector* passive = passive_usable ? &reading.passive : nullptr;
-  const std::optional<PlatformVector> start = start_pose(active, passive, previous);
+  const std::optional<Configuration> start = start_pose(active, passive, previous);
   if (!start) return Status::no_data;
 
   const ForwardSolution solution = robot_->forward_kinematics(active.position, *start, mode_);
@@ -65,7 +66,7 @@ PlatformMotion::Status ForwardKinematics::solve_pose(const JointMotion& active, 
 void ForwardKinematics::solve(const JointMotion& active, const JointReading& reading,
                               const ForwardKinematicsMemory& previous, PlatformMotion& result) const {
   result.acquired = active.acquired;
-  result.pose.setZero(robot_->dof());
+  result.pose = robot_->space().origin();
   result.velocity.setZero(robot_->dof());
   result.status = solve_pose(active, reading, previous, result.pose);
   if (!result.valid()) return;

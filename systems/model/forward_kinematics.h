@@ -21,8 +21,8 @@ enum class ForwardKinematicsStart : std::uint8_t {
 
 struct ForwardKinematicsSettings {
   ForwardKinematicsStart start = ForwardKinematicsStart::previous_pose;
-  /// Where to start with neither a previous pose nor passive angles. None: then there is no pose. [m, m, rad]
-  std::optional<PlatformVector> initial_pose;
+  /// Where to start with neither a previous pose nor passive angles. None: then there is no pose.
+  std::optional<Configuration> initial_pose;
   double largest_closure_error = 0.01;  ///< between active and passive encoders [m]. [PAR]
   Sampling sampling;
 };
@@ -31,7 +31,7 @@ struct ForwardKinematicsSettings {
 struct ForwardKinematicsMemory {
   bool valid = false;
   Time arrived{};  ///< tick of its last use
-  PlatformVector pose;
+  Configuration pose;
 };
 
 /// Pose of the platform from the drive angles, by iteration, and its velocity dx = J_x,qa dq_a, elbows as in
@@ -60,11 +60,11 @@ class ForwardKinematics final : public System {
   void solve(const JointMotion& active, const JointReading& reading, const ForwardKinematicsMemory& previous,
              PlatformMotion& result) const;
   PlatformMotion::Status solve_pose(const JointMotion& active, const JointReading& reading,
-                                    const ForwardKinematicsMemory& previous, PlatformVector& pose) const;
+                                    const ForwardKinematicsMemory& previous, Configuration& pose) const;
   ForwardKinematicsMemory keep(const PlatformMotion& result, const ForwardKinematicsMemory& previous,
                                Time now) const;
-  std::optional<PlatformVector> start_pose(const JointMotion& active, const JointVector* passive,
-                                           const ForwardKinematicsMemory& previous) const;
+  std::optional<Configuration> start_pose(const JointMotion& active, const JointVector* passive,
+                                          const ForwardKinematicsMemory& previous) const;
 
   std::shared_ptr<const ParallelRobot> robot_;
   ForwardKinematicsSettings settings_;

@@ -5,9 +5,11 @@
 namespace flinch {
 
 void RobotModel::kinematics_of(const PlatformMotion& motion, Kinematics& result) const {
-  const PlatformVector nothing;  // which no robot can serve
-  const bool valid = motion.valid();
-  robot_->kinematics(valid ? motion.pose : nothing, valid ? motion.velocity : nothing, result);
+  if (motion.valid()) {
+    robot_->kinematics(motion.pose, motion.velocity, result);
+  } else {
+    robot_->kinematics(Configuration(), PlatformVector(), result);  // which no robot can serve
+  }
 }
 
 void RobotModel::dynamics_of(const Kinematics& now, Dynamics& result) const { robot_->dynamics(now, result); }
@@ -16,7 +18,7 @@ WorkspaceMeasures RobotModel::measures_of(const Kinematics& now) const {
   if (!now.reachable) return {};
   return {.valid = true,
           .sigma_kappa = now.sigma_kappa,
-          .sigma_sc = self_collision_distance(now),
+          .sigma_sc = self_collision_distance(*robot_, now),
           .det_A = now.det_A,
           .det_B = now.det_B,
           .largest_passive_angle = now.joints.passive.lpNorm<Eigen::Infinity>()};

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double check_interval = 0.005;  // [s]
 
-std::string text(const PlatformVector& pose) {
+std::string text(const Configuration& pose) {
   std::ostringstream stream;
   stream << pose.transpose().format({5, Eigen::DontAlignCols, ", ", ", ", "", "", "(", ")"});
   return stream.str();
@@ -23,8 +23,9 @@ void check_reach(const ParallelRobot& robot, const PlatformPath& path) {
   const int samples = static_cast<int>(std::ceil(path.duration() / check_interval));
   for (int i = 0; i <= samples; ++i) {
     const double time = samples == 0 ? 0.0 : path.duration() * i / samples;
-    const PlatformVector pose = path.evaluate(time).pose;
-    if (pose.size() != robot.dof() || !robot.inverse_kinematics(pose, robot.home_working_mode()).reachable) {
+    const Configuration pose = path.evaluate(time).pose;
+    if (!robot.space().contains(pose) ||
+        !robot.inverse_kinematics(pose, robot.home_working_mode()).reachable) {
       throw SetupError("platform path: the legs do not reach the pose " + text(pose) + " at " +
                        std::to_string(time) + " s");
     }
@@ -53,23 +54,22 @@ PlatformPath::PlatformPath(const ParallelRobot& robot, std::variant<Legs, Waypoi
   check_reach(robot, *this);
 }
 
-PlatformPath PlatformPath::through(const ParallelRobot& robot, const std::vector<PlatformVector>& poses,
+PlatformPath PlatformPath::through(const ParallelRobot& robot, const std::vector<Configuration>& poses,
                                    const PoseLimits& limits) {
   if (poses.empty()) throw SetupError("platform path: there must be at least one pose");
   Legs legs;
   double begin = 0.0;
-  PlatformVector from = poses.front();
+  Configuration from = poses.front();
   for (std::size_t i = std::min<std::size_t>(1, poses.size() - 1); i < poses.size(); ++i) {
-    if (poses[i].size() != robot.dof() || from.size() != robot.dof() || !from.allFinite() ||
-        !poses[i].allFinite()) {
+    if (!robot.space().contains(poses[i]) || !robot.space().contains(from)) {
       throw SetupError("platform path: pose " + std::to_string(i) + " is not one of this robot");
     }
-    const PlatformVector to = from + robot.difference(poses[i], from);
-    const PlatformVector rest = PlatformVector::Zero(from.size());
-    legs.push_back({begin, PoseMotion::plan(from, rest, to, robot.space_dimension(), limits)});
+    const PlatformVector rest = PlatformVector::Zero(robot.dof());
+    const PlatformVector displacement = robot.difference(poses[i], from);
+    legs.push_back({begin, PoseMotion::plan(robot.space(), from, rest, displacement, limits)});
     if (!legs.back().motion.valid()) throw SetupError("platform path: limits must be positive and finite");
     begin += legs.back().motion.duration();
-    from = to;
+    from = legs.back().motion.goal();
   }
   return {robot, std::move(legs), begin};
 }
@@ -79,10 +79,9 @@ PlatformPath PlatformPath::around(const ParallelRobot& robot, const WaypointCirc
   return {robot, circuit, circuit.duration()};
 }
 
-PlatformPath PlatformPath::square(const ParallelRobot& robot, const PlatformVector& centre, double side,
+PlatformPath PlatformPath::square(const ParallelRobot& robot, const Configuration& centre, double side,
                                   const PoseLimits& limits, int laps) {
-  return around(robot,
-                WaypointCircuit::plan(square_corners(centre, side), robot.space_dimension(), limits, laps));
+  return around(robot, WaypointCircuit::plan(robot.space(), square_corners(centre, side), limits, laps));
 }
 
 PlatformReference PlatformPath::evaluate(double time) const noexcept {
@@ -98,7 +97,7 @@ PlatformReference PlatformPath::evaluate(double time) const noexcept {
 
 Passage passage(const ParallelRobot& robot, const PassageSettings& settings) {
   const auto& [pose, direction, speed, cruise, acceleration, jerk] = settings;
-  const bool usable = pose.size() == robot.dof() && direction.size() == robot.space_dimension() &&
+  const bool usable = robot.space().contains(pose) && direction.size() == robot.space_dimension() &&
                       direction.allFinite() && direction.norm() > 0 && cruise >= 0;
   if (!usable || !can_be_planned_with({speed, acceleration, jerk})) {
     throw SetupError(
@@ -108,7 +107,8 @@ Passage passage(const ParallelRobot& robot, const PassageSettings& settings) {
   PlatformVector half = PlatformVector::Zero(robot.dof());
   half.head(robot.space_dimension()) = (up.distance + cruise) * direction.normalized();
   const MotionLimits limits{speed, acceleration, jerk};
-  return {PlatformPath::through(robot, {pose - half, pose + half}, {limits, limits}),
+  const ConfigurationSpace& space = robot.space();
+  return {PlatformPath::through(robot, {space.plus(pose, -half), space.plus(pose, half)}, {limits, limits}),
           up.time + cruise / speed};
 }
 

@@ -18,17 +18,17 @@ class PlatformPath {
  public:
   /// Rest at the first pose, then along a straight line to rest at each of the others in turn, orientations
   /// the shorter way round. One pose alone is a path that stays there.
-  static PlatformPath through(const ParallelRobot& robot, const std::vector<PlatformVector>& poses,
+  static PlatformPath through(const ParallelRobot& robot, const std::vector<Configuration>& poses,
                               const PoseLimits& limits);
 
   /// A tour of waypoints, as often as it says.
   static PlatformPath around(const ParallelRobot& robot, const WaypointCircuit& circuit);
 
-  /// The square of [SafePR] V-B about a planar pose, `side` in m.
-  static PlatformPath square(const ParallelRobot& robot, const PlatformVector& centre, double side,
+  /// The square of [SafePR] V-B about a pose, `side` in m.
+  static PlatformPath square(const ParallelRobot& robot, const Configuration& centre, double side,
                              const PoseLimits& limits, int laps = 1);
 
-  const PlatformVector& start() const noexcept { return start_; }
+  const Configuration& start() const noexcept { return start_; }
   /// Time until rest at the end [s].
   double duration() const noexcept { return duration_; }
 
@@ -46,13 +46,13 @@ class PlatformPath {
   PlatformPath(const ParallelRobot& robot, std::variant<Legs, WaypointCircuit> course, double duration);
 
   std::variant<Legs, WaypointCircuit> course_;
-  PlatformVector start_;
+  Configuration start_;
   double duration_;
 };
 
 /// A pose that is to be passed at constant velocity: for collision experiments, that of the obstacle.
 struct PassageSettings {
-  PlatformVector pose;         ///< passed with this orientation throughout [m, m, rad]
+  Configuration pose;          ///< passed with this orientation throughout
   CartesianVector direction;   ///< of the motion; any length but zero
   double speed = 0.0;          ///< [m/s]
   double cruise = 0.05;        ///< constant speed for at least so far before and after the pose [m]

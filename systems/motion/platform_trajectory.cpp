@@ -40,7 +40,7 @@ void PlatformTrajectory::advance(Time now, const Course& last, const ReactionSta
 
 PoseMotion PlatformTrajectory::rest_at(const PlatformMotion& motion) const {
   if (!motion.valid()) return {};
-  return PoseMotion::plan(motion.pose, motion.velocity, motion.pose, robot_->space_dimension(),
+  return PoseMotion::plan(robot_->space(), motion.pose, motion.velocity, PlatformVector::Zero(robot_->dof()),
                           settings_.approach);
 }
 
@@ -55,9 +55,8 @@ bool PlatformTrajectory::starts(Time now, const Course& course, const StartComma
 PoseMotion PlatformTrajectory::way_to_path(Time now, const Course& course) const {
   PlatformReference present;
   evaluate(now, course, present);
-  const PlatformVector goal = present.pose + robot_->difference(settings_.path->start(), present.pose);
-  return PoseMotion::plan(present.pose, present.velocity, goal, robot_->space_dimension(),
-                          settings_.approach);
+  return PoseMotion::plan(robot_->space(), present.pose, present.velocity,
+                          robot_->difference(settings_.path->start(), present.pose), settings_.approach);
 }
 
 void PlatformTrajectory::evaluate(Time now, const Course& course, PlatformReference& result) const {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "systems/motion/chart_motion.h"
+
 namespace flinch {
 namespace {
 
@@ -14,20 +16,25 @@ PlatformVector stacked(const PlatformVector& translation, const PlatformVector& 
 
 }  // namespace
 
-PoseMotion PoseMotion::plan(const PlatformVector& start, const PlatformVector& start_velocity,
-                            const PlatformVector& goal, int translations, const PoseLimits& limits) noexcept {
+PoseMotion PoseMotion::plan(const ConfigurationSpace& space, const Configuration& start,
+                            const PlatformVector& start_velocity, const PlatformVector& displacement,
+                            const PoseLimits& limits) noexcept {
   PoseMotion resting;
-  resting.goal_ = start;
-  const Eigen::Index rotations = start.size() - translations;
-  const bool same_size = start_velocity.size() == start.size() && goal.size() == start.size();
-  if (!same_size || translations < 1 || rotations < 0) return resting;
+  resting.space_ = space;
+  resting.start_ = start;
+  resting.displacement_.setZero(space.dimension());
+  const int n = space.dimension();
+  if (!space.contains(start) || start_velocity.size() != n || displacement.size() != n) return resting;
 
-  PoseMotion motion;
-  motion.goal_ = goal;
-  motion.translation_ = SynchronisedMotion::plan(start.head(translations), start_velocity.head(translations),
-                                                 goal.head(translations), limits.translation);
-  motion.rotation_ = SynchronisedMotion::plan(start.tail(rotations), start_velocity.tail(rotations),
-                                              goal.tail(rotations), limits.rotation);
+  PoseMotion motion = resting;
+  motion.displacement_ = displacement;
+  const PlatformVector rest = PlatformVector::Zero(n);
+  const int translations = space.translations();
+  const int rotations = space.rotations();
+  motion.translation_ = SynchronisedMotion::plan(rest.head(translations), start_velocity.head(translations),
+                                                 displacement.head(translations), limits.translation);
+  motion.rotation_ = SynchronisedMotion::plan(rest.tail(rotations), start_velocity.tail(rotations),
+                                              displacement.tail(rotations), limits.rotation);
   motion.valid_ = motion.translation_.valid() && (rotations == 0 || motion.rotation_.valid());
   return motion.valid_ ? motion : resting;
 }
@@ -37,11 +44,16 @@ double PoseMotion::duration() const noexcept {
 }
 
 PlatformReference PoseMotion::evaluate(double time) const noexcept {
-  const PlatformVector rest = PlatformVector::Zero(goal_.size());
-  if (!valid_ || std::isnan(time)) return {false, false, goal_, rest, rest};
+  if (!valid_ || std::isnan(time)) {
+    const PlatformVector rest = PlatformVector::Zero(displacement_.size());
+    return {false, false, space_.contains(start_) ? goal() : start_, rest, rest};
+  }
   const VectorMotion moved = translation_.evaluate(time), turned = rotation_.evaluate(time);
-  return {true, time >= duration(), stacked(moved.position, turned.position),
-          stacked(moved.velocity, turned.velocity), stacked(moved.acceleration, turned.acceleration)};
+  PlatformReference reference = chart_motion(space_, start_, stacked(moved.position, turned.position),
+                                             stacked(moved.velocity, turned.velocity),
+                                             stacked(moved.acceleration, turned.acceleration));
+  reference.finished = time >= duration();
+  return reference;
 }
 
 }  // namespace flinch

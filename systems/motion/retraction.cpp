@@ -56,10 +56,9 @@ void Retraction::plan(Time now, const Plan& last, const ReactionState& state, co
     return;
   }
   next = {.motion = {}, .begin = now};
-  if (!motion.valid() || motion.pose.size() != robot_->dof()) return;
-  const PlatformVector goal = motion.pose + displacement(contact);
-  next.motion =
-      PoseMotion::plan(motion.pose, motion.velocity, goal, robot_->space_dimension(), settings_.limits);
+  if (!motion.valid() || !robot_->space().contains(motion.pose)) return;
+  next.motion = PoseMotion::plan(robot_->space(), motion.pose, motion.velocity, displacement(contact),
+                                 settings_.limits);
 }
 
 PlatformReference Retraction::evaluate(Time now, const Plan& active) const {

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "systems/motion/chart_motion.h"
+
 namespace flinch {
 namespace {
 
-bool are_usable(std::span<const PlatformVector> waypoints, int translations) {
-  if (waypoints.size() < 2 || waypoints.size() > WaypointCircuit::max_waypoints) return false;
-  const Eigen::Index size = waypoints.front().size();
-  return translations >= 1 && translations <= size &&
+bool are_usable(const ConfigurationSpace& space, std::span<const Configuration> waypoints) {
+  return waypoints.size() >= 2 && waypoints.size() <= WaypointCircuit::max_waypoints &&
          std::all_of(waypoints.begin(), waypoints.end(),
-                     [size](const PlatformVector& pose) { return pose.size() == size && pose.allFinite(); });
+                     [&space](const Configuration& pose) { return space.contains(pose); });
 }
 
 /// Limits on the share of a displacement, 0 to 1, that keep those of the displacement itself. A displacement
@@ -36,11 +36,13 @@ JerkLimitedProfile plan_share(const PlatformVector& displacement, int translatio
 
 }  // namespace
 
-WaypointCircuit WaypointCircuit::plan(std::span<const PlatformVector> waypoints, int translations,
-                                      const PoseLimits& limits, int laps) noexcept {
+WaypointCircuit WaypointCircuit::plan(const ConfigurationSpace& space,
+                                      std::span<const Configuration> waypoints, const PoseLimits& limits,
+                                      int laps) noexcept {
   WaypointCircuit resting;
+  resting.space_ = space;
   if (!waypoints.empty()) resting.first_ = waypoints.front();
-  if (!are_usable(waypoints, translations) || laps < 1) return resting;
+  if (!are_usable(space, waypoints) || laps < 1) return resting;
 
   WaypointCircuit circuit = resting;
   circuit.count_ = static_cast<int>(waypoints.size());
@@ -49,8 +51,8 @@ WaypointCircuit WaypointCircuit::plan(std::span<const PlatformVector> waypoints,
   for (std::size_t i = 0; i < waypoints.size(); ++i) {
     Leg& leg = circuit.legs_[i];
     leg.start = waypoints[i];
-    leg.displacement = waypoints[(i + 1) % waypoints.size()] - leg.start;
-    leg.share = plan_share(leg.displacement, translations, limits);
+    leg.displacement = space.difference(waypoints[(i + 1) % waypoints.size()], leg.start);
+    leg.share = plan_share(leg.displacement, space.translations(), limits);
     leg.begin = circuit.lap_duration_;
     circuit.lap_duration_ += leg.share.duration();
     circuit.valid_ = circuit.valid_ && leg.share.valid();
@@ -59,7 +61,7 @@ WaypointCircuit WaypointCircuit::plan(std::span<const PlatformVector> waypoints,
 }
 
 PlatformReference WaypointCircuit::evaluate(double time) const noexcept {
-  const PlatformVector rest = PlatformVector::Zero(first_.size());
+  const PlatformVector rest = PlatformVector::Zero(space_.dimension());
   const bool usable = valid_ && !std::isnan(time);
   const bool finished = usable && time >= duration();
   if (!usable || finished || time <= 0) return {usable, finished, first_, rest, rest};
@@ -69,12 +71,12 @@ PlatformReference WaypointCircuit::evaluate(double time) const noexcept {
                                   [in_lap](const Leg& leg) { return in_lap < leg.begin; });
   const Leg& leg = *(later - 1);
   const ScalarMotion share = leg.share.evaluate(in_lap - leg.begin);
-  return {true, false, leg.start + share.position * leg.displacement, share.velocity * leg.displacement,
-          share.acceleration * leg.displacement};
+  return chart_motion(space_, leg.start, share.position * leg.displacement, share.velocity * leg.displacement,
+                      share.acceleration * leg.displacement);
 }
 
-std::array<PlatformVector, 4> square_corners(const PlatformVector& centre, double side) noexcept {
-  std::array<PlatformVector, 4> corners;
+std::array<Configuration, 4> square_corners(const Configuration& centre, double side) noexcept {
+  std::array<Configuration, 4> corners;
   corners.fill(centre);
   const double half = side / 2;
   const std::array<std::array<double, 2>, 4> offsets{

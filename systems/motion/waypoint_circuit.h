@@ -5,6 +5,7 @@
 
 #include "systems/motion/jerk_limited_profile.h"
 #include "systems/motion/pose_motion.h"
+#include "systems/robot/configuration_space.h"
 #include "systems/signals/platform_reference.h"
 
 namespace flinch {
@@ -16,11 +17,10 @@ class WaypointCircuit {
  public:
   static constexpr int max_waypoints = 8;
 
-  /// Plans a tour of 2 to `max_waypoints` poses, of which the first `translations` coordinates are the
-  /// position; orientations are joined as they are. Every leg takes the shortest time that the limits allow.
-  /// Anything else, values that are not finite, limits that are not positive or less than one lap give a
-  /// circuit that is not valid and rests at the first pose.
-  static WaypointCircuit plan(std::span<const PlatformVector> waypoints, int translations,
+  /// Plans a tour of 2 to `max_waypoints` poses, each joined to the next by the shorter way. Every leg takes
+  /// the shortest time that the limits allow. Anything else, values that are not finite, limits that are not
+  /// positive or less than one lap give a circuit that is not valid and rests at the first pose.
+  static WaypointCircuit plan(const ConfigurationSpace& space, std::span<const Configuration> waypoints,
                               const PoseLimits& limits, int laps = 1) noexcept;
 
   bool valid() const noexcept { return valid_; }
@@ -34,23 +34,24 @@ class WaypointCircuit {
 
  private:
   struct Leg {
-    PlatformVector start;
+    Configuration start;
     PlatformVector displacement;
     JerkLimitedProfile share;  ///< of the displacement, from 0 to 1
     double begin = 0.0;        ///< since the start of the lap [s]
   };
 
   std::array<Leg, max_waypoints> legs_;
-  PlatformVector first_;
+  ConfigurationSpace space_ = ConfigurationSpace::Kind::planar_pose;
+  Configuration first_;
   int count_ = 0;
   int laps_ = 0;
   double lap_duration_ = 0.0;
   bool valid_ = false;
 };
 
-/// Corners of a square of the given side [m] about the position of a planar pose (x, y, phi), parallel to the
-/// axes of the base frame, counter-clockwise from the one with least x and y, all with the orientation of
-/// that pose. Source: contact-free motion of [SafePR] V-B, side 0.3 m.
-std::array<PlatformVector, 4> square_corners(const PlatformVector& centre, double side) noexcept;
+/// Corners of a square of the given side [m] about the position of a pose, parallel to the x and y axes of
+/// the base frame, counter-clockwise from the one with least x and y, all with the orientation of that pose.
+/// Source: contact-free motion of [SafePR] V-B, side 0.3 m.
+std::array<Configuration, 4> square_corners(const Configuration& centre, double side) noexcept;
 
 }  // namespace flinch

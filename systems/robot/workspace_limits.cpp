@@ -32,21 +32,31 @@ class Findings {
 
 }  // namespace
 
+double distance_from_centre(const WorkspaceLimits& limits, const Mechanism& mechanism,
+                            const Configuration& pose) noexcept {
+  const int translations = mechanism.space().translations();
+  const CartesianVector position = pose.head(translations);
+  return limits.centre.size() == translations ? (position - limits.centre).norm() : position.norm();
+}
+
 std::vector<std::string> problems(const WorkspaceLimits& limits, const ParallelRobot& robot) {
   const Configuration pose = robot.home_pose();
   Kinematics home;
   robot.kinematics(pose, PlatformVector::Zero(robot.dof()), home);
-  const int translations = robot.space_dimension();
 
   Findings findings;
-  findings.most("max_distance", limits.max_distance, pose.head(translations).norm(), " m");
+  findings.most("max_distance", limits.max_distance, distance_from_centre(limits, robot, pose), " m");
   findings.most("max_rotation", limits.max_rotation, robot.space().rotation_angle(pose), " rad");
   findings.least("min_abs_det_A", limits.min_abs_det_A, std::abs(home.det_A), "");
   findings.least("min_abs_det_B", limits.min_abs_det_B, std::abs(home.det_B), "");
   findings.least("min_self_collision_distance", limits.min_self_collision_distance,
                  self_collision_distance(robot, home), " m");
-  findings.least("min_active_angle", limits.min_active_angle, home.joints.active.minCoeff(), " rad");
-  findings.most("max_active_angle", limits.max_active_angle, home.joints.active.maxCoeff(), " rad");
+  const bool turns = robot.drive_kind(0) == DriveKind::revolute;
+  const char* const unit = turns ? " rad" : " m";
+  findings.least(turns ? "min_active_angle" : "min_active_length", limits.min_active,
+                 home.joints.active.minCoeff(), unit);
+  findings.most(turns ? "max_active_angle" : "max_active_length", limits.max_active,
+                home.joints.active.maxCoeff(), unit);
   return findings.take();
 }
 

@@ -5,17 +5,15 @@
 namespace flinch {
 namespace {
 
-bool fits(const JointVector& vector, const ParallelRobot& robot) {
-  return vector.size() == robot.legs() && vector.allFinite();
-}
+bool fits(const JointVector& vector, int size) { return vector.size() == size && vector.allFinite(); }
 
 bool is_new_reading(const EncoderWatch& watch, const EncoderTick& tick) {
-  return tick.joints.valid && fits(tick.joints.active, tick.robot) &&
+  return tick.joints.valid && fits(tick.joints.active, tick.robot.drives()) &&
          (watch.angle.size() == 0 || tick.joints.acquired > watch.acquired);
 }
 
 JointVector acting_current(const EncoderTick& tick) {
-  const bool acts = !tick.braked && tick.drives.valid && fits(tick.drives.current, tick.robot);
+  const bool acts = !tick.braked && tick.drives.valid && fits(tick.drives.current, tick.robot.drives());
   return acts ? tick.drives.current : JointVector();
 }
 
@@ -25,11 +23,11 @@ JointVector mismatch(const EncoderTick& tick) {
   const PlatformMotion& platform = tick.platform;
   const bool solved = platform.valid() || platform.status == Status::implausible;
   if (!solved || platform.acquired != tick.joints.acquired) return {};
-  if (!tick.joints.passive_valid || !fits(tick.joints.passive, tick.robot)) return {};
+  if (!tick.joints.passive_valid || !fits(tick.joints.passive, tick.robot.passive_joints())) return {};
   const InverseSolution implied =
       tick.robot.inverse_kinematics(platform.pose, tick.robot.home_working_mode());
   if (!implied.reachable) return {};
-  return ParallelRobot::joint_difference(tick.joints.passive, implied.joints.passive);
+  return ParallelRobot::passive_difference(tick.joints.passive, implied.joints.passive);
 }
 
 void note_current(const EncoderTick& tick, const JointVector& current, int drive, EncoderStandstill& still) {
@@ -40,7 +38,7 @@ void note_current(const EncoderTick& tick, const JointVector& current, int drive
 void take_reading(EncoderWatch& watch, const EncoderTick& tick) {
   const bool first = watch.angle.size() == 0;
   watch.mismatch = mismatch(tick);
-  for (int i = 0; i < tick.robot.legs(); ++i) {
+  for (int i = 0; i < tick.robot.drives(); ++i) {
     EncoderStandstill& still = watch.standstill[static_cast<std::size_t>(i)];
     if (first || tick.joints.active[i] != watch.angle[i]) {
       still = {.since = tick.joints.acquired, .current = std::nullopt, .mismatch = watch.mismatch};
@@ -50,7 +48,7 @@ void take_reading(EncoderWatch& watch, const EncoderTick& tick) {
     note_current(tick, watch.current, i, still);
   }
   if (!first) {
-    watch.step = ParallelRobot::joint_difference(tick.joints.active, watch.angle);
+    watch.step = tick.robot.drive_difference(tick.joints.active, watch.angle);
     watch.interval = tick.joints.acquired - watch.acquired;
   }
   watch.angle = tick.joints.active;
@@ -66,7 +64,7 @@ Time EncoderWatch::repeated(Eigen::Index drive) const {
 double EncoderWatch::unseen_motion(Eigen::Index drive) const {
   const JointVector& before = standstill[static_cast<std::size_t>(drive)].mismatch;
   if (mismatch.size() == 0 || mismatch.size() != before.size()) return 0.0;
-  return ParallelRobot::joint_difference(mismatch, before).lpNorm<Eigen::Infinity>();
+  return ParallelRobot::passive_difference(mismatch, before).lpNorm<Eigen::Infinity>();
 }
 
 double EncoderWatch::unseen_current(Eigen::Index drive) const {

@@ -10,8 +10,12 @@ namespace flinch {
 namespace {
 
 template <class Vector>
-bool fits(const Vector& vector, const ParallelRobot& robot) {
-  return vector.size() == robot.dof() && vector.allFinite();
+bool fits(const Vector& vector, int size) {
+  return vector.size() == size && vector.allFinite();
+}
+
+bool fits_drives(const JointVector& vector, const ParallelRobot& robot) {
+  return fits(vector, robot.drives());
 }
 
 double largest(const auto& vector) {
@@ -21,14 +25,15 @@ double largest(const auto& vector) {
 bool is_old(Time time, const Evidence& e) { return std::chrono::abs(e.now - time) > e.limits.max_age; }
 
 bool has_motion(const Evidence& e) {
-  return e.motion.valid && fits(e.motion.position, e.robot) && fits(e.motion.velocity, e.robot);
+  return e.motion.valid && fits_drives(e.motion.position, e.robot) && fits_drives(e.motion.velocity, e.robot);
 }
 
 bool has_pose(const Evidence& e) {
-  return e.platform.valid() && fits(e.platform.pose, e.robot) && fits(e.platform.velocity, e.robot);
+  return e.platform.valid() && e.robot.space().contains(e.platform.pose) &&
+         fits(e.platform.velocity, e.robot.dof());
 }
 
-bool has_command(const Evidence& e) { return e.command.valid && fits(e.command.torque, e.robot); }
+bool has_command(const Evidence& e) { return e.command.valid && fits_drives(e.command.torque, e.robot); }
 
 // ---------------------------------------------------------------- station and sensors
 
@@ -90,17 +95,16 @@ bool type_2_singularity(const Evidence& e) {
 
 bool workspace_radius(const Evidence& e) {
   return has_pose(e) &&
-         e.platform.pose.head(e.robot.space_dimension()).norm() > e.limits.workspace.max_distance;
+         distance_from_centre(e.limits.workspace, e.robot, e.platform.pose) > e.limits.workspace.max_distance;
 }
 
 bool orientation(const Evidence& e) {
-  const int rotations = e.robot.dof() - e.robot.space_dimension();
-  return has_pose(e) && largest(e.platform.pose.tail(rotations)) > e.limits.workspace.max_rotation;
+  return has_pose(e) && e.robot.space().rotation_angle(e.platform.pose) > e.limits.workspace.max_rotation;
 }
 
 bool joint_range(const Evidence& e) {
-  return has_motion(e) && (e.motion.position.minCoeff() < e.limits.workspace.min_active_angle ||
-                           e.motion.position.maxCoeff() > e.limits.workspace.max_active_angle);
+  return has_motion(e) && (e.motion.position.minCoeff() < e.limits.workspace.min_active ||
+                           e.motion.position.maxCoeff() > e.limits.workspace.max_active);
 }
 
 bool joint_speed(const Evidence& e) {
@@ -119,10 +123,10 @@ bool contact_unmonitored(const Evidence& e) { return !e.detection.valid; }
 /// A reference that the legs do not reach cannot be followed.
 bool control_error(const Evidence& e) {
   if (!e.reference.valid || !has_motion(e)) return false;
-  if (!fits(e.reference.pose, e.robot)) return true;
+  if (!e.robot.space().contains(e.reference.pose)) return true;
   const InverseSolution wanted = e.robot.inverse_kinematics(e.reference.pose, e.robot.home_working_mode());
   if (!wanted.reachable) return true;
-  const JointVector error = ParallelRobot::joint_difference(wanted.joints.active, e.motion.position);
+  const JointVector error = e.robot.drive_difference(wanted.joints.active, e.motion.position);
   return largest(error) > e.limits.max_control_error;
 }
 
@@ -133,7 +137,7 @@ bool command_stale(const Evidence& e) { return e.command.valid && is_old(e.comma
 bool command_not_finite(const Evidence& e) { return e.command.valid && !has_command(e); }
 
 bool torque_jump(const Evidence& e) {
-  if (!has_command(e) || !e.last_command.valid || !fits(e.last_command.torque, e.robot)) return false;
+  if (!has_command(e) || !e.last_command.valid || !fits_drives(e.last_command.torque, e.robot)) return false;
   const double range = e.limits.torque_range;
   const auto within = [range](const JointVector& torque) { return torque.cwiseMin(range).cwiseMax(-range); };
   return largest((within(e.command.torque) - within(e.last_command.torque)).eval()) >
@@ -212,11 +216,11 @@ std::vector<std::string> problems(const FaultLimits& limits, const ParallelRobot
 std::span<const FaultRow> fault_table() noexcept { return rows; }
 
 bool is_usable(const JointReading& joints, const ParallelRobot& robot) noexcept {
-  return joints.valid && fits(joints.active, robot);
+  return joints.valid && fits_drives(joints.active, robot);
 }
 
 bool is_usable(const DriveReading& drives, const ParallelRobot& robot) noexcept {
-  return drives.valid && fits(drives.current, robot);
+  return drives.valid && fits_drives(drives.current, robot);
 }
 
 FaultMask find_faults(const Evidence& evidence) noexcept {

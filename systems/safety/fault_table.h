@@ -43,15 +43,16 @@ struct FaultLimits {
   /// stiff enough to hold within one increment.
   double max_unseen_current = 1.0;  ///< [A]
 
-  WorkspaceLimits workspace{.max_distance = 0.35,
+  WorkspaceLimits workspace{.centre = {},
+                            .max_distance = 0.35,
                             .max_rotation = 29.0 * std::numbers::pi / 180.0,
                             .min_abs_det_A = 0.2,
                             .min_abs_det_B = 0.15,
                             .min_self_collision_distance = 0.05,
-                            .min_active_angle = -35.0 * std::numbers::pi / 180.0,
-                            .max_active_angle = 150.0 * std::numbers::pi / 180.0};  ///< [PAR]
-  double max_joint_speed = 8.0;                                                     ///< of a drive [rad/s]
-  double max_control_error = 25.0 * std::numbers::pi / 180.0;  ///< of a drive [rad]. [PAR]
+                            .min_active = -35.0 * std::numbers::pi / 180.0,
+                            .max_active = 150.0 * std::numbers::pi / 180.0};  ///< [PAR]
+  double max_joint_speed = 8.0;                                               ///< of a drive [rad/s]
+  double max_control_error = 25.0 * std::numbers::pi / 180.0;                 ///< of a drive [rad]. [PAR]
   double max_torque_jump = 40.0;  ///< from tick to tick, both within the torque range [Nm]
   double torque_range = 100.0;    ///< what lies outside counts as its end [Nm]
 };

@@ -8,9 +8,9 @@
 namespace flinch {
 namespace {
 
-std::vector<std::string> problems(const DriveTorqueSettings& settings, int drives) {
+std::vector<std::string> problems(const DriveTorqueSettings& settings, const JointVector& constants,
+                                  int drives) {
   std::vector<std::string> found;
-  const JointVector& constants = settings.torque_constant;
   if (constants.size() != drives) {
     found.push_back("torque_constant has " + std::to_string(constants.size()) + " entries; the robot has " +
                     std::to_string(drives) + " drives");
@@ -29,7 +29,8 @@ std::vector<std::string> problems(const DriveTorqueSettings& settings, int drive
 DriveTorqueMapping::DriveTorqueMapping(const std::shared_ptr<const ParallelRobot>& robot,
                                        const DriveTorqueSettings& settings)
     : torque_constant_(settings.torque_constant), sampling_(settings.sampling) {
-  throw_if_any(problems(settings, robot->legs()));
+  if (torque_constant_.size() == 0) torque_constant_.setConstant(robot->drives(), 6.1);
+  throw_if_any(problems(settings, torque_constant_, robot->drives()));
   if (settings.low_pass) low_pass_.emplace(*settings.low_pass);
   keep(Every{sampling_.period}, memory_, next_);
 }

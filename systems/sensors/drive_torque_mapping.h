@@ -13,7 +13,8 @@
 namespace flinch {
 
 struct DriveTorqueSettings {
-  JointVector torque_constant;  ///< k_t of each drive [Nm/A]
+  /// k_t of each drive [Nm/A or N/A]; empty: 6.1 for each, until calibrated. [ICRA23] III-B
+  JointVector torque_constant;
   /// Aligns the torque with the velocity: that of the velocity filter. None: the torque as it is.
   std::optional<LowPassSettings> low_pass;
   Sampling sampling;

@@ -12,7 +12,7 @@ VelocityFilter::VelocityFilter(std::shared_ptr<const ParallelRobot> robot,
 }
 
 bool VelocityFilter::is_new(const JointReading& reading, const VelocityFilterMemory& memory) const {
-  return reading.valid && reading.active.size() == robot_->legs() && reading.active.allFinite() &&
+  return reading.valid && reading.active.size() == robot_->drives() && reading.active.allFinite() &&
          (!memory.has_sample || reading.acquired > memory.acquired);
 }
 
@@ -29,14 +29,14 @@ void VelocityFilter::advance(const JointReading& reading, const VelocityFilterMe
           .velocity = {}};
   if (!memory.has_sample || sampling_.interrupted(memory.acquired, reading.acquired)) return;
   const double interval = to_seconds(reading.acquired - memory.acquired);
-  const JointVector mean = ParallelRobot::joint_difference(reading.active, memory.position) / interval;
+  const JointVector mean = robot_->drive_difference(reading.active, memory.position) / interval;
   next.velocity = low_pass_.next(memory.velocity, mean, interval);
 }
 
 void VelocityFilter::read(const VelocityFilterMemory& next, JointMotion& result) const {
   result.acquired = next.acquired;
   result.valid = next.velocity.started;
-  const JointVector zero = JointVector::Zero(robot_->legs());
+  const JointVector zero = JointVector::Zero(robot_->drives());
   result.position = next.has_sample ? next.position : zero;
   result.velocity = result.valid ? next.velocity.output : zero;
 }

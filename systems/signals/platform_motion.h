@@ -18,8 +18,8 @@ struct PlatformMotion {
   };
   Time acquired{};
   Status status = Status::no_data;
-  PlatformVector pose;      ///< x, in the base frame [m, m, rad]
-  PlatformVector velocity;  ///< [m/s, m/s, rad/s]
+  Configuration pose;       ///< x, in the base frame
+  PlatformVector velocity;  ///< v
 
   bool valid() const { return status == Status::valid; }
 

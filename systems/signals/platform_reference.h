@@ -8,9 +8,9 @@ namespace flinch {
 struct PlatformReference {
   bool valid = false;
   bool finished = false;        ///< the motion has arrived and is at rest
-  PlatformVector pose;          ///< x_d, in the base frame [m, m, rad]
-  PlatformVector velocity;      ///< [m/s, m/s, rad/s]
-  PlatformVector acceleration;  ///< [m/s^2, m/s^2, rad/s^2]
+  Configuration pose;           ///< x_d, in the base frame
+  PlatformVector velocity;      ///< v_d
+  PlatformVector acceleration;  ///< dv_d/dt
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {

@@ -82,11 +82,11 @@ TEST(ShippedRobots, HaveTheLimitsOfBenchAndSimulation) {
   EXPECT_EQ(bench.min_abs_det_A, 0.2);
   EXPECT_EQ(bench.min_abs_det_B, 0.15);
   EXPECT_EQ(bench.min_self_collision_distance, 0.05);
-  EXPECT_EQ(bench.min_active_angle, -35.0 * degree);
-  EXPECT_EQ(bench.max_active_angle, 150.0 * degree);
+  EXPECT_EQ(bench.min_active, -35.0 * degree);
+  EXPECT_EQ(bench.max_active, 150.0 * degree);
   const WorkspaceLimits simulation = read_robot_file(robots / "planar_3rrr_nominal.yaml").limits;
   EXPECT_EQ(simulation.max_distance, 0.7);
-  EXPECT_EQ(simulation.min_active_angle, -150.0 * degree);
+  EXPECT_EQ(simulation.min_active, -150.0 * degree);
 }
 
 TEST(ShippedRobots, SayEveryParameterInTheExplainedFile) {

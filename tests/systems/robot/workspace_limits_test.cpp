@@ -28,8 +28,8 @@ TEST(WorkspaceLimits, MayLieJustOutsideTheHomePose) {
                                .min_abs_det_A = 0.4518,
                                .min_abs_det_B = 0.2215,
                                .min_self_collision_distance = 0.1853,
-                               .min_active_angle = 0.4254,
-                               .max_active_angle = 0.4532};
+                               .min_active = 0.4254,
+                               .max_active = 0.4532};
   EXPECT_THAT(problems(limits, bench), IsEmpty());
 }
 
@@ -39,8 +39,8 @@ TEST(WorkspaceLimits, MustNotExcludeTheHomePose) {
                                .min_abs_det_A = 0.4520,
                                .min_abs_det_B = 0.2217,
                                .min_self_collision_distance = 0.1854,
-                               .min_active_angle = 0.4256,
-                               .max_active_angle = 0.4531};
+                               .min_active = 0.4256,
+                               .max_active = 0.4531};
   EXPECT_THAT(
       problems(limits, bench),
       ElementsAre(
