@@ -39,7 +39,7 @@ PlanarMotion home_motion(const PlanarRrr& robot) {
 }
 
 BenchShapes shapes_of(const PlanarRrr& robot, const std::optional<Pylon>& pylon) {
-  return {robot.link_radius(), robot.platform_hull_radius(), pylon ? pylon->radius : 0.0};
+  return {robot.parameters().link_radius, robot.parameters().platform_hull_radius, pylon ? pylon->radius : 0.0};
 }
 
 std::optional<HuntCrossley> law_of(const std::optional<ContactMaterial>& material) {

@@ -9,7 +9,7 @@ namespace flinch {
 struct PlantTruth {
   Time acquired{};
   bool valid = false;       ///< All legs reach the pose. Otherwise the robot has come apart and stands still.
-  PlatformVector pose;      ///< x, in the base frame [m, m, rad]
+  Configuration pose;       ///< x, in the base frame
   PlatformVector velocity;  ///< [m/s, m/s, rad/s]
   PlatformVector acceleration;  ///< [m/s^2, m/s^2, rad/s^2]
   JointVector active;           ///< q_a [rad]

@@ -98,7 +98,7 @@ std::string LinkReport::json() const {
       {"lost_periods", loop.lost_periods},
       {"active_rad", json_of(pose.joints.valid, pose.joints.active)},
       {"passive_rad", json_of(pose.joints.passive_valid, pose.joints.passive)},
-      {"platform", json_of(pose.platform.has_value(), pose.platform.value_or(PlatformVector()))},
+      {"platform", json_of(pose.platform.has_value(), pose.platform.value_or(Configuration()))},
       {"closure_error_m", pose.closure_error ? Json(*pose.closure_error) : Json(nullptr)},
       {"objections", against}};
   return json.dump();

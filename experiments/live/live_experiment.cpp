@@ -26,13 +26,13 @@ LiveExperiment build_live_experiment(const Scenario& scenario) {
   return experiment;
 }
 
-Time approach_from(const PlatformVector& pose, const Scenario& scenario) {
+Time approach_from(const Configuration& pose, const Scenario& scenario) {
   const PlatformTrajectorySettings& trajectory = scenario.control.trajectory;
   const ParallelRobot& robot = *scenario.robot.robot;
-  if (!trajectory.path || pose.size() != robot.dof()) return Time::zero();
-  const PlatformVector goal = pose + robot.difference(trajectory.path->start(), pose);
-  const PoseMotion way = PoseMotion::plan(pose, PlatformVector::Zero(pose.size()), goal,
-                                          robot.space_dimension(), trajectory.approach);
+  if (!trajectory.path || !robot.space().contains(pose)) return Time::zero();
+  const PoseMotion way =
+      PoseMotion::plan(robot.space(), pose, PlatformVector::Zero(robot.dof()),
+                       robot.difference(trajectory.path->start(), pose), trajectory.approach);
   return from_seconds(way.duration());
 }
 

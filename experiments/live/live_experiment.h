@@ -25,6 +25,6 @@ struct LiveExperiment {
 LiveExperiment build_live_experiment(const Scenario& scenario);
 
 /// How long the platform takes from `pose` to the start of the scenario's motion; 0 where there is none.
-Time approach_from(const PlatformVector& pose, const Scenario& scenario);
+Time approach_from(const Configuration& pose, const Scenario& scenario);
 
 }  // namespace flinch

@@ -15,13 +15,19 @@ std::string in_degrees(const JointVector& angles) {
   return list + " deg";
 }
 
-/// Planar: x, y, phi; spatial: positions, then angles.
-std::string in_units(const PlatformVector& pose) {
-  const Eigen::Index lengths = pose.size() == 3 ? 2 : 3;
+std::string in_millimetres(const JointVector& lengths) {
   std::string list;
-  for (Eigen::Index i = 0; i < pose.size(); ++i) {
-    list += fmt::format("{}{:.1f} {}", i == 0 ? "" : ", ", i < lengths ? 1e3 * pose[i] : degrees * pose[i],
-                        i < lengths ? "mm" : "deg");
+  for (const double length : lengths) list += fmt::format("{}{:.2f}", list.empty() ? "" : ", ", 1e3 * length);
+  return list + " mm";
+}
+
+/// Position, then rotation vector, both against the base frame.
+std::string in_units(const PlatformVector& from_base, Eigen::Index lengths) {
+  std::string list;
+  for (Eigen::Index i = 0; i < from_base.size(); ++i) {
+    list +=
+        fmt::format("{}{:.1f} {}", i == 0 ? "" : ", ",
+                    i < lengths ? 1e3 * from_base[i] : degrees * from_base[i], i < lengths ? "mm" : "deg");
   }
   return list;
 }
@@ -29,10 +35,15 @@ std::string in_units(const PlatformVector& pose) {
 }  // namespace
 
 SeenPose see_pose(const ParallelRobot& robot, const JointReading& joints) {
-  SeenPose seen{.joints = joints, .platform = {}, .closure_error = {}};
-  if (!joints.valid || joints.active.size() != robot.legs()) return seen;
-  const bool has_passive = joints.passive_valid && joints.passive.size() == robot.legs();
-  const PlatformVector start =
+  SeenPose seen{.space = robot.space(),
+                .drives = robot.drive_kind(0),
+                .joints = joints,
+                .platform = {},
+                .closure_error = {}};
+  if (!joints.valid || joints.active.size() != robot.drives()) return seen;
+  const bool has_passive =
+      robot.passive_joints() > 0 && joints.passive_valid && joints.passive.size() == robot.passive_joints();
+  const Configuration start =
       has_passive ? robot.start_pose(joints.active, joints.passive) : robot.home_pose();
   const ForwardSolution found = robot.forward_kinematics(joints.active, start, robot.home_working_mode());
   if (!found.converged) return seen;
@@ -45,11 +56,13 @@ SeenPose see_pose(const ParallelRobot& robot, const JointReading& joints) {
 
 std::string SeenPose::text() const {
   if (!joints.valid) return "robot     no angles of the drives that can be used\n";
-  std::string text = "robot     drives at " + in_degrees(joints.active);
-  if (joints.passive_valid) text += "; elbows at " + in_degrees(joints.passive);
+  const bool turns = drives == DriveKind::revolute;
+  std::string text =
+      "robot     drives at " + (turns ? in_degrees(joints.active) : in_millimetres(joints.active));
+  if (joints.passive_valid && joints.passive.size() > 0) text += "; elbows at " + in_degrees(joints.passive);
   text += "\n          ";
   if (!platform) return text + "these drive angles fit no pose of the platform: check signs and zeros\n";
-  text += "platform at " + in_units(*platform);
+  text += "platform at " + in_units(space.difference(*platform, space.origin()), space.translations());
   if (closure_error) {
     text += fmt::format("; the elbows miss it by {:.1f} mm", 1e3 * *closure_error);
     if (*closure_error > plausible_closure) text += ": check signs and zeros";

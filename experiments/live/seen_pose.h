@@ -10,11 +10,13 @@ namespace flinch {
 
 /// Where a robot stands by its encoders: what shows whether their signs, zeros and units are right.
 struct SeenPose {
+  ConfigurationSpace space = ConfigurationSpace::Kind::planar_pose;  ///< of the robot
+  DriveKind drives{};                                                ///< likewise
   JointReading joints;
-  std::optional<PlatformVector> platform;  ///< none: the drive angles fit no pose [m, m, rad]
-  std::optional<double> closure_error;     ///< by which passive angles and platform disagree [m]
+  std::optional<Configuration> platform;  ///< none: the drive positions fit no pose
+  std::optional<double> closure_error;    ///< by which passive angles and platform disagree [m]
 
-  /// Two lines; of a robot that told no angles, one.
+  /// Two lines; of a robot that told nothing, one.
   std::string text() const;
 };
 

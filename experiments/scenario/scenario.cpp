@@ -79,7 +79,7 @@ void read_rest(ConfigReader& reader, std::optional<std::uint64_t> seed, const Se
   reader.seed("seed", scenario.seed);
   if (seed) scenario.seed = *seed;
   apply_limits(scenario.robot.limits, scenario.control);
-  read_control(reader.section("control"), scenario.control);
+  read_control(reader.section("control"), robot, scenario.control);
   read_motion(reader.section("motion"), robot, scenario.control);
   if (reader.has("pylon")) scenario.obstacles.push_back(read_pylon(reader.section("pylon")));
   others(reader, scenario);

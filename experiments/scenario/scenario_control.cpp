@@ -6,6 +6,7 @@
 #include <span>
 
 #include "diagrams/contact_control_settings.h"
+#include "experiments/scenario/scenario_pose.h"
 #include "systems/config/config_reader.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/parallel_robot.h"
@@ -16,6 +17,16 @@ namespace {
 
 std::span<double> entries(PlatformVector& vector) {
   return {vector.data(), static_cast<std::size_t>(vector.size())};
+}
+
+/// What is left to the robot's size is written out, so that a file can change one entry.
+void write_out(const ParallelRobot& robot, ContactControlSettings& settings) {
+  settings.impedance = complete(settings.impedance, robot.space());
+  if (settings.momentum_observer.gain.size() == 0)
+    settings.momentum_observer.gain.setConstant(robot.dof(), 20.0);
+  if (settings.drive_torque.torque_constant.size() == 0) {
+    settings.drive_torque.torque_constant.setConstant(robot.drives(), 6.1);
+  }
 }
 
 void read_limits(ConfigReader reader, PoseLimits& limits) {
@@ -51,11 +62,17 @@ void read_detection(ConfigReader& control, ContactControlSettings& settings) {
   detector.number("hard_moment", unit::Nm, settings.contact_detector.hard.moment, positive);
 }
 
-void read_laws(ConfigReader& control, ContactControlSettings& settings) {
+void read_laws(ConfigReader& control, const ParallelRobot& robot, ContactControlSettings& settings) {
   ConfigReader impedance = control.section("impedance");
   const std::span<double> stiffness = entries(settings.impedance.stiffness);
-  impedance.numbers("translational_stiffness", unit::N_per_m, stiffness.first(2), not_negative);
-  impedance.number("rotational_stiffness", unit::Nm_per_rad, stiffness.back(), not_negative);
+  const auto translations = static_cast<std::size_t>(robot.space().translations());
+  const std::span<double> rotational = stiffness.subspan(translations);
+  impedance.numbers("translational_stiffness", unit::N_per_m, stiffness.first(translations), not_negative);
+  if (rotational.size() == 1) {
+    impedance.number("rotational_stiffness", unit::Nm_per_rad, rotational.front(), not_negative);
+  } else if (!rotational.empty()) {
+    impedance.numbers("rotational_stiffness", unit::Nm_per_rad, rotational, not_negative);
+  }
   impedance.numbers("damping_ratio", unit::none, entries(settings.impedance.damping_ratio), positive);
   impedance.flag("compensate_friction", settings.impedance.compensate_friction);
 
@@ -68,17 +85,22 @@ void read_laws(ConfigReader& control, ContactControlSettings& settings) {
   control.section("sequence").flag("zero_g_when_struck", settings.sequence.zero_g_when_struck);
 }
 
-PlatformVector read_pose(ConfigReader pose) {
-  PlatformVector x = PlatformVector::Zero(3);
-  pose.number("x", unit::m, x[0]);
-  pose.number("y", unit::m, x[1]);
-  pose.number("phi", unit::rad, x[2]);
-  return x;
+/// In a plane the angle `direction` from the x axis; in space a vector of any length.
+CartesianVector read_direction(ConfigReader& motion, const ParallelRobot& robot) {
+  if (robot.space_dimension() == 2) {
+    double angle = 0.0;
+    motion.required().number("direction", unit::rad, angle);
+    return Eigen::Vector2d(std::cos(angle), std::sin(angle));
+  }
+  CartesianVector direction = CartesianVector::Zero(robot.space_dimension());
+  motion.required().numbers("direction", unit::none,
+                            {direction.data(), static_cast<std::size_t>(direction.size())});
+  return direction;
 }
 
 std::optional<PlatformPath> read_through(ConfigReader& motion, const ParallelRobot& robot) {
-  std::vector<PlatformVector> poses;
-  for (ConfigReader& pose : motion.sections("poses")) poses.push_back(read_pose(pose));
+  std::vector<Configuration> poses;
+  for (ConfigReader& pose : motion.sections("poses")) poses.push_back(read_pose(pose, robot));
   PoseLimits limits{.translation = {.velocity = 1.0, .acceleration = 12.0, .jerk = 600.0},
                     .rotation = {.velocity = 4.0, .acceleration = 80.0, .jerk = 8000.0}};
   read_limits(motion.section("limits"), limits);
@@ -88,14 +110,12 @@ std::optional<PlatformPath> read_through(ConfigReader& motion, const ParallelRob
 
 std::optional<PlatformPath> read_passage(ConfigReader& motion, const ParallelRobot& robot) {
   PassageSettings settings;
-  double direction = 0.0;
-  settings.pose = read_pose(motion.section("pose"));
-  motion.required().number("direction", unit::rad, direction);
+  settings.pose = read_pose(motion.section("pose"), robot);
+  settings.direction = read_direction(motion, robot);
   motion.required().number("speed", unit::m_per_s, settings.speed, positive);
   motion.number("cruise", unit::m, settings.cruise, positive);
   motion.number("acceleration", unit::m_per_s2, settings.acceleration, positive);
   motion.number("jerk", unit::m_per_s3, settings.jerk, positive);
-  settings.direction = Eigen::Vector2d(std::cos(direction), std::sin(direction));
   if (!motion.good()) return std::nullopt;
   return passage(robot, settings).path;
 }
@@ -105,7 +125,7 @@ std::optional<PlatformPath> read_square(ConfigReader& motion, const ParallelRobo
   int laps = 1;
   PoseLimits limits{.translation = {.velocity = 1.5, .acceleration = 12.0, .jerk = 600.0},
                     .rotation = {.velocity = 4.0, .acceleration = 80.0, .jerk = 8000.0}};
-  const PlatformVector centre = read_pose(motion.section("centre"));
+  const Configuration centre = read_pose(motion.section("centre"), robot);
   motion.number("side", unit::m, side, positive);
   motion.integer("laps", laps, 1, 1000);
   read_limits(motion.section("limits"), limits);
@@ -121,10 +141,11 @@ void apply_limits(const WorkspaceLimits& limits, ContactControlSettings& control
   control.faults.workspace = limits;
 }
 
-void read_control(ConfigReader control, ContactControlSettings& settings) {
+void read_control(ConfigReader control, const ParallelRobot& robot, ContactControlSettings& settings) {
+  write_out(robot, settings);
   read_sensing(control, settings);
   read_detection(control, settings);
-  read_laws(control, settings);
+  read_laws(control, robot, settings);
 }
 
 void read_motion(ConfigReader motion, const ParallelRobot& robot, ContactControlSettings& settings) {

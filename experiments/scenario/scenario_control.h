@@ -11,7 +11,7 @@ struct WorkspaceLimits;
 void apply_limits(const WorkspaceLimits& limits, ContactControlSettings& control);
 
 /// Reads the section `control` of a scenario.
-void read_control(ConfigReader control, ContactControlSettings& settings);
+void read_control(ConfigReader control, const ParallelRobot& robot, ContactControlSettings& settings);
 
 /// Reads the section `motion` of a scenario into the nominal motion. Throws SetupError for a motion that the
 /// robot cannot make, with the line of the section.

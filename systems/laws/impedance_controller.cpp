@@ -1,5 +1,6 @@
 #include "systems/laws/impedance_controller.h"
 
+#include <Eigen/Geometry>
 #include <string>
 #include <utility>
 #include <vector>

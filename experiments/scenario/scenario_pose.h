@@ -1,0 +1,17 @@
+#pragma once
+
+#include "systems/robot/vectors.h"
+
+namespace flinch {
+
+class ConfigReader;
+class Mechanism;
+
+/// Reads a pose of the mechanism. Keys that are not there keep the home pose's position and the upright
+/// orientation:
+///   x, y, z    position of the platform [m]; z in space only
+///   phi        rotation of a planar platform [rad]
+///   rotation   rotation vector of a spatial platform, against the base frame [rad]
+Configuration read_pose(ConfigReader pose, const Mechanism& mechanism);
+
+}  // namespace flinch
