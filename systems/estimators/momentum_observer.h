@@ -44,6 +44,8 @@ class MomentumObserver final : public System {
   /// Throws SetupError unless there is a positive gain for each platform coordinate.
   MomentumObserver(std::shared_ptr<const ParallelRobot> robot, const MomentumObserverSettings& settings);
 
+  const PlatformVector& gain() const noexcept { return gain_; }  ///< Diagonal of K_o [1/s]
+
   InputPort<PlatformMotion> platform = input<PlatformMotion>("platform");
   InputPort<Kinematics> kinematics = input<Kinematics>("kinematics");
   InputPort<Dynamics> dynamics = input<Dynamics>("dynamics");

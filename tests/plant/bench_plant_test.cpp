@@ -55,7 +55,7 @@ TEST(PlantTruth, AnglesTurnWithTheRatesOfTheKinematics) {
     robot.kinematics(now.pose, now.velocity, end);
     const auto expect_integral = [](const JointVector& from, const JointVector& to,
                                     const JointVector& first_rate, const JointVector& last_rate) {
-      const JointVector turned = ParallelRobot::joint_difference(to, from);
+      const JointVector turned = ParallelRobot::passive_difference(to, from);
       EXPECT_NEAR((turned - 0.5e-3 * (first_rate + last_rate)).norm(), 0.0, 1e-6);  // trapezoidal rule
     };
     expect_integral(before.active, now.active, start.rates.active, end.rates.active);

@@ -34,7 +34,7 @@ struct Posture {
     platform = {acquired, PlatformMotion::Status::valid, pose, velocity};
     measures = {.valid = true,
                 .sigma_kappa = kinematics.sigma_kappa,
-                .sigma_sc = self_collision_distance(kinematics),
+                .sigma_sc = self_collision_distance(robot, kinematics),
                 .det_A = kinematics.det_A,
                 .det_B = kinematics.det_B,
                 .largest_passive_angle = kinematics.joints.passive.lpNorm<Eigen::Infinity>()};

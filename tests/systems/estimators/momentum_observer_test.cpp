@@ -297,8 +297,14 @@ TEST(MomentumObserver, DoesNotAllocate) {
   EXPECT_EQ(allocations.count(), 0);
 }
 
+TEST(MomentumObserver, TakesTwentyPerSecondWhereNoGainIsGiven) {
+  const MomentumObserver given(bench(), {PlatformVector::Constant(3, 20.0), TorqueTiming::sampled, {}});
+  const MomentumObserver left_out(bench(), {});
+  EXPECT_EQ(left_out.gain(), given.gain());
+}
+
 TEST(MomentumObserver, AsksForOnePositiveGainACoordinate) {
-  for (const PlatformVector& gain : {PlatformVector(), PlatformVector(PlatformVector::Constant(2, 20.0)),
+  for (const PlatformVector& gain : {PlatformVector(PlatformVector::Constant(2, 20.0)),
                                      PlatformVector{{20.0, 0.0, 20.0}}, PlatformVector{{20.0, nan, 20.0}}}) {
     EXPECT_THROW(MomentumObserver(bench(), MomentumObserverSettings{gain, TorqueTiming::sampled, {}}),
                  SetupError);

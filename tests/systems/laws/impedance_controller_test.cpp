@@ -18,6 +18,8 @@
 namespace flinch {
 namespace {
 
+ImpedanceSettings bench_impedance() { return complete({}, ConfigurationSpace::Kind::planar_pose); }
+
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 Eigen::Vector3d any(RandomGenerator& random, const Eigen::Vector3d& bound) {
@@ -31,7 +33,7 @@ PlatformReference rest(const PlatformVector& pose) {
 }
 
 struct Law {
-  explicit Law(const ImpedanceSettings& settings = planar_impedance(),
+  explicit Law(const ImpedanceSettings& settings = bench_impedance(),
                BenchFriction friction = BenchFriction::test_bench)
       : robot(test::planar_bench(friction)),
         block(builder.add<ImpedanceController>("impedance", robot, settings)),
@@ -63,7 +65,7 @@ struct Law {
 TEST(ImpedanceController, MakesTheRobotAMassSpringDamper) {
   RandomGenerator random(11);
   Law law;
-  const PlatformMatrix K_d = planar_impedance().stiffness.asDiagonal();
+  const PlatformMatrix K_d = bench_impedance().stiffness.asDiagonal();
   for (int trial = 0; trial < 300; ++trial) {
     const Eigen::Vector3d pose = any(random, {0.15, 0.15, 0.3}), velocity = any(random, {1.0, 1.0, 2.0});
     const Eigen::Vector3d F_ext = any(random, {100.0, 100.0, 5.0});
@@ -84,7 +86,7 @@ TEST(ImpedanceController, MakesTheRobotAMassSpringDamper) {
 }
 
 TEST(ImpedanceController, LeavesFrictionToTheSpringWhenAskedTo) {
-  ImpedanceSettings settings = planar_impedance();
+  ImpedanceSettings settings = bench_impedance();
   settings.compensate_friction = false;
   Law with, without(settings);
   const test::Posture posture(*with.robot, Eigen::Vector3d(0.05, 0.02, 0.1), Eigen::Vector3d(0.3, -0.4, 0.5));
@@ -105,7 +107,7 @@ TEST(ImpedanceController, TurnsTheShorterWayRound) {
 
 /// A soft orientation makes the factorisation indefinite; the other design takes over.
 TEST(ImpedanceController, FallsBackToADampingThatIsPositiveDefinite) {
-  ImpedanceSettings settings = planar_impedance();
+  ImpedanceSettings settings = bench_impedance();
   settings.stiffness[2] = 0.01;
   Law stiff, soft(settings);
   RandomGenerator random(5);
@@ -211,9 +213,9 @@ TEST(ImpedanceController, DecaysAsACriticallyDampedOscillator) {
   const Eigen::Vector3d start(1e-6, -2e-6, 3e-6);
   const test::Posture home(*test::planar_bench());
   const PlatformVector w =
-      planar_impedance().stiffness.cwiseQuotient(home.dynamics.M_x.diagonal()).cwiseSqrt();
+      bench_impedance().stiffness.cwiseQuotient(home.dynamics.M_x.diagonal()).cwiseSqrt();
   double largest = 0.0;
-  Loop(planar_impedance(), start, Eigen::Vector3d::Zero())
+  Loop(bench_impedance(), start, Eigen::Vector3d::Zero())
       .run(500ms, [&](double t, const PlatformVector& pose) {
         const Eigen::Array3d wt = t * Eigen::Array3d(w);
         const Eigen::Vector3d expected = start.array() * (1.0 + wt) * (-wt).exp();
@@ -225,7 +227,7 @@ TEST(ImpedanceController, DecaysAsACriticallyDampedOscillator) {
 
 /// With damping ratios other than one: the linear oscillator's overshoot exp(-pi xi / sqrt(1 - xi^2)).
 TEST(ImpedanceController, OvershootsAsItsDampingRatioSays) {
-  ImpedanceSettings settings = planar_impedance();
+  ImpedanceSettings settings = bench_impedance();
   settings.damping_ratio = PlatformVector::Constant(3, 0.5);
   double lowest = 0.0;
   Loop(settings, Eigen::Vector3d(1e-6, 0, 0), Eigen::Vector3d::Zero())
@@ -272,9 +274,9 @@ TEST(ImpedanceController, IsNotValidOnNumbersThatAreNone) {
 }
 
 TEST(ImpedanceController, NeverAllocates) {
-  ImpedanceSettings soft = planar_impedance();
+  ImpedanceSettings soft = bench_impedance();
   soft.stiffness[2] = 0.01;
-  for (const ImpedanceSettings& settings : {planar_impedance(), soft}) {
+  for (const ImpedanceSettings& settings : {bench_impedance(), soft}) {
     Law law(settings);
     const test::Posture posture(*law.robot, Eigen::Vector3d(0.19, 0.15, 0.2), Eigen::Vector3d(1.0, 1.0, 1.0));
     const PlatformReference desired = rest(Eigen::Vector3d::Zero());
@@ -285,13 +287,21 @@ TEST(ImpedanceController, NeverAllocates) {
   }
 }
 
+TEST(ImpedanceController, IsStiffAndCriticallyDampedWhereNothingElseIsSaid) {
+  EXPECT_EQ(bench_impedance().stiffness, Eigen::Vector3d(2000.0, 2000.0, 85.0));
+  EXPECT_EQ(bench_impedance().damping_ratio, Eigen::Vector3d::Ones());
+  const ImpedanceSettings in_space = complete({}, ConfigurationSpace::Kind::spatial_pose);
+  EXPECT_EQ(in_space.stiffness, (PlatformVector{{2000.0, 2000.0, 2000.0, 85.0, 85.0, 85.0}}));
+}
+
 TEST(ImpedanceController, RefusesSettingsThatDoNotFit) {
   const auto robot = test::planar_bench();
-  EXPECT_THROW(ImpedanceController(robot, {}), SetupError);
-  ImpedanceSettings settings = planar_impedance();
+  EXPECT_THROW(ImpedanceController(robot, {.stiffness = PlatformVector::Ones(2), .damping_ratio = {}}),
+               SetupError);
+  ImpedanceSettings settings = bench_impedance();
   settings.stiffness[0] = -1.0;
   EXPECT_THROW(ImpedanceController(robot, settings), SetupError);
-  settings = planar_impedance();
+  settings = bench_impedance();
   settings.damping_ratio[2] = 0.0;
   EXPECT_THROW(ImpedanceController(robot, settings), SetupError);
   settings.damping_ratio[2] = nan;

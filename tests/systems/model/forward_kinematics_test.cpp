@@ -185,7 +185,7 @@ TEST(ForwardKinematics, AllowsOneCentimetreByDefault) {
 TEST(ForwardKinematics, TellsThatAnElbowHasChangedSides) {
   Solver solver;
   WorkingMode mode = solver.robot->home_working_mode();
-  mode[1] = -mode[1];
+  mode[1] = 1 - mode[1];
   Kinematics kinematics;
   solver.robot->kinematics(somewhere, PlatformVector::Zero(3), mode, kinematics);
   ASSERT_TRUE(kinematics.reachable);

@@ -63,7 +63,7 @@ TEST(RobotModel, IsTheRobotAtTheMeasuredMotion) {
     const WorkspaceMeasures& measures = model.ticking.get(model.block.measures);
     ASSERT_TRUE(measures.valid);
     ASSERT_EQ(measures.sigma_kappa, kinematics.sigma_kappa);
-    ASSERT_EQ(measures.sigma_sc, self_collision_distance(kinematics));
+    ASSERT_EQ(measures.sigma_sc, self_collision_distance(*model.robot, kinematics));
     ASSERT_EQ(measures.det_A, kinematics.det_A);
     ASSERT_EQ(measures.det_B, kinematics.det_B);
   }

@@ -33,7 +33,7 @@ void expect_consistent(const PlatformPath& path) {
 
 TEST(PlatformPath, RestsAtEveryPoseInTurn) {
   const auto robot = test::planar_bench();
-  const std::vector<PlatformVector> poses{pose(0, 0, 0), pose(0.1, 0, 0.1), pose(0.1, 0.05, -0.2)};
+  const std::vector<Configuration> poses{pose(0, 0, 0), pose(0.1, 0, 0.1), pose(0.1, 0.05, -0.2)};
   const PlatformPath path = PlatformPath::through(*robot, poses, limits);
   EXPECT_EQ(path.start(), poses[0]);
   EXPECT_EQ(path.evaluate(-1.0).pose, poses[0]);

@@ -16,13 +16,14 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+constexpr ConfigurationSpace plane = ConfigurationSpace::Kind::planar_pose;
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 /// The contact-free motion: 300 mm, 1.5 m/s, 12 m/s^2.
 constexpr double side = 0.3;
 const PoseLimits limits{{1.5, 12.0, 1200.0}, {4.0, 80.0, 8000.0}};
 
 WaypointCircuit square(int laps) {
-  return WaypointCircuit::plan(square_corners(Vector3d(0.01, -0.02, 0.1), side), 2, limits, laps);
+  return WaypointCircuit::plan(plane, square_corners(Vector3d(0.01, -0.02, 0.1), side), limits, laps);
 }
 
 TEST(SquareCorners, GoRoundCounterClockwiseWithTheOrientationOfTheCentre) {
@@ -89,9 +90,9 @@ TEST(WaypointCircuit, IsSmoothAndKeepsBothLimitsOnRandomTours) {
   std::normal_distribution<double> normal;
   const double margin = 1 + 1e-9;
   for (int i = 0; i < 1000; ++i) {
-    std::vector<PlatformVector> tour(2 + static_cast<std::size_t>(i) % 7);
-    for (auto& pose : tour) pose = Vector3d(normal(generator), normal(generator), 3 * normal(generator));
-    const auto circuit = WaypointCircuit::plan(tour, 2, limits);
+    std::vector<Configuration> tour(2 + static_cast<std::size_t>(i) % 7);
+    for (auto& pose : tour) pose = Vector3d(normal(generator), normal(generator), normal(generator));
+    const auto circuit = WaypointCircuit::plan(plane, tour, limits);
     ASSERT_TRUE(circuit.valid());
     const double h = circuit.duration() / 500;
     for (int k = 0; k < 500; ++k) {
@@ -103,15 +104,15 @@ TEST(WaypointCircuit, IsSmoothAndKeepsBothLimitsOnRandomTours) {
       ASSERT_LE((b.acceleration - a.acceleration).head(2).norm(), limits.translation.jerk * h * margin);
       ASSERT_LE((b.velocity - a.velocity - h / 2 * (a.acceleration + b.acceleration)).head(2).norm(),
                 limits.translation.jerk * h * h / 4 + 1e-12);
-      ASSERT_LE((b.pose - a.pose - h / 2 * (a.velocity + b.velocity)).head(2).norm(),
+      ASSERT_LE((plane.difference(b.pose, a.pose) - h / 2 * (a.velocity + b.velocity)).head(2).norm(),
                 limits.translation.acceleration * h * h / 4 + 1e-12);
     }
   }
 }
 
 TEST(WaypointCircuit, TurnsWhileItMovesAndArrivesTogether) {
-  const std::vector<PlatformVector> tour{Vector3d(0, 0, 0), Vector3d(0.4, 0, 0.8), Vector3d(0.4, 0, 0)};
-  const auto circuit = WaypointCircuit::plan(tour, 2, limits);
+  const std::vector<Configuration> tour{Vector3d(0, 0, 0), Vector3d(0.4, 0, 0.8), Vector3d(0.4, 0, 0)};
+  const auto circuit = WaypointCircuit::plan(plane, tour, limits);
   ASSERT_TRUE(circuit.valid());
   const double leg = 1.5 / 12.0 + 12.0 / 1200.0 + 0.4 / 1.5;  // here the translation takes longer
   for (int k = 0; k < 100; ++k) {
@@ -121,45 +122,44 @@ TEST(WaypointCircuit, TurnsWhileItMovesAndArrivesTogether) {
 }
 
 TEST(WaypointCircuit, TakesNoTimeBetweenEqualPoses) {
-  const std::vector<PlatformVector> tour{Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(1, 0, 0)};
-  const std::vector<PlatformVector> without{Vector3d(0, 0, 0), Vector3d(1, 0, 0)};
-  const auto circuit = WaypointCircuit::plan(tour, 2, limits);
+  const std::vector<Configuration> tour{Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(1, 0, 0)};
+  const std::vector<Configuration> without{Vector3d(0, 0, 0), Vector3d(1, 0, 0)};
+  const auto circuit = WaypointCircuit::plan(plane, tour, limits);
   ASSERT_TRUE(circuit.valid());
-  EXPECT_DOUBLE_EQ(circuit.duration(), WaypointCircuit::plan(without, 2, limits).duration());
-  const std::vector<PlatformVector> nowhere{Vector3d(1, 2, 3), Vector3d(1, 2, 3)};
-  const auto standing = WaypointCircuit::plan(nowhere, 2, limits, 5);
+  EXPECT_DOUBLE_EQ(circuit.duration(), WaypointCircuit::plan(plane, without, limits).duration());
+  const std::vector<Configuration> nowhere{Vector3d(1, 2, 3), Vector3d(1, 2, 3)};
+  const auto standing = WaypointCircuit::plan(plane, nowhere, limits, 5);
   EXPECT_TRUE(standing.valid());
   EXPECT_TRUE(standing.evaluate(0.0).finished);
   EXPECT_EQ(standing.evaluate(0.0).pose, Vector3d(1, 2, 3));
 }
 
 TEST(WaypointCircuit, RestsAndIsNotValidOnBadInput) {
-  const PlatformVector first = Vector3d(1, 2, 3);
-  const std::vector<PlatformVector> tour{first, Vector3d(4, 5, 6)};
-  const std::vector<PlatformVector> too_few{first}, too_many(WaypointCircuit::max_waypoints + 1, first);
-  const std::vector<PlatformVector> mixed{first, Vector2d(4, 5)},
-      unknown{first, Vector3d(4, not_a_number, 6)};
+  const Configuration first = Vector3d(1, 2, 3);
+  const std::vector<Configuration> tour{first, Vector3d(4, 5, 6)};
+  const std::vector<Configuration> too_few{first}, too_many(WaypointCircuit::max_waypoints + 1, first);
+  const std::vector<Configuration> mixed{first, Vector2d(4, 5)}, unknown{first, Vector3d(4, not_a_number, 6)};
   PoseLimits no_jerk = limits;
   no_jerk.translation.jerk = 0.0;
   for (const WaypointCircuit& circuit :
-       {WaypointCircuit::plan(too_few, 2, limits), WaypointCircuit::plan(too_many, 2, limits),
-        WaypointCircuit::plan(mixed, 2, limits), WaypointCircuit::plan(unknown, 2, limits),
-        WaypointCircuit::plan(tour, 0, limits), WaypointCircuit::plan(tour, 4, limits),
-        WaypointCircuit::plan(tour, 2, no_jerk), WaypointCircuit::plan(tour, 2, limits, 0)}) {
+       {WaypointCircuit::plan(plane, too_few, limits), WaypointCircuit::plan(plane, too_many, limits),
+        WaypointCircuit::plan(plane, mixed, limits), WaypointCircuit::plan(plane, unknown, limits),
+        WaypointCircuit::plan(ConfigurationSpace::Kind::spatial_pose, tour, limits),
+        WaypointCircuit::plan(plane, tour, no_jerk), WaypointCircuit::plan(plane, tour, limits, 0)}) {
     EXPECT_FALSE(circuit.valid());
     EXPECT_EQ(circuit.duration(), 0.0);
     EXPECT_FALSE(circuit.evaluate(0.1).valid);
     EXPECT_EQ(circuit.evaluate(0.1).pose, first);
-    EXPECT_EQ(circuit.evaluate(0.1).velocity, Vector3d(0, 0, 0));
+    EXPECT_EQ(circuit.evaluate(0.1).velocity.norm(), 0.0);
   }
-  EXPECT_FALSE(WaypointCircuit::plan({}, 2, limits).evaluate(0.0).valid);
+  EXPECT_FALSE(WaypointCircuit::plan(plane, {}, limits).evaluate(0.0).valid);
   EXPECT_FALSE(square(1).evaluate(not_a_number).valid);
 }
 
 TEST(WaypointCircuit, NeedsNoHeap) {
-  const PlatformVector centre = Vector3d(0, 0, 0);
+  const Configuration centre = Vector3d(0, 0, 0);
   const test::AllocationCounter counter;
-  const auto circuit = WaypointCircuit::plan(square_corners(centre, side), 2, limits, 10);
+  const auto circuit = WaypointCircuit::plan(plane, square_corners(centre, side), limits, 10);
   const PlatformReference m = circuit.evaluate(3.0);
   EXPECT_EQ(counter.count(), 0);
   EXPECT_TRUE(m.valid);

@@ -19,7 +19,7 @@ void evaluate_all(const ParallelRobot& robot, const PlatformVector& pose, const 
   const InverseSolution inverse = robot.inverse_kinematics(forward.pose, robot.home_working_mode());
   robot.chain_closure_error(inverse.joints.active, inverse.joints.passive, robot.home_pose());
   robot.difference(pose, forward.pose);
-  ParallelRobot::joint_difference(inverse.joints.active, kinematics.joints.active);
+  ParallelRobot::passive_difference(inverse.joints.active, kinematics.joints.active);
 
   const JointSpaceDynamics joints = joint_space_dynamics(kinematics, dynamics);
   for (int i = 0; i < robot.body_count(); ++i) {
@@ -31,7 +31,7 @@ void evaluate_all(const ParallelRobot& robot, const PlatformVector& pose, const 
     const JointVector torques = drive_torques(kinematics, clamping_wrench(contact, force, contact, force));
     platform_wrench(kinematics, torques);
   }
-  self_collision_distance(kinematics);
+  self_collision_distance(robot, kinematics);
   const PlatformMatrix K = PlatformMatrix::Identity(3, 3) * 85.0;
   impedance_damping(joints.M_qa, K, PlatformVector::Ones(3));
   modal_damping(dynamics.valid ? dynamics.M_x : K, K, PlatformVector::Ones(3));

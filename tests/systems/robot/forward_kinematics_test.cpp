@@ -121,8 +121,8 @@ TEST_P(ForwardKinematics, ChainClosureErrorShowsABadEncoder) {
   EXPECT_EQ(robot.chain_closure_error(bad, bad, robot.home_pose()), std::numeric_limits<double>::infinity());
 }
 
-TEST_P(ForwardKinematics, WorkingModeIsTheSignOfThePassiveAngles) {
-  EXPECT_EQ(robot.working_mode(Eigen::Vector3d(2.0, -0.1, 0.0)), (WorkingMode{{1, -1, 1}}));
+TEST_P(ForwardKinematics, WorkingModeTellsTheSignOfThePassiveAngles) {
+  EXPECT_EQ(robot.working_mode(Eigen::Vector3d(2.0, -0.1, 0.0)), (WorkingMode{{0, 1, 0}}));
 }
 
 }  // namespace

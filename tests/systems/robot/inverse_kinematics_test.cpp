@@ -44,7 +44,7 @@ TEST_P(InverseKinematics, ClosesTheLoopInEveryWorkingMode) {
   const auto legs = reference_legs(GetParam());
   Residual residual("loop closure, all eight working modes [m]", 1e-15);
   for (int bits = 0; bits < 8; ++bits) {
-    const WorkingMode mode{{bits & 1 ? 1 : -1, bits & 2 ? 1 : -1, bits & 4 ? 1 : -1}};
+    const WorkingMode mode{{bits & 1, bits >> 1 & 1, bits >> 2 & 1}};
     const InverseSolution solution = robot.inverse_kinematics(Eigen::Vector3d(0.03, -0.05, 0.1), mode);
     ASSERT_TRUE(solution.reachable);
     EXPECT_EQ(robot.working_mode(solution.joints.passive), mode);
@@ -74,7 +74,7 @@ TEST(InverseKinematicsAtHome, HasThePublishedAngles) {
 
 TEST(InverseKinematicsAtHome, OtherElbowSideLeavesTheJointRange) {
   const PlanarRrr robot(bench_robot(BenchGeometry::nominal, BenchFriction::none));
-  const WorkingMode other = -robot.home_working_mode();
+  const WorkingMode other = WorkingMode::Ones(3) - robot.home_working_mode();
   EXPECT_NEAR(robot.inverse_kinematics(robot.home_pose(), other).joints.active[0] / degree, 154.5, 0.5);
 }
 
@@ -94,12 +94,13 @@ TEST(InverseKinematicsOutOfReach, IsAnErrorResultAndNeverNotANumber) {
   }
 }
 
-TEST(InverseKinematicsOutOfReach, RefusesVectorsOfWrongSizeAndWorkingModesOtherThanPlusMinusOne) {
+TEST(InverseKinematicsOutOfReach, RefusesVectorsOfWrongSizeAndWorkingModesThatItDoesNotHave) {
   const PlanarRrr robot(bench_robot(BenchGeometry::individual, BenchFriction::none));
   EXPECT_FALSE(robot.inverse_kinematics(PlatformVector::Zero(6), robot.home_working_mode()).reachable);
   EXPECT_FALSE(robot.inverse_kinematics(PlatformVector(), robot.home_working_mode()).reachable);
-  EXPECT_FALSE(robot.inverse_kinematics(robot.home_pose(), WorkingMode::Zero(3)).reachable);
-  EXPECT_FALSE(robot.inverse_kinematics(robot.home_pose(), WorkingMode::Ones(2)).reachable);
+  EXPECT_FALSE(robot.inverse_kinematics(robot.home_pose(), WorkingMode::Constant(3, 2)).reachable);
+  EXPECT_FALSE(robot.inverse_kinematics(robot.home_pose(), WorkingMode::Constant(3, -1)).reachable);
+  EXPECT_FALSE(robot.inverse_kinematics(robot.home_pose(), WorkingMode::Zero(2)).reachable);
 }
 
 TEST(InverseKinematicsOutOfReach, EndsExactlyWhereALegIsStretched) {

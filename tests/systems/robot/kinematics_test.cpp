@@ -28,7 +28,7 @@ TEST_P(DifferentialKinematics, JacobiansAreTheDerivativesOfTheJointAngles) {
       for (int axis = 0; axis < 3; ++axis) {
         const Eigen::Vector3d column = derivative([&](double h) -> Eigen::Vector3d {
           const Eigen::Vector3d moved = reference_joint(pose + h * Eigen::Vector3d::Unit(axis), which);
-          return ParallelRobot::joint_difference(moved, reference_joint(pose, which));
+          return ParallelRobot::passive_difference(moved, reference_joint(pose, which));
         });
         residual.add(jacobians[which]->col(axis), column);
       }

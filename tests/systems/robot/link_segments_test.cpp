@@ -103,7 +103,7 @@ TEST_P(SelfCollision, DistanceIsTheSmallestOfAllPairsOfLinksOfDifferentLegs) {
                                                         in_space(t.end)));
       }
     }
-    residual.add(self_collision_distance(k) - smallest);
+    residual.add(self_collision_distance(robot, k) - smallest);
   }
 }
 
@@ -124,7 +124,7 @@ TEST_P(SelfCollision, DistanceHasAClosedFormInTheAnglesOfTheSecondLinks) {
     }
     const double beyond = omega - std::numbers::pi / 3.0;
     const double expected = beyond <= 0.0 ? plateau : plateau * std::cos(beyond);
-    const double distance = self_collision_distance(k);
+    const double distance = self_collision_distance(robot, k);
     EXPECT_LE(distance, plateau + 1e-15);
     if (expected < 0.1) continue;
     if (beyond > 0.0) ++below_plateau;
@@ -137,14 +137,14 @@ TEST(SelfCollisionAtHome, HasThePublishedDistance) {
   const PlanarRrr robot(bench_robot(BenchGeometry::individual, BenchFriction::none));
   Kinematics k;
   robot.kinematics(robot.home_pose(), PlatformVector::Zero(3), k);
-  EXPECT_NEAR(self_collision_distance(k), 0.18533, 5e-6);
+  EXPECT_NEAR(self_collision_distance(robot, k), 0.18533, 5e-6);
 }
 
 TEST(SelfCollisionAtHome, OutOfReachCountsAsCollision) {
   const PlanarRrr robot(bench_robot(BenchGeometry::individual, BenchFriction::none));
   Kinematics k;
   robot.kinematics(Eigen::Vector3d(9, 0, 0), PlatformVector::Zero(3), k);
-  EXPECT_EQ(self_collision_distance(k), 0.0);
+  EXPECT_EQ(self_collision_distance(robot, k), 0.0);
 }
 
 }  // namespace

@@ -23,7 +23,8 @@ TEST(WorkspaceLimits, AllowEverythingByDefault) {
 
 // At home: |det A| 0.4519, |det B| 0.2216, sigma_sc 0.18533 m, drives at 24.379 to 25.963 degrees.
 TEST(WorkspaceLimits, MayLieJustOutsideTheHomePose) {
-  const WorkspaceLimits limits{.max_distance = 0.0,
+  const WorkspaceLimits limits{.centre = {},
+                               .max_distance = 0.0,
                                .max_rotation = 0.0,
                                .min_abs_det_A = 0.4518,
                                .min_abs_det_B = 0.2215,
@@ -34,7 +35,8 @@ TEST(WorkspaceLimits, MayLieJustOutsideTheHomePose) {
 }
 
 TEST(WorkspaceLimits, MustNotExcludeTheHomePose) {
-  const WorkspaceLimits limits{.max_distance = -0.1,
+  const WorkspaceLimits limits{.centre = {},
+                               .max_distance = -0.1,
                                .max_rotation = std::nan(""),
                                .min_abs_det_A = 0.4520,
                                .min_abs_det_B = 0.2217,
