@@ -5,27 +5,52 @@
 namespace flinch {
 namespace {
 
-/// "m, m, rad": the unit of each platform coordinate, translations first.
-std::string for_each_coordinate(const ParallelRobot& robot, const std::string& translation,
-                                const std::string& rotation) {
+/// `count` more entries of a list such as "m, m, rad".
+void append(std::string& units, int count, const std::string& unit) {
+  for (int i = 0; i < count; ++i) units += (units.empty() ? "" : ", ") + unit;
+}
+
+/// The unit of each platform coordinate, translations first.
+std::string of_coordinates(const ConfigurationSpace& space, const std::string& translation,
+                           const std::string& rotation) {
   std::string units;
-  for (int i = 0; i < robot.dof(); ++i) {
-    units += (i == 0 ? "" : ", ") + (i < robot.space_dimension() ? translation : rotation);
-  }
+  append(units, space.translations(), translation);
+  append(units, space.rotations(), rotation);
   return units;
+}
+
+/// The same of a stored pose, where a quaternion has no unit.
+std::string of_pose(const ConfigurationSpace& space) {
+  if (space.stored() == space.dimension()) return of_coordinates(space, "m", "rad");
+  std::string units;
+  append(units, space.translations(), "m");
+  append(units, space.stored() - space.translations(), "1");
+  return units;
+}
+
+/// One unit where all drives share it, else that of each.
+std::string of_drives(const Mechanism& mechanism, const std::string& turning, const std::string& sliding) {
+  std::string units;
+  bool same = true;
+  for (int i = 0; i < mechanism.drives(); ++i) {
+    append(units, 1, mechanism.drive_kind(i) == DriveKind::revolute ? turning : sliding);
+    same = same && mechanism.drive_kind(i) == mechanism.drive_kind(0);
+  }
+  return same ? units.substr(0, units.find(',')) : units;
 }
 
 }  // namespace
 
 std::map<std::string, std::string> quantity_units(const ParallelRobot& robot) {
-  return {{"<pose>", for_each_coordinate(robot, "m", "rad")},
-          {"<displacement>", for_each_coordinate(robot, "m", "rad")},
-          {"<velocity>", for_each_coordinate(robot, "m/s", "rad/s")},
-          {"<acceleration>", for_each_coordinate(robot, "m/s^2", "rad/s^2")},
-          {"<wrench>", for_each_coordinate(robot, "N", "Nm")},
-          {"<drive position>", "rad"},
-          {"<drive velocity>", "rad/s"},
-          {"<drive force>", "Nm"},
+  const ConfigurationSpace& space = robot.space();
+  return {{"<pose>", of_pose(space)},
+          {"<displacement>", of_coordinates(space, "m", "rad")},
+          {"<velocity>", of_coordinates(space, "m/s", "rad/s")},
+          {"<acceleration>", of_coordinates(space, "m/s^2", "rad/s^2")},
+          {"<wrench>", of_coordinates(space, "N", "Nm")},
+          {"<drive position>", of_drives(robot, "rad", "m")},
+          {"<drive velocity>", of_drives(robot, "rad/s", "m/s")},
+          {"<drive force>", of_drives(robot, "Nm", "N")},
           {"<passive position>", "rad"}};
 }
 
