@@ -63,13 +63,32 @@ void DiagramBuilder::add_wire(PortId from, PortId to) {
   diagram_->wires_.push_back({from, to});
 }
 
+bool DiagramBuilder::is_wired(PortId to) const {
+  return std::any_of(diagram_->wires_.begin(), diagram_->wires_.end(),
+                     [&to](const Diagram::Wire& wire) { return wire.to == to; });
+}
+
+void DiagramBuilder::feed_open_inputs() {
+  const std::size_t children = diagram_->children_.size();
+  for (std::size_t i = 0; i < children; ++i) {
+    const System& child = *diagram_->children_[i];
+    for (std::size_t k = 0; k < child.inputs_.size(); ++k) {
+      const System::Input& input = child.inputs_[k];
+      const PortId to{&child, PortId::Kind::input, static_cast<int>(k)};
+      if (input.stand_in == nullptr || is_wired(to)) continue;
+      std::unique_ptr<System> constant = input.stand_in();
+      const PortId from{constant.get(), PortId::Kind::output, 0};
+      add_child(child.name_ + "_no_" + input.name, std::move(constant));
+      add_wire(from, to);
+    }
+  }
+}
+
 void DiagramBuilder::find_unconnected(std::vector<std::string>& problems) const {
   for (const auto& child : diagram_->children_) {
     for (std::size_t i = 0; i < child->inputs_.size(); ++i) {
       const PortId input{child.get(), PortId::Kind::input, static_cast<int>(i)};
-      const bool wired = std::any_of(diagram_->wires_.begin(), diagram_->wires_.end(),
-                                     [&input](const Diagram::Wire& wire) { return wire.to == input; });
-      if (!wired) problems.push_back(path(input) + " is not connected");
+      if (!is_wired(input)) problems.push_back(path(input) + " is not connected");
     }
   }
 }
@@ -106,6 +125,7 @@ void DiagramBuilder::find_foreign_exports(std::vector<std::string>& problems) co
 }
 
 std::unique_ptr<Diagram> DiagramBuilder::build() {
+  feed_open_inputs();
   std::vector<std::string> problems = std::move(problems_);
   find_duplicates(problems);
   find_unconnected(problems);

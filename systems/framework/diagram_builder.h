@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "systems/framework/constant.h"
 #include "systems/framework/diagram.h"
 
 namespace flinch {
@@ -51,6 +52,16 @@ class DiagramBuilder {
   InputPort<T> input(std::string name) {
     return diagram_->input<T>(std::move(name));
   }
+  /// Gives the diagram an input that may be left open where the diagram is nested: then a Constant of T's
+  /// default value feeds it, which says "no data".
+  template <PortValue T>
+  InputPort<T> optional_input(std::string name) {
+    const InputPort<T> own = input<T>(std::move(name));
+    diagram_->inputs_.back().stand_in = []() -> std::unique_ptr<System> {
+      return std::make_unique<Constant<T>>(T{});
+    };
+    return own;
+  }
   /// Gives the diagram an input which `inner` reads.
   template <class T>
   InputPort<T> export_input(std::string name, InputPort<T> inner) {
@@ -73,6 +84,8 @@ class DiagramBuilder {
  private:
   void add_child(std::string name, std::unique_ptr<System> block);
   void add_wire(PortId from, PortId to);
+  bool is_wired(PortId to) const;
+  void feed_open_inputs();
   bool is_child(const System* block) const;
   std::string path(PortId port) const;
   void find_unconnected(std::vector<std::string>& problems) const;

@@ -46,6 +46,7 @@ class System {
   struct Input {
     std::string name;
     const ValueType* type;
+    std::unique_ptr<System> (*stand_in)() = nullptr;  ///< of an optional input: what feeds it if nobody does
   };
   struct Output {
     std::string name;

@@ -265,6 +265,30 @@ TEST(DiagramBuilder, ReportsAllWiringErrorsAtOnceWithFullPaths) {
   EXPECT_EQ(problems_of(builder), expected);
 }
 
+TEST(DiagramBuilder, FeedsAnOptionalInputThatNobodyConnects) {
+  for (const bool fed : {false, true}) {
+    DiagramBuilder inner("inner");
+    auto& gain = inner.add<Gain>("gain", 2.0);
+    const auto in = inner.optional_input<double>("in");
+    inner.connect(in, gain.in);
+    const auto out = inner.export_output("out", gain.out);
+    DiagramBuilder middle("middle");
+    middle.add(inner.build());
+    const auto shown = middle.export_output("out", out);
+    const auto own = middle.optional_input<double>("in");
+    middle.connect(own, in);
+    DiagramBuilder outer("outer");
+    auto& counter = outer.add<Counter>("counter");
+    outer.add(middle.build());
+    if (fed) outer.connect(counter.count, own);
+    const auto diagram = outer.build();
+    Context context = diagram->make_context();
+    Simulator(*diagram).advance_to(context, 3ms);
+    EXPECT_EQ(context.get(shown), fed ? 2.0 * context.get(counter.count) : 0.0);
+    EXPECT_EQ(diagram->children().size(), fed ? 2U : 3U);
+  }
+}
+
 TEST(DiagramBuilder, ListsALoopThroughNestedDiagramsPortByPort) {
   DiagramBuilder inner("inner");
   auto& gain = inner.add<Gain>("gain", 2.0);
