@@ -1,6 +1,9 @@
 #include "diagrams/contact_control.h"
 
+#include <utility>
+
 #include "systems/foundation/setup_error.h"
+#include "systems/framework/constant.h"
 #include "systems/laws/operator_buttons.h"
 #include "systems/laws/zero_gravity.h"
 #include "systems/model/robot_model.h"
@@ -11,32 +14,69 @@ namespace {
 
 using Robot = std::shared_ptr<const ParallelRobot>;
 
-/// Where the robot is and how it moves.
-struct Sensing {
-  VelocityFilter& velocity;
-  ForwardKinematics& pose;
-  RobotModel& model;
-  DriveTorqueMapping& torque;
+/// Every stage of one kind in place.
+template <class Port>
+struct Added {
+  std::vector<Named<Port>> all;
+  std::string followed;
+
+  const Port& port() const {
+    for (const Named<Port>& each : all) {
+      if (each.name == followed) return each.port;
+    }
+    return all.front().port;
+  }
+  std::vector<Named<Port>> others() const {
+    std::vector<Named<Port>> rest;
+    for (const Named<Port>& each : all) {
+      if (each.name != followed) rest.push_back(each);
+    }
+    return rest;
+  }
 };
 
-/// Whether it is touched.
-struct Detection {
-  MomentumObserver& observer;
-  ContactDetector& detector;
+/// The control path while it is wired.
+struct Path {
+  DiagramBuilder& builder;
+  const Robot& robot;
+  const ContactControlSettings& settings;
+
+  template <class Given, class Port>
+  Added<Port> add(const Stages<Stage<Given, Port>>& stages, const Given& given) const {
+    Added<Port> added;
+    for (const Stage<Given, Port>& stage : stages.all) {
+      const StageSite site{builder, stage.name, robot, settings};
+      added.all.push_back({stage.name, stage.add(site, given)});
+    }
+    added.followed = stages.followed;
+    if (added.followed.empty() && !added.all.empty()) added.followed = added.all.front().name;
+    return added;
+  }
+
+  /// Shows what the stages that are not followed offer, as `prefix` + "_" + their names.
+  template <class T>
+  std::vector<Named<OutputPort<T>>> show_others(const std::string& prefix,
+                                                const Added<OutputPort<T>>& added) const {
+    std::vector<Named<OutputPort<T>>> shown = added.others();
+    for (Named<OutputPort<T>>& each : shown) {
+      each.name = prefix + "_" + each.name;
+      each.port = builder.export_output(each.name, each.port);
+    }
+    return shown;
+  }
 };
 
-/// What it shall do.
-struct Reaction {
+/// What the operator wants.
+struct Operator {
   OperatorButtons& buttons;
   ReactionSequence& sequence;
   PlatformTrajectory& trajectory;
-  Retraction& retraction;
 };
 
-/// With which torques.
+/// Torques that are ready for every mode.
 struct Laws {
-  ImpedanceController& nominal;
-  ImpedanceController& reaction;
+  Added<LawPorts> nominal;
+  Added<LawPorts> reaction;
   ZeroGravity& zero_gravity;
   ControlledStop& stop;
   ModeSelector& selector;
@@ -48,147 +88,155 @@ struct Safety {
   TorqueGate& gate;
 };
 
-Sensing add_sensing(DiagramBuilder& builder, const Robot& robot, const ContactControlSettings& settings) {
-  const Sensing sensing{
-      builder.add<VelocityFilter>("velocity_filter", robot, settings.velocity_filter),
-      builder.add<ForwardKinematics>("forward_kinematics", robot, settings.forward_kinematics),
-      builder.add<RobotModel>("model", robot),
-      builder.add<DriveTorqueMapping>("drive_torque", robot, settings.drive_torque)};
-  builder.connect(sensing.velocity.motion, sensing.pose.motion);
-  builder.connect(sensing.pose.platform, sensing.model.platform);
-  return sensing;
+MotionPorts add_motion(const Path& path, const SensedPorts& sensed, OutputPort<JointMotion> joint_motion) {
+  auto& pose =
+      path.builder.add<ForwardKinematics>("forward_kinematics", path.robot, path.settings.forward_kinematics);
+  auto& model = path.builder.add<RobotModel>("model", path.robot);
+  auto& torque = path.builder.add<DriveTorqueMapping>("drive_torque", path.robot, path.settings.drive_torque);
+  path.builder.connect(sensed.joints, pose.joints);
+  path.builder.connect(joint_motion, pose.motion);
+  path.builder.connect(pose.platform, model.platform);
+  path.builder.connect(sensed.drives, torque.drives);
+  return {sensed,         joint_motion,   pose.platform, model.kinematics,
+          model.dynamics, model.measures, torque.torque};
 }
 
-Detection add_detection(DiagramBuilder& builder, const Robot& robot, const ContactControlSettings& settings,
-                        const Sensing& sensing) {
-  const Detection detection{
-      builder.add<MomentumObserver>("momentum_observer", robot, settings.momentum_observer),
-      builder.add<ContactDetector>("contact_detector", robot, settings.contact_detector)};
-  builder.connect(sensing.pose.platform, detection.observer.platform);
-  builder.connect(sensing.model.kinematics, detection.observer.kinematics);
-  builder.connect(sensing.model.dynamics, detection.observer.dynamics);
-  builder.connect(sensing.torque.torque, detection.observer.torque);
-  builder.connect(detection.observer.wrench, detection.detector.wrench);
-  return detection;
+OutputPort<PlatformAcceleration> followed_acceleration(
+    const Path& path, const Added<OutputPort<PlatformAcceleration>>& sources) {
+  if (!sources.all.empty()) return sources.port();
+  return path.builder.add<Constant<PlatformAcceleration>>("no_acceleration", PlatformAcceleration()).value;
 }
 
-Reaction add_reaction(DiagramBuilder& builder, const Robot& robot, const ContactControlSettings& settings,
-                      const Sensing& sensing, const Detection& detection) {
-  const Reaction reaction{builder.add<OperatorButtons>("operator_buttons"),
-                          builder.add<ReactionSequence>("reaction_sequence", settings.sequence),
-                          builder.add<PlatformTrajectory>("trajectory", robot, settings.trajectory),
-                          builder.add<Retraction>("retraction", robot, settings.retraction)};
-  builder.connect(reaction.buttons.reset, detection.detector.reset);
-  builder.connect(reaction.buttons.reset, reaction.sequence.reset);
-  builder.connect(detection.detector.contact, reaction.sequence.detection);
-  builder.connect(sensing.velocity.motion, reaction.sequence.joints);
-  builder.connect(reaction.retraction.reference, reaction.sequence.reaction);
-
-  builder.connect(reaction.sequence.reaction_state, reaction.trajectory.reaction);
-  builder.connect(sensing.pose.platform, reaction.trajectory.platform);
-  builder.connect(reaction.buttons.start, reaction.trajectory.start);
-
-  builder.connect(reaction.sequence.reaction_state, reaction.retraction.reaction);
-  builder.connect(sensing.pose.platform, reaction.retraction.platform);
-  builder.connect(detection.observer.wrench, reaction.retraction.estimate);
-  return reaction;
+Operator add_operator(const Path& path, const EstimatePorts& given, OperatorButtons& buttons,
+                      OutputPort<ContactDetection> detection) {
+  const Operator added{
+      buttons, path.builder.add<ReactionSequence>("reaction_sequence", path.settings.sequence),
+      path.builder.add<PlatformTrajectory>("trajectory", path.robot, path.settings.trajectory)};
+  path.builder.connect(buttons.reset, added.sequence.reset);
+  path.builder.connect(detection, added.sequence.detection);
+  path.builder.connect(given.joint_motion, added.sequence.joints);
+  path.builder.connect(added.sequence.reaction_state, added.trajectory.reaction);
+  path.builder.connect(given.platform, added.trajectory.platform);
+  path.builder.connect(buttons.start, added.trajectory.start);
+  return added;
 }
 
-ImpedanceSettings softened(const ImpedanceSettings& nominal, double share, const ConfigurationSpace& space) {
-  if (!(share >= 0.0 && share <= 1.0)) throw SetupError("reaction_stiffness must be between 0 and 1");
-  ImpedanceSettings settings = complete(nominal, space);
-  const int translations = space.translations();
-  if (settings.stiffness.size() >= translations) settings.stiffness.head(translations) *= share;
-  return settings;
-}
-
-Laws add_laws(DiagramBuilder& builder, const Robot& robot, const ContactControlSettings& settings,
-              const Sensing& sensing, const Reaction& reaction) {
-  const ImpedanceSettings soft = softened(settings.impedance, settings.reaction_stiffness, robot->space());
-  const Laws laws{builder.add<ImpedanceController>("nominal_impedance", robot, settings.impedance),
-                  builder.add<ImpedanceController>("reaction_impedance", robot, soft),
-                  builder.add<ZeroGravity>("zero_gravity"),
-                  builder.add<ControlledStop>("controlled_stop", robot, settings.controlled_stop),
-                  builder.add<ModeSelector>("mode_selector", settings.modes)};
-  for (ImpedanceController* impedance : {&laws.nominal, &laws.reaction}) {
-    builder.connect(sensing.model.kinematics, impedance->kinematics);
-    builder.connect(sensing.model.dynamics, impedance->dynamics);
-  }
-  builder.connect(reaction.trajectory.reference, laws.nominal.reference);
-  builder.connect(reaction.retraction.reference, laws.reaction.reference);
-  builder.connect(sensing.model.kinematics, laws.zero_gravity.kinematics);
-  builder.connect(sensing.model.dynamics, laws.zero_gravity.dynamics);
+Laws add_laws(const Path& path, const ReactionPorts& given) {
+  DiagramBuilder& builder = path.builder;
+  Laws laws{path.add(path.settings.stages.nominal_laws, given),
+            path.add(path.settings.stages.reaction_laws, given), builder.add<ZeroGravity>("zero_gravity"),
+            builder.add<ControlledStop>("controlled_stop", path.robot, path.settings.controlled_stop),
+            builder.add<ModeSelector>("mode_selector", path.settings.modes)};
+  builder.connect(given.kinematics, laws.zero_gravity.kinematics);
+  builder.connect(given.dynamics, laws.zero_gravity.dynamics);
   builder.connect(laws.zero_gravity.torque, laws.stop.zero_gravity);
-  builder.connect(sensing.velocity.motion, laws.stop.joints);
+  builder.connect(given.joint_motion, laws.stop.joints);
 
-  builder.connect(reaction.sequence.reaction_state, laws.selector.reaction);
-  builder.connect(laws.nominal.torque, laws.selector.nominal);
-  builder.connect(laws.reaction.torque, laws.selector.reacting);
+  builder.connect(given.reaction, laws.selector.reaction);
+  builder.connect(laws.nominal.port().torque, laws.selector.nominal);
+  builder.connect(laws.reaction.port().torque, laws.selector.reacting);
   builder.connect(laws.zero_gravity.torque, laws.selector.zero_gravity);
-  builder.connect(reaction.trajectory.reference, laws.selector.nominal_reference);
-  builder.connect(reaction.retraction.reference, laws.selector.reaction_reference);
+  builder.connect(laws.nominal.port().reference, laws.selector.nominal_reference);
+  builder.connect(laws.reaction.port().reference, laws.selector.reaction_reference);
   return laws;
 }
 
-Safety add_safety(DiagramBuilder& builder, const Robot& robot, const ContactControlSettings& settings,
-                  const Sensing& sensing, const Detection& detection, const Reaction& reaction,
-                  const Laws& laws) {
-  const Safety safety{builder.add<FaultMonitor>("fault_monitor", robot, settings.faults),
-                      builder.add<TorqueGate>("torque_gate", settings.torque_gate)};
-  builder.connect(sensing.velocity.motion, safety.monitor.motion);
-  builder.connect(sensing.pose.platform, safety.monitor.platform);
-  builder.connect(sensing.model.measures, safety.monitor.measures);
-  builder.connect(detection.detector.contact, safety.monitor.detection);
+Safety add_safety(const Path& path, const ReactionPorts& given, const Laws& laws) {
+  DiagramBuilder& builder = path.builder;
+  const Safety safety{builder.add<FaultMonitor>("fault_monitor", path.robot, path.settings.faults),
+                      builder.add<TorqueGate>("torque_gate", path.settings.torque_gate)};
+  builder.connect(given.joints, safety.monitor.joints);
+  builder.connect(given.drives, safety.monitor.drives);
+  builder.connect(given.joint_motion, safety.monitor.motion);
+  builder.connect(given.platform, safety.monitor.platform);
+  builder.connect(given.measures, safety.monitor.measures);
+  builder.connect(given.detection, safety.monitor.detection);
   builder.connect(laws.selector.reference, safety.monitor.reference);
   builder.connect(laws.selector.torque, safety.monitor.command);
 
   builder.connect(safety.monitor.faults, safety.gate.faults);
   builder.connect(laws.selector.torque, safety.gate.command);
   builder.connect(laws.stop.torque, safety.gate.stop);
-  builder.connect(reaction.buttons.reset, safety.gate.reset);
-  builder.connect(safety.gate.status, reaction.sequence.gate);
+  builder.connect(given.reset, safety.gate.reset);
   return safety;
+}
+
+/// That of the followed source is "acceleration".
+std::vector<Named<OutputPort<PlatformAcceleration>>> show_accelerations(
+    const Path& path, const Added<OutputPort<PlatformAcceleration>>& sources) {
+  auto shown = path.show_others("acceleration", sources);
+  if (!sources.all.empty()) {
+    shown.push_back({"acceleration", path.builder.export_output("acceleration", sources.port())});
+  }
+  return shown;
+}
+
+/// The torques of laws that are not followed.
+std::vector<Named<OutputPort<TorqueCommand>>> show_torques(const Path& path, const Laws& laws) {
+  std::vector<Named<OutputPort<TorqueCommand>>> shown;
+  for (const Added<LawPorts>* kind : {&laws.nominal, &laws.reaction}) {
+    for (const Named<LawPorts>& law : kind->others()) {
+      const std::string name = "torque_" + law.name;
+      shown.push_back({name, path.builder.export_output(name, law.port.torque)});
+    }
+  }
+  return shown;
 }
 
 }  // namespace
 
 ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
                                    const ContactControlSettings& settings) {
+  throw_if_any(problems(settings.stages));
   DiagramBuilder builder("control");
-  const Sensing sensing = add_sensing(builder, robot, settings);
-  const Detection detection = add_detection(builder, robot, settings, sensing);
-  const Reaction reaction = add_reaction(builder, robot, settings, sensing, detection);
-  const Laws laws = add_laws(builder, robot, settings, sensing, reaction);
-  const Safety safety = add_safety(builder, robot, settings, sensing, detection, reaction, laws);
+  const Path path{builder, robot, settings};
+  const ControlStages& stages = settings.stages;
 
-  const auto joints = builder.export_input("joints", sensing.velocity.joints);
-  builder.connect(joints, sensing.pose.joints);
-  builder.connect(joints, safety.monitor.joints);
-  const auto drives = builder.export_input("drives", sensing.torque.drives);
-  builder.connect(drives, safety.monitor.drives);
-  const auto buttons = builder.export_input("operator_command", reaction.buttons.buttons);
-  builder.connect(buttons, safety.monitor.buttons);
+  const SensedPorts sensed{builder.input<JointReading>("joints"), builder.input<DriveReading>("drives"),
+                           builder.optional_input<ImuReading>("imu")};
+  const auto velocities = path.add(stages.velocities, sensed);
+  const MotionPorts motion = add_motion(path, sensed, velocities.port());
+  const auto accelerations = path.add(stages.accelerations, motion);
+  const AcceleratedPorts accelerated{motion, followed_acceleration(path, accelerations)};
+  const auto estimators = path.add(stages.estimators, accelerated);
+  auto& buttons = builder.add<OperatorButtons>("operator_buttons");
+  const EstimatePorts estimated{accelerated, estimators.port(), estimators.all, buttons.reset};
+  const auto detectors = path.add(stages.detectors, estimated);
+  const Operator wanted = add_operator(path, estimated, buttons, detectors.port());
+  const ReactionPorts reaction{estimated, detectors.port(), wanted.sequence.reaction_state,
+                               wanted.trajectory.reference};
+  const Laws laws = add_laws(path, reaction);
+  const Safety safety = add_safety(path, reaction, laws);
+  builder.connect(laws.reaction.port().reference, wanted.sequence.reaction);
+  builder.connect(safety.gate.status, wanted.sequence.gate);
+
+  const auto pressed = builder.export_input("operator_command", buttons.buttons);
+  builder.connect(pressed, safety.monitor.buttons);
   const ContactControl control{
-      .joints = joints,
-      .drives = drives,
+      .joints = sensed.joints,
+      .drives = sensed.drives,
+      .imu = sensed.imu,
       .status = builder.export_input("status", safety.monitor.station),
-      .operator_command = buttons,
+      .operator_command = pressed,
       .tick_timing = builder.export_input("tick_timing", safety.monitor.timing),
       .torque_command = builder.export_output("torque_command", safety.gate.torque_command),
       .brake = builder.export_output("brake", safety.gate.brake),
-      .joint_motion = builder.export_output("joint_motion", sensing.velocity.motion),
-      .platform_motion = builder.export_output("platform_motion", sensing.pose.platform),
-      .measures = builder.export_output("measures", sensing.model.measures),
-      .drive_torque = builder.export_output("drive_torque", sensing.torque.torque),
-      .wrench_estimate = builder.export_output("wrench_estimate", detection.observer.wrench),
-      .detection = builder.export_output("detection", detection.detector.contact),
-      .reaction_state = builder.export_output("reaction_state", reaction.sequence.reaction_state),
+      .joint_motion = builder.export_output("joint_motion", motion.joint_motion),
+      .platform_motion = builder.export_output("platform_motion", motion.platform),
+      .measures = builder.export_output("measures", motion.measures),
+      .drive_torque = builder.export_output("drive_torque", motion.drive_torque),
+      .wrench_estimate = builder.export_output("wrench_estimate", estimated.wrench),
+      .detection = builder.export_output("detection", reaction.detection),
+      .reaction_state = builder.export_output("reaction_state", reaction.reaction),
       .reference = builder.export_output("reference", laws.selector.reference),
-      .nominal_wrench = builder.export_output("nominal_wrench", laws.nominal.wrench),
-      .reaction_wrench = builder.export_output("reaction_wrench", laws.reaction.wrench),
       .requested_torque = builder.export_output("requested_torque", laws.selector.torque),
       .faults = builder.export_output("faults", safety.monitor.faults),
-      .gate = builder.export_output("gate", safety.gate.status)};
+      .gate = builder.export_output("gate", safety.gate.status),
+      .others = {.joint_motions = path.show_others("joint_motion", velocities),
+                 .accelerations = show_accelerations(path, accelerations),
+                 .wrenches = path.show_others("wrench", estimators),
+                 .detections = path.show_others("detection", detectors),
+                 .torques = show_torques(path, laws)}};
   outer.add(builder.build());
   return control;
 }
@@ -196,6 +244,7 @@ ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
 void connect(DiagramBuilder& builder, const Station& station, const ContactControl& control) {
   builder.connect(station.joints, control.joints);
   builder.connect(station.drives, control.drives);
+  builder.connect(station.imu, control.imu);
   builder.connect(station.status, control.status);
   builder.connect(control.torque_command, station.torque_command);
   builder.connect(control.brake, station.brake);

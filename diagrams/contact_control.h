@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "diagrams/contact_control_settings.h"
 #include "diagrams/station.h"
@@ -10,10 +11,21 @@
 
 namespace flinch {
 
+/// What stages offer that run beside those which are followed, by names that a recording can use:
+/// "wrench_" + the estimator's, and so on; and the followed "acceleration", where there is one.
+struct OtherStages {
+  std::vector<Named<OutputPort<JointMotion>>> joint_motions;
+  std::vector<Named<OutputPort<PlatformAcceleration>>> accelerations;
+  std::vector<Named<OutputPort<WrenchEstimate>>> wrenches;
+  std::vector<Named<OutputPort<ContactDetection>>> detections;
+  std::vector<Named<OutputPort<TorqueCommand>>> torques;
+};
+
 /// The ports of the contact-control pipeline.
 struct ContactControl {
   InputPort<JointReading> joints;
   InputPort<DriveReading> drives;
+  InputPort<ImuReading> imu;  ///< may be left open: no data
   InputPort<StationStatus> status;
   InputPort<OperatorCommand> operator_command;
   InputPort<TickTiming> tick_timing;  ///< for RealtimeRunner::feed_timing(); not valid in simulated time
@@ -29,20 +41,20 @@ struct ContactControl {
   OutputPort<WrenchEstimate> wrench_estimate;
   OutputPort<ContactDetection> detection;
   OutputPort<ReactionState> reaction_state;
-  OutputPort<PlatformReference> reference;  ///< that is being followed
-  OutputPort<ImpedanceWrench> nominal_wrench;
-  OutputPort<ImpedanceWrench> reaction_wrench;
+  OutputPort<PlatformReference> reference;     ///< that is being followed
   OutputPort<TorqueCommand> requested_torque;  ///< what the laws ask for, before the gate
   OutputPort<FaultReport> faults;
   OutputPort<GateStatus> gate;
+  OtherStages others;
 };
 
 /// Adds the whole pipeline to `builder`, as one nested diagram named "control" that runs at ticks of 1 ms:
 ///
-///   joints -> velocity filter -> forward kinematics -> model -> momentum observer -> contact detector
-///          -> reaction sequence -> trajectory | retraction -> impedance -> mode selector -> torque gate
+///   joints -> velocity source -> forward kinematics -> model -> wrench estimator -> detector
+///          -> reaction sequence -> trajectory -> nominal law | reaction law -> mode selector -> torque gate
 ///
-/// It is the same whatever stands for the robot. Throws SetupError for settings that do not fit the robot.
+/// Which sources, estimators, detectors and laws, `settings.stages` says. It is the same whatever stands for
+/// the robot. Throws SetupError for settings that do not fit the robot, and as the stages do.
 ContactControl add_contact_control(DiagramBuilder& builder, const std::shared_ptr<const ParallelRobot>& robot,
                                    const ContactControlSettings& settings = {});
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "diagrams/control_stages.h"
 #include "systems/contact/contact_detector.h"
 #include "systems/estimators/momentum_observer.h"
 #include "systems/laws/controlled_stop.h"
@@ -19,6 +20,8 @@ namespace flinch {
 /// All that can be set in the contact-control pipeline. The defaults are those of the planar bench; each
 /// block's own settings say what they mean and where they come from.
 struct ContactControlSettings {
+  ControlStages stages = standard_stages();
+
   // ---- what the sensors say
   VelocityFilterSettings velocity_filter;  ///< 30 Hz
   ForwardKinematicsSettings forward_kinematics;

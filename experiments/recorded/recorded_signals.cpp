@@ -27,6 +27,14 @@ void export_control(DiagramBuilder& builder, const ContactControl& control) {
   builder.export_output("torque_command", control.torque_command);
   builder.export_output("brake", control.brake);
   builder.export_output("gate", control.gate);
+  const auto show = [&builder](const auto& others) {
+    for (const auto& other : others) builder.export_output(other.name, other.port);
+  };
+  show(control.others.joint_motions);
+  show(control.others.accelerations);
+  show(control.others.wrenches);
+  show(control.others.detections);
+  show(control.others.torques);
 }
 
 std::vector<std::string> recorded_paths(const Diagram& diagram) {

@@ -1,0 +1,127 @@
+#include "diagrams/control_stages.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include "diagrams/contact_control_settings.h"
+#include "systems/foundation/nearest_name.h"
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+OutputPort<JointMotion> add_velocity_filter(const StageSite& site, const SensedPorts& given) {
+  auto& filter = site.builder.add<VelocityFilter>(site.name, site.robot, site.settings.velocity_filter);
+  site.builder.connect(given.joints, filter.joints);
+  return filter.motion;
+}
+
+OutputPort<WrenchEstimate> add_momentum_observer(const StageSite& site, const AcceleratedPorts& given) {
+  auto& observer = site.builder.add<MomentumObserver>(site.name, site.robot, site.settings.momentum_observer);
+  site.builder.connect(given.platform, observer.platform);
+  site.builder.connect(given.kinematics, observer.kinematics);
+  site.builder.connect(given.dynamics, observer.dynamics);
+  site.builder.connect(given.drive_torque, observer.torque);
+  return observer.wrench;
+}
+
+OutputPort<ContactDetection> add_contact_detector(const StageSite& site, const EstimatePorts& given) {
+  auto& detector = site.builder.add<ContactDetector>(site.name, site.robot, site.settings.contact_detector);
+  site.builder.connect(given.wrench, detector.wrench);
+  site.builder.connect(given.reset, detector.reset);
+  return detector.contact;
+}
+
+LawPorts add_impedance(const StageSite& site, const std::string& name, const ImpedanceSettings& settings,
+                       const MotionPorts& given, OutputPort<PlatformReference> reference) {
+  auto& impedance = site.builder.add<ImpedanceController>(name, site.robot, settings);
+  site.builder.connect(given.kinematics, impedance.kinematics);
+  site.builder.connect(given.dynamics, impedance.dynamics);
+  site.builder.connect(reference, impedance.reference);
+  return {.torque = impedance.torque, .reference = reference};
+}
+
+LawPorts add_nominal_impedance(const StageSite& site, const ReactionPorts& given) {
+  return add_impedance(site, site.name, site.settings.impedance, given, given.nominal);
+}
+
+ImpedanceSettings softened(const ImpedanceSettings& nominal, double share, const ConfigurationSpace& space) {
+  if (!(share >= 0.0 && share <= 1.0)) throw SetupError("reaction_stiffness must be between 0 and 1");
+  ImpedanceSettings settings = complete(nominal, space);
+  const int translations = space.translations();
+  if (settings.stiffness.size() >= translations) settings.stiffness.head(translations) *= share;
+  return settings;
+}
+
+LawPorts add_retraction(const StageSite& site, const ReactionPorts& given) {
+  auto& retraction = site.builder.add<Retraction>(site.name, site.robot, site.settings.retraction);
+  site.builder.connect(given.reaction, retraction.reaction);
+  site.builder.connect(given.platform, retraction.platform);
+  site.builder.connect(given.wrench, retraction.estimate);
+  const ImpedanceSettings soft =
+      softened(site.settings.impedance, site.settings.reaction_stiffness, site.robot->space());
+  return add_impedance(site, site.name + "_impedance", soft, given, retraction.reference);
+}
+
+bool is_word(const std::string& name) {
+  const auto allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  };
+  return !name.empty() && std::all_of(name.begin(), name.end(), allowed);
+}
+
+template <class S>
+void find_problems(const Stages<S>& stages, const std::string& kind, std::vector<std::string>& problems) {
+  std::vector<std::string> names;
+  for (const S& stage : stages.all) {
+    if (!is_word(stage.name)) {
+      problems.push_back("the name '" + stage.name + "' of a " + kind +
+                         " must consist of letters, digits and '_'");
+    }
+    if (!stage.add) problems.push_back("the " + kind + " '" + stage.name + "' has no function that adds it");
+    names.push_back(stage.name);
+  }
+  if (std::set(names.begin(), names.end()).size() != names.size()) {
+    problems.push_back("two " + kind + "s have the same name");
+  }
+  const bool known = std::find(names.begin(), names.end(), stages.followed) != names.end();
+  if (!stages.followed.empty() && !known) {
+    problems.push_back("the " + kind + " to follow is '" + stages.followed + "', which does not run" +
+                       did_you_mean(stages.followed, names));
+  }
+}
+
+template <class S>
+void require(const Stages<S>& stages, const std::string& kind, std::vector<std::string>& problems) {
+  if (stages.all.empty()) problems.push_back("there must be a " + kind);
+}
+
+}  // namespace
+
+ControlStages standard_stages() {
+  return {.velocities = {.all = {{"velocity_filter", add_velocity_filter}}, .followed = ""},
+          .accelerations = {},
+          .estimators = {.all = {{"momentum_observer", add_momentum_observer}}, .followed = ""},
+          .detectors = {.all = {{"contact_detector", add_contact_detector}}, .followed = ""},
+          .nominal_laws = {.all = {{"nominal_impedance", add_nominal_impedance}}, .followed = ""},
+          .reaction_laws = {.all = {{"retraction", add_retraction}}, .followed = ""}};
+}
+
+std::vector<std::string> problems(const ControlStages& stages) {
+  std::vector<std::string> found;
+  require(stages.velocities, "velocity source", found);
+  require(stages.estimators, "wrench estimator", found);
+  require(stages.detectors, "detector", found);
+  require(stages.nominal_laws, "nominal law", found);
+  require(stages.reaction_laws, "reaction law", found);
+  find_problems(stages.velocities, "velocity source", found);
+  find_problems(stages.accelerations, "acceleration source", found);
+  find_problems(stages.estimators, "wrench estimator", found);
+  find_problems(stages.detectors, "detector", found);
+  find_problems(stages.nominal_laws, "nominal law", found);
+  find_problems(stages.reaction_laws, "reaction law", found);
+  return found;
+}
+
+}  // namespace flinch

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <vector>
+
+#include "diagrams/stage.h"
+#include "systems/robot/parallel_robot.h"
+#include "systems/signals/contact_detection.h"
+#include "systems/signals/drive_reading.h"
+#include "systems/signals/drive_torque.h"
+#include "systems/signals/imu_reading.h"
+#include "systems/signals/joint_motion.h"
+#include "systems/signals/joint_reading.h"
+#include "systems/signals/platform_acceleration.h"
+#include "systems/signals/platform_motion.h"
+#include "systems/signals/platform_reference.h"
+#include "systems/signals/reaction_state.h"
+#include "systems/signals/reset_command.h"
+#include "systems/signals/torque_command.h"
+#include "systems/signals/workspace_measures.h"
+#include "systems/signals/wrench_estimate.h"
+
+namespace flinch {
+
+/// What the station tells: inputs of the control path.
+struct SensedPorts {
+  InputPort<JointReading> joints;
+  InputPort<DriveReading> drives;
+  InputPort<ImuReading> imu;  ///< never valid where the station has none
+};
+
+/// How the robot moves, and its model there.
+struct MotionPorts : SensedPorts {
+  OutputPort<JointMotion> joint_motion;
+  OutputPort<PlatformMotion> platform;
+  OutputPort<Kinematics> kinematics;
+  OutputPort<Dynamics> dynamics;
+  OutputPort<WorkspaceMeasures> measures;
+  OutputPort<DriveTorque> drive_torque;
+};
+
+/// And how it accelerates.
+struct AcceleratedPorts : MotionPorts {
+  OutputPort<PlatformAcceleration> acceleration;  ///< of the followed source; never valid where there is none
+};
+
+/// What pushes it.
+struct EstimatePorts : AcceleratedPorts {
+  OutputPort<WrenchEstimate> wrench;                         ///< of the followed estimator
+  std::vector<Named<OutputPort<WrenchEstimate>>> estimates;  ///< of every one
+  OutputPort<ResetCommand> reset;  ///< the operator wants what has latched to let go
+};
+
+/// What it shall do about that.
+struct ReactionPorts : EstimatePorts {
+  OutputPort<ContactDetection> detection;  ///< of the followed detector
+  OutputPort<ReactionState> reaction;
+  OutputPort<PlatformReference> nominal;  ///< the nominal motion
+};
+
+/// What a law asks of the drives, and what it follows. The torque does not leave the torque gate but by its
+/// rules; whatever the mode, it is computed at every tick.
+struct LawPorts {
+  OutputPort<TorqueCommand> torque;
+  /// Of a reaction: `finished` ends it. Not valid where there is nothing to be followed.
+  OutputPort<PlatformReference> reference;
+};
+
+using VelocitySource = Stage<SensedPorts, OutputPort<JointMotion>>;
+using AccelerationSource = Stage<MotionPorts, OutputPort<PlatformAcceleration>>;
+using WrenchEstimator = Stage<AcceleratedPorts, OutputPort<WrenchEstimate>>;
+using DetectionStage = Stage<EstimatePorts, OutputPort<ContactDetection>>;
+using ControlLaw = Stage<ReactionPorts, LawPorts>;
+
+/// The stages of a control path. Those that are not followed run for comparison alone: they are recorded and
+/// have no effect.
+struct ControlStages {
+  Stages<VelocitySource> velocities;
+  Stages<AccelerationSource> accelerations;  ///< may be none
+  Stages<WrenchEstimator> estimators;
+  Stages<DetectionStage> detectors;
+  Stages<ControlLaw> nominal_laws;   ///< in the mode `nominal`
+  Stages<ControlLaw> reaction_laws;  ///< in the modes `react` and `hold`
+};
+
+/// One stage of each kind, as their settings say: "velocity_filter", "momentum_observer", "contact_detector",
+/// "nominal_impedance" and "retraction", an impedance that follows a retreat; no acceleration.
+ControlStages standard_stages();
+
+/// All that is wrong with the choice of stages, one sentence each: no stage of a kind, names used twice or of
+/// other characters, a followed one that there is not.
+std::vector<std::string> problems(const ControlStages& stages);
+
+}  // namespace flinch

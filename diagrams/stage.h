@@ -1,0 +1,57 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "systems/framework/diagram_builder.h"
+#include "systems/robot/parallel_robot.h"
+
+namespace flinch {
+
+struct ContactControlSettings;
+
+/// Where a stage is added.
+struct StageSite {
+  DiagramBuilder& builder;  ///< of the control path
+  std::string name;         ///< of the stage, for its block; of further blocks: name + "_" + what they are
+  std::shared_ptr<const ParallelRobot> robot;
+  const ContactControlSettings& settings;
+};
+
+/// A part of the control path that can be exchanged: its name, and the function that adds its blocks to
+/// `site.builder`, connects them with those of `given` that they read, and returns the ports that they offer.
+/// The function may throw SetupError. It is called once for every control path that is built.
+template <class Given, class Offered>
+struct Stage {
+  using Add = std::function<Offered(const StageSite& site, const Given& given)>;
+
+  std::string name;  ///< letters, digits and '_'
+  Add add;
+};
+
+/// Stages of one kind, side by side: all of them run, one of them is followed by what comes after it.
+template <class S>
+struct Stages {
+  std::vector<S> all;
+  std::string followed;  ///< its name; empty: the first
+
+  /// Lets `stage` run beside the others.
+  void add(S stage) { all.push_back(std::move(stage)); }
+  /// Lets `stage` run beside the others and follows it.
+  void follow(S stage) {
+    followed = stage.name;
+    add(std::move(stage));
+  }
+};
+
+/// An output of the stage called `name`.
+template <class Port>
+struct Named {
+  std::string name;
+  Port port;
+};
+
+}  // namespace flinch
