@@ -116,8 +116,9 @@ void leave_simulation_unread(ConfigReader& file, const Scenario&) {
 }
 
 Scenario read_scenario(const std::filesystem::path& file, std::optional<std::uint64_t> seed,
-                       const SectionReader& others) {
+                       const SectionReader& others, const ControlStages& known) {
   Scenario scenario;
+  scenario.control.stages = known;
   scenario.file = file;
   scenario.name = file.stem().string();
   scenario.text = read_config_file(file);
@@ -133,8 +134,9 @@ Scenario read_scenario(const std::filesystem::path& file, std::optional<std::uin
 }
 
 Scenario recorded_scenario(const Recording& recording, const std::filesystem::path& file,
-                           const SectionReader& others) {
+                           const SectionReader& others, const ControlStages& known) {
   Scenario scenario;
+  scenario.control.stages = known;
   scenario.file = attribute(recording, "scenario.file", file);
   scenario.name = attribute(recording, "scenario.name", file);
   scenario.text = attribute(recording, "scenario.text", file);

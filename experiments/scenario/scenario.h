@@ -55,13 +55,16 @@ using SectionReader = std::function<void(ConfigReader& file, const Scenario& so_
 void leave_simulation_unread(ConfigReader& file, const Scenario& so_far);
 
 /// Reads a scenario and the robot file it names; `seed` replaces the file's. Throws SetupError with all that
-/// is wrong with both, a motion that the legs do not reach included.
+/// is wrong with both, a motion that the legs do not reach included. `known` are the stages that the file can
+/// name; the first of a kind runs where it names none.
 Scenario read_scenario(const std::filesystem::path& file, std::optional<std::uint64_t> seed = std::nullopt,
-                       const SectionReader& others = leave_simulation_unread);
+                       const SectionReader& others = leave_simulation_unread,
+                       const ControlStages& known = standard_stages());
 
 /// The scenario that a recording was made from, out of the texts that it keeps. Throws SetupError naming
 /// `file`, where the recording comes from, when it keeps none.
 Scenario recorded_scenario(const Recording& recording, const std::filesystem::path& file,
-                           const SectionReader& others = leave_simulation_unread);
+                           const SectionReader& others = leave_simulation_unread,
+                           const ControlStages& known = standard_stages());
 
 }  // namespace flinch

@@ -7,6 +7,7 @@
 
 #include "diagrams/contact_control_settings.h"
 #include "experiments/scenario/scenario_pose.h"
+#include "experiments/scenario/scenario_stages.h"
 #include "systems/config/config_reader.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/parallel_robot.h"
@@ -143,6 +144,7 @@ void apply_limits(const WorkspaceLimits& limits, ContactControlSettings& control
 
 void read_control(ConfigReader control, const ParallelRobot& robot, ContactControlSettings& settings) {
   write_out(robot, settings);
+  read_stages(control, settings.stages);
   read_sensing(control, settings);
   read_detection(control, settings);
   read_laws(control, robot, settings);

@@ -10,7 +10,8 @@ struct WorkspaceLimits;
 /// Lets the robot's own limits bound the control path.
 void apply_limits(const WorkspaceLimits& limits, ContactControlSettings& control);
 
-/// Reads the section `control` of a scenario.
+/// Reads the section `control` of a scenario. Of the stages in `settings`, all that can be named, those are
+/// left which it chooses.
 void read_control(ConfigReader control, const ParallelRobot& robot, ContactControlSettings& settings);
 
 /// Reads the section `motion` of a scenario into the nominal motion. Throws SetupError for a motion that the

@@ -12,15 +12,16 @@ SectionReader station_into(SimulatedStationSettings& station) {
 }  // namespace
 
 SimulatedScenario read_simulated_scenario(const std::filesystem::path& file,
-                                          std::optional<std::uint64_t> seed) {
+                                          std::optional<std::uint64_t> seed, const ControlStages& known) {
   SimulatedStationSettings station;
-  Scenario scenario = read_scenario(file, seed, station_into(station));
+  Scenario scenario = read_scenario(file, seed, station_into(station), known);
   return {std::move(scenario), std::move(station)};
 }
 
-SimulatedScenario recorded_simulated_scenario(const Recording& recording, const std::filesystem::path& file) {
+SimulatedScenario recorded_simulated_scenario(const Recording& recording, const std::filesystem::path& file,
+                                              const ControlStages& known) {
   SimulatedStationSettings station;
-  Scenario scenario = recorded_scenario(recording, file, station_into(station));
+  Scenario scenario = recorded_scenario(recording, file, station_into(station), known);
   return {std::move(scenario), std::move(station)};
 }
 

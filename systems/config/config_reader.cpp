@@ -22,6 +22,16 @@ std::string text_of(const std::vector<double>& values) {
   return text + "]";
 }
 
+std::string text_of(const std::vector<std::string>& words) {
+  std::string text = "[";
+  for (const std::string& word : words) text += (text.size() > 1 ? ", " : "") + word;
+  return text + "]";
+}
+
+bool contains(const std::vector<std::string>& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
 FoundValue entry_of(const FoundValue& list, std::size_t i) {
   const std::string index = "[" + std::to_string(i) + "]";
   const ConfigNode& node = *list.node->items[i];
@@ -156,6 +166,29 @@ void ConfigReader::text(std::string_view name, std::string& value) {
   const FoundValue found = document_->find(*section_, name, unit::none, required_);
   if (found.node != nullptr) accept(*document_, found, parse_text(*found.node), value);
   document_->add_value(found, value, unit::none);
+}
+
+void ConfigReader::words(std::string_view name, std::vector<std::string>& values,
+                         const std::vector<std::string>& known) {
+  const FoundValue found = document_->find(*section_, name, unit::none, required_);
+  if (found.node != nullptr) {
+    const std::string complaint = complaint_about_list(*found.node, std::nullopt, "words");
+    if (!complaint.empty()) document_->add_problem(found, complaint);
+    std::vector<std::string> words;
+    for (std::size_t i = 0; complaint.empty() && i < found.node->items.size(); ++i) {
+      const FoundValue entry = entry_of(found, i);
+      const std::string& word = entry.node->scalar;
+      if (entry.node->kind != Kind::scalar || !contains(known, word)) {
+        document_->add_problem(entry, description(*entry.node) + did_you_mean(word, known));
+      } else if (contains(words, word)) {
+        document_->add_problem(entry, description(*entry.node) + ", as an entry before it");
+      } else {
+        words.push_back(word);
+      }
+    }
+    if (!words.empty()) values = words;
+  }
+  document_->add_value(found, text_of(values), unit::none);
 }
 
 void ConfigReader::file(std::string_view name, std::filesystem::path& value) {

@@ -73,6 +73,8 @@ class ConfigReader {
   /// true or false.
   void flag(std::string_view name, bool& value);
   void text(std::string_view name, std::string& value);
+  /// A list of one word or more, each of them one of `known` and none twice.
+  void words(std::string_view name, std::vector<std::string>& values, const std::vector<std::string>& known);
   /// Name of another file, relative to the folder of this one, which must exist.
   void file(std::string_view name, std::filesystem::path& value);
   /// One of several words.

@@ -48,6 +48,34 @@ TEST(Scenario, NeedsNoMoreThanARobotAndADuration) {
   EXPECT_FALSE(scenario.expected.contact.has_value());
 }
 
+TEST(Scenario, ChoosesStages) {
+  const test::Workplace place;
+  place.write("scenarios/own.yaml", std::string(least) +
+                                        "control:\n  estimators: [momentum_observer, own]\n"
+                                        "  follow: {estimator: own}\n");
+  ControlStages known = standard_stages();
+  known.estimators.add({"unused", known.estimators.all[0].add});
+  known.estimators.add({"own", known.estimators.all[0].add});
+  const Scenario scenario =
+      read_scenario(place / "scenarios/own.yaml", std::nullopt, leave_simulation_unread, known);
+  const auto& estimators = scenario.control.stages.estimators;
+  ASSERT_EQ(estimators.all.size(), 2U);
+  EXPECT_EQ(estimators.all[1].name, "own");
+  EXPECT_EQ(estimators.followed, "own");
+  EXPECT_EQ(scenario.control.stages.detectors.all.size(), 1U);
+}
+
+TEST(Scenario, TellsTheNearestNameOfAStage) {
+  const test::Workplace place;
+  EXPECT_THAT(
+      problems_with(place, std::string(least) + "control:\n  estimators: [momentum_observers]\n"
+                                                "  follow: {detector: contact_detecter}\n"),
+      ElementsAre(HasSubstr("own.yaml:4: control.estimators[0]: is 'momentum_observers'; did you mean "
+                            "'momentum_observer'?"),
+                  HasSubstr("own.yaml:5: control.follow.detector: is 'contact_detecter', which is not "
+                            "among detectors; did you mean 'contact_detector'?")));
+}
+
 TEST(Scenario, HasTheDefaultsOfThePapers) {
   const test::Workplace place;
   const Scenario scenario = scenario_of(place, least);

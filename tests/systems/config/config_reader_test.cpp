@@ -107,6 +107,37 @@ TEST(ReadingWords, FillsEveryKindOfSetting) {
   EXPECT_EQ(shape, Shape::square);
 }
 
+TEST(ReadingWords, FillsListsOfThem) {
+  const std::vector<std::string> known = {"fast", "slow", "late"};
+  std::vector<std::string> chosen = {"late"};
+  ConfigReader reader = ConfigReader::parse("use: [slow, fast]", "own.yaml");
+  reader.words("use", chosen, known);
+  reader.words("others", chosen, known);  // silent
+  EXPECT_EQ(chosen, (std::vector<std::string>{"slow", "fast"}));
+  EXPECT_EQ(reader.finish().front().value, "[slow, fast]");
+}
+
+TEST(ReadingWords, RefusesListsWithOthersAndRepetitions) {
+  const auto problems_of = [](const std::string& text) {
+    std::vector<std::string> chosen;
+    ConfigReader reader = ConfigReader::parse(text, "own.yaml");
+    reader.words("use", chosen, {"fast", "slow"});
+    try {
+      reader.finish();
+    } catch (const SetupError& error) {
+      return error.problems();
+    }
+    return std::vector<std::string>{};
+  };
+  EXPECT_THAT(problems_of("use: [slow, fasst, slow]"),
+              ::testing::ElementsAre("own.yaml:1: use[1]: is 'fasst'; did you mean 'fast'?",
+                                     "own.yaml:1: use[2]: is 'slow', as an entry before it"));
+  EXPECT_THAT(problems_of("use: slow"),
+              ::testing::ElementsAre(::testing::HasSubstr("must be a list of words")));
+  EXPECT_THAT(problems_of("use: []"),
+              ::testing::ElementsAre(::testing::HasSubstr("must be a list of words")));
+}
+
 TEST(ReadingWords, KeepsADefaultThatHasNoWord) {
   Shape shape = Shape::pointed;
   ConfigReader reader = reader_of("{}");
