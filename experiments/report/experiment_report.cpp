@@ -2,12 +2,14 @@
 
 #include <fmt/core.h>
 
+#include <array>
 #include <cmath>
 
+#include "experiments/report/drawn_robot.h"
 #include "experiments/scenario/scenario.h"
 #include "experiments/verdict/verdict.h"
 #include "systems/framework/recording.h"
-#include "systems/robot/planar_rrr.h"
+#include "systems/robot/parallel_robot.h"
 
 namespace flinch {
 namespace {
@@ -74,34 +76,21 @@ std::vector<ReportMeasure> measures(const Verdict& verdict, const Expectations& 
   return rows;
 }
 
-/// Nothing for a mechanism that the page cannot draw.
-std::optional<ReportRobot> drawn_robot(const ParallelRobot& mechanism) {
-  const auto* const planar = dynamic_cast<const PlanarRrr*>(&mechanism);
-  if (planar == nullptr) return std::nullopt;
-  const PlanarRrrParameters& parameters = planar->parameters();
-  ReportRobot robot;
-  for (const PlanarRrrLeg& leg : parameters.legs) {
-    robot.legs.push_back(
-        {{leg.base_radius * std::sin(leg.base_angle), -leg.base_radius * std::cos(leg.base_angle)},
-         leg.base_angle,
-         leg.link1_length,
-         {parameters.coupling_radius * std::cos(leg.coupling_angle),
-          parameters.coupling_radius * std::sin(leg.coupling_angle)}});
+constexpr std::array axes{"x", "y", "z"};
+
+/// The components of a recorded vector.
+std::vector<Column> components(const Recording& recording, const std::string& path, const std::string& field,
+                               int count, int first = 0) {
+  std::vector<Column> columns;
+  for (int i = first; i < first + count; ++i) columns.push_back(recording.column(path, field, i));
+  return columns;
+}
+
+Column magnitude(const std::vector<Column>& vector) {
+  Column result(vector.empty() ? 0 : vector.front().size());
+  for (std::size_t k = 0; k < result.size(); ++k) {
+    for (const Column& component : vector) result[k] = std::hypot(result[k], component[k]);
   }
-  robot.link_radius = parameters.link_radius;
-  robot.platform_radius = parameters.platform_hull_radius;
-  return robot;
-}
-
-Column magnitude(const Column& x, const Column& y) {
-  Column result(x.size());
-  for (std::size_t k = 0; k < x.size(); ++k) result[k] = std::hypot(x[k], y[k]);
-  return result;
-}
-
-Column difference(const Column& a, const Column& b) {
-  Column result(a.size());
-  for (std::size_t k = 0; k < a.size(); ++k) result[k] = a[k] - b[k];
   return result;
 }
 
@@ -113,43 +102,69 @@ Column where(const Column& flag, Column column) {
   return column;
 }
 
+void add_vector(const std::string& prefix, std::vector<Column> components, Report& report) {
+  for (std::size_t i = 0; i < components.size(); ++i)
+    report.columns[prefix + axes[i]] = std::move(components[i]);
+}
+
 /// A contact point is only shown while its body is touched.
-void add_touch(const Recording& recording, const std::string& field, const std::string& name,
+void add_touch(const Recording& recording, const std::string& field, const std::string& name, int dimension,
                Report& report) {
   Column touched = recording.column("contact", field + ".body");
   for (double& body : touched) body = body >= 0.0 ? 1.0 : 0.0;
-  report.columns[name + "_x"] = where(touched, recording.column("contact", field + ".point_in_base", 0));
-  report.columns[name + "_y"] = where(touched, recording.column("contact", field + ".point_in_base", 1));
-  report.columns[name + "_force_x"] =
-      where(touched, recording.column("contact", field + ".force_in_base", 0));
-  report.columns[name + "_force_y"] =
-      where(touched, recording.column("contact", field + ".force_in_base", 1));
+  const auto shown = [&](const std::string& part) {
+    std::vector<Column> columns = components(recording, "contact", field + part, dimension);
+    for (Column& column : columns) column = where(touched, std::move(column));
+    return columns;
+  };
+  add_vector(name + "_", shown(".point_in_base"), report);
+  add_vector(name + "_force_", shown(".force_in_base"), report);
+}
+
+/// The pose at a sample, out of the columns of a recorded one.
+Configuration pose_at(const std::vector<Column>& columns, std::size_t sample) {
+  Configuration pose(static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t i = 0; i < columns.size(); ++i) pose[static_cast<Eigen::Index>(i)] = columns[i][sample];
+  return pose;
+}
+
+void add_pose(const ConfigurationSpace& space, std::vector<Column> pose, Report& report) {
+  for (int i = 0; i < space.translations(); ++i) {
+    report.columns[std::string("pose_") + axes[static_cast<std::size_t>(i)]] =
+        std::move(pose[static_cast<std::size_t>(i)]);
+  }
+  constexpr std::array quaternion{"pose_qw", "pose_qx", "pose_qy", "pose_qz"};
+  for (std::size_t i = static_cast<std::size_t>(space.translations()); i < pose.size(); ++i) {
+    const std::size_t part = i - static_cast<std::size_t>(space.translations());
+    report.columns[space.rotations() == 1 ? "pose_phi" : quaternion[part]] = std::move(pose[i]);
+  }
 }
 
 /// As they truly were, or as the controller took them to be.
-void add_motion(const Recording& recording, Witness witness, Report& report) {
+void add_motion(const ParallelRobot& robot, const Recording& recording, Witness witness, Report& report) {
   const bool simulated = witness == Witness::truth;
-  const auto truth = [&recording, simulated](const char* field, int i) {
-    return recording.column(simulated ? "truth" : "motion", field, i);
-  };
-  const auto target = [&recording](int i) { return recording.column("reference", "pose", i); };
+  const std::string path = simulated ? "truth" : "motion";
+  const ConfigurationSpace& space = robot.space();
+  const std::vector<Column> pose = components(recording, path, "pose", space.stored());
+  const std::vector<Column> target = components(recording, "reference", "pose", space.stored());
+  Column distance(pose.front().size()), angle(distance.size());
+  for (std::size_t k = 0; k < distance.size(); ++k) {
+    const PlatformVector error = space.difference(pose_at(pose, k), pose_at(target, k));
+    distance[k] = error.head(space.translations()).norm();
+    angle[k] = error.tail(space.rotations()).norm();
+  }
   const Column followed = recording.column("reference", "valid");
-  report.columns["pose_x"] = truth("pose", 0);
-  report.columns["pose_y"] = truth("pose", 1);
-  report.columns["pose_phi"] = truth("pose", 2);
-  report.columns["speed"] = magnitude(truth("velocity", 0), truth("velocity", 1));
-  report.columns["position_error"] = where(
-      followed, magnitude(difference(truth("pose", 0), target(0)), difference(truth("pose", 1), target(1))));
-  Column turn = difference(truth("pose", 2), target(2));
-  for (double& angle : turn) angle = std::abs(std::remainder(angle, 2.0 * M_PI));
-  report.columns["orientation_error"] = where(followed, turn);
-  for (int leg = 0; leg < 3; ++leg) {
-    const std::string number = std::to_string(leg + 1);
-    report.columns["qa_" + number] =
-        simulated ? truth("active", leg) : recording.column("joints", "active", leg);
-    if (simulated) report.columns["torque_applied_" + number] = truth("drive_torque", leg);
-    report.columns["torque_commanded_" + number] =
-        where(recording.column("torque_command", "valid"), recording.column("torque_command", "torque", leg));
+  report.columns["position_error"] = where(followed, std::move(distance));
+  if (space.rotations() > 0) report.columns["orientation_error"] = where(followed, std::move(angle));
+  report.columns["speed"] = magnitude(components(recording, path, "velocity", space.translations()));
+  add_pose(space, pose, report);
+  add_elbows(robot, report);
+  for (int drive = 0; drive < robot.drives(); ++drive) {
+    const std::string number = std::to_string(drive + 1);
+    if (simulated)
+      report.columns["torque_applied_" + number] = recording.column("truth", "drive_torque", drive);
+    report.columns["torque_commanded_" + number] = where(recording.column("torque_command", "valid"),
+                                                         recording.column("torque_command", "torque", drive));
   }
   const Column measured = recording.column("measures", "valid");
   report.columns["sigma_kappa"] = where(measured, recording.column("measures", "sigma_kappa"));
@@ -157,30 +172,36 @@ void add_motion(const Recording& recording, Witness witness, Report& report) {
 }
 
 /// Of an instrument, "no data" where it said that it had none.
-void add_contact_force(const Recording& recording, Witness witness, Report& report) {
+void add_contact_force(const ParallelRobot& robot, const Recording& recording, Witness witness,
+                       Report& report) {
   if (witness == Witness::none) return;
   const bool simulated = witness == Witness::truth;
   const std::string path = simulated ? "contact" : "force_torque";
   const std::string field = simulated ? "strongest.force_in_base" : "force_in_base";
-  Column force = magnitude(recording.column(path, field, 0), recording.column(path, field, 1));
+  Column force = magnitude(components(recording, path, field, robot.space_dimension()));
   report.columns["contact_force"] =
       simulated ? force : where(recording.column(path, "valid"), std::move(force));
 }
 
-void add_forces(const Recording& recording, Witness witness, Report& report) {
+void add_wrench(const ConfigurationSpace& space, const std::string& name, std::vector<Column> wrench,
+                Report& report) {
+  const auto moments = wrench.begin() + space.translations();
+  add_vector(name + "_force_", {wrench.begin(), moments}, report);
+  if (space.rotations() == 1) report.columns[name + "_moment"] = *moments;
+  if (space.rotations() == 3) add_vector(name + "_moment_", {moments, wrench.end()}, report);
+}
+
+void add_forces(const ParallelRobot& robot, const Recording& recording, Witness witness, Report& report) {
+  std::vector<Column> estimate = components(recording, "wrench", "wrench_in_base", robot.dof());
   const Column estimated = recording.column("wrench", "valid");
-  const std::array<std::string, 3> names = {"force_x", "force_y", "moment"};
-  for (int i = 0; i < 3; ++i) {
-    const std::string& name = names[static_cast<std::size_t>(i)];
-    if (witness == Witness::truth) {
-      report.columns["external_" + name] = recording.column("truth", "wrench_in_base", i);
-    }
-    report.columns["estimated_" + name] = where(estimated, recording.column("wrench", "wrench_in_base", i));
-  }
-  add_contact_force(recording, witness, report);
+  for (Column& column : estimate) column = where(estimated, std::move(column));
+  add_wrench(robot.space(), "estimated", std::move(estimate), report);
+  add_contact_force(robot, recording, witness, report);
   if (witness != Witness::truth) return;
-  add_touch(recording, "strongest", "contact_1", report);
-  add_touch(recording, "second", "contact_2", report);
+  add_wrench(robot.space(), "external", components(recording, "truth", "wrench_in_base", robot.dof()),
+             report);
+  add_touch(recording, "strongest", "contact_1", robot.space_dimension(), report);
+  add_touch(recording, "second", "contact_2", robot.space_dimension(), report);
 }
 
 ReportLane lane(const Recording& recording, std::string name, const std::string& path,
@@ -284,15 +305,18 @@ Report experiment_report(const Scenario& scenario, const Recording& recording, c
   report.good = verdict.good();
   for (const ContactVerdict& contact : verdict.contacts) report.contacts.push_back(report_contact(contact));
   report.measures = measures(verdict, scenario.expected);
-  report.robot = drawn_robot(*scenario.robot.robot);
+  const ParallelRobot& robot = *scenario.robot.robot;
+  report.robot = drawn_robot(robot);
+  report.drive_unit = robot.drive_kind(0) == DriveKind::revolute ? "Nm" : "N";
   for (const ScenarioObstacle& obstacle : scenario.obstacles) {
-    report.obstacles.push_back(
-        {obstacle.name, {obstacle.position_in_base.x(), obstacle.position_in_base.y()}, obstacle.radius});
+    report.obstacles.push_back({obstacle.name,
+                                {obstacle.position_in_base.x(), obstacle.position_in_base.y(), 0.0},
+                                obstacle.radius});
   }
   report.period = to_seconds(recording.period);
   if (!recording.time_ns.empty()) report.start = 1e-9 * static_cast<double>(recording.time_ns.front());
-  add_motion(recording, verdict.witness, report);
-  add_forces(recording, verdict.witness, report);
+  add_motion(robot, recording, verdict.witness, report);
+  add_forces(robot, recording, verdict.witness, report);
   report.lanes = lanes(recording, verdict.witness);
   report.bounds = bounds(scenario, verdict);
   report.parameters = scenario_parameters(scenario);

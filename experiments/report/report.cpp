@@ -14,16 +14,27 @@ const Names charts{"contact_force",     "force",  "moment",      "speed",   "pos
                    "orientation_error", "torque", "sigma_kappa", "sigma_sc"};
 
 Names column_names() {
-  Names names{"pose_x",           "pose_y",           "pose_phi",          "speed",
-              "contact_force",    "external_force_x", "external_force_y",  "external_moment",
-              "isolated_x",       "isolated_y",       "estimated_force_x", "estimated_force_y",
-              "estimated_moment", "position_error",   "orientation_error", "sigma_kappa",
-              "sigma_sc"};
+  Names names{"pose_x",   "pose_y",       "pose_z", "pose_phi",       "pose_qw",           "pose_qx",
+              "pose_qy",  "pose_qz",      "speed",  "position_error", "orientation_error", "sigma_kappa",
+              "sigma_sc", "contact_force"};
+  const auto add = [&names](const std::string& prefix) {
+    for (const char* const axis : {"x", "y", "z"}) names.push_back(prefix + axis);
+  };
   for (const std::string contact : {"contact_1_", "contact_2_"}) {
-    for (const std::string part : {"x", "y", "force_x", "force_y"}) names.push_back(contact + part);
+    add(contact);
+    add(contact + "force_");
   }
-  for (const std::string quantity : {"qa_", "torque_commanded_", "torque_applied_"}) {
-    for (int leg = 1; leg <= 6; ++leg) names.push_back(quantity + std::to_string(leg));
+  for (const std::string wrench : {"external_", "estimated_"}) {
+    add(wrench + "force_");
+    add(wrench + "moment_");
+    names.push_back(wrench + "moment");
+  }
+  add("isolated_");
+  for (int leg = 1; leg <= 6; ++leg) {
+    add("elbow_" + std::to_string(leg) + "_");
+    for (const std::string torque : {"torque_commanded_", "torque_applied_"}) {
+      names.push_back(torque + std::to_string(leg));
+    }
   }
   return names;
 }

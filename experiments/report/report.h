@@ -9,8 +9,8 @@
 
 namespace flinch {
 
-/// A point or vector in the plane of the robot, base frame.
-using ReportPoint = std::array<double, 2>;
+/// A point or vector, base frame; z is 0 for a planar robot.
+using ReportPoint = std::array<double, 3>;
 
 /// One contact of an experiment, from the plant's ground truth and the robot's own detector.
 /// What did not happen or was not measured has no value: a contact that was never noticed has no `detected`.
@@ -39,23 +39,21 @@ struct ReportMeasure {
   std::string note;             ///< How it was measured: "largest, before the first contact".
 };
 
-/// One leg as it is drawn: base joint, first link of length `proximal` at angle `angle + qa`, second link to
-/// the coupling joint, which sits at `coupling` in the platform frame.
+/// One leg as it is drawn: from its base joint by way of the columns `elbow_1_x`, ... to its coupling joint.
 struct ReportLeg {
-  ReportPoint base{};      ///< Active joint in the base frame [m].
-  double angle = 0.0;      ///< psi: direction from which the drive angle counts [rad].
-  double proximal = 0.0;   ///< Length of the first link [m].
-  ReportPoint coupling{};  ///< Coupling joint in the platform frame [m].
+  ReportPoint base{};      ///< In the base frame [m].
+  ReportPoint coupling{};  ///< In the platform frame [m].
 };
 
-/// A planar robot as it is drawn.
+/// A robot as it is drawn.
 struct ReportRobot {
   std::vector<ReportLeg> legs;
-  double link_radius = 0.0;      ///< Half the width of a link [m].
-  double platform_radius = 0.0;  ///< Hull of the platform about its origin [m].
+  double link_radius = 0.0;           ///< Half the width of a link [m].
+  std::vector<ReportPoint> platform;  ///< Its outline is the hull of these points, in the platform frame [m],
+  double platform_radius = 0.0;       ///< grown by this [m].
 };
 
-/// A round thing that stands in the robot's plane.
+/// A round thing that the robot may run into.
 struct ReportObstacle {
   std::string name;
   ReportPoint centre{};  ///< Base frame [m].
@@ -102,6 +100,7 @@ struct Report {
   std::vector<ReportMeasure> measures;
 
   std::optional<ReportRobot> robot;
+  std::string drive_unit = "Nm";  ///< Of the columns `torque_commanded_1`, ...
   std::vector<ReportObstacle> obstacles;
 
   double start = 0.0;   ///< Time of the first sample [s].

@@ -24,7 +24,7 @@ json rounded(double value) {
 
 json rounded(const std::optional<double>& value) { return value ? rounded(*value) : json(nullptr); }
 
-json rounded(const ReportPoint& point) { return {rounded(point[0]), rounded(point[1])}; }
+json rounded(const ReportPoint& point) { return {rounded(point[0]), rounded(point[1]), rounded(point[2])}; }
 
 template <typename Values, typename Encode>
 json list(const Values& values, Encode encode) {
@@ -58,15 +58,13 @@ json encode(const ReportMeasure& measure) {
 }
 
 json encode(const ReportLeg& leg) {
-  return {{"base", rounded(leg.base)},
-          {"angle", rounded(leg.angle)},
-          {"proximal", rounded(leg.proximal)},
-          {"coupling", rounded(leg.coupling)}};
+  return {{"base", rounded(leg.base)}, {"coupling", rounded(leg.coupling)}};
 }
 
 json encode(const ReportRobot& robot) {
   return {{"legs", list(robot.legs, [](const ReportLeg& leg) { return encode(leg); })},
           {"link_radius", rounded(robot.link_radius)},
+          {"platform", list(robot.platform, [](const ReportPoint& point) { return rounded(point); })},
           {"platform_radius", rounded(robot.platform_radius)}};
 }
 
@@ -118,6 +116,7 @@ std::string report_json(const Report& report) {
                      {"contacts", encode_all(report.contacts)},
                      {"measures", encode_all(report.measures)},
                      {"robot", report.robot ? encode(*report.robot) : json(nullptr)},
+                     {"drive_unit", report.drive_unit},
                      {"obstacles", encode_all(report.obstacles)},
                      {"start", report.start},
                      {"period", report.period},

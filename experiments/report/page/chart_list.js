@@ -34,19 +34,23 @@ function chartList() {
   const list = [
     { id: "contact_force", title: "Contact force", unit: "N", least: 20, reach: true, fromZero: true, series: [
       ...one("contact_force", report.columns.external_force_x ? "true" : "measured", "--true", true),
-      ...derived(magnitude("estimated_force_x", "estimated_force_y"), "estimated, on the platform", "--estimate")] },
+      ...derived(magnitudeOf("estimated_force"), "estimated, on the platform", "--estimate")] },
     { id: "force", title: "External force on the platform", unit: "N", least: 24, series: [
       ...one("external_force_x", "x true", "--leg-2", true), ...one("estimated_force_x", "x estimated", "--leg-2"),
-      ...one("external_force_y", "y true", "--leg-1", true), ...one("estimated_force_y", "y estimated", "--leg-1")] },
+      ...one("external_force_y", "y true", "--leg-1", true), ...one("estimated_force_y", "y estimated", "--leg-1"),
+      ...one("external_force_z", "z true", "--leg-3", true), ...one("estimated_force_z", "z estimated", "--leg-3")] },
     { id: "moment", title: "External moment on the platform", unit: "Nm", least: 2.4, series: [
-      ...one("external_moment", "true", "--true", true), ...one("estimated_moment", "estimated", "--estimate")] },
+      ...one("external_moment", "true", "--true", true), ...one("estimated_moment", "estimated", "--estimate"),
+      ...["x", "y", "z"].flatMap((axis, i) => [
+        ...one(`external_moment_${axis}`, `${axis} true`, `--leg-${[2, 1, 3][i]}`, true),
+        ...one(`estimated_moment_${axis}`, `${axis} estimated`, `--leg-${[2, 1, 3][i]}`)])] },
     { id: "speed", title: "Speed of the platform", unit: "m/s", least: 0.05, fromZero: true, series: [
       ...one("speed", "speed", "--plain")] },
     { id: "position_error", title: "Tracking error, position", unit: "mm", scale: 1000, least: 0.1, fromZero: true,
       series: one("position_error", "error", "--plain") },
     { id: "orientation_error", title: "Tracking error, orientation", unit: "°", scale: degrees, least: 0.01, fromZero: true,
       series: one("orientation_error", "error", "--plain") },
-    { id: "torque", title: "Drive torques", unit: "Nm", least: 2, series: torques() },
+    { id: "torque", title: `Drive ${report.drive_unit === "N" ? "forces" : "torques"}`, unit: report.drive_unit, least: 2, series: torques() },
     { id: "sigma_kappa", title: "Condition number", symbol: ["σ", "κ"], unit: "", least: 0.5, series: one("sigma_kappa", "σκ", "--plain") },
     { id: "sigma_sc", title: "Self-collision distance", symbol: ["σ", "sc"], unit: "mm", scale: 1000, least: 2,
       series: one("sigma_sc", "σsc", "--plain") },

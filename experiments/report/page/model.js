@@ -23,12 +23,13 @@ function valueOf(name, sample) {
   return report.columns[name]?.[sample] ?? null;
 }
 
-/** Length of the vector whose components are two columns; null where one is missing. */
-function magnitude(x, y) {
-  if (!has(x, y)) return null;
-  return report.columns[x].map((value, sample) => {
-    const other = report.columns[y][sample];
-    return value === null || other === null ? null : Math.hypot(value, other);
+/** Length of the vector whose components are the columns `name`_x, _y and, where there is one, _z; null without them. */
+function magnitudeOf(name) {
+  const parts = ["x", "y", "z"].map((axis) => `${name}_${axis}`).filter((column) => has(column));
+  if (parts.length < 2) return null;
+  return report.columns[parts[0]].map((_, sample) => {
+    const vector = parts.map((column) => valueOf(column, sample));
+    return vector.includes(null) ? null : Math.hypot(...vector);
   });
 }
 

@@ -66,7 +66,7 @@ const player = {
 
   /** The contact force over the whole run, behind the slider. */
   drawOverview() {
-    const force = report.columns.contact_force ?? magnitude("estimated_force_x", "estimated_force_y");
+    const force = report.columns.contact_force ?? magnitudeOf("estimated_force");
     if (!force) return;
     const buckets = 600;
     const peaks = Array.from({ length: buckets }, () => 0);

@@ -144,7 +144,8 @@ class Experiment {
     const Vector3d torque = now.J_x_qa.transpose() * control(t);
     for (int i = 0; i < 3; ++i) {
       const std::string leg = std::to_string(i + 1);
-      put("qa_" + leg, now.qa[i]);
+      put("elbow_" + leg + "_x", now.elbow[static_cast<size_t>(i)].x());
+      put("elbow_" + leg + "_y", now.elbow[static_cast<size_t>(i)].y());
       put("torque_commanded_" + leg, torque[i]);
       put("torque_applied_" + leg, last_torque_[i] + noise(0.15));
     }
@@ -169,10 +170,10 @@ class Experiment {
 };
 
 ReportRobot drawn_robot() {
-  ReportRobot robot{{}, 0.03, platform_radius};
+  ReportRobot robot{{}, 0.03, {{0.0, 0.0, 0.0}}, platform_radius};
   for (const sample::Leg& leg : sample::legs) {
     const Vector2d base = leg.base_joint(), coupling = leg.coupling_in_platform();
-    robot.legs.push_back({{base.x(), base.y()}, leg.angle, leg.proximal, {coupling.x(), coupling.y()}});
+    robot.legs.push_back({{base.x(), base.y(), 0.0}, {coupling.x(), coupling.y(), 0.0}});
   }
   return robot;
 }
@@ -253,7 +254,7 @@ Report sample_report() {
   report.note = "Test data: this motion was fabricated to test the page. It is not a result of flinch.";
   report.period = period;
   report.robot = drawn_robot();
-  report.obstacles = {{"pylon", {pylon.x(), pylon.y()}, pylon_radius}};
+  report.obstacles = {{"pylon", {pylon.x(), pylon.y(), 0.0}, pylon_radius}};
   add_verdict(experiment, report);
   add_background(report);
   return report;

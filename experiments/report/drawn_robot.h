@@ -1,0 +1,16 @@
+#pragma once
+
+#include "experiments/report/report.h"
+
+namespace flinch {
+
+class ParallelRobot;
+
+/// The robot as the page draws it: where its legs are fixed, and the outline of its platform.
+ReportRobot drawn_robot(const ParallelRobot& robot);
+
+/// Adds the columns `elbow_1_x`, ... to those of the pose, which must be there: where the links of each leg
+/// meet. "No data" where the legs do not reach a pose.
+void add_elbows(const ParallelRobot& robot, Report& report);
+
+}  // namespace flinch
