@@ -66,6 +66,11 @@ T& at(std::byte* memory, Place place) {
   return *reinterpret_cast<T*>(place.in(memory));
 }
 
+template <class T>
+const T& at(const std::byte* memory, Place place) {
+  return *reinterpret_cast<const T*>(place.in(memory));
+}
+
 template <auto function, std::size_t... i>
 void call_with(const System& system, std::byte* memory, const Place* places, std::index_sequence<i...>) {
   using S = Signature<function>;

@@ -53,6 +53,16 @@ Context& Context::operator=(Context&& other) noexcept {
 
 Context::~Context() { destroy_values(); }
 
+bool Context::at_first_tick() const { return last_update() == Layout::never; }
+
+bool Context::due(const Every& every) const {
+  return every.due(time(), at_first_tick() ? Time::zero() : time() - last_update());
+}
+
+Time Context::last_update() const { return *reinterpret_cast<const Time*>(Layout::last_update.in(memory())); }
+
+void Context::complete_tick() { *reinterpret_cast<Time*>(Layout::last_update.in(memory())) = time(); }
+
 void Context::destroy_values() {
   if (!memory_) return;
   for (const Layout::Cell& cell : diagram_->layout().cells()) cell.type->destroy(memory_.get() + cell.offset);

@@ -35,6 +35,11 @@ class Context {
   Time time() const { return *reinterpret_cast<const Time*>(memory_.get()); }
   void set_time(Time time) { *reinterpret_cast<Time*>(memory_.get()) = time; }
 
+  /// Whether no tick has been completed yet.
+  bool at_first_tick() const;
+  /// Whether `every` is due at this tick: now, or skipped since the tick before.
+  bool due(const Every& every) const;
+
   const Diagram& diagram() const { return *diagram_; }
 
   /// The value of a port or state. Input ports show the value of the output that they are connected to.
@@ -68,6 +73,8 @@ class Context {
   const std::byte* memory() const { return memory_.get(); }
 
  private:
+  friend class Diagram;
+
   struct FreeMemory {
     void operator()(std::byte* memory) const;
   };
@@ -76,6 +83,8 @@ class Context {
   Place place_of_external(PortId port) const;
   void set_state(PortId state, const void* value);
   void destroy_values();
+  Time last_update() const;
+  void complete_tick();
 
   const Diagram* diagram_;
   std::unique_ptr<std::byte, FreeMemory> memory_;

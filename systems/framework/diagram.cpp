@@ -10,13 +10,13 @@ namespace flinch {
 
 Diagram::~Diagram() = default;
 
-void Diagram::run(const std::vector<Call>& calls, std::byte* memory, BlockProfile* profile) const {
+void Diagram::run(std::span<const Call> calls, std::byte* memory, BlockProfile* profile) const {
   if (profile != nullptr) return run_timed(calls, memory, *profile);
   const Place* places = places_.data();
   for (const Call& call : calls) call.function(*call.block, memory, places + call.first_place);
 }
 
-void Diagram::run_timed(const std::vector<Call>& calls, std::byte* memory, BlockProfile& profile) const {
+void Diagram::run_timed(std::span<const Call> calls, std::byte* memory, BlockProfile& profile) const {
   profile.start_calls();
   for (const Call& call : calls) {
     call.function(*call.block, memory, places_.data() + call.first_place);
@@ -25,21 +25,48 @@ void Diagram::run_timed(const std::vector<Call>& calls, std::byte* memory, Block
 }
 
 void Diagram::evaluate(Context& context, BlockProfile* profile) const {
-  for (const Turns& turns : kept_outputs_) turns.begin(context.memory());
-  run(outputs_in_order_, context.memory(), profile);
+  std::byte* memory = context.memory();
+  for (const Turns& turns : kept_outputs_) turns.begin(memory);
+  const std::span<const Call> calls = outputs_in_order_;
+  std::size_t next = 0;
+  for (const HeldOutputs& held : held_outputs_) {
+    run(calls.subspan(next, held.begin - next), memory, profile);
+    next = held.end;
+    bool& computed = internal::at<bool>(memory, held.computed);
+    if (is_due(held, context)) {
+      for (const Turns& turns : held.turns) turns.begin(memory);
+      run(calls.subspan(held.begin, held.end - held.begin), memory, profile);
+      computed = true;
+    } else if (computed) {  // by an evaluation of this tick before, which no longer counts
+      for (const Turns& turns : held.turns) turns.stay(memory);
+      computed = false;
+    }
+  }
+  run(calls.subspan(next), memory, profile);
+}
+
+bool Diagram::is_due(const HeldOutputs& held, const Context& context) const {
+  if (context.at_first_tick()) return true;
+  return held.every ? context.due(*held.every) : internal::at<bool>(context.memory(), held.when);
 }
 
 void Diagram::update(Context& context, BlockProfile* profile) const {
   std::byte* memory = context.memory();
-  const Time now = context.time();
   for (const UpdateGroup& group : update_groups_) {
-    if (group.every.due(now)) run(group.calls, memory, profile);
+    if (context.due(group.every)) run(group.calls, memory, profile);
   }
   for (const UpdateGroup& group : update_groups_) {
-    if (!group.every.due(now)) continue;
+    if (!context.due(group.every)) continue;
     for (const Copy& copy : group.copies) copy.type->copy_assign(copy.to.in(memory), copy.from.in(memory));
     for (const Turns& turns : group.kept) turns.end(memory);
   }
+  for (const HeldOutputs& held : held_outputs_) {
+    bool& computed = internal::at<bool>(memory, held.computed);
+    if (!computed) continue;
+    for (const Turns& turns : held.turns) turns.end(memory);
+    computed = false;
+  }
+  context.complete_tick();
 }
 
 void Diagram::get_continuous(const Context& context, std::span<double> numbers) const {

@@ -24,7 +24,8 @@ class BlockProfile;
 ///   x     := initial value of every state
 ///   for k = 0, 1, 2, ...
 ///     u   := the diagram's input ports, as set from outside before the tick
-///     y   := every output, from x, u and t_k, each once, in an order in which what is read comes first
+///     y   := every output, from x, u and t_k, each once, in an order in which what is read comes first;
+///            one that has an occasion only if k = 0 or that is due, otherwise its value stays as it was
 ///     recorders see y and u
 ///     x_d := every update that is due at t_k, all computed from the old x and from y, then all written at
 ///     once x_c := the continuous states integrated from t_k to t_{k+1}, with u and the new x_d held; inside
@@ -33,6 +34,12 @@ class BlockProfile;
 ///
 /// So a state that an update writes at t_k acts from t_k on: a value held by it is a zero-order hold without
 /// delay in continuous time, and one tick of delay between discrete blocks.
+///
+/// The occasion of an output, and that of an update, is an Every or a When. An Every is due at t_k when one
+/// of its instants lies in (t_{k-1}, t_k], so that none is lost where the clock skips periods; at k = 0 when
+/// it is t_0. A When is due if its condition, computed at this very tick, is true. A held output is there
+/// without delay at the tick that computes it, and costs nothing in between; outputs that read nothing but
+/// what is held on one occasion are held as well. Derivatives see held outputs as they are at t_k.
 ///
 /// What a Context shows: outputs show y from one evaluate() to the next, also after update(); states show x,
 /// the old one until update() and the new one after it. A state that keeps an output takes turns with it: its
@@ -123,6 +130,16 @@ class Diagram : public System {
     Place from;
     Place to;
   };
+  /// Neighbours among the outputs in order that are computed on the same occasion, and hold their values
+  /// otherwise.
+  struct HeldOutputs {
+    std::optional<Every> every;
+    Place when;  ///< without `every`: the condition
+    std::size_t begin;
+    std::size_t end;
+    Place computed;            ///< whether they have been, since the tick before
+    std::vector<Turns> turns;  ///< each of the value held and the one computed
+  };
   struct UpdateGroup {
     Every every;
     std::vector<Call> calls;
@@ -130,8 +147,9 @@ class Diagram : public System {
     std::vector<Turns> kept;   ///< of the states that keep an output
   };
 
-  void run(const std::vector<Call>& calls, std::byte* memory, BlockProfile* profile) const;
-  void run_timed(const std::vector<Call>& calls, std::byte* memory, BlockProfile& profile) const;
+  void run(std::span<const Call> calls, std::byte* memory, BlockProfile* profile) const;
+  void run_timed(std::span<const Call> calls, std::byte* memory, BlockProfile& profile) const;
+  bool is_due(const HeldOutputs& held, const Context& context) const;
   void collect_taps(const Diagram& diagram, const std::string& prefix, std::vector<Tap>& taps) const;
 
   Time tick_{};
@@ -141,7 +159,8 @@ class Diagram : public System {
   Layout layout_;
   std::vector<Place> places_;
   std::vector<Call> outputs_in_order_;
-  std::vector<Turns> kept_outputs_;
+  std::vector<HeldOutputs> held_outputs_;
+  std::vector<Turns> kept_outputs_;  ///< of those that are not held
   std::vector<UpdateGroup> update_groups_;
   std::vector<Call> constant_in_step_;
   std::vector<Turns> kept_in_step_;  ///< those kept outputs that are computed again in a step

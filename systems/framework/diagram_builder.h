@@ -72,7 +72,7 @@ class DiagramBuilder {
   /// Gives the diagram an output that shows `inner`.
   template <class T>
   OutputPort<T> export_output(std::string name, OutputPort<T> inner) {
-    diagram_->outputs_.push_back({std::move(name), &value_type<T>, nullptr, {inner.id}, false});
+    diagram_->outputs_.push_back({std::move(name), &value_type<T>, nullptr, {inner.id}, false, {}});
     return {{diagram_.get(), PortId::Kind::output, static_cast<int>(diagram_->outputs_.size()) - 1}};
   }
 

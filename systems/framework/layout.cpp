@@ -4,7 +4,11 @@
 
 namespace flinch {
 
-Layout::Layout() { put(PortId{}, Place::fixed(add(value_type<Time>, value_type<Time>.make_default()))); }
+Layout::Layout() {
+  add(value_type<Time>, value_type<Time>.make_default());
+  add(value_type<Time>, std::make_shared<const Time>(never));
+  put(PortId{}, time);
+}
 
 std::uint32_t Layout::add(const ValueType& type, std::shared_ptr<const void> initial) {
   const std::size_t offset = (size_ + type.alignment - 1) / type.alignment * type.alignment;

@@ -19,10 +19,14 @@ struct PortIdHash {
   }
 };
 
-/// Where every value of a diagram lies in the memory of a Context. The time is at offset 0.
+/// Where every value of a diagram lies in the memory of a Context. The time of the
+/// tick comes first, that of the last update second.
 class Layout {
  public:
   static constexpr std::size_t alignment = 64;
+  static constexpr Place time = Place::fixed(0);
+  static constexpr Place last_update = Place::fixed(sizeof(Time));
+  static constexpr Time never = Time::min();  ///< before the first update
 
   struct Cell {
     std::uint32_t offset;

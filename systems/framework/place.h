@@ -46,6 +46,8 @@ struct Turns {
   void begin(std::byte* memory) const { word(memory, next) = cells - word(memory, now); }
   /// The next value has become the state.
   void end(std::byte* memory) const { word(memory, now) = word(memory, next); }
+  /// The next value is not computed: it is what the state is.
+  void stay(std::byte* memory) const { word(memory, next) = word(memory, now); }
   /// The state is going to be written by itself: it shall not lie where the next value lies.
   void part(std::byte* memory) const {
     if (word(memory, now) == word(memory, next)) word(memory, now) = cells - word(memory, next);

@@ -56,6 +56,18 @@ struct Clock {
   PortId id;
 };
 
+/// An input, output or state that is true or false.
+template <class Port>
+concept Condition = std::is_same_v<typename Port::Value, bool>;
+
+/// When an output is computed: at the ticks at which a condition of the same block is true.
+struct When {
+  template <Condition Port>
+  explicit When(Port port) : condition(port.id) {}
+
+  PortId condition;
+};
+
 /// What update<...>(), keep() and derivative<...>() return, so that all can be declared as members.
 struct Update {};
 struct Derivative {};

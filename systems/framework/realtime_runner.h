@@ -36,7 +36,8 @@ class Exchange;
 /// feed_timing() fills.
 ///
 /// A controller of a real robot does better with a time that does not fall behind: with follow_clock() the
-/// tick after n lost periods runs at t + n T. That is for diagrams without continuous states, which have
+/// tick after n lost periods runs at t + n T, together with all updates and outputs that were due in between
+/// (see diagram.h). That is for diagrams without continuous states, which have
 /// nothing to integrate over what was lost.
 ///
 /// In steady state the thread allocates nothing and takes no lock. What the machine grants it is asked for

@@ -54,7 +54,7 @@ Recorder::Recorder(const Diagram& diagram, const std::vector<std::string>& paths
 }
 
 void Recorder::record(const Context& context) {
-  if (!every_.due(context.time())) return;
+  if (!context.due(every_)) return;
   if (time_ns_.size() == capacity_) {
     ++dropped_;
     return;

@@ -14,13 +14,19 @@ const System::StateVariable& variable(PortId state) {
 }  // namespace
 
 void Scheduler::find_kept_outputs() {
+  const Every tick{root_.tick(), Time::zero()};
   for (const Leaf& leaf : leaves_) {
     for (const System::Change& update : leaf.block->updates()) {
       if (update.function != nullptr) continue;
       const PortId kept = source(update.reads.front());
-      if (kept.kind == PortId::Kind::output)
-        kept_.try_emplace(kept, Kept{update.state, {}});  // the first one
+      if (kept.kind != PortId::Kind::output) continue;
+      const bool each_tick = update.every.value_or(tick) == tick;
+      const bool follows = each_tick || !is_held(nodes_[node_of_.at(kept)]);
+      if (follows) kept_.try_emplace(kept, Kept{update.state, {}});  // the first one
     }
+  }
+  for (const Node& node : nodes_) {
+    if (is_held(node)) kept_.try_emplace(node.port, Kept{});
   }
 }
 
@@ -61,11 +67,12 @@ void Scheduler::lay_out_outputs() {
       layout.put(port, Place::fixed(layout.add(type, type.make_default())));
     } else {
       auto& [state, turns] = kept->second;
-      turns = layout.add_turns(type, variable(state).initial, type.make_default());
+      turns =
+          layout.add_turns(type, state ? variable(*state).initial : type.make_default(), type.make_default());
       layout.put(port, Place::moving(turns.next));
-      layout.put(state, Place::moving(turns.now));
-      root_.state_cells_.push_back({state, &type, Place::moving(turns.now), std::nullopt, turns});
-      root_.kept_outputs_.push_back(turns);
+      if (!state) continue;
+      layout.put(*state, Place::moving(turns.now));
+      root_.state_cells_.push_back({*state, &type, Place::moving(turns.now), std::nullopt, turns});
     }
   }
 }
@@ -106,13 +113,34 @@ void Scheduler::add_line(const std::string& what, const std::vector<PortId>& rea
 }
 
 void Scheduler::add_outputs() {
-  for (const std::size_t node : order_) {
-    const PortId port = nodes_[node].port;
-    const System::Output& output = output_of(nodes_[node]);
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    const Node& node = nodes_[order_[i]];
+    const System::Output& output = output_of(node);
     root_.outputs_in_order_.push_back(
-        make_call(*port.owner, output.function, output.reads, root_.layout_.place(port)));
-    add_line("output    ", output.reads, path(port));
+        make_call(*node.port.owner, output.function, output.reads, root_.layout_.place(node.port)));
+    add_line("output    ", output.reads, path(node.port) + describe(node.occasion));
+    const auto kept = kept_.find(node.port);
+    if (is_held(node)) {
+      const bool goes_on = i > 0 && nodes_[order_[i - 1]].occasion == node.occasion;
+      if (!goes_on) hold_from(i, node.occasion);
+      root_.held_outputs_.back().end = i + 1;
+      root_.held_outputs_.back().turns.push_back(kept->second.turns);
+    } else if (kept != kept_.end()) {
+      root_.kept_outputs_.push_back(kept->second.turns);
+    }
   }
+}
+
+void Scheduler::hold_from(std::size_t call, const System::Occasion& occasion) {
+  const Place when = occasion.when ? root_.layout_.place(*occasion.when) : Place();
+  const auto computed = Place::fixed(root_.layout_.add(value_type<bool>, value_type<bool>.make_default()));
+  root_.held_outputs_.push_back({occasion.every, when, call, call, computed, {}});
+}
+
+std::string Scheduler::describe(const System::Occasion& occasion) const {
+  if (occasion.when) return "  when " + path(*occasion.when);
+  if (occasion.every) return "  every " + std::to_string(occasion.every->period.count()) + " ns";
+  return "";
 }
 
 void Scheduler::add_updates() {
@@ -160,8 +188,8 @@ void Scheduler::mark_step_nodes() {
   for (const std::size_t index : order_) {
     Node& node = nodes_[index];
     const auto varies = [this](std::size_t read) { return nodes_[read].varies_in_step; };
-    node.varies_in_step =
-        reads_varying(output_of(node).reads) || std::any_of(node.reads.begin(), node.reads.end(), varies);
+    node.varies_in_step = !is_held(node) && (reads_varying(output_of(node).reads) ||
+                                             std::any_of(node.reads.begin(), node.reads.end(), varies));
   }
   for (const Leaf& leaf : leaves_) {
     for (const System::Change& derivative : leaf.block->derivatives()) {
@@ -169,7 +197,7 @@ void Scheduler::mark_step_nodes() {
     }
   }
   for (auto index = order_.rbegin(); index != order_.rend(); ++index) {
-    if (!nodes_[*index].needed_in_step) continue;
+    if (!nodes_[*index].needed_in_step || is_held(nodes_[*index])) continue;
     for (const std::size_t read : nodes_[*index].reads) nodes_[read].needed_in_step = true;
   }
 }
@@ -178,7 +206,7 @@ void Scheduler::add_continuous() {
   mark_step_nodes();
   for (std::size_t i = 0; i < order_.size(); ++i) {
     const Node& node = nodes_[order_[i]];
-    if (!node.needed_in_step) continue;
+    if (!node.needed_in_step || is_held(node)) continue;
     (node.varies_in_step ? root_.varying_in_step_ : root_.constant_in_step_)
         .push_back(root_.outputs_in_order_[i]);
     const auto kept = kept_.find(node.port);

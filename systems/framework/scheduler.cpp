@@ -11,6 +11,7 @@ void Scheduler::check_and_schedule(std::vector<std::string>& problems) {
   check_periods(problems);
   check_states(problems);
   if (!problems.empty()) return;
+  hold_what_follows();
   lay_out();
   add_outputs();
   add_updates();
@@ -36,10 +37,41 @@ void Scheduler::make_nodes() {
     for (std::size_t i = 0; i < leaf.block->outputs().size(); ++i) {
       const PortId port{leaf.block, PortId::Kind::output, static_cast<int>(i)};
       node_of_[port] = nodes_.size();
-      nodes_.push_back({port, {}});
+      nodes_.push_back({port, {}, leaf.block->outputs()[i].occasion});
     }
   }
-  for (Node& node : nodes_) node.reads = nodes_read(output_of(node).reads);
+  for (Node& node : nodes_) {
+    if (node.occasion.when) node.occasion.when = source(*node.occasion.when);
+    node.reads = nodes_read(needed_by(output_of(node)));
+  }
+}
+
+std::vector<PortId> Scheduler::needed_by(const System::Output& output) {
+  std::vector<PortId> needed = output.reads;
+  if (output.occasion.when) needed.push_back(*output.occasion.when);
+  return needed;
+}
+
+// What reads nothing but values that are held on one occasion would compute the same in between: it is held
+// as well.
+void Scheduler::hold_what_follows() {
+  for (const std::size_t node : order_) {
+    if (is_held(nodes_[node])) continue;
+    nodes_[node].occasion = common_occasion(output_of(nodes_[node]).reads).value_or(System::Occasion());
+  }
+}
+
+std::optional<System::Occasion> Scheduler::common_occasion(const std::vector<PortId>& reads) const {
+  std::optional<System::Occasion> common;
+  for (const PortId& read : reads) {
+    const auto node = node_of_.find(source(read));
+    if (node == node_of_.end()) return std::nullopt;  // a state, an input of the diagram or the clock
+    const Node& read_node = nodes_[node->second];
+    if (output_of(read_node).reads.empty() && !is_held(read_node)) continue;  // a constant
+    if (common && *common != read_node.occasion) return std::nullopt;
+    common = read_node.occasion;
+  }
+  return common;
 }
 
 PortId Scheduler::source(PortId port) const {
@@ -117,7 +149,7 @@ std::string Scheduler::describe_cycle(const std::vector<std::size_t>& cycle) con
   std::string text = "algebraic loop: " + path(nodes_[cycle.front()].port);
   for (std::size_t i = 0; i < cycle.size(); ++i) {
     const Node& reader = nodes_[cycle[(i + 1) % cycle.size()]];
-    for (const PortId& read : output_of(reader).reads) {
+    for (const PortId& read : needed_by(output_of(reader))) {
       if (source(read) != nodes_[cycle[i]].port) continue;
       if (read.kind == PortId::Kind::input) text += " -> " + path(read);
       break;
@@ -128,20 +160,26 @@ std::string Scheduler::describe_cycle(const std::vector<std::size_t>& cycle) con
 }
 
 void Scheduler::check_periods(std::vector<std::string>& problems) const {
-  const auto nanoseconds = [](Time time) { return std::to_string(time.count()) + " ns"; };
   for (const Leaf& leaf : leaves_) {
-    for (const System::Change& update : leaf.block->updates()) {
-      const Every every = update.every.value_or(Every{root_.tick(), Time::zero()});
-      const std::string who = "the update of " + path(update.state);
-      if (every.period <= Time::zero() || every.period % root_.tick() != Time::zero()) {
-        problems.push_back(who + " has the period " + nanoseconds(every.period) +
-                           ", which is no multiple of the tick, " + nanoseconds(root_.tick()));
-      }
-      if (every.offset < Time::zero() || every.offset % root_.tick() != Time::zero()) {
-        problems.push_back(who + " has the offset " + nanoseconds(every.offset) +
-                           ", which is no multiple of the tick, " + nanoseconds(root_.tick()));
-      }
+    for (const System::Output& output : leaf.block->outputs()) {
+      const std::string who = "the output " + leaf.path + "/" + output.name;
+      if (output.occasion.every) check_period(*output.occasion.every, who, problems);
     }
+    for (const System::Change& update : leaf.block->updates()) {
+      if (update.every) check_period(*update.every, "the update of " + path(update.state), problems);
+    }
+  }
+}
+
+void Scheduler::check_period(const Every& every, const std::string& who,
+                             std::vector<std::string>& problems) const {
+  const auto nanoseconds = [](Time time) { return std::to_string(time.count()) + " ns"; };
+  const std::string but = ", which is no multiple of the tick, " + nanoseconds(root_.tick());
+  if (every.period <= Time::zero() || every.period % root_.tick() != Time::zero()) {
+    problems.push_back(who + " has the period " + nanoseconds(every.period) + but);
+  }
+  if (every.offset < Time::zero() || every.offset % root_.tick() != Time::zero()) {
+    problems.push_back(who + " has the offset " + nanoseconds(every.offset) + but);
   }
 }
 

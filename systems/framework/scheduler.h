@@ -26,6 +26,7 @@ class Scheduler {
   struct Node {
     PortId port;
     std::vector<std::size_t> reads;  ///< nodes that must run before
+    System::Occasion occasion;       ///< when it is computed; a condition is named by its source
     bool varies_in_step = false;     ///< depends on the time or on a continuous state
     bool needed_in_step = false;     ///< a derivative depends on it
   };
@@ -37,14 +38,23 @@ class Scheduler {
   std::vector<std::size_t> nodes_read(const std::vector<PortId>& reads) const;
   std::string path(PortId port) const;
 
+  /// What an output reads, and the condition on which it does.
+  static std::vector<PortId> needed_by(const System::Output& output);
+  void hold_what_follows();
+  std::optional<System::Occasion> common_occasion(const std::vector<PortId>& reads) const;
+
   void find_loops(std::vector<std::string>& problems);
   std::vector<std::size_t> cycle_through(std::size_t start, const std::vector<bool>& placed) const;
   std::string describe_cycle(const std::vector<std::size_t>& cycle) const;
   void check_periods(std::vector<std::string>& problems) const;
+  void check_period(const Every& every, const std::string& who, std::vector<std::string>& problems) const;
   void check_states(std::vector<std::string>& problems) const;
 
   void lay_out();
   void find_kept_outputs();
+  bool is_held(const Node& node) const { return node.occasion != System::Occasion(); }
+  void hold_from(std::size_t call, const System::Occasion& occasion);
+  std::string describe(const System::Occasion& occasion) const;
   void lay_out_inputs();
   void lay_out_outputs();
   void lay_out_states();
@@ -69,9 +79,9 @@ class Scheduler {
   std::vector<Node> nodes_;
   std::unordered_map<PortId, std::size_t, PortIdHash> node_of_;
   std::vector<std::size_t> order_;
-  /// Output -> the state that keeps it and takes turns with it, and where both lie.
+  /// Output -> the state that keeps it, or none if it merely holds its value, and where both take turns.
   struct Kept {
-    PortId state;
+    std::optional<PortId> state;
     Turns turns;
   };
   std::unordered_map<PortId, Kept, PortIdHash> kept_;

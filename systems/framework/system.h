@@ -48,12 +48,19 @@ class System {
     const ValueType* type;
     std::unique_ptr<System> (*stand_in)() = nullptr;  ///< of an optional input: what feeds it if nobody does
   };
+  /// When an output is computed: none of both stands for every tick.
+  struct Occasion {
+    std::optional<Every> every;
+    std::optional<PortId> when;
+    friend bool operator==(const Occasion&, const Occasion&) = default;
+  };
   struct Output {
     std::string name;
     const ValueType* type;
     BlockFunction function;     ///< null for the outputs of a diagram
     std::vector<PortId> reads;  ///< its arguments; for a diagram the one inner output which it exports
     bool intermediate = false;  ///< read by functions of the same block only
+    Occasion occasion;
   };
   struct StateVariable {
     std::string name;
@@ -98,7 +105,24 @@ class System {
   auto output(std::string name, Reads... reads) {
     using Value = typename internal::Signature<function>::Result;
     return OutputPort<Value>{
-        add_output<function, typename Reads::Value...>(std::move(name), {reads.id...}, false)};
+        add_output<function, typename Reads::Value...>({}, std::move(name), {reads.id...}, false)};
+  }
+
+  /// The same, but computed only at the first tick and when due; in between it holds its value. Outputs that
+  /// read nothing but what is held for the same reason need not say so: they are held as well.
+  template <auto function, class... Reads>
+  auto output(Every every, std::string name, Reads... reads) {
+    using Value = typename internal::Signature<function>::Result;
+    return OutputPort<Value>{add_output<function, typename Reads::Value...>(
+        {every, std::nullopt}, std::move(name), {reads.id...}, false)};
+  }
+
+  /// The same, but computed only at the first tick and when a condition is true.
+  template <auto function, class... Reads>
+  auto output(When when, std::string name, Reads... reads) {
+    using Value = typename internal::Signature<function>::Result;
+    return OutputPort<Value>{add_output<function, typename Reads::Value...>(
+        {std::nullopt, when.condition}, std::move(name), {reads.id...}, false)};
   }
 
   /// Declares a result that only functions of this block read.
@@ -106,7 +130,15 @@ class System {
   auto intermediate(std::string name, Reads... reads) {
     using Value = typename internal::Signature<function>::Result;
     return Intermediate<Value>{
-        add_output<function, typename Reads::Value...>(std::move(name), {reads.id...}, true)};
+        add_output<function, typename Reads::Value...>({}, std::move(name), {reads.id...}, true)};
+  }
+
+  /// The same, but computed only at the first tick and when a condition is true.
+  template <auto function, class... Reads>
+  auto intermediate(When when, std::string name, Reads... reads) {
+    using Value = typename internal::Signature<function>::Result;
+    return Intermediate<Value>{add_output<function, typename Reads::Value...>(
+        {std::nullopt, when.condition}, std::move(name), {reads.id...}, true)};
   }
 
   /// Declares that at every tick `function`, evaluated from `reads`, becomes the next value of `written`.
@@ -152,11 +184,12 @@ class System {
   friend class DiagramBuilder;
 
   template <auto function, class... Values>
-  PortId add_output(std::string name, std::vector<PortId> reads, bool intermediate) {
+  PortId add_output(Occasion occasion, std::string name, std::vector<PortId> reads, bool intermediate) {
     using Value = typename internal::Signature<function>::Result;
     internal::check_arguments<function, Values...>();
-    outputs_.push_back(
-        {std::move(name), &value_type<Value>, internal::call<function>, own(std::move(reads)), intermediate});
+    if (occasion.when) own({*occasion.when});
+    outputs_.push_back({std::move(name), &value_type<Value>, internal::call<function>, own(std::move(reads)),
+                        intermediate, occasion});
     return {this, PortId::Kind::output, static_cast<int>(outputs_.size()) - 1};
   }
 

@@ -8,6 +8,14 @@ namespace flinch {
 
 using Phase = PlatformTrajectory::Course::Phase;
 
+namespace {
+
+Time arrival(const PlatformTrajectory::Course& course) {
+  return course.begin + from_seconds(course.to_start.duration());
+}
+
+}  // namespace
+
 PlatformTrajectory::PlatformTrajectory(std::shared_ptr<const ParallelRobot> robot,
                                        PlatformTrajectorySettings settings)
     : robot_(std::move(robot)), settings_(std::move(settings)) {
@@ -15,6 +23,16 @@ PlatformTrajectory::PlatformTrajectory(std::shared_ptr<const ParallelRobot> robo
       !can_be_planned_with(settings_.approach.rotation)) {
     throw SetupError("platform trajectory: the limits of the approach must be positive");
   }
+}
+
+bool PlatformTrajectory::turns(Time now, const Course& last, const ReactionState& state,
+                               const StartCommand& command) const {
+  return state.entered(ReactionMode::nominal, now) || has_arrived(now, last) ||
+         (state.mode == ReactionMode::nominal && starts(now, last, command));
+}
+
+bool PlatformTrajectory::has_arrived(Time now, const Course& course) const {
+  return course.phase == Phase::approach && now >= arrival(course);
 }
 
 void PlatformTrajectory::advance(Time now, const Course& last, const ReactionState& state,
@@ -31,10 +49,9 @@ void PlatformTrajectory::advance(Time now, const Course& last, const ReactionSta
     course = {
         .phase = Phase::approach, .begin = now, .to_start = way_to_path(now, course), .automatic = false};
   }
-  const Time arrival = course.begin + from_seconds(course.to_start.duration());
-  if (course.phase == Phase::approach && now >= arrival) {
+  if (has_arrived(now, course)) {
     course.phase = Phase::path;
-    course.begin = arrival;
+    course.begin = arrival(course);
   }
 }
 

@@ -50,8 +50,10 @@ class PlatformTrajectory final : public System {
   InputPort<StartCommand> start = input<StartCommand>("start");
 
  private:
-  Intermediate<Course> course_ =
-      intermediate<&PlatformTrajectory::advance>("course", clock, last_, reaction, platform, start);
+  Intermediate<bool> turns_ =
+      intermediate<&PlatformTrajectory::turns>("turns", clock, last_, reaction, start);
+  Intermediate<Course> course_ = intermediate<&PlatformTrajectory::advance>(When(turns_), "course", clock,
+                                                                            last_, reaction, platform, start);
 
  public:
   OutputPort<PlatformReference> reference =
@@ -60,11 +62,14 @@ class PlatformTrajectory final : public System {
  private:
   Update remember_ = keep(last_, course_);
 
+  /// Whether another course begins at this tick.
+  bool turns(Time now, const Course& last, const ReactionState& state, const StartCommand& command) const;
   void advance(Time now, const Course& last, const ReactionState& state, const PlatformMotion& motion,
                const StartCommand& command, Course& course) const;
   void evaluate(Time now, const Course& course, PlatformReference& result) const;
 
   PoseMotion rest_at(const PlatformMotion& motion) const;
+  bool has_arrived(Time now, const Course& course) const;
   bool starts(Time now, const Course& course, const StartCommand& command) const;
   PoseMotion way_to_path(Time now, const Course& course) const;
 

@@ -49,15 +49,11 @@ PlatformVector Retraction::displacement(const WrenchEstimate& contact) const {
   return retraction_displacement(wrench, robot_->space_dimension(), settings_);
 }
 
-void Retraction::plan(Time now, const Plan& last, const ReactionState& state, const PlatformMotion& motion,
-                      const WrenchEstimate& contact, Plan& next) const {
-  if (!state.entered(ReactionMode::react, now)) {
-    next = last;
-    return;
-  }
-  next = {.motion = {}, .begin = now};
-  if (!motion.valid() || !robot_->space().contains(motion.pose)) return;
-  next.motion = PoseMotion::plan(robot_->space(), motion.pose, motion.velocity, displacement(contact),
+void Retraction::plan(Time now, bool begins, const PlatformMotion& motion, const WrenchEstimate& contact,
+                      Plan& plan) const {
+  plan = {.motion = {}, .begin = now};
+  if (!begins || !motion.valid() || !robot_->space().contains(motion.pose)) return;
+  plan.motion = PoseMotion::plan(robot_->space(), motion.pose, motion.velocity, displacement(contact),
                                  settings_.limits);
 }
 

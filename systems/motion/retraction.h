@@ -41,10 +41,6 @@ class Retraction final : public System {
     Time begin{};
   };
 
- private:
-  State<Plan> last_ = state<Plan>("last");
-
- public:
   /// Throws SetupError for settings that are not positive.
   Retraction(std::shared_ptr<const ParallelRobot> robot, const RetractionSettings& settings);
 
@@ -53,17 +49,18 @@ class Retraction final : public System {
   InputPort<WrenchEstimate> estimate = input<WrenchEstimate>("estimate");
 
  private:
+  Intermediate<bool> begins_ = intermediate<&Retraction::begins>("begins", clock, reaction);
   Intermediate<Plan> plan_ =
-      intermediate<&Retraction::plan>("plan", clock, last_, reaction, platform, estimate);
+      intermediate<&Retraction::plan>(When(begins_), "plan", clock, begins_, platform, estimate);
 
  public:
   OutputPort<PlatformReference> reference = output<&Retraction::evaluate>("reference", clock, plan_);
 
  private:
-  Update remember_ = keep(last_, plan_);
-
-  void plan(Time now, const Plan& last, const ReactionState& state, const PlatformMotion& motion,
-            const WrenchEstimate& contact, Plan& next) const;
+  bool begins(Time now, const ReactionState& state) const { return state.entered(ReactionMode::react, now); }
+  /// No motion before the first reaction.
+  void plan(Time now, bool begins, const PlatformMotion& motion, const WrenchEstimate& contact,
+            Plan& plan) const;
   PlatformReference evaluate(Time now, const Plan& active) const;
   PlatformVector displacement(const WrenchEstimate& contact) const;
 

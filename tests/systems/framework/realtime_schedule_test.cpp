@@ -3,6 +3,7 @@
 
 #include "systems/framework/random.h"
 #include "systems/framework/realtime_runner.h"
+#include "tests/support/blocks.h"
 #include "tests/systems/framework/realtime_station.h"
 
 namespace flinch {
@@ -71,6 +72,30 @@ TEST(RealtimeRunner, CountsPeriodsThatPassedWithoutATickAsLostAndKeepsThePhase) 
   EXPECT_EQ(timings[2].lost_periods, 2);
   EXPECT_EQ(timings[3].started, start + 5ms);
   EXPECT_EQ(timings[3].lateness, Time(0));
+}
+
+TEST(RealtimeRunner, RunsWhatWasDueInALostPeriodAtTheNextTickOfATimeThatFollowsTheClock) {
+  DiagramBuilder builder("loop", 1ms);
+  auto& counter = builder.add<test::Counter>("counter");
+  auto& slow = builder.add<test::Delay>("slow", Every{5ms});
+  builder.connect(counter.count, slow.in);
+  const auto diagram = builder.build();
+  FakeClockTicks ticks;
+  Calls exchange;
+  std::vector<Time> times;
+  std::vector<double> held;
+  exchange.after = [&](const Context& context) {
+    times.push_back(context.time());
+    held.push_back(context.get(slow.out));
+    ticks.work(context.time() == 4ms ? 3300us : 100us);  // no tick at 5 ms and 6 ms
+  };
+  RealtimeRunner runner(*diagram, ticks, exchange);
+  runner.follow_clock();
+  Context context = diagram->make_context();
+  runner.run(context, 13ms);
+  EXPECT_EQ(times, (std::vector<Time>{0ms, 1ms, 2ms, 3ms, 4ms, 7ms, 8ms, 9ms, 10ms, 11ms, 12ms}));
+  // What was due at 5 ms ran at 7 ms, the sixth tick; what was due at 10 ms then.
+  EXPECT_EQ(held, (std::vector<double>{0, 0, 0, 0, 0, 0, 5, 5, 5, 8, 8}));
 }
 
 TEST(RealtimeRunner, TellsATickHowLongTheOneBeforeTook) {
