@@ -16,8 +16,8 @@ struct Guarded {
 };
 
 template <class Reading>
-Guarded<Reading> add_guard(DiagramBuilder& inside, const std::string& name, int legs, Time max_age) {
-  auto& guard = inside.add<ReadingGuard<Reading>>(name + "_guard", legs, max_age);
+Guarded<Reading> add_guard(DiagramBuilder& inside, const std::string& name, JointCount robot, Time max_age) {
+  auto& guard = inside.add<ReadingGuard<Reading>>(name + "_guard", robot, max_age);
   return {inside.export_input("arriving_" + name, guard.arrival), inside.export_output(name, guard.reading),
           inside.export_output(name + "_link", guard.link)};
 }
@@ -41,14 +41,14 @@ ExternalStation add_external_station(DiagramBuilder& builder,
                                      const ExternalStationSettings& settings) {
   check(settings);
   DiagramBuilder inside("station");
-  const int legs = robot->legs();
-  const auto joints = add_guard<JointReading>(inside, "joints", legs, settings.max_age);
-  const auto drives = add_guard<DriveReading>(inside, "drives", legs, settings.max_age);
-  const auto imu = add_guard<ImuReading>(inside, "imu", legs, settings.max_imu_age);
-  const auto status = add_guard<StationStatus>(inside, "status", legs, settings.max_age);
+  const JointCount count{.drives = robot->drives(), .passive = robot->passive_joints()};
+  const auto joints = add_guard<JointReading>(inside, "joints", count, settings.max_age);
+  const auto drives = add_guard<DriveReading>(inside, "drives", count, settings.max_age);
+  const auto imu = add_guard<ImuReading>(inside, "imu", count, settings.max_imu_age);
+  const auto status = add_guard<StationStatus>(inside, "status", count, settings.max_age);
   std::optional<Guarded<ForceTorqueReading>> sensor;
   if (settings.force_torque) {
-    sensor = add_guard<ForceTorqueReading>(inside, "force_torque", legs, settings.max_age);
+    sensor = add_guard<ForceTorqueReading>(inside, "force_torque", count, settings.max_age);
   }
 
   ExternalStation station;

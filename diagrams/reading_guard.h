@@ -14,28 +14,34 @@
 
 namespace flinch {
 
-/// Whether the values of a reading that says to be valid can be: finite, and `legs` of them.
-inline bool is_sound(const JointReading& joints, int legs) {
-  return joints.active.size() == legs && joints.active.allFinite();
+/// How many joints of each kind a robot has encoders for.
+struct JointCount {
+  int drives = 0;
+  int passive = 0;
+};
+
+/// Whether the values of a reading that says to be valid can be: finite, and one for each joint.
+inline bool is_sound(const JointReading& joints, JointCount robot) {
+  return joints.active.size() == robot.drives && joints.active.allFinite();
 }
-inline bool is_sound(const DriveReading& drives, int legs) {
-  return drives.current.size() == legs && drives.current.allFinite();
+inline bool is_sound(const DriveReading& drives, JointCount robot) {
+  return drives.current.size() == robot.drives && drives.current.allFinite();
 }
-inline bool is_sound(const ImuReading& imu, int) {
+inline bool is_sound(const ImuReading& imu, JointCount) {
   return imu.angular_velocity.allFinite() && imu.specific_force.allFinite();
 }
-inline bool is_sound(const ForceTorqueReading& sensor, int) {
+inline bool is_sound(const ForceTorqueReading& sensor, JointCount) {
   return sensor.force_in_base.allFinite() && sensor.moment_in_base.allFinite();
 }
-inline bool is_sound(const StationStatus&, int) { return true; }
+inline bool is_sound(const StationStatus&, JointCount) { return true; }
 
 /// The passive angles may be broken alone.
-inline void distrust_broken_parts(JointReading& joints) {
-  const bool sound = joints.passive.size() == joints.active.size() && joints.passive.allFinite();
+inline void distrust_broken_parts(JointReading& joints, JointCount robot) {
+  const bool sound = joints.passive.size() == robot.passive && joints.passive.allFinite();
   joints.passive_valid = joints.passive_valid && sound;
 }
 template <class Reading>
-void distrust_broken_parts(Reading&) {}
+void distrust_broken_parts(Reading&, JointCount) {}
 
 /// Lets a reading in from outside. It is valid where it says so itself, is sound and not older than `max_age`
 /// by its acquisition; a tick without a new one sees the last one again, as long as it is young enough.
@@ -53,8 +59,7 @@ class ReadingGuard final : public System {
   State<Memory> memory_ = state<Memory>("memory");
 
  public:
-  /// `legs`: the size of joint vectors.
-  ReadingGuard(int legs, Time max_age) : legs_(legs), max_age_(max_age) {}
+  ReadingGuard(JointCount robot, Time max_age) : robot_(robot), max_age_(max_age) {}
 
   InputPort<Arrival<Reading>> arrival = System::input<Arrival<Reading>>("arrival");
 
@@ -74,7 +79,7 @@ class ReadingGuard final : public System {
     next.link.flow = judge(came, memory, now);
     if (next.link.flow == Flow::fresh) {
       next.last.reading = came.reading;
-      distrust_broken_parts(next.last.reading);
+      distrust_broken_parts(next.last.reading, robot_);
     }
     if (is_refusal(next.link.flow)) ++next.link.refused;
     if (next.link.flow == Flow::broken) next.last.reading.valid = false;
@@ -101,7 +106,7 @@ class ReadingGuard final : public System {
     if (!first && step < 0) return Flow::out_of_order;
     if (came.reading.acquired > now) return Flow::broken;
     if (!first && came.reading.acquired < memory.last.reading.acquired) return Flow::broken;
-    return came.reading.valid && !is_sound(came.reading, legs_) ? Flow::broken : Flow::fresh;
+    return came.reading.valid && !is_sound(came.reading, robot_) ? Flow::broken : Flow::fresh;
   }
 
   static bool is_refusal(Flow flow) {
@@ -117,7 +122,7 @@ class ReadingGuard final : public System {
   void read(const Memory& next, Reading& result) const { result = next.last.reading; }
   LinkStatus report(const Memory& next) const { return next.link; }
 
-  int legs_;
+  JointCount robot_;
   Time max_age_;
 };
 

@@ -44,14 +44,15 @@ void to_ros2(const ImuReading& imu, sensor_msgs_msg_dds__Imu_& message) noexcept
   message.linear_acceleration_ = vector3(imu.specific_force);
 }
 
-void to_ros2(const WrenchEstimate& wrench, bool planar,
+void to_ros2(const WrenchEstimate& wrench, const ConfigurationSpace& space,
              geometry_msgs_msg_dds__WrenchStamped_& message) noexcept {
   const PlatformVector& w = wrench.wrench_in_base;
-  if (planar && w.size() == 3) {
-    message.wrench_ = {.force_ = vector3(w[0], w[1], 0.0), .torque_ = vector3(0.0, 0.0, w[2])};
-  } else if (!planar && w.size() == 6) {
-    message.wrench_ = {.force_ = vector3(w.head<3>()), .torque_ = vector3(w.tail<3>())};
-  }
+  if (w.size() != space.dimension()) return;
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  force.head(space.translations()) = w.head(space.translations());
+  moment.tail(space.rotations()) = w.tail(space.rotations());
+  message.wrench_ = {.force_ = vector3(force), .torque_ = vector3(moment)};
 }
 
 const char* describe(GatePhase phase) noexcept {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "systems/framework/time.h"
+#include "systems/robot/configuration_space.h"
 #include "systems/signals/drive_torque.h"
 #include "systems/signals/gate_status.h"
 #include "systems/signals/imu_reading.h"
@@ -29,8 +30,9 @@ void to_ros2(const JointMotion& motion, const DriveTorque& torque, const std::ve
 /// Without orientation or covariances.
 void to_ros2(const ImuReading& imu, sensor_msgs_msg_dds__Imu_& message) noexcept;
 
-/// `planar`: the wrench is (f_x, f_y, m_z), otherwise force and moment.
-void to_ros2(const WrenchEstimate& wrench, bool planar,
+/// `space`: of the robot. What a wrench does not say, such as forces across the plane, is zero in the
+/// message.
+void to_ros2(const WrenchEstimate& wrench, const ConfigurationSpace& space,
              geometry_msgs_msg_dds__WrenchStamped_& message) noexcept;
 
 /// What the gate does, in words.

@@ -101,7 +101,7 @@ class Ros2Publisher::Implementation {
   void publish_wrench() {
     geometry_msgs_msg_dds__WrenchStamped_ message{};
     to_ros2(wall_clock(now_.taken), settings_.base_frame, message.header_);
-    to_ros2(now_.wrench, settings_.planar, message);
+    to_ros2(now_.wrench, settings_.space, message);
     wrench_writer_->write(&message);
   }
 

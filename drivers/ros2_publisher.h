@@ -8,6 +8,7 @@
 #include "drivers/dds_bus.h"
 #include "systems/framework/context.h"
 #include "systems/framework/exchange.h"
+#include "systems/robot/configuration_space.h"
 #include "systems/signals/drive_torque.h"
 #include "systems/signals/gate_status.h"
 #include "systems/signals/imu_reading.h"
@@ -29,7 +30,8 @@ struct Ros2Settings {
   std::vector<std::string> joint_names;  ///< one a drive
   std::string base_frame = "base";
   std::string imu_frame = "imu";
-  bool planar = true;              ///< wrenches are (f_x, f_y, m_z)
+  /// Of the robot: what the entries of a wrench mean.
+  ConfigurationSpace space = ConfigurationSpace::Kind::planar_pose;
   int ticks_between_messages = 1;  ///< 1: every tick
 };
 

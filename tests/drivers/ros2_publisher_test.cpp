@@ -6,6 +6,7 @@
 
 #include <thread>
 
+#include "drivers/ros2_messages.h"
 #include "drivers/topics.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/constant.h"
@@ -120,6 +121,23 @@ TEST(Ros2Publisher, PublishesWhatItsMessagesMean) {
   ASSERT_EQ(diagnostics.message.status_._length, 1u);
   EXPECT_EQ(diagnostics.message.status_._buffer[0].level_, 1);
   EXPECT_STREQ(diagnostics.message.status_._buffer[0].message_, "torque gate waiting");
+}
+
+TEST(Ros2Messages, SayForceAndMomentOfEverySpace) {
+  using Kind = ConfigurationSpace::Kind;
+  const auto message_of = [](Kind space, const PlatformVector& in_base) {
+    geometry_msgs_msg_dds__WrenchStamped_ message{};
+    to_ros2(WrenchEstimate{.acquired = 0ms, .valid = true, .wrench_in_base = in_base, .drive_torque = {}},
+            space, message);
+    const auto& [f, m] = message.wrench_;
+    return std::array{f.x_, f.y_, f.z_, m.x_, m.y_, m.z_};
+  };
+  EXPECT_EQ(message_of(Kind::plane, PlatformVector{{1, 2}}), (std::array<double, 6>{1, 2, 0, 0, 0, 0}));
+  EXPECT_EQ(message_of(Kind::space, PlatformVector{{1, 2, 3}}), (std::array<double, 6>{1, 2, 3, 0, 0, 0}));
+  EXPECT_EQ(message_of(Kind::planar_pose, PlatformVector{{1, 2, 3}}),
+            (std::array<double, 6>{1, 2, 0, 0, 0, 3}));
+  EXPECT_EQ(message_of(Kind::spatial_pose, PlatformVector{{1, 2, 3, 4, 5, 6}}),
+            (std::array<double, 6>{1, 2, 3, 4, 5, 6}));
 }
 
 TEST(Ros2Publisher, CarriesTheNamesOfRos2OnTheBus) {
