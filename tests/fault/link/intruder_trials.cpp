@@ -74,6 +74,8 @@ TrialOutcome replay_commands() {
     trial.get_moving();
     const BusLog& log = trial.at_robot();
     const Recorded recorded(log);
+    const std::uint32_t last = recorded.commands.back().header.number;
+    EXPECT_TRUE(wait_until(1s, [&] { return log.status[log.status.count - 1].command_number > last; }));
     const auto lose_commander = [&] {
       trial.commander().kill();
       EXPECT_TRUE(wait_until(1s, [&] { return present_commander(log) == 0 && !is_open(log); }));
@@ -82,7 +84,7 @@ TrialOutcome replay_commands() {
       const LogEnd begin(log);
       const OtherProgram replay = replayer(trial.domain(), recorded.requests, recorded.commands);
       const auto all = static_cast<std::uint32_t>(recorded.commands.size() * 9 / 10);
-      EXPECT_TRUE(wait_until(3s, [&] { return course(log, begin, 0).refused > all; }));
+      EXPECT_TRUE(wait_until(10s, [&] { return course(log, begin, 0).refused > all; }));
       expect_nothing_moves(log, begin);
     };
     lose_commander();

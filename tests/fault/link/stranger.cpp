@@ -59,9 +59,8 @@ OtherProgram replayer(std::uint32_t domain, const std::vector<flinch_DriveReques
     DdsWriter command_writer(bus, torque_command_topic);
     for (const flinch_DriveRequest& request : requests) request_writer.write(&request);
     MonotonicClock::sleep_until(MonotonicClock::now() + 300ms);  // until the robot listens
-    every_millisecond([&](std::uint32_t number) {
-      if (number <= commands.size()) command_writer.write(&commands[number - 1]);
-    });
+    every_millisecond(
+        [&](std::uint32_t number) { command_writer.write(&commands[(number - 1) % commands.size()]); });
   });
 }
 

@@ -20,7 +20,8 @@ std::uint32_t shipped_robot(const std::string& name);
 /// then `strangers_torque` on each drive, with these headers.
 OtherProgram stranger(std::uint32_t domain, std::uint32_t robot, std::uint16_t version);
 
-/// A program that sends what others have sent, every millisecond the next command, and the requests first.
+/// A program that sends what others have sent, every millisecond the next command, again and again, and the
+/// requests first.
 OtherProgram replayer(std::uint32_t domain, const std::vector<flinch_DriveRequest>& requests,
                       const std::vector<flinch_TorqueSample>& commands);
 
