@@ -2,81 +2,133 @@
 
 Usage: clang_check.py BUILD_DIR [FILE...]     BUILD_DIR: configured with the preset clang
 
-What was found clean is remembered in BUILD_DIR by the hash of its preprocessed text and not looked at again.
+clang-tidy spends most of its time on the headers that a source includes, so sources that can stand in one translation
+unit are looked at together; where that cannot be compiled, or is not clean, in smaller parts. What was found clean is remembered
+in BUILD_DIR by the hash of its preprocessed text and not looked at again.
 """
 import concurrent.futures
 import hashlib
 import json
 import os
 import pathlib
+import re
 import shlex
 import subprocess
 import sys
 import tree
 
 COMPILER_ONLY = ("tests/",)
+LARGEST_BUNDLE = 16
+ANONYMOUS = re.compile(r"^namespace \{$(.*?)^\}  // namespace$", re.DOTALL | re.MULTILINE)
+DEFINITION = re.compile(r"^[A-Za-z][^({=;]*?(\w+) ?(?=[({=;:])", re.MULTILINE)  # of a function, a type, a constant
 
 
-def run(command, **options):
-    return subprocess.run(command, capture_output=True, text=True, errors="replace", **options)
+class Source:
+    def __init__(self, path, entry):
+        self.path = path
+        self.file = entry["file"]
+        self.folder = entry["directory"]
+        words = shlex.split(entry["command"])
+        start = next(i for i, word in enumerate(words) if word.endswith(("clang++", "clang++-14")))
+        self.compiler = [word for word in words[start:words.index("-o")] if word != "-c"]
+        self.by_compiler_only = path.startswith(COMPILER_ONLY)
+        self.own_names = set()
+        self.mark = None
+
+    def read(self, build_dir):
+        """Learns what all that the outcome depends on hashes to: the text with its comments (NOLINT), rules, flags."""
+        text = pathlib.Path(self.file).read_text(errors="replace")
+        self.own_names = {name for part in ANONYMOUS.findall(text) for name in DEFINITION.findall(part)}
+        if re.search(r"^int main\(", text, re.MULTILINE):
+            self.own_names.add("main")
+        preprocessed = run([*self.compiler, "-E", "-C", self.file], self.folder)
+        if preprocessed.returncode == 0:
+            rules = (tree.ROOT / ".clang-tidy").read_text() + repr((self.compiler, self.by_compiler_only))
+            mark = hashlib.sha256((preprocessed.stdout + rules).encode()).hexdigest()
+            self.mark = build_dir / "clean" / mark
+        return self
+
+    def is_clean(self):
+        return self.mark is not None and self.mark.exists()
 
 
-def compile_command(entry):
-    """The compiler and its flags, without what makes an object file of it."""
-    words = shlex.split(entry["command"])
-    start = next(i for i, word in enumerate(words) if word.endswith(("clang++", "clang++-14")))
-    words = words[start:]
-    end = words.index("-o")
-    return [word for word in words[:end] if word != "-c"]
+def run(command, folder):
+    return subprocess.run(command, capture_output=True, text=True, errors="replace", cwd=folder)
 
 
-def check_of(path, entry, build_dir):
-    if path.startswith(COMPILER_ONLY):
-        return [*compile_command(entry), "-fsyntax-only", entry["file"]]
-    return ["clang-tidy", "--quiet", "-p", str(build_dir), entry["file"]]  # the compiler's warnings are among them
+def check(source, file, *more_flags):
+    """Checks a file, which may be a bundle, as this source is compiled."""
+    if source.by_compiler_only:
+        return run([*source.compiler, *more_flags, "-fsyntax-only", file], source.folder)
+    return run(["clang-tidy", "--quiet", file, "--", *source.compiler[1:], *more_flags], source.folder)
 
 
-def fingerprint(check, entry):
-    """Hash of all that the outcome depends on: the text with its comments (NOLINT), the rules, the flags."""
-    compiler = compile_command(entry)
-    preprocessed = run([*compiler, "-E", "-C", entry["file"]], cwd=entry["directory"])
-    rules = (tree.ROOT / ".clang-tidy").read_text()
-    text = preprocessed.stdout + rules + repr(check)
-    return hashlib.sha256(text.encode()).hexdigest() if preprocessed.returncode == 0 else None
+def bundles_of(sources):
+    """Sources that are compiled alike and have no name of their own in common."""
+    bundles = []
+    for source in sources:
+        fitting = (bundle for bundle in bundles
+                   if not source.by_compiler_only and bundle[0].compiler == source.compiler
+                   and len(bundle) < LARGEST_BUNDLE
+                   and not any(source.own_names & other.own_names for other in bundle))
+        bundle = next(fitting, None)
+        if bundle is None:
+            bundles.append([source])
+        else:
+            bundle.append(source)
+    return bundles
 
 
-def problems_of(path, entry, build_dir):
-    check = check_of(path, entry, build_dir)
-    mark = fingerprint(check, entry)
-    clean = build_dir / "clean" / str(mark)
-    if mark and clean.exists():
-        return ""
-    result = run(check, cwd=entry["directory"])
-    if result.returncode != 0:
-        return result.stdout + result.stderr
-    clean.parent.mkdir(exist_ok=True)
-    clean.touch()
-    return ""
+def problems_of(bundle, build_dir):
+    """[(source, what is wrong with it)] of those that are not clean."""
+    if len(bundle) == 1:
+        result = check(bundle[0], bundle[0].file)
+        if result.returncode != 0:
+            return [(bundle[0], result.stdout + result.stderr)]
+    else:
+        together = build_dir / "bundles" / (bundle[0].path.replace("/", "_") + f"_{len(bundle)}.cpp")
+        together.parent.mkdir(exist_ok=True)
+        together.write_text("".join(f'#include "{source.file}"\n' for source in bundle))
+        # A name in one source does not shadow that of another.
+        if check(bundle[0], str(together), "-Wno-shadow").returncode != 0:
+            half = len(bundle) // 2
+            return problems_of(bundle[:half], build_dir) + problems_of(bundle[half:], build_dir)
+    remember(bundle)
+    return []
 
 
-def main():
-    build_dir = pathlib.Path(sys.argv[1]).resolve()
-    wanted = {str(pathlib.Path(file).resolve().relative_to(tree.ROOT)) for file in sys.argv[2:]}
-    entries = {}
+def remember(sources):
+    for source in sources:
+        if source.mark is not None:
+            source.mark.parent.mkdir(exist_ok=True)
+            source.mark.touch()
+
+
+def sources_of(build_dir, wanted):
+    found = {}
     for entry in json.loads((build_dir / "compile_commands.json").read_text()):
         file = pathlib.Path(entry["file"])
         if file.is_relative_to(tree.ROOT) and not file.is_relative_to(build_dir):
             path = str(file.relative_to(tree.ROOT))
             if not wanted or path in wanted:
-                entries[path] = entry
+                found[path] = Source(path, entry)
+    return [found[path] for path in sorted(found)]
+
+
+def main():
+    build_dir = pathlib.Path(sys.argv[1]).resolve()
+    wanted = {str(pathlib.Path(file).resolve().relative_to(tree.ROOT)) for file in sys.argv[2:]}
+    sources = sources_of(build_dir, wanted)
     problems = []
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        outputs = pool.map(lambda item: problems_of(*item, build_dir), sorted(entries.items()))
-        for path, output in zip(sorted(entries), outputs):
-            if output:
-                print(output, flush=True)
-                problems.append(f"{path}: see above")
-    tree.report(len(entries), problems)
+        list(pool.map(lambda source: source.read(build_dir), sources))
+        bundles = bundles_of([source for source in sources if not source.is_clean()])
+        bundles.sort(key=len, reverse=True)
+        for found in pool.map(lambda bundle: problems_of(bundle, build_dir), bundles):
+            for source, what in found:
+                print(what, flush=True)
+                problems.append(f"{source.path}: see above")
+    tree.report(len(sources), problems)
 
 
 main()
