@@ -1,0 +1,52 @@
+"""What ctest's results say: how long the tests of each folder ran, what was left out and why, and what failed.
+
+Usage: test_results.py RESULT.xml...     as 'ctest --output-junit' writes them
+"""
+import collections
+import itertools
+import pathlib
+import re
+import sys
+import xml.etree.ElementTree
+
+REASON = re.compile(r"^(not measured: .*|(?:\S+: )?Skipped\n.*)$", re.MULTILINE)
+
+
+def folder_of(name):
+    """systems/robot of systems/robot/Suite.Name, house of house/links."""
+    parts = name.split("/")
+    if "." not in name:
+        return parts[0]
+    return "/".join(itertools.takewhile(re.compile(r"[a-z_0-9]+$").match, parts))
+
+
+def reason_of(test):
+    found = REASON.findall(test.findtext("system-out") or "")
+    return found[-1].split("\n")[-1] if found else "see the log"
+
+
+def name_of(test):
+    return test.get("name").split("  #")[0]
+
+
+def main():
+    failed = []
+    for file in sys.argv[1:]:
+        tests = list(xml.etree.ElementTree.parse(file).getroot().iter("testcase"))
+        print(f"\n{pathlib.Path(file).stem}: seconds from start to end of all tests of a folder, added up")
+        seconds, count = collections.Counter(), collections.Counter()
+        for test in tests:
+            seconds[folder_of(name_of(test))] += float(test.get("time"))
+            count[folder_of(name_of(test))] += 1
+        for folder, sum_of_times in seconds.most_common():
+            print(f"  {sum_of_times:8.1f} s  {count[folder]:5d} tests  {folder}")
+        for test in tests:
+            if test.find("skipped") is not None:
+                print(f"  left out: {name_of(test)}: {reason_of(test)}")
+        failed += [f"{pathlib.Path(file).stem}: {name_of(test)}" for test in tests if test.get("status") == "fail"]
+    print()
+    for name in failed:
+        print(f"FAILED: {name}")
+
+
+main()
