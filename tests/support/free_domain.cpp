@@ -32,8 +32,8 @@ bool is_unused(std::uint32_t domain) {
   return is_free(base + 10) && is_free(base + 11) && is_free(base + 12) && is_free(base + 13);
 }
 
-/// A file that is locked by whoever has the domain, or is about to: its ports alone would be free until then. It stays
-/// locked while this program or one that it has made by copying itself lives.
+/// A file that is locked by whoever has the domain, or is about to: its ports alone would be free until then.
+/// It stays locked while this program or one that it has made by copying itself lives.
 class Reservation {
  public:
   explicit Reservation(std::uint32_t domain) {
