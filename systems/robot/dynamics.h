@@ -16,4 +16,7 @@ struct Dynamics {
   bool valid = false;     ///< The pose was reachable and all entries are finite. Otherwise they are zero.
 };
 
+/// Gives all of `out` its size for `dof` coordinates and makes it invalid and zero.
+void set_invalid(int dof, Dynamics& out) noexcept;
+
 }  // namespace flinch

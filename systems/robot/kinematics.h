@@ -3,6 +3,7 @@
 #include <array>
 #include <limits>
 
+#include "systems/robot/configuration_space.h"
 #include "systems/robot/vectors.h"
 
 namespace flinch {
@@ -69,6 +70,19 @@ struct Kinematics {
   /// Reachable and far enough from singularities to invert: J_x_qa is usable too. Otherwise it is zero.
   bool valid = false;
 };
+
+/// How many joints of each sort a mechanism's kinematics tells of.
+struct JointCounts {
+  int active = 0;
+  int passive = 0;
+  int coupling = 0;
+};
+
+/// Gives all of `out` its size and makes it unreachable and zero; the pose is the origin of `space`.
+void set_unreachable(ConfigurationSpace space, const JointCounts& joints, Kinematics& out) noexcept;
+
+/// Whether every number of a reachable kinematics is finite.
+bool all_finite(const Kinematics& kinematics) noexcept;
 
 /// Number of drives that a kinematics was evaluated for.
 inline int drive_count(const Kinematics& kinematics) {

@@ -87,22 +87,4 @@ void differential_kinematics(const std::array<PlanarLegGeometry, 3>& geometry, c
   out.dJ_x_qa = -J_x * dJ_qa * J_x;
 }
 
-void set_unreachable(Kinematics& out) noexcept {
-  out = Kinematics();
-  out.pose.setZero(3);
-  for (JointVector* vector : {&out.velocity, &out.joints.active, &out.joints.passive, &out.joints.coupling,
-                              &out.rates.active, &out.rates.passive, &out.rates.coupling}) {
-    vector->setZero(3);
-  }
-  for (PlatformMatrix* matrix : {&out.J_qa_x, &out.J_qp_x, &out.J_qc_x, &out.J_x_qa, &out.dJ_qa_x,
-                                 &out.dJ_qp_x, &out.dJ_qc_x, &out.dJ_x_qa}) {
-    matrix->setZero(3, 3);
-  }
-  for (LegPoints& leg : out.legs) {
-    leg.base_joint.setZero(2);
-    leg.passive_joint.setZero(2);
-    leg.coupling_joint.setZero(2);
-  }
-}
-
 }  // namespace flinch

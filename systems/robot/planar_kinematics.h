@@ -16,7 +16,4 @@ Eigen::Matrix3d stacked_rows(const PlanarMotion& motion, Eigen::RowVector3d Plan
 void differential_kinematics(const std::array<PlanarLegGeometry, 3>& geometry, const PlanarMotion& motion,
                              Kinematics& out) noexcept;
 
-/// Marks `out` unreachable, all of its vectors and matrices zero and of the planar robot's size.
-void set_unreachable(Kinematics& out) noexcept;
-
 }  // namespace flinch

@@ -4,6 +4,16 @@
 
 namespace flinch {
 
+PlanarLegGeometry leg_geometry(const PlanarLegParameters& leg, const Eigen::Vector2d& base_joint,
+                               const Eigen::Vector2d& coupling_in_platform) noexcept {
+  return {.base_joint = base_joint,
+          .base_angle = leg.base_angle,
+          .base_direction = unit(leg.base_angle),
+          .coupling_in_platform = coupling_in_platform,
+          .link1_length = leg.link1_length,
+          .link2_length = leg.link2_length};
+}
+
 PlanarLeg close_leg(const PlanarLegGeometry& geometry, const Eigen::Vector2d& origin,
                     const Eigen::Vector2d& axis, double elbow_sign) noexcept {
   PlanarLeg leg;
@@ -18,7 +28,8 @@ PlanarLeg close_leg(const PlanarLegGeometry& geometry, const Eigen::Vector2d& or
   const double reach_squared = w.squaredNorm();
   const double along = (reach_squared + l1 * l1 - l2 * l2) / (2.0 * reach_squared);
   const double across_squared = l1 * l1 / reach_squared - along * along;
-  leg.reachable = across_squared > 0.0 && across_squared < HUGE_VAL;
+  // Far away the first condition is lost in rounding.
+  leg.reachable = across_squared > 0.0 && across_squared < HUGE_VAL && reach_squared < (l1 + l2) * (l1 + l2);
   if (!leg.reachable) return leg;
 
   const double across = elbow_sign * std::sqrt(across_squared);
@@ -29,6 +40,19 @@ PlanarLeg close_leg(const PlanarLegGeometry& geometry, const Eigen::Vector2d& or
   leg.sin_qp = across * reach_squared / (l1 * l2);
   leg.cos_qp = (reach_squared - l1 * l1 - l2 * l2) / (2.0 * l1 * l2);
   return leg;
+}
+
+double active_angle(const PlanarLegGeometry& geometry, const PlanarLeg& leg) noexcept {
+  const Eigen::Vector2d& from = geometry.base_direction;
+  return std::atan2(cross(from, leg.u1), from.dot(leg.u1));
+}
+
+double passive_angle(const PlanarLeg& leg) noexcept { return std::atan2(leg.sin_qp, leg.cos_qp); }
+
+Eigen::Vector2d chain_tip(const PlanarLegGeometry& geometry, double active, double passive) noexcept {
+  const double theta1 = geometry.base_angle + active;
+  return geometry.base_joint + geometry.link1_length * unit(theta1) +
+         geometry.link2_length * unit(theta1 + passive);
 }
 
 PlanarLegMotion leg_motion(const PlanarLegGeometry& geometry, const PlanarLeg& leg,

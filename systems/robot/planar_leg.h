@@ -1,8 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 
-/// One leg of a planar 3-RRR: a base joint, a first link, an elbow (the passive joint), a second link, and
+#include "systems/robot/planar_leg_parameters.h"
+
+/// One leg of a planar robot: a base joint, a first link, an elbow (the passive joint), a second link, and
 /// the coupling joint on the platform. Base frame, m and rad; u1, u2 are the directions of the links, theta1
 /// and theta2 their angles, qp = theta2 - theta1, d the arm from the platform origin to the coupling joint.
 namespace flinch {
@@ -10,7 +13,8 @@ namespace flinch {
 /// Constant geometry of a leg.
 struct PlanarLegGeometry {
   Eigen::Vector2d base_joint;            ///< a
-  Eigen::Vector2d base_direction;        ///< u(psi), from which the drive angle is measured.
+  double base_angle = 0.0;               ///< psi, from which the drive angle is measured.
+  Eigen::Vector2d base_direction;        ///< u(psi)
   Eigen::Vector2d coupling_in_platform;  ///< r_c u(beta), in frame E.
   double link1_length = 0.0;
   double link2_length = 0.0;
@@ -41,6 +45,9 @@ struct PlanarLegJacobianRate {
   Eigen::RowVector3d dJ_theta2;
 };
 
+/// Unit vector at `angle`.
+inline Eigen::Vector2d unit(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
 /// a x b in the plane.
 inline double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -54,10 +61,23 @@ inline Eigen::Vector2d rotate(const Eigen::Vector2d& axis, const Eigen::Vector2d
   return v.x() * axis + v.y() * normal(axis);
 }
 
+/// The geometry of `leg`, fixed to the base at `base_joint` and to the platform at `coupling_in_platform`.
+PlanarLegGeometry leg_geometry(const PlanarLegParameters& leg, const Eigen::Vector2d& base_joint,
+                               const Eigen::Vector2d& coupling_in_platform) noexcept;
+
 /// Closes a leg by intersecting the circles of its two links; `elbow_sign` is the sign of sin qp. The
 /// platform has its origin at `origin` and its x axis along the unit vector `axis`.
 PlanarLeg close_leg(const PlanarLegGeometry& geometry, const Eigen::Vector2d& origin,
                     const Eigen::Vector2d& axis, double elbow_sign) noexcept;
+
+/// Angle of the drive of a reachable leg, in (-pi, pi] [rad].
+double active_angle(const PlanarLegGeometry& geometry, const PlanarLeg& leg) noexcept;
+
+/// Angle of its elbow, in (-pi, pi] [rad].
+double passive_angle(const PlanarLeg& leg) noexcept;
+
+/// Where the leg ends when it is followed from its drive and elbow.
+Eigen::Vector2d chain_tip(const PlanarLegGeometry& geometry, double active, double passive) noexcept;
 
 /// Jacobian rows and rates of a reachable leg. [SafePR] (1) in closed form.
 PlanarLegMotion leg_motion(const PlanarLegGeometry& geometry, const PlanarLeg& leg,

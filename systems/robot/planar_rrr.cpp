@@ -8,6 +8,7 @@
 
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/angles.h"
+#include "systems/robot/planar_contact.h"
 #include "systems/robot/planar_kinematics.h"
 
 namespace flinch {
@@ -17,26 +18,10 @@ constexpr int max_iterations = 10;
 constexpr double largest_angle_error = 1e-10;  // [rad]
 constexpr double largest_last_step = 1e-8;     // [m, rad]
 
-Eigen::Vector2d unit(double angle) { return {std::cos(angle), std::sin(angle)}; }
-
-template <class Vector>
-bool usable(const Vector& v) {
-  return v.size() == 3 && v.allFinite();
-}
-
 // Signs of the passive angles; nothing unless the working mode has three entries of 0 or 1.
 std::optional<std::array<double, 3>> elbow_signs(const WorkingMode& mode) {
   if (mode.size() != 3 || (mode.array() < 0).any() || (mode.array() > 1).any()) return std::nullopt;
   return std::array{1.0 - 2.0 * mode[0], 1.0 - 2.0 * mode[1], 1.0 - 2.0 * mode[2]};
-}
-
-PlanarLegGeometry leg_geometry(const PlanarRrrLeg& leg, double coupling_radius) {
-  const Eigen::Vector2d base_direction = unit(leg.base_angle);
-  return {.base_joint = -leg.base_radius * normal(base_direction),
-          .base_direction = base_direction,
-          .coupling_in_platform = coupling_radius * unit(leg.coupling_angle),
-          .link1_length = leg.link1_length,
-          .link2_length = leg.link2_length};
 }
 
 std::vector<Body> bodies(const PlanarRrrParameters& parameters) {
@@ -83,7 +68,9 @@ MechanismDescription describe(const PlanarRrrParameters& parameters) {
 PlanarRrr::PlanarRrr(const PlanarRrrParameters& parameters)
     : ParallelRobot(describe(parameters)), parameters_(parameters) {
   for (std::size_t i = 0; i < 3; ++i) {
-    geometry_[i] = leg_geometry(parameters.legs[i], parameters.coupling_radius);
+    const PlanarRrrLeg& leg = parameters.legs[i];
+    geometry_[i] = leg_geometry(leg, -leg.base_radius * normal(unit(leg.base_angle)),
+                                parameters.coupling_radius * unit(leg.coupling_angle));
     home_signs_[i] = parameters.legs[i].elbow_sign;
   }
 }
@@ -116,16 +103,12 @@ PlanarMotion PlanarRrr::motion(const Eigen::Vector3d& pose, const Eigen::Vector3
   return motion(pose, velocity, home_signs_);
 }
 
-double PlanarRrr::active_angle(int leg, const PlanarLeg& closed) const noexcept {
-  const Eigen::Vector2d& from = geometry_[static_cast<std::size_t>(leg)].base_direction;
-  return std::atan2(cross(from, closed.u1), from.dot(closed.u1));
-}
-
 Eigen::Vector3d PlanarRrr::active_error(const JointVector& active,
                                         const PlanarMotion& motion) const noexcept {
   Eigen::Vector3d error;
   for (int i = 0; i < 3; ++i) {
-    error[i] = wrap_angle(active[i] - active_angle(i, motion.legs[static_cast<std::size_t>(i)].leg));
+    const auto leg = static_cast<std::size_t>(i);
+    error[i] = wrap_angle(active[i] - active_angle(geometry_[leg], motion.legs[leg].leg));
   }
   return error;
 }
@@ -135,20 +118,12 @@ JointAngles PlanarRrr::joint_angles(const PlanarMotion& motion) const noexcept {
   for (int i = 0; i < 3; ++i) {
     const auto index = static_cast<std::size_t>(i);
     const PlanarLeg& leg = motion.legs[index].leg;
-    angles.active[i] = active_angle(i, leg);
-    angles.passive[i] = std::atan2(leg.sin_qp, leg.cos_qp);
-    const double theta2 = parameters_.legs[index].base_angle + angles.active[i] + angles.passive[i];
+    angles.active[i] = active_angle(geometry_[index], leg);
+    angles.passive[i] = passive_angle(leg);
+    const double theta2 = geometry_[index].base_angle + angles.active[i] + angles.passive[i];
     angles.coupling[i] = wrap_angle(motion.pose.z() - theta2);
   }
   return angles;
-}
-
-Eigen::Vector2d PlanarRrr::chain_tip(int leg, double active, double passive) const noexcept {
-  const auto i = static_cast<std::size_t>(leg);
-  const PlanarLegGeometry& geometry = geometry_[i];
-  const double theta1 = parameters_.legs[i].base_angle + active;
-  return geometry.base_joint + geometry.link1_length * unit(theta1) +
-         geometry.link2_length * unit(theta1 + passive);
 }
 
 // ---------------------------------------------------------------- inverse and forward kinematics
@@ -158,7 +133,7 @@ InverseSolution PlanarRrr::inverse_kinematics(const Configuration& pose,
   const auto zero = JointVector::Zero(3);
   InverseSolution solution{{zero, zero, zero}, false};
   const auto signs = elbow_signs(mode);
-  if (!signs || !usable(pose)) return solution;
+  if (!signs || !usable(pose, 3)) return solution;
   const PlanarMotion closed = motion(pose, Eigen::Vector3d::Zero(), *signs);
   solution.reachable = closed.reachable;
   if (closed.reachable) solution.joints = joint_angles(closed);
@@ -171,7 +146,7 @@ ForwardSolution PlanarRrr::forward_kinematics(const JointVector& active, const C
                                               const WorkingMode& mode) const noexcept {
   ForwardSolution solution{home_pose(), 0, false};
   const auto signs = elbow_signs(mode);
-  if (!signs || !usable(active) || !usable(start)) return solution;
+  if (!signs || !usable(active, 3) || !usable(start, 3)) return solution;
 
   Eigen::Vector3d pose = start;
   while (!solution.converged && solution.iterations < max_iterations) {
@@ -192,13 +167,13 @@ ForwardSolution PlanarRrr::forward_kinematics(const JointVector& active, const C
 
 // Rigid fit of the coupling joints, given in the platform frame, to the tips of the legs.
 Configuration PlanarRrr::start_pose(const JointVector& active, const JointVector& passive) const noexcept {
-  if (!usable(active) || !usable(passive)) return home_pose();
+  if (!usable(active, 3) || !usable(passive, 3)) return home_pose();
   std::array<Eigen::Vector2d, 3> tips;
   Eigen::Vector2d mean_tip = Eigen::Vector2d::Zero();
   Eigen::Vector2d mean_coupling = Eigen::Vector2d::Zero();
   for (int i = 0; i < 3; ++i) {
     const auto leg = static_cast<std::size_t>(i);
-    tips[leg] = chain_tip(i, active[i], passive[i]);
+    tips[leg] = chain_tip(geometry_[leg], active[i], passive[i]);
     mean_tip += tips[leg] / 3.0;
     mean_coupling += geometry_[leg].coupling_in_platform / 3.0;
   }
@@ -216,19 +191,22 @@ Configuration PlanarRrr::start_pose(const JointVector& active, const JointVector
 }
 
 WorkingMode PlanarRrr::working_mode(const JointVector& passive) const noexcept {
-  if (!usable(passive)) return home_working_mode();
+  if (!usable(passive, 3)) return home_working_mode();
   return (passive.array() < 0.0).cast<int>();
 }
 
 double PlanarRrr::chain_closure_error(const JointVector& active, const JointVector& passive,
                                       const Configuration& pose) const noexcept {
-  if (!usable(active) || !usable(passive) || !usable(pose)) return std::numeric_limits<double>::infinity();
+  if (!usable(active, 3) || !usable(passive, 3) || !usable(pose, 3))
+    return std::numeric_limits<double>::infinity();
   const Eigen::Vector2d origin = pose.head<2>();
   const Eigen::Vector2d axis = unit(pose[2]);
   double error = 0.0;
   for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector2d& coupling = geometry_[static_cast<std::size_t>(i)].coupling_in_platform;
-    const Eigen::Vector2d miss = chain_tip(i, active[i], passive[i]) - origin - rotate(axis, coupling);
+    const auto leg = static_cast<std::size_t>(i);
+    const Eigen::Vector2d& coupling = geometry_[leg].coupling_in_platform;
+    const Eigen::Vector2d miss =
+        chain_tip(geometry_[leg], active[i], passive[i]) - origin - rotate(axis, coupling);
     error = std::max(error, miss.lpNorm<Eigen::Infinity>());
   }
   return error;
@@ -238,12 +216,24 @@ double PlanarRrr::chain_closure_error(const JointVector& active, const JointVect
 
 void PlanarRrr::kinematics(const Configuration& pose, const PlatformVector& velocity, const WorkingMode& mode,
                            Kinematics& out) const noexcept {
+  constexpr JointCounts joints{.active = 3, .passive = 3, .coupling = 3};
   const auto signs = elbow_signs(mode);
-  if (!signs || !usable(pose) || !usable(velocity)) return set_unreachable(out);
+  if (!signs || !usable(pose, 3) || !usable(velocity, 3)) return set_unreachable(space(), joints, out);
   const PlanarMotion closed = motion(pose, velocity, *signs);
-  if (!closed.reachable) return set_unreachable(out);
+  if (!closed.reachable) return set_unreachable(space(), joints, out);
   out.joints = joint_angles(closed);
   differential_kinematics(geometry_, closed, out);
+  if (!all_finite(out)) set_unreachable(space(), joints, out);
+}
+
+CartesianVector PlanarRrr::point_on_body(const Kinematics& kinematics, BodyId body,
+                                         const CartesianVector& point_in_body) const noexcept {
+  return planar_point_on_body<3>(kinematics, 3, body, point_in_body);
+}
+
+ContactJacobian PlanarRrr::contact_jacobian(const Kinematics& kinematics, BodyId body,
+                                            const CartesianVector& point_in_body) const noexcept {
+  return planar_contact_jacobian<3>(kinematics, 3, body, point_in_body);
 }
 
 }  // namespace flinch

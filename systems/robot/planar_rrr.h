@@ -69,8 +69,6 @@ class PlanarRrr final : public ParallelRobot {
                       const ElbowSigns& signs) const noexcept;
   JointAngles joint_angles(const PlanarMotion& motion) const noexcept;
   Eigen::Vector3d active_error(const JointVector& active, const PlanarMotion& motion) const noexcept;
-  double active_angle(int leg, const PlanarLeg& closed) const noexcept;
-  Eigen::Vector2d chain_tip(int leg, double active, double passive) const noexcept;
 
   PlanarRrrParameters parameters_;
   std::array<PlanarLegGeometry, 3> geometry_;

@@ -36,4 +36,13 @@ using CartesianJacobian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 
 /// in one way only has index 0.
 using WorkingMode = Eigen::Matrix<int, Eigen::Dynamic, 1, 0, max_dof, 1>;
 
+/// Largest entry of an input that can be a machine's, in SI units: squares and cubes of it stay finite.
+inline constexpr double largest_input = 1e9;
+
+/// Whether `v` has `size` entries, all of them numbers that can be a machine's.
+template <class Vector>
+bool usable(const Vector& v, int size) noexcept {
+  return v.size() == size && (v.array().abs() <= largest_input).all();
+}
+
 }  // namespace flinch

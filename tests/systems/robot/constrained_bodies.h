@@ -1,115 +1,89 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <array>
-
-#include "systems/robot/planar_rrr_parameters.h"
-#include "tests/systems/robot/reference_3rrr.h"
+#include <vector>
 
 namespace flinch::testing {
 
-/// A planar 3-RRR as rigid bodies; of `parameters`, inertia of the legs is not used.
-struct RobotOfBodies {
-  PlanarRrrParameters parameters;
-  std::array<LinkBody, 3> link1;
-  std::array<LinkBody, 3> link2;
-};
-
-/// Forward dynamics by Newton and Euler: seven free bodies (x, y, angle each) and 18 joint constraints,
-/// solved for accelerations and constraint forces at once. Shares nothing with the robot under test but its
-/// parameters.
+/// Forward dynamics by Newton and Euler in maximal coordinates: free bodies in space, held together by joints
+/// that are equations of constraint, solved for accelerations and constraint forces at once. It knows nothing
+/// of platforms, legs or Jacobians. All points and axes are given in the base frame, at the one instant for
+/// which it is set up.
 class ConstrainedBodies {
  public:
-  ConstrainedBodies(const RobotOfBodies& robot, const Eigen::Vector3d& pose, const Eigen::Vector3d& velocity)
-      : robot_(robot), pose_(pose), velocity_(velocity) {
-    masses_.segment<3>(18) << robot.parameters.platform_mass, robot.parameters.platform_mass,
-        robot.parameters.platform_inertia;
-    rates_[6] = velocity.z();
-    for (int leg = 0; leg < 3; ++leg) add_leg(leg);
-  }
+  using Vector = Eigen::Vector3d;
 
-  Eigen::Vector3d solve(const Eigen::Vector3d& torque, const Eigen::Vector3d& wrench) const {
-    Eigen::Matrix<double, 21, 1> forces = Eigen::Matrix<double, 21, 1>::Zero();
-    forces.segment<3>(18) = wrench;
-    for (int leg = 0; leg < 3; ++leg) {
-      const PlanarRrrLeg& parameters = robot_.parameters.legs[static_cast<std::size_t>(leg)];
-      const double active_rate = rates_[2 * leg];
-      const double passive_rate = rates_[2 * leg + 1] - active_rate;
-      const double passive = friction(parameters.passive_friction, passive_rate);
-      forces[6 * leg + 2] = torque[leg] - friction(parameters.active_friction, active_rate) + passive;
-      forces[6 * leg + 5] = -passive;
-    }
-    Eigen::Matrix<double, 39, 39> system = Eigen::Matrix<double, 39, 39>::Zero();
-    system.topLeftCorner<21, 21>() = masses_.asDiagonal();
-    system.topRightCorner<21, 18>() = -constraints_.transpose();
-    system.bottomLeftCorner<18, 21>() = constraints_;
-    Eigen::Matrix<double, 39, 1> right;
-    right << forces, drift_;
-    const Eigen::Matrix<double, 39, 1> solution = system.fullPivLu().solve(right);
-    return solution.segment<3>(18);
-  }
+  static constexpr int base = -1;  ///< The body that does not move.
+
+  /// Index of a body with its centre of mass at `centre` and `inertia` about it in base axes.
+  int add_body(double mass, const Vector& centre, const Eigen::Matrix3d& inertia);
+
+  // ------------------------------------------------ joints
+
+  void ball(int a, int b, const Vector& point);
+  void revolute(int a, int b, const Vector& point, const Vector& axis);
+  /// `axis_of_a` and `axis_of_b` stay across one another.
+  void perpendicular(int a, const Vector& axis_of_a, int b, const Vector& axis_of_b);
+  /// b slides along `axis` of a and does not turn against it.
+  void slider(int a, int b, const Vector& axis, const Vector& point_of_a, const Vector& point_of_b);
+  void same_axes(int a, int b);
+  /// A mass that is felt by the distance of two points only, as that of a screw between them.
+  void screw(int a, const Vector& point_of_a, int b, const Vector& point_of_b, double mass);
+
+  // ------------------------------------------------ motion
+
+  /// Gives `body` its velocity, at `point`; that of all others follows from the joints. Returns by how much
+  /// the joints are violated: zero, but for rounding.
+  double set_velocity(int body, const Vector& point, const Vector& velocity, const Vector& angular);
+  Vector angular_velocity(int body) const;
+  Vector velocity(int body, const Vector& point) const;
+
+  // ------------------------------------------------ forces
+
+  void push(int body, const Vector& point, const Vector& force);
+  void turn(int body, const Vector& torque);
+  void set_gravity(const Vector& gravity) { gravity_ = gravity; }
+
+  /// Accelerations of all bodies under the forces so far.
+  void solve();
+  Vector angular_acceleration(int body) const { return accelerations_.segment<3>(6 * body + 3); }
+  Vector acceleration(int body, const Vector& point) const;
 
  private:
-  double friction(const JointFriction& joint, double rate) const {
-    return joint.viscous * rate + joint.coulomb * std::tanh(rate / robot_.parameters.friction_velocity);
-  }
+  struct Body {
+    double mass;
+    Vector centre;
+    Eigen::Matrix3d inertia;
+  };
+  /// e . (p_b - p_a) = constant, e fixed to `frame`; of a screw, its `mass`.
+  struct Distance {
+    int frame, a, b;
+    Vector e, p_a, p_b;
+    double mass = 0.0;
+  };
+  /// u . w = constant, u fixed to a, w fixed to b.
+  struct Angle {
+    int a, b;
+    Vector u, w;
+  };
+  /// What a constraint asks: row * accelerations = -drift.
+  struct Row {
+    Eigen::RowVectorXd row;
+    double drift = 0.0;
+  };
 
-  void add_leg(int leg) {
-    const auto index = static_cast<std::size_t>(leg);
-    const PlanarRrrLeg& p = robot_.parameters.legs[index];
-    const LinkBody& first = robot_.link1[index];
-    const LinkBody& second = robot_.link2[index];
-    const ReferenceLeg geometry{p.base_angle,     p.base_radius,
-                                p.coupling_angle, robot_.parameters.coupling_radius,
-                                p.link1_length,   p.link2_length};
-    const Eigen::Vector3d q = geometry.joints(pose_);
-    const double theta1 = p.base_angle + q[0];
-    const double theta2 = theta1 + q[1];
-    const Eigen::Vector2d u1(std::cos(theta1), std::sin(theta1));
-    const Eigen::Vector2d u2(std::cos(theta2), std::sin(theta2));
-    const Eigen::Vector2d arm = geometry.coupling(pose_) - pose_.head<2>();
+  Row row_of(const Distance& distance) const;
+  Row row_of(const Angle& angle) const;
+  std::vector<Row> rows() const;
+  Vector arm(int body, const Vector& point) const;
+  Vector centripetal(int body, const Vector& point) const;
+  int size() const { return 6 * static_cast<int>(bodies_.size()); }
 
-    // Rates of the links from the velocity of the coupling joint.
-    const Eigen::Vector2d tip = velocity_.head<2>() + velocity_.z() * turned(arm);
-    Eigen::Matrix2d map;
-    map << p.link1_length * turned(u1), p.link2_length * turned(u2);
-    rates_.segment<2>(2 * leg) = map.inverse() * tip;
-
-    const int link1 = 2 * leg;
-    const int link2 = 2 * leg + 1;
-    masses_.segment<6>(6 * leg) << first.mass, first.mass, first.inertia + p.rotor_inertia, second.mass,
-        second.mass, second.inertia;
-    attach(6 * leg, link1, -first.centre_of_mass * u1, 1.0);  // to the base, which does not move
-    attach(6 * leg + 2, link1, (p.link1_length - first.centre_of_mass) * u1, 1.0);
-    attach(6 * leg + 2, link2, -second.centre_of_mass * u2, -1.0);
-    attach(6 * leg + 4, link2, (p.link2_length - second.centre_of_mass) * u2, 1.0);
-    attach(6 * leg + 4, 6, arm, -1.0);
-  }
-
-  // Adds sign * (centre + r) of a body to two constraint rows: columns, and what its rotation leaves on the
-  // right.
-  void attach(int row, int body, const Eigen::Vector2d& r, double sign) {
-    constraints_.block<2, 2>(row, 3 * body) = sign * Eigen::Matrix2d::Identity();
-    constraints_.block<2, 1>(row, 3 * body + 2) = sign * turned(r);
-    drift_.segment<2>(row) += sign * rates_[body] * rates_[body] * r;
-  }
-
-  static Eigen::Vector2d turned(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
-
-  const RobotOfBodies& robot_;
-  Eigen::Vector3d pose_;
-  Eigen::Vector3d velocity_;
-  Eigen::Matrix<double, 7, 1> rates_ = Eigen::Matrix<double, 7, 1>::Zero();
-  Eigen::Matrix<double, 21, 1> masses_ = Eigen::Matrix<double, 21, 1>::Zero();
-  Eigen::Matrix<double, 18, 21> constraints_ = Eigen::Matrix<double, 18, 21>::Zero();
-  Eigen::Matrix<double, 18, 1> drift_ = Eigen::Matrix<double, 18, 1>::Zero();
+  std::vector<Body> bodies_;
+  std::vector<Distance> distances_, screws_;
+  std::vector<Angle> angles_;
+  Eigen::VectorXd velocities_, forces_, accelerations_;
+  Vector gravity_{0.0, 0.0, 0.0};
 };
-
-inline Eigen::Vector3d constrained_acceleration(const RobotOfBodies& robot, const Eigen::Vector3d& pose,
-                                                const Eigen::Vector3d& velocity,
-                                                const Eigen::Vector3d& torque,
-                                                const Eigen::Vector3d& wrench) {
-  return ConstrainedBodies(robot, pose, velocity).solve(torque, wrench);
-}
 
 }  // namespace flinch::testing

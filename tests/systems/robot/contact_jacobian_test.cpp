@@ -1,8 +1,5 @@
 #include "systems/robot/contact_jacobian.h"
 
-#include <limits>
-
-#include "systems/robot/joint_space_dynamics.h"
 #include "tests/systems/robot/random_motion.h"
 #include "tests/systems/robot/reference_3rrr.h"
 #include "tests/systems/robot/residual.h"
@@ -40,64 +37,6 @@ TEST_P(Contact, PointsMoveWithTheirBody) {
     const Kinematics k = kinematics_at(pose, velocity);
     for (const BodyId body : all_bodies) {
       residual.add(robot.point_on_body(k, body, point), reference_point(pose, body));
-    }
-  }
-}
-
-TEST_P(Contact, JacobianIsTheDerivativeOfThePoint) {
-  Residual translation("contact J against central differences", 5e-10);
-  for (const PoseAndVelocity& motion : motions) {
-    const auto& pose = motion.pose;
-    const auto& velocity = motion.velocity;
-    const Kinematics k = kinematics_at(pose, velocity);
-    for (const BodyId body : all_bodies) {
-      const ContactJacobian contact = robot.contact_jacobian(k, body, point);
-      ASSERT_TRUE(contact.valid);
-      for (int axis = 0; axis < 3; ++axis) {
-        const Eigen::Vector2d column = derivative(
-            [&](double h) -> Eigen::Vector2d {
-              return reference_point(pose + h * Eigen::Vector3d::Unit(axis), body);
-            },
-            5e-4);
-        translation.add(contact.translation.col(axis), column);
-      }
-    }
-  }
-}
-
-TEST_P(Contact, JacobianRateIsTheDerivativeOfTheJacobianAlongTheMotion) {
-  Residual residual("contact dJ/dt against central differences", 1e-9);
-  Residual joints("contact dJ_xc,qa/dt against central differences", 1e-8);
-  for (const PoseAndVelocity& motion : motions) {
-    const auto& pose = motion.pose;
-    const auto& velocity = motion.velocity;
-    const Kinematics k = kinematics_at(pose, velocity);
-    for (const BodyId body : all_bodies) {
-      const auto at = [&](double h) {
-        return robot.contact_jacobian(kinematics_at(pose + h * velocity, velocity), body, point);
-      };
-      const ContactJacobian contact = at(0.0);
-      residual.add(contact.d_translation,
-                   derivative([&](double h) -> Eigen::MatrixXd { return at(h).translation; }, 1e-4));
-      residual.add(contact.d_rotation,
-                   derivative([&](double h) -> Eigen::MatrixXd { return at(h).rotation; }, 1e-4));
-      const auto at_joints = [&](double h) -> Eigen::MatrixXd {
-        return from_active_joints(at(h), kinematics_at(pose + h * velocity, velocity)).translation;
-      };
-      joints.add(from_active_joints(contact, k).d_translation, derivative(at_joints, 1e-4));
-    }
-  }
-}
-
-TEST_P(Contact, RotationRowIsTheAngularVelocityOfTheBody) {
-  Residual residual("rotation rows [rad/s]", 1e-14);
-  for (const auto& [pose, velocity] : motions) {
-    const Kinematics k = kinematics_at(pose, velocity);
-    for (const BodyId body : all_bodies) {
-      const double rate = (robot.contact_jacobian(k, body, point).rotation * velocity)[0];
-      if (body.is_platform()) residual.add(rate - velocity.z());
-      if (body.is_link1()) residual.add(rate - k.rates.active[body.leg()]);
-      if (body.is_link2()) residual.add(rate - k.rates.active[body.leg()] - k.rates.passive[body.leg()]);
     }
   }
 }
@@ -186,48 +125,6 @@ TEST_P(Contact, ClampingForcesOfOneChainActThroughItsCouplingJoint) {
         clamping_wrench(robot.contact_jacobian(k, first, robot.axis_point(first, 0.6)), force,
                         robot.contact_jacobian(k, second, robot.axis_point(second, 0.4)), -force);
     residual.add(wrench[2] - cross(k.legs[2].coupling_joint - pose.head<2>(), wrench.head<2>()));
-  }
-}
-
-TEST_P(Contact, DriveTorquesAndPlatformWrenchesAreInverse) {
-  Residual residual("wrench to torques and back [N, Nm]", 1e-13);
-  for (const auto& [pose, velocity] : motions) {
-    const Kinematics k = kinematics_at(pose, velocity);
-    const Eigen::Vector3d wrench(10.0, -20.0, 1.5);
-    residual.add(platform_wrench(k, drive_torques(k, wrench)), wrench);
-  }
-}
-
-TEST_P(Contact, FixedSizePathAgreesWithTheGeneralOne) {
-  Residual velocities("velocity of a point [m/s]", 1e-14);
-  Residual wrenches("wrench of a force [N, Nm per 50 N]", 1e-12);
-  const Eigen::Vector2d force(-40.0, 30.0);
-  for (const auto& [pose, velocity] : motions) {
-    const Kinematics k = kinematics_at(pose, velocity);
-    const PlanarMotion motion = robot.motion(pose, velocity);
-    for (const BodyId body : all_bodies) {
-      const ContactJacobian contact = robot.contact_jacobian(k, body, point);
-      const Eigen::Vector2d in_base = robot.point_on_body(k, body, point);
-      velocities.add(point_velocity(motion, body, in_base), contact.translation * velocity);
-      wrenches.add(contact_wrench(motion, body, in_base, force), platform_wrench(contact, force));
-    }
-  }
-}
-
-TEST_P(Contact, IsInvalidAndFiniteForUnusableInput) {
-  Kinematics out_of_reach;
-  robot.kinematics(Eigen::Vector3d(9, 0, 0), PlatformVector::Zero(3), out_of_reach);
-  const Kinematics home = kinematics_at(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
-  const Eigen::Vector2d bad(std::numeric_limits<double>::quiet_NaN(), 0.0);
-  for (const ContactJacobian& contact :
-       {robot.contact_jacobian(out_of_reach, BodyId::link1(0), point),
-        robot.contact_jacobian(home, BodyId::link1(3), point),
-        robot.contact_jacobian(home, BodyId::link2(0), bad),
-        robot.contact_jacobian(home, BodyId::platform(), Eigen::Vector3d(0, 0, 0)),
-        robot.contact_jacobian(Kinematics(), BodyId::platform(), point)}) {
-    EXPECT_FALSE(contact.valid);
-    EXPECT_EQ(contact.translation, (Eigen::Matrix<double, 2, 3>::Zero()));
-    EXPECT_EQ(contact.rotation, (Eigen::Matrix<double, 1, 3>::Zero()));
   }
 }
 

@@ -7,61 +7,8 @@
 namespace flinch::testing {
 namespace {
 
-class DifferentialKinematics : public BothGeometries {
- protected:
-  // Joint angle `which` (0 active, 1 passive, 2 coupling) of every leg by the law of cosines.
-  Eigen::Vector3d reference_joint(const Eigen::Vector3d& pose, int which) const {
-    const auto legs = reference_legs(GetParam());
-    return {legs[0].joints(pose)[which], legs[1].joints(pose)[which], legs[2].joints(pose)[which]};
-  }
-};
+class DifferentialKinematics : public BothGeometries {};
 FLINCH_FOR_BOTH_GEOMETRIES(DifferentialKinematics);
-
-TEST_P(DifferentialKinematics, JacobiansAreTheDerivativesOfTheJointAngles) {
-  Residual residual("J_q,x against central differences", 2e-9);
-  for (const PoseAndVelocity& motion : motions) {
-    const auto& pose = motion.pose;
-    const auto& velocity = motion.velocity;
-    const Kinematics k = kinematics_at(pose, velocity);
-    const PlatformMatrix* const jacobians[] = {&k.J_qa_x, &k.J_qp_x, &k.J_qc_x};
-    for (int which = 0; which < 3; ++which) {
-      for (int axis = 0; axis < 3; ++axis) {
-        const Eigen::Vector3d column = derivative([&](double h) -> Eigen::Vector3d {
-          const Eigen::Vector3d moved = reference_joint(pose + h * Eigen::Vector3d::Unit(axis), which);
-          return ParallelRobot::passive_difference(moved, reference_joint(pose, which));
-        });
-        residual.add(jacobians[which]->col(axis), column);
-      }
-    }
-  }
-}
-
-TEST_P(DifferentialKinematics, JacobianRatesAreTheDerivativesOfTheJacobiansAlongTheMotion) {
-  Residual residual("dJ/dt against central differences", 3e-9);
-  for (const PoseAndVelocity& motion : motions) {
-    const auto& pose = motion.pose;
-    const auto& velocity = motion.velocity;
-    const Kinematics k = kinematics_at(pose, velocity);
-    const auto rate = [&](PlatformMatrix Kinematics::*J) {
-      return derivative(
-          [&](double h) -> Eigen::Matrix3d { return kinematics_at(pose + h * velocity, velocity).*J; }, 1e-4);
-    };
-    residual.add(k.dJ_qa_x, rate(&Kinematics::J_qa_x));
-    residual.add(k.dJ_qp_x, rate(&Kinematics::J_qp_x));
-    residual.add(k.dJ_qc_x, rate(&Kinematics::J_qc_x));
-    residual.add(k.dJ_x_qa, rate(&Kinematics::J_x_qa));
-  }
-}
-
-TEST_P(DifferentialKinematics, RatesAreTheJacobiansTimesTheVelocity) {
-  Residual residual("joint rates [rad/s]", 2e-14);
-  for (const auto& [pose, velocity] : motions) {
-    const Kinematics k = kinematics_at(pose, velocity);
-    residual.add(k.rates.active, k.J_qa_x * velocity);
-    residual.add(k.rates.passive, k.J_qp_x * velocity);
-    residual.add(k.rates.coupling, k.J_qc_x * velocity);
-  }
-}
 
 TEST_P(DifferentialKinematics, ReducedConstraintsGiveTheSameJacobianAndDeterminants) {
   const auto legs = reference_legs(GetParam());
@@ -86,30 +33,6 @@ TEST_P(DifferentialKinematics, ReducedConstraintsGiveTheSameJacobianAndDetermina
     inverse.add(Eigen::Matrix3d(k.J_x_qa * k.J_qa_x), Eigen::Matrix3d::Identity());
     determinant_A.add(k.det_A - A.determinant());
     determinant_B.add(k.det_B - B.determinant());
-  }
-}
-
-TEST_P(DifferentialKinematics, SigmaKappaIsTheRatioOfSingularValues) {
-  Residual residual("sigma_kappa against singular values, relative", 1e-12);
-  for (const auto& [pose, velocity] : motions) {
-    const Kinematics k = kinematics_at(pose, velocity);
-    const Eigen::Vector3d values = Eigen::Matrix3d(k.J_x_qa).jacobiSvd().singularValues();
-    residual.add(k.sigma_kappa * values[2] / values[0] - 1.0);
-  }
-}
-
-TEST_P(DifferentialKinematics, LegPointsJoinTheLinks) {
-  const auto legs = reference_legs(GetParam());
-  Residual lengths("link lengths between joints [m]", 1e-15);
-  Residual ends("base and coupling joints [m]", 1e-15);
-  for (const auto& [pose, velocity] : motions) {
-    const Kinematics k = kinematics_at(pose, velocity);
-    for (std::size_t i = 0; i < 3; ++i) {
-      lengths.add((k.legs[i].passive_joint - k.legs[i].base_joint).norm() - legs[i].l1);
-      lengths.add((k.legs[i].coupling_joint - k.legs[i].passive_joint).norm() - legs[i].l2);
-      ends.add(k.legs[i].base_joint, legs[i].base());
-      ends.add(k.legs[i].coupling_joint, legs[i].coupling(pose));
-    }
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "systems/robot/planar_rrr.h"
 #include "systems/robot/planar_rrr_presets.h"
+#include "tests/systems/robot/differences.h"
 
 namespace flinch::testing {
 
@@ -55,13 +56,6 @@ class BothGeometries : public ::testing::TestWithParam<BenchGeometry> {
 
 inline std::string geometry_name(const ::testing::TestParamInfo<BenchGeometry>& info) {
   return info.param == BenchGeometry::individual ? "Individual" : "Nominal";
-}
-
-/// Derivative of `f` at 0 by fourth-order central differences.
-template <class F>
-auto derivative(F f, double step = 1e-3) {
-  using Value = std::decay_t<decltype(f(0.0))>;
-  return Value((8.0 * (f(step) - f(-step)) - (f(2.0 * step) - f(-2.0 * step))) / (12.0 * step));
 }
 
 }  // namespace flinch::testing

@@ -1,0 +1,35 @@
+#include "systems/robot/forward_dynamics.h"
+
+#include <Eigen/Cholesky>
+
+namespace flinch {
+
+std::optional<PlatformVector> forward_dynamics(const Kinematics& kinematics, const Dynamics& dynamics,
+                                               const JointVector& drive_efforts,
+                                               const PlatformVector& external_wrench) noexcept {
+  const PlatformVector& v = kinematics.velocity;
+  const bool usable = kinematics.reachable && dynamics.valid && dynamics.M_x.rows() == v.size() &&
+                      drive_efforts.size() == drive_count(kinematics) && external_wrench.size() == v.size();
+  if (!usable) return std::nullopt;
+  PlatformVector wrench = external_wrench - dynamics.g_x - dynamics.F_fr_x;
+  wrench.noalias() += kinematics.J_qa_x.transpose() * drive_efforts;
+  wrench.noalias() -= dynamics.C_x * v;
+  PlatformMatrix M = dynamics.M_x;
+  const Eigen::LLT<Eigen::Ref<PlatformMatrix>> cholesky(M);
+  if (cholesky.info() != Eigen::Success) return std::nullopt;
+  cholesky.solveInPlace(wrench);
+  if (!wrench.allFinite()) return std::nullopt;
+  return wrench;
+}
+
+double kinetic_energy(const Kinematics& kinematics, const Dynamics& dynamics) noexcept {
+  if (!dynamics.valid) return 0.0;
+  return 0.5 * kinematics.velocity.dot(dynamics.M_x * kinematics.velocity);
+}
+
+double friction_power(const Kinematics& kinematics, const Dynamics& dynamics) noexcept {
+  if (!dynamics.valid) return 0.0;
+  return kinematics.velocity.dot(dynamics.F_fr_x);
+}
+
+}  // namespace flinch

@@ -1,0 +1,373 @@
+#include "systems/robot/hexapod.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+
+#include "systems/foundation/setup_error.h"
+#include "systems/robot/rotation.h"
+
+namespace flinch {
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+constexpr int max_iterations = 10;
+constexpr double largest_length_error = 1e-10;  // [m]
+constexpr double largest_last_step = 1e-8;      // [m, rad]
+// Beyond this, inverting the drive map leaves less than ten digits.
+constexpr double largest_condition_number = 1e6;
+// A leg nearer to the first axis of its universal joint cannot be said to turn about it.
+constexpr double least_sine_squared = 1e-12;
+
+constexpr JointCounts joints{.active = 6, .passive = 0, .coupling = 0};
+
+ConvexHull prism(double radius, double bottom, double top) {
+  ConvexHull hull;
+  for (int i = 0; i < 12; ++i) {
+    const double angle = i * std::numbers::pi / 6.0;
+    for (const double z : {bottom, top}) {
+      hull.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+    }
+  }
+  return hull;
+}
+
+std::vector<Body> bodies(const HexapodParameters& p) {
+  std::vector<Body> bodies = {
+      {body_name(BodyId::platform()), -1, {prism(p.platform_radius, p.platform_bottom, p.platform_top)}}};
+  for (int leg = 0; leg < 6; ++leg) {
+    const Capsule cylinder{.end = p.cylinder_length * Eigen::Vector3d::UnitZ(), .radius = p.cylinder_radius};
+    const Capsule rod{.begin = -p.rod_length * Eigen::Vector3d::UnitZ(), .radius = p.rod_radius};
+    bodies.push_back({body_name(BodyId::link1(leg)), leg, {cylinder}});
+    bodies.push_back({body_name(BodyId::link2(leg)), leg, {rod}});
+  }
+  return bodies;
+}
+
+// All links of different legs.
+std::vector<BodyPair> self_collision_pairs(const std::vector<Body>& bodies) {
+  std::vector<BodyPair> pairs;
+  for (int a = 1; a < static_cast<int>(bodies.size()); ++a) {
+    for (int b = a + 1; b < static_cast<int>(bodies.size()); ++b) {
+      if (BodyId::from_index(a).leg() != BodyId::from_index(b).leg()) pairs.push_back({a, b});
+    }
+  }
+  return pairs;
+}
+
+Configuration home_pose(const HexapodParameters& parameters) {
+  Configuration pose(7);
+  pose << parameters.home_position, quaternion_exp(parameters.home_rotation);
+  return pose;
+}
+
+MechanismDescription describe(const HexapodParameters& parameters) {
+  throw_if_any(problems(parameters));
+  MechanismDescription description{.name = parameters.name,
+                                   .space = ConfigurationSpace::Kind::spatial_pose,
+                                   .drives = std::vector<DriveKind>(6, DriveKind::prismatic),
+                                   .bodies = bodies(parameters),
+                                   .self_collision_pairs = {},
+                                   .gravity = parameters.gravity,
+                                   .home_pose = home_pose(parameters),
+                                   .characteristic_length = parameters.characteristic_length};
+  description.self_collision_pairs = self_collision_pairs(description.bodies);
+  return description;
+}
+
+bool is_working_mode(const WorkingMode& mode) { return mode.size() == 6 && (mode.array() == 0).all(); }
+
+// Infinite if A is singular to working precision.
+double condition_number(const Matrix6& A) {
+  const Eigen::SelfAdjointEigenSolver<Matrix6> squared(A.transpose() * A, Eigen::EigenvaluesOnly);
+  const double smallest = squared.eigenvalues()[0];
+  const double largest = squared.eigenvalues()[5];
+  const bool regular = smallest > std::numeric_limits<double>::epsilon() * largest;
+  return regular ? std::sqrt(largest / smallest) : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+Hexapod::Hexapod(const HexapodParameters& parameters)
+    : ParallelRobot(describe(parameters)), parameters_(parameters) {
+  loaded_platform_ =
+      parameters.payload ? together(parameters.platform, *parameters.payload) : parameters.platform;
+  scale_ << Eigen::Vector3d::Ones(), Eigen::Vector3d::Constant(1.0 / parameters.characteristic_length);
+}
+
+WorkingMode Hexapod::home_working_mode() const noexcept { return WorkingMode::Zero(6); }
+
+WorkingMode Hexapod::working_mode(const JointVector& /*passive*/) const noexcept {
+  return home_working_mode();
+}
+
+// ---------------------------------------------------------------- legs
+
+Hexapod::Platform Hexapod::platform(const Configuration& pose, const Twist& velocity) noexcept {
+  const Eigen::Vector4d quaternion = pose.tail<4>();
+  return {pose.head<3>(), rotation_matrix(quaternion.normalized()), velocity};
+}
+
+Hexapod::Leg Hexapod::leg(std::size_t index, const Platform& platform) const noexcept {
+  const HexapodLeg& geometry = parameters_.legs[index];
+  Leg leg;
+  leg.arm = platform.axes * geometry.platform_joint;
+  const Eigen::Vector3d span = platform.origin + leg.arm - geometry.base_joint;
+  leg.length = span.norm();
+  leg.direction = span / leg.length;
+  leg.sine_squared = geometry.universal_axis.cross(leg.direction).squaredNorm();
+  return leg;
+}
+
+bool Hexapod::reaches(const Leg& leg) const noexcept {
+  return leg.length > parameters_.rod_length &&
+         leg.length < parameters_.rod_length + parameters_.cylinder_length &&
+         leg.sine_squared > least_sine_squared;
+}
+
+// Row [s^T, (r x s)^T].
+Hexapod::LegRates Hexapod::rates(const Leg& leg, const Platform& platform) noexcept {
+  const Eigen::Vector3d omega = platform.velocity.tail<3>();
+  const Eigen::Vector3d arm_rate = omega.cross(leg.arm);
+  const Eigen::Vector3d span_rate = platform.velocity.head<3>() + arm_rate;
+  LegRates rates;
+  rates.length_rate = leg.direction.dot(span_rate);
+  rates.direction_rate = (span_rate - rates.length_rate * leg.direction) / leg.length;
+  rates.row << leg.direction.transpose(), leg.arm.cross(leg.direction).transpose();
+  rates.row_rate << rates.direction_rate.transpose(),
+      (arm_rate.cross(leg.direction) + leg.arm.cross(rates.direction_rate)).transpose();
+  return rates;
+}
+
+// J_d = [I, -S(r)] maps to the velocity of the platform joint, J_s = (I - s s^T) J_d / q to that of s.
+UniversalLeg<6> Hexapod::universal(std::size_t index, const Leg& leg, const LegRates& rates,
+                                   const Platform& platform) const noexcept {
+  const Eigen::Vector3d& s = leg.direction;
+  const Eigen::Vector3d omega = platform.velocity.tail<3>();
+  Map J_d;
+  Map dJ_d;
+  J_d << Eigen::Matrix3d::Identity(), -cross_matrix(leg.arm);
+  dJ_d << Eigen::Matrix3d::Zero(), -cross_matrix(omega.cross(leg.arm));
+  const Map J_s = (J_d - s * rates.row) / leg.length;
+  const Map dJ_s = (dJ_d - rates.direction_rate * rates.row - s * rates.row_rate) / leg.length -
+                   rates.length_rate / leg.length * J_s;
+  return universal_leg<6>(parameters_.legs[index].universal_axis, s, rates.direction_rate, J_s, dJ_s);
+}
+
+// ---------------------------------------------------------------- bodies
+
+BodyMotion<6> Hexapod::platform_motion(const Platform& platform) noexcept {
+  BodyMotion<6> body;
+  body.origin = platform.origin;
+  body.axes = platform.axes;
+  body.J_o.leftCols<3>().setIdentity();
+  body.J_w.rightCols<3>().setIdentity();
+  return body;
+}
+
+BodyMotion<6> Hexapod::cylinder_motion(std::size_t index, const UniversalLeg<6>& leg) const noexcept {
+  BodyMotion<6> body;
+  body.origin = parameters_.legs[index].base_joint;
+  body.axes = leg.axes;
+  body.J_w = leg.J_w;
+  body.dJ_w = leg.dJ_w;
+  return body;
+}
+
+BodyMotion<6> Hexapod::rod_motion(const Leg& leg, const UniversalLeg<6>& universal,
+                                  const Platform& platform) noexcept {
+  const PointMotion<6> joint = platform_motion(platform).point(leg.arm, platform.velocity.tail<3>());
+  BodyMotion<6> body;
+  body.origin = platform.origin + leg.arm;
+  body.axes = universal.axes;
+  body.J_o = joint.J;
+  body.dJ_o = joint.dJ;
+  body.J_w = universal.J_w;
+  body.dJ_w = universal.dJ_w;
+  return body;
+}
+
+BodyMotion<6> Hexapod::motion(BodyId body, const Platform& platform) const noexcept {
+  if (body.is_platform()) return platform_motion(platform);
+  const auto index = static_cast<std::size_t>(body.leg());
+  const Leg closed = leg(index, platform);
+  const UniversalLeg<6> turning = universal(index, closed, rates(closed, platform), platform);
+  return body.is_link1() ? cylinder_motion(index, turning) : rod_motion(closed, turning, platform);
+}
+
+// ---------------------------------------------------------------- inverse and forward kinematics
+
+InverseSolution Hexapod::inverse_kinematics(const Configuration& pose,
+                                            const WorkingMode& mode) const noexcept {
+  const InverseSolution unreachable{{JointVector::Zero(6), JointVector(0), JointVector(0)}, false};
+  if (!is_working_mode(mode) || !usable(pose, 7) || !space().contains(pose)) return unreachable;
+  InverseSolution solution = unreachable;
+  const Platform at = platform(pose, Twist::Zero());
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Leg closed = leg(i, at);
+    if (!reaches(closed)) return unreachable;
+    solution.joints.active[static_cast<int>(i)] = closed.length;
+  }
+  solution.reachable = true;
+  return solution;
+}
+
+// Newton's method on the leg lengths: x <- x (+) A(x)^-1 (q - q(x)). The sign of det A tells whether the
+// pose found is assembled as the start is; a jump to another branch is no solution.
+ForwardSolution Hexapod::forward_kinematics(const JointVector& active, const Configuration& start,
+                                            const WorkingMode& mode) const noexcept {
+  ForwardSolution solution{home_pose(), 0, false};
+  if (!usable(active, 6) || !inverse_kinematics(start, mode).reachable) return solution;
+
+  Configuration pose = start;
+  double determinant_at_start = 0.0;
+  while (!solution.converged && solution.iterations < max_iterations) {
+    const Platform at = platform(pose, Twist::Zero());
+    Matrix6 A;
+    Vector6 error;
+    for (int i = 0; i < 6; ++i) {
+      const Leg closed = leg(static_cast<std::size_t>(i), at);
+      A.row(i) << closed.direction.transpose(), closed.arm.cross(closed.direction).transpose();
+      error[i] = active[i] - closed.length;
+    }
+    const Eigen::PartialPivLU<Matrix6> lu(A);
+    const Vector6 step = lu.solve(error);
+    if (!step.allFinite() || step.tail<3>().norm() > std::numbers::pi) break;
+    if (solution.iterations == 0) determinant_at_start = lu.determinant();
+    pose = space().plus(pose, step);
+    ++solution.iterations;
+    solution.converged = error.lpNorm<Eigen::Infinity>() < largest_length_error &&
+                         step.lpNorm<Eigen::Infinity>() < largest_last_step &&
+                         lu.determinant() * determinant_at_start > 0.0;
+  }
+  if (!space().contains(pose)) return solution;
+  solution.pose = pose;
+  solution.converged = solution.converged && inverse_kinematics(pose, mode).reachable;
+  return solution;
+}
+
+Configuration Hexapod::start_pose(const JointVector& /*active*/,
+                                  const JointVector& /*passive*/) const noexcept {
+  return home_pose();
+}
+
+double Hexapod::chain_closure_error(const JointVector& active, const JointVector& passive,
+                                    const Configuration& pose) const noexcept {
+  const bool all_usable = usable(active, 6) && passive.size() == 0 && space().contains(pose);
+  return all_usable ? 0.0 : std::numeric_limits<double>::infinity();
+}
+
+// ---------------------------------------------------------------- differential kinematics, dynamics
+
+void Hexapod::kinematics(const Configuration& pose, const PlatformVector& velocity, const WorkingMode& mode,
+                         Kinematics& out) const noexcept {
+  const bool reachable = usable(velocity, 6) && inverse_kinematics(pose, mode).reachable;
+  if (!reachable) return set_unreachable(space(), joints, out);
+  const Configuration x = pose;  // which may be part of `out`
+  const Platform at = platform(pose, velocity);
+  set_unreachable(space(), joints, out);
+  Matrix6 A;
+  Matrix6 dA;
+  out.det_B = 1.0;
+  for (int i = 0; i < 6; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    const Leg closed = leg(index, at);
+    const LegRates moving = rates(closed, at);
+    const Eigen::Vector3d& base = parameters_.legs[index].base_joint;
+    A.row(i) = moving.row;
+    dA.row(i) = moving.row_rate;
+    out.joints.active[i] = closed.length;
+    out.rates.active[i] = moving.length_rate;
+    out.det_B *= closed.sine_squared;
+    out.legs[index] = {base, base + parameters_.cylinder_length * closed.direction, at.origin + closed.arm};
+  }
+  const Matrix6 scaled = A * scale_.asDiagonal();
+  const Eigen::PartialPivLU<Matrix6> lu(A);
+  out.pose = x;
+  out.velocity = at.velocity;
+  out.J_qa_x = A;
+  out.dJ_qa_x = dA;
+  out.det_A = lu.determinant() * scale_.prod();
+  out.sigma_kappa = condition_number(scaled);
+  out.reachable = true;
+  out.valid = out.sigma_kappa < largest_condition_number;
+  if (out.valid) {
+    const Matrix6 J_x = lu.inverse();
+    out.J_x_qa = J_x;
+    out.dJ_x_qa = -J_x * dA * J_x;
+  }
+  if (!all_finite(out)) set_unreachable(space(), joints, out);
+}
+
+void Hexapod::dynamics(const Kinematics& kinematics, Dynamics& out) const noexcept {
+  if (!serves(kinematics, BodyId::platform(), Eigen::Vector3d::Zero())) return set_invalid(6, out);
+  const HexapodParameters& p = parameters_;
+  const Platform at = platform(kinematics.pose, kinematics.velocity);
+  const Twist& v = at.velocity;
+  BodyDynamics<6> sum;
+  Twist friction = Twist::Zero();
+  sum.add_body(loaded_platform_, platform_motion(at), v, p.gravity);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Leg closed = leg(i, at);
+    const LegRates moving = rates(closed, at);
+    const UniversalLeg<6> turning = universal(i, closed, moving, at);
+    sum.add_body(p.cylinder, cylinder_motion(i, turning), v, p.gravity);
+    sum.add_body(p.rod, rod_motion(closed, turning, at), v, p.gravity);
+    sum.add_armature(p.drive_armature, moving.row, moving.row_rate);
+    const auto resist = [&](const JointFriction& joint, const Row& row, double friction_velocity) {
+      friction += row.transpose() * friction_effort(joint, row.dot(v), friction_velocity);
+    };
+    resist(p.drive_friction, moving.row, p.drive_friction_velocity);
+    resist(p.universal_friction, turning.J_first, p.universal_friction_velocity);
+    resist(p.universal_friction, turning.J_second, p.universal_friction_velocity);
+  }
+  if (!sum.M.allFinite() || !sum.C.allFinite() || !friction.allFinite()) return set_invalid(6, out);
+  out.M_x = sum.M;
+  out.C_x = sum.C;
+  out.g_x = sum.g;
+  out.F_fr_x = friction;
+  out.valid = true;
+}
+
+// ---------------------------------------------------------------- points
+
+bool Hexapod::serves(const Kinematics& kinematics, BodyId body, const CartesianVector& point) const noexcept {
+  return kinematics.reachable && kinematics.pose.size() == 7 && drive_count(kinematics) == 6 &&
+         usable(point, 3) && body.index() >= 0 && body.index() < body_count();
+}
+
+CartesianVector Hexapod::point_on_body(const Kinematics& kinematics, BodyId body,
+                                       const CartesianVector& point_in_body) const noexcept {
+  if (!serves(kinematics, body, point_in_body)) return CartesianVector::Zero(3);
+  const BodyMotion<6> moving = motion(body, platform(kinematics.pose, kinematics.velocity));
+  return moving.origin + moving.axes * point_in_body.head<3>();
+}
+
+ContactJacobian Hexapod::contact_jacobian(const Kinematics& kinematics, BodyId body,
+                                          const CartesianVector& point_in_body) const noexcept {
+  ContactJacobian contact;
+  contact.valid = serves(kinematics, body, point_in_body);
+  if (!contact.valid) {
+    for (auto* J : {&contact.translation, &contact.rotation, &contact.d_translation, &contact.d_rotation}) {
+      J->setZero(3, 6);
+    }
+    return contact;
+  }
+  const Platform at = platform(kinematics.pose, kinematics.velocity);
+  const BodyMotion<6> moving = motion(body, at);
+  const Eigen::Vector3d arm = moving.axes * point_in_body.head<3>();
+  const PointMotion<6> point = moving.point(arm, moving.J_w * at.velocity);
+  contact.translation = point.J;
+  contact.d_translation = point.dJ;
+  contact.rotation = moving.J_w;
+  contact.d_rotation = moving.dJ_w;
+  return contact;
+}
+
+}  // namespace flinch

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cmath>
+
+namespace flinch {
+
+/// Friction viscous * rate + coulomb * sign(rate): a torque at a turning joint, a force at a sliding one.
+struct JointFriction {
+  double viscous = 0.0;  ///< [Nm s/rad] or [N s/m]
+  double coulomb = 0.0;  ///< [Nm] or [N]
+};
+
+/// What `friction` takes at `rate` [Nm or N]; the step of Coulomb friction is rounded to
+/// tanh(rate / friction_velocity).
+inline double friction_effort(const JointFriction& friction, double rate, double friction_velocity) noexcept {
+  const double viscous = friction.viscous * rate;
+  return friction.coulomb == 0.0 ? viscous : viscous + friction.coulomb * std::tanh(rate / friction_velocity);
+}
+
+}  // namespace flinch

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "systems/robot/five_bar_presets.h"
+#include "systems/robot/planar_rrr_presets.h"
+#include "tests/systems/robot/mechanism_cases.h"
+
+namespace flinch::testing {
+
+/// Planar robots whose legs differ in inertia, rotors and friction, and their bodies.
+MechanismCase planar_rrr_case(const std::string& name, BenchGeometry geometry);
+MechanismCase five_bar_case(const std::string& name, FiveBarElbows elbows);
+
+}  // namespace flinch::testing
