@@ -74,7 +74,7 @@ Eigen::Vector2d meeting_point(const std::array<PlanarLegGeometry, 2>& geometry, 
                               double assembly) {
   const auto elbow = [&](int leg) -> Eigen::Vector2d {
     const PlanarLegGeometry& g = geometry[static_cast<std::size_t>(leg)];
-    return g.base_joint + g.link1_length * unit(g.base_angle + active[leg]);
+    return g.base_joint + g.link1_length * unit_vector(g.base_angle + active[leg]);
   };
   const double r1 = geometry[0].link2_length;
   const double r2 = geometry[1].link2_length;

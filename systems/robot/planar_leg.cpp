@@ -8,7 +8,7 @@ PlanarLegGeometry leg_geometry(const PlanarLegParameters& leg, const Eigen::Vect
                                const Eigen::Vector2d& coupling_in_platform) noexcept {
   return {.base_joint = base_joint,
           .base_angle = leg.base_angle,
-          .base_direction = unit(leg.base_angle),
+          .base_direction = unit_vector(leg.base_angle),
           .coupling_in_platform = coupling_in_platform,
           .link1_length = leg.link1_length,
           .link2_length = leg.link2_length};
@@ -51,8 +51,8 @@ double passive_angle(const PlanarLeg& leg) noexcept { return std::atan2(leg.sin_
 
 Eigen::Vector2d chain_tip(const PlanarLegGeometry& geometry, double active, double passive) noexcept {
   const double theta1 = geometry.base_angle + active;
-  return geometry.base_joint + geometry.link1_length * unit(theta1) +
-         geometry.link2_length * unit(theta1 + passive);
+  return geometry.base_joint + geometry.link1_length * unit_vector(theta1) +
+         geometry.link2_length * unit_vector(theta1 + passive);
 }
 
 PlanarLegMotion leg_motion(const PlanarLegGeometry& geometry, const PlanarLeg& leg,

@@ -46,7 +46,7 @@ struct PlanarLegJacobianRate {
 };
 
 /// Unit vector at `angle`.
-inline Eigen::Vector2d unit(double angle) { return {std::cos(angle), std::sin(angle)}; }
+inline Eigen::Vector2d unit_vector(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 /// a x b in the plane.
 inline double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {

@@ -69,8 +69,8 @@ PlanarRrr::PlanarRrr(const PlanarRrrParameters& parameters)
     : ParallelRobot(describe(parameters)), parameters_(parameters) {
   for (std::size_t i = 0; i < 3; ++i) {
     const PlanarRrrLeg& leg = parameters.legs[i];
-    geometry_[i] = leg_geometry(leg, -leg.base_radius * normal(unit(leg.base_angle)),
-                                parameters.coupling_radius * unit(leg.coupling_angle));
+    geometry_[i] = leg_geometry(leg, -leg.base_radius * normal(unit_vector(leg.base_angle)),
+                                parameters.coupling_radius * unit_vector(leg.coupling_angle));
     home_signs_[i] = parameters.legs[i].elbow_sign;
   }
 }
@@ -90,7 +90,7 @@ PlanarMotion PlanarRrr::motion(const Eigen::Vector3d& pose, const Eigen::Vector3
   motion.velocity = velocity;
   motion.reachable = true;
   const Eigen::Vector2d origin = pose.head<2>();
-  const Eigen::Vector2d axis = unit(pose.z());
+  const Eigen::Vector2d axis = unit_vector(pose.z());
   for (std::size_t i = 0; i < 3 && motion.reachable; ++i) {
     const PlanarLeg leg = close_leg(geometry_[i], origin, axis, signs[i]);
     motion.reachable = leg.reachable;
@@ -186,7 +186,7 @@ Configuration PlanarRrr::start_pose(const JointVector& active, const JointVector
     cosine += from.dot(to);
   }
   const double phi = std::atan2(sine, cosine);
-  const Eigen::Vector2d origin = mean_tip - rotate(unit(phi), mean_coupling);
+  const Eigen::Vector2d origin = mean_tip - rotate(unit_vector(phi), mean_coupling);
   return Eigen::Vector3d(origin.x(), origin.y(), phi);
 }
 
@@ -200,7 +200,7 @@ double PlanarRrr::chain_closure_error(const JointVector& active, const JointVect
   if (!usable(active, 3) || !usable(passive, 3) || !usable(pose, 3))
     return std::numeric_limits<double>::infinity();
   const Eigen::Vector2d origin = pose.head<2>();
-  const Eigen::Vector2d axis = unit(pose[2]);
+  const Eigen::Vector2d axis = unit_vector(pose[2]);
   double error = 0.0;
   for (int i = 0; i < 3; ++i) {
     const auto leg = static_cast<std::size_t>(i);
