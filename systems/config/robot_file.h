@@ -7,16 +7,17 @@
 #include <vector>
 
 #include "systems/config/read_value.h"
-#include "systems/robot/planar_rrr_parameters.h"
+#include "systems/robot/drive_parameters.h"
 #include "systems/robot/workspace_limits.h"
 
 namespace flinch {
 
 class ParallelRobot;
 
-/// What a robot file says: see apps/robots/planar_3rrr.yaml for one with every key explained.
+/// What a robot file says. In apps/robots there is one of every kind with every key explained.
 struct RobotFile {
   std::shared_ptr<const ParallelRobot> robot;
+  DriveParameters drives;
   WorkspaceLimits limits;
   std::vector<ReadValue> values;  ///< Every parameter, defaults included.
 };
@@ -27,7 +28,5 @@ RobotFile read_robot_file(const std::filesystem::path& file);
 /// The same for text that came from `file`.
 RobotFile parse_robot_file(std::string_view text, const std::string& file);
 std::shared_ptr<const ParallelRobot> load_robot(const std::filesystem::path& file);
-/// The file's `kind` must be planar_3rrr.
-PlanarRrrParameters load_planar_rrr(const std::filesystem::path& file);
 
 }  // namespace flinch

@@ -53,6 +53,7 @@ constexpr std::array known_units = {
     KeyUnit{"A", unit::A},
     KeyUnit{"mA", unit::A, 1.0, 1e3},
     KeyUnit{"Nm_per_A", unit::Nm_per_A},
+    KeyUnit{"N_per_A", unit::N_per_A},
     KeyUnit{"m_per_s2_per_sqrt_Hz", unit::m_per_s2_per_sqrt_Hz},
     KeyUnit{"rad_per_s_per_sqrt_Hz", unit::rad_per_s_per_sqrt_Hz},
     KeyUnit{"deg_per_s_per_sqrt_Hz", unit::rad_per_s_per_sqrt_Hz, degree},

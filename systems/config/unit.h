@@ -41,6 +41,7 @@ inline constexpr Unit Nm_per_rad{"Nm_per_rad", "Nm/rad"};
 inline constexpr Unit Nms_per_rad{"Nms_per_rad", "Nm s/rad"};
 inline constexpr Unit A{"A", "A"};
 inline constexpr Unit Nm_per_A{"Nm_per_A", "Nm/A"};
+inline constexpr Unit N_per_A{"N_per_A", "N/A"};
 inline constexpr Unit m_per_s2_per_sqrt_Hz{"m_per_s2_per_sqrt_Hz", "m/s^2/sqrt(Hz)"};
 inline constexpr Unit rad_per_s_per_sqrt_Hz{"rad_per_s_per_sqrt_Hz", "rad/s/sqrt(Hz)"};
 }  // namespace unit

@@ -2,12 +2,15 @@
 
 namespace flinch {
 
-FiveBarParameters five_bar_robot(FiveBarElbows elbows) {
+FiveBarParameters five_bar_robot(FiveBarElbows elbows, FiveBarFriction friction) {
   FiveBarParameters robot;
   for (FiveBarLeg& leg : robot.legs) {
     leg.link1_length = 0.23;
     leg.link2_length = 0.23;
     leg.inertia = base_parameters(five_bar_link1(), five_bar_link2(), leg.link1_length);
+    if (friction == FiveBarFriction::none) continue;
+    leg.active_friction = {.viscous = 0.01, .coulomb = 0.05};
+    leg.passive_friction = {.viscous = 0.002};
   }
   robot.legs[0].base_joint = {-0.1375, 0.0};
   robot.legs[1].base_joint = {0.1375, 0.0};

@@ -5,10 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 #include <set>
+#include <sstream>
 
-#include "systems/robot/parallel_robot.h"
+#include "systems/robot/five_bar.h"
+#include "systems/robot/five_bar_presets.h"
+#include "systems/robot/hexapod.h"
+#include "systems/robot/hexapod_presets.h"
+#include "systems/robot/planar_rrr.h"
 #include "systems/robot/planar_rrr_presets.h"
 #include "tests/systems/config/problems_of.h"
 
@@ -29,10 +36,14 @@ void expect_same_friction(const JointFriction& a, const JointFriction& b) {
   EXPECT_EQ(a.coulomb, b.coulomb);
 }
 
-void expect_same_leg(const PlanarRrrLeg& a, const PlanarRrrLeg& b) {
+// Parameters of the robot in a file, which must be a `Robot`.
+template <class Robot>
+auto parameters_of(const std::filesystem::path& file) {
+  return std::dynamic_pointer_cast<const Robot>(load_robot(file))->parameters();
+}
+
+void expect_same_leg(const PlanarLegParameters& a, const PlanarLegParameters& b) {
   EXPECT_EQ(a.base_angle, b.base_angle);
-  EXPECT_EQ(a.base_radius, b.base_radius);
-  EXPECT_EQ(a.coupling_angle, b.coupling_angle);
   EXPECT_EQ(a.link1_length, b.link1_length);
   EXPECT_EQ(a.link2_length, b.link2_length);
   EXPECT_EQ(a.elbow_sign, b.elbow_sign);
@@ -46,7 +57,11 @@ void expect_same_leg(const PlanarRrrLeg& a, const PlanarRrrLeg& b) {
 
 void expect_same_robot(const PlanarRrrParameters& a, const PlanarRrrParameters& b) {
   EXPECT_EQ(a.name, b.name);
-  for (std::size_t i = 0; i < 3; ++i) expect_same_leg(a.legs[i], b.legs[i]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    expect_same_leg(a.legs[i], b.legs[i]);
+    EXPECT_EQ(a.legs[i].base_radius, b.legs[i].base_radius);
+    EXPECT_EQ(a.legs[i].coupling_angle, b.legs[i].coupling_angle);
+  }
   EXPECT_EQ(a.coupling_radius, b.coupling_radius);
   EXPECT_EQ(a.platform_mass, b.platform_mass);
   EXPECT_EQ(a.platform_inertia, b.platform_inertia);
@@ -57,21 +72,109 @@ void expect_same_robot(const PlanarRrrParameters& a, const PlanarRrrParameters& 
   EXPECT_EQ(a.home_pose, b.home_pose);
 }
 
-// Every robot that ships is one of the published benches, bit for bit.
+void expect_same_body(const RigidBodyInertia& a, const RigidBodyInertia& b) {
+  EXPECT_EQ(a.mass, b.mass);
+  EXPECT_EQ(a.centre_of_mass, b.centre_of_mass);
+  EXPECT_EQ(a.inertia, b.inertia);
+}
+
+// Every planar 3-RRR that ships is one of the published benches, bit for bit.
 TEST(ShippedRobots, AreThePublishedOnes) {
-  expect_same_robot(load_planar_rrr(robots / "planar_3rrr.yaml"),
+  expect_same_robot(parameters_of<PlanarRrr>(robots / "planar_3rrr.yaml"),
                     bench_robot(BenchGeometry::individual, BenchFriction::test_bench));
-  expect_same_robot(load_planar_rrr(robots / "planar_3rrr_nominal.yaml"),
+  expect_same_robot(parameters_of<PlanarRrr>(robots / "planar_3rrr_nominal.yaml"),
                     bench_robot(BenchGeometry::nominal, BenchFriction::simulation));
+}
+
+TEST(ShippedRobots, HaveAFiveBarThatIsThePreset) {
+  const FiveBarParameters a = parameters_of<FiveBar>(robots / "five_bar.yaml");
+  const FiveBarParameters b = five_bar_robot(FiveBarElbows::outward, FiveBarFriction::bearings);
+  EXPECT_EQ(a.name, b.name);
+  for (std::size_t i = 0; i < 2; ++i) {
+    expect_same_leg(a.legs[i], b.legs[i]);
+    EXPECT_EQ(a.legs[i].base_joint, b.legs[i].base_joint);
+  }
+  EXPECT_EQ(a.platform_mass, b.platform_mass);
+  EXPECT_EQ(a.platform_radius, b.platform_radius);
+  EXPECT_EQ(a.link_radius, b.link_radius);
+  EXPECT_EQ(a.friction_velocity, b.friction_velocity);
+  EXPECT_EQ(a.gravity, b.gravity);
+  EXPECT_EQ(a.home_pose, b.home_pose);
+}
+
+TEST(ShippedRobots, HaveAHexapodThatIsThePresetToANanometre) {
+  const HexapodParameters a = parameters_of<Hexapod>(robots / "hexapod_6ups.yaml");
+  const HexapodParameters b = hexapod_robot(HexapodPayload::none, HexapodFriction::ball_screws);
+  EXPECT_EQ(a.name, b.name);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_LT((a.legs[i].base_joint - b.legs[i].base_joint).norm(), 1e-9);
+    EXPECT_LT((a.legs[i].platform_joint - b.legs[i].platform_joint).norm(), 1e-9);
+    EXPECT_LT((a.legs[i].universal_axis - b.legs[i].universal_axis).norm(), 1e-9);
+  }
+  EXPECT_EQ(a.cylinder_length, b.cylinder_length);
+  EXPECT_EQ(a.rod_length, b.rod_length);
+  EXPECT_EQ(a.cylinder_radius, b.cylinder_radius);
+  EXPECT_EQ(a.rod_radius, b.rod_radius);
+  expect_same_body(a.cylinder, b.cylinder);
+  expect_same_body(a.rod, b.rod);
+  expect_same_body(a.platform, b.platform);
+  EXPECT_FALSE(a.payload.has_value());
+  EXPECT_EQ(a.drive_armature, b.drive_armature);
+  expect_same_friction(a.drive_friction, b.drive_friction);
+  expect_same_friction(a.universal_friction, b.universal_friction);
+  EXPECT_EQ(a.drive_friction_velocity, b.drive_friction_velocity);
+  EXPECT_EQ(a.universal_friction_velocity, b.universal_friction_velocity);
+  EXPECT_EQ(a.platform_radius, b.platform_radius);
+  EXPECT_EQ(a.platform_bottom, b.platform_bottom);
+  EXPECT_EQ(a.platform_top, b.platform_top);
+  EXPECT_EQ(a.gravity, b.gravity);
+  EXPECT_EQ(a.home_position, b.home_position);
+  EXPECT_EQ(a.home_rotation, b.home_rotation);
+  EXPECT_EQ(a.characteristic_length, b.characteristic_length);
 }
 
 TEST(ShippedRobots, CanAllBeLoaded) {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(robots)) {
-    EXPECT_EQ(load_robot(entry.path())->dof(), 3) << entry.path();
+    EXPECT_GE(load_robot(entry.path())->dof(), 2) << entry.path();
     ++count;
   }
-  EXPECT_EQ(count, 2);
+  EXPECT_EQ(count, 4);
+}
+
+TEST(ShippedRobots, SayWhatTheirDrivesAreGivenAndMayDo) {
+  const DriveParameters bench = read_robot_file(robots / "planar_3rrr.yaml").drives;
+  EXPECT_EQ(bench.torque_constant, (JointVector{{6.021, 6.6116, 6.7315}}));
+  EXPECT_EQ(bench.max_torque, 100.0);
+  EXPECT_EQ(bench.max_torque_rate, 20e3);
+  EXPECT_EQ(bench.max_torque_jump, 40.0);
+  EXPECT_EQ(bench.max_speed, 8.0);
+  EXPECT_EQ(bench.max_encoder_rate, 12.0);
+  EXPECT_EQ(bench.max_control_error, 25.0 * std::numbers::pi / 180.0);
+  const DriveParameters silent = read_robot_file(robots / "planar_3rrr_nominal.yaml").drives;
+  EXPECT_EQ(silent.torque_constant, (JointVector{{6.1, 6.1, 6.1}}));
+  EXPECT_EQ(silent.max_torque_rate, 20e3);
+
+  const DriveParameters hexapod = read_robot_file(robots / "hexapod_6ups.yaml").drives;
+  const DriveParameters standard = default_drives(DriveKind::prismatic, 6);
+  EXPECT_EQ(hexapod.torque_constant, JointVector::Constant(6, 100.0));
+  EXPECT_EQ(hexapod.max_torque, standard.max_torque);
+  EXPECT_EQ(hexapod.max_torque_rate, standard.max_torque_rate);
+  EXPECT_EQ(hexapod.max_torque_jump, standard.max_torque_jump);
+  EXPECT_EQ(hexapod.max_speed, standard.max_speed);
+  EXPECT_EQ(hexapod.max_encoder_rate, standard.max_encoder_rate);
+  EXPECT_EQ(hexapod.max_control_error, standard.max_control_error);
+}
+
+TEST(ShippedRobots, AreLimitedToTheirWorkspaces) {
+  const WorkspaceLimits hexapod = read_robot_file(robots / "hexapod_6ups.yaml").limits;
+  EXPECT_EQ(hexapod.centre, Eigen::Vector3d(0.0, 0.0, 0.62));
+  EXPECT_EQ(hexapod.max_distance, 0.15);
+  EXPECT_EQ(hexapod.min_active, 0.51);
+  EXPECT_EQ(hexapod.max_active, 0.92);
+  const WorkspaceLimits five_bar = read_robot_file(robots / "five_bar.yaml").limits;
+  EXPECT_EQ(five_bar.centre, Eigen::Vector2d(0.0, 0.33));
+  EXPECT_EQ(five_bar.max_active, 150.0 * std::numbers::pi / 180.0);
 }
 
 TEST(ShippedRobots, HaveTheLimitsOfBenchAndSimulation) {
@@ -89,13 +192,68 @@ TEST(ShippedRobots, HaveTheLimitsOfBenchAndSimulation) {
   EXPECT_EQ(simulation.min_active, -150.0 * degree);
 }
 
-TEST(ShippedRobots, SayEveryParameterInTheExplainedFile) {
-  const std::vector<ReadValue> values = read_robot_file(robots / "planar_3rrr.yaml").values;
+// All keys that a file leaves to their defaults.
+std::set<std::string> defaults_of(const std::filesystem::path& file) {
   std::set<std::string> defaults;
-  for (const ReadValue& value : values) {
+  for (const ReadValue& value : read_robot_file(file).values) {
     if (!value.from_file) defaults.insert(value.key);
   }
-  EXPECT_THAT(defaults, ElementsAre("legs[1].rotor_inertia", "legs[2].rotor_inertia"));
+  return defaults;
+}
+
+TEST(ShippedRobots, SayEveryParameterInTheExplainedFiles) {
+  EXPECT_THAT(defaults_of(robots / "planar_3rrr.yaml"),
+              ElementsAre("legs[1].rotor_inertia", "legs[2].rotor_inertia"));
+  EXPECT_THAT(defaults_of(robots / "five_bar.yaml"), IsEmpty());
+  EXPECT_THAT(defaults_of(robots / "hexapod_6ups.yaml"), IsEmpty());
+}
+
+// Every name that stands in a key, without the numbers of lists and the units at the ends.
+TEST(DocumentOfFiles, NamesEveryKeyOfEveryKindOfRobot) {
+  std::ifstream file(FLINCH_SOURCE_DIR "/docs/files.md");
+  std::string document((std::istreambuf_iterator<char>(file)), {});
+  document = document.substr(document.find("## Robot file"));
+  int names = 0;
+  for (const char* const robot : {"planar_3rrr.yaml", "five_bar.yaml", "hexapod_6ups.yaml"}) {
+    for (const ReadValue& value : read_robot_file(robots / robot).values) {
+      std::istringstream key(value.key);
+      for (std::string name; std::getline(key, name, '.'); ++names) {
+        name = name.substr(0, name.find('['));
+        EXPECT_NE(document.find('`' + name + '`'), std::string::npos) << name << " of " << value.key;
+      }
+    }
+  }
+  EXPECT_GT(names, 200);
+}
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TEST(HexapodFile, MayTellOfAPayload) {
+  const std::string text = text_of(robots / "hexapod_6ups.yaml") +
+                           "payload: {mass_kg: 5.0, centre_of_mass_m: [0.03, -0.02, 0.08],\n"
+                           "          inertia_kg_m2: [0.025, 0.030, 0.020]}\n";
+  const RobotFile file = parse_robot_file(text, "hexapod.yaml");
+  const HexapodParameters found = std::dynamic_pointer_cast<const Hexapod>(file.robot)->parameters();
+  ASSERT_TRUE(found.payload.has_value());
+  expect_same_body(*found.payload, *hexapod_robot(HexapodPayload::eccentric).payload);
+}
+
+TEST(HexapodFile, HasDrivesThatSlide) {
+  const std::string file = "kind: hexapod_6ups\ndrives: {max_torque_Nm: 3}\n";
+  EXPECT_THAT(problems_of([&] { parse_robot_file(file, "hexapod.yaml"); }),
+              Contains(::testing::StartsWith("hexapod.yaml:2: drives.max_torque_Nm: ")));
+}
+
+TEST(HexapodFile, TellsWhichBodyIsNone) {
+  std::string text = text_of(robots / "hexapod_6ups.yaml");
+  const std::string good = "inertia_kg_m2: [0.030, 0.030, 0.0016]";
+  text.replace(text.find(good), good.size(), "inertia_kg_m2: [0.030, 0.030, 0.9999]");
+  EXPECT_THAT(problems_of([&] { parse_robot_file(text, "hexapod.yaml"); }),
+              ElementsAre(::testing::HasSubstr(
+                  "cylinder.inertia_kg_m2: has the principal moments   0.03   0.03 0.9999 kg m^2;")));
 }
 
 // ---------------------------------------------------------------- files with one change
@@ -153,7 +311,7 @@ workspace_limits:
 TEST_F(ChangedRobotFile, IsFineUnchanged) { EXPECT_THAT(problems(), IsEmpty()); }
 
 TEST_F(ChangedRobotFile, TakesBodiesInPlaceOfBaseParameters) {
-  const PlanarRrrParameters robot = load_planar_rrr(file());
+  const PlanarRrrParameters robot = parameters_of<PlanarRrr>(file());
   const LegInertia expected = base_parameters({2.272, 0.29, 0.06404}, {0.75, 0.311, 0.02401}, 0.5816);
   EXPECT_EQ(robot.legs[1].inertia.p1, expected.p1);
   EXPECT_EQ(robot.legs[1].inertia.p2, expected.p2);

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <numbers>
+
+#include "systems/robot/vectors.h"
+
+namespace flinch {
+
+enum class DriveKind;
+
+/// What a robot's drives are given and may do. Units of a turning drive, of a sliding one in brackets.
+struct DriveParameters {
+  /// Torque of 1 A at each drive [Nm/A] ([N/A]).
+  JointVector torque_constant;
+  double max_torque = 100.0;  ///< Of every drive [Nm] ([N]).
+  /// Largest change of a drive's torque [Nm/s] ([N/s]).
+  double max_torque_rate = 20e3;
+  /// Largest change of its measured torque from tick to tick [Nm] ([N]).
+  double max_torque_jump = 40.0;
+  double max_speed = 8.0;  ///< Of every drive [rad/s] ([m/s]).
+  /// Largest speed between two readings that an encoder is believed [rad/s] ([m/s]).
+  double max_encoder_rate = 12.0;
+  /// Largest distance of a drive from where it should be [rad] ([m]).
+  double max_control_error = 25.0 * std::numbers::pi / 180.0;
+};
+
+/// For `drives` drives of one kind: turning ones as the bench has them, sliding ones as screws of a hexapod
+/// of the size of a table have.
+DriveParameters default_drives(DriveKind kind, int drives);
+
+}  // namespace flinch
