@@ -1,8 +1,10 @@
+#include "systems/config/five_bar_file.h"
+
 #include <cstddef>
 #include <span>
 
 #include "systems/config/planar_leg_file.h"
-#include "systems/config/robot_reader.h"
+#include "systems/config/robot_keys.h"
 #include "systems/robot/five_bar.h"
 
 namespace flinch {

@@ -1,7 +1,9 @@
+#include "systems/config/hexapod_file.h"
+
 #include <cstddef>
 #include <span>
 
-#include "systems/config/robot_reader.h"
+#include "systems/config/robot_keys.h"
 #include "systems/robot/hexapod.h"
 
 namespace flinch {

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "systems/config/robot_reader.h"
+#include "systems/config/robot_keys.h"
 
 namespace flinch {
 namespace {

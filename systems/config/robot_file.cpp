@@ -4,7 +4,10 @@
 #include <utility>
 
 #include "systems/config/config_reader.h"
-#include "systems/config/robot_reader.h"
+#include "systems/config/five_bar_file.h"
+#include "systems/config/hexapod_file.h"
+#include "systems/config/planar_rrr_file.h"
+#include "systems/config/robot_keys.h"
 #include "systems/robot/parallel_robot.h"
 
 namespace flinch {

@@ -1,4 +1,4 @@
-#include "systems/config/robot_reader.h"
+#include "systems/config/robot_keys.h"
 
 #include <cstddef>
 

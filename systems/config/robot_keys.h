@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,12 +10,6 @@
 /// What the readers of the kinds of robots share. Each reads one mechanism's own keys, notes all that is
 /// wrong with them, also physically, and returns the robot; nothing where something is wrong with the file.
 namespace flinch {
-
-class ParallelRobot;
-
-std::shared_ptr<const ParallelRobot> read_planar_rrr(ConfigReader& file);
-std::shared_ptr<const ParallelRobot> read_five_bar(ConfigReader& file);
-std::shared_ptr<const ParallelRobot> read_hexapod(ConfigReader& file);
 
 /// viscous and coulomb of a turning joint.
 JointFriction read_friction(ConfigReader file);
