@@ -57,7 +57,10 @@ RobotFile robot_or_stand_in(ConfigReader& reader, Read&& read) {
   } catch (const SetupError& error) {
     reader.add_problems(error.problems());
   }
-  return {std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::none)), {}, {}};
+  RobotFile bench;
+  bench.robot = std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::none));
+  bench.drives = default_drives(DriveKind::revolute, bench.robot->drives());
+  return bench;
 }
 
 ScenarioObstacle read_pylon(ConfigReader reader) {
