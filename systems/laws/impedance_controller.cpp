@@ -1,13 +1,12 @@
 #include "systems/laws/impedance_controller.h"
 
-#include <Eigen/Geometry>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "systems/foundation/setup_error.h"
+#include "systems/laws/pose_guidance.h"
 #include "systems/robot/contact_jacobian.h"
-#include "systems/robot/rotation.h"
 
 namespace flinch {
 namespace {
@@ -25,33 +24,6 @@ std::vector<std::string> problems(const ImpedanceSettings& settings, int dof) {
   require(settings.damping_ratio.allFinite() && (settings.damping_ratio.array() > 0).all(),
           "damping_ratio must be finite and positive");
   return found;
-}
-
-/// The reference as seen from where the platform is: v_r and its derivative.
-struct Guidance {
-  PlatformVector error;
-  PlatformVector velocity;
-  PlatformVector acceleration;
-};
-
-Guidance guide(const ConfigurationSpace& space, const PlatformReference& desired, const Kinematics& at) {
-  Guidance guidance{space.difference(desired.pose, at.pose), desired.velocity, desired.acceleration};
-  if (space.rotations() < 3) return guidance;
-  const Eigen::Vector3d e_r = guidance.error.tail<3>();
-  const Eigen::Vector3d omega = at.velocity.tail<3>();
-  const Eigen::Matrix3d R_e = rotation_matrix(quaternion_exp(-e_r));  // R R_d^T
-  const Eigen::Vector3d omega_r = R_e * desired.velocity.tail<3>();
-  guidance.velocity.tail<3>() = omega_r;
-  guidance.acceleration.tail<3>() = R_e * desired.acceleration.tail<3>() + omega.cross(omega_r);
-  return guidance;
-}
-
-/// Gradient by the pose of the potential e^T K e / 2, from e and K e.
-PlatformVector gradient(const ConfigurationSpace& space, const PlatformVector& e, PlatformVector K_e) {
-  if (space.rotations() < 3) return K_e;
-  const Eigen::Vector3d moment = inverse_left_jacobian(e.tail<3>()) * K_e.tail<3>();
-  K_e.tail<3>() = moment;
-  return K_e;
 }
 
 }  // namespace
@@ -87,11 +59,11 @@ void ImpedanceController::impede(const PlatformReference& desired, const Kinemat
   const PlatformVector& dx = at.velocity;
   const ImpedanceDamping damping = impedance_damping(model.M_x, K_d_, settings_.damping_ratio);
   result.damping = damping.design;
-  const Guidance guidance = guide(robot_->space(), desired, at);
+  const PoseGuidance guidance = guide(robot_->space(), desired, at.pose, dx);
   result.error = guidance.error;
 
   PlatformVector F_a = model.C_x * dx + model.g_x + model.M_x * guidance.acceleration +
-                       gradient(robot_->space(), guidance.error, K_d_ * guidance.error) +
+                       spring_wrench(robot_->space(), guidance.error, K_d_ * guidance.error) +
                        damping.D * (guidance.velocity - dx);  // [SafePR] (7)
   if (settings_.compensate_friction) F_a += model.F_fr_x;
   result.valid = damping.design != DampingDesign::none && F_a.allFinite();

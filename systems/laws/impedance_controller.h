@@ -39,9 +39,8 @@ struct ImpedanceWrench {
 /// Cartesian impedance control, [SafePR] (7)-(10), [ICRA23] (9)-(11):
 ///   F_a = C_x dx + g_x + F_fr,x + M_x ddx_d + K_d e + D_d de,   tau = J_x,qa^T F_a,   e = x_d - x,
 /// with the damping D_d designed at every tick for M_x. In closed loop M_x dde + D_d de + K_d e = -F_ext.
-/// Where the platform turns about three axes, e ends in the rotation vector e_r from the orientation to its
-/// reference, the reference's rotation is carried over to where the platform is, and J_l(e_r)^-1 K_r e_r
-/// takes the place of K_r e_r: the gradient of e_r^T K_r e_r / 2.
+/// On spaces with rotation about three axes, error, reference and spring are those of `PoseGuidance` and
+/// `spring_wrench`.
 ///
 /// Where reference, kinematics or dynamics are not valid, so are wrench and torque.
 class ImpedanceController final : public System {
