@@ -18,8 +18,9 @@ const scene = {
     this.svg.closest(".stage").hidden = !this.available();
     if (!this.available()) return;
     set(this.svg, { viewBox: `0 0 ${sceneWidth} ${sceneHeight}` });
-    byId("seen-from").textContent = isSpatial ? "From above, from the front, from the side" : "From above";
+    byId("seen-from").textContent = isSpatial ? "Above, front, side" : "From above";
     this.views = isSpatial ? spatialViews(this.svg) : [new View(this.svg, "", 0, 1, panel(0, 0, 1, 1))];
+    this.scales = shape(this.svg, "g", { class: "layer-scales" });
     for (const [id, closeUp] of [["view-whole", false], ["view-close", true]]) {
       byId(id).addEventListener("click", () => this.view(closeUp));
     }
@@ -31,7 +32,10 @@ const scene = {
     byId("view-whole").setAttribute("aria-pressed", String(!closeUp));
     byId("view-close").setAttribute("aria-pressed", String(closeUp));
     const newtonsPerPixel = (largestForce() / arrowPixels) * (isSpatial ? 2 : 1);
-    for (const view of this.views) view.frame(closeUp ? closeUpBox(view) : wholeBox(view), newtonsPerPixel);
+    const boxes = this.views.map((view) => (closeUp ? closeUpBox(view) : wholeBox(view)));
+    const scale = Math.min(...this.views.map((view, i) => view.scaleOf(boxes[i])));
+    this.views.forEach((view, i) => view.frame(boxes[i], scale, newtonsPerPixel));
+    drawScales(this.scales, isSpatial ? sceneWidth / 2 : 0, isSpatial ? sceneHeight / 2 : sceneHeight, scale, newtonsPerPixel);
     if (clock.sample >= 0) this.show(clock.sample);
   },
 
@@ -51,10 +55,26 @@ function panel(x, y, width, height) {
 /** Each view lies beside the one that it shares an axis with. */
 function spatialViews(svg) {
   return [
-    new View(svg, "from above: x right, y up", 0, 1, panel(0, 0, 0.5, 0.5)),
-    new View(svg, "from the front: x right, z up", 0, 2, panel(0, 0.5, 0.5, 0.5)),
-    new View(svg, "from the side: y right, z up", 1, 2, panel(0.5, 0.5, 0.5, 0.5)),
+    new View(svg, "above (x, y)", 0, 1, panel(0, 0, 0.5, 0.5)),
+    new View(svg, "front (x, z)", 0, 2, panel(0, 0.5, 0.5, 0.5)),
+    new View(svg, "side (y, z)", 1, 2, panel(0.5, 0.5, 0.5, 0.5)),
   ];
+}
+
+/** What an arrow and a length mean, above the point (left, bottom). */
+function drawScales(group, left, bottom, scale, newtonsPerPixel) {
+  group.replaceChildren();
+  const force = niceBelow(0.5 * arrowPixels * newtonsPerPixel);
+  const length = niceBelow(110 / scale);
+  const rows = [[force / newtonsPerPixel, `${force} N`], [length * scale, `${chosen(1000 * length)} mm`]];
+  rows.forEach(([pixels, text], row) => {
+    const [x, y] = [left + 18, bottom - 18 - 22 * row];
+    const d = row === 0
+      ? `M${x} ${y}h${pixels - 8}m0-4.5l8 4.5l-8 4.5Z`
+      : `M${x} ${y - 4}v8m0-4h${pixels}m0-4v8`;
+    shape(group, "path", { d, class: row === 0 ? "scale-force" : "scale-length" });
+    shape(group, "text", { x: x + pixels + 8, y: y + 4 }).textContent = text;
+  });
 }
 
 /** Around the base joints and everywhere that the legs and the platform go. */

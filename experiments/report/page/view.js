@@ -7,18 +7,23 @@ class View {
     Object.assign(this, { name, across, up, ...box });
     this.svg = shape(svg, "svg", { ...box, viewBox: `0 0 ${box.width} ${box.height}`, class: "view" });
     this.build();
+    shape(this.svg, "text", { x: 18, y: 24, class: "view-name" }).textContent = name;
   }
 
-  /** Shows the rectangle {left, right, bottom, top} [m] of the view's plane. */
-  frame(box, newtonsPerPixel) {
+  /** Pixels a metre at which the rectangle {left, right, bottom, top} [m] of the view's plane fits. */
+  scaleOf(box) {
+    return Math.min(this.width / (box.right - box.left), this.height / (box.top - box.bottom));
+  }
+
+  /** Shows what is around the middle of that rectangle. */
+  frame(box, scale, newtonsPerPixel) {
     this.newtonsPerPixel = newtonsPerPixel;
-    this.scale = Math.min(this.width / (box.right - box.left), this.height / (box.top - box.bottom));
+    this.scale = scale;
     this.centre = [(box.left + box.right) / 2, (box.bottom + box.top) / 2];
     this.drawGrid();
     this.drawObstacles();
     this.drawPath();
     this.drawEvents();
-    this.drawScales();
   }
 
   flat(vector) {
@@ -32,7 +37,7 @@ class View {
 
   /** Layers from the floor up. */
   build() {
-    for (const name of ["grid", "links", "obstacles", "platform", "path", "marks", "forces", "scales"]) {
+    for (const name of ["grid", "links", "obstacles", "platform", "path", "marks", "forces"]) {
       this[name] = shape(this.svg, "g", { class: `layer-${name}` });
     }
     this.pathAhead = shape(this.path, "path", { class: "path-ahead" });
@@ -221,23 +226,6 @@ class View {
     const label = shape(group, "text", { x: x + reach + side * 6, y: y + 4, "text-anchor": side < 0 ? "end" : "start" });
     label.textContent = text;
     return { group, contact, sample: sampleAt(time) };
-  }
-
-  /** What an arrow and a length mean, and from where one looks. */
-  drawScales() {
-    this.scales.replaceChildren();
-    const force = niceBelow(75 * this.newtonsPerPixel);
-    const length = niceBelow(110 / this.scale);
-    const rows = [[force / this.newtonsPerPixel, `${force} N`], [length * this.scale, `${chosen(1000 * length)} mm`]];
-    rows.forEach(([pixels, text], row) => {
-      const y = this.height - 18 - 22 * row;
-      const d = row === 0
-        ? `M18 ${y}h${pixels - 8}m0-4.5l8 4.5l-8 4.5Z`
-        : `M18 ${y - 4}v8m0-4h${pixels}m0-4v8`;
-      shape(this.scales, "path", { d, class: row === 0 ? "scale-force" : "scale-length" });
-      shape(this.scales, "text", { x: 18 + pixels + 8, y: y + 4 }).textContent = text;
-    });
-    if (this.name) shape(this.scales, "text", { x: 18, y: 24, class: "view-name" }).textContent = this.name;
   }
 }
 
