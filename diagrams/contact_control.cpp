@@ -108,7 +108,7 @@ OutputPort<PlatformAcceleration> followed_acceleration(
 }
 
 Operator add_operator(const Path& path, const EstimatePorts& given, OperatorButtons& buttons,
-                      OutputPort<ContactDetection> detection) {
+                      OutputPort<ContactDetection> detection, InputPort<TargetCommand> target) {
   const Operator added{
       buttons, path.builder.add<ReactionSequence>("reaction_sequence", path.settings.sequence),
       path.builder.add<PlatformTrajectory>("trajectory", path.robot, path.settings.trajectory)};
@@ -118,6 +118,7 @@ Operator add_operator(const Path& path, const EstimatePorts& given, OperatorButt
   path.builder.connect(added.sequence.reaction_state, added.trajectory.reaction);
   path.builder.connect(given.platform, added.trajectory.platform);
   path.builder.connect(buttons.start, added.trajectory.start);
+  path.builder.connect(target, added.trajectory.target);
   return added;
 }
 
@@ -151,6 +152,7 @@ Safety add_safety(const Path& path, const ReactionPorts& given, const Laws& laws
   builder.connect(given.platform, safety.monitor.platform);
   builder.connect(given.measures, safety.monitor.measures);
   builder.connect(given.detection, safety.monitor.detection);
+  builder.connect(given.reaction, safety.monitor.reaction);
   builder.connect(laws.selector.reference, safety.monitor.reference);
   builder.connect(laws.selector.torque, safety.monitor.command);
 
@@ -202,7 +204,8 @@ ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
   auto& buttons = builder.add<OperatorButtons>("operator_buttons");
   const EstimatePorts estimated{accelerated, estimators.port(), estimators.all, buttons.reset};
   const auto detectors = path.add(stages.detectors, estimated);
-  const Operator wanted = add_operator(path, estimated, buttons, detectors.port());
+  const auto target = builder.optional_input<TargetCommand>("target");
+  const Operator wanted = add_operator(path, estimated, buttons, detectors.port(), target);
   const ReactionPorts reaction{estimated, detectors.port(), wanted.sequence.reaction_state,
                                wanted.trajectory.reference};
   const Laws laws = add_laws(path, reaction);
@@ -218,6 +221,7 @@ ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
       .imu = sensed.imu,
       .status = builder.export_input("status", safety.monitor.station),
       .operator_command = pressed,
+      .target = target,
       .tick_timing = builder.export_input("tick_timing", safety.monitor.timing),
       .torque_command = builder.export_output("torque_command", safety.gate.torque_command),
       .brake = builder.export_output("brake", safety.gate.brake),

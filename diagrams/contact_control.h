@@ -8,6 +8,7 @@
 #include "systems/framework/diagram_builder.h"
 #include "systems/framework/tick_timing.h"
 #include "systems/signals/operator_command.h"
+#include "systems/signals/target_command.h"
 
 namespace flinch {
 
@@ -28,6 +29,7 @@ struct ContactControl {
   InputPort<ImuReading> imu;  ///< may be left open: no data
   InputPort<StationStatus> status;
   InputPort<OperatorCommand> operator_command;
+  InputPort<TargetCommand> target;    ///< may be left open: none
   InputPort<TickTiming> tick_timing;  ///< for RealtimeRunner::feed_timing(); not valid in simulated time
 
   OutputPort<TorqueCommand> torque_command;  ///< from the torque gate, as is `brake`

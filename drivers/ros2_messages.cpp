@@ -61,6 +61,8 @@ const char* describe(GatePhase phase) noexcept {
       return "torque gate open";
     case GatePhase::closed:
       return "torque gate closed by a fault";
+    case GatePhase::recovering:
+      return "torque gate open for a recovery";
     case GatePhase::waiting:
       break;
   }

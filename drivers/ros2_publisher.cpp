@@ -111,7 +111,8 @@ class Ros2Publisher::Implementation {
     diagnostic_msgs_msg_dds__KeyValue_ fault{.key_ = text("first fault"),
                                              .value_ = text(describe(now_.gate.fault))};
     diagnostic_msgs_msg_dds__DiagnosticStatus_ status{};
-    status.level_ = now_.gate.phase == GatePhase::open ? 0 : now_.gate.phase == GatePhase::waiting ? 1 : 2;
+    const GatePhase phase = now_.gate.phase;
+    status.level_ = phase == GatePhase::open ? 0 : phase == GatePhase::closed ? 2 : 1;
     status.name_ = text("flinch");
     status.message_ = text(describe(now_.gate.phase));
     status.hardware_id_ = text("");

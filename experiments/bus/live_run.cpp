@@ -142,7 +142,7 @@ void LiveRun::enable() {
 
 Tidings LiveRun::watch() {
   const LiveState& now = panel_.last();
-  constexpr const char* phases[] = {"waiting", "open", "closed"};
+  constexpr const char* phases[] = {"waiting", "open", "closed", "recovering"};
   return {fmt::format("{}; gate {}; drives: {}", name(now.mode), phases[static_cast<int>(now.gate.phase)],
                       name(now.link.drive_state)),
           fmt::format("at {:.1f} of {:.1f} s, force {:.0f} N, round trip {:.0f} us, lost {}, refused {}",
@@ -153,7 +153,7 @@ Tidings LiveRun::watch() {
 /// By its own motion or by its brakes.
 bool LiveRun::is_stopped() const {
   const GateStatus& gate = context_.get(experiment_.control.gate);
-  if (gate.phase == GatePhase::open) return false;
+  if (gate.passes()) return false;
   return gate.reaction == GateReaction::zero_torque_and_brake ||
          is_at_rest(context_.get(experiment_.control.joint_motion)) || !station_.link().enabled;
 }

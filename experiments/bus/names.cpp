@@ -14,7 +14,7 @@ const char* name(DriveState state) {
 }
 
 const char* name(ReactionMode mode) {
-  constexpr std::array<const char*, 5> names = {"stopped", "nominal", "react", "hold", "zero-g"};
+  constexpr std::array<const char*, 6> names = {"stopped", "nominal", "react", "hold", "zero-g", "recover"};
   const auto index = static_cast<std::size_t>(mode);
   return index < names.size() ? names[index] : "unknown";
 }

@@ -15,6 +15,7 @@ LiveExperiment build_live_experiment(const Scenario& scenario) {
   experiment.control = add_contact_control(builder, scenario.robot.robot, scenario.control);
   connect(builder, experiment.station, experiment.control);
   experiment.operator_command = builder.export_input("operator", experiment.control.operator_command);
+  experiment.target = builder.export_input("target", experiment.control.target);
   experiment.tick_timing = builder.export_input("tick_timing", experiment.control.tick_timing);
   export_readings(builder, experiment.station);
   export_control(builder, experiment.control);

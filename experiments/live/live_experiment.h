@@ -11,13 +11,14 @@ namespace flinch {
 struct Scenario;
 
 /// The control path of a scenario before a robot outside this program. The outputs of the diagram are what is
-/// recorded, under the names that 'flinch run' uses in simulation; its inputs are the operator's buttons, the
-/// timing of its ticks, and what comes from the robot.
+/// recorded, under the names that 'flinch run' uses in simulation; its inputs are the operator's buttons and
+/// targets, the timing of its ticks, and what comes from the robot.
 struct LiveExperiment {
   std::unique_ptr<Diagram> diagram;
   ExternalStation station;
   ContactControl control;
   InputPort<OperatorCommand> operator_command;
+  InputPort<TargetCommand> target;
   InputPort<TickTiming> tick_timing;  ///< for RealtimeRunner::feed_timing()
 };
 

@@ -34,6 +34,13 @@ OutputPort<TickTiming> add_timing(DiagramBuilder& builder, const Recording& reco
   return timing.played;
 }
 
+void replay_target(DiagramBuilder& builder, const Recording& recorded, const ContactControl& control) {
+  if (find(recorded, "target") == nullptr) return;
+  const auto& target = builder.add<Player<TargetCommand>>("target", recorded, "target");
+  builder.connect(target.played, control.target);
+  builder.export_output("target", target.played);
+}
+
 std::unique_ptr<Diagram> build_replay(const Scenario& scenario, const Recording& recorded) {
   DiagramBuilder builder("replay", recorded.period);
   const Station station = add_recorded_station(builder, recorded);
@@ -43,6 +50,7 @@ std::unique_ptr<Diagram> build_replay(const Scenario& scenario, const Recording&
   builder.connect(buttons.played, control.operator_command);
   builder.connect(add_timing(builder, recorded), control.tick_timing);
   builder.export_output("operator", buttons.played);
+  replay_target(builder, recorded, control);
   export_readings(builder, station);
   export_control(builder, control);
   return builder.build();

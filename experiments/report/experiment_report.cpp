@@ -212,14 +212,14 @@ ReportLane lane(const Recording& recording, std::string name, const std::string&
 }
 
 std::vector<ReportLane> lanes(const Recording& recording, Witness witness) {
-  ReportLane mode =
-      lane(recording, "mode", "reaction", "mode", {"nominal", "stopped", "react", "hold", "zero-g"});
+  ReportLane mode = lane(recording, "mode", "reaction", "mode",
+                         {"nominal", "stopped", "react", "hold", "zero-g", "recover"});
   for (int& state : mode.state) {  // the page's quiet state comes first: nominal before stopped
     if (state < 2) state = 1 - state;
   }
   std::vector<ReportLane> rows = {
       lane(recording, "detector", "detection", "level", {"quiet", "contact", "hard contact"}), mode,
-      lane(recording, "torque gate", "gate", "phase", {"waiting", "open", "closed"})};
+      lane(recording, "torque gate", "gate", "phase", {"waiting", "open", "closed", "recovering"})};
   if (witness == Witness::truth) {
     rows.insert(rows.begin(), lane(recording, "contact", "contact", "in_contact", {"free", "touching"}));
   }

@@ -19,12 +19,13 @@ Experiment build_experiment(const SimulatedScenario& scenario) {
   const ContactControl control = add_contact_control(builder, scenario.robot.robot, scenario.control);
   connect(builder, station, control);
   const auto operator_command = builder.export_input("operator", control.operator_command);
+  const auto target = builder.export_input("target", control.target);
   builder.connect(builder.add<Constant<TickTiming>>("tick_timing", TickTiming()).value, control.tick_timing);
   builder.export_output("truth", station.plant_truth);
   builder.export_output("contact", station.contact_truth);
   export_readings(builder, station);
   export_control(builder, control);
-  return {builder.build(), operator_command};
+  return {builder.build(), operator_command, target};
 }
 
 Recording run_experiment(const SimulatedScenario& scenario,

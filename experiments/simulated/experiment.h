@@ -8,16 +8,18 @@
 #include "systems/framework/diagram.h"
 #include "systems/framework/recording.h"
 #include "systems/signals/operator_command.h"
+#include "systems/signals/target_command.h"
 
 namespace flinch {
 
 struct SimulatedScenario;
 
 /// The closed loop of a scenario: the simulated station and the control path. The outputs of the diagram are
-/// what is recorded; its input are the operator's buttons.
+/// what is recorded; its inputs are what the operator does.
 struct Experiment {
   std::unique_ptr<Diagram> diagram;
   InputPort<OperatorCommand> operator_command;
+  InputPort<TargetCommand> target;
 };
 
 /// Throws SetupError for settings that do not fit together.

@@ -12,6 +12,7 @@ using Law = ModeSelector::Law;
 Law law_of(ReactionMode mode) {
   switch (mode) {
     case ReactionMode::nominal:
+    case ReactionMode::recover:
       return Law::nominal;
     case ReactionMode::react:
     case ReactionMode::hold:

@@ -6,10 +6,12 @@ namespace flinch {
 
 ReactionMode next_mode(ReactionMode mode, const ReactionEvents& events) noexcept {
   using enum ReactionMode;
+  if (events.recovering) return recover;
   if (!events.gate_open) return stopped;
   if (events.struck) return zero_g;
   switch (mode) {
     case stopped:
+    case recover:
       return nominal;
     case nominal:
       return events.touched ? react : nominal;
@@ -27,16 +29,17 @@ ReactionSequence::ReactionSequence(const ReactionSequenceSettings& settings) : s
   if (!(settings.rest_speed > 0)) throw SetupError("reaction sequence: rest_speed must be positive");
 }
 
-ReactionState ReactionSequence::advance(Time now, const ReactionState& last, bool arrived, bool gate_open,
+ReactionState ReactionSequence::advance(Time now, const ReactionState& last, bool arrived, GatePhase phase,
                                         const ContactDetection& contact, const JointMotion& motion,
                                         const ResetCommand& command) const {
   const ContactLevel level = contact.valid ? contact.present_level : ContactLevel::none;
-  const ReactionEvents events{.gate_open = gate_open,
+  const ReactionEvents events{.gate_open = phase == GatePhase::open,
                               .touched = level != ContactLevel::none,
                               .struck = level == ContactLevel::hard && settings_.zero_g_when_struck,
                               .arrived = arrived,
                               .quiet = is_quiet(contact, motion),
-                              .reset = command.reset};
+                              .reset = command.reset,
+                              .recovering = phase == GatePhase::recovering};
   const ReactionMode mode = next_mode(last.mode, events);
   return mode == last.mode ? last : ReactionState{mode, last.mode, now};
 }

@@ -19,15 +19,17 @@ Time arrival(const PlatformTrajectory::Course& course) {
 PlatformTrajectory::PlatformTrajectory(std::shared_ptr<const ParallelRobot> robot,
                                        PlatformTrajectorySettings settings)
     : robot_(std::move(robot)), settings_(std::move(settings)) {
-  if (!can_be_planned_with(settings_.approach.translation) ||
-      !can_be_planned_with(settings_.approach.rotation)) {
-    throw SetupError("platform trajectory: the limits of the approach must be positive");
+  for (const PoseLimits& limits : {settings_.approach, settings_.recovery}) {
+    if (!can_be_planned_with(limits.translation) || !can_be_planned_with(limits.rotation)) {
+      throw SetupError("platform trajectory: the limits of approach and recovery must be positive");
+    }
   }
 }
 
 bool PlatformTrajectory::turns(Time now, const Course& last, const ReactionState& state,
-                               const StartCommand& command) const {
-  return state.entered(ReactionMode::nominal, now) || has_arrived(now, last) ||
+                               const StartCommand& command, const TargetCommand& wanted) const {
+  return state.entered(ReactionMode::nominal, now) || state.entered(ReactionMode::recover, now) ||
+         has_arrived(now, last) || wanted.number != last.target ||
          (state.mode == ReactionMode::nominal && starts(now, last, command));
 }
 
@@ -37,17 +39,34 @@ bool PlatformTrajectory::has_arrived(Time now, const Course& course) const {
 
 void PlatformTrajectory::advance(Time now, const Course& last, const ReactionState& state,
                                  const PlatformMotion& motion, const StartCommand& command,
-                                 Course& course) const {
+                                 const TargetCommand& wanted, Course& course) const {
   course = last;
-  if (state.entered(ReactionMode::nominal, now)) {
+  course.target = wanted.number;
+  const bool recovered = state.previous == ReactionMode::recover;
+  const bool recovers = state.mode == ReactionMode::recover;
+  if (state.entered(ReactionMode::recover, now) ||
+      (state.entered(ReactionMode::nominal, now) && !recovered)) {
     course = {.phase = Phase::hold,
               .begin = now,
               .to_start = rest_at(motion),
-              .automatic = last.phase == Phase::none};
+              .automatic = !recovers && last.phase == Phase::none,
+              .target = wanted.number};
+  }
+  if (wanted.number != last.target && (recovers || state.mode == ReactionMode::nominal)) {
+    PlatformReference present;
+    evaluate(now, course, present);
+    const PoseMotion way = way_to(wanted, present, recovers ? settings_.recovery : settings_.approach);
+    if (way.valid()) {
+      course = {
+          .phase = Phase::hold, .begin = now, .to_start = way, .automatic = false, .target = wanted.number};
+    }
   }
   if (state.mode == ReactionMode::nominal && starts(now, course, command)) {
-    course = {
-        .phase = Phase::approach, .begin = now, .to_start = way_to_path(now, course), .automatic = false};
+    course = {.phase = Phase::approach,
+              .begin = now,
+              .to_start = way_to_path(now, course),
+              .automatic = false,
+              .target = wanted.number};
   }
   if (has_arrived(now, course)) {
     course.phase = Phase::path;
@@ -74,6 +93,23 @@ PoseMotion PlatformTrajectory::way_to_path(Time now, const Course& course) const
   evaluate(now, course, present);
   return PoseMotion::plan(robot_->space(), present.pose, present.velocity,
                           robot_->difference(settings_.path->start(), present.pose), settings_.approach);
+}
+
+/// Not valid for what is no target.
+PoseMotion PlatformTrajectory::way_to(const TargetCommand& wanted, const PlatformReference& present,
+                                      const PoseLimits& limits) const {
+  const ConfigurationSpace& space = robot_->space();
+  if (!present.valid) return {};
+  PlatformVector way;
+  if (wanted.kind == TargetCommand::Kind::step) way = wanted.step;
+  if (wanted.kind == TargetCommand::Kind::pose && space.contains(wanted.pose)) {
+    way = space.difference(wanted.pose, present.pose);
+  }
+  if (way.size() != robot_->dof() || !way.allFinite()) return {};
+  const PoseMotion motion = PoseMotion::plan(space, present.pose, present.velocity, way, limits);
+  const bool reachable =
+      motion.valid() && robot_->inverse_kinematics(motion.goal(), robot_->home_working_mode()).reachable;
+  return reachable ? motion : PoseMotion();
 }
 
 void PlatformTrajectory::evaluate(Time now, const Course& course, PlatformReference& result) const {

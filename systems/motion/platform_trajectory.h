@@ -8,6 +8,7 @@
 #include "systems/signals/platform_motion.h"
 #include "systems/signals/reaction_state.h"
 #include "systems/signals/start_command.h"
+#include "systems/signals/target_command.h"
 
 namespace flinch {
 
@@ -18,6 +19,9 @@ struct PlatformTrajectorySettings {
   /// Of the way from where the robot is to the start of the path.
   PoseLimits approach{.translation = {.velocity = 0.2, .acceleration = 2.0, .jerk = 50.0},
                       .rotation = {.velocity = 0.5, .acceleration = 5.0, .jerk = 100.0}};
+  /// Of a way in the mode `recover`.
+  PoseLimits recovery{.translation = {.velocity = 0.05, .acceleration = 0.5, .jerk = 10.0},
+                      .rotation = {.velocity = 0.15, .acceleration = 1.5, .jerk = 30.0}};
 };
 
 /// The nominal motion. It never jumps: whenever the nominal mode begins, at first or after a reaction or a
@@ -25,6 +29,9 @@ struct PlatformTrajectorySettings {
 /// the start of the path and then along it,
 ///   by itself at the given time or as soon as the nominal mode has begun, but only before the first
 ///   interruption; on a start command, as often as wanted, whenever it is at rest.
+/// It goes where the operator's target says from wherever it is, in the modes `nominal` and, more slowly,
+/// `recover`; a target that is not finite or that the legs do not reach is ignored. What began in a recovery
+/// goes on when the nominal mode follows it.
 /// While another mode is active, the clock goes on; what it says then is not meant to be followed.
 /// Not valid before the nominal mode has begun, or if the pose was not known then.
 class PlatformTrajectory final : public System {
@@ -34,8 +41,9 @@ class PlatformTrajectory final : public System {
     enum class Phase : std::uint8_t { none, hold, approach, path };
     Phase phase = Phase::none;
     Time begin{};
-    PoseMotion to_start;    ///< while holding, to rest; while approaching, to the start of the path
-    bool automatic = true;  ///< may still start by itself
+    PoseMotion to_start;       ///< while holding, to rest or a target; while approaching, to the path
+    bool automatic = true;     ///< may still start by itself
+    std::uint32_t target = 0;  ///< number of the last one seen
   };
 
  private:
@@ -48,12 +56,13 @@ class PlatformTrajectory final : public System {
   InputPort<ReactionState> reaction = input<ReactionState>("reaction");
   InputPort<PlatformMotion> platform = input<PlatformMotion>("platform");
   InputPort<StartCommand> start = input<StartCommand>("start");
+  InputPort<TargetCommand> target = input<TargetCommand>("target");
 
  private:
   Intermediate<bool> turns_ =
-      intermediate<&PlatformTrajectory::turns>("turns", clock, last_, reaction, start);
-  Intermediate<Course> course_ = intermediate<&PlatformTrajectory::advance>(When(turns_), "course", clock,
-                                                                            last_, reaction, platform, start);
+      intermediate<&PlatformTrajectory::turns>("turns", clock, last_, reaction, start, target);
+  Intermediate<Course> course_ = intermediate<&PlatformTrajectory::advance>(
+      When(turns_), "course", clock, last_, reaction, platform, start, target);
 
  public:
   OutputPort<PlatformReference> reference =
@@ -63,15 +72,18 @@ class PlatformTrajectory final : public System {
   Update remember_ = keep(last_, course_);
 
   /// Whether another course begins at this tick.
-  bool turns(Time now, const Course& last, const ReactionState& state, const StartCommand& command) const;
+  bool turns(Time now, const Course& last, const ReactionState& state, const StartCommand& command,
+             const TargetCommand& wanted) const;
   void advance(Time now, const Course& last, const ReactionState& state, const PlatformMotion& motion,
-               const StartCommand& command, Course& course) const;
+               const StartCommand& command, const TargetCommand& wanted, Course& course) const;
   void evaluate(Time now, const Course& course, PlatformReference& result) const;
 
   PoseMotion rest_at(const PlatformMotion& motion) const;
   bool has_arrived(Time now, const Course& course) const;
   bool starts(Time now, const Course& course, const StartCommand& command) const;
   PoseMotion way_to_path(Time now, const Course& course) const;
+  PoseMotion way_to(const TargetCommand& wanted, const PlatformReference& present,
+                    const PoseLimits& limits) const;
 
   std::shared_ptr<const ParallelRobot> robot_;
   PlatformTrajectorySettings settings_;

@@ -12,20 +12,30 @@ FaultMonitor::FaultMonitor(std::shared_ptr<const ParallelRobot> robot, const Fau
 
 FaultMonitorMemory FaultMonitor::advance(Time now, const FaultMonitorMemory& last,
                                          const StationStatus& status, const JointReading& angles,
-                                         const DriveReading& currents, const PlatformMotion& pose,
-                                         const TorqueCommand& asked) const {
+                                         const DriveReading& currents, const JointMotion& rates,
+                                         const PlatformMotion& pose, const WorkspaceMeasures& workspace,
+                                         const TorqueCommand& asked, const ReactionState& state) const {
   EncoderWatch watch = last.encoders;
   flinch::advance(watch, {.robot = *robot_,
                           .joints = angles,
                           .platform = pose,
                           .drives = currents,
                           .braked = status.valid && status.braked});
+  RecoveryWatch recovery = last.recovery;
+  flinch::advance(recovery,
+                  {.robot = *robot_,
+                   .limits = limits_.workspace,
+                   .motion = rates,
+                   .platform = pose,
+                   .measures = workspace},
+                  state.mode == ReactionMode::recover);
   return {.station = status.valid ? now : last.station,
           .joints = is_usable(angles, *robot_) ? now : last.joints,
           .drives = is_usable(currents, *robot_) ? now : last.drives,
           .last_command = last.command,
           .command = asked,
-          .encoders = watch};
+          .encoders = watch,
+          .recovery = recovery};
 }
 
 FaultReport FaultMonitor::judge(Time now, const FaultMonitorMemory& memory, const TickTiming& tick,
@@ -33,7 +43,7 @@ FaultReport FaultMonitor::judge(Time now, const FaultMonitorMemory& memory, cons
                                 const DriveReading& currents, const JointMotion& rates,
                                 const PlatformMotion& pose, const WorkspaceMeasures& workspace,
                                 const ContactDetection& contact, const PlatformReference& followed,
-                                const OperatorCommand& pressed) const {
+                                const OperatorCommand& pressed, const ReactionState& state) const {
   const Evidence evidence{.robot = *robot_,
                           .limits = limits_,
                           .now = now,
@@ -52,8 +62,11 @@ FaultReport FaultMonitor::judge(Time now, const FaultMonitorMemory& memory, cons
                           .reference = followed,
                           .command = memory.command,
                           .last_command = memory.last_command,
-                          .buttons = pressed};
-  return {.valid = true, .present = find_faults(evidence)};
+                          .buttons = pressed,
+                          .reaction = state};
+  return {.valid = true,
+          .present = find_faults(evidence),
+          .tolerable = tolerable_faults(memory.recovery, limits_.recovery_margin)};
 }
 
 }  // namespace flinch

@@ -4,6 +4,7 @@
 
 #include "systems/framework/system.h"
 #include "systems/safety/fault_table.h"
+#include "systems/safety/recovery_watch.h"
 
 namespace flinch {
 
@@ -16,9 +17,11 @@ struct FaultMonitorMemory {
   TorqueCommand last_command;
   TorqueCommand command;
   EncoderWatch encoders;
+  RecoveryWatch recovery;
 };
 
-/// Looks for every fault of the fault table, every tick, for the torque gate.
+/// Looks for every fault of the fault table, every tick, for the torque gate, and says which of them a
+/// recovery bears.
 class FaultMonitor final : public System {
   State<FaultMonitorMemory> last_ = state<FaultMonitorMemory>("last");
 
@@ -37,27 +40,30 @@ class FaultMonitor final : public System {
   InputPort<PlatformReference> reference = input<PlatformReference>("reference");  ///< that is being followed
   InputPort<TorqueCommand> command = input<TorqueCommand>("command");
   InputPort<OperatorCommand> buttons = input<OperatorCommand>("buttons");
+  InputPort<ReactionState> reaction = input<ReactionState>("reaction");
 
  private:
   Intermediate<FaultMonitorMemory> now_ = intermediate<&FaultMonitor::advance>(
-      "memory", clock, last_, station, joints, drives, platform, command);
+      "memory", clock, last_, station, joints, drives, motion, platform, measures, command, reaction);
 
  public:
   OutputPort<FaultReport> faults =
       output<&FaultMonitor::judge>("faults", clock, now_, timing, station, joints, drives, motion, platform,
-                                   measures, detection, reference, buttons);
+                                   measures, detection, reference, buttons, reaction);
 
  private:
   Update remember_ = keep(last_, now_);
 
   FaultMonitorMemory advance(Time now, const FaultMonitorMemory& last, const StationStatus& status,
                              const JointReading& angles, const DriveReading& currents,
-                             const PlatformMotion& pose, const TorqueCommand& asked) const;
+                             const JointMotion& rates, const PlatformMotion& pose,
+                             const WorkspaceMeasures& workspace, const TorqueCommand& asked,
+                             const ReactionState& state) const;
   FaultReport judge(Time now, const FaultMonitorMemory& memory, const TickTiming& tick,
                     const StationStatus& status, const JointReading& angles, const DriveReading& currents,
                     const JointMotion& rates, const PlatformMotion& pose, const WorkspaceMeasures& workspace,
                     const ContactDetection& contact, const PlatformReference& followed,
-                    const OperatorCommand& pressed) const;
+                    const OperatorCommand& pressed, const ReactionState& state) const;
 
   std::shared_ptr<const ParallelRobot> robot_;
   FaultLimits limits_;

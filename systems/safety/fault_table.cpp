@@ -107,8 +107,11 @@ bool joint_range(const Evidence& e) {
                            e.motion.position.maxCoeff() > e.limits.workspace.max_active);
 }
 
+bool recovers(const Evidence& e) { return e.reaction.mode == ReactionMode::recover; }
+
 bool joint_speed(const Evidence& e) {
-  return has_motion(e) && largest(e.motion.velocity) > e.limits.max_joint_speed;
+  const double share = recovers(e) ? e.limits.recovery_speed : 1.0;
+  return has_motion(e) && largest(e.motion.velocity) > share * e.limits.max_joint_speed;
 }
 
 bool self_collision(const Evidence& e) {
@@ -146,6 +149,10 @@ bool torque_jump(const Evidence& e) {
 
 bool operator_stop(const Evidence& e) { return e.buttons.stop; }
 
+bool touched_in_recovery(const Evidence& e) {
+  return recovers(e) && e.detection.valid && e.detection.present_level != ContactLevel::none;
+}
+
 // ---------------------------------------------------------------- the table
 
 constexpr GateReaction stop = GateReaction::controlled_stop;
@@ -182,6 +189,8 @@ constexpr std::array rows{
     FaultRow{GateFault::command_not_finite, stop, 0, command_not_finite, "the laws' torques are no numbers"},
     FaultRow{GateFault::torque_jump, stop, 0, torque_jump, "the laws' torques jump"},
     FaultRow{GateFault::operator_stop, stop, 0, operator_stop, "the operator stops the robot"},
+    FaultRow{GateFault::touched_in_recovery, stop, 0, touched_in_recovery,
+             "the robot is touched while it recovers"},
 };
 
 constexpr bool in_order() {
@@ -210,6 +219,9 @@ std::vector<std::string> problems(const FaultLimits& limits, const ParallelRobot
   require(limits.max_control_error > 0, "max_control_error must be positive");
   require(limits.max_torque_jump > 0, "max_torque_jump must be positive");
   require(limits.torque_range > 0, "torque_range must be positive");
+  require(limits.recovery_speed > 0 && limits.recovery_speed <= 1,
+          "recovery_speed must be above 0 and at most 1");
+  require(limits.recovery_margin >= 0, "recovery_margin must not be negative");
   return found;
 }
 

@@ -18,6 +18,7 @@
 #include "systems/signals/operator_command.h"
 #include "systems/signals/platform_motion.h"
 #include "systems/signals/platform_reference.h"
+#include "systems/signals/reaction_state.h"
 #include "systems/signals/station_status.h"
 #include "systems/signals/torque_command.h"
 #include "systems/signals/workspace_measures.h"
@@ -55,6 +56,11 @@ struct FaultLimits {
   double max_control_error = 25.0 * std::numbers::pi / 180.0;                 ///< of a drive [rad]. [PAR]
   double max_torque_jump = 40.0;  ///< from tick to tick, both within the torque range [Nm]
   double torque_range = 100.0;    ///< what lies outside counts as its end [Nm]
+
+  /// While the robot recovers: the share of `max_joint_speed` that is left, and by how much it may get
+  /// further beyond a limit than it was, as a share of the limit: for noise and for a motion that begins.
+  double recovery_speed = 0.15;
+  double recovery_margin = 0.02;
 };
 
 /// All that is wrong with `limits`, one sentence each. A robot at rest at home must be within them.
@@ -81,6 +87,7 @@ struct Evidence {
   const TorqueCommand& command;
   const TorqueCommand& last_command;  ///< of the tick before
   const OperatorCommand& buttons;
+  const ReactionState& reaction;
 };
 
 /// One fault: when it is present, what the gate then does, how soon.

@@ -13,6 +13,8 @@ struct TorqueGateSettings {
   /// Largest change of a drive's torque [Nm/s]. The default is what a blend over 10 ms from one end of the
   /// torque range to the other needs.
   double max_torque_rate = 20e3;
+  double recovery_torque = 0.3;  ///< share of `max_torque` that is left while recovering
+  Time recovered_after = 100ms;  ///< without a fault, a recovery has come to its end
 };
 
 /// The only block that writes torque towards a station.
@@ -22,6 +24,10 @@ struct TorqueGateSettings {
 /// faults since asks for, and opens again only when the operator resets at a tick without faults. Should the
 /// controlled stop have no valid torques, it falls back to no torque and brakes, and stays there.
 ///
+/// Where the robot stands beyond a limit no tick is without faults. There the operator's reset, also at the
+/// start of a run, begins a recovery: the gate lets the laws' torques through, reduced, as long as no other
+/// fault is present than those which the report calls tolerable. It is open once there is none.
+///
 /// Torques that reach the station are always finite, bounded, and bounded in rate.
 class TorqueGate final : public System {
  public:
@@ -29,6 +35,7 @@ class TorqueGate final : public System {
   struct Decision {
     GateStatus status;
     TorqueCommand torque;
+    Time faulty{};  ///< last tick of a recovery with a fault
   };
 
  private:
@@ -57,9 +64,9 @@ class TorqueGate final : public System {
 
   void decide(Time now, const Decision& last, const FaultReport& report, const TorqueCommand& asked,
               const TorqueCommand& stopping, const ResetCommand& button, Decision& decision) const;
-  GateStatus advance(Time now, const GateStatus& last, FaultMask found, bool stop_possible,
+  GateStatus advance(Time now, const Decision& last, const FaultReport& found, bool stop_possible,
                      bool pressed) const;
-  TorqueCommand limited(Time now, const TorqueCommand& last, const TorqueCommand& wanted) const;
+  TorqueCommand limited(Time now, const TorqueCommand& last, const TorqueCommand& wanted, double most) const;
 
   TorqueCommand torque_of(const Decision& decision) const { return decision.torque; }
   BrakeCommand brake_of(const Decision& decision) const { return {.engage = !decision.torque.valid}; }

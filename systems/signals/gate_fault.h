@@ -35,6 +35,7 @@ enum class GateFault : std::uint8_t {
   command_not_finite,
   torque_jump,
   operator_stop,
+  touched_in_recovery,
 };
 
 /// What the torque gate does about a fault, in order of severity.
@@ -51,15 +52,18 @@ constexpr FaultMask fault_bit(GateFault fault) { return FaultMask{1} << static_c
 
 /// Which faults are present at a tick.
 struct FaultReport {
-  bool valid = false;     ///< they have been looked for
-  FaultMask present = 0;  ///< set of GateFault
+  bool valid = false;       ///< they have been looked for
+  FaultMask present = 0;    ///< set of GateFault
+  FaultMask tolerable = 0;  ///< those that, if present, a recovery bears now
 
   bool none() const { return valid && present == 0; }
+  FaultMask intolerable() const { return present & ~tolerable; }
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("valid", "", self.valid);
     visit("present", "", self.present);
+    visit("tolerable", "", self.tolerable);
   }
 };
 

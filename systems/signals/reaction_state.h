@@ -13,6 +13,7 @@ enum class ReactionMode : std::uint8_t {
   react,    ///< gives way to a contact
   hold,     ///< has given way and keeps its place until the operator resets
   zero_g,   ///< gravity is compensated and nothing else, until the operator resets
+  recover,  ///< comes back slowly, by the operator's targets, from where it must not stand
 };
 
 /// The mode now, and the transition that led to it.

@@ -29,6 +29,7 @@ class Bench {
         control(add_contact_control(builder_, robot, experiment.control)),
         joints_(builder_.add<Dropout>("dropout")),
         operator_(builder_.export_input("operator", control.operator_command)),
+        target_(builder_.export_input("target", control.target)),
         timing_(builder_.export_input("tick_timing", control.tick_timing)),
         wrench_(builder_.export_input("wrench", station.wrench)),
         broken_(builder_.export_input("broken", joints_.broken)),
@@ -41,6 +42,16 @@ class Bench {
   }
 
   void press(const OperatorCommand& buttons) { context.set(operator_, buttons); }
+  /// One press of the reset button.
+  void reset() {
+    press({.start = false, .reset = true});
+    tick();
+    press({});
+  }
+  void go_to(const Configuration& pose) {
+    wanted_ = {.number = wanted_.number + 1, .kind = TargetCommand::Kind::pose, .pose = pose, .step = {}};
+    context.set(target_, wanted_);
+  }
   void push(const PlatformVector& wrench) { context.set(wrench_, wrench); }
   void lose_encoders(bool lost) { context.set(broken_, lost); }
 
@@ -105,6 +116,8 @@ class Bench {
  private:
   Dropout& joints_;
   InputPort<OperatorCommand> operator_;
+  InputPort<TargetCommand> target_;
+  TargetCommand wanted_;
   InputPort<TickTiming> timing_;
   InputPort<PlatformVector> wrench_;
   InputPort<bool> broken_;

@@ -16,7 +16,7 @@ namespace {
 
 using enum ReactionMode;
 
-constexpr std::array modes{stopped, nominal, react, hold, zero_g};
+constexpr std::array modes{stopped, nominal, react, hold, zero_g, recover};
 
 // ---------------------------------------------------------------- every mode under every combination of
 // events
@@ -47,6 +47,9 @@ const std::map<Transition, Needs> legal{
     {{zero_g, stopped}, [](const ReactionEvents& e) { return !e.gate_open; }},
     {{zero_g, nominal},
      [](const ReactionEvents& e) { return e.gate_open && !e.struck && e.reset && e.quiet; }},
+    {{recover, stopped}, [](const ReactionEvents& e) { return !e.gate_open; }},
+    {{recover, nominal}, [](const ReactionEvents& e) { return e.gate_open && !e.struck; }},
+    {{recover, zero_g}, [](const ReactionEvents& e) { return e.gate_open && e.struck; }},
 };
 
 ReactionEvents events_from_bits(unsigned bits) {
@@ -69,6 +72,16 @@ TEST(NextMode, MakesEveryLegalTransitionAndNoOther) {
         const bool wanted = rule != legal.end() && rule->second(events);
         EXPECT_EQ(next == to, wanted) << "from " << int(from) << " to " << int(to) << " with events " << bits;
       }
+    }
+  }
+}
+
+TEST(NextMode, RecoversWhateverElseHappens) {
+  for (const ReactionMode from : modes) {
+    for (unsigned bits = 0; bits < 64; ++bits) {
+      ReactionEvents events = events_from_bits(bits);
+      events.recovering = true;
+      EXPECT_EQ(next_mode(from, events), recover);
     }
   }
 }

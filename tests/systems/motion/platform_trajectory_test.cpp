@@ -29,7 +29,8 @@ struct Nominal {
       : block(builder.add<PlatformTrajectory>("trajectory", test::planar_bench(), std::move(settings))),
         reaction(builder.export_input("reaction", block.reaction)),
         platform(builder.export_input("platform", block.platform)),
-        start(builder.export_input("start", block.start)) {
+        start(builder.export_input("start", block.start)),
+        target(builder.export_input("target", block.target)) {
     at(pose(0, 0, 0));
   }
 
@@ -43,6 +44,14 @@ struct Nominal {
     ticking.set(start, {.start = start_now});
     ticking.tick();
     return ticking.get(block.reference);
+  }
+  void go_to(const PlatformVector& where) {
+    wanted = {.number = wanted.number + 1, .kind = TargetCommand::Kind::pose, .pose = where, .step = {}};
+    ticking.set(target, wanted);
+  }
+  void go_by(const PlatformVector& step) {
+    wanted = {.number = wanted.number + 1, .kind = TargetCommand::Kind::step, .pose = {}, .step = step};
+    ticking.set(target, wanted);
   }
   const PlatformReference& reference() const { return ticking.get(block.reference); }
 
@@ -60,11 +69,13 @@ struct Nominal {
   }
 
   ReactionState state;
+  TargetCommand wanted;
   DiagramBuilder builder;
   PlatformTrajectory& block;
   InputPort<ReactionState> reaction;
   InputPort<PlatformMotion> platform;
   InputPort<StartCommand> start;
+  InputPort<TargetCommand> target;
   test::Ticking ticking{builder};
 };
 
@@ -202,6 +213,71 @@ TEST(PlatformTrajectory, NeverAllocates) {
 
 TEST(PlatformTrajectory, RefusesAnApproachWithoutLimits) {
   EXPECT_THROW(PlatformTrajectory(test::planar_bench(), {.approach = {}}), SetupError);
+}
+
+// ---------------------------------------------------------------- targets
+
+TEST(PlatformTrajectory, GoesWhereATargetSaysAndStaysThere) {
+  Nominal trajectory({.path = there_and_back(), .start = std::nullopt});
+  trajectory.tick();
+  trajectory.go_to(pose(0.05, -0.08, 0.2));
+  trajectory.finish();
+  EXPECT_LT((trajectory.reference().pose - pose(0.05, -0.08, 0.2)).norm(), 1e-12);
+  for (int k = 0; k < 50; ++k) EXPECT_TRUE(trajectory.tick().finished);
+  trajectory.go_by(pose(0.01, 0.0, -0.1));
+  trajectory.tick();
+  trajectory.finish();
+  EXPECT_LT((trajectory.reference().pose - pose(0.06, -0.08, 0.1)).norm(), 1e-12);
+}
+
+TEST(PlatformTrajectory, TurnsToANewTargetOnTheWayWithoutAJump) {
+  Nominal trajectory({});
+  trajectory.tick();
+  trajectory.go_to(pose(0.1, 0.0, 0.0));
+  for (int k = 0; k < 300; ++k) trajectory.tick();
+  EXPECT_GT(trajectory.reference().velocity[0], 0.1);
+  trajectory.go_by(pose(0.0, 0.0, 0.0));  // come to rest
+  trajectory.finish();
+  trajectory.go_to(pose(0.0, 0.1, 0.0));
+  trajectory.tick();
+  trajectory.finish();
+  EXPECT_LT((trajectory.reference().pose - pose(0.0, 0.1, 0.0)).norm(), 1e-12);
+}
+
+TEST(PlatformTrajectory, IgnoresTargetsThatAreNone) {
+  Nominal trajectory({});
+  trajectory.go_to(pose(0.1, 0.0, 0.0));  // before it may move
+  trajectory.tick(stopped);
+  for (int k = 0; k < 10; ++k) trajectory.tick();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  trajectory.go_to(pose(5.0, 0.0, 0.0));  // out of reach
+  trajectory.tick();
+  trajectory.go_to(pose(nan, 0.0, 0.0));
+  trajectory.tick();
+  trajectory.go_to(PlatformVector());
+  trajectory.tick();
+  trajectory.go_by(pose(0.0, nan, 0.0));
+  trajectory.tick();
+  trajectory.go_by(PlatformVector::Zero(2));
+  trajectory.tick();
+  trajectory.go_to(pose(0.1, 0.0, 0.0));
+  trajectory.tick(react);  // while it gives way
+  for (int k = 0; k < 10; ++k) EXPECT_EQ(trajectory.tick().pose, pose(0, 0, 0));
+}
+
+TEST(PlatformTrajectory, RecoversSlowlyAndGoesOnInTheNominalMode) {
+  PlatformTrajectorySettings settings{.path = there_and_back()};  // would start by itself
+  Nominal trajectory(settings);
+  trajectory.at(pose(0.1, 0.0, 0.0));
+  for (int k = 0; k < 100; ++k) EXPECT_EQ(trajectory.tick(recover).pose, pose(0.1, 0.0, 0.0));
+  trajectory.go_to(pose(0.0, 0.0, 0.0));
+  double fastest = 0.0;
+  for (int k = 0; k < 1000; ++k) fastest = std::max(fastest, trajectory.tick(recover).velocity.norm());
+  EXPECT_NEAR(fastest, settings.recovery.translation.velocity, 1e-12);
+  const PlatformVector before = trajectory.reference().pose;
+  EXPECT_LT((trajectory.tick(nominal).pose - before).norm(), 1e-4);
+  trajectory.finish();
+  EXPECT_LT((trajectory.reference().pose - pose(0, 0, 0)).norm(), 1e-12);
 }
 
 }  // namespace

@@ -170,7 +170,13 @@ std::map<GateFault, std::vector<Way>> ways_of_pose_and_workspace() {
                                    },
                                    -35.0 * degree, 150.0 * degree, 0.01 * degree)},
       {GateFault::joint_speed,
-       beyond([](Inputs& in) -> double& { return in.posture.motion.velocity[2]; }, -8.0, 8.0, 0.01)},
+       beyond([](Inputs& in) -> double& { return in.posture.motion.velocity[2]; }, -8.0, 8.0, 0.01) +
+           beyond(
+               [](Inputs& in) -> double& {
+                 in.reaction.mode = ReactionMode::recover;
+                 return in.posture.motion.velocity[2];
+               },
+               -1.2, 1.2, 0.01)},
       {GateFault::self_collision,
        {{[](Inputs& in) { in.posture.measures.sigma_sc = 0.0499; }, 0,
          [](Inputs& in) { in.posture.measures.sigma_sc = 0.05; }}}},
@@ -181,6 +187,10 @@ std::map<GateFault, std::vector<Way>> ways_of_laws_and_operator() {
   const auto wanted = [](double angle) {
     return
         [pose = pose_at_drive_error(*test::planar_bench(), angle)](Inputs& in) { in.reference.pose = pose; };
+  };
+  constexpr ReactionMode recover = ReactionMode::recover;
+  const auto touched = [](ContactLevel level, ReactionMode mode) {
+    return [=](Inputs& in) { in.detection.present_level = level, in.reaction.mode = mode; };
   };
   const auto torque = [](double value) { return [value](Inputs& in) { in.command.torque[1] = value; }; };
   return {
@@ -207,6 +217,9 @@ std::map<GateFault, std::vector<Way>> ways_of_laws_and_operator() {
       {GateFault::operator_stop,
        {{[](Inputs& in) { in.buttons.stop = true; }, 0,
          [](Inputs& in) { in.buttons = {.start = true, .reset = true, .stop = false}; }}}},
+      {GateFault::touched_in_recovery,
+       {{touched(ContactLevel::reaction, recover), 0, touched(ContactLevel::none, recover)},
+        {touched(ContactLevel::hard, recover), 0, touched(ContactLevel::hard, ReactionMode::nominal)}}},
   };
 }
 

@@ -35,6 +35,7 @@ struct Inputs {
   PlatformReference reference;
   TorqueCommand command;
   OperatorCommand buttons;
+  ReactionState reaction{.mode = ReactionMode::nominal, .previous = ReactionMode::stopped, .since = {}};
   Time last_seen = 10ms;  ///< for what hangs: the last tick of open()
 };
 
@@ -52,6 +53,7 @@ struct Safety {
     ticking.set(reference, inputs.reference);
     ticking.set(command, inputs.command);
     ticking.set(buttons, inputs.buttons);
+    ticking.set(reaction, inputs.reaction);
     ticking.set(stop, {.computed = ticking.now(), .valid = true, .torque = Eigen::Vector3d(7.0, 8.0, 9.0)});
     ticking.set(reset, {.reset = reset_now});
     ticking.tick();
@@ -76,6 +78,7 @@ struct Safety {
   InputPort<ContactDetection> detection = builder.export_input("detection", monitor.detection);
   InputPort<PlatformReference> reference = builder.export_input("reference", monitor.reference);
   InputPort<OperatorCommand> buttons = builder.export_input("buttons", monitor.buttons);
+  InputPort<ReactionState> reaction = builder.export_input("reaction", monitor.reaction);
   InputPort<TorqueCommand> stop = builder.export_input("stop", gate.stop);
   InputPort<ResetCommand> reset = builder.export_input("reset", gate.reset);
   Ticking ticking{builder};

@@ -7,6 +7,7 @@
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/diagram_builder.h"
 #include "systems/framework/random.h"
+#include "systems/safety/fault_table.h"
 #include "tests/support/allocations.h"
 #include "tests/support/ticking.h"
 
@@ -35,7 +36,7 @@ struct Gate {
 
   /// One tick with these faults present.
   const GateStatus& tick(FaultMask present, bool reset_now = false) {
-    ticking.set(faults, {.valid = true, .present = present});
+    ticking.set(faults, {.valid = true, .present = present, .tolerable = tolerable});
     ticking.set(reset, {.reset = reset_now});
     ticking.tick();
     return status();
@@ -44,6 +45,7 @@ struct Gate {
   const TorqueCommand& torque() const { return ticking.get(block.torque_command); }
   bool brakes() const { return ticking.get(block.brake).engage; }
 
+  FaultMask tolerable = 0;
   DiagramBuilder builder;
   TorqueGate& block;
   InputPort<FaultReport> faults;
@@ -262,6 +264,64 @@ TEST(TorqueGate, NeverAllocates) {
 TEST(TorqueGate, RefusesLimitsThatAreNotPositive) {
   EXPECT_THROW(TorqueGate({.max_torque = 0.0}), SetupError);
   EXPECT_THROW(TorqueGate({.max_torque_rate = nan}), SetupError);
+}
+
+// ---------------------------------------------------------------- recovery
+
+TEST(TorqueGate, RecoversAtAResetWhereOnlyTolerableFaultsAreLeft) {
+  for (const bool from_the_start : {false, true}) {
+    Gate gate({.max_torque = 10.0, .max_torque_rate = 1e9});
+    gate.tolerable = stopping;
+    if (!from_the_start) gate.tick(none);
+    for (int k = 0; k < 3; ++k) EXPECT_FALSE(gate.tick(stopping).passes());
+    EXPECT_FALSE(gate.tick(stopping | braking, true).passes());
+    EXPECT_EQ(gate.status().phase, from_the_start ? GatePhase::waiting : GatePhase::closed);
+    gate.ticking.set(gate.asked, command(9, -9, 2));
+    EXPECT_EQ(gate.tick(stopping, true).phase, GatePhase::recovering);
+    EXPECT_EQ(gate.status().reaction, GateReaction::none);
+    EXPECT_EQ(gate.status().faults, stopping);
+    EXPECT_EQ(gate.torque().torque, Eigen::Vector3d(3, -3, 2));  // 0.3 of the largest torque
+    EXPECT_TRUE(gate.status().saturated);
+    EXPECT_FALSE(gate.brakes());
+  }
+}
+
+TEST(TorqueGate, EndsARecoveryThatLeavesWhatIsTolerable) {
+  for (const FaultMask found : {stopping | braking, stopping}) {
+    Gate gate;
+    gate.tick(none);
+    gate.tick(stopping);
+    gate.tolerable = stopping;
+    EXPECT_EQ(gate.tick(stopping, true).phase, GatePhase::recovering);
+    if (found == stopping) gate.tolerable = none;
+    EXPECT_EQ(gate.tick(found).phase, GatePhase::closed);
+    EXPECT_EQ(gate.status().fault,
+              found == stopping ? GateFault::workspace_radius : GateFault::station_fault);
+    EXPECT_EQ(gate.status().reaction, worst_reaction(found));
+  }
+}
+
+TEST(TorqueGate, OpensOnceARecoveryHasBeenWithoutFaultsForAWhile) {
+  Gate gate;
+  gate.tick(none);
+  gate.tolerable = stopping;
+  gate.tick(stopping);
+  gate.tick(stopping, true);
+  for (int k = 0; k < 99; ++k) EXPECT_EQ(gate.tick(none).phase, GatePhase::recovering);
+  gate.tick(stopping);  // at the limit: once more
+  for (int k = 0; k < 99; ++k) EXPECT_EQ(gate.tick(none).phase, GatePhase::recovering);
+  EXPECT_EQ(gate.tick(none).phase, GatePhase::open);
+}
+
+TEST(TorqueGate, RecoversWithNoCommandThatIsNotUsable) {
+  Gate gate;
+  gate.tick(none);
+  gate.tolerable = stopping;
+  gate.tick(stopping);
+  gate.tick(stopping, true);
+  gate.ticking.set(gate.asked, command(nan, 0, 0));
+  EXPECT_EQ(gate.tick(stopping).phase, GatePhase::closed);
+  EXPECT_EQ(gate.status().fault, GateFault::command_invalid);
 }
 
 }  // namespace
