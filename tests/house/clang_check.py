@@ -2,8 +2,8 @@
 
 Usage: clang_check.py BUILD_DIR [FILE...]     BUILD_DIR: configured with the preset clang
 
-clang-tidy spends most of its time on the headers that a source includes, so sources that can stand in one translation
-unit are looked at together; where that cannot be compiled, or is not clean, in smaller parts. What was found clean is remembered
+Most of the time goes into the headers that a source includes, so sources that can stand in one translation unit are
+looked at together; where that cannot be compiled, or is not clean, in smaller parts. What was found clean is remembered
 in BUILD_DIR by the hash of its preprocessed text and not looked at again.
 """
 import concurrent.futures
@@ -20,7 +20,7 @@ import tree
 COMPILER_ONLY = ("tests/",)
 LARGEST_BUNDLE = 16
 ANONYMOUS = re.compile(r"^namespace \{$(.*?)^\}  // namespace$", re.DOTALL | re.MULTILINE)
-DEFINITION = re.compile(r"^[A-Za-z][^({=;]*?(\w+) ?(?=[({=;:])", re.MULTILINE)  # of a function, a type, a constant
+USING = re.compile(r"(?:using|namespace) (?:\w+::)*(\w+)(?: =.*)?;")
 
 
 class Source:
@@ -32,15 +32,13 @@ class Source:
         start = next(i for i, word in enumerate(words) if word.endswith(("clang++", "clang++-14")))
         self.compiler = [word for word in words[start:words.index("-o")] if word != "-c"]
         self.by_compiler_only = path.startswith(COMPILER_ONLY)
-        self.own_names = set()
+        self.own_names = {}
         self.mark = None
 
     def read(self, build_dir):
         """Learns what all that the outcome depends on hashes to: the text with its comments (NOLINT), rules, flags."""
         text = pathlib.Path(self.file).read_text(errors="replace")
-        self.own_names = {name for part in ANONYMOUS.findall(text) for name in DEFINITION.findall(part)}
-        if re.search(r"^int main\(", text, re.MULTILINE):
-            self.own_names.add("main")
+        self.own_names = own_names("".join(ANONYMOUS.findall(text)) + "".join(re.findall(r"^int main\(", text, re.M)))
         preprocessed = run([*self.compiler, "-E", "-C", self.file], self.folder)
         if preprocessed.returncode == 0:
             rules = (tree.ROOT / ".clang-tidy").read_text() + repr((self.compiler, self.by_compiler_only))
@@ -50,6 +48,24 @@ class Source:
 
     def is_clean(self):
         return self.mark is not None and self.mark.exists()
+
+
+def own_names(text):
+    """What the lines of an anonymous namespace define; for names that only stand for others, what they stand for."""
+    names = {}
+    for line in text.split("\n"):
+        using = USING.match(line)
+        head = re.split(r"[({=;]| : ", line.replace(" final", ""))[0]
+        name = re.search(r"(\w+) ?$", head)
+        if using:
+            names[using.group(1)] = line
+        elif line[:1].isalpha() and name and not head.isupper():
+            names[name.group(1)] = None
+    return names
+
+
+def clash(one, other):
+    return any(one[name] is None or one[name] != other[name] for name in one.keys() & other.keys())
 
 
 def run(command, folder):
@@ -68,9 +84,9 @@ def bundles_of(sources):
     bundles = []
     for source in sources:
         fitting = (bundle for bundle in bundles
-                   if not source.by_compiler_only and bundle[0].compiler == source.compiler
+                   if bundle[0].compiler == source.compiler and bundle[0].by_compiler_only == source.by_compiler_only
                    and len(bundle) < LARGEST_BUNDLE
-                   and not any(source.own_names & other.own_names for other in bundle))
+                   and not any(clash(source.own_names, other.own_names) for other in bundle))
         bundle = next(fitting, None)
         if bundle is None:
             bundles.append([source])
