@@ -52,8 +52,8 @@ Station add_simulated(DiagramBuilder& builder) {
 /// Settles within 25 ms, waits for late samples, and does nothing about contacts.
 ContactControlSettings patient() {
   ContactControlSettings settings;
-  settings.momentum_observer.gain.setConstant(200.0);
-  settings.drive_torque.torque_constant.setConstant(contract_torque_constant);
+  settings.momentum_observer.gain = PlatformVector::Constant(3, 200.0);
+  settings.drive_torque.torque_constant = JointVector::Constant(3, contract_torque_constant);
   settings.contact_detector.reaction = settings.contact_detector.hard = {1e6, 1e6};
   settings.faults.longest_gap = settings.faults.max_age = longest_age;
   for (Sampling* sampling : {&settings.velocity_filter.sampling, &settings.forward_kinematics.sampling,
