@@ -5,27 +5,16 @@
 
 #include "systems/framework/diagram_builder.h"
 #include "systems/framework/simulator.h"
-#include "tests/support/blocks.h"
+#include "tests/bench/chain_of_gains.h"
 
 namespace flinch {
 namespace {
 
 constexpr int blocks = 100;
 
-std::unique_ptr<Diagram> chain() {
-  DiagramBuilder builder("chain");
-  OutputPort<double> last = builder.add<test::Counter>("counter").count;
-  for (int i = 0; i < blocks; ++i) {
-    auto& gain = builder.add<test::Gain>("gain" + std::to_string(i), 1.0001);
-    builder.connect(last, gain.in);
-    last = gain.out;
-  }
-  return builder.build();
-}
-
 /// Time of one tick, divided by the number of blocks; `per_block` is what is asked to stay below 3 ns.
 void FrameworkOverheadPerBlock(benchmark::State& state) {
-  const auto diagram = chain();
+  const auto diagram = test::chain_of_gains(blocks);
   Simulator simulator(*diagram);
   Context context = diagram->make_context();
   for (auto unused : state) simulator.step(context);

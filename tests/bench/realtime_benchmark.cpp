@@ -11,24 +11,13 @@
 #include "systems/framework/realtime_runner.h"
 #include "systems/framework/realtime_thread.h"
 #include "systems/framework/triple_buffer.h"
-#include "tests/support/blocks.h"
+#include "tests/bench/chain_of_gains.h"
 
 namespace flinch {
 namespace {
 
 constexpr int blocks = 100;
 constexpr int ticks_in_run = 5000;
-
-std::unique_ptr<Diagram> chain() {
-  DiagramBuilder builder("chain");
-  OutputPort<double> last = builder.add<test::Counter>("counter").count;
-  for (int i = 0; i < blocks; ++i) {
-    auto& gain = builder.add<test::Gain>("gain" + std::to_string(i), 1.0001);
-    builder.connect(last, gain.in);
-    last = gain.out;
-  }
-  return builder.build();
-}
 
 /// Never waits.
 class EagerTicks final : public TickSource {
@@ -38,7 +27,7 @@ class EagerTicks final : public TickSource {
 
 /// A tick of a runner that does not wait, against `SimulatedTick`: clock readings and statistics.
 void RealtimeTick(benchmark::State& state) {
-  const auto diagram = chain();
+  const auto diagram = test::chain_of_gains(blocks);
   EagerTicks ticks;
   Exchange nothing;
   RealtimeRunner runner(*diagram, ticks, nothing);
@@ -50,7 +39,7 @@ void RealtimeTick(benchmark::State& state) {
 BENCHMARK(RealtimeTick);
 
 void SimulatedTick(benchmark::State& state) {
-  const auto diagram = chain();
+  const auto diagram = test::chain_of_gains(blocks);
   Simulator simulator(*diagram);
   Context context = diagram->make_context();
   for (auto unused : state) simulator.step(context);
@@ -92,7 +81,7 @@ class Load {
 };
 
 DurationHistogram lateness_of_runner() {
-  const auto diagram = chain();
+  const auto diagram = test::chain_of_gains(blocks);
   ClockTicks ticks;
   Exchange nothing;
   RealtimeRunner runner(*diagram, ticks, nothing);

@@ -17,11 +17,7 @@ std::int64_t locks() { return count; }
 
 }  // namespace flinch::test
 
-#ifdef FLINCH_SANITIZED
-bool flinch::test::sanitized() { return true; }
-#else
-bool flinch::test::sanitized() { return false; }
-
+#ifndef FLINCH_SANITIZED
 namespace {
 
 using Lock = int (*)(pthread_mutex_t*);

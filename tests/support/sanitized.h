@@ -9,3 +9,13 @@
 #define FLINCH_SANITIZED 1
 #endif
 #endif
+
+namespace flinch::test {
+
+#ifdef FLINCH_SANITIZED
+inline constexpr bool sanitized() { return true; }
+#else
+inline constexpr bool sanitized() { return false; }
+#endif
+
+}  // namespace flinch::test

@@ -19,6 +19,7 @@
 #include "systems/framework/triple_buffer.h"
 #include "tests/support/allocations.h"
 #include "tests/support/locks.h"
+#include "tests/support/sanitized.h"
 #include "tests/systems/framework/realtime_station.h"
 
 namespace flinch {

@@ -12,7 +12,7 @@
 #include <fstream>
 
 #include "systems/foundation/setup_error.h"
-#include "tests/support/locks.h"
+#include "tests/support/sanitized.h"
 
 namespace flinch {
 namespace {

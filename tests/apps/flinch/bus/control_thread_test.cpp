@@ -19,6 +19,7 @@
 #include "tests/apps/flinch/bus/dds_calls.h"
 #include "tests/support/allocations.h"
 #include "tests/support/locks.h"
+#include "tests/support/sanitized.h"
 
 namespace flinch {
 namespace {
