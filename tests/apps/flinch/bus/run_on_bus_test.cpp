@@ -18,6 +18,8 @@ using nlohmann::json;
 using test::BenchOnTheBus;
 using testing::HasSubstr;
 
+constexpr int stopped_by_fault = 3;  // the program's exit status
+
 /// The modes of a run, in order, each once.
 std::vector<double> modes_of(const Recording& recording) {
   std::vector<double> modes = recording.column("reaction", "mode");
@@ -71,11 +73,15 @@ TEST(RunOnBus, ComesToRestInOrderOnCtrlC) {
   test::OtherProgram run(test::flinch_program(bench.run_arguments()));
   std::this_thread::sleep_for(std::chrono::milliseconds(2500));  // in the middle of the square
   run.interrupt();
-  EXPECT_EQ(run.wait(20s), 3) << run.output();
+  EXPECT_EQ(run.wait(20s), stopped_by_fault) << run.output();
 
   const Recording recording = read_recording(bench.place / "live/run.h5");
   const std::vector<double> fault = recording.column("gate", "fault");
-  EXPECT_EQ(fault.back(), static_cast<double>(GateFault::operator_stop));
+  const bool stopped_by_hand = fault.back() == static_cast<double>(GateFault::operator_stop);
+  if (!stopped_by_hand && test::machine_stall() >= test::noticeable_stall) {
+    GTEST_SKIP() << test::not_measured() << ": another fault came before Ctrl-C";
+  }
+  EXPECT_TRUE(stopped_by_hand);
   const auto speed = [&recording](std::size_t k) {
     return std::hypot(recording.column("motion", "velocity", 0)[k],
                       recording.column("motion", "velocity", 1)[k]);
@@ -169,7 +175,11 @@ TEST(RunOnBus, TakesOneCommanderOnly) {
   const test::Outcome second = test::flinch(arguments);
   EXPECT_EQ(second.status, 2) << second.out << first.output();
   EXPECT_THAT(second.err, HasSubstr("obeys another program"));
-  EXPECT_EQ(first.wait(20s), 0) << first.output();
+  const std::optional<int> status = first.wait(20s);
+  if (status == stopped_by_fault && test::machine_stall() >= test::noticeable_stall) {
+    GTEST_SKIP() << test::not_measured() << ": whether the first goes on undisturbed";
+  }
+  EXPECT_EQ(status, 0) << first.output();
 }
 
 TEST(Link, IsMeasuredWithoutMovingAnything) {
