@@ -50,36 +50,60 @@ Recorder::Recorder(const Diagram& diagram, const std::vector<std::string>& paths
     }
   }
   throw_if_any(std::move(problems));
-  time_ns_.reserve(capacity);
+  time_ns_.resize(capacity);
 }
 
 void Recorder::record(const Context& context) {
   if (!context.due(every_)) return;
-  if (time_ns_.size() == capacity_) {
-    ++dropped_;
+  const std::size_t pushed = pushed_.load(std::memory_order_relaxed);
+  if (pushed - popped_.load(std::memory_order_acquire) == capacity_) {
+    dropped_.fetch_add(1, std::memory_order_relaxed);
     return;
   }
-  const std::size_t sample = time_ns_.size();
-  time_ns_.push_back(context.time().count());
+  const std::size_t slot = pushed % capacity_;
+  time_ns_[slot] = context.time().count();
   for (Channel& channel : channels_) {
-    internal::Number* row = channel.signal.rows.data() + sample * channel.signal.layout.numbers;
+    internal::Number* row = channel.signal.rows.data() + slot * channel.signal.layout.numbers;
     channel.type->to_row(channel.place.in(context.memory()), row);
   }
+  pushed_.store(pushed + 1, std::memory_order_release);
 }
 
 void Recorder::clear() {
-  time_ns_.clear();
+  pushed_ = popped_ = 0;
   dropped_ = 0;
 }
 
-Recording Recorder::recording(std::map<std::string, std::string> attributes) const {
-  Recording recording{every_.period, time_ns_, std::move(attributes), {}};
+SampleBlock Recorder::block(std::size_t first, std::size_t samples) const {
+  SampleBlock block{std::span(time_ns_).subspan(first, samples), {}};
   for (const Channel& channel : channels_) {
-    const auto used = static_cast<std::ptrdiff_t>(samples() * channel.signal.layout.numbers);
-    recording.signals.push_back({channel.signal.path,
-                                 channel.signal.layout,
-                                 {channel.signal.rows.begin(), channel.signal.rows.begin() + used}});
+    const std::size_t numbers = channel.signal.layout.numbers;
+    block.rows.push_back(std::span(channel.signal.rows).subspan(first * numbers, samples * numbers));
   }
+  return block;
+}
+
+SampleBlock Recorder::front() const {
+  const std::size_t waiting = samples();
+  const std::size_t first = waiting == 0 ? 0 : popped_.load(std::memory_order_relaxed) % capacity_;
+  return block(first, std::min(waiting, capacity_ - first));
+}
+
+void Recorder::pop(std::size_t samples) { popped_.fetch_add(samples, std::memory_order_release); }
+
+Recording Recorder::description(std::map<std::string, std::string> attributes) const {
+  Recording recording{every_.period, {}, std::move(attributes), {}, nullptr};
+  for (const Channel& channel : channels_) {
+    recording.signals.push_back({channel.signal.path, channel.signal.layout, {}});
+  }
+  return recording;
+}
+
+Recording Recorder::recording(std::map<std::string, std::string> attributes) const {
+  Recording recording = description(std::move(attributes));
+  const SampleBlock oldest = front();
+  recording.append(oldest);
+  recording.append(block(0, samples() - oldest.samples()));  // what lies beyond the end of the ring
   return recording;
 }
 

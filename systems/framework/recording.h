@@ -3,10 +3,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "systems/framework/fields.h"
+#include "systems/framework/sample_block.h"
 #include "systems/framework/time.h"
 
 namespace flinch {
@@ -15,36 +17,62 @@ namespace flinch {
 struct Signal {
   std::string path;  ///< of the port in its diagram: "station/encoders/joints"
   RowLayout layout;
-  std::vector<internal::Number> rows;  ///< samples x layout.numbers
+  std::vector<internal::Number> rows;  ///< samples x layout.numbers; empty where they lie in a RowSource
+};
+
+/// Where the rows of a recording lie that are not in memory: a file.
+class RowSource {
+ public:
+  virtual ~RowSource() = default;
+
+  /// Copies `count` rows of the signal `path`, from sample `first` on, to `rows`. Throws SetupError naming
+  /// what is missing or broken.
+  virtual void read(const std::string& path, std::size_t first, std::size_t count,
+                    internal::Number* rows) const = 0;
 };
 
 /// What a Recorder has seen: signals with a common time axis, and what made them.
 ///
-/// As a file it is HDF5: a group for each port path, in it a dataset for each field (samples x numbers) with
-/// the attributes unit, frame and period_ns; fields that change size have a second dataset NAME.size (rows,
-/// columns). The dataset /time_ns holds the time of each sample; the attributes of the root are `attributes`.
-/// Equal recordings make equal files, byte for byte: nothing in it depends on when or where it was written.
+/// A recording of an hour has some gigabytes. One that open_recording() returns leaves its rows in the file;
+/// what reads it block by block (read<T>(), column()) needs little memory however long it is.
 struct Recording {
+  /// Rows that are read at once; those of a file lie together in as many.
+  static constexpr std::size_t block = 4096;
+
   Time period{};
   std::vector<std::int64_t> time_ns;
   std::map<std::string, std::string> attributes;  ///< what made it: version, seed, robot file, scenario, ...
   std::vector<Signal> signals;
+  std::shared_ptr<const RowSource> source;  ///< of signals whose rows are empty; null where there is none
 
   std::size_t samples() const { return time_ns.size(); }
 
-  /// The signal of the port `path`. Throws SetupError naming the nearest path.
+  /// The signal of the port `path`; null where there is none.
+  const Signal* find(const std::string& path) const;
+  /// The same; throws SetupError naming the nearest path where there is none.
   const Signal& signal(const std::string& path) const;
+
+  /// Copies `count` rows of `signal`, from sample `first` on, to `rows`, wherever they lie.
+  void read_rows(const Signal& signal, std::size_t first, std::size_t count, internal::Number* rows) const;
 
   /// Column `element` of `field` ("joints.active") of the port `path`, as real numbers; NaN where it was
   /// shorter.
   std::vector<double> column(const std::string& path, const std::string& field, int element = 0) const;
+
+  /// Appends samples to the rows in memory.
+  void append(const SampleBlock& samples);
 };
 
 /// Writes `recording` to `file`, first under another name, so that an older file is replaced only by a whole
 /// new one. Throws SetupError when that fails.
 void write_recording(const Recording& recording, const std::filesystem::path& file);
 
-/// Reads a recording. Throws SetupError naming the file and what is missing or broken.
+/// Opens a recording; its rows stay in the file until they are read. Where there is no such file but what a
+/// killed run has left of it (see recording_journal.h), opens that, and the attribute "recording.partial"
+/// says so. Throws SetupError naming the file and what is missing or broken.
+Recording open_recording(const std::filesystem::path& file);
+
+/// The same, with all rows in memory.
 Recording read_recording(const std::filesystem::path& file);
 
 }  // namespace flinch

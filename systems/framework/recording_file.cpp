@@ -1,213 +1,24 @@
-// write_recording() and read_recording(): the HDF5 side of Recording.
-#include <hdf5.h>
+#include "systems/framework/recording_file.h"
 
 #include <algorithm>
-#include <functional>
-#include <limits>
 #include <system_error>
-#include <utility>
 
 #include "systems/foundation/setup_error.h"
-#include "systems/framework/recording.h"
+#include "systems/framework/hdf5_object.h"
+#include "systems/framework/recording_journal.h"
 
 namespace flinch {
 namespace {
 
+using internal::Hdf5Object;
 using internal::Number;
 
-/// An HDF5 identifier that closes itself; a failed call throws SetupError saying what was being done.
-class Handle {
- public:
-  Handle(hid_t id, herr_t (*close)(hid_t), const std::string& doing) : id_(id), close_(close) {
-    if (id_ < 0) throw SetupError("HDF5 failed " + doing);
-  }
-  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
-  Handle& operator=(Handle&&) = delete;
-  ~Handle() {
-    if (id_ >= 0) close_(id_);
-  }
-  operator hid_t() const { return id_; }  // NOLINT(google-explicit-constructor): it stands for the identifier
+constexpr const char* signals_attribute = "flinch.signals";
+constexpr const char* period_attribute = "flinch.period_ns";
+constexpr const char* time_table = "time_ns";
 
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
-
-void check(herr_t status, const std::string& doing) {
-  if (status < 0) throw SetupError("HDF5 failed " + doing);
-}
-
-void silence_hdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
-
-// --- attributes ---
-
-Handle text_type(std::size_t size) {
-  Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "making a text type");
-  check(H5Tset_size(type, std::max<std::size_t>(size, 1)), "sizing a text");
-  check(H5Tset_cset(type, H5T_CSET_UTF8), "encoding a text");
-  return type;
-}
-
-void write_text(hid_t object, const std::string& name, const std::string& text) {
-  const Handle type = text_type(text.size());
-  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, "making an attribute");
-  const Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
-                         "making the attribute '" + name + "'");
-  const std::string padded = text.empty() ? std::string(1, '\0') : text;
-  check(H5Awrite(attribute, type, padded.data()), "writing the attribute '" + name + "'");
-}
-
-void write_integer(hid_t object, const std::string& name, std::int64_t value) {
-  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, "making an attribute");
-  const Handle attribute(H5Acreate2(object, name.c_str(), H5T_STD_I64LE, space, H5P_DEFAULT, H5P_DEFAULT),
-                         H5Aclose, "making the attribute '" + name + "'");
-  check(H5Awrite(attribute, H5T_NATIVE_INT64, &value), "writing the attribute '" + name + "'");
-}
-
-Handle open_attribute(hid_t object, const std::string& name) {
-  return {H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, "opening the attribute '" + name + "'"};
-}
-
-std::string read_text(hid_t object, const std::string& name) {
-  const Handle attribute = open_attribute(object, name);
-  const Handle type(H5Aget_type(attribute), H5Tclose, "reading the type of '" + name + "'");
-  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0) {
-    throw SetupError("the attribute '" + name + "' is no text of fixed length");
-  }
-  std::string text(H5Tget_size(type), '\0');
-  check(H5Aread(attribute, type, text.data()), "reading the attribute '" + name + "'");
-  while (!text.empty() && text.back() == '\0') text.pop_back();
-  return text;
-}
-
-std::int64_t read_integer(hid_t object, const std::string& name) {
-  const Handle attribute = open_attribute(object, name);
-  std::int64_t value = 0;
-  check(H5Aread(attribute, H5T_NATIVE_INT64, &value), "reading the attribute '" + name + "'");
-  return value;
-}
-
-// --- data sets ---
-
-hid_t file_type(Field::Kind kind) {
-  if (kind == Field::Kind::real) return H5T_IEEE_F64LE;
-  return kind == Field::Kind::boolean ? H5T_STD_U8LE : H5T_STD_I64LE;
-}
-
-hid_t memory_type(Field::Kind kind) {
-  return kind == Field::Kind::real ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64;
-}
-
-/// Creation properties without time stamps, and compressed where there is enough to compress.
-Handle properties(hsize_t samples, hsize_t columns) {
-  Handle list(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "making data set properties");
-  check(H5Pset_obj_track_times(list, false), "leaving out time stamps");
-  if (samples >= 64) {
-    const hsize_t chunk[2] = {std::min<hsize_t>(samples, 4096), columns};
-    check(H5Pset_chunk(list, 2, chunk), "chunking");
-    check(H5Pset_shuffle(list), "shuffling");
-    check(H5Pset_deflate(list, 1), "compressing");
-  }
-  return list;
-}
-
-Handle write_numbers(hid_t parent, const std::string& name, Field::Kind kind,
-                     const std::vector<Number>& numbers, std::size_t samples) {
-  const hsize_t columns = samples == 0 ? 1 : numbers.size() / samples;
-  const hsize_t size[2] = {samples, columns};
-  const Handle space(H5Screate_simple(2, size, nullptr), H5Sclose, "making a data space");
-  const Handle creation = properties(samples, columns);
-  Handle set(H5Dcreate2(parent, name.c_str(), file_type(kind), space, H5P_DEFAULT, creation, H5P_DEFAULT),
-             H5Dclose, "making the data set '" + name + "'");
-  check(H5Dwrite(set, memory_type(kind), H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()),
-        "writing the data set '" + name + "'");
-  return set;
-}
-
-std::vector<Number> read_numbers(hid_t parent, const std::string& name, Field::Kind kind, std::size_t samples,
-                                 std::size_t columns) {
-  const Handle set(H5Dopen2(parent, name.c_str(), H5P_DEFAULT), H5Dclose,
-                   "opening the data set '" + name + "'");
-  const Handle space(H5Dget_space(set), H5Sclose, "reading the size of '" + name + "'");
-  hsize_t size[2] = {0, 0};
-  if (H5Sget_simple_extent_ndims(space) != 2 || H5Sget_simple_extent_dims(space, size, nullptr) != 2 ||
-      size[0] != samples || (samples > 0 && size[1] != columns)) {
-    throw SetupError("the data set '" + name + "' has " + std::to_string(size[0]) + " x " +
-                     std::to_string(size[1]) + " numbers instead of " + std::to_string(samples) + " x " +
-                     std::to_string(columns));
-  }
-  std::vector<Number> numbers(samples * columns);
-  check(H5Dread(set, memory_type(kind), H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()),
-        "reading the data set '" + name + "'");
-  return numbers;
-}
-
-// --- signals ---
-
-/// Columns first ... first + count of every row of `signal`.
-std::vector<Number> columns_of(const Signal& signal, std::size_t samples, std::size_t first,
-                               std::size_t count) {
-  std::vector<Number> columns;
-  columns.reserve(samples * count);
-  for (std::size_t k = 0; k < samples; ++k) {
-    const Number* row = signal.rows.data() + k * signal.layout.numbers + first;
-    columns.insert(columns.end(), row, row + count);
-  }
-  return columns;
-}
-
-void put_columns(Signal& signal, const std::vector<Number>& columns, std::size_t samples, std::size_t first) {
-  const std::size_t count = samples == 0 ? 0 : columns.size() / samples;
-  for (std::size_t k = 0; k < samples; ++k) {
-    std::copy_n(columns.data() + k * count, count, signal.rows.data() + k * signal.layout.numbers + first);
-  }
-}
-
-/// Properties of groups or files without time stamps; `kind` is H5P_GROUP_CREATE or H5P_FILE_CREATE.
-Handle timeless(hid_t kind) {
-  Handle list(H5Pcreate(kind), H5Pclose, "making properties");
-  check(H5Pset_obj_track_times(list, false), "leaving out time stamps");
-  return list;
-}
-
-/// Opens the group `path`; it and those around it are made where they are missing.
-Handle make_group(hid_t file, const std::string& path) {
-  const Handle creation = timeless(H5P_GROUP_CREATE);
-  const std::string doing = "making the group '" + path + "'";
-  for (std::size_t end = path.find('/');; end = path.find('/', end + 1)) {
-    const std::string part = path.substr(0, end);
-    if (H5Lexists(file, part.c_str(), H5P_DEFAULT) <= 0) {
-      Handle group(H5Gcreate2(file, part.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose, doing);
-      if (end == std::string::npos) return group;
-    } else if (end == std::string::npos) {
-      return {H5Gopen2(file, part.c_str(), H5P_DEFAULT), H5Gclose, doing};
-    }
-  }
-}
-
-void write_signal(hid_t file, const Signal& signal, std::size_t samples, Time period) {
-  const Handle group = make_group(file, signal.path);
-  write_integer(group, "period_ns", period.count());
-  std::string order;
-  std::size_t first = 0;
-  for (const Field& field : signal.layout.fields) {
-    if (field.resizable) {
-      write_numbers(group, field.name + ".size", Field::Kind::integer, columns_of(signal, samples, first, 2),
-                    samples);
-      first += 2;
-    }
-    const auto capacity = static_cast<std::size_t>(field.capacity);
-    const Handle set =
-        write_numbers(group, field.name, field.kind, columns_of(signal, samples, first, capacity), samples);
-    first += capacity;
-    write_text(set, "unit", field.unit);
-    write_text(set, "frame", field.frame);
-    write_integer(set, "kind", static_cast<std::int64_t>(field.kind));
-    write_integer(set, "capacity", field.capacity);
-    write_integer(set, "resizable", field.resizable ? 1 : 0);
-    order += (order.empty() ? "" : "\n") + field.name;
-  }
-  write_text(group, "fields", order);
+std::string joined(const std::string& lines, const std::string& line) {
+  return lines.empty() ? line : lines + "\n" + line;
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -220,119 +31,325 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-Field read_field(hid_t group, const std::string& name) {
-  const Handle set(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose,
-                   "opening the data set '" + name + "'");
-  Field field{
-      name, read_text(set, "unit"), read_text(set, "frame"), {}, 0, read_integer(set, "resizable") != 0};
-  field.kind = static_cast<Field::Kind>(std::clamp<std::int64_t>(read_integer(set, "kind"), 0, 2));
-  field.capacity = static_cast<int>(std::clamp<std::int64_t>(read_integer(set, "capacity"), 1, 1 << 20));
+/// One dataset of a signal: columns first ... first + columns of its rows.
+struct Column {
+  std::string name;
+  Field::Kind kind;
+  std::size_t first;
+  std::size_t columns;
+};
+
+std::vector<Column> columns_of(const RowLayout& layout) {
+  std::vector<Column> columns;
+  std::size_t first = 0;
+  for (const Field& field : layout.fields) {
+    if (field.resizable) {
+      columns.push_back({field.name + ".size", Field::Kind::integer, first, 2});
+      first += 2;
+    }
+    const auto capacity = static_cast<std::size_t>(field.capacity);
+    columns.push_back({field.name, field.kind, first, capacity});
+    first += capacity;
+  }
+  return columns;
+}
+
+/// One signal of an HDF5 file.
+struct Table {
+  std::size_t numbers;  ///< of a row of the signal
+  std::vector<Column> columns;
+  std::vector<Hdf5Object> sets;  ///< one for each column
+};
+
+Table make_tables(Hdf5Object::Id root, const Signal& signal, Time period, std::size_t chunk_rows) {
+  const Hdf5Object group = internal::make_group(root, signal.path);
+  internal::write_integer(group, "period_ns", period.count());
+  Table table{signal.layout.numbers, columns_of(signal.layout), {}};
+  std::string order;
+  auto field = signal.layout.fields.begin();
+  for (const Column& column : table.columns) {
+    table.sets.push_back(internal::make_table(group, column.name, column.kind, column.columns, chunk_rows));
+    if (column.name != field->name) continue;  // the sizes before a field
+    const Hdf5Object& set = table.sets.back();
+    internal::write_text(set, "unit", field->unit);
+    internal::write_text(set, "frame", field->frame);
+    internal::write_integer(set, "kind", static_cast<std::int64_t>(field->kind));
+    internal::write_integer(set, "capacity", field->capacity);
+    internal::write_integer(set, "resizable", field->resizable ? 1 : 0);
+    order = joined(order, field->name);
+    ++field;
+  }
+  internal::write_text(group, "fields", order);
+  return table;
+}
+
+Field read_field(Hdf5Object::Id group, const std::string& name) {
+  const Hdf5Object set = internal::open_table(group, name);
+  Field field{name,
+              internal::read_text(set, "unit"),
+              internal::read_text(set, "frame"),
+              {},
+              0,
+              internal::read_integer(set, "resizable") != 0};
+  field.kind = static_cast<Field::Kind>(std::clamp<std::int64_t>(internal::read_integer(set, "kind"), 0, 2));
+  field.capacity =
+      static_cast<int>(std::clamp<std::int64_t>(internal::read_integer(set, "capacity"), 1, 1 << 20));
   return field;
 }
 
-Signal read_signal(hid_t file, const std::string& path, std::size_t samples) {
-  const Handle group(H5Gopen2(file, path.c_str(), H5P_DEFAULT), H5Gclose, "opening the group '" + path + "'");
-  Signal signal{path, {}, {}};
-  for (const std::string& name : lines_of(read_text(group, "fields"))) {
+Table open_tables(Hdf5Object::Id root, std::size_t samples, Signal& signal) {
+  const Hdf5Object group = internal::open_group(root, signal.path);
+  for (const std::string& name : lines_of(internal::read_text(group, "fields"))) {
     signal.layout.fields.push_back(read_field(group, name));
     const Field& field = signal.layout.fields.back();
     signal.layout.numbers += static_cast<std::size_t>(field.capacity) + (field.resizable ? 2U : 0U);
   }
-  signal.rows.resize(samples * signal.layout.numbers);
-  std::size_t first = 0;
-  for (const Field& field : signal.layout.fields) {
-    if (field.resizable) {
-      put_columns(signal, read_numbers(group, field.name + ".size", Field::Kind::integer, samples, 2),
-                  samples, first);
-      first += 2;
+  Table table{signal.layout.numbers, columns_of(signal.layout), {}};
+  for (const Column& column : table.columns) {
+    table.sets.push_back(internal::open_table(group, column.name));
+    if (samples == 0) continue;
+    const std::size_t rows = internal::table_rows(table.sets.back(), column.name, column.columns);
+    if (rows != samples) {
+      throw SetupError("the data set '" + column.name + "' of '" + signal.path + "' has " +
+                       std::to_string(rows) + " samples instead of " + std::to_string(samples));
     }
-    const auto capacity = static_cast<std::size_t>(field.capacity);
-    put_columns(signal, read_numbers(group, field.name, field.kind, samples, capacity), samples, first);
-    first += capacity;
   }
-  return signal;
+  return table;
 }
 
-std::vector<std::string> attribute_names(hid_t object) {
-  std::vector<std::string> names;
-  const auto collect = [](hid_t, const char* name, const H5A_info_t*, void* list) -> herr_t {
-    static_cast<std::vector<std::string>*>(list)->emplace_back(name);
-    return 0;
+/// The rows of an HDF5 file.
+class RecordingFile final : public RowSource {
+ public:
+  /// Opens `file` and says in `recording` what is in it.
+  RecordingFile(const std::filesystem::path& file, Recording& recording) {
+    const std::lock_guard lock(internal::hdf5_mutex());
+    Hdf5Object hdf = internal::open_hdf5_file(file);
+    Hdf5Object root = internal::open_group(hdf, "/");
+    recording.period = Time(internal::read_integer(root, period_attribute));
+    recording.time_ns = read_times(root);
+    Open open{std::move(hdf), std::move(root), {}};
+    for (const std::string& path : lines_of(internal::read_text(open.root, signals_attribute))) {
+      Signal signal{path, {}, {}};
+      open.tables.emplace(path, open_tables(open.root, recording.samples(), signal));
+      recording.signals.push_back(std::move(signal));
+    }
+    for (const std::string& name : internal::attribute_names(open.root)) {
+      if (name == signals_attribute || name == period_attribute) continue;
+      recording.attributes[name] = internal::read_text(open.root, name);
+    }
+    open_ = std::make_unique<Open>(std::move(open));
+  }
+  ~RecordingFile() override {
+    const std::lock_guard lock(internal::hdf5_mutex());
+    open_.reset();
+  }
+  RecordingFile(const RecordingFile&) = delete;
+  RecordingFile& operator=(const RecordingFile&) = delete;
+
+  void read(const std::string& path, std::size_t first, std::size_t count, Number* rows) const override {
+    const std::lock_guard lock(internal::hdf5_mutex());
+    const Table& table = open_->tables.at(path);
+    std::vector<Number> numbers;
+    for (std::size_t i = 0; i < table.columns.size(); ++i) {
+      const Column& column = table.columns[i];
+      numbers.resize(count * column.columns);
+      internal::read_rows(table.sets[i], column.kind, first, count, column.columns, numbers.data());
+      for (std::size_t k = 0; k < count; ++k) {
+        std::copy_n(numbers.data() + k * column.columns, column.columns,
+                    rows + k * table.numbers + column.first);
+      }
+    }
+  }
+
+ private:
+  struct Open {
+    Hdf5Object hdf;
+    Hdf5Object root;
+    std::map<std::string, Table> tables;
   };
-  check(H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names), "listing attributes");
-  return names;
-}
 
-constexpr const char* signals_attribute = "flinch.signals";
-constexpr const char* period_attribute = "flinch.period_ns";
+  static std::vector<std::int64_t> read_times(Hdf5Object::Id root) {
+    const Hdf5Object table = internal::open_table(root, time_table);
+    std::vector<Number> numbers(internal::table_rows(table, time_table, 1));
+    if (!numbers.empty()) {
+      internal::read_rows(table, Field::Kind::integer, 0, numbers.size(), 1, numbers.data());
+    }
+    std::vector<std::int64_t> times;
+    for (const Number& number : numbers) times.push_back(number.integer);
+    return times;
+  }
 
-void write_to(const Recording& recording, const std::filesystem::path& file) {
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "making file properties");
-  check(H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST), "choosing the file version");
-  const Handle hdf(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, timeless(H5P_FILE_CREATE), access), H5Fclose,
-                   "creating the file");
-  const Handle root(H5Gopen2(hdf, "/", H5P_DEFAULT), H5Gclose, "opening the root group");
-  std::vector<Number> times(recording.samples());
-  for (std::size_t k = 0; k < times.size(); ++k) times[k].integer = recording.time_ns[k];
-  write_numbers(root, "time_ns", Field::Kind::integer, times, times.size());
-  std::string paths;
-  for (const Signal& signal : recording.signals) {
-    write_signal(root, signal, recording.samples(), recording.period);
-    paths += (paths.empty() ? "" : "\n") + signal.path;
-  }
-  write_text(root, signals_attribute, paths);
-  write_integer(root, period_attribute, recording.period.count());
-  for (const auto& [name, text] : recording.attributes) write_text(root, name, text);
-}
-
-Recording read_from(const std::filesystem::path& file) {
-  const Handle hdf(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose,
-                   "opening the file: it is no HDF5 file, or its end is missing");
-  const Handle root(H5Gopen2(hdf, "/", H5P_DEFAULT), H5Gclose, "opening the root group");
-  Recording recording;
-  recording.period = Time(read_integer(root, period_attribute));
-  const Handle set(H5Dopen2(root, "time_ns", H5P_DEFAULT), H5Dclose, "opening the data set 'time_ns'");
-  const Handle space(H5Dget_space(set), H5Sclose, "reading the number of samples");
-  hsize_t size[2] = {0, 0};
-  if (H5Sget_simple_extent_dims(space, size, nullptr) != 2) throw SetupError("'time_ns' is no column");
-  for (const Number& time : read_numbers(root, "time_ns", Field::Kind::integer, size[0], 1)) {
-    recording.time_ns.push_back(time.integer);
-  }
-  for (const std::string& path : lines_of(read_text(root, signals_attribute))) {
-    recording.signals.push_back(read_signal(root, path, recording.samples()));
-  }
-  for (const std::string& name : attribute_names(root)) {
-    if (name != signals_attribute && name != period_attribute)
-      recording.attributes[name] = read_text(root, name);
-  }
-  return recording;
-}
+  std::unique_ptr<Open> open_;
+};
 
 }  // namespace
 
-void write_recording(const Recording& recording, const std::filesystem::path& file) {
-  silence_hdf5();
-  const std::filesystem::path unfinished = file.string() + ".part";
-  std::error_code error;
-  try {
-    write_to(recording, unfinished);
-  } catch (const SetupError& failure) {
-    std::filesystem::remove(unfinished, error);
-    throw SetupError(file.string() + ": the recording cannot be written: " + failure.what());
+/// The HDF5 side of a RecordingFileWriter. Its datasets are made when the first samples are written, for only
+/// then is it known whether they fill a chunk.
+class RecordingFileWriter::Tables {
+ public:
+  explicit Tables(const std::filesystem::path& file)
+      : hdf_(internal::create_hdf5_file(file)), root_(internal::open_group(hdf_, "/")) {}
+
+  void append(const Recording& block) {
+    if (signals_.empty()) make(block);
+    std::vector<Number> numbers(block.samples());
+    for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k].integer = block.time_ns[k];
+    internal::append_rows(times_.front(), Field::Kind::integer, written_, numbers.size(), 1, numbers.data());
+    for (std::size_t s = 0; s < signals_.size(); ++s) append(signals_[s], block.signals[s], block.samples());
+    written_ += block.samples();
   }
-  std::filesystem::rename(unfinished, file, error);
-  if (error) throw SetupError(file.string() + ": the recording cannot be written: " + error.message());
+
+  /// Writes the attributes, and whatever HDF5 still keeps.
+  void finish(const Recording& description, const std::map<std::string, std::string>& attributes) {
+    std::string paths;
+    for (const Signal& signal : description.signals) paths = joined(paths, signal.path);
+    internal::write_text(root_, signals_attribute, paths);
+    internal::write_integer(root_, period_attribute, description.period.count());
+    for (const auto& [name, text] : attributes) internal::write_text(root_, name, text);
+    internal::flush_hdf5_file(hdf_);
+  }
+
+ private:
+  void make(const Recording& block) {
+    const std::size_t chunk = std::clamp<std::size_t>(block.samples(), 1, Recording::block);
+    times_.push_back(internal::make_table(root_, time_table, Field::Kind::integer, 1, chunk));
+    for (const Signal& signal : block.signals) {
+      signals_.push_back(make_tables(root_, signal, block.period, chunk));
+    }
+  }
+
+  void append(const Table& table, const Signal& signal, std::size_t samples) const {
+    std::vector<Number> numbers;
+    for (std::size_t i = 0; i < table.columns.size(); ++i) {
+      const Column& column = table.columns[i];
+      numbers.resize(samples * column.columns);
+      for (std::size_t k = 0; k < samples; ++k) {
+        std::copy_n(signal.rows.data() + k * table.numbers + column.first, column.columns,
+                    numbers.data() + k * column.columns);
+      }
+      internal::append_rows(table.sets[i], column.kind, written_, samples, column.columns, numbers.data());
+    }
+  }
+
+  Hdf5Object hdf_;
+  Hdf5Object root_;
+  std::vector<Hdf5Object> times_;  ///< none yet, or one
+  std::vector<Table> signals_;
+  std::size_t written_ = 0;
+};
+
+std::filesystem::path RecordingFileWriter::unfinished_name(const std::filesystem::path& file) {
+  return file.string() + ".new";
 }
 
-Recording read_recording(const std::filesystem::path& file) {
-  silence_hdf5();
-  std::error_code error;
-  if (!std::filesystem::exists(file, error)) throw SetupError(file.string() + ": there is no such file");
+RecordingFileWriter::RecordingFileWriter(const Recording& description, const std::filesystem::path& file)
+    : file_(file), block_{description.period, {}, {}, {}, nullptr} {
+  for (const Signal& signal : description.signals) block_.signals.push_back({signal.path, signal.layout, {}});
+  const std::lock_guard lock(internal::hdf5_mutex());
+  telling_file([&] { tables_ = std::make_unique<Tables>(unfinished_name(file)); });
+}
+
+RecordingFileWriter::~RecordingFileWriter() {
+  const std::lock_guard lock(internal::hdf5_mutex());
+  if (tables_ == nullptr) return;
+  tables_.reset();
+  std::error_code ignored;
+  std::filesystem::remove(unfinished_name(file_), ignored);
+}
+
+void RecordingFileWriter::append(const SampleBlock& samples) {
+  for (std::size_t first = 0; first < samples.samples();) {
+    const std::size_t count = std::min(samples.samples() - first, Recording::block - block_.samples());
+    SampleBlock part{samples.time_ns.subspan(first, count), {}};
+    for (std::size_t i = 0; i < block_.signals.size(); ++i) {
+      const std::size_t numbers = block_.signals[i].layout.numbers;
+      part.rows.push_back(samples.rows[i].subspan(first * numbers, count * numbers));
+    }
+    block_.append(part);
+    if (block_.samples() == Recording::block) write_block();
+    first += count;
+  }
+}
+
+void RecordingFileWriter::write_block() {
+  const std::lock_guard lock(internal::hdf5_mutex());
+  telling_file([&] { tables_->append(block_); });
+  block_.time_ns.clear();
+  for (Signal& signal : block_.signals) signal.rows.clear();
+  is_empty_ = false;
+}
+
+void RecordingFileWriter::finish(const std::map<std::string, std::string>& attributes) {
+  if (is_empty_ || block_.samples() > 0) write_block();
+  telling_file([&] {
+    const std::lock_guard lock(internal::hdf5_mutex());
+    tables_->finish(block_, attributes);
+    tables_.reset();
+  });
+  std::error_code error, ignored;
+  std::filesystem::rename(unfinished_name(file_), file_, error);
+  if (!error) return;
+  std::filesystem::remove(unfinished_name(file_), ignored);
+  throw SetupError(file_.string() + ": the recording cannot be written: " + error.message());
+}
+
+template <class Work>
+void RecordingFileWriter::telling_file(const Work& work) const {
   try {
-    return read_from(file);
+    work();
+  } catch (const SetupError& failure) {
+    throw SetupError(file_.string() + ": the recording cannot be written: " + failure.what());
+  }
+}
+
+void write_recording(const Recording& recording, const std::filesystem::path& file) {
+  RecordingFileWriter writer(recording, file);
+  std::vector<std::vector<Number>> rows(recording.signals.size());
+  for (std::size_t first = 0; first < recording.samples(); first += Recording::block) {
+    const std::size_t count = std::min(Recording::block, recording.samples() - first);
+    SampleBlock block{std::span(recording.time_ns).subspan(first, count), {}};
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const Signal& signal = recording.signals[i];
+      rows[i].resize(count * signal.layout.numbers);
+      recording.read_rows(signal, first, count, rows[i].data());
+      block.rows.emplace_back(rows[i]);
+    }
+    writer.append(block);
+  }
+  writer.finish(recording.attributes);
+}
+
+Recording open_recording(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::path part = part_name(file);
+  if (!std::filesystem::exists(file, error)) {
+    if (std::filesystem::exists(part, error)) return open_journal(part);
+    throw SetupError(file.string() + ": there is no such file");
+  }
+  if (is_journal(file)) return open_journal(file);
+  try {
+    Recording recording;
+    recording.source = std::make_shared<RecordingFile>(file, recording);
+    return recording;
   } catch (const SetupError& failure) {
     throw SetupError(file.string() + ": this is no whole flinch recording: " + failure.what());
   }
+}
+
+Recording read_recording(const std::filesystem::path& file) {
+  Recording recording = open_recording(file);
+  try {
+    for (Signal& signal : recording.signals) {
+      std::vector<Number> rows(recording.samples() * signal.layout.numbers);
+      recording.read_rows(signal, 0, recording.samples(), rows.data());
+      signal.rows = std::move(rows);
+    }
+  } catch (const SetupError& failure) {
+    throw SetupError(file.string() + ": this is no whole flinch recording: " + failure.what());
+  }
+  recording.source = nullptr;
+  return recording;
 }
 
 }  // namespace flinch

@@ -1,0 +1,211 @@
+#include "systems/framework/hdf5_object.h"
+
+#include <hdf5.h>
+
+#include <algorithm>
+
+#include "systems/foundation/setup_error.h"
+
+namespace flinch::internal {
+namespace {
+
+static_assert(std::is_same_v<hid_t, Hdf5Object::Id> && std::is_same_v<herr_t, int>);
+
+void check(herr_t status, const std::string& doing) {
+  if (status < 0) throw SetupError("HDF5 failed " + doing);
+}
+
+/// HDF5 prints every failure of this thread unless told not to.
+void silence_hdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
+Hdf5Object text_type(std::size_t size) {
+  Hdf5Object type(H5Tcopy(H5T_C_S1), H5Tclose, "making a text type");
+  check(H5Tset_size(type, std::max<std::size_t>(size, 1)), "sizing a text");
+  check(H5Tset_cset(type, H5T_CSET_UTF8), "encoding a text");
+  return type;
+}
+
+Hdf5Object open_attribute(hid_t object, const std::string& name) {
+  return {H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, "opening the attribute '" + name + "'"};
+}
+
+/// Properties of groups or files without time stamps; `kind` is H5P_GROUP_CREATE or H5P_FILE_CREATE.
+Hdf5Object timeless(hid_t kind) {
+  Hdf5Object list(H5Pcreate(kind), H5Pclose, "making properties");
+  check(H5Pset_obj_track_times(list, false), "leaving out time stamps");
+  return list;
+}
+
+hid_t file_type(Field::Kind kind) {
+  if (kind == Field::Kind::real) return H5T_IEEE_F64LE;
+  return kind == Field::Kind::boolean ? H5T_STD_U8LE : H5T_STD_I64LE;
+}
+
+hid_t memory_type(Field::Kind kind) {
+  return kind == Field::Kind::real ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64;
+}
+
+/// Whole chunks are written and read, one after the other: a cache of chunks would only cost memory.
+Hdf5Object without_cache() {
+  Hdf5Object list(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose, "making access properties");
+  check(H5Pset_chunk_cache(list, H5D_CHUNK_CACHE_NSLOTS_DEFAULT, 0, 1.0), "leaving out the chunk cache");
+  return list;
+}
+
+/// The rows first ... first + rows of a table, in the file; and as they lie in memory.
+struct Selection {
+  Hdf5Object in_file;
+  Hdf5Object in_memory;
+};
+
+Selection select(hid_t table, std::size_t first, std::size_t rows, std::size_t columns) {
+  const hsize_t start[2] = {first, 0}, size[2] = {rows, columns};
+  Selection selection{{H5Dget_space(table), H5Sclose, "reading the size of a data set"},
+                      {H5Screate_simple(2, size, nullptr), H5Sclose, "making a data space"}};
+  check(H5Sselect_hyperslab(selection.in_file, H5S_SELECT_SET, start, nullptr, size, nullptr),
+        "choosing rows of a data set");
+  return selection;
+}
+
+}  // namespace
+
+std::mutex& hdf5_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+Hdf5Object::Hdf5Object(Id id, int (*close)(Id), const std::string& doing) : id_(id), close_(close) {
+  if (id_ < 0) throw SetupError("HDF5 failed " + doing);
+}
+
+Hdf5Object::~Hdf5Object() {
+  if (id_ >= 0) close_(id_);
+}
+
+Hdf5Object create_hdf5_file(const std::filesystem::path& file) {
+  silence_hdf5();
+  const Hdf5Object access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "making file properties");
+  check(H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST), "choosing the file version");
+  return {H5Fcreate(file.c_str(), H5F_ACC_TRUNC, timeless(H5P_FILE_CREATE), access), H5Fclose,
+          "creating the file"};
+}
+
+Hdf5Object open_hdf5_file(const std::filesystem::path& file) {
+  silence_hdf5();
+  return {H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose,
+          "opening the file: it is no HDF5 file, or its end is missing"};
+}
+
+void flush_hdf5_file(Hdf5Object::Id file) { check(H5Fflush(file, H5F_SCOPE_GLOBAL), "writing the file"); }
+
+Hdf5Object make_group(Hdf5Object::Id file, const std::string& path) {
+  const Hdf5Object creation = timeless(H5P_GROUP_CREATE);
+  const std::string doing = "making the group '" + path + "'";
+  for (std::size_t end = path.find('/');; end = path.find('/', end + 1)) {
+    const std::string part = path.substr(0, end);
+    if (H5Lexists(file, part.c_str(), H5P_DEFAULT) <= 0) {
+      Hdf5Object group(H5Gcreate2(file, part.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose, doing);
+      if (end == std::string::npos) return group;
+    } else if (end == std::string::npos) {
+      return {H5Gopen2(file, part.c_str(), H5P_DEFAULT), H5Gclose, doing};
+    }
+  }
+}
+
+Hdf5Object open_group(Hdf5Object::Id file, const std::string& path) {
+  return {H5Gopen2(file, path.c_str(), H5P_DEFAULT), H5Gclose, "opening the group '" + path + "'"};
+}
+
+void write_text(Hdf5Object::Id object, const std::string& name, const std::string& text) {
+  const Hdf5Object type = text_type(text.size());
+  const Hdf5Object space(H5Screate(H5S_SCALAR), H5Sclose, "making an attribute");
+  const Hdf5Object attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
+                             H5Aclose, "making the attribute '" + name + "'");
+  const std::string padded = text.empty() ? std::string(1, '\0') : text;
+  check(H5Awrite(attribute, type, padded.data()), "writing the attribute '" + name + "'");
+}
+
+void write_integer(Hdf5Object::Id object, const std::string& name, std::int64_t value) {
+  const Hdf5Object space(H5Screate(H5S_SCALAR), H5Sclose, "making an attribute");
+  const Hdf5Object attribute(H5Acreate2(object, name.c_str(), H5T_STD_I64LE, space, H5P_DEFAULT, H5P_DEFAULT),
+                             H5Aclose, "making the attribute '" + name + "'");
+  check(H5Awrite(attribute, H5T_NATIVE_INT64, &value), "writing the attribute '" + name + "'");
+}
+
+std::string read_text(Hdf5Object::Id object, const std::string& name) {
+  const Hdf5Object attribute = open_attribute(object, name);
+  const Hdf5Object type(H5Aget_type(attribute), H5Tclose, "reading the type of '" + name + "'");
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0) {
+    throw SetupError("the attribute '" + name + "' is no text of fixed length");
+  }
+  std::string text(H5Tget_size(type), '\0');
+  check(H5Aread(attribute, type, text.data()), "reading the attribute '" + name + "'");
+  while (!text.empty() && text.back() == '\0') text.pop_back();
+  return text;
+}
+
+std::int64_t read_integer(Hdf5Object::Id object, const std::string& name) {
+  const Hdf5Object attribute = open_attribute(object, name);
+  std::int64_t value = 0;
+  check(H5Aread(attribute, H5T_NATIVE_INT64, &value), "reading the attribute '" + name + "'");
+  return value;
+}
+
+std::vector<std::string> attribute_names(Hdf5Object::Id object) {
+  std::vector<std::string> names;
+  const auto collect = [](hid_t, const char* name, const H5A_info_t*, void* list) -> herr_t {
+    static_cast<std::vector<std::string>*>(list)->emplace_back(name);
+    return 0;
+  };
+  check(H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names), "listing attributes");
+  return names;
+}
+
+Hdf5Object make_table(Hdf5Object::Id parent, const std::string& name, Field::Kind kind, std::size_t columns,
+                      std::size_t chunk_rows) {
+  const hsize_t none[2] = {0, columns}, most[2] = {H5S_UNLIMITED, columns}, chunk[2] = {chunk_rows, columns};
+  const Hdf5Object space(H5Screate_simple(2, none, most), H5Sclose, "making a data space");
+  const Hdf5Object creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "making data set properties");
+  check(H5Pset_obj_track_times(creation, false), "leaving out time stamps");
+  check(H5Pset_chunk(creation, 2, chunk), "chunking");
+  check(H5Pset_shuffle(creation), "shuffling");
+  check(H5Pset_deflate(creation, 1), "compressing");
+  const Hdf5Object access = without_cache();
+  return {H5Dcreate2(parent, name.c_str(), file_type(kind), space, H5P_DEFAULT, creation, access), H5Dclose,
+          "making the data set '" + name + "'"};
+}
+
+Hdf5Object open_table(Hdf5Object::Id parent, const std::string& name) {
+  const Hdf5Object access = without_cache();
+  return {H5Dopen2(parent, name.c_str(), access), H5Dclose, "opening the data set '" + name + "'"};
+}
+
+std::size_t table_rows(Hdf5Object::Id table, const std::string& name, std::size_t columns) {
+  const Hdf5Object space(H5Dget_space(table), H5Sclose, "reading the size of '" + name + "'");
+  hsize_t size[2] = {0, 0};
+  if (H5Sget_simple_extent_ndims(space) != 2 || H5Sget_simple_extent_dims(space, size, nullptr) != 2 ||
+      size[1] != columns) {
+    throw SetupError("the data set '" + name + "' has " + std::to_string(size[1]) + " columns instead of " +
+                     std::to_string(columns));
+  }
+  return size[0];
+}
+
+void append_rows(Hdf5Object::Id table, Field::Kind kind, std::size_t at, std::size_t rows,
+                 std::size_t columns, const Number* numbers) {
+  const hsize_t size[2] = {at + rows, columns};
+  check(H5Dset_extent(table, size), "growing a data set");
+  const Selection selection = select(table, at, rows, columns);
+  check(H5Dwrite(table, memory_type(kind), selection.in_memory, selection.in_file, H5P_DEFAULT, numbers),
+        "writing a data set");
+}
+
+void read_rows(Hdf5Object::Id table, Field::Kind kind, std::size_t first, std::size_t rows,
+               std::size_t columns, Number* numbers) {
+  silence_hdf5();
+  const Selection selection = select(table, first, rows, columns);
+  check(H5Dread(table, memory_type(kind), selection.in_memory, selection.in_file, H5P_DEFAULT, numbers),
+        "reading a data set");
+}
+
+}  // namespace flinch::internal

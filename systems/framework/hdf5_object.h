@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "systems/framework/fields.h"
+
+/// The calls of HDF5 that recordings need, without a type of HDF5. All throw SetupError saying what failed.
+/// HDF5 need not be safe for threads: whoever calls them holds hdf5_mutex().
+namespace flinch::internal {
+
+std::mutex& hdf5_mutex();
+
+/// An identifier of HDF5 that closes itself.
+class Hdf5Object {
+ public:
+  using Id = std::int64_t;
+
+  /// Throws SetupError where `id` is that of a failed call, saying what was being done.
+  Hdf5Object(Id id, int (*close)(Id), const std::string& doing);
+  Hdf5Object(Hdf5Object&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Hdf5Object& operator=(Hdf5Object&& other) noexcept {
+    std::swap(id_, other.id_);
+    std::swap(close_, other.close_);
+    return *this;
+  }
+  ~Hdf5Object();
+  operator Id() const { return id_; }  // NOLINT(google-explicit-constructor): it stands for the identifier
+
+ private:
+  Id id_;
+  int (*close_)(Id);
+};
+
+/// Files and groups without time stamps, so that equal contents make equal files.
+Hdf5Object create_hdf5_file(const std::filesystem::path& file);
+Hdf5Object open_hdf5_file(const std::filesystem::path& file);
+/// Hands all that was written to the operating system.
+void flush_hdf5_file(Hdf5Object::Id file);
+/// Opens the group `path`; it and those around it are made where they are missing.
+Hdf5Object make_group(Hdf5Object::Id file, const std::string& path);
+Hdf5Object open_group(Hdf5Object::Id file, const std::string& path);
+
+void write_text(Hdf5Object::Id object, const std::string& name, const std::string& text);
+void write_integer(Hdf5Object::Id object, const std::string& name, std::int64_t value);
+std::string read_text(Hdf5Object::Id object, const std::string& name);
+std::int64_t read_integer(Hdf5Object::Id object, const std::string& name);
+std::vector<std::string> attribute_names(Hdf5Object::Id object);
+
+/// Makes a table of numbers that rows can be appended to, compressed in chunks of `chunk_rows`.
+Hdf5Object make_table(Hdf5Object::Id parent, const std::string& name, Field::Kind kind, std::size_t columns,
+                      std::size_t chunk_rows);
+Hdf5Object open_table(Hdf5Object::Id parent, const std::string& name);
+/// Rows of a table, which must have so many columns.
+std::size_t table_rows(Hdf5Object::Id table, const std::string& name, std::size_t columns);
+/// Appends `rows` rows after the first `at`.
+void append_rows(Hdf5Object::Id table, Field::Kind kind, std::size_t at, std::size_t rows,
+                 std::size_t columns, const Number* numbers);
+void read_rows(Hdf5Object::Id table, Field::Kind kind, std::size_t first, std::size_t rows,
+               std::size_t columns, Number* numbers);
+
+}  // namespace flinch::internal
