@@ -23,13 +23,13 @@ std::filesystem::path folder_of(const RunOptions& options, const std::string& na
   return folder;
 }
 
-ExitStatus conclude(const Scenario& scenario, const Recording& recording, double wall,
-                    const std::filesystem::path& folder, const CommonOptions& common) {
-  const Verdict verdict = conclude_run(scenario, recording, folder);
+ExitStatus conclude(const Scenario& scenario, double wall, const std::filesystem::path& folder,
+                    const CommonOptions& common) {
+  const Verdict verdict = conclude_run(scenario, folder);
   const RunFacts facts{wall, scenario.seed};
   fmt::print("{}", common.json ? verdict_json(verdict, facts) + "\n" : verdict_table(verdict, facts));
   if (!common.quiet) {
-    fmt::print(stderr, "recording: {}\nreport:    {}\n", (folder / "run.h5").string(),
+    fmt::print(stderr, "recording: {}\nreport:    {}\n", recording_in(folder).string(),
                (folder / "report.html").string());
   }
   return status_of(verdict);

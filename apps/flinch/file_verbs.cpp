@@ -17,19 +17,32 @@
 #include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/diagram.h"
-#include "systems/framework/recording.h"
+#include "systems/framework/recording_journal.h"
 
 namespace flinch {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Report recorded_report(const std::filesystem::path& file) {
-  const Recording recording = read_recording(file);
+/// What `file` holds, and of which part of a run that is: "" where it is the whole.
+struct RecordedReport {
+  Report report;
+  std::string partial;
+};
+
+RecordedReport recorded_report(const std::filesystem::path& file) {
+  const Recording recording = open_recording(file);
+  const auto partial = recording.attributes.find("recording.partial");
   const Scenario scenario = scenario_of(recording, file);
   return out_of(file, [&] {
-    return experiment_report(scenario, recording, judge(recording, scenario.expected, scenario.force_limits));
+    const Verdict verdict = judge(recording, scenario.expected, scenario.force_limits);
+    return RecordedReport{experiment_report(scenario, recording, verdict),
+                          partial == recording.attributes.end() ? "" : partial->second};
   });
+}
+
+void tell_if_partial(const std::string& partial, const CommonOptions& common) {
+  if (!partial.empty() && !common.quiet) fmt::print(stderr, "partial: {}\n", partial);
 }
 
 void write_text(const std::string& text, const std::filesystem::path& file) {
@@ -73,7 +86,9 @@ ExitStatus report(const ReportOptions& options) {
   const std::filesystem::path page =
       options.out.empty() ? options.recording.parent_path() / "report.html" : options.out;
   require_folder_of(page);
-  write_report_page(recorded_report(options.recording), page);
+  const RecordedReport recorded = recorded_report(options.recording);
+  write_report_page(recorded.report, page);
+  tell_if_partial(recorded.partial, options.common);
   if (options.common.json) {
     fmt::print("{}\n", Json{{"report", page.string()}}.dump());
   } else if (!options.common.quiet) {
@@ -109,8 +124,8 @@ ExitStatus graph(const GraphOptions& options) {
 
 ExitStatus check(const CheckOptions& options) {
   std::string what;
-  if (options.file.extension() == ".h5") {
-    recorded_report(options.file);
+  if (options.file.extension() == ".h5" || is_journal(options.file)) {
+    tell_if_partial(recorded_report(options.file).partial, options.common);
     what = "recording";
   } else if (is_robot_file(options.file)) {
     read_robot_file(options.file);

@@ -8,6 +8,7 @@
 #include "apps/flinch/simulated/simulated_parts.h"
 #include "apps/flinch/stop_watch.h"
 #include "experiments/recorded/replay.h"
+#include "experiments/report/run_folder.h"
 #include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recording.h"
@@ -40,12 +41,13 @@ ExitStatus run_recorded(const RunOptions& options) {
   }
   const std::filesystem::path folder = folder_of(options, scenario.name + "_replayed");
   std::error_code no_such_file;
-  if (std::filesystem::equivalent(folder / "run.h5", options.input, no_such_file)) {
+  if (std::filesystem::equivalent(recording_in(folder), options.input, no_such_file)) {
     throw SetupError(options.input.string() +
                      ": the replay would replace it; choose another folder with --out");
   }
   tell_what_differs(replayed, options.common);
-  return conclude(scenario, replayed.recording, watch.seconds(), folder, options.common);
+  write_recording(replayed.recording, recording_in(folder));
+  return conclude(scenario, watch.seconds(), folder, options.common);
 }
 
 /// Says which options mean nothing for this station.

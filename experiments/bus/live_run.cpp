@@ -90,11 +90,13 @@ void LiveRun::connect() {
   end_ = scenario_.duration + approach_from(platform.pose, scenario_);
 }
 
-void LiveRun::prepare() {
+void LiveRun::prepare(const std::filesystem::path& file,
+                      const std::map<std::string, std::string>& provenance) {
   const Diagram& diagram = *experiment_.diagram;
-  recorder_ = std::make_unique<Recorder>(diagram, recorded_paths(diagram),
-                                         static_cast<std::size_t>(end_ / diagram.tick()) + 1,
+  recorder_ = std::make_unique<Recorder>(diagram, recorded_paths(diagram), RecordingStream::ring,
                                          quantity_units(*scenario_.robot.robot));
+  // Before the loop asks the machine for more than an ordinary thread gets, which writing need not have.
+  stream_ = std::make_unique<RecordingStream>(*recorder_, file, recorded_attributes(scenario_, provenance));
   profile_ = std::make_unique<BlockProfile>(diagram);
   recorded_ = std::make_unique<RealtimeRunner>(diagram, ticks_, exchange_);
   recorded_->record(*recorder_);
@@ -180,7 +182,8 @@ void LiveRun::end() {
   thread_.reset();
 }
 
-Recording LiveRun::recording(std::map<std::string, std::string> attributes) const {
+void LiveRun::finish_recording() {
+  std::map<std::string, std::string> attributes;
   const TickStatistics& loop = recorded_->statistics();
   const DdsLink link = station_.link();
   const DdsLinkTimes& times = station_.times();
@@ -200,18 +203,20 @@ Recording LiveRun::recording(std::map<std::string, std::string> attributes) cons
                           1e6 * to_seconds(row.total) / static_cast<double>(profile_->ticks()));
   }
   attributes["loop.blocks"] = blocks;
-  return recorder_->recording(recorded_attributes(scenario_, attributes));
+  stream_->finish(attributes);
 }
 
-Recording run_live_experiment(const Scenario& scenario, const DdsBus& bus, const LiveRunSettings& settings,
+Recording run_live_experiment(const Scenario& scenario, const DdsBus& bus, const std::filesystem::path& file,
+                              const LiveRunSettings& settings,
                               const std::map<std::string, std::string>& provenance) {
   LiveRun run(scenario, bus, settings);
   run.connect();
-  run.prepare();
+  run.prepare(file, provenance);
   run.enable();
   run.run();
   run.end();
-  return run.recording(provenance);
+  run.finish_recording();
+  return open_recording(file);
 }
 
 }  // namespace flinch

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
@@ -17,6 +18,7 @@
 #include "systems/framework/realtime_runner.h"
 #include "systems/framework/realtime_thread.h"
 #include "systems/framework/recorder.h"
+#include "systems/framework/recording_stream.h"
 
 namespace flinch {
 
@@ -45,8 +47,9 @@ class LiveRun {
   /// torque and closed brakes, by which it takes the robot: nobody else can command it from then on.
   void connect();
 
-  /// Makes ready all that the run needs, so that later nothing has to be allocated.
-  void prepare();
+  /// Makes ready all that the run needs, so that later nothing has to be allocated. The run will be recorded
+  /// into `file`, with `provenance` among the attributes.
+  void prepare(const std::filesystem::path& file, const std::map<std::string, std::string>& provenance);
   /// What the machine has granted.
   const RealtimeReport& granted() const { return granted_; }
 
@@ -65,8 +68,9 @@ class LiveRun {
   /// How the run is. For one other thread, during run() and end().
   Tidings watch();
 
-  /// What was recorded, with what is known of loop and link as attributes.
-  Recording recording(std::map<std::string, std::string> attributes) const;
+  /// Makes the recording whole, with what is known of loop and link as attributes. Throws SetupError where
+  /// it could not be written.
+  void finish_recording();
   const TickStatistics& statistics() const { return recorded_->statistics(); }
   const DdsStation& station() const { return station_; }
 
@@ -89,6 +93,7 @@ class LiveRun {
   RealtimeRunner unrecorded_;
   Context context_;
   std::unique_ptr<Recorder> recorder_;
+  std::unique_ptr<RecordingStream> stream_;
   std::unique_ptr<BlockProfile> profile_;
   std::unique_ptr<RealtimeRunner> recorded_;
   std::unique_ptr<Context> start_;
@@ -98,9 +103,9 @@ class LiveRun {
   Time end_{};
 };
 
-/// The whole of such a run; what was recorded of it, with `provenance` among the attributes. Throws
-/// SetupError where it could not begin: then nothing has moved.
-Recording run_live_experiment(const Scenario& scenario, const DdsBus& bus,
+/// The whole of such a run, recorded into `file`; what it returns reads from there. `provenance` becomes part
+/// of the attributes. Throws SetupError where it could not begin: then nothing has moved.
+Recording run_live_experiment(const Scenario& scenario, const DdsBus& bus, const std::filesystem::path& file,
                               const LiveRunSettings& settings = {},
                               const std::map<std::string, std::string>& provenance = {});
 

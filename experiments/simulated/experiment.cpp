@@ -8,6 +8,7 @@
 #include "systems/framework/constant.h"
 #include "systems/framework/diagram_builder.h"
 #include "systems/framework/recorder.h"
+#include "systems/framework/recording_stream.h"
 #include "systems/framework/simulator.h"
 #include "systems/robot/quantity_units.h"
 
@@ -28,24 +29,53 @@ Experiment build_experiment(const SimulatedScenario& scenario) {
   return {builder.build(), operator_command, target};
 }
 
+namespace {
+
+std::size_t ticks_of(const SimulatedScenario& scenario, const Diagram& diagram) {
+  return static_cast<std::size_t>(scenario.duration / diagram.tick());
+}
+
+/// Runs the whole scenario; `before_tick` is called between ticks. What is known of the run only then.
+std::map<std::string, std::string> simulate(const SimulatedScenario& scenario, const Diagram& diagram,
+                                            Recorder& recorder, const std::function<void()>& before_tick,
+                                            const std::function<void(double share)>& progress) {
+  Simulator simulator(diagram, std::make_unique<SundialsIntegrator>());
+  simulator.record(recorder);
+  Context context = diagram.make_context();
+  const std::size_t ticks = ticks_of(scenario, diagram);
+  for (std::size_t tick = 0; tick < ticks; ++tick) {
+    if (progress && tick % 50 == 0) progress(static_cast<double>(tick) / static_cast<double>(ticks));
+    if (before_tick) before_tick();
+    simulator.step(context);
+  }
+  return {{"simulation.inaccurate_steps", std::to_string(simulator.inaccurate_steps())}};
+}
+
+}  // namespace
+
 Recording run_experiment(const SimulatedScenario& scenario,
                          const std::map<std::string, std::string>& provenance,
                          const std::function<void(double share)>& progress) {
   const Experiment experiment = build_experiment(scenario);
   const Diagram& diagram = *experiment.diagram;
-  const auto ticks = static_cast<std::size_t>(scenario.duration / diagram.tick());
-  Recorder recorder(diagram, recorded_paths(diagram), ticks, quantity_units(*scenario.robot.robot));
-  Simulator simulator(diagram, std::make_unique<SundialsIntegrator>());
-  simulator.record(recorder);
-
-  Context context = diagram.make_context();
-  for (std::size_t tick = 0; tick < ticks; ++tick) {
-    if (progress && tick % 50 == 0) progress(static_cast<double>(tick) / static_cast<double>(ticks));
-    simulator.step(context);
-  }
-  auto attributes = recorded_attributes(scenario, provenance);
-  attributes["simulation.inaccurate_steps"] = std::to_string(simulator.inaccurate_steps());
+  Recorder recorder(diagram, recorded_paths(diagram), ticks_of(scenario, diagram),
+                    quantity_units(*scenario.robot.robot));
+  auto attributes = simulate(scenario, diagram, recorder, {}, progress);
+  attributes.merge(recorded_attributes(scenario, provenance));
   return recorder.recording(std::move(attributes));
+}
+
+Recording record_experiment(const SimulatedScenario& scenario, const std::filesystem::path& file,
+                            const std::map<std::string, std::string>& provenance,
+                            const std::function<void(double share)>& progress) {
+  const Experiment experiment = build_experiment(scenario);
+  const Diagram& diagram = *experiment.diagram;
+  Recorder recorder(diagram, recorded_paths(diagram), RecordingStream::ring,
+                    quantity_units(*scenario.robot.robot));
+  RecordingStream stream(recorder, file, recorded_attributes(scenario, provenance));
+  stream.finish(simulate(
+      scenario, diagram, recorder, [&stream] { stream.wait_for_room(); }, progress));
+  return open_recording(file);
 }
 
 }  // namespace flinch

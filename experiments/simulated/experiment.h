@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -31,5 +32,11 @@ Experiment build_experiment(const SimulatedScenario& scenario);
 Recording run_experiment(const SimulatedScenario& scenario,
                          const std::map<std::string, std::string>& provenance = {},
                          const std::function<void(double share)>& progress = {});
+
+/// The same, recorded into `file` while it runs, so that its length takes no memory; what it returns reads
+/// from there. Throws SetupError also where the file cannot be written.
+Recording record_experiment(const SimulatedScenario& scenario, const std::filesystem::path& file,
+                            const std::map<std::string, std::string>& provenance = {},
+                            const std::function<void(double share)>& progress = {});
 
 }  // namespace flinch

@@ -8,6 +8,7 @@
 #include "apps/flinch/conclusion.h"
 #include "apps/flinch/stop_watch.h"
 #include "experiments/bus/live_run.h"
+#include "experiments/report/run_folder.h"
 #include "experiments/scenario/scenario.h"
 #include "systems/foundation/problems_of_place.h"
 
@@ -43,7 +44,8 @@ ExitStatus run_on_bus(const RunOptions& options) {
   if (!silent) fmt::print(stderr, "waiting for the robot, {}\n", name_of(options.bus));
   out_of(name_of(options.bus), [&] { run.connect(); });
   const std::filesystem::path folder = folder_of(options, scenario.name);
-  run.prepare();
+  run.prepare(recording_in(folder),
+              {{"command_line", options.common.command_line}, {"station", "dds, " + name_of(options.bus)}});
   tell_what_is_missing(run.granted(), silent);
   out_of(name_of(options.bus), [&] { run.enable(); });
   const StopWatch watch;
@@ -55,10 +57,9 @@ ExitStatus run_on_bus(const RunOptions& options) {
     run.end();
   }
 
-  const Recording recording = run.recording(
-      {{"command_line", options.common.command_line}, {"station", "dds, " + name_of(options.bus)}});
+  run.finish_recording();
   if (!silent) tell_of_loop_and_link(run);
-  return conclude(scenario, recording, wall, folder, options.common);
+  return conclude(scenario, wall, folder, options.common);
 }
 
 }  // namespace flinch

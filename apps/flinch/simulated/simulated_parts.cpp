@@ -1,10 +1,9 @@
 #include "apps/flinch/simulated/simulated_parts.h"
 
-#include <algorithm>
-
 #include "apps/flinch/conclusion.h"
 #include "apps/flinch/progress.h"
 #include "apps/flinch/stop_watch.h"
+#include "experiments/report/run_folder.h"
 #include "experiments/simulated/experiment.h"
 #include "experiments/simulated/simulated_scenario.h"
 #include "systems/foundation/problems_of_place.h"
@@ -17,10 +16,7 @@ Experiment built(const SimulatedScenario& scenario) {
   return out_of(scenario.file, [&scenario] { return build_experiment(scenario); });
 }
 
-bool was_simulated(const Recording& recording) {
-  return std::any_of(recording.signals.begin(), recording.signals.end(),
-                     [](const Signal& signal) { return signal.path == "truth"; });
-}
+bool was_simulated(const Recording& recording) { return recording.find("truth") != nullptr; }
 
 }  // namespace
 
@@ -29,13 +25,12 @@ ExitStatus run_simulated(const RunOptions& options) {
   built(scenario);  // before anything is written
   const std::filesystem::path folder = folder_of(options, scenario.name);
   const StopWatch watch;
-  Recording recording;
   {
     Progress progress("simulating " + scenario.name, options.common.quiet || options.common.json);
-    recording = run_experiment(scenario, {{"command_line", options.common.command_line}},
-                               [&progress](double share) { progress.show(share); });
+    record_experiment(scenario, recording_in(folder), {{"command_line", options.common.command_line}},
+                      [&progress](double share) { progress.show(share); });
   }
-  return conclude(scenario, recording, watch.seconds(), folder, options.common);
+  return conclude(scenario, watch.seconds(), folder, options.common);
 }
 
 std::unique_ptr<Diagram> closed_loop(const std::filesystem::path& scenario) {
