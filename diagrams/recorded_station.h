@@ -14,7 +14,7 @@ namespace flinch {
 ///
 /// The recording keeps the readings as `prefix` + "joints", "drives", "imu", "status" and, where there was an
 /// instrument, "force_torque"; those of 'flinch run' have no prefix. Throws SetupError when one is missing or
-/// was recorded with other fields.
+/// was recorded without one of its fields.
 Station add_recorded_station(DiagramBuilder& builder, const Recording& recording,
                              const std::string& prefix = "");
 

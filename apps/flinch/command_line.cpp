@@ -258,8 +258,7 @@ int run_command_line(int argc, const char* const* argv) {
   } catch (const SetupError& error) {
     return complain(error.problems(), verbs.common->json);
   } catch (const std::bad_alloc&) {
-    return complain({"there is not enough memory; a run needs some 4 MB for each second of its duration"},
-                    verbs.common->json);
+    return complain({"there is not enough memory"}, verbs.common->json);
   } catch (const std::exception& error) {  // of the system: a folder that may not be read, no more threads
     return complain({error.what()}, verbs.common->json);
   }

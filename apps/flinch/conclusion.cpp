@@ -5,6 +5,7 @@
 #include "experiments/report/run_folder.h"
 #include "experiments/scenario/scenario.h"
 #include "experiments/verdict/verdict_output.h"
+#include "systems/framework/recording.h"
 
 namespace flinch {
 namespace {
@@ -21,6 +22,12 @@ std::filesystem::path folder_of(const RunOptions& options, const std::string& na
       options.out.empty() ? std::filesystem::path("out") / name : options.out;
   make_run_folder(folder);
   return folder;
+}
+
+void tell_if_partial(const Recording& recording, const CommonOptions& common) {
+  const auto partial = recording.attributes.find("recording.partial");
+  if (partial == recording.attributes.end() || common.quiet) return;
+  fmt::print(stderr, "partial:   {}\n", partial->second);
 }
 
 ExitStatus conclude(const Scenario& scenario, double wall, const std::filesystem::path& folder,

@@ -7,6 +7,7 @@
 
 namespace flinch {
 
+struct Recording;
 struct Scenario;
 
 /// Makes the folder where a run leaves its results: `--out`, or out/`name`. Throws SetupError.
@@ -16,5 +17,8 @@ std::filesystem::path folder_of(const RunOptions& options, const std::string& na
 /// status. `wall`: how long the run took [s]. Throws SetupError where a file cannot be read or written.
 ExitStatus conclude(const Scenario& scenario, double wall, const std::filesystem::path& folder,
                     const CommonOptions& common);
+
+/// Says where a recording holds only a part of a run.
+void tell_if_partial(const Recording& recording, const CommonOptions& common);
 
 }  // namespace flinch

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/flinch/command_line.h"
+#include "apps/flinch/conclusion.h"
 #include "apps/flinch/simulated/simulated_parts.h"
 #include "experiments/report/experiment_report.h"
 #include "experiments/report/report_page.h"
@@ -24,25 +25,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What `file` holds, and of which part of a run that is: "" where it is the whole.
-struct RecordedReport {
-  Report report;
-  std::string partial;
-};
-
-RecordedReport recorded_report(const std::filesystem::path& file) {
+Report recorded_report(const std::filesystem::path& file, const CommonOptions& common) {
   const Recording recording = open_recording(file);
-  const auto partial = recording.attributes.find("recording.partial");
+  tell_if_partial(recording, common);
   const Scenario scenario = scenario_of(recording, file);
   return out_of(file, [&] {
-    const Verdict verdict = judge(recording, scenario.expected, scenario.force_limits);
-    return RecordedReport{experiment_report(scenario, recording, verdict),
-                          partial == recording.attributes.end() ? "" : partial->second};
+    return experiment_report(scenario, recording, judge(recording, scenario.expected, scenario.force_limits));
   });
-}
-
-void tell_if_partial(const std::string& partial, const CommonOptions& common) {
-  if (!partial.empty() && !common.quiet) fmt::print(stderr, "partial: {}\n", partial);
 }
 
 void write_text(const std::string& text, const std::filesystem::path& file) {
@@ -86,9 +75,7 @@ ExitStatus report(const ReportOptions& options) {
   const std::filesystem::path page =
       options.out.empty() ? options.recording.parent_path() / "report.html" : options.out;
   require_folder_of(page);
-  const RecordedReport recorded = recorded_report(options.recording);
-  write_report_page(recorded.report, page);
-  tell_if_partial(recorded.partial, options.common);
+  write_report_page(recorded_report(options.recording, options.common), page);
   if (options.common.json) {
     fmt::print("{}\n", Json{{"report", page.string()}}.dump());
   } else if (!options.common.quiet) {
@@ -125,7 +112,7 @@ ExitStatus graph(const GraphOptions& options) {
 ExitStatus check(const CheckOptions& options) {
   std::string what;
   if (options.file.extension() == ".h5" || is_journal(options.file)) {
-    tell_if_partial(recorded_report(options.file).partial, options.common);
+    recorded_report(options.file, options.common);
     what = "recording";
   } else if (is_robot_file(options.file)) {
     read_robot_file(options.file);

@@ -29,6 +29,7 @@ void tell_what_differs(const Replay& replayed, const CommonOptions& common) {
 
 ExitStatus run_recorded(const RunOptions& options) {
   const Recording recorded = read_recording(options.input);
+  tell_if_partial(recorded, options.common);
   const Scenario scenario = scenario_of(recorded, options.input, options.control);
   const StopWatch watch;
   Replay replayed;

@@ -5,30 +5,29 @@
 #include <string>
 #include <vector>
 
+#include "systems/foundation/nearest_name.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recording.h"
 
 namespace flinch {
 
-/// The recorded values of one port, as T, bit for bit: values[k] is that of sample k. Of a recording in a
-/// file one block of samples is in memory at a time, so read them in their order; one object serves one
-/// thread.
+/// The recorded values of one port, as T, bit for bit: values[k] is that of sample k. T is the type of the
+/// port, or one with some of its fields; where their size can change, T may have more or less room for it. Of
+/// a recording in a file one block of samples is in memory at a time, so read them in their order; one object
+/// serves one thread.
 template <Recordable T>
 class RecordedValues {
  public:
-  /// Throws SetupError when the recording has no signal `path` or its fields are not those of T. The
+  /// Throws SetupError when the recording has no signal `path`, or that has not all fields of T. The
   /// recording must outlive the values.
   RecordedValues(const Recording& recording, const std::string& path)
       : recording_(&recording), signal_(&recording.signal(path)) {
-    const RowLayout expected = row_layout<T>();
-    const std::vector<Field>& fields = signal_->layout.fields;
-    const auto same = [](const Field& a, const Field& b) {
-      return a.name == b.name && a.kind == b.kind && a.capacity == b.capacity && a.resizable == b.resizable;
-    };
-    if (!std::equal(expected.fields.begin(), expected.fields.end(), fields.begin(), fields.end(), same)) {
-      throw SetupError("the signal '" + path +
-                       "' was recorded with other fields than this version of flinch has");
+    std::size_t to = 0;
+    for (const Field& field : row_layout<T>().fields) {
+      pieces_.push_back(piece_of(field, to));
+      to += numbers_of(field);
     }
+    row_.resize(to);
   }
 
   std::size_t size() const { return recording_->samples(); }
@@ -36,8 +35,11 @@ class RecordedValues {
   /// Throws SetupError where the sample cannot be read or has a matrix of impossible size.
   T operator[](std::size_t sample) const {
     if (sample < first_ || sample >= first_ + count_) load(sample);
+    const internal::Number* const recorded = rows_.data() + (sample - first_) * signal_->layout.numbers;
+    for (const Piece& piece : pieces_)
+      std::copy_n(recorded + piece.from, piece.numbers, row_.data() + piece.to);
     T value{};
-    if (!read_row(rows_.data() + (sample - first_) * signal_->layout.numbers, value)) {
+    if (!read_row(row_.data(), value)) {
       throw SetupError("the signal '" + signal_->path +
                        "' has a sample with an impossible size; the recording is broken");
     }
@@ -45,6 +47,38 @@ class RecordedValues {
   }
 
  private:
+  /// Where the numbers of a field of T lie: in a recorded row, and in a row of T.
+  struct Piece {
+    std::size_t from;
+    std::size_t to;
+    std::size_t numbers;
+  };
+
+  static std::size_t numbers_of(const Field& field) {
+    return static_cast<std::size_t>(field.capacity) + (field.resizable ? 2U : 0U);
+  }
+
+  /// Where `wanted` was recorded.
+  Piece piece_of(const Field& wanted, std::size_t to) const {
+    std::size_t from = 0;
+    std::vector<std::string> names;
+    for (const Field& field : signal_->layout.fields) {
+      if (field.name != wanted.name) {
+        names.push_back(field.name);
+        from += numbers_of(field);
+        continue;
+      }
+      const bool fits = field.resizable || field.capacity == wanted.capacity;
+      if (field.kind == wanted.kind && field.resizable == wanted.resizable && fits) {
+        return {from, to, std::min(numbers_of(field), numbers_of(wanted))};
+      }
+      throw SetupError("the field '" + wanted.name + "' of the signal '" + signal_->path +
+                       "' was recorded with another type than this version of flinch has");
+    }
+    throw SetupError("the signal '" + signal_->path + "' was recorded without the field '" + wanted.name +
+                     "'" + did_you_mean(wanted.name, names));
+  }
+
   void load(std::size_t sample) const {
     first_ = sample / Recording::block * Recording::block;
     count_ = std::min(Recording::block, size() - first_);
@@ -54,7 +88,9 @@ class RecordedValues {
 
   const Recording* recording_;
   const Signal* signal_;
-  mutable std::vector<internal::Number> rows_;  ///< of the samples first_ ... first_ + count_
+  std::vector<Piece> pieces_;
+  mutable std::vector<internal::Number> row_;   ///< of T
+  mutable std::vector<internal::Number> rows_;  ///< recorded: samples first_ ... first_ + count_
   mutable std::size_t first_ = 0;
   mutable std::size_t count_ = 0;
 };

@@ -164,7 +164,8 @@ TEST(RecordedStation, RefusesReadingsWithOtherFields) {
   for (Signal& signal : recording.signals) {
     if (signal.path == "imu") signal.layout.fields.front().name = "measured";
   }
-  EXPECT_THAT(problems_of(recording), ElementsAre(HasSubstr("'imu' was recorded with other fields")));
+  EXPECT_THAT(problems_of(recording),
+              ElementsAre(HasSubstr("'imu' was recorded without the field 'acquired'")));
 }
 
 }  // namespace

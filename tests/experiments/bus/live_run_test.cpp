@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "drivers/dds_bus.h"
 #include "experiments/scenario/scenario.h"
 #include "systems/foundation/setup_error.h"
@@ -20,8 +22,9 @@ std::string why_not(const LiveRunSettings& settings) {
   const Scenario scenario = read_scenario(test::shipped("scenarios/platform_collision.yaml"));
   const DdsBus bus({.domain = test::free_domain()});
   try {
-    run_live_experiment(scenario, bus, settings);
+    run_live_experiment(scenario, bus, "never_made.h5", settings);
   } catch (const SetupError& error) {
+    EXPECT_FALSE(std::filesystem::exists("never_made.h5.part"));
     return error.what();
   }
   return "it ran";

@@ -25,10 +25,10 @@ bool is_replayed(const std::string& file, const std::string& folder) {
 }
 
 /// Runs the scenario against the robot on the bus; here there is none, and the run says so.
-bool asks_for_the_robot(const std::string& scenario) {
+bool asks_for_the_robot(const std::string& scenario, const std::string& folder) {
   try {
     run_live_experiment(read_scenario(scenario), DdsBus({.domain = 97, .interface = "lo"}),
-                        {.patience = 200ms});
+                        folder + "/live.h5", {.patience = 200ms});
   } catch (const SetupError& error) {
     std::printf("live: %s\n", error.what());
     return std::string(error.what()).find("nobody sends joint readings") != std::string::npos;
@@ -41,7 +41,7 @@ bool asks_for_the_robot(const std::string& scenario) {
 /// laboratory_experiment SCENARIO.yaml RUN.h5 FOLDER
 int main(int argc, char** argv) try {
   if (argc != 4) throw SetupError("usage: laboratory_experiment SCENARIO.yaml RUN.h5 FOLDER");
-  return is_replayed(argv[2], argv[3]) && asks_for_the_robot(argv[1]) ? 0 : 1;
+  return is_replayed(argv[2], argv[3]) && asks_for_the_robot(argv[1], argv[3]) ? 0 : 1;
 } catch (const SetupError& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 2;

@@ -1,13 +1,11 @@
 #include "tests/systems/framework/killed_run.h"
 
 #include <gtest/gtest.h>
-#include <signal.h>
 #include <sys/mman.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <cstring>
+#include <memory>
 #include <thread>
 #include <vector>
 
@@ -17,6 +15,7 @@
 #include "systems/framework/recorder.h"
 #include "systems/framework/recording_stream.h"
 #include "systems/framework/simulator.h"
+#include "tests/support/other_program.h"
 #include "tests/systems/framework/random_source.h"
 
 namespace flinch::test {
@@ -42,23 +41,10 @@ class Shared {
   void* memory_;
 };
 
-/// A process that does `work` until it is killed.
-template <class Work>
-pid_t start(const Work& work) {
-  const pid_t child = fork();
-  if (child != 0) return child;
-  try {
-    work();
-  } catch (...) {
-  }
-  _exit(1);  // must not be reached
-}
-
-void kill_at_once(pid_t child) {
-  kill(child, SIGKILL);
-  int status = 0;
-  waitpid(child, &status, 0);
-  EXPECT_TRUE(WIFSIGNALED(status)) << "the run ended by itself";
+void kill_at_once(OtherProgram& program) {
+  EXPECT_TRUE(program.is_running()) << "the run ended by itself";
+  program.kill();
+  while (program.is_running()) std::this_thread::sleep_for(100us);
 }
 
 void run_forever(Pace pace, const std::filesystem::path& file, Told& told) {
@@ -119,12 +105,12 @@ void expect_beginning_of_the_run(const Recording& recording) {
 struct Victim {
   Victim(Pace pace, std::filesystem::path where, Time alive)
       : file(std::move(where)),
-        process(start([&] { run_forever(pace, file, *told); })),
+        process([&] { run_forever(pace, file, *told); }),
         end(MonotonicClock::now() + alive) {}
 
   Shared told;
   std::filesystem::path file;
-  pid_t process;
+  OtherProgram process;
   Time end;
   std::vector<std::pair<Time, std::uint64_t>> history;
   bool is_alive = true;
@@ -175,7 +161,7 @@ void kill_ends_of_runs(int count, std::uint64_t seed, const std::filesystem::pat
   for (int i = 0; i < count; ++i) {
     const std::filesystem::path file = folder / ("ends" + std::to_string(i) + ".h5");
     const Shared told;
-    const pid_t process = start([&] { record_over_and_over(file, *told); });
+    OtherProgram process([&] { record_over_and_over(file, *told); });
     std::this_thread::sleep_for(from_seconds(random.uniform(0.0, 0.1)));
     kill_at_once(process);
     if ((*told).finished > 0) {

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "systems/robot/vectors.h"
+
+/// What of a simulation's truth verdict and report look at. A recording is read without what made it: these
+/// are the fields of those names, read from its signals "truth" and "contact".
+namespace flinch {
+
+struct RecordedTruth {
+  Configuration pose;             ///< in the base frame
+  PlatformVector velocity;        ///< likewise
+  PlatformVector wrench_in_base;  ///< all that acts from outside
+  JointVector active;             ///< positions of the drives
+  JointVector drive_torque;
+  double loop_closure_error = 0.0;  ///< [m]
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("pose", "<pose>", self.pose, "base");
+    visit("velocity", "<velocity>", self.velocity, "base");
+    visit("wrench_in_base", "<wrench>", self.wrench_in_base, "base");
+    visit("active", "<drive position>", self.active);
+    visit("drive_torque", "<drive force>", self.drive_torque);
+    visit("loop_closure_error", "m", self.loop_closure_error);
+  }
+};
+
+struct RecordedTouch {
+  int body = -1;                            ///< BodyId::index(); -1: none
+  Eigen::Vector2d point_in_base{0.0, 0.0};  ///< [m]
+  Eigen::Vector2d force_in_base{0.0, 0.0};  ///< on the robot [N]
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("body", "", self.body);
+    visit("point_in_base", "m", self.point_in_base, "base");
+    visit("force_in_base", "N", self.force_in_base, "base");
+  }
+};
+
+struct RecordedContact {
+  bool in_contact = false;
+  bool clamping = false;  ///< both links of one leg touch
+  RecordedTouch strongest;
+  RecordedTouch second;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("in_contact", "", self.in_contact);
+    visit("clamping", "", self.clamping);
+    visit("strongest", "", self.strongest);
+    visit("second", "", self.second);
+  }
+};
+
+}  // namespace flinch
