@@ -82,6 +82,13 @@ std::optional<int> OtherProgram::wait(Time patience) {
   return WEXITSTATUS(status_);
 }
 
+bool OtherProgram::writes(const std::string& text, Time patience) {
+  const Time deadline = MonotonicClock::now() + patience;
+  const auto written = [&] { return output().find(text) != std::string::npos; };
+  while (!written() && is_running() && MonotonicClock::now() < deadline) std::this_thread::sleep_for(10ms);
+  return written();
+}
+
 std::string OtherProgram::output() const {
   std::string text;
   std::array<char, 4096> part{};

@@ -40,6 +40,8 @@ class OtherProgram {
   bool is_running();
   /// Its exit status; none if it still runs after `patience`, or was killed.
   std::optional<int> wait(Time patience);
+  /// Whether it has written `text` by the end of `patience`, or before it ended.
+  bool writes(const std::string& text, Time patience);
   /// What it has written so far to stdout and stderr; of a copy, nothing.
   std::string output() const;
 

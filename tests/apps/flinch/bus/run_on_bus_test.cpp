@@ -71,7 +71,8 @@ TEST(RunOnBus, FindsTheRobotAgainWhereTheLastRunLeftIt) {
 TEST(RunOnBus, ComesToRestInOrderOnCtrlC) {
   const BenchOnTheBus bench("square");
   test::OtherProgram run(test::flinch_program(bench.run_arguments()));
-  std::this_thread::sleep_for(std::chrono::milliseconds(2500));  // in the middle of the square
+  ASSERT_TRUE(run.writes("gate open", 20s)) << run.output();
+  std::this_thread::sleep_for(2s);  // in the middle of the square
   run.interrupt();
   EXPECT_EQ(run.wait(20s), stopped_by_fault) << run.output();
 
@@ -169,7 +170,7 @@ TEST(RunOnBus, RefusesAReplayThatWouldReplaceItsRecording) {
 TEST(RunOnBus, TakesOneCommanderOnly) {
   const BenchOnTheBus bench("square");
   test::OtherProgram first(test::flinch_program(bench.run_arguments("first")));
-  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  ASSERT_TRUE(first.writes("gate open", 20s)) << first.output();
   std::vector<std::string> arguments = bench.run_arguments("second");
   arguments.insert(arguments.end(), {"--patience", "1"});
   const test::Outcome second = test::flinch(arguments);
