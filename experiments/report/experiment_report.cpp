@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "experiments/report/drawn_robot.h"
+#include "experiments/report/page_samples.h"
 #include "experiments/scenario/scenario.h"
 #include "experiments/verdict/verdict.h"
 #include "systems/framework/recording.h"
@@ -242,6 +243,15 @@ std::string caveat(Witness witness) {
   return "No instrument measured contact forces; contacts are not judged." + common;
 }
 
+/// Nothing where the page shows every sample.
+std::string thinning(const Recording& recording) {
+  const std::size_t together = samples_in_one(recording);
+  if (together == 1) return "";
+  return fmt::format(
+      " The recording is long: of {} samples each the page shows one, that with the hardest contact.",
+      together);
+}
+
 std::vector<ReportBound> bounds(const Scenario& scenario, const Verdict& verdict) {
   const ContactDetectorSettings& detector = scenario.control.contact_detector;
   std::vector<ReportBound> lines;
@@ -301,7 +311,7 @@ Report experiment_report(const Scenario& scenario, const Recording& recording, c
   report.kind = verdict.witness == Witness::truth ? "simulated experiment" : "experiment on a robot";
   report.title = scenario.title;
   report.subtitle = scenario.description;
-  report.note = caveat(verdict.witness);
+  report.note = caveat(verdict.witness) + thinning(recording);
   report.good = verdict.good();
   for (const ContactVerdict& contact : verdict.contacts) report.contacts.push_back(report_contact(contact));
   report.measures = measures(verdict, scenario.expected);
@@ -313,11 +323,12 @@ Report experiment_report(const Scenario& scenario, const Recording& recording, c
                                 {obstacle.position_in_base.x(), obstacle.position_in_base.y(), 0.0},
                                 obstacle.radius});
   }
-  report.period = to_seconds(recording.period);
+  const Recording shown = page_samples(recording);
+  report.period = to_seconds(shown.period);
   if (!recording.time_ns.empty()) report.start = 1e-9 * static_cast<double>(recording.time_ns.front());
-  add_motion(robot, recording, verdict.witness, report);
-  add_forces(robot, recording, verdict.witness, report);
-  report.lanes = lanes(recording, verdict.witness);
+  add_motion(robot, shown, verdict.witness, report);
+  add_forces(robot, shown, verdict.witness, report);
+  report.lanes = lanes(shown, verdict.witness);
   report.bounds = bounds(scenario, verdict);
   report.parameters = scenario_parameters(scenario);
   for (ReportParameter& row : parameters("robot", scenario.robot.values))
