@@ -8,8 +8,8 @@ namespace flinch {
 template <class Reading>
 struct Arrival {
   Reading reading;  ///< `acquired` in the time of the ticks
-  std::uint32_t source =
-      0;  ///< who sent it, a number of its own for each start of a sender; 0: nothing has come
+  /// Who sent it, a number of its own for each start of a sender; 0: nothing has come.
+  std::uint32_t source = 0;
   std::uint32_t number = 0;  ///< counts the readings of that source; wraps around
 
   template <class Self, class Visit>

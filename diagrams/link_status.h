@@ -23,8 +23,8 @@ struct LinkStatus {
   Flow flow = Flow::nothing;
   Time age{};                 ///< of the reading by its acquisition; 0 while there is none
   std::uint32_t skipped = 0;  ///< numbers that no tick has seen, since the start
-  std::uint32_t refused =
-      0;  ///< ticks that found one out of order, broken or of another source, since the start
+  /// Ticks that found one out of order, broken or of another source, since the start.
+  std::uint32_t refused = 0;
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {

@@ -12,13 +12,13 @@
 namespace flinch {
 
 struct DdsServerSettings {
-  std::uint32_t robot =
-      0;  ///< robot_hash() of the robot description: that of the other end, or nothing passes
+  /// The robot_hash() of the robot description: that of the other end, or nothing passes.
+  std::uint32_t robot = 0;
   /// Without a newer command: the brakes close, and who commanded must begin anew. With the bench's tick and
   /// the 10 ms in which the brakes must be commanded to close this leaves room for a busy machine.
   Time longest_silence = 6ms;
-  Time longest_way =
-      5ms;  ///< of a command from sending to arrival, as far as it varies; later ones are refused
+  /// Of a command from sending to arrival, as far as it varies; later ones are refused.
+  Time longest_way = 5ms;
   int realtime_priority = 0;  ///< of the thread that sends, SCHED_FIFO, 1 to 99; 0: an ordinary thread
 };
 
@@ -26,8 +26,8 @@ struct DdsServerSettings {
 struct DdsCommander {
   std::uint32_t session = 0;  ///< whose commands are obeyed; 0: nobody's
   std::uint32_t received = 0;
-  std::uint32_t refused =
-      0;  ///< of another version, robot or session, not newer, too late, or not neutral at first
+  /// Of another version, robot or session, not newer, too late, or not neutral at first.
+  std::uint32_t refused = 0;
   std::uint32_t silences = 0;  ///< how often a commander fell silent
   Time age{};                  ///< of the last command, by its sending
 };

@@ -14,8 +14,8 @@
 namespace flinch {
 
 struct DdsStationSettings {
-  std::uint32_t robot =
-      0;  ///< robot_hash() of the robot description: that of the other end, or nothing passes
+  /// The robot_hash() of the robot description: that of the other end, or nothing passes.
+  std::uint32_t robot = 0;
   Time longest_silence = 100ms;  ///< after which another sender of readings is accepted
   int realtime_priority = 0;     ///< of the thread that sends, SCHED_FIFO, 1 to 99; 0: an ordinary thread
 };

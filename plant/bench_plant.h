@@ -17,9 +17,10 @@ class BenchPlant final : public System {
   BenchDynamics dynamics_;
   Time tick_;
   State<BenchState> state_ = state<BenchState>("motion", dynamics_.initial_state());
-  State<ContactCandidates> candidates_ =
-      state<ContactCandidates>("candidates");                          // in the step after this tick
-  State<ContactHistory> history_ = state<ContactHistory>("contacts");  // until the tick before
+  /// In the step after this tick.
+  State<ContactCandidates> candidates_ = state<ContactCandidates>("candidates");
+  /// Until the tick before.
+  State<ContactHistory> history_ = state<ContactHistory>("contacts");
 
  public:
   /// `tick` is the time between ticks of the diagram, or a multiple of it; build() refuses anything else.

@@ -39,7 +39,8 @@ PlanarMotion home_motion(const PlanarRrr& robot) {
 }
 
 BenchShapes shapes_of(const PlanarRrr& robot, const std::optional<Pylon>& pylon) {
-  return {robot.parameters().link_radius, robot.parameters().platform_hull_radius, pylon ? pylon->radius : 0.0};
+  const auto& parameters = robot.parameters();
+  return {parameters.link_radius, parameters.platform_hull_radius, pylon ? pylon->radius : 0.0};
 }
 
 std::optional<HuntCrossley> law_of(const std::optional<ContactMaterial>& material) {

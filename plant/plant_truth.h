@@ -16,8 +16,8 @@ struct PlantTruth {
   JointVector passive;          ///< q_p [rad]
   JointVector coupling;         ///< q_c [rad]
   JointVector drive_torque;     ///< tau_a that acts, without the brakes' [Nm]
-  PlatformVector
-      wrench_in_base;  ///< F_ext: all that acts from outside, contacts and applied wrench [N, N, Nm]
+  /// F_ext: all that acts from outside, contacts and applied wrench [N, N, Nm].
+  PlatformVector wrench_in_base;
   /// Largest coordinate by which a leg, followed along its joint angles, misses its joint on the platform
   /// [m].
   double loop_closure_error = 0.0;

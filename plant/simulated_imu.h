@@ -24,8 +24,8 @@ struct SimulatedImuSettings {
 
   double accelerometer_density = 180e-6 * standard_gravity;  ///< Noise [m/s^2/sqrt(Hz)].
   double gyroscope_density = 0.007 * degree;                 ///< [rad/s/sqrt(Hz)]
-  double accelerometer_bias =
-      0.04 * standard_gravity;                     ///< Each axis has a constant one of at most this [m/s^2].
+  /// Each axis has a constant one of at most this [m/s^2].
+  double accelerometer_bias = 0.04 * standard_gravity;
   double gyroscope_bias = 3.0 * degree;            ///< [rad/s]
   double accelerometer_resolution = 2.99e-4;       ///< [m/s^2]
   double gyroscope_resolution = 1.91e-3 * degree;  ///< [rad/s]

@@ -41,8 +41,8 @@ SimulatedStationSettings with_ideal_sensors(SimulatedStationSettings settings);
 struct SimulatedStation : Station {
   OutputPort<PlantTruth> plant_truth;
   OutputPort<ContactTruth> contact_truth;
-  OutputPort<PlatformMotion>
-      platform_truth;  ///< Pose and velocity as sensors would tell them without errors.
+  /// Pose and velocity as sensors would tell them without errors.
+  OutputPort<PlatformMotion> platform_truth;
 };
 
 /// Adds the simulated bench as one nested diagram, "station". Its continuous state wants an adaptive

@@ -38,8 +38,8 @@ struct ContactVerdict {
   double peak_force = 0.0;              ///< of one touching body [N]
   double peak_time = 0.0;               ///< [s]
   std::optional<double> lasting_force;  ///< the largest after the transient duration, if it lasts so long [N]
-  double limit =
-      0.0;  ///< of the peak force: transient, or quasi-static where only the lasting force fails [N]
+  /// Of the peak force: transient, or quasi-static where only the lasting force fails [N].
+  double limit = 0.0;
   std::string limit_name;
   bool within_limit = false;  ///< both forces are
 };

@@ -22,8 +22,8 @@ struct ContactDetectorSettings {
   Time period = 1ms;
 };
 
-/// Says that the robot is touched when a component of the estimated wrench reaches its threshold. [SafePR]
-/// Alg. 5 The level rises and never falls until the reset, which forgets it before this tick's estimate is
+/// Says that the robot is touched when a component of the estimated wrench reaches its threshold, [SafePR]
+/// Alg. 5. The level rises and never falls until the reset, which forgets it before this tick's estimate is
 /// judged. An estimate that is not valid, not finite or of the wrong size has no level, raises none, and does
 /// not undo a detection.
 class ContactDetector final : public System {

@@ -27,10 +27,10 @@ class BlockProfile;
 ///     y   := every output, from x, u and t_k, each once, in an order in which what is read comes first;
 ///            one that has an occasion only if k = 0 or that is due, otherwise its value stays as it was
 ///     recorders see y and u
-///     x_d := every update that is due at t_k, all computed from the old x and from y, then all written at
-///     once x_c := the continuous states integrated from t_k to t_{k+1}, with u and the new x_d held; inside
-///     that step only
-///            the outputs that a derivative depends on are computed again
+///     x_d := every update that is due at t_k, all computed from the old x and from y,
+///            then all written at once
+///     x_c := the continuous states integrated from t_k to t_{k+1}, with u and the new x_d held;
+///            inside that step only the outputs that a derivative depends on are computed again
 ///
 /// So a state that an update writes at t_k acts from t_k on: a value held by it is a zero-order hold without
 /// delay in continuous time, and one tick of delay between discrete blocks.

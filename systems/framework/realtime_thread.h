@@ -49,8 +49,8 @@ bool permits_realtime(int priority);
 /// meanwhile inherit its priority and processor. It runs
 /// - SCHED_FIFO: before all ordinary threads, so that a busy machine does not delay it;
 /// - with all memory locked that the process has by then, and 256 KiB of stack: no tick waits for a page.
-/// This
-///   lasts until the process ends. What is allocated later is not locked: make contexts and recorders before;
+///   It lasts until the process ends. What is allocated later is not locked: make contexts and recorders
+///   before;
 /// - on one processor, if wanted, best one that the kernel keeps free (isolcpus);
 /// - on a kernel that can be preempted everywhere (PREEMPT_RT), which one can only look for.
 class RealtimeThread {

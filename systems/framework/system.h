@@ -20,14 +20,17 @@ namespace flinch {
 /// declaration names, in that order, and nothing else:
 ///
 ///   class LowPass final : public System {
-///     State<double> filtered_ = state<double>("filtered", 0.0);            // above its readers
+///     State<double> filtered_ = state<double>("filtered", 0.0);  // above its readers
+///
 ///    public:
-///     InputPort<double>  raw    = input<double>("raw");
+///     InputPort<double> raw = input<double>("raw");
 ///     OutputPort<double> smooth = output<&LowPass::read>("smooth", filtered_);
+///
 ///    private:
-///     Update filter_ = update<&LowPass::filter>(filtered_, filtered_, raw);  // writes the first, reads the
-///     others double read(double filtered) const { return filtered; } double filter(double filtered, double
-///     raw) const { return 0.9 * filtered + 0.1 * raw; }
+///     Update filter_ = update<&LowPass::filter>(filtered_, filtered_, raw);  // writes the first
+///
+///     double read(double filtered) const { return filtered; }
+///     double filter(double filtered, double newest) const { return 0.9 * filtered + 0.1 * newest; }
 ///   };
 ///
 /// A function returns its result or takes it as last argument, `Result&`. There an update finds the present

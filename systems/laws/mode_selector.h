@@ -15,8 +15,9 @@ struct ModeSelectorSettings {
 
 /// Hands on the torques of the mode that the reaction sequence is in:
 ///
-///   nominal and recover: those of the nominal law,  react and hold: of the reaction law,  zero_g and
-///   stopped: of zero gravity.
+///   nominal, recover   those of the nominal law
+///   react, hold        of the reaction law
+///   zero_g, stopped    of zero gravity
 ///
 /// At a change of the law it blends, tau = (1 - w) tau_old + w tau_new, where w grows by tick / blend at
 /// every tick and is one such step at the first. The old law goes on being evaluated, unless it has no valid

@@ -14,8 +14,8 @@ namespace flinch {
 
 struct PlatformTrajectorySettings {
   std::optional<PlatformPath> path = std::nullopt;  ///< none: stay where the robot is
-  std::optional<Time> start =
-      Time::zero();  ///< from then on it starts by itself, once; none: on command only
+  /// From then on it starts by itself, once; none: on command only.
+  std::optional<Time> start = Time::zero();
   /// Of the way from where the robot is to the start of the path.
   PoseLimits approach{.translation = {.velocity = 0.2, .acceleration = 2.0, .jerk = 50.0},
                       .rotation = {.velocity = 0.5, .acceleration = 5.0, .jerk = 100.0}};

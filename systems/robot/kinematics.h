@@ -58,8 +58,8 @@ struct Kinematics {
   PlatformMatrix J_qc_x, dJ_qc_x;  ///< Coupling joint rates from platform velocity.
   PlatformMatrix J_x_qa, dJ_x_qa;  ///< Platform velocity from active joint rates: left inverse of J_qa_x.
 
-  double det_A =
-      0.0;  ///< Of the constraints by pose; 0 at a type-II singularity. Scaled as the mechanism says.
+  /// Of the constraints by pose; 0 at a type-II singularity. Scaled as the mechanism says.
+  double det_A = 0.0;
   double det_B = 0.0;  ///< Of the constraints by drives; 0 at a type-I singularity. Scaled likewise.
   /// cond_2(J_x_qa), angles counted at the mechanism's characteristic length. [SafePR] IV-F with 1 m.
   /// Infinite when singular or unreachable.

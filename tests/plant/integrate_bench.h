@@ -15,8 +15,8 @@ class BenchEquation final : public DifferentialEquation {
   explicit BenchEquation(const BenchDynamics& bench)
       : bench_(bench), size_(static_cast<std::size_t>(bench.initial_state().size())) {}
 
-  static constexpr std::size_t works =
-      4;  ///< drives, applied wrench, contacts, friction; after the bench's states
+  /// Drives, applied wrench, contacts, friction; after the bench's states.
+  static constexpr std::size_t works = 4;
   std::size_t size() const { return size_ + works; }
 
   DriveAction drives;
