@@ -58,7 +58,7 @@ struct ContactControl {
 /// Which sources, estimators, detectors and laws, `settings.stages` says. It is the same whatever stands for
 /// the robot. Throws SetupError for settings that do not fit the robot, and as the stages do.
 ContactControl add_contact_control(DiagramBuilder& builder, const std::shared_ptr<const ParallelRobot>& robot,
-                                   const ContactControlSettings& settings = {});
+                                   const ContactControlSettings& settings);
 
 /// Connects a station with the pipeline, except for the operator's input.
 void connect(DiagramBuilder& builder, const Station& station, const ContactControl& control);

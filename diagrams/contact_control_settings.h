@@ -17,8 +17,9 @@
 
 namespace flinch {
 
-/// All that can be set in the contact-control pipeline. The defaults are those of the planar bench; each
-/// block's own settings say what they mean and where they come from.
+/// All that can be set in the contact-control pipeline. The defaults are those of the planar bench;
+/// settings_for() (robot_settings.h) has those of any robot. Each block's own settings say what they mean and
+/// where they come from.
 struct ContactControlSettings {
   ControlStages stages = standard_stages();
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "diagrams/robot_settings.h"
 #include "experiments/scenario/scenario_control.h"
 #include "systems/config/config_file.h"
 #include "systems/config/config_reader.h"
@@ -81,7 +82,9 @@ void read_rest(ConfigReader& reader, std::optional<std::uint64_t> seed, const Se
   reader.required().duration("duration", scenario.duration, between(1e-3, 3600.0));
   reader.seed("seed", scenario.seed);
   if (seed) scenario.seed = *seed;
-  apply_limits(scenario.robot.limits, scenario.control);
+  ControlStages stages = std::move(scenario.control.stages);
+  scenario.control = settings_for(robot, scenario.robot.drives, scenario.robot.limits);
+  scenario.control.stages = std::move(stages);
   read_control(reader.section("control"), robot, scenario.control);
   read_motion(reader.section("motion"), robot, scenario.control);
   if (reader.has("pylon")) scenario.obstacles.push_back(read_pylon(reader.section("pylon")));

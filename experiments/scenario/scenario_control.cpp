@@ -11,7 +11,6 @@
 #include "systems/config/config_reader.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/parallel_robot.h"
-#include "systems/robot/workspace_limits.h"
 
 namespace flinch {
 namespace {
@@ -25,9 +24,6 @@ void write_out(const ParallelRobot& robot, ContactControlSettings& settings) {
   settings.impedance = complete(settings.impedance, robot.space());
   if (settings.momentum_observer.gain.size() == 0)
     settings.momentum_observer.gain.setConstant(robot.dof(), 20.0);
-  if (settings.drive_torque.torque_constant.size() == 0) {
-    settings.drive_torque.torque_constant.setConstant(robot.drives(), 6.1);
-  }
 }
 
 void read_limits(ConfigReader reader, PoseLimits& limits) {
@@ -39,14 +35,16 @@ void read_limits(ConfigReader reader, PoseLimits& limits) {
   reader.number("angular_jerk", unit::rad_per_s3, limits.rotation.jerk, positive);
 }
 
-void read_sensing(ConfigReader& control, ContactControlSettings& settings) {
+void read_sensing(ConfigReader& control, const ParallelRobot& robot, ContactControlSettings& settings) {
   ConfigReader filter = control.section("velocity_filter");
   filter.number("cutoff_frequency", unit::Hz, settings.velocity_filter.low_pass.cutoff_frequency, positive);
   filter.choice("form", settings.velocity_filter.low_pass.form,
                 {{"tustin", LowPassForm::tustin}, {"backward_difference", LowPassForm::backward_difference}});
 
   ConfigReader drives = control.section("drive_torque");
-  drives.numbers("torque_constant", unit::Nm_per_A, entries(settings.drive_torque.torque_constant), positive);
+  const bool turn = robot.drive_kind(0) == DriveKind::revolute;
+  drives.numbers(turn ? "torque_constant" : "force_constant", turn ? unit::Nm_per_A : unit::N_per_A,
+                 entries(settings.drive_torque.torque_constant), positive);
   bool aligned = settings.drive_torque.low_pass.has_value();
   drives.flag("aligned_with_velocity", aligned);
   settings.drive_torque.low_pass = aligned ? std::optional(settings.velocity_filter.low_pass) : std::nullopt;
@@ -138,14 +136,10 @@ enum class MotionKind { hold, through, passage, square };
 
 }  // namespace
 
-void apply_limits(const WorkspaceLimits& limits, ContactControlSettings& control) {
-  control.faults.workspace = limits;
-}
-
 void read_control(ConfigReader control, const ParallelRobot& robot, ContactControlSettings& settings) {
   write_out(robot, settings);
   read_stages(control, settings.stages);
-  read_sensing(control, settings);
+  read_sensing(control, robot, settings);
   read_detection(control, settings);
   read_laws(control, robot, settings);
 }

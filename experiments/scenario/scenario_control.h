@@ -5,10 +5,6 @@ namespace flinch {
 class ConfigReader;
 class ParallelRobot;
 struct ContactControlSettings;
-struct WorkspaceLimits;
-
-/// Lets the robot's own limits bound the control path.
-void apply_limits(const WorkspaceLimits& limits, ContactControlSettings& control);
 
 /// Reads the section `control` of a scenario. Of the stages in `settings`, all that can be named, those are
 /// left which it chooses.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "systems/foundation/setup_error.h"
+#include "systems/robot/drive_parameters.h"
 
 namespace flinch {
 namespace {
@@ -29,7 +30,9 @@ std::vector<std::string> problems(const DriveTorqueSettings& settings, const Joi
 DriveTorqueMapping::DriveTorqueMapping(const std::shared_ptr<const ParallelRobot>& robot,
                                        const DriveTorqueSettings& settings)
     : torque_constant_(settings.torque_constant), sampling_(settings.sampling) {
-  if (torque_constant_.size() == 0) torque_constant_.setConstant(robot->drives(), 6.1);
+  if (torque_constant_.size() == 0) {
+    torque_constant_ = default_drives(robot->drive_kind(0), robot->drives()).torque_constant;
+  }
   throw_if_any(problems(settings, torque_constant_, robot->drives()));
   if (settings.low_pass) low_pass_.emplace(*settings.low_pass);
   keep(Every{sampling_.period}, memory_, next_);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "diagrams/robot_settings.h"
 #include "systems/config/config_reader.h"
 #include "systems/foundation/setup_error.h"
 #include "tests/support/workplace.h"
@@ -74,6 +75,21 @@ TEST(Scenario, TellsTheNearestNameOfAStage) {
                             "'momentum_observer'?"),
                   HasSubstr("own.yaml:5: control.follow.detector: is 'contact_detecter', which is not "
                             "among detectors; did you mean 'contact_detector'?")));
+}
+
+TEST(Scenario, BeginsWithTheSettingsOfItsRobotAsCppDoes) {
+  const test::Workplace place;
+  const Scenario scenario = scenario_of(place, least);
+  const RobotFile& file = scenario.robot;
+  const ContactControlSettings own = settings_for(*file.robot, file.drives, file.limits);
+  const ContactControlSettings& read = scenario.control;
+  EXPECT_EQ(read.drive_torque.torque_constant, own.drive_torque.torque_constant);
+  EXPECT_EQ(read.drive_torque.low_pass.has_value(), own.drive_torque.low_pass.has_value());
+  EXPECT_EQ(read.faults.max_joint_speed, own.faults.max_joint_speed);
+  EXPECT_EQ(read.faults.max_unseen_current, own.faults.max_unseen_current);
+  EXPECT_EQ(read.torque_gate.max_torque, own.torque_gate.max_torque);
+  EXPECT_EQ(read.controlled_stop.damping, own.controlled_stop.damping);
+  EXPECT_EQ(read.sequence.rest_speed, own.sequence.rest_speed);
 }
 
 TEST(Scenario, HasTheDefaultsOfThePapers) {

@@ -1,0 +1,39 @@
+#include "diagrams/robot_settings.h"
+
+#include "systems/robot/joint_space_dynamics.h"
+
+namespace flinch {
+namespace {
+
+constexpr double stopping_time = 29e-3;  // time constant of the controlled stop [s]
+
+/// The least inertia that a drive feels at the home pose while the others stand still [kg m^2 or kg].
+double least_inertia(const ParallelRobot& robot) {
+  Kinematics kinematics;
+  Dynamics dynamics;
+  robot.kinematics(robot.home_pose(), PlatformVector::Zero(robot.dof()), kinematics);
+  robot.dynamics(kinematics, dynamics);
+  return joint_space_dynamics(kinematics, dynamics).M_qa.diagonal().minCoeff();
+}
+
+}  // namespace
+
+ContactControlSettings settings_for(const ParallelRobot& robot, const DriveParameters& drives,
+                                    const WorkspaceLimits& limits) {
+  ContactControlSettings settings;
+  settings.drive_torque.torque_constant = drives.torque_constant;
+  settings.faults.workspace = limits;
+  settings.faults.max_joint_speed = drives.max_speed;
+  settings.faults.max_encoder_rate = drives.max_encoder_rate;
+  settings.faults.max_control_error = drives.max_control_error;
+  settings.faults.max_torque_jump = drives.max_torque_jump;
+  settings.faults.torque_range = drives.max_torque;
+  settings.faults.max_unseen_current = 0.06 * drives.max_torque / drives.torque_constant.minCoeff();
+  settings.torque_gate.max_torque = drives.max_torque;
+  settings.torque_gate.max_torque_rate = drives.max_torque_rate;
+  settings.sequence.rest_speed = drives.max_speed / 160.0;
+  settings.controlled_stop.damping = least_inertia(robot) / stopping_time;
+  return settings;
+}
+
+}  // namespace flinch

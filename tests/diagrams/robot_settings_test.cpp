@@ -1,0 +1,62 @@
+#include "diagrams/robot_settings.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "diagrams/contact_control.h"
+#include "systems/config/robot_file.h"
+
+namespace flinch {
+namespace {
+
+RobotFile shipped(const std::string& name) {
+  return read_robot_file(FLINCH_SOURCE_DIR "/apps/robots/" + name + ".yaml");
+}
+
+ContactControlSettings settings_of(const RobotFile& file) {
+  return settings_for(*file.robot, file.drives, file.limits);
+}
+
+class ShippedRobot : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(RobotSettings, ShippedRobot,
+                         testing::Values("planar_3rrr", "planar_3rrr_nominal", "five_bar", "hexapod_6ups"));
+
+TEST_P(ShippedRobot, HasAControlPathOfItsOwn) {
+  const RobotFile file = shipped(GetParam());
+  DiagramBuilder builder;
+  EXPECT_NO_THROW(add_contact_control(builder, file.robot, settings_of(file)));
+}
+
+TEST_P(ShippedRobot, IsBoundedByItsFile) {
+  const RobotFile file = shipped(GetParam());
+  const ContactControlSettings settings = settings_of(file);
+  EXPECT_EQ(settings.drive_torque.torque_constant, file.drives.torque_constant);
+  EXPECT_EQ(settings.faults.workspace.max_distance, file.limits.max_distance);
+  EXPECT_EQ(settings.faults.max_joint_speed, file.drives.max_speed);
+  EXPECT_EQ(settings.faults.max_encoder_rate, file.drives.max_encoder_rate);
+  EXPECT_EQ(settings.faults.max_control_error, file.drives.max_control_error);
+  EXPECT_EQ(settings.faults.torque_range, file.drives.max_torque);
+  EXPECT_EQ(settings.torque_gate.max_torque, file.drives.max_torque);
+  EXPECT_EQ(settings.torque_gate.max_torque_rate, file.drives.max_torque_rate);
+}
+
+TEST(RobotSettings, AreForTheBenchThoseOfTheTables) {
+  const ContactControlSettings bench = settings_of(shipped("planar_3rrr")), standard;
+  EXPECT_NEAR(bench.controlled_stop.damping, standard.controlled_stop.damping, 0.5);
+  EXPECT_NEAR(bench.faults.max_unseen_current, standard.faults.max_unseen_current, 0.01);
+  EXPECT_EQ(bench.sequence.rest_speed, standard.sequence.rest_speed);
+  EXPECT_EQ(bench.faults.max_joint_speed, standard.faults.max_joint_speed);
+  EXPECT_EQ(bench.torque_gate.max_torque, standard.torque_gate.max_torque);
+}
+
+/// Behind a filter of 30 Hz, which lags by 5.3 ms, a rate that is damped faster would oscillate.
+TEST(RobotSettings, StopADriveNoFasterThanTheFilterOfItsRateAllows) {
+  const ContactControlSettings light = settings_of(shipped("five_bar")),
+                               heavy = settings_of(shipped("hexapod_6ups"));
+  EXPECT_LT(light.controlled_stop.damping, 2.0);    // [Nms/rad]: 20 would be 2 ms
+  EXPECT_GT(heavy.controlled_stop.damping, 100.0);  // [Ns/m]
+}
+
+}  // namespace
+}  // namespace flinch
