@@ -30,7 +30,9 @@ Report recorded_report(const std::filesystem::path& file, const CommonOptions& c
   tell_if_partial(recording, common);
   const Scenario scenario = scenario_of(recording, file);
   return out_of(file, [&] {
-    return experiment_report(scenario, recording, judge(recording, scenario.expected, scenario.force_limits));
+    return experiment_report(
+        scenario, recording,
+        judge(recording, scenario.robot.robot->space(), scenario.expected, scenario.force_limits));
   });
 }
 

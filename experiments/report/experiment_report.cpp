@@ -8,6 +8,7 @@
 #include "experiments/report/drawn_robot.h"
 #include "experiments/report/page_samples.h"
 #include "experiments/scenario/scenario.h"
+#include "experiments/verdict/recorded_run.h"
 #include "experiments/verdict/verdict.h"
 #include "systems/framework/recording.h"
 #include "systems/robot/parallel_robot.h"
@@ -30,7 +31,7 @@ std::string spoken(const std::string& body) {
 ReportContact report_contact(const ContactVerdict& contact) {
   ReportContact row;
   row.body = spoken(contact.body);
-  row.object = "pylon";
+  row.object = contact.is_push ? "push" : "pylon";
   row.start = contact.onset;
   row.detected = contact.detected;
   row.removed = contact.removed;
@@ -172,18 +173,6 @@ void add_motion(const ParallelRobot& robot, const Recording& recording, Witness 
   report.columns["sigma_sc"] = where(measured, recording.column("measures", "sigma_sc"));
 }
 
-/// Of an instrument, "no data" where it said that it had none.
-void add_contact_force(const ParallelRobot& robot, const Recording& recording, Witness witness,
-                       Report& report) {
-  if (witness == Witness::none) return;
-  const bool simulated = witness == Witness::truth;
-  const std::string path = simulated ? "contact" : "force_torque";
-  const std::string field = simulated ? "strongest.force_in_base" : "force_in_base";
-  Column force = magnitude(components(recording, path, field, robot.space_dimension()));
-  report.columns["contact_force"] =
-      simulated ? force : where(recording.column(path, "valid"), std::move(force));
-}
-
 void add_wrench(const ConfigurationSpace& space, const std::string& name, std::vector<Column> wrench,
                 Report& report) {
   const auto moments = wrench.begin() + space.translations();
@@ -197,7 +186,6 @@ void add_forces(const ParallelRobot& robot, const Recording& recording, Witness 
   const Column estimated = recording.column("wrench", "valid");
   for (Column& column : estimate) column = where(estimated, std::move(column));
   add_wrench(robot.space(), "estimated", std::move(estimate), report);
-  add_contact_force(robot, recording, witness, report);
   if (witness != Witness::truth) return;
   add_wrench(robot.space(), "external", components(recording, "truth", "wrench_in_base", robot.dof()),
              report);
@@ -212,19 +200,31 @@ ReportLane lane(const Recording& recording, std::string name, const std::string&
   return result;
 }
 
-std::vector<ReportLane> lanes(const Recording& recording, Witness witness) {
+std::vector<ReportLane> lanes(const Recording& recording) {
   ReportLane mode = lane(recording, "mode", "reaction", "mode",
                          {"nominal", "stopped", "react", "hold", "zero-g", "recover"});
   for (int& state : mode.state) {  // the page's quiet state comes first: nominal before stopped
     if (state < 2) state = 1 - state;
   }
-  std::vector<ReportLane> rows = {
-      lane(recording, "detector", "detection", "level", {"quiet", "contact", "hard contact"}), mode,
-      lane(recording, "torque gate", "gate", "phase", {"waiting", "open", "closed", "recovering"})};
-  if (witness == Witness::truth) {
-    rows.insert(rows.begin(), lane(recording, "contact", "contact", "in_contact", {"free", "touching"}));
+  return {lane(recording, "detector", "detection", "level", {"quiet", "contact", "hard contact"}), mode,
+          lane(recording, "torque gate", "gate", "phase", {"waiting", "open", "closed", "recovering"})};
+}
+
+/// The force of the hardest contact, and whether it counts as one: as for the verdict, so that the lane ends
+/// when the verdict says that the contact was removed.
+void add_contact(const ParallelRobot& robot, const Recording& recording, Report& report) {
+  const RecordedRun run(recording, robot.space());
+  if (run.witness() == Witness::none) return;
+  Column force;
+  ReportLane touching{"contact", {"free", "touching"}, {}};
+  for (std::size_t k = 0; k < run.size(); ++k) {
+    const RunSample now = run[k];
+    const int counts = now.load() > 1.0 ? 1 : 0;
+    force.push_back(now.force());
+    touching.state.push_back(std::isnan(now.load()) ? -1 : counts);
   }
-  return rows;
+  report.columns["contact_force"] = std::move(force);
+  report.lanes.insert(report.lanes.begin(), std::move(touching));
 }
 
 std::string caveat(Witness witness) {
@@ -313,6 +313,10 @@ Report experiment_report(const Scenario& scenario, const Recording& recording, c
   report.subtitle = scenario.description;
   report.note = caveat(verdict.witness) + thinning(recording);
   report.good = verdict.good();
+  report.reasons = verdict.failures;
+  report.remarks = verdict.remarks;
+  report.fault = verdict.fault;
+  report.contacts_known = verdict.witness != Witness::none;
   for (const ContactVerdict& contact : verdict.contacts) report.contacts.push_back(report_contact(contact));
   report.measures = measures(verdict, scenario.expected);
   const ParallelRobot& robot = *scenario.robot.robot;
@@ -328,7 +332,8 @@ Report experiment_report(const Scenario& scenario, const Recording& recording, c
   if (!recording.time_ns.empty()) report.start = 1e-9 * static_cast<double>(recording.time_ns.front());
   add_motion(robot, shown, verdict.witness, report);
   add_forces(robot, shown, verdict.witness, report);
-  report.lanes = lanes(shown, verdict.witness);
+  report.lanes = lanes(shown);
+  add_contact(robot, shown, report);
   report.bounds = bounds(scenario, verdict);
   report.parameters = scenario_parameters(scenario);
   for (ReportParameter& row : parameters("robot", scenario.robot.values))

@@ -17,10 +17,10 @@ using ReportPoint = std::array<double, 3>;
 struct ReportContact {
   std::string body;                 ///< Touched body as a reader says it: "platform", "second link of leg 1".
   std::string isolated_body;        ///< Body that the robot took it for; empty: it did not say.
-  std::string object;               ///< What it touched: "pylon".
+  std::string object;               ///< What it touched: "pylon"; "push": it was pushed without a touch.
   double start = 0.0;               ///< t_c: true contact force leaves zero [s].
   std::optional<double> detected;   ///< t_det: first tick with the detector's flag [s].
-  std::optional<double> removed;    ///< t_rem: true contact force is back at zero [s].
+  std::optional<double> removed;    ///< t_rem: the contact is over [s].
   std::optional<double> speed;      ///< Of the platform when it touched [m/s].
   double peak_force = 0.0;          ///< f_c,max: largest true contact force [N].
   std::optional<double> peak_time;  ///< When [s].
@@ -96,6 +96,10 @@ struct Report {
   std::string subtitle;  ///< What was tried, in one sentence: which observer, which reaction.
   std::string note;      ///< A caveat to be read before anything else; empty: none.
   bool good = false;
+  std::vector<std::string> reasons;  ///< Why it is not good, one sentence each.
+  std::vector<std::string> remarks;  ///< What a reader must know of a good one as well, likewise.
+  std::string fault;                 ///< Why the robot was stopped; empty: it was not.
+  bool contacts_known = true;        ///< Somebody saw what touched the robot: no contacts means none.
   std::vector<ReportContact> contacts;
   std::vector<ReportMeasure> measures;
 

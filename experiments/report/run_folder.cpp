@@ -24,7 +24,7 @@ Verdict conclude_run(const Scenario& scenario, const Recording& recording,
 
 Verdict conclude_run(const Scenario& scenario, const std::filesystem::path& folder) {
   const Recording recording = open_recording(recording_in(folder));
-  Verdict verdict = judge(recording, scenario.expected, scenario.force_limits);
+  Verdict verdict = judge(recording, scenario.robot.robot->space(), scenario.expected, scenario.force_limits);
   write_report_page(experiment_report(scenario, recording, verdict), folder / "report.html");
   return verdict;
 }

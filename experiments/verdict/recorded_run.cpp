@@ -4,8 +4,10 @@
 #include <cmath>
 #include <optional>
 
+#include "diagrams/link_status.h"
 #include "experiments/verdict/recorded_truth.h"
 #include "systems/framework/recorded_values.h"
+#include "systems/framework/tick_timing.h"
 #include "systems/signals/force_torque_reading.h"
 #include "systems/signals/platform_motion.h"
 #include "systems/signals/platform_reference.h"
@@ -19,12 +21,53 @@ Witness witness_of(const Recording& recording) {
   return recording.find("force_torque") != nullptr ? Witness::force_torque : Witness::none;
 }
 
-/// Not a number where the vector is shorter.
-Eigen::Vector3d three(const auto& vector) {
-  Eigen::Vector3d numbers = Eigen::Vector3d::Constant(std::nan(""));
-  const Eigen::Index size = std::min<Eigen::Index>(vector.size(), 3);
-  numbers.head(size) = vector.head(size);
-  return numbers;
+/// Force and moment of a wrench [N, Nm]; none where it has another size.
+struct Strength {
+  Strength(const PlatformVector& wrench, ConfigurationSpace space) {
+    if (wrench.size() != space.dimension()) return;
+    force = wrench.head(space.translations()).norm();
+    moment = wrench.tail(space.rotations()).norm();
+  }
+
+  double force = 0.0;
+  double moment = 0.0;
+};
+
+double largest(const auto& vector) {
+  return vector.size() == 0 ? 0.0 : vector.template lpNorm<Eigen::Infinity>();
+}
+
+void compare_estimate(const PlatformVector& estimate, const PlatformVector& external,
+                      ConfigurationSpace space, RunSample& now) {
+  if (estimate.size() != space.dimension() || external.size() != space.dimension()) return;
+  const PlatformVector error = estimate - external;
+  now.observer_error_force = largest(error.head(space.translations()));
+  now.observer_error_moment = largest(error.tail(space.rotations()));
+}
+
+void add_truth(const RecordedTruth& truth, const RecordedContact& contact, ConfigurationSpace space,
+               RunSample& now) {
+  now.is_true = true;
+  now.body = contact.strongest.body;
+  now.clamping = contact.clamping;
+  now.contact_force = contact.strongest.force_in_base.norm();
+  now.loop_closure = truth.loop_closure_error;
+  const Strength external(truth.wrench_in_base, space);
+  now.external_force = external.force;
+  now.external_moment = external.moment;
+  if (contact.wrench_in_base.size() != truth.wrench_in_base.size()) return;
+  const Strength push(truth.wrench_in_base - contact.wrench_in_base, space);
+  now.push_force = push.force;
+  now.push_moment = push.moment;
+}
+
+void compare_motion(const Configuration& pose, const PlatformVector& velocity, const Configuration& reference,
+                    ConfigurationSpace space, RunSample& now) {
+  const PlatformVector error = space.difference(pose, reference);
+  now.position_error = error.head(space.translations()).norm();
+  now.orientation_error = error.tail(space.rotations()).norm();
+  const bool has_velocity = velocity.size() == space.dimension();
+  now.speed = has_velocity ? velocity.head(space.translations()).norm() : std::nan("");
 }
 
 }  // namespace
@@ -37,6 +80,8 @@ struct RecordedRun::Signals {
         wrench(recording, "wrench"),
         reference(recording, "reference"),
         gate(recording, "gate") {
+    if (recording.find("tick_timing") != nullptr) timing.emplace(recording, "tick_timing");
+    if (recording.find("joints_link") != nullptr) joints_link.emplace(recording, "joints_link");
     if (witness == Witness::truth) {
       contact.emplace(recording, "contact");
       truth.emplace(recording, "truth");
@@ -55,10 +100,13 @@ struct RecordedRun::Signals {
   std::optional<RecordedValues<RecordedTruth>> truth;
   std::optional<RecordedValues<ForceTorqueReading>> force_torque;
   std::optional<RecordedValues<PlatformMotion>> motion;
+  std::optional<RecordedValues<TickTiming>> timing;
+  std::optional<RecordedValues<LinkStatus>> joints_link;
 };
 
-RecordedRun::RecordedRun(const Recording& recording)
+RecordedRun::RecordedRun(const Recording& recording, ConfigurationSpace space)
     : recording_(recording),
+      space_(space),
       witness_(witness_of(recording)),
       signals_(std::make_unique<Signals>(recording, witness_)) {}
 
@@ -81,32 +129,26 @@ RunSample RecordedRun::operator[](std::size_t sample) const {
   now.detection = signals.detection[sample];
   now.mode = signals.reaction[sample].mode;
   now.gate = signals.gate[sample];
+  if (signals.timing) now.lost_ticks = static_cast<int>((*signals.timing)[sample].lost_periods);
+  if (signals.joints_link) now.unread_readings = static_cast<int>((*signals.joints_link)[sample].skipped);
   const WrenchEstimate estimate = signals.wrench[sample];
   now.estimate_valid = estimate.valid;
-  now.estimate = three(estimate.wrench_in_base);
   const PlatformReference reference = signals.reference[sample];
   now.reference_valid = reference.valid;
-  now.reference = three(reference.pose);
   if (signals.truth) {
-    const RecordedContact contact = (*signals.contact)[sample];
     const RecordedTruth truth = (*signals.truth)[sample];
-    now.is_true = true;
-    now.body = contact.strongest.body;
-    now.clamping = contact.clamping;
-    now.contact_force = contact.strongest.force_in_base;
-    now.loop_closure = truth.loop_closure_error;
-    now.pose = three(truth.pose);
-    now.velocity = three(truth.velocity);
-    now.external = three(truth.wrench_in_base);
+    add_truth(truth, (*signals.contact)[sample], space_, now);
+    compare_estimate(estimate.wrench_in_base, truth.wrench_in_base, space_, now);
+    compare_motion(truth.pose, truth.velocity, reference.pose, space_, now);
     return now;
   }
   const PlatformMotion motion = (*signals.motion)[sample];
-  now.pose = three(motion.pose);
-  now.velocity = three(motion.velocity);
-  now.contact_force.setConstant(std::nan(""));
+  compare_estimate(estimate.wrench_in_base, PlatformVector::Zero(space_.dimension()), space_, now);
+  compare_motion(motion.pose, motion.velocity, reference.pose, space_, now);
+  now.contact_force = std::nan("");
   if (signals.force_torque) {
     const ForceTorqueReading reading = (*signals.force_torque)[sample];
-    if (reading.valid) now.contact_force = reading.force_in_base.head<2>();
+    if (reading.valid) now.contact_force = reading.force_in_base.head(space_.translations()).norm();
   }
   return now;
 }

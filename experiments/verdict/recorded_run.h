@@ -1,46 +1,59 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <cmath>
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 
 #include "experiments/verdict/verdict.h"
+#include "systems/robot/configuration_space.h"
 #include "systems/signals/contact_detection.h"
 #include "systems/signals/gate_status.h"
 #include "systems/signals/reaction_state.h"
 
 namespace flinch {
 
-/// All that a verdict looks at, at one sample. What nobody measured is not a number.
+/// All that a verdict looks at, at one sample, whatever the mechanism. What nobody measured is not a number.
 struct RunSample {
   double time = 0.0;     ///< [s]
-  bool is_true = false;  ///< body, clamping and loop closure are known
+  bool is_true = false;  ///< body, clamping, pushes and loop closure are known
   int body = -1;         ///< that is touched hardest, BodyId::index()
   bool clamping = false;
-  Eigen::Vector2d contact_force{0.0, 0.0};  ///< of the hardest touch [N]
-  double loop_closure = 0.0;                ///< [m]
-  Eigen::Vector3d pose{0.0, 0.0, 0.0};      ///< (x, y, phi) [m, m, rad], as those that follow
-  Eigen::Vector3d velocity{0.0, 0.0, 0.0};
-  Eigen::Vector3d external{0.0, 0.0, 0.0};  ///< wrench; zero where only an instrument looked on
+  double contact_force = 0.0;  ///< of the hardest touch [N]
+  double push_force = 0.0;     ///< of what acts on the platform without touching it [N]
+  double push_moment = 0.0;    ///< likewise [Nm]
+  /// Of all that acts on the platform; 0 where only an instrument looked on [N].
+  double external_force = 0.0;
+  double external_moment = 0.0;  ///< likewise [Nm]
+  double loop_closure = 0.0;     ///< [m]
+  double speed = 0.0;            ///< of the platform's origin [m/s]
   bool estimate_valid = false;
-  Eigen::Vector3d estimate{0.0, 0.0, 0.0};
+  double observer_error_force = 0.0;   ///< of the estimate, largest component [N]
+  double observer_error_moment = 0.0;  ///< likewise [Nm]
   bool reference_valid = false;
-  Eigen::Vector3d reference{0.0, 0.0, 0.0};
+  double position_error = 0.0;     ///< [m]
+  double orientation_error = 0.0;  ///< [rad]
   ContactDetection detection;
   ReactionMode mode = ReactionMode::stopped;
   GateStatus gate;
+  int lost_ticks = 0;       ///< periods without a tick before this one
+  int unread_readings = 0;  ///< of the joints, that no tick has seen, since the start of the link
 
-  double force() const { return std::hypot(contact_force[0], contact_force[1]); }
-  double speed() const { return std::hypot(velocity[0], velocity[1]); }
+  /// Of the hardest touch or push; not a number where nobody measured it, as the next.
+  double force() const { return std::max(contact_force, push_force); }
+  bool is_pushed() const { return is_true && push_force >= contact_force; }
+  /// How hard the robot is touched or pushed, as a multiple of what counts as a contact.
+  double load() const {
+    return std::max(force() / Verdict::contact_force, push_moment / Verdict::contact_moment);
+  }
 };
 
 /// The samples of a recording as its best witness saw them: the truth of a simulation, or an instrument. To
 /// be read in their order; however many there are, few are in memory.
 class RecordedRun {
  public:
-  /// Throws SetupError when signals are missing. The recording must outlive the run.
-  explicit RecordedRun(const Recording& recording);
+  /// `space`: of the robot that it was recorded of. Throws SetupError when signals are missing. The recording
+  /// must outlive the run.
+  RecordedRun(const Recording& recording, ConfigurationSpace space);
   ~RecordedRun();
 
   Witness witness() const { return witness_; }
@@ -53,6 +66,7 @@ class RecordedRun {
   struct Signals;
 
   const Recording& recording_;
+  ConfigurationSpace space_;
   Witness witness_;
   std::unique_ptr<Signals> signals_;
 };

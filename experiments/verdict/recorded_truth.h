@@ -45,6 +45,7 @@ struct RecordedContact {
   bool clamping = false;  ///< both links of one leg touch
   RecordedTouch strongest;
   RecordedTouch second;
+  PlatformVector wrench_in_base;  ///< what all of them do to the platform
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
@@ -52,6 +53,7 @@ struct RecordedContact {
     visit("clamping", "", self.clamping);
     visit("strongest", "", self.strongest);
     visit("second", "", self.second);
+    visit("wrench_in_base", "<wrench>", self.wrench_in_base, "base");
   }
 };
 

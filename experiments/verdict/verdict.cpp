@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/verdict/contact_watch.h"
 #include "experiments/verdict/recorded_run.h"
 #include "systems/framework/recording.h"
-#include "systems/robot/body_id.h"
 #include "systems/safety/fault_table.h"
 #include "systems/signals/gate_status.h"
 #include "systems/signals/reaction_state.h"
@@ -15,116 +15,11 @@
 namespace flinch {
 namespace {
 
-/// Finds the contacts, sample by sample.
-class ContactWatch {
- public:
-  explicit ContactWatch(const ForceLimits& limits) : limits_(limits) {}
-
-  void see(const RunSample& now, double period) {
-    const bool touches = now.force() > Verdict::contact_force;
-    if (touches && !(is_open_ && now.time - last_ < Verdict::same_contact)) begin(now);
-    if (is_open_) {
-      pending_.see(now);
-      if (touches) extend(now, period);
-      // The latched level would not do: of a second contact it knows nothing.
-      const bool noticed = now.detection.present_level != ContactLevel::none;
-      if (noticed && !contacts_.back().detected && now.time < last_ + Verdict::same_contact) {
-        contacts_.back().detected = now.time;
-      }
-    }
-    before_ = now;
-  }
-
-  /// All contacts of a run that ended with the sample seen last.
-  std::vector<ContactVerdict> contacts() const {
-    std::vector<ContactVerdict> judged = contacts_;
-    if (is_open_ && before_->time - last_ < Verdict::same_contact) judged.back().removed.reset();
-    for (ContactVerdict& contact : judged) limit_force(contact);
-    return judged;
-  }
-
- private:
-  /// What was seen since the last sample with force, which counts if there comes another.
-  struct Pending {
-    double speed = 0.0;
-    std::string clamping;
-
-    void see(const RunSample& sample) {
-      speed = std::max(speed, sample.speed());
-      if (clamping.empty() && sample.clamping) {
-        clamping = "leg" + std::to_string(BodyId::from_index(sample.body).leg() + 1) + "_clamping";
-      }
-    }
-  };
-
-  void begin(const RunSample& now) {
-    ContactVerdict contact;
-    contact.onset = onset_at(now);
-    contact.peak_force = -1.0;
-    contacts_.push_back(contact);
-    pending_ = {before_ ? std::max(0.0, before_->speed()) : 0.0, ""};
-    clamps_ = false;
-    is_open_ = true;
-  }
-
-  /// When the force rose above `contact_force`, between the sample before and this one.
-  double onset_at(const RunSample& now) const {
-    if (!before_ || std::isnan(before_->force())) return now.time;
-    const double share = (Verdict::contact_force - before_->force()) / (now.force() - before_->force());
-    return before_->time + share * (now.time - before_->time);
-  }
-
-  void extend(const RunSample& now, double period) {
-    ContactVerdict& contact = contacts_.back();
-    last_ = now.time;
-    contact.removed = now.time + period;
-    contact.speed = std::max(contact.speed, pending_.speed);
-    if (now.time - contact.onset > limits_.transient_duration) {
-      contact.lasting_force = std::max(contact.lasting_force.value_or(0.0), now.force());
-    }
-    name_body(now, contact);
-    if (now.force() > contact.peak_force) {
-      contact.peak_force = now.force();
-      contact.peak_time = now.time;
-    }
-    pending_ = {};
-  }
-
-  /// A leg's clamping where that happens during the contact, else the body with the peak force.
-  void name_body(const RunSample& now, ContactVerdict& contact) {
-    if (!now.is_true || clamps_) return;
-    clamps_ = !pending_.clamping.empty();
-    if (clamps_) {
-      contact.body = pending_.clamping;
-    } else if (now.force() > contact.peak_force) {
-      contact.body = body_name(BodyId::from_index(now.body));
-    }
-  }
-
-  /// The peak counts against the transient limit, what lasts longer against the quasi-static one.
-  void limit_force(ContactVerdict& contact) const {
-    const bool peak_is_good = contact.peak_force <= limits_.transient;
-    const bool rest_is_good = contact.lasting_force.value_or(0.0) <= limits_.quasi_static;
-    contact.within_limit = peak_is_good && rest_is_good;
-    contact.limit = peak_is_good && !rest_is_good ? limits_.quasi_static : limits_.transient;
-    contact.limit_name = peak_is_good && !rest_is_good ? "quasi-static" : "transient";
-  }
-
-  ForceLimits limits_;
-  std::vector<ContactVerdict> contacts_;
-  bool is_open_ = false;  ///< there was one
-  double last_ = 0.0;     ///< sample with force [s]
-  bool clamps_ = false;
-  Pending pending_;
-  std::optional<RunSample> before_;
-};
-
 /// Whether something touches the robot, as far as the witness knows: an obstacle or an applied wrench.
 bool is_touched(const RunSample& now, Witness witness) {
   if (witness == Witness::none) return now.detection.level != ContactLevel::none;
-  return now.force() > Verdict::contact_force ||
-         std::hypot(now.external[0], now.external[1]) > Verdict::contact_force ||
-         std::abs(now.external[2]) > Verdict::contact_moment;
+  return now.load() > 1.0 || now.external_force > Verdict::contact_force ||
+         now.external_moment > Verdict::contact_moment;
 }
 
 /// Collects when the detector rose, and which of these times were false.
@@ -147,17 +42,14 @@ class DetectionWatch {
 
 /// The largest errors, as long as nothing has touched the robot.
 void measure_errors(const RunSample& now, Verdict& verdict) {
+  const auto keep_largest = [](double error, double& largest) { largest = std::max(largest, error); };
   if (now.estimate_valid) {
-    for (int i = 0; i < 3; ++i) {
-      double& largest = i < 2 ? verdict.max_observer_error_force : verdict.max_observer_error_moment;
-      largest = std::max(largest, std::abs(now.estimate[i] - now.external[i]));
-    }
+    keep_largest(now.observer_error_force, verdict.max_observer_error_force);
+    keep_largest(now.observer_error_moment, verdict.max_observer_error_moment);
   }
   if (now.mode != ReactionMode::nominal || !now.reference_valid) return;
-  const double distance = std::hypot(now.pose[0] - now.reference[0], now.pose[1] - now.reference[1]);
-  const double angle = std::remainder(now.pose[2] - now.reference[2], 2.0 * M_PI);
-  verdict.max_tracking_error = std::max(verdict.max_tracking_error, distance);
-  verdict.max_orientation_error = std::max(verdict.max_orientation_error, std::abs(angle));
+  keep_largest(now.position_error, verdict.max_tracking_error);
+  keep_largest(now.orientation_error, verdict.max_orientation_error);
 }
 
 std::string description_of(GateFault fault) {
@@ -167,11 +59,61 @@ std::string description_of(GateFault fault) {
   return "the run was too short";
 }
 
+/// Counts what was lost within a few milliseconds: what the gate notices after that has other causes.
+class LossWatch {
+ public:
+  void see(double time, int lost) {
+    if (lost <= 0) return;
+    if (!is_recent(time)) count_ = 0;
+    count_ += lost;
+    last_ = time;
+  }
+  int recent(double time) const { return is_recent(time) ? count_ : 0; }
+
+ private:
+  static constexpr double window = 0.01;  // [s]
+  bool is_recent(double time) const { return last_ && time - *last_ <= window; }
+
+  int count_ = 0;
+  std::optional<double> last_;  ///< [s]
+};
+
+/// Says why the gate closed: the fault, and what had been lost just before, where that explains it.
+class FaultWatch {
+ public:
+  void see(const RunSample& now, Verdict& verdict) {
+    ticks_.see(now.time, now.lost_ticks);
+    readings_.see(now.time, now.unread_readings - unread_.value_or(now.unread_readings));
+    unread_ = now.unread_readings;
+    if (verdict.fault.empty() && now.gate.fault != GateFault::none) {
+      verdict.fault = description_of(now.gate.fault) + cause(now);
+    }
+  }
+
+ private:
+  /// Ticks that were missed explain readings that nobody saw.
+  std::string cause(const RunSample& now) const {
+    if (now.gate.fault > GateFault::drives_stale) return "";  // not of what comes in
+    const int ticks = ticks_.recent(now.time), readings = readings_.recent(now.time);
+    if (ticks > 0)
+      return fmt::format("; {} {} missed just before", ticks, ticks == 1 ? "tick was" : "ticks were");
+    if (readings == 0) return "";
+    return fmt::format("; {} of the joints {} lost just before",
+                       readings == 1 ? "a reading" : fmt::format("{} readings", readings),
+                       readings == 1 ? "was" : "were");
+  }
+
+  LossWatch ticks_, readings_;
+  std::optional<int> unread_;
+};
+
 void expect_contact(const Verdict& verdict, const Expectations& expected,
                     std::vector<std::string>& failures) {
   if (!expected.contact) return;
   if (*expected.contact == "none") {
-    if (!verdict.contacts.empty()) failures.push_back("there was a contact, though none was expected");
+    const bool is_touched = std::any_of(verdict.contacts.begin(), verdict.contacts.end(),
+                                        [](const ContactVerdict& contact) { return !contact.is_push; });
+    if (is_touched) failures.push_back("there was a contact, though none was expected");
     return;
   }
   if (verdict.witness == Witness::none) return;
@@ -182,11 +124,17 @@ void expect_contact(const Verdict& verdict, const Expectations& expected,
   }
 }
 
+std::string name_of(const ContactVerdict& contact) {
+  return contact.body.empty() ? "the pylon" : contact.body;
+}
+
 void judge_contacts(const Verdict& verdict, const Expectations& expected,
                     std::vector<std::string>& failures) {
   for (const ContactVerdict& contact : verdict.contacts) {
-    const std::string touched = contact.body.empty() ? "the pylon" : contact.body;
+    const std::string touched = name_of(contact);
+    const bool is_load = contact.is_push && expected.contact == "none";
     if (!contact.detected) {
+      if (is_load) continue;
       failures.push_back("the contact with " + touched + " was not detected");
     } else if (expected.detection_time && *contact.detected - contact.onset > *expected.detection_time) {
       failures.push_back(fmt::format("the contact with {} was detected after {:.1f} ms, later than {:.1f} ms",
@@ -203,6 +151,13 @@ void judge_contacts(const Verdict& verdict, const Expectations& expected,
   }
 }
 
+void remark_contacts(const Verdict& verdict, std::vector<std::string>& remarks) {
+  for (const ContactVerdict& contact : verdict.contacts) {
+    if (!contact.removed)
+      remarks.push_back("the contact with " + name_of(contact) + " was not over at the end");
+  }
+}
+
 void expect_at_most(const char* what, double value, std::optional<double> bound, const char* unit,
                     double scale, std::vector<std::string>& failures) {
   if (!bound || value <= *bound) return;
@@ -211,12 +166,14 @@ void expect_at_most(const char* what, double value, std::optional<double> bound,
 }
 
 /// Measures all that a run shows, in one pass over its samples.
-Verdict measure(const Recording& recording, const ForceLimits& limits, std::vector<std::string>& failures) {
-  const RecordedRun run(recording);
+Verdict measure(const Recording& recording, const ConfigurationSpace& space, const ForceLimits& limits,
+                std::vector<std::string>& failures) {
+  const RecordedRun run(recording, space);
   Verdict verdict;
   verdict.witness = run.witness();
   ContactWatch contacts(limits);
   DetectionWatch detections;
+  FaultWatch faults;
   bool was_touched = false, gate_opens = false;
   GateStatus gate;
   for (std::size_t k = 0; k < run.size(); ++k) {
@@ -229,7 +186,7 @@ Verdict measure(const Recording& recording, const ForceLimits& limits, std::vect
     if (now.is_true) verdict.loop_closure = std::max(verdict.loop_closure.value_or(0.0), now.loop_closure);
     gate = now.gate;
     gate_opens |= gate.phase == GatePhase::open;
-    if (verdict.fault.empty() && gate.fault != GateFault::none) verdict.fault = description_of(gate.fault);
+    faults.see(now, verdict);
   }
   verdict.contacts = contacts.contacts();
   if (run.size() == 0) return verdict;
@@ -242,11 +199,13 @@ Verdict measure(const Recording& recording, const ForceLimits& limits, std::vect
 
 }  // namespace
 
-Verdict judge(const Recording& recording, const Expectations& expected, const ForceLimits& limits) {
+Verdict judge(const Recording& recording, const ConfigurationSpace& space, const Expectations& expected,
+              const ForceLimits& limits) {
   std::vector<std::string> of_the_gate;
-  Verdict verdict = measure(recording, limits, of_the_gate);
+  Verdict verdict = measure(recording, space, limits, of_the_gate);
   expect_contact(verdict, expected, verdict.failures);
   judge_contacts(verdict, expected, verdict.failures);
+  remark_contacts(verdict, verdict.remarks);
   verdict.failures.insert(verdict.failures.end(), of_the_gate.begin(), of_the_gate.end());
   if (verdict.false_detections > 0) verdict.failures.push_back("a contact was detected where there was none");
   if (!verdict.fault.empty()) verdict.failures.push_back("the torque gate closed: " + verdict.fault);

@@ -7,6 +7,7 @@
 namespace flinch {
 
 struct Recording;
+class ConfigurationSpace;
 
 /// A force limit for contact with a person. These defaults are the values that [SafePR] quotes for the hand
 /// from ISO/TS 15066; whoever makes a claim takes them from the standard.
@@ -18,7 +19,8 @@ struct ForceLimits {
 
 /// What a run is expected to show; what is not given is not judged.
 struct Expectations {
-  std::optional<std::string> contact;           ///< the body that is touched, or "none"
+  /// The body that is touched, or "none": then pushes are loads that the robot shall bear without a reaction.
+  std::optional<std::string> contact;
   std::optional<double> detection_time;         ///< longest time from contact to detection [s]
   std::optional<double> observer_error;         ///< largest force error of the estimate without contact [N]
   std::optional<double> observer_error_moment;  ///< the same for the moment [Nm]
@@ -26,15 +28,16 @@ struct Expectations {
   double loop_closure = 1e-9;                   ///< [m]
 };
 
-/// One contact: from the first force above `contact_force` to the last, where interruptions shorter than
-/// `same_contact` do not count.
+/// One contact: from the first force above `contact_force`, or push with a moment above `contact_moment`, to
+/// the last, where interruptions shorter than `same_contact` do not count.
 struct ContactVerdict {
-  std::string body;    ///< "platform", "leg1_link2"; "leg1_clamping" where both links of a leg are touched;
-                       ///< "" where nobody saw
-  double onset = 0.0;  ///< t_c, when the force rose above `contact_force`, between samples [s]
+  std::string body;      ///< "platform", "leg1_link2"; "leg1_clamping" where both links of a leg are touched;
+                         ///< "" where nobody saw
+  bool is_push = false;  ///< something pushed the platform without touching it, as a scenario may ask for
+  double onset = 0.0;    ///< t_c, when the force rose above `contact_force`, between samples [s]
   std::optional<double> detected;       ///< t_det, when the estimate reached the reaction threshold [s]
   std::optional<double> removed;        ///< t_rem; none: still touching at the end [s]
-  double speed = 0.0;                   ///< of the platform, the largest during the contact [m/s]
+  double speed = 0.0;                   ///< of the platform at the onset [m/s]
   double peak_force = 0.0;              ///< of one touching body [N]
   double peak_time = 0.0;               ///< [s]
   std::optional<double> lasting_force;  ///< the largest after the transient duration, if it lasts so long [N]
@@ -72,11 +75,13 @@ struct Verdict {
   double simulated = 0.0;                  ///< [s]
 
   std::vector<std::string> failures;  ///< why the verdict is bad, one sentence each; empty: it is good
+  std::vector<std::string> remarks;   ///< what a reader must know of a good verdict as well, likewise
   bool good() const { return failures.empty(); }
 };
 
-/// Judges what was recorded of a run, by the best witness that the recording holds. Throws SetupError when
-/// signals are missing.
-Verdict judge(const Recording& recording, const Expectations& expected, const ForceLimits& limits);
+/// Judges what was recorded of a robot with this space of configurations, by the best witness that the
+/// recording holds. Throws SetupError when signals are missing.
+Verdict judge(const Recording& recording, const ConfigurationSpace& space, const Expectations& expected,
+              const ForceLimits& limits);
 
 }  // namespace flinch

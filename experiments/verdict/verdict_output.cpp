@@ -22,6 +22,7 @@ std::string milliseconds_text(double start, const std::optional<double>& end) {
 
 Json contact_json(const ContactVerdict& contact) {
   return {{"body", contact.body.empty() ? Json(nullptr) : Json(contact.body)},
+          {"pushed", contact.is_push},
           {"detected", contact.detected.has_value()},
           {"detection_ms", milliseconds(contact.onset, contact.detected)},
           {"removal_ms", milliseconds(contact.onset, contact.removed)},
@@ -34,10 +35,14 @@ Json contact_json(const ContactVerdict& contact) {
           {"speed_m_per_s", contact.speed}};
 }
 
+std::string told_body(const ContactVerdict& contact) {
+  if (contact.body.empty()) return "not measured";
+  return contact.is_push ? contact.body + ", push" : contact.body;
+}
+
 std::string contact_line(const ContactVerdict& contact) {
-  return fmt::format("{:<15} {:>8.3f} {:>6.2f} {:>10} {:>10} {:>8.0f} {:>8.0f}  {}\n",
-                     contact.body.empty() ? "not measured" : contact.body, contact.onset, contact.speed,
-                     milliseconds_text(contact.onset, contact.detected),
+  return fmt::format("{:<15} {:>8.3f} {:>6.2f} {:>10} {:>10} {:>8.0f} {:>8.0f}  {}\n", told_body(contact),
+                     contact.onset, contact.speed, milliseconds_text(contact.onset, contact.detected),
                      milliseconds_text(contact.onset, contact.removed), contact.peak_force, contact.limit,
                      contact.within_limit ? "yes" : "NO");
 }
@@ -79,8 +84,10 @@ std::string verdict_table(const Verdict& verdict, const RunFacts& facts) {
   text += fmt::format("{:<18} {:.3f} s in {:.2f} s, seed {}\n\n",
                       verdict.witness == Witness::truth ? "simulated" : "ran", verdict.simulated, facts.wall,
                       facts.seed);
-  text += verdict.good() ? "verdict: good\n" : "verdict: bad\n";
+  text += verdict.good() ? "verdict: good" : "verdict: bad";
+  text += verdict.good() && !verdict.remarks.empty() ? ", but\n" : "\n";
   for (const std::string& failure : verdict.failures) text += "  - " + failure + "\n";
+  for (const std::string& remark : verdict.remarks) text += "  - " + remark + "\n";
   return text;
 }
 
@@ -100,7 +107,8 @@ std::string verdict_json(const Verdict& verdict, const RunFacts& facts) {
                      {"wall_s", facts.wall},
                      {"seed", facts.seed},
                      {"fault", verdict.fault},
-                     {"failures", verdict.failures}};
+                     {"failures", verdict.failures},
+                     {"remarks", verdict.remarks}};
   return json.dump();
 }
 

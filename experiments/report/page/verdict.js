@@ -10,20 +10,32 @@ function showHeadline() {
   byId("note").hidden = !report.note;
   byId("summary").textContent = summary();
   const mark = byId("verdict-mark");
-  mark.textContent = report.good ? "✓ Passed" : "✗ Not passed";
+  const passed = report.remarks.length === 0 ? "✓ Passed" : "✓ Passed, with remarks";
+  mark.textContent = report.good ? passed : "✗ Not passed";
   mark.classList.add(report.good ? "good" : "bad");
+  for (const list of ["reasons", "remarks"]) {
+    byId(list).hidden = report[list].length === 0;
+    byId(list).replaceChildren(...report[list].map((text) => element("li", {}, `${capitalised(text)}.`)));
+  }
 }
 
 /** The run in plain sentences. */
 function summary() {
+  const stop = report.fault ? ` The robot was stopped: ${report.fault}.` : "";
   const contact = worstContact();
-  if (!contact) return "Nothing was touched.";
+  if (!contact) return (withoutContact() + stop).trim();
   const others = report.contacts.length - 1;
   const more = others === 0 ? "" : ` The table tells of ${others} more contact${others > 1 ? "s" : ""}.`;
-  return [touched(contact), noticed(contact), pressed(contact)].join(" ") + more;
+  return [touched(contact), noticed(contact), pressed(contact)].join(" ") + more + stop;
+}
+
+function withoutContact() {
+  if (!report.contacts_known) return "No instrument saw what touched the robot.";
+  return report.fault ? "" : "Nothing was touched.";
 }
 
 function touched(contact) {
+  if (contact.object === "push") return `The ${contact.body} was pushed.`;
   const how = contact.body === "platform" ? " at" : ", the platform moving at";
   const speed = contact.speed === null ? "" : `${how} ${fixed(contact.speed, 2)} m/s`;
   return `The ${contact.body} ran into the ${contact.object || "obstacle"}${speed}.`;

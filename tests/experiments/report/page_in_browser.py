@@ -55,9 +55,14 @@ def stands_alone(page):
 
 def tells_the_verdict(page):
     page.expect(page.value("document.title.length > 0 && document.documentElement.lang === 'en'"), "no title or language")
-    page.expect(page.value("byId('verdict-mark').textContent") in ("✓ Passed", "✗ Not passed"), "no verdict")
+    page.expect(page.value("byId('verdict-mark').textContent") in ("✓ Passed", "✓ Passed, with remarks", "✗ Not passed"), "no verdict")
     page.expect(page.value("byId('verdict-mark').classList.contains('good') === report.good"), "the verdict is not the report's")
-    for table, entries in (("#contacts tbody tr", "contacts"), ("#measure-table tbody tr", "measures"),
+    plain = page.value("byId('verdict-mark').textContent === '✓ Passed'")
+    page.expect(not plain or page.value("report.remarks.length === 0"), "remarks, but a plain 'passed'")
+    stopped = page.value("report.fault !== ''")
+    page.expect(not stopped or page.value("byId('summary').textContent.includes(report.fault)"), "the fault is not told")
+    page.expect(page.value("byId('reasons').hidden === (report.reasons.length === 0)"), "reasons are hidden, or none shown")
+    for table, entries in (("#reasons li", "reasons"), ("#remarks li", "remarks"), ("#contacts tbody tr", "contacts"), ("#measure-table tbody tr", "measures"),
                            ("#parameters tbody tr", "parameters"), ("#provenance div", "provenance")):
         rows = page.value(f"document.querySelectorAll({table!r}).length")
         page.expect(rows == page.value(f"report.{entries}.length"), f"{rows} rows for the {entries} of the report")

@@ -155,6 +155,21 @@ TEST(ReportPage, WorksInChromium) {
   std::filesystem::remove(path);
 }
 
+/// As a run that a fault has stopped before anything was touched.
+TEST(ReportPage, TellsInChromiumWhyARunIsNotGood) {
+  Report report = small_report();
+  report.good = false;
+  report.fault = "no rates of the drives; 2 ticks were missed just before";
+  report.reasons = {"nothing was touched, though a contact with platform was expected",
+                    "the torque gate closed: " + report.fault};
+  report.remarks = {"the contact with platform was not over at the end"};
+  EXPECT_EQ(json::parse(report_json(report))["reasons"], report.reasons);
+  const std::filesystem::path path = page_file("failed");
+  write_report_page(report, path);
+  expect_works_in_chromium(path);
+  std::filesystem::remove(path);
+}
+
 TEST(ReportPage, WorksInChromiumWithTheLeastOfData) {
   const std::filesystem::path path = page_file("least");
   write_report_page(small_report(), path);

@@ -70,7 +70,12 @@ TEST_P(ClosedLoop, GoesThroughWhatItIsMeantToShow) {
   const bool touches = scenario.expected.contact != "none";
   EXPECT_TRUE(reached(ReactionMode::nominal));
   EXPECT_EQ(reached(ReactionMode::react), touches);
-  EXPECT_EQ(judge(recording, scenario.expected, scenario.force_limits).contacts.empty(), !touches);
+  const Verdict verdict =
+      judge(recording, scenario.robot.robot->space(), scenario.expected, scenario.force_limits);
+  EXPECT_TRUE(verdict.good()) << verdict.failures.front();
+  EXPECT_EQ(std::all_of(verdict.contacts.begin(), verdict.contacts.end(),
+                        [](const ContactVerdict& contact) { return contact.is_push; }),
+            !touches);
 }
 
 TEST_P(ClosedLoop, KeepsItsLegsTogether) {

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <optional>
+
 #include "experiments/report/experiment_report.h"
 #include "experiments/report/report_page.h"
 #include "experiments/simulated/experiment.h"
@@ -15,7 +18,9 @@ namespace {
 Report report_of(const std::string& scenario_file) {
   const SimulatedScenario scenario = read_simulated_scenario(scenario_file);
   const Recording recording = run_experiment(scenario, {{"command_line", "flinch run " + scenario_file}});
-  return experiment_report(scenario, recording, judge(recording, scenario.expected, scenario.force_limits));
+  return experiment_report(
+      scenario, recording,
+      judge(recording, scenario.robot.robot->space(), scenario.expected, scenario.force_limits));
 }
 
 TEST(ExperimentPage, WorksInChromium) {
@@ -32,7 +37,31 @@ TEST(ExperimentPage, FitsEveryScenario) {
     const Report report = report_of(entry.path().string());
     check_report(report);
     EXPECT_TRUE(report.good) << entry.path();
-    EXPECT_EQ(report.contacts.empty(), report.obstacles.empty()) << entry.path();
+    const bool is_touched =
+        std::any_of(report.contacts.begin(), report.contacts.end(),
+                    [](const ReportContact& contact) { return contact.object != "push"; });
+    EXPECT_EQ(is_touched, !report.obstacles.empty()) << entry.path();
+  }
+}
+
+/// When the lane goes from touching to free for the last time before `end` of the run; none: it never does.
+std::optional<double> end_of_touching(const Report& report, const ReportLane& lane) {
+  std::optional<double> end;
+  for (std::size_t k = 1; k < lane.state.size(); ++k) {
+    if (lane.state[k - 1] == 1 && lane.state[k] == 0)
+      end = report.start + static_cast<double>(k) * report.period;
+  }
+  return end;
+}
+
+TEST(ExperimentPage, ShowsTheContactsForAsLongAsItSaysThatTheyLasted) {
+  for (const std::string name : {"platform_collision", "first_link_collision", "second_link_collision"}) {
+    const Report report = report_of(FLINCH_SOURCE_DIR "/apps/scenarios/" + name + ".yaml");
+    ASSERT_FALSE(report.contacts.empty()) << name;
+    ASSERT_EQ(report.lanes.front().name, "contact");
+    const std::optional<double> end = end_of_touching(report, report.lanes.front());
+    ASSERT_TRUE(end && report.contacts.back().removed) << name;
+    EXPECT_NEAR(*end, *report.contacts.back().removed, 1e-9) << name;
   }
 }
 

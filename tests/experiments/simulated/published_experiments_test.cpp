@@ -23,7 +23,8 @@ SimulatedScenario scenario_called(const std::string& name, std::uint64_t seed = 
 }
 
 Verdict verdict_of(const SimulatedScenario& scenario) {
-  return judge(run_experiment(scenario), scenario.expected, scenario.force_limits);
+  return judge(run_experiment(scenario), scenario.robot.robot->space(), scenario.expected,
+               scenario.force_limits);
 }
 
 // ---------------------------------------------------------------- [SafePR] Table IV

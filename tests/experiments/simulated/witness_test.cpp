@@ -23,7 +23,9 @@ struct SimulatedRun {
   void forget(const std::string& path) {
     std::erase_if(recording.signals, [&path](const Signal& signal) { return signal.path == path; });
   }
-  Verdict judged() const { return judge(recording, scenario.expected, scenario.force_limits); }
+  Verdict judged() const {
+    return judge(recording, scenario.robot.robot->space(), scenario.expected, scenario.force_limits);
+  }
 };
 
 TEST(Witness, IsTheForceTorqueSensorWhereNobodyKnowsTheTruth) {

@@ -3,9 +3,11 @@
 #include <string>
 #include <vector>
 
+#include "diagrams/link_status.h"
 #include "plant/contact_truth.h"
 #include "plant/plant_truth.h"
 #include "systems/framework/recording.h"
+#include "systems/framework/tick_timing.h"
 #include "systems/robot/body_id.h"
 #include "systems/signals/contact_detection.h"
 #include "systems/signals/gate_status.h"
@@ -24,6 +26,8 @@ struct Moment {
   ReactionState reaction;
   PlatformReference reference;
   GateStatus gate;
+  TickTiming timing;
+  LinkStatus joints_link;
 };
 
 /// A recording made up tick by tick: the robot rests where it shall, nothing touches it and nothing is
@@ -40,8 +44,14 @@ class SyntheticRun {
     for (int k = first; k <= last; ++k) {
       at(k).contact.strongest.body = body.index();
       at(k).contact.strongest.force_in_base = {force, 0.0};
-      at(k).truth.wrench_in_base[0] = force;
+      at(k).truth.wrench_in_base[0] = at(k).contact.wrench_in_base[0] = force;
     }
+    return *this;
+  }
+
+  /// A wrench acts on the platform without touching it, from the first tick to the last.
+  SyntheticRun& push(int first, int last, const Eigen::Vector3d& wrench) {
+    for (int k = first; k <= last; ++k) at(k).truth.wrench_in_base = at(k).contact.wrench_in_base + wrench;
     return *this;
   }
 
@@ -60,10 +70,15 @@ class SyntheticRun {
     for (std::size_t k = 0; k < moments_.size(); ++k) {
       recording.time_ns.push_back(1'000'000 * static_cast<std::int64_t>(k));
     }
-    recording.signals = {signal("truth", &Moment::truth),       signal("contact", &Moment::contact),
-                         signal("wrench", &Moment::estimate),   signal("detection", &Moment::detection),
-                         signal("reaction", &Moment::reaction), signal("reference", &Moment::reference),
-                         signal("gate", &Moment::gate)};
+    recording.signals = {signal("truth", &Moment::truth),
+                         signal("contact", &Moment::contact),
+                         signal("wrench", &Moment::estimate),
+                         signal("detection", &Moment::detection),
+                         signal("reaction", &Moment::reaction),
+                         signal("reference", &Moment::reference),
+                         signal("gate", &Moment::gate),
+                         signal("tick_timing", &Moment::timing),
+                         signal("joints_link", &Moment::joints_link)};
     return recording;
   }
 
@@ -72,7 +87,8 @@ class SyntheticRun {
     const PlatformVector zero = PlatformVector::Zero(3);
     Moment moment;
     moment.truth.valid = moment.contact.valid = moment.detection.valid = true;
-    moment.truth.pose = moment.truth.velocity = moment.truth.wrench_in_base = zero;
+    moment.truth.pose = moment.truth.velocity = zero;
+    moment.truth.wrench_in_base = moment.contact.wrench_in_base = zero;
     moment.estimate.valid = moment.reference.valid = true;
     moment.estimate.wrench_in_base = moment.reference.pose = zero;
     moment.reaction.mode = ReactionMode::nominal;

@@ -35,8 +35,10 @@ TEST(VerdictTable, TellsEveryContactAndWhyTheVerdictIsBad) {
   EXPECT_THAT(verdict_table(verdict, {.wall = 0.5, .seed = 7}),
               ::testing::AllOf(HasSubstr("12.3"), HasSubstr("never"), HasSubstr("verdict: good\n"),
                                HasSubstr("1.200 s in 0.50 s, seed 7")));
+  verdict.remarks.push_back("it was not over");
+  EXPECT_THAT(verdict_table(verdict, {}), HasSubstr("verdict: good, but\n  - it was not over\n"));
   verdict.failures.push_back("it fell over");
-  EXPECT_THAT(verdict_table(verdict, {}), HasSubstr("verdict: bad\n  - it fell over\n"));
+  EXPECT_THAT(verdict_table(verdict, {}), HasSubstr("verdict: bad\n  - it fell over\n  - it was not over\n"));
 }
 
 TEST(VerdictTable, SaysNothingOfContactsThatNobodyCouldSee) {

@@ -1,0 +1,92 @@
+#include "experiments/verdict/contact_watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "systems/robot/body_id.h"
+
+namespace flinch {
+
+void ContactWatch::see(const RunSample& now, double period) {
+  const bool touches = now.load() > 1.0;
+  if (touches && !(is_open_ && now.time - last_ < Verdict::same_contact)) begin(now);
+  if (is_open_) {
+    if (pending_clamping_.empty() && now.clamping) {
+      pending_clamping_ = "leg" + std::to_string(BodyId::from_index(now.body).leg() + 1) + "_clamping";
+    }
+    if (touches) extend(now, period);
+    // The latched level would not do: of a second contact it knows nothing.
+    const bool noticed = now.detection.present_level != ContactLevel::none;
+    if (noticed && !contacts_.back().detected && now.time < last_ + Verdict::same_contact) {
+      contacts_.back().detected = now.time;
+    }
+  }
+  before_ = now;
+}
+
+std::vector<ContactVerdict> ContactWatch::contacts() const {
+  std::vector<ContactVerdict> judged = contacts_;
+  if (is_open_ && before_->time - last_ < Verdict::same_contact) judged.back().removed.reset();
+  for (ContactVerdict& contact : judged) limit_force(contact);
+  return judged;
+}
+
+void ContactWatch::begin(const RunSample& now) {
+  ContactVerdict contact;
+  contact.onset = now.time;
+  contact.speed = now.speed;
+  if (before_ && !std::isnan(before_->load())) {
+    const double share = onset_share(now);
+    contact.onset = before_->time + share * (now.time - before_->time);
+    contact.speed = before_->speed + share * (now.speed - before_->speed);
+  }
+  contact.peak_force = -1.0;
+  contacts_.push_back(contact);
+  pending_clamping_.clear();
+  clamps_ = false;
+  is_open_ = true;
+}
+
+/// Of the time between the sample before and this one, until the load rose above that of a contact.
+double ContactWatch::onset_share(const RunSample& now) const {
+  return (1.0 - before_->load()) / (now.load() - before_->load());
+}
+
+void ContactWatch::extend(const RunSample& now, double period) {
+  ContactVerdict& contact = contacts_.back();
+  last_ = now.time;
+  contact.removed = now.time + period;
+  if (now.time - contact.onset > limits_.transient_duration) {
+    contact.lasting_force = std::max(contact.lasting_force.value_or(0.0), now.force());
+  }
+  name_body(now, contact);
+  if (now.force() > contact.peak_force) {
+    contact.peak_force = now.force();
+    contact.peak_time = now.time;
+  }
+  pending_clamping_.clear();
+}
+
+/// A leg's clamping where that happens during the contact, else the body with the peak force.
+void ContactWatch::name_body(const RunSample& now, ContactVerdict& contact) {
+  if (!now.is_true || clamps_) return;
+  clamps_ = !pending_clamping_.empty();
+  if (clamps_) {
+    contact.body = pending_clamping_;
+    contact.is_push = false;
+  } else if (now.force() > contact.peak_force) {
+    contact.is_push = now.is_pushed();
+    contact.body = body_name(contact.is_push ? BodyId::platform() : BodyId::from_index(now.body));
+  }
+}
+
+/// The peak counts against the transient limit, what lasts longer against the quasi-static one.
+void ContactWatch::limit_force(ContactVerdict& contact) const {
+  const bool peak_is_good = contact.peak_force <= limits_.transient;
+  const bool rest_is_good = contact.lasting_force.value_or(0.0) <= limits_.quasi_static;
+  contact.within_limit = peak_is_good && rest_is_good;
+  contact.limit = peak_is_good && !rest_is_good ? limits_.quasi_static : limits_.transient;
+  contact.limit_name = peak_is_good && !rest_is_good ? "quasi-static" : "transient";
+}
+
+}  // namespace flinch
