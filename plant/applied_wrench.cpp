@@ -12,11 +12,11 @@ bool lasts(const WrenchRamp& ramp) { return ramp.rise >= 0s && ramp.hold >= 0s &
 
 }  // namespace
 
-Eigen::Vector3d WrenchRamp::at(Time now) const {
+PlatformVector WrenchRamp::at(Time now) const {
   const Time top = start + rise;
   const Time descent = top + hold;
   const Time end = descent + fall;
-  if (now < start || now >= end) return Eigen::Vector3d::Zero();
+  if (now < start || now >= end) return PlatformVector::Zero(peak_in_base.size());
   if (now < top) return to_seconds(now - start) / to_seconds(rise) * peak_in_base;
   if (now < descent) return peak_in_base;
   return to_seconds(end - now) / to_seconds(fall) * peak_in_base;
@@ -26,10 +26,17 @@ AppliedWrenchScript::AppliedWrenchScript(std::vector<WrenchRamp> ramps) : ramps_
   if (!std::all_of(ramps_.begin(), ramps_.end(), lasts)) {
     throw SetupError("an applied wrench has a negative rise, hold or fall; durations must not be negative");
   }
+  const auto differs = [&](const WrenchRamp& ramp) {
+    return ramp.peak_in_base.size() != ramps_.front().peak_in_base.size();
+  };
+  if (std::any_of(ramps_.begin(), ramps_.end(), differs)) {
+    throw SetupError("applied wrenches have different numbers of entries");
+  }
 }
 
 AppliedWrench AppliedWrenchScript::read(Time now) const {
   AppliedWrench sum;
+  if (!ramps_.empty()) sum.wrench_in_base.setZero(ramps_.front().peak_in_base.size());
   for (const WrenchRamp& ramp : ramps_) sum.wrench_in_base += ramp.at(now);
   return sum;
 }

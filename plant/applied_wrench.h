@@ -1,15 +1,20 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
 #include "systems/framework/system.h"
+#include "systems/robot/mechanism.h"
 
 namespace flinch {
 
 /// A wrench that acts on the platform from outside, besides contacts.
 struct AppliedWrench {
-  Eigen::Vector3d wrench_in_base{0.0, 0.0, 0.0};  ///< moment about the platform origin [N, N, Nm]
+  PlatformVector wrench_in_base;  ///< moment about the platform origin; empty: none
+
+  /// The wrench on `robot`; zero where it has not its size.
+  PlatformVector of(const Mechanism& robot) const {
+    return wrench_in_base.size() == robot.dof() ? wrench_in_base : PlatformVector::Zero(robot.dof());
+  }
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
@@ -19,20 +24,20 @@ struct AppliedWrench {
 
 /// A push that grows linearly from zero to a peak, stays there, and falls back to zero.
 struct WrenchRamp {
-  Eigen::Vector3d peak_in_base{0.0, 0.0, 0.0};  ///< [N, N, Nm]
+  PlatformVector peak_in_base{};  ///< Moment about the platform origin.
   Time start{};
   Time rise = 1s;
   Time hold = 0s;
   Time fall = 1s;
 
   /// The wrench at `now`. Ramps of no duration are steps.
-  Eigen::Vector3d at(Time now) const;
+  PlatformVector at(Time now) const;
 };
 
 /// The sum of scripted pushes.
 class AppliedWrenchScript final : public System {
  public:
-  /// Throws SetupError for durations that are negative.
+  /// Throws SetupError for durations that are negative and for wrenches of different sizes.
   explicit AppliedWrenchScript(std::vector<WrenchRamp> ramps);
 
   OutputPort<AppliedWrench> wrench = output<&AppliedWrenchScript::read>("wrench", clock);

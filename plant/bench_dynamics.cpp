@@ -1,9 +1,13 @@
 #include "plant/bench_dynamics.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstddef>
 
+#include "plant/bench_of.h"
+#include "plant/general_bench.h"
+#include "plant/planar_bench.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/robot/planar_rrr.h"
 
 namespace flinch {
 namespace {
@@ -13,88 +17,86 @@ const BenchSettings& checked(const BenchSettings& settings) {
   return settings;
 }
 
+bool all_round(const Obstacles& obstacles) {
+  return std::all_of(obstacles.begin(), obstacles.end(), [](const auto& obstacle) {
+    return std::holds_alternative<Sphere>(obstacle->form().shape);
+  });
+}
+
 }  // namespace
 
+std::unique_ptr<const BenchDynamics> BenchDynamics::make(const BenchSettings& settings) {
+  const auto planar = std::dynamic_pointer_cast<const PlanarRrr>(checked(settings).robot);
+  if (planar && all_round(settings.obstacles)) return std::make_unique<const BenchOf<PlanarBench>>(settings);
+  return std::make_unique<const BenchOf<GeneralBench>>(settings);
+}
+
 BenchDynamics::BenchDynamics(const BenchSettings& settings)
-    : settings_(checked(settings)),
-      robot_(settings.robot),
-      contacts_(robot_, settings.pylon, settings.link_material),
-      pylon_(settings.pylon.value_or(Pylon{})),
-      pylon_moves_(settings.pylon && pylon_.mounting == Pylon::Mounting::compliant) {
-  const Eigen::Vector3d pose = initial_state().head<3>();
-  if (!robot_.motion(pose, Eigen::Vector3d::Zero()).reachable) {
-    throw SetupError("initial_pose is out of the robot's reach");
+    : settings_(settings), dof_(settings.robot->dof()), size_(2 * dof_) {
+  bool timed = false;
+  for (std::size_t i = 0; i < settings_.obstacles.size(); ++i) {
+    const Obstacle& obstacle = *settings_.obstacles[i];
+    obstacle_at_[i] = obstacle.moves_freely() ? size_ : -1;
+    if (obstacle.moves_freely()) size_ += 6;
+    timed = timed || obstacle.follows_time();
   }
+  if (timed) time_at_ = size_++;
 }
 
 BenchState BenchDynamics::initial_state() const {
-  BenchState state = BenchState::Zero(pylon_moves() ? 10 : 6);
-  state.head<3>() = settings_.initial_pose.value_or(settings_.robot.home_pose);
-  state.segment<3>(3) = settings_.initial_velocity;
+  BenchState state = BenchState::Zero(size_);
+  const BenchChart chart = initial_step().chart;
+  state.head(dof_) = chart.xi;
+  if (settings_.initial_velocity) state.segment(dof_, dof_) = *settings_.initial_velocity;
+  for (std::size_t i = 0; i < settings_.obstacles.size(); ++i) {
+    if (obstacle_at_[i] < 0) continue;
+    const ObstacleMotion start = settings_.obstacles[i]->motion(0.0);
+    state.segment<3>(obstacle_at_[i]) = start.displacement;
+    state.segment<3>(obstacle_at_[i] + 3) = start.velocity;
+  }
   return state;
 }
 
-PylonMotion BenchDynamics::pylon_motion(const BenchState& state) const noexcept {
-  if (!pylon_moves()) return {pylon_.position_in_base, Eigen::Vector2d::Zero()};
-  return {pylon_.position_in_base + state.segment<2>(6), state.segment<2>(8)};
+BenchStep BenchDynamics::initial_step() const {
+  BenchStep step;
+  const Configuration pose = settings_.initial_pose.value_or(robot().home_pose());
+  step.chart = {pose, robot().difference(pose, robot().space().origin())};
+  step.candidates = ContactCandidates::all();
+  return step;
 }
 
-Eigen::Vector3d BenchDynamics::brake_torque(const PlanarMotion& motion) const noexcept {
-  const auto torque = [&](std::size_t leg) {
-    return -settings_.brake.torque * std::tanh(motion.legs[leg].qa_rate / settings_.brake.velocity);
-  };
-  return {torque(0), torque(1), torque(2)};
+ObstacleMotion BenchDynamics::motion(std::size_t obstacle, const BenchState& state) const noexcept {
+  const int at = obstacle_at_[obstacle];
+  if (at < 0) return settings_.obstacles[obstacle]->motion(time(state));
+  return {state.segment<3>(at), state.segment<3>(at + 3)};
 }
 
-// Expects out.applied_wrench; fills all else.
-void BenchDynamics::solve(const BenchState& state, const DriveAction& drives, ContactCandidates candidates,
-                          BenchSnapshot& out) const noexcept {
-  out.motion = robot_.motion(state.head<3>(), state.segment<3>(3));
-  out.pylon = pylon_motion(state);
-  if (!out.motion.reachable) return;
-  contacts_.forces(out.motion, out.pylon, candidates, out.contacts);
-
-  Eigen::Vector3d torque = drives.torque;
-  if (drives.braked) torque += brake_torque(out.motion);
-  out.acceleration = robot_.acceleration(
-      out.motion, torque, out.applied_wrench + out.contacts.pylon_wrench + out.contacts.self_wrench);
-
-  out.force_on_pylon_mount = out.contacts.force_on_pylon;
-  if (!pylon_moves()) return;
-  out.force_on_pylon_mount =
-      pylon_.mount_stiffness * state.segment<2>(6) + pylon_.mount_damping * state.segment<2>(8);
-  out.pylon_acceleration = (out.contacts.force_on_pylon - out.force_on_pylon_mount) / pylon_.mass;
-}
-
-void BenchDynamics::rates(const BenchState& state, const DriveAction& drives,
-                          const Eigen::Vector3d& applied_wrench, ContactCandidates candidates,
-                          BenchState& rates) const noexcept {
-  BenchSnapshot now;
-  now.applied_wrench = applied_wrench;
-  solve(state, drives, candidates, now);
-  rates.resize(state.size());
-  if (!now.motion.reachable) {
-    rates.setZero();
-    return;
+void BenchDynamics::place_obstacles(const BenchState& state, PlacedObstacles& out) const noexcept {
+  for (std::size_t i = 0; i < settings_.obstacles.size(); ++i) {
+    const ObstacleMotion now = motion(i, state);
+    out[i] = {settings_.obstacles[i]->form().position_in_base + now.displacement, now.velocity};
   }
-  rates.head<3>() = state.segment<3>(3);
-  rates.segment<3>(3) = now.acceleration;
-  if (!pylon_moves()) return;
-  rates.segment<2>(6) = state.segment<2>(8);
-  rates.segment<2>(8) = now.pylon_acceleration;
 }
 
-void BenchDynamics::snapshot(const BenchState& state, const DriveAction& drives,
-                             const Eigen::Vector3d& applied_wrench, BenchSnapshot& out) const noexcept {
-  out.applied_wrench = applied_wrench;
-  solve(state, drives, ContactCandidates::all(), out);
-  if (out.motion.reachable) contacts_.pylon_gaps(out.motion, out.pylon, out.gaps);
+void BenchDynamics::add_obstacle_rates(const BenchState& state, const ContactForces& contacts,
+                                       BenchState& rates) const noexcept {
+  for (std::size_t i = 0; i < settings_.obstacles.size(); ++i) {
+    const int at = obstacle_at_[i];
+    if (at < 0) continue;
+    const ObstacleMotion now = motion(i, state);
+    rates.segment<3>(at) = now.velocity;
+    rates.segment<3>(at + 3) =
+        settings_.obstacles[i]->acceleration(time(state), now, contacts.on_obstacle[i]);
+  }
+  if (time_at_ >= 0) rates[time_at_] = 1.0;
 }
 
-ContactCandidates BenchDynamics::candidates(const BenchState& state, double duration) const noexcept {
-  const PlanarMotion motion = robot_.motion(state.head<3>(), state.segment<3>(3));
-  if (!motion.reachable) return ContactCandidates::all();
-  return contacts_.candidates(motion, pylon_motion(state), duration);
+double BenchDynamics::brake_effort(int drive, double rate) const noexcept {
+  const BrakeFriction& brake = settings_.brake;
+  if (robot().drive_kind(drive) == DriveKind::prismatic) {
+    return -brake.force * std::tanh(rate / brake.sliding_velocity);
+  }
+  return -brake.torque * std::tanh(rate / brake.velocity);
 }
 
 }  // namespace flinch

@@ -1,69 +1,114 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <memory>
+#include <vector>
 
 #include "plant/bench_settings.h"
-#include "plant/contact_model.h"
+#include "plant/contact_candidates.h"
+#include "plant/contact_forces.h"
 #include "plant/drive_action.h"
-#include "plant/pylon.h"
-#include "systems/robot/planar_rrr.h"
+#include "systems/robot/kinematics.h"
 
 namespace flinch {
 
-/// The continuous state: pose, velocity and, where the pylon's mounting is compliant, the pylon's
-/// displacement [m] and velocity [m/s]: 6 or 10 numbers.
-using BenchState = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 10, 1>;
+/// The continuous state: the platform's coordinates xi in a chart and its velocity v; displacement and
+/// velocity of each obstacle that moves freely; the time [s], where an obstacle follows it.
+using BenchState = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * max_dof + 6 * max_obstacles + 1, 1>;
+
+/// A chart of the configurations around that of a tick: the configuration is `pose` (+) (xi - `xi`). So xi
+/// runs on from tick to tick without a jump, and the chart is always that around the present pose.
+struct BenchChart {
+  Configuration pose;
+  PlatformVector xi;
+};
+
+/// A point of a body that a hand holds.
+struct HeldPoint {
+  int body = -1;  ///< -1: none
+  Eigen::Vector3d point_in_body{0.0, 0.0, 0.0};
+  Eigen::Vector3d offset{0.0, 0.0, 0.0};  ///< Of that point from the hand's position when it was seized.
+};
+
+/// What stays the same from one tick to the next.
+struct BenchStep {
+  BenchChart chart;
+  ContactCandidates candidates;
+  std::array<HeldPoint, max_obstacles> held;
+};
 
 /// Everything about the bench at one instant. Wrenches and forces in the base frame.
 struct BenchSnapshot {
-  PlanarMotion motion;  ///< Unless it is reachable nothing else means anything.
-  PylonMotion pylon;
+  bool reachable =
+      false;  ///< Unless all legs reach the pose, nothing below pose and velocity means anything.
+  Configuration pose;
+  PlatformVector velocity;
+  JointAngles joints;
+  double loop_closure_error = 0.0;  ///< As in PlantTruth [m].
+  double kinetic_energy = 0.0;      ///< [J]
+  PlatformVector acceleration;
+  PlatformVector applied_wrench;
   ContactForces contacts;
-  PylonGaps gaps;
-  Eigen::Vector3d applied_wrench{0.0, 0.0, 0.0};   ///< [N, N, Nm]
-  Eigen::Vector3d acceleration{0.0, 0.0, 0.0};     ///< [m/s^2, m/s^2, rad/s^2]
-  Eigen::Vector2d pylon_acceleration{0.0, 0.0};    ///< [m/s^2]
-  Eigen::Vector2d force_on_pylon_mount{0.0, 0.0};  ///< What the pylon does to the base below it [N].
+  ContactCandidates candidates;  ///< Those that can touch until the next tick.
+  NearPairs near_pairs;
+  int obstacle_count = 0;
+  PlacedObstacles obstacles;                                  ///< The first `obstacle_count` are used.
+  std::array<Eigen::Vector3d, max_obstacles> force_on_mount;  ///< What each obstacle does to what carries it.
 };
 
 /// The bench as an ordinary differential equation in platform coordinates:
-///   M_x ddx + C_x dx + F_fr = J_qa,x^T tau_a + F_contact + F_applied.  [SafePR] (4)
+///   M v' + C v + g + F_fr = A^T tau_a + F_contact + F_applied.  [SafePR] (4)
 /// It is regular at type-II singularities. Where a leg would have to stretch beyond its reach the bench
-/// stands still and its motion is not reachable. Immutable: one object serves many threads.
+/// stands still and its motion is not reachable. Robot and obstacles are one equation, since their contact
+/// forces depend on both. Immutable: one object serves many threads.
 class BenchDynamics {
  public:
-  /// Throws SetupError with all problems.
-  explicit BenchDynamics(const BenchSettings& settings);
+  /// Of any mechanism; a planar 3-RRR among round obstacles is computed in closed form. Throws SetupError
+  /// with all problems.
+  static std::unique_ptr<const BenchDynamics> make(const BenchSettings& settings);
+  virtual ~BenchDynamics() = default;
 
-  const PlanarRrr& robot() const { return robot_; }
-  const ContactModel& contacts() const { return contacts_; }
-  const BenchSettings& settings() const { return settings_; }
+  const BenchSettings& settings() const noexcept { return settings_; }
+  const Mechanism& robot() const noexcept { return *settings_.robot; }
+  int obstacle_count() const noexcept { return static_cast<int>(settings_.obstacles.size()); }
 
   BenchState initial_state() const;
+  /// The chart around the start, all pairs, nothing held.
+  BenchStep initial_step() const;
 
-  /// The time derivative of `state`, with the forces of the contacts in `candidates`.
-  void rates(const BenchState& state, const DriveAction& drives, const Eigen::Vector3d& applied_wrench,
-             ContactCandidates candidates, BenchState& rates) const noexcept;
+  /// The time derivative of `state`, with the forces of the contacts in `step`.
+  virtual void rates(const BenchState& state, const DriveAction& drives, const PlatformVector& applied_wrench,
+                     const BenchStep& step, BenchState& rates) const noexcept = 0;
 
-  /// The same, all that lies behind it, and all contacts.
-  void snapshot(const BenchState& state, const DriveAction& drives, const Eigen::Vector3d& applied_wrench,
-                BenchSnapshot& out) const noexcept;
+  /// The same with all contacts, all that lies behind it, and what can touch within `duration` [s] from now.
+  virtual void snapshot(const BenchState& state, const DriveAction& drives,
+                        const PlatformVector& applied_wrench, const BenchStep& step, double duration,
+                        BenchSnapshot& out) const noexcept = 0;
 
-  /// Contacts that are possible within `duration` [s] from `state` on.
-  ContactCandidates candidates(const BenchState& state, double duration) const noexcept;
+  /// The step that begins at `state` and time `t` [s], of which `snapshot` was taken in the step `before`.
+  virtual void next_step(const BenchState& state, double t, const BenchSnapshot& snapshot,
+                         const BenchStep& before, BenchStep& out) const noexcept = 0;
+
+ protected:
+  explicit BenchDynamics(const BenchSettings& settings);
+
+  // Places in the state.
+  int dof() const noexcept { return dof_; }
+  ObstacleMotion motion(std::size_t obstacle, const BenchState& state) const noexcept;
+  double time(const BenchState& state) const noexcept { return time_at_ < 0 ? 0.0 : state[time_at_]; }
+  void place_obstacles(const BenchState& state, PlacedObstacles& out) const noexcept;
+  void add_obstacle_rates(const BenchState& state, const ContactForces& contacts,
+                          BenchState& rates) const noexcept;
+  /// Brake efforts at these drive rates.
+  double brake_effort(int drive, double rate) const noexcept;
 
  private:
-  void solve(const BenchState& state, const DriveAction& drives, ContactCandidates candidates,
-             BenchSnapshot& out) const noexcept;
-  bool pylon_moves() const { return pylon_moves_; }
-  PylonMotion pylon_motion(const BenchState& state) const noexcept;
-  Eigen::Vector3d brake_torque(const PlanarMotion& motion) const noexcept;
-
   BenchSettings settings_;
-  PlanarRrr robot_;
-  ContactModel contacts_;
-  Pylon pylon_;
-  bool pylon_moves_ = false;
+  int dof_;
+  std::array<int, max_obstacles> obstacle_at_{};  ///< -1: it does not move freely
+  int time_at_ = -1;
+  int size_ = 0;
 };
 
 }  // namespace flinch

@@ -1,36 +1,29 @@
 #include "plant/bench_plant.h"
 
+#include <algorithm>
 #include <cstddef>
-#include <tuple>
-#include <utility>
 
 namespace flinch {
 namespace {
 
-TouchTruth truth_of(const Touch& touch) {
-  return {touch.body.index(), touch.point, touch.force_on_robot, touch.depth};
+TouchTruth truth_of(const Touch& touch, int directions) {
+  return {.body = touch.body,
+          .obstacle = touch.obstacle,
+          .held = touch.held,
+          .point_in_base = touch.point.head(directions),
+          .force_in_base = touch.force_on_robot.head(directions),
+          .depth = touch.depth};
 }
 
-double strength(const TouchTruth& touch) { return touch.body < 0 ? -1.0 : touch.force_in_base.norm(); }
-
-// The two strongest contacts, the stronger one first.
-std::pair<TouchTruth, TouchTruth> strongest_two(const ContactForces& contacts) {
-  TouchTruth first;
-  TouchTruth second;
-  for (int i = 0; i < contacts.touch_count; ++i) {
-    TouchTruth touch = truth_of(contacts.touches[static_cast<std::size_t>(i)]);
-    if (strength(touch) > strength(first)) std::swap(touch, first);
-    if (strength(touch) > strength(second)) second = touch;
-  }
-  return {first, second};
-}
-
-bool both_links_of_a_leg_touch(const ContactForces& contacts) {
-  for (int i = 0; i < contacts.touch_count; ++i) {
+// Two bodies of one leg touch one obstacle.
+bool a_leg_clamps(const BenchSnapshot& bench, const Mechanism& robot) {
+  const auto& touches = bench.contacts.touches;
+  const auto leg = [&](const Touch& touch) { return robot.body(BodyId::from_index(touch.body)).leg; };
+  for (int i = 0; i < bench.contacts.touch_count; ++i) {
+    const Touch& a = touches[static_cast<std::size_t>(i)];
     for (int k = 0; k < i; ++k) {
-      const BodyId a = contacts.touches[static_cast<std::size_t>(i)].body;
-      const BodyId b = contacts.touches[static_cast<std::size_t>(k)].body;
-      if (!a.is_platform() && a.leg() == b.leg()) return true;
+      const Touch& b = touches[static_cast<std::size_t>(k)];
+      if (a.obstacle == b.obstacle && a.body != b.body && leg(a) >= 0 && leg(a) == leg(b)) return true;
     }
   }
   return false;
@@ -38,45 +31,44 @@ bool both_links_of_a_leg_touch(const ContactForces& contacts) {
 
 }  // namespace
 
-BenchPlant::BenchPlant(const BenchSettings& settings, Time tick) : dynamics_(settings), tick_(tick) {}
+BenchPlant::BenchPlant(const BenchSettings& settings, Time tick)
+    : dynamics_(BenchDynamics::make(settings)), tick_(tick) {}
 
 // ---------------------------------------------------------------- motion
 
 void BenchPlant::move(const BenchState& motion, const DriveAction& acting, const AppliedWrench& wrench,
-                      const ContactCandidates& candidates, BenchState& rates) const {
-  dynamics_.rates(motion, acting, wrench.wrench_in_base, candidates, rates);
+                      const BenchStep& step, BenchState& rates) const {
+  dynamics_->rates(motion, acting, wrench.of(dynamics_->robot()), step, rates);
 }
 
-ContactCandidates BenchPlant::look_ahead(const BenchState& motion) const {
-  return dynamics_.candidates(motion, to_seconds(tick_));
+void BenchPlant::look(const BenchState& motion, const BenchStep& step, const DriveAction& acting,
+                      const AppliedWrench& wrench, BenchSnapshot& out) const {
+  dynamics_->snapshot(motion, acting, wrench.of(dynamics_->robot()), step, to_seconds(tick_), out);
 }
 
-void BenchPlant::look(const BenchState& motion, const DriveAction& acting, const AppliedWrench& wrench,
-                      BenchSnapshot& out) const {
-  dynamics_.snapshot(motion, acting, wrench.wrench_in_base, out);
+void BenchPlant::look_ahead(Time now, const BenchState& motion, const BenchSnapshot& bench,
+                            const BenchStep& before, BenchStep& after) const {
+  dynamics_->next_step(motion, to_seconds(now), bench, before, after);
 }
 
 // ---------------------------------------------------------------- truth
 
 void BenchPlant::tell_truth(Time now, const BenchSnapshot& bench, const DriveAction& acting,
                             PlantTruth& out) const {
-  const PlanarRrr& robot = dynamics_.robot();
-  const PlanarMotion& motion = bench.motion;
   out = PlantTruth();
   out.acquired = now;
-  out.valid = motion.reachable;
-  out.pose = motion.pose;
-  out.velocity = motion.velocity;
+  out.valid = bench.reachable;
+  out.pose = bench.pose;
+  out.velocity = bench.velocity;
   out.drive_torque = acting.torque;
   if (!out.valid) return;
   out.acceleration = bench.acceleration;
-  out.wrench_in_base = bench.applied_wrench + bench.contacts.pylon_wrench;
-  out.kinetic_energy = robot.kinetic_energy(motion);
-  const JointAngles joints = robot.inverse_kinematics(out.pose, robot.home_working_mode()).joints;
-  out.active = joints.active;
-  out.passive = joints.passive;
-  out.coupling = joints.coupling;
-  out.loop_closure_error = robot.chain_closure_error(joints.active, joints.passive, out.pose);
+  out.wrench_in_base = bench.applied_wrench + bench.contacts.obstacle_wrench;
+  out.kinetic_energy = bench.kinetic_energy;
+  out.active = bench.joints.active;
+  out.passive = bench.joints.passive;
+  out.coupling = bench.joints.coupling;
+  out.loop_closure_error = bench.loop_closure_error;
 }
 
 void BenchPlant::tell_platform(const PlantTruth& robot, PlatformMotion& out) const {
@@ -88,21 +80,26 @@ void BenchPlant::tell_platform(const PlantTruth& robot, PlatformMotion& out) con
 
 void BenchPlant::follow(Time now, const BenchSnapshot& bench, const ContactHistory& before,
                         ContactHistory& after) const {
-  after = bench.motion.reachable ? before.next(now, bench.gaps, bench.contacts) : before;
+  after = bench.reachable ? before.next(now, bench.near_pairs, bench.contacts) : before;
   after.now = now;
 }
 
 void BenchPlant::tell_contact(const BenchSnapshot& bench, const ContactHistory& history,
                               ContactTruth& out) const {
-  const ContactForces& contacts = bench.contacts;
-  out = ContactTruth();
+  const int directions = dynamics_->robot().space_dimension();
+  out.clear(dynamics_->robot().dof(), directions);
   out.acquired = history.now;
-  out.valid = bench.motion.reachable;
+  out.valid = bench.reachable;
   if (!out.valid) return;
+  const ContactForces& contacts = bench.contacts;
   out.in_contact = history.in_contact;
-  out.clamping = both_links_of_a_leg_touch(contacts);
-  std::tie(out.strongest, out.second) = strongest_two(contacts);
-  out.wrench_in_base = contacts.pylon_wrench;
+  out.clamping = a_leg_clamps(bench, dynamics_->robot());
+  for (int i = 0; i < contacts.touch_count; ++i) {
+    out.add(truth_of(contacts.touches[static_cast<std::size_t>(i)], directions));
+  }
+  out.wrench_in_base = contacts.obstacle_wrench;
+  out.pushed = !bench.applied_wrench.isZero(0.0);
+  out.push_in_base = bench.applied_wrench;
   out.contacts = history.contacts;
   out.onset = history.onset;
   out.end = history.end;

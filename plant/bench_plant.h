@@ -11,14 +11,14 @@
 
 namespace flinch {
 
-/// The simulated bench. Its outputs at a tick are the truth at that instant, under the torque that acted
-/// until then.
+/// The simulated bench: robot and obstacles. Its outputs at a tick are the truth at that instant, under the
+/// torque that acted until then.
 class BenchPlant final : public System {
-  BenchDynamics dynamics_;
+  std::shared_ptr<const BenchDynamics> dynamics_;
   Time tick_;
-  State<BenchState> state_ = state<BenchState>("motion", dynamics_.initial_state());
-  /// In the step after this tick.
-  State<ContactCandidates> candidates_ = state<ContactCandidates>("candidates");
+  State<BenchState> state_ = state<BenchState>("motion", dynamics_->initial_state());
+  /// After this tick.
+  State<BenchStep> step_ = state<BenchStep>("step", dynamics_->initial_step());
   /// Until the tick before.
   State<ContactHistory> history_ = state<ContactHistory>("contacts");
 
@@ -30,7 +30,7 @@ class BenchPlant final : public System {
   InputPort<DriveAction> drives = input<DriveAction>("drives");  ///< Must be held between ticks.
   InputPort<AppliedWrench> applied = input<AppliedWrench>("applied");
 
-  OutputPort<BenchSnapshot> snapshot = output<&BenchPlant::look>("snapshot", state_, drives, applied);
+  OutputPort<BenchSnapshot> snapshot = output<&BenchPlant::look>("snapshot", state_, step_, drives, applied);
   OutputPort<PlantTruth> truth = output<&BenchPlant::tell_truth>("truth", clock, snapshot, drives);
   OutputPort<PlatformMotion> platform = output<&BenchPlant::tell_platform>("platform", truth);
 
@@ -41,14 +41,15 @@ class BenchPlant final : public System {
  public:
   OutputPort<ContactTruth> contact = output<&BenchPlant::tell_contact>("contact", snapshot, history_now_);
 
-  const BenchDynamics& dynamics() const { return dynamics_; }
+  const BenchDynamics& dynamics() const { return *dynamics_; }
 
  private:
   void move(const BenchState& motion, const DriveAction& acting, const AppliedWrench& wrench,
-            const ContactCandidates& candidates, BenchState& rates) const;
-  ContactCandidates look_ahead(const BenchState& motion) const;
-  void look(const BenchState& motion, const DriveAction& acting, const AppliedWrench& wrench,
-            BenchSnapshot& out) const;
+            const BenchStep& step, BenchState& rates) const;
+  void look(const BenchState& motion, const BenchStep& step, const DriveAction& acting,
+            const AppliedWrench& wrench, BenchSnapshot& out) const;
+  void look_ahead(Time now, const BenchState& motion, const BenchSnapshot& bench, const BenchStep& before,
+                  BenchStep& after) const;
 
   void tell_truth(Time now, const BenchSnapshot& bench, const DriveAction& acting, PlantTruth& out) const;
   void tell_platform(const PlantTruth& robot, PlatformMotion& out) const;
@@ -57,8 +58,8 @@ class BenchPlant final : public System {
   void tell_contact(const BenchSnapshot& bench, const ContactHistory& history, ContactTruth& out) const;
 
   Update remember_ = keep(history_, history_now_);
-  Update look_ahead_ = update<&BenchPlant::look_ahead>(Every{tick_}, candidates_, state_);
-  Derivative move_ = derivative<&BenchPlant::move>(state_, state_, drives, applied, candidates_);
+  Update look_ahead_ = update<&BenchPlant::look_ahead>(Every{tick_}, step_, clock, state_, snapshot, step_);
+  Derivative move_ = derivative<&BenchPlant::move>(state_, state_, drives, applied, step_);
 };
 
 }  // namespace flinch

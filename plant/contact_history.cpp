@@ -6,8 +6,9 @@
 namespace flinch {
 namespace {
 
-bool any_penetrates(const PylonGaps& gaps) {
-  return std::any_of(gaps.gap.begin(), gaps.gap.end(), [](double gap) { return gap < 0.0; });
+bool any_penetrates(const NearPairs& near) {
+  const auto end = near.pairs.begin() + near.count;
+  return std::any_of(near.pairs.begin(), end, [](const NearPair& pair) { return pair.gap < 0.0; });
 }
 
 double strongest_force(const ContactForces& contacts) {
@@ -18,23 +19,29 @@ double strongest_force(const ContactForces& contacts) {
   return strongest;
 }
 
-// When `body` crosses from one side to the other between two ticks [s after the first].
-double crossing(const PylonGaps& before, const PylonGaps& after, std::size_t body, double duration) {
-  return hermite_crossing(before.gap[body], before.rate[body], after.gap[body], after.rate[body], duration);
+// When a pair that penetrates on one side of a tick, and not on the other, crosses [s after its start]. A
+// pair that was not near on the other side crosses there.
+double crossing(const NearPair* before, const NearPair* after, double duration, double otherwise) {
+  if (before == nullptr || after == nullptr || (before->gap < 0.0) == (after->gap < 0.0)) return otherwise;
+  return hermite_crossing(before->gap, before->rate, after->gap, after->rate, duration);
 }
 
-double first_crossing(const PylonGaps& before, const PylonGaps& after, double duration) {
+double first_crossing(const NearPairs& before, const NearPairs& after, double duration) {
   double first = duration;
-  for (std::size_t body = 0; body < bench_body_count; ++body) {
-    if (after.gap[body] < 0.0) first = std::min(first, crossing(before, after, body, duration));
+  for (int i = 0; i < after.count; ++i) {
+    const NearPair& pair = after.pairs[static_cast<std::size_t>(i)];
+    if (pair.gap >= 0.0) continue;
+    first = std::min(first, crossing(before.find(pair.body, pair.obstacle), &pair, duration, duration));
   }
   return first;
 }
 
-double last_crossing(const PylonGaps& before, const PylonGaps& after, double duration) {
+double last_crossing(const NearPairs& before, const NearPairs& after, double duration) {
   double last = 0.0;
-  for (std::size_t body = 0; body < bench_body_count; ++body) {
-    if (before.gap[body] < 0.0) last = std::max(last, crossing(before, after, body, duration));
+  for (int i = 0; i < before.count; ++i) {
+    const NearPair& pair = before.pairs[static_cast<std::size_t>(i)];
+    if (pair.gap >= 0.0) continue;
+    last = std::max(last, crossing(&pair, after.find(pair.body, pair.obstacle), duration, 0.0));
   }
   return last;
 }
@@ -57,24 +64,24 @@ double hermite_crossing(double g0, double rate0, double g1, double rate1, double
   return 0.5 * (before + after) * duration;
 }
 
-ContactHistory ContactHistory::next(Time time, const PylonGaps& gaps_then,
+ContactHistory ContactHistory::next(Time time, const NearPairs& pairs_then,
                                     const ContactForces& contacts_then) const noexcept {
   const double duration = to_seconds(time - now);
   ContactHistory then = *this;
   then.started = true;
   then.now = time;
-  then.gaps = gaps_then;
-  then.in_contact = any_penetrates(gaps_then);
+  then.pairs = pairs_then;
+  then.in_contact = any_penetrates(pairs_then);
   if (then.in_contact && !in_contact) {
     ++then.contacts;
-    then.onset = started ? now + from_seconds(first_crossing(gaps, gaps_then, duration)) : time;
+    then.onset = started ? now + from_seconds(first_crossing(pairs, pairs_then, duration)) : time;
     then.peak_force = 0.0;
   }
   if (then.in_contact) {
     then.end = time;
     then.peak_force = std::max(then.peak_force, strongest_force(contacts_then));
   } else if (in_contact) {
-    then.end = now + from_seconds(last_crossing(gaps, gaps_then, duration));
+    then.end = now + from_seconds(last_crossing(pairs, pairs_then, duration));
   }
   return then;
 }

@@ -1,14 +1,14 @@
 #pragma once
 
-#include <Eigen/Core>
+#include "systems/robot/vectors.h"
 
 namespace flinch {
 
 /// What the drives do from one tick to the next. The default: no torque, brakes closed.
 struct DriveAction {
-  Eigen::Vector3d torque{0.0, 0.0, 0.0};   ///< Acting on the drives' axes, without the brakes' [Nm].
-  Eigen::Vector3d current{0.0, 0.0, 0.0};  ///< In the motors [A].
-  bool enabled = false;                    ///< A command is obeyed.
+  JointVector torque;    ///< Acting on the drives, without the brakes'; empty: none.
+  JointVector current;   ///< In the motors [A].
+  bool enabled = false;  ///< A command is obeyed.
   bool braked = true;
 
   template <class Self, class Visit>

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plant/setting_problems.h"
+
 namespace flinch {
 namespace {
 
@@ -22,14 +24,27 @@ double bisect(Function f, double low, double high) {
 
 }  // namespace
 
+std::vector<std::string> problems(const ContactMaterial& material, const std::string& owner) {
+  SettingProblems problems(owner);
+  problems.require_positive("stiffness", material.stiffness);
+  problems.require_positive("restitution", material.restitution);
+  problems.require_at_most(1.0, "restitution", material.restitution);
+  problems.require_positive("restitution_speed", material.restitution_speed);
+  problems.require_not_negative("friction", material.friction);
+  problems.require_positive("friction_velocity", material.friction_velocity);
+  return problems.found();
+}
+
 HuntCrossley::HuntCrossley(const ContactMaterial& material)
     : stiffness_(material.stiffness),
       dissipation_(dissipation_for(material.restitution, material.restitution_speed)),
       friction_(material.friction),
       friction_velocity_(material.friction_velocity) {}
 
-double HuntCrossley::friction_force(double normal_force, double speed) const {
-  return friction_ == 0.0 ? 0.0 : -friction_ * normal_force * std::tanh(speed / friction_velocity_);
+Eigen::Vector3d HuntCrossley::friction_force(double normal_force, const Eigen::Vector3d& velocity) const {
+  const double speed = friction_ == 0.0 ? 0.0 : velocity.norm();
+  if (speed == 0.0) return Eigen::Vector3d::Zero();
+  return -friction_ * normal_force * std::tanh(speed / friction_velocity_) / speed * velocity;
 }
 
 double HuntCrossley::dissipation_for(double e, double v) {

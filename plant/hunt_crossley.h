@@ -1,5 +1,9 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
 namespace flinch {
 
 /// How two surfaces push on each other. Whatever touches shares one stiffness: it is that of the pair.
@@ -10,6 +14,9 @@ struct ContactMaterial {
   double friction = 0.0;            ///< Coulomb coefficient mu.
   double friction_velocity = 0.02;  ///< Sliding speed at which tanh smooths Coulomb friction [m/s].
 };
+
+/// All that is wrong with `material`, one sentence each that begins with `owner`.
+std::vector<std::string> problems(const ContactMaterial& material, const std::string& owner);
 
 /// Contact after Hunt and Crossley (1975) with a linear spring:
 ///   f = k d (1 + c d'), never negative,  d: depth of penetration.
@@ -34,9 +41,9 @@ class HuntCrossley {
     return force > 0.0 ? force : 0.0;
   }
 
-  /// Force [N] along a direction in which the surface slides at `speed` [m/s]: against it. Coulomb's law,
-  /// smoothed: -mu f tanh(v / v_s).
-  double friction_force(double normal_force, double speed) const;
+  /// Force [N] on a surface that slides with `velocity` [m/s], which is square to the normal: against it.
+  /// Coulomb's law, smoothed: -mu f tanh(|v| / v_s) v / |v|.
+  Eigen::Vector3d friction_force(double normal_force, const Eigen::Vector3d& velocity) const;
 
   /// c of a material with restitution `e` at the impact speed `v` [m/s].
   static double dissipation_for(double e, double v);

@@ -11,9 +11,10 @@ inline double quantised(double value, double resolution) {
 }
 
 /// The same for every entry.
-inline Eigen::Vector3d quantised(const Eigen::Vector3d& values, double resolution) {
-  return {quantised(values.x(), resolution), quantised(values.y(), resolution),
-          quantised(values.z(), resolution)};
+template <class Vector>
+Vector quantised(Vector values, double resolution) {
+  for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = quantised(values[i], resolution);
+  return values;
 }
 
 }  // namespace flinch

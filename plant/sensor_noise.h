@@ -6,22 +6,25 @@
 
 #include "systems/framework/random.h"
 #include "systems/framework/time.h"
+#include "systems/robot/vectors.h"
 
 namespace flinch {
 
 /// Independent normal numbers, mean 0, standard deviation 1, with the generator that draws the next ones: a
-/// State.
-template <int size>
+/// State. At most `capacity` at a time.
+template <int capacity>
 class NormalNumbers {
  public:
-  using Values = Eigen::Matrix<double, size, 1>;
+  using Values = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, capacity, 1>;
 
-  explicit NormalNumbers(std::uint64_t seed = 0) : generator_(seed) { draw(); }
+  explicit NormalNumbers(int count = capacity, std::uint64_t seed = 0) : generator_(seed), values_(count) {
+    draw();
+  }
 
   const Values& values() const { return values_; }
 
   void draw() {
-    for (int i = 0; i < size; ++i) values_[i] = generator_.normal();
+    for (int i = 0; i < values_.size(); ++i) values_[i] = generator_.normal();
   }
 
  private:
@@ -34,10 +37,10 @@ inline double noise_deviation(double density, Time period) {
   return density * std::sqrt(0.5 / to_seconds(period));
 }
 
-/// Three draws from the normal distribution with mean 0.
-inline Eigen::Vector3d normal_vector(RandomGenerator& generator, double deviation) {
-  Eigen::Vector3d drawn;
-  for (int i = 0; i < 3; ++i) drawn[i] = deviation * generator.normal();
+/// Draws from the normal distribution with mean 0.
+inline JointVector normal_vector(RandomGenerator& generator, int count, double deviation) {
+  JointVector drawn(count);
+  for (int i = 0; i < count; ++i) drawn[i] = deviation * generator.normal();
   return drawn;
 }
 

@@ -5,18 +5,19 @@
 namespace flinch {
 
 SimulatedCurrentSensors::SimulatedCurrentSensors(const SimulatedCurrentSensorsSettings& settings,
-                                                 std::uint64_t seed)
+                                                 int drive_count, std::uint64_t seed)
     : settings_(settings),
-      noise_(state<NormalNumbers<3>>("noise", NormalNumbers<3>(derive_seed(seed, "noise")))) {}
+      noise_(state<NormalNumbers<max_dof>>(
+          "noise", NormalNumbers<max_dof>(drive_count, derive_seed(seed, "noise")))) {}
 
-void SimulatedCurrentSensors::measure(Time now, const DriveAction& acting, const NormalNumbers<3>& noise,
-                                      DriveReading& reading) const {
+void SimulatedCurrentSensors::measure(Time now, const DriveAction& acting,
+                                      const NormalNumbers<max_dof>& noise, DriveReading& reading) const {
   reading.acquired = now;
   reading.valid = true;
   reading.current = acting.current;
   if (settings_.ideal) return;
-  const Eigen::Vector3d noisy = acting.current + settings_.noise * noise.values();
-  reading.current = quantised(noisy, settings_.resolution);
+  reading.current =
+      quantised(JointVector(acting.current + settings_.noise * noise.values()), settings_.resolution);
 }
 
 }  // namespace flinch

@@ -19,11 +19,12 @@ struct SimulatedCurrentSensorsSettings {
 /// Measures the currents that have acted until the tick.
 class SimulatedCurrentSensors final : public System {
  public:
-  SimulatedCurrentSensors(const SimulatedCurrentSensorsSettings& settings, std::uint64_t seed);
+  SimulatedCurrentSensors(const SimulatedCurrentSensorsSettings& settings, int drive_count,
+                          std::uint64_t seed);
 
  private:
   SimulatedCurrentSensorsSettings settings_;
-  State<NormalNumbers<3>> noise_;
+  State<NormalNumbers<max_dof>> noise_;
 
  public:
   InputPort<DriveAction> drives = input<DriveAction>("drives");
@@ -33,9 +34,9 @@ class SimulatedCurrentSensors final : public System {
  private:
   Update draw_ = update<&SimulatedCurrentSensors::draw>(noise_);
 
-  void measure(Time now, const DriveAction& acting, const NormalNumbers<3>& noise,
+  void measure(Time now, const DriveAction& acting, const NormalNumbers<max_dof>& noise,
                DriveReading& reading) const;
-  void draw(NormalNumbers<3>& noise) const { noise.draw(); }
+  void draw(NormalNumbers<max_dof>& noise) const { noise.draw(); }
 };
 
 }  // namespace flinch

@@ -1,39 +1,43 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <string>
 #include <vector>
 
 #include "plant/drive_action.h"
 #include "plant/plant_truth.h"
 #include "systems/framework/system.h"
+#include "systems/robot/mechanism.h"
 #include "systems/signals/brake_command.h"
 #include "systems/signals/station_status.h"
 #include "systems/signals/torque_command.h"
 
 namespace flinch {
 
-/// Drives with current control. The torque constants of [PAR] are the true ones of the bench.
+/// Drives with current control.
 struct SimulatedDrivesSettings {
-  /// What a motor makes of its current [Nm/A].
-  Eigen::Vector3d torque_constant{6.021, 6.6116, 6.7315};
-  /// What the driver believes when it turns a torque command into a current [Nm/A].
-  Eigen::Vector3d driver_torque_constant{6.021, 6.6116, 6.7315};
+  /// What a motor makes of its current [Nm/A or N/A]; empty: 6.1 for each. [ICRA23] III-B
+  JointVector torque_constant{};
+  /// What the driver believes when it turns a torque command into a current; empty: the truth.
+  JointVector driver_torque_constant{};
   double torque_limit = 100.0;  ///< Commands are cut to this [Nm].
+  double force_limit = 500.0;   ///< Those for drives that slide [N].
   Time longest_silence = 3ms;   ///< Age of a command from which on it is not obeyed.
 };
 
-std::vector<std::string> problems(const SimulatedDrivesSettings& settings);
+/// All that is wrong with `settings` for the drives of `robot`.
+std::vector<std::string> problems(const SimulatedDrivesSettings& settings, const Mechanism& robot);
 
 /// Turns commands into torque, held from tick to tick. A command that is not valid or not finite, older than
 /// the longest silence or from the future, or that comes with the brakes engaged, gives no torque and closes
 /// the brakes. The drives obey again at the first command without these faults.
 class SimulatedDrives final : public System {
-  State<DriveAction> acting_ = state<DriveAction>("acting");  // from this tick on
+  SimulatedDrivesSettings settings_;
+  JointVector limit_;
+  State<DriveAction> acting_ = state<DriveAction>("acting", at_rest());  // from this tick on
 
  public:
   /// Throws SetupError.
-  explicit SimulatedDrives(const SimulatedDrivesSettings& settings);
+  SimulatedDrives(const SimulatedDrivesSettings& settings, const Mechanism& robot);
 
   InputPort<TorqueCommand> torque_command = input<TorqueCommand>("torque_command");
   InputPort<BrakeCommand> brake = input<BrakeCommand>("brake");
@@ -50,8 +54,7 @@ class SimulatedDrives final : public System {
   DriveAction act(Time now, const TorqueCommand& command, const BrakeCommand& brakes) const;
   void read(const DriveAction& now, DriveAction& out) const { out = now; }
   StationStatus report(Time now, const DriveAction& action, const PlantTruth& robot) const;
-
-  SimulatedDrivesSettings settings_;
+  DriveAction at_rest() const;
 };
 
 }  // namespace flinch

@@ -6,6 +6,7 @@
 #include "plant/plant_truth.h"
 #include "plant/sensor_noise.h"
 #include "systems/framework/system.h"
+#include "systems/robot/kinematics.h"
 #include "systems/signals/joint_reading.h"
 
 namespace flinch {
@@ -34,14 +35,17 @@ struct SimulatedEncodersSettings {
 
 /// Measures the joint angles at every tick.
 class SimulatedEncoders final : public System {
+  using Noise = NormalNumbers<2 * max_dof>;  // of the active, then of the passive joints
+
  public:
-  SimulatedEncoders(const SimulatedEncodersSettings& settings, std::uint64_t seed);
+  /// `counts`: how many are measured; coupling joints are not.
+  SimulatedEncoders(const SimulatedEncodersSettings& settings, const JointCounts& counts, std::uint64_t seed);
 
  private:
   SimulatedEncodersSettings settings_;
-  Eigen::Vector3d active_error_;
-  Eigen::Vector3d passive_error_;
-  State<NormalNumbers<6>> noise_;
+  JointVector active_error_;
+  JointVector passive_error_;
+  State<Noise> noise_;
 
  public:
   InputPort<PlantTruth> truth = input<PlantTruth>("truth");
@@ -50,8 +54,8 @@ class SimulatedEncoders final : public System {
  private:
   Update draw_ = update<&SimulatedEncoders::draw>(noise_);
 
-  void measure(const PlantTruth& now, const NormalNumbers<6>& noise, JointReading& reading) const;
-  void draw(NormalNumbers<6>& noise) const { noise.draw(); }
+  void measure(const PlantTruth& now, const Noise& noise, JointReading& reading) const;
+  void draw(Noise& noise) const { noise.draw(); }
 };
 
 }  // namespace flinch

@@ -1,5 +1,6 @@
 #include "plant/simulated_force_torque_sensor.h"
 
+#include <Eigen/Geometry>
 #include <cstddef>
 
 #include "plant/setting_problems.h"
@@ -8,12 +9,12 @@
 namespace flinch {
 namespace {
 
-// Moment about the z axis through `centre` of all forces on the robot.
-double moment_about(const Eigen::Vector2d& centre, const ContactForces& contacts) {
-  double moment = 0.0;
+// Moment about `centre` of all forces of one obstacle on the robot.
+Eigen::Vector3d moment_about(const Eigen::Vector3d& centre, int obstacle, const ContactForces& contacts) {
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   for (int i = 0; i < contacts.touch_count; ++i) {
     const Touch& touch = contacts.touches[static_cast<std::size_t>(i)];
-    moment += cross(touch.point - centre, touch.force_on_robot);
+    if (touch.obstacle == obstacle) moment += (touch.point - centre).cross(touch.force_on_robot);
   }
   return moment;
 }
@@ -33,11 +34,11 @@ std::vector<std::string> problems(const SimulatedForceTorqueSettings& settings) 
 }
 
 SimulatedForceTorqueSensor::SimulatedForceTorqueSensor(const SimulatedForceTorqueSettings& settings,
-                                                       const Eigen::Vector2d& pylon_in_base,
+                                                       const Eigen::Vector3d& position_in_base,
                                                        std::uint64_t seed)
     : settings_(settings),
-      pylon_in_base_(pylon_in_base),
-      noise_(state<NormalNumbers<6>>("noise", NormalNumbers<6>(derive_seed(seed, "noise")))) {
+      position_in_base_(position_in_base),
+      noise_(state<NormalNumbers<6>>("noise", NormalNumbers<6>(6, derive_seed(seed, "noise")))) {
   throw_if_any(problems(settings));
 }
 
@@ -45,11 +46,12 @@ void SimulatedForceTorqueSensor::measure(Time now, const BenchSnapshot& bench, c
                                          ForceTorqueReading& reading) const {
   reading = ForceTorqueReading();
   reading.acquired = now;
-  reading.valid = bench.motion.reachable;
+  reading.valid = bench.reachable && settings_.obstacle < bench.obstacle_count;
   if (!reading.valid) return;
-  const Eigen::Vector2d force = -bench.force_on_pylon_mount;
-  reading.force_in_base << force, 0.0;
-  reading.moment_in_base << settings_.depth * normal(force), moment_about(pylon_in_base_, bench.contacts);
+  const Eigen::Vector3d force = -bench.force_on_mount[static_cast<std::size_t>(settings_.obstacle)];
+  reading.force_in_base = force;
+  reading.moment_in_base = settings_.depth * Eigen::Vector3d::UnitZ().cross(force) +
+                           moment_about(position_in_base_, settings_.obstacle, bench.contacts);
   if (settings_.ideal) return;
   reading.force_in_base += settings_.force_noise * noise.values().head<3>();
   reading.moment_in_base += settings_.moment_noise * noise.values().tail<3>();

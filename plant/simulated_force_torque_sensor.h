@@ -13,11 +13,12 @@
 
 namespace flinch {
 
-/// The force-torque sensor between the pylon and the base.
+/// The force-torque sensor between an obstacle and the base.
 struct SimulatedForceTorqueSettings {
-  bool ideal = false;         ///< Readings are the truth, at once.
-  double depth = 0.1;         ///< Of the sensor's origin, on the pylon's axis, below the plane of motion [m].
-  double force_noise = 0.05;  ///< Standard deviation of white noise [N]; assumed.
+  bool ideal = false;           ///< Readings are the truth, at once.
+  int obstacle = 0;             ///< The obstacle that it carries, by its place in the list.
+  double depth = 0.1;           ///< Of the sensor's origin below the obstacle's position [m].
+  double force_noise = 0.05;    ///< Standard deviation of white noise [N]; assumed.
   double moment_noise = 0.002;  ///< [Nm]; assumed.
   Time period = 1ms;            ///< Mini40: 1000 Hz, [SafePR] V-A.
   Time delay = 0ms;             ///< From measurement to delivery, at the first tick thereafter.
@@ -25,17 +26,17 @@ struct SimulatedForceTorqueSettings {
 
 std::vector<std::string> problems(const SimulatedForceTorqueSettings& settings);
 
-/// Measures what the pylon does to the robot, through what holds the pylon: on a fixed mounting that is the
-/// contact force; on a compliant one the force of its spring and damper.
+/// Measures what an obstacle does to the robot, through what holds the obstacle: on a fixed mounting that is
+/// the contact force; on a compliant one the force of its spring and damper.
 class SimulatedForceTorqueSensor final : public System {
  public:
-  /// `pylon_in_base`: the pylon's axis at rest [m]. Throws SetupError.
+  /// `position_in_base`: of the obstacle at rest [m]. Throws SetupError.
   SimulatedForceTorqueSensor(const SimulatedForceTorqueSettings& settings,
-                             const Eigen::Vector2d& pylon_in_base, std::uint64_t seed);
+                             const Eigen::Vector3d& position_in_base, std::uint64_t seed);
 
  private:
   SimulatedForceTorqueSettings settings_;
-  Eigen::Vector2d pylon_in_base_;
+  Eigen::Vector3d position_in_base_;
   State<NormalNumbers<6>> noise_;
   State<DelayLine<ForceTorqueReading>> underway_ = state<DelayLine<ForceTorqueReading>>("underway");
 

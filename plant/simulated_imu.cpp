@@ -4,6 +4,7 @@
 
 #include "plant/quantisation.h"
 #include "plant/setting_problems.h"
+#include "plant/spatial_motion.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
@@ -23,13 +24,11 @@ Eigen::Vector3d draw_bias(double limit, std::uint64_t seed) {
 }
 
 // Acceleration minus gravity of a point fixed to the platform, in platform axes. [RAL25] (8)
-Eigen::Vector3d specific_force(const PlantTruth& now, const Eigen::Vector3d& point,
+Eigen::Vector3d specific_force(const SpatialMotion& now, const Eigen::Vector3d& point,
                                const Eigen::Vector3d& gravity) {
-  const Eigen::Vector3d origin_acceleration(now.acceleration[0], now.acceleration[1], 0.0);
-  const Eigen::Vector3d omega(0.0, 0.0, now.velocity[2]);
-  const Eigen::Vector3d omega_rate(0.0, 0.0, now.acceleration[2]);
-  const Eigen::AngleAxisd base_to_platform(-now.pose[2], Eigen::Vector3d::UnitZ());
-  return base_to_platform * Eigen::Vector3d(origin_acceleration - gravity) + omega_rate.cross(point) +
+  const Eigen::Vector3d omega = now.axes.transpose() * now.angular_velocity;
+  const Eigen::Vector3d omega_rate = now.axes.transpose() * now.angular_acceleration;
+  return now.axes.transpose() * (now.acceleration - gravity) + omega_rate.cross(point) +
          omega.cross(omega.cross(point));
 }
 
@@ -46,14 +45,14 @@ std::vector<std::string> problems(const SimulatedImuSettings& settings) {
   return found;
 }
 
-SimulatedImu::SimulatedImu(const SimulatedImuSettings& settings, const Eigen::Vector3d& gravity,
-                           std::uint64_t seed)
+SimulatedImu::SimulatedImu(const SimulatedImuSettings& settings, const Mechanism& robot, std::uint64_t seed)
     : settings_(settings),
-      gravity_(gravity),
+      space_(robot.space()),
+      gravity_(robot.gravity()),
       R_SE_(platform_to_sensor(settings.angles)),
       accelerometer_bias_(draw_bias(settings.accelerometer_bias, derive_seed(seed, "accelerometer bias"))),
       gyroscope_bias_(draw_bias(settings.gyroscope_bias, derive_seed(seed, "gyroscope bias"))),
-      noise_(state<NormalNumbers<6>>("noise", NormalNumbers<6>(derive_seed(seed, "noise")))) {
+      noise_(state<NormalNumbers<6>>("noise", NormalNumbers<6>(6, derive_seed(seed, "noise")))) {
   throw_if_any(problems(settings));
 }
 
@@ -62,8 +61,9 @@ void SimulatedImu::measure(const PlantTruth& now, const NormalNumbers<6>& noise,
   reading.acquired = now.acquired;
   reading.valid = now.valid;
   if (!now.valid) return;
-  reading.angular_velocity = R_SE_ * Eigen::Vector3d(0.0, 0.0, now.velocity[2]);
-  reading.specific_force = R_SE_ * specific_force(now, settings_.position_in_platform, gravity_);
+  const SpatialMotion motion = spatial_motion(space_, now.pose, now.velocity, now.acceleration);
+  reading.angular_velocity = R_SE_ * motion.axes.transpose() * motion.angular_velocity;
+  reading.specific_force = R_SE_ * specific_force(motion, settings_.position_in_platform, gravity_);
   if (settings_.ideal) return;
 
   const double gyroscope_noise = noise_deviation(settings_.gyroscope_density, settings_.period);

@@ -10,6 +10,7 @@
 #include "plant/plant_truth.h"
 #include "plant/sensor_noise.h"
 #include "systems/framework/system.h"
+#include "systems/robot/mechanism.h"
 #include "systems/signals/imu_reading.h"
 
 namespace flinch {
@@ -44,14 +45,15 @@ std::vector<std::string> problems(const SimulatedImuSettings& settings);
 /// is stamped with the time of measurement; before the first sample is through, its output is not valid.
 class SimulatedImu final : public System {
  public:
-  /// `gravity`: gravitational acceleration in the base frame [m/s^2]. Throws SetupError.
-  SimulatedImu(const SimulatedImuSettings& settings, const Eigen::Vector3d& gravity, std::uint64_t seed);
+  /// Throws SetupError.
+  SimulatedImu(const SimulatedImuSettings& settings, const Mechanism& robot, std::uint64_t seed);
 
   const Eigen::Vector3d& accelerometer_bias() const { return accelerometer_bias_; }
   const Eigen::Vector3d& gyroscope_bias() const { return gyroscope_bias_; }
 
  private:
   SimulatedImuSettings settings_;
+  ConfigurationSpace space_;
   Eigen::Vector3d gravity_;
   Eigen::Matrix3d R_SE_;  // from platform to sensor axes
   Eigen::Vector3d accelerometer_bias_;

@@ -1,7 +1,9 @@
 #include "plant/simulated_station.h"
 
 #include "plant/bench_plant.h"
+#include "systems/foundation/setup_error.h"
 #include "systems/framework/random.h"
+#include "systems/robot/parallel_robot.h"
 
 namespace flinch {
 namespace {
@@ -13,7 +15,7 @@ struct Parts {
 };
 
 Parts add_robot(DiagramBuilder& inside, const SimulatedStationSettings& settings) {
-  auto& drives = inside.add<SimulatedDrives>("drives", settings.drives);
+  auto& drives = inside.add<SimulatedDrives>("drives", settings.drives, *settings.bench.robot);
   auto& script = inside.add<AppliedWrenchScript>("applied_wrench", settings.applied_wrench);
   auto& plant = inside.add<BenchPlant>("plant", settings.bench, settings.tick);
   inside.connect(drives.acting, plant.drives);
@@ -22,10 +24,16 @@ Parts add_robot(DiagramBuilder& inside, const SimulatedStationSettings& settings
   return {drives, plant};
 }
 
+JointCounts measured_joints(const Mechanism& robot) {
+  const auto* parallel = dynamic_cast<const ParallelRobot*>(&robot);
+  return {.active = robot.drives(), .passive = parallel != nullptr ? parallel->passive_joints() : 0};
+}
+
 OutputPort<JointReading> add_encoders(DiagramBuilder& inside, const SimulatedStationSettings& settings,
                                       const Parts& parts) {
   auto& encoders =
-      inside.add<SimulatedEncoders>("encoders", settings.encoders, derive_seed(settings.seed, "encoders"));
+      inside.add<SimulatedEncoders>("encoders", settings.encoders, measured_joints(*settings.bench.robot),
+                                    derive_seed(settings.seed, "encoders"));
   inside.connect(parts.plant.truth, encoders.truth);
   return inside.export_output("joints", encoders.joints);
 }
@@ -33,6 +41,7 @@ OutputPort<JointReading> add_encoders(DiagramBuilder& inside, const SimulatedSta
 OutputPort<DriveReading> add_current_sensors(DiagramBuilder& inside, const SimulatedStationSettings& settings,
                                              const Parts& parts) {
   auto& sensors = inside.add<SimulatedCurrentSensors>("current_sensors", settings.currents,
+                                                      settings.bench.robot->drives(),
                                                       derive_seed(settings.seed, "currents"));
   inside.connect(parts.drives.acting, sensors.drives);
   return inside.export_output("drives", sensors.currents);
@@ -40,18 +49,20 @@ OutputPort<DriveReading> add_current_sensors(DiagramBuilder& inside, const Simul
 
 OutputPort<ImuReading> add_imu(DiagramBuilder& inside, const SimulatedStationSettings& settings,
                                const Parts& parts) {
-  auto& imu = inside.add<SimulatedImu>("imu", settings.imu, settings.bench.robot.gravity,
-                                       derive_seed(settings.seed, "imu"));
+  auto& imu =
+      inside.add<SimulatedImu>("imu", settings.imu, *settings.bench.robot, derive_seed(settings.seed, "imu"));
   inside.connect(parts.plant.truth, imu.truth);
   return inside.export_output("imu", imu.imu);
 }
 
 std::optional<OutputPort<ForceTorqueReading>> add_force_torque_sensor(
     DiagramBuilder& inside, const SimulatedStationSettings& settings, const Parts& parts) {
-  if (!settings.force_torque || !settings.bench.pylon) return std::nullopt;
-  auto& sensor = inside.add<SimulatedForceTorqueSensor>("force_torque_sensor", *settings.force_torque,
-                                                        settings.bench.pylon->position_in_base,
-                                                        derive_seed(settings.seed, "force_torque"));
+  if (!settings.has_force_torque_sensor()) return std::nullopt;
+  const auto obstacle = static_cast<std::size_t>(settings.force_torque->obstacle);
+  auto& sensor =
+      inside.add<SimulatedForceTorqueSensor>("force_torque_sensor", *settings.force_torque,
+                                             settings.bench.obstacles[obstacle]->form().position_in_base,
+                                             derive_seed(settings.seed, "force_torque"));
   inside.connect(parts.plant.snapshot, sensor.snapshot);
   return inside.export_output("force_torque", sensor.force_torque);
 }
@@ -67,6 +78,7 @@ SimulatedStationSettings with_ideal_sensors(SimulatedStationSettings settings) {
 }
 
 SimulatedStation add_simulated_station(DiagramBuilder& builder, const SimulatedStationSettings& settings) {
+  if (!settings.bench.robot) throw SetupError("a simulated station needs a robot");
   DiagramBuilder inside("station", settings.tick);
   const Parts parts = add_robot(inside, settings);
   SimulatedStation station;

@@ -26,12 +26,17 @@ struct SimulatedStationSettings {
   SimulatedEncodersSettings encoders;
   SimulatedCurrentSensorsSettings currents;
   SimulatedImuSettings imu;
-  /// Mounted where there is a pylon.
+  /// Mounted where there is the obstacle that it names.
   std::optional<SimulatedForceTorqueSettings> force_torque = SimulatedForceTorqueSettings{};
   std::vector<WrenchRamp> applied_wrench;  ///< Pushes on the platform.
 
   std::uint64_t seed = 0;  ///< Of the run; each sensor derives its own.
   Time tick = 1ms;         ///< The time between ticks of the diagram, or a multiple of it.
+
+  bool has_force_torque_sensor() const {
+    return force_torque && force_torque->obstacle >= 0 &&
+           static_cast<std::size_t>(force_torque->obstacle) < bench.obstacles.size();
+  }
 };
 
 /// The same with sensors that tell the truth, at once.

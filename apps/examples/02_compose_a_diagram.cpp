@@ -14,6 +14,7 @@
 #include "systems/framework/recorder.h"
 #include "systems/framework/simulator.h"
 #include "systems/model/forward_kinematics.h"
+#include "systems/robot/planar_rrr.h"
 #include "systems/robot/planar_rrr_presets.h"
 #include "systems/robot/quantity_units.h"
 #include "systems/sensors/velocity_filter.h"
@@ -21,9 +22,11 @@
 int main() {
   using namespace flinch;
   SimulatedStationSettings settings;
-  settings.bench.robot = bench_robot(BenchGeometry::individual, BenchFriction::test_bench);
-  settings.applied_wrench = {{.peak_in_base = {20, 10, 1}, .start = 50ms, .rise = 50ms, .fall = 50ms}};
-  const auto robot = std::make_shared<const PlanarRrr>(settings.bench.robot);
+  const auto robot =
+      std::make_shared<const PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::test_bench));
+  settings.bench.robot = robot;
+  settings.applied_wrench = {
+      {.peak_in_base = PlatformVector{{20, 10, 1}}, .start = 50ms, .rise = 50ms, .fall = 50ms}};
 
   DiagramBuilder builder("example", 1ms);
   const SimulatedStation station = add_simulated_station(builder, settings);

@@ -11,6 +11,7 @@
 #include "systems/framework/simulator.h"
 #include "systems/model/forward_kinematics.h"
 #include "systems/model/robot_model.h"
+#include "systems/robot/planar_rrr.h"
 #include "systems/robot/planar_rrr_presets.h"
 #include "systems/sensors/velocity_filter.h"
 
@@ -31,9 +32,11 @@ class Spring final : public System {
 
 int main() {
   SimulatedStationSettings settings;
-  settings.bench.robot = bench_robot(BenchGeometry::individual, BenchFriction::simulation);
-  settings.applied_wrench = {{.peak_in_base = {20, 0, 0}, .rise = 0s, .hold = 1s, .fall = 0s}};
-  const auto robot = std::make_shared<const PlanarRrr>(settings.bench.robot);
+  const auto robot =
+      std::make_shared<const PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::simulation));
+  settings.bench.robot = robot;
+  settings.applied_wrench = {
+      {.peak_in_base = PlatformVector{{20, 0, 0}}, .rise = 0s, .hold = 1s, .fall = 0s}};
   DiagramBuilder builder("example", 1ms);
   const SimulatedStation station = add_simulated_station(builder, settings);
   auto& velocity = builder.add<VelocityFilter>("velocity_filter", robot);

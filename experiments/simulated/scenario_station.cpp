@@ -1,17 +1,25 @@
 #include "experiments/simulated/scenario_station.h"
 
+#include <array>
+#include <memory>
 #include <span>
 #include <string>
 
 #include "experiments/scenario/scenario.h"
+#include "experiments/scenario/scenario_pose.h"
+#include "plant/compliant_obstacle.h"
 #include "plant/simulated_station.h"
+#include "plant/true_robot.h"
 #include "systems/config/config_reader.h"
-#include "systems/robot/planar_rrr.h"
+#include "systems/robot/parallel_robot.h"
 
 namespace flinch {
 namespace {
 
-std::span<double> entries(Eigen::Vector3d& vector) { return {vector.data(), 3}; }
+template <class Vector>
+std::span<double> entries(Vector& vector) {
+  return {vector.data(), static_cast<std::size_t>(vector.size())};
+}
 
 void read_material(ConfigReader& reader, ContactMaterial& material) {
   reader.number("stiffness", unit::N_per_m, material.stiffness, positive);
@@ -21,47 +29,53 @@ void read_material(ConfigReader& reader, ContactMaterial& material) {
   reader.number("friction", unit::none, material.friction, not_negative);
 }
 
+enum class Mounting { fixed, compliant };
+
 /// What only a simulation needs to know of the pylon: how it gives way.
-Pylon read_pylon(ConfigReader reader, const ScenarioObstacle& obstacle) {
-  Pylon pylon;
-  pylon.position_in_base = obstacle.position_in_base;
-  pylon.radius = obstacle.radius;
-  read_material(reader, pylon.material);
-  reader.choice("mounting", pylon.mounting,
-                {{"fixed", Pylon::Mounting::fixed}, {"compliant", Pylon::Mounting::compliant}});
-  reader.number("mass", unit::kg, pylon.mass, positive);
-  reader.number("mount_stiffness", unit::N_per_m, pylon.mount_stiffness, positive);
-  reader.number("mount_damping", unit::Ns_per_m, pylon.mount_damping, not_negative);
-  return pylon;
+std::shared_ptr<const Obstacle> read_pylon(ConfigReader reader, const ScenarioObstacle& obstacle) {
+  ObstacleForm form;
+  form.name = obstacle.name;
+  form.position_in_base.head<2>() = obstacle.position_in_base;
+  form.shape = Sphere{.centre = {0.0, 0.0, 0.0}, .radius = obstacle.radius};
+  read_material(reader, form.material);
+  Mounting mounting = Mounting::fixed;
+  CompliantMount mount;
+  reader.choice("mounting", mounting, {{"fixed", Mounting::fixed}, {"compliant", Mounting::compliant}});
+  reader.number("mass", unit::kg, mount.mass, positive);
+  reader.number("mount_stiffness", unit::N_per_m, mount.stiffness, positive);
+  reader.number("mount_damping", unit::Ns_per_m, mount.damping, not_negative);
+  if (mounting == Mounting::compliant) return std::make_shared<const CompliantObstacle>(form, mount);
+  return std::make_shared<const FixedObstacle>(form);
 }
 
 enum class PlantFriction { as_robot_file, none };
 
 /// What is true of the robot, where that differs from what the controller believes.
-void read_plant(ConfigReader plant, SimulatedStationSettings& station) {
+void read_plant(ConfigReader plant, const RobotFile& believed, SimulatedStationSettings& station) {
+  const int drives = believed.robot->drives();
   PlantFriction friction = PlantFriction::as_robot_file;
-  double mass_scale = 1.0, payload = 0.0;
+  double mass_scale = 1.0;
+  RobotDeviation deviation;
+  station.drives.torque_constant = believed.drives.torque_constant;
+  station.drives.driver_torque_constant = believed.drives.torque_constant;
   plant.choice("friction", friction,
                {{"as_robot_file", PlantFriction::as_robot_file}, {"none", PlantFriction::none}});
   plant.number("leg_inertia_scale", unit::none, mass_scale, positive);
-  plant.number("payload", unit::kg, payload, not_negative);
-  plant.numbers("torque_constant", unit::Nm_per_A, entries(station.drives.torque_constant), positive);
-  plant.numbers("driver_torque_constant", unit::Nm_per_A, entries(station.drives.driver_torque_constant),
+  plant.number("payload", unit::kg, deviation.payload, not_negative);
+  const Unit& per_ampere =
+      believed.robot->drive_kind(0) == DriveKind::revolute ? unit::Nm_per_A : unit::N_per_A;
+  plant.numbers("torque_constant", per_ampere, entries(station.drives.torque_constant), positive);
+  plant.numbers("driver_torque_constant", per_ampere, entries(station.drives.driver_torque_constant),
                 positive);
 
-  PlanarRrrParameters& robot = station.bench.robot;
-  robot.platform_mass += payload;
-  for (PlanarRrrLeg& leg : robot.legs) {
-    leg.inertia = {leg.inertia.p1 * mass_scale, leg.inertia.p2 * mass_scale, leg.inertia.p3 * mass_scale};
-    if (friction == PlantFriction::none) leg.active_friction = leg.passive_friction = {};
+  deviation.leg_inertia_scale.setConstant(drives, mass_scale);
+  if (friction == PlantFriction::none) {
+    deviation.drive_friction_scale.setZero(drives);
+    deviation.passive_friction_scale.setZero(drives);
   }
+  station.bench.robot = true_robot(believed.robot, deviation);
   if (plant.has("initial_pose")) {
-    Eigen::Vector3d pose = Eigen::Vector3d::Zero();
-    ConfigReader initial = plant.section("initial_pose");
-    initial.number("x", unit::m, pose[0]);
-    initial.number("y", unit::m, pose[1]);
-    initial.number("phi", unit::rad, pose[2]);
-    station.bench.initial_pose = pose;
+    station.bench.initial_pose = read_pose(plant.section("initial_pose"), *believed.robot);
   }
 }
 
@@ -109,11 +123,19 @@ void read_sensors(ConfigReader sensors, SimulatedStationSettings& station) {
   read_force_torque(sensors.section("force_torque"), *station.force_torque);
 }
 
-WrenchRamp read_ramp(ConfigReader reader) {
+WrenchRamp read_ramp(ConfigReader reader, const ConfigurationSpace& space) {
   WrenchRamp ramp;
-  reader.number("force_x", unit::N, ramp.peak_in_base[0]);
-  reader.number("force_y", unit::N, ramp.peak_in_base[1]);
-  reader.number("moment", unit::Nm, ramp.peak_in_base[2]);
+  ramp.peak_in_base.setZero(space.dimension());
+  static constexpr std::array forces = {"force_x", "force_y", "force_z"};
+  static constexpr std::array moments = {"moment_x", "moment_y", "moment_z"};
+  const int directions = space.translations();
+  for (int i = 0; i < directions; ++i) {
+    reader.number(forces[static_cast<std::size_t>(i)], unit::N, ramp.peak_in_base[i]);
+  }
+  if (space.rotations() == 1) reader.number("moment", unit::Nm, ramp.peak_in_base[directions]);
+  for (int i = 0; space.rotations() == 3 && i < 3; ++i) {
+    reader.number(moments[static_cast<std::size_t>(i)], unit::Nm, ramp.peak_in_base[directions + i]);
+  }
   reader.duration("start", ramp.start, not_negative);
   reader.duration("rise", ramp.rise, not_negative);
   reader.duration("hold", ramp.hold, not_negative);
@@ -124,21 +146,14 @@ WrenchRamp read_ramp(ConfigReader reader) {
 }  // namespace
 
 void read_station(ConfigReader& file, const Scenario& scenario, SimulatedStationSettings& station) {
-  const auto* const robot = dynamic_cast<const PlanarRrr*>(scenario.robot.robot.get());
-  if (robot == nullptr) {
-    leave_simulation_unread(file, scenario);
-    file.problem("robot", "is of a kind that cannot be simulated; only planar_3rrr can");
-    return;
-  }
   station.seed = scenario.seed;
-  station.bench.robot = robot->parameters();
   const std::optional<PlatformPath>& path = scenario.control.trajectory.path;
   if (path) station.bench.initial_pose = path->start();
   for (const ScenarioObstacle& obstacle : scenario.obstacles)
-    station.bench.pylon = read_pylon(file.section(obstacle.name), obstacle);
-  read_plant(file.section("plant"), station);
+    station.bench.obstacles.push_back(read_pylon(file.section(obstacle.name), obstacle));
+  read_plant(file.section("plant"), scenario.robot, station);
   for (ConfigReader& ramp : file.sections("applied_wrench"))
-    station.applied_wrench.push_back(read_ramp(ramp));
+    station.applied_wrench.push_back(read_ramp(ramp, station.bench.robot->space()));
   read_sensors(file.section("sensors"), station);
   for (const std::string& complaint : problems(station.bench)) file.add_problems({"plant: " + complaint});
   for (const std::string& complaint : problems(station.imu)) file.add_problems({"sensors.imu: " + complaint});

@@ -28,9 +28,9 @@ struct RecordedTruth {
 };
 
 struct RecordedTouch {
-  int body = -1;                            ///< BodyId::index(); -1: none
-  Eigen::Vector2d point_in_base{0.0, 0.0};  ///< [m]
-  Eigen::Vector2d force_in_base{0.0, 0.0};  ///< on the robot [N]
+  int body = -1;                  ///< BodyId::index(); -1: none
+  CartesianVector point_in_base;  ///< [m]
+  CartesianVector force_in_base;  ///< on the robot [N]
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {

@@ -19,6 +19,7 @@
 #include "plant/sundials_integrator.h"
 #include "systems/framework/runge_kutta.h"
 #include "systems/robot/planar_rrr_presets.h"
+#include "tests/plant/bench_scene.h"
 #include "tests/plant/servoed_station.h"
 #include "tests/plant/truth_servo.h"
 #include "tests/support/allocations.h"
@@ -38,32 +39,33 @@ const std::array<Eigen::Vector3d, 5> path_frequencies = {  // [rad/s]
 
 BenchSettings bench(double pylon_stiffness) {
   BenchSettings settings;
-  settings.robot = bench_robot(BenchGeometry::individual, BenchFriction::test_bench);
+  settings.robot = test::individual_bench(BenchFriction::test_bench);
   if (pylon_stiffness == 0.0) return settings;
-  settings.pylon = Pylon{};
-  settings.pylon->position_in_base = {0.32, 0.20};
-  settings.pylon->material.stiffness = pylon_stiffness;
+  settings.obstacles = {test::fixed_post(0.32, 0.20, {.stiffness = pylon_stiffness})};
   return settings;
 }
 
 /// The bench between two ticks.
 class Tick final : public DifferentialEquation {
  public:
-  explicit Tick(const BenchDynamics& dynamics) : dynamics_(dynamics), state_(6), rates_(6) {
+  explicit Tick(const BenchDynamics& dynamics)
+      : step(dynamics.initial_step()), dynamics_(dynamics), state_(6), rates_(6) {
     drives.braked = false;
+    drives.torque.setZero(3);
   }
 
   DriveAction drives;
-  ContactCandidates candidates;
+  BenchStep step;
 
   void rates(double, std::span<const double> y, std::span<double> rates) override {
     std::copy_n(y.data(), 6, state_.data());
-    dynamics_.rates(state_, drives, Eigen::Vector3d::Zero(), candidates, rates_);
+    dynamics_.rates(state_, drives, no_wrench_, step, rates_);
     std::copy_n(rates_.data(), 6, rates.data());
   }
 
  private:
   const BenchDynamics& dynamics_;
+  PlatformVector no_wrench_ = PlatformVector::Zero(3);
   BenchState state_;
   BenchState rates_;
 };
@@ -86,8 +88,10 @@ Run run(const BenchDynamics& dynamics, const Eigen::Vector3d& frequency, Integra
   for (int k = 0; k < ticks; ++k) {
     const BenchState state = Eigen::Map<const Eigen::Matrix<double, 6, 1>>(y.data());
     tick.drives.torque = servo.torque(1e-3 * k, state.head<3>(), state.tail<3>());
-    tick.candidates = dynamics.candidates(state, 1e-3);
-    starts.push_back({y, tick.drives.torque, tick.candidates});
+    BenchSnapshot snapshot;
+    dynamics.snapshot(state, tick.drives, PlatformVector::Zero(3), tick.step, 1e-3, snapshot);
+    tick.step.candidates = snapshot.candidates;
+    starts.push_back({y, tick.drives.torque, tick.step.candidates});
     integrator.advance(tick, 1e-3, y);
   }
   return starts;
@@ -143,7 +147,7 @@ Seconds time_ticks(Tick& tick, const std::vector<Run>& runs, Work&& work) {
   for (const Run& run : runs) {
     for (const Start& start : run) {
       tick.drives.torque = start.torque;
-      tick.candidates = start.candidates;
+      tick.step.candidates = start.candidates;
       State y = start.y;
       work(y);
       benchmark::DoNotOptimize(y);
@@ -192,7 +196,8 @@ double share_of_ticks_near_contact(const std::vector<Run>& runs) {
 }
 
 void PlantMillisecond(benchmark::State& state, double pylon_stiffness) {
-  const BenchDynamics dynamics(bench(pylon_stiffness));
+  const auto shared = BenchDynamics::make(bench(pylon_stiffness));
+  const BenchDynamics& dynamics = *shared;
   const std::vector<Run> runs = references(dynamics);
   SundialsIntegrator integrator;
   const double error = accuracy(dynamics, runs, integrator);

@@ -143,9 +143,9 @@ TEST(HealthyEncoders, AreTrustedInMotion) {
 /// Runs into a post; `reacts`: retracts from it, otherwise presses on.
 void collide(double speed, bool reacts) {
   GuardedBenchSettings settings = passing_at(speed);
-  Pylon post;
-  post.position_in_base = {0.2, 0.0};
-  settings.station.bench.pylon = post;
+  ObstacleForm post;
+  post.position_in_base = {0.2, 0.0, 0.0};
+  settings.station.bench.obstacles = {std::make_shared<const FixedObstacle>(post)};
   if (!reacts) {
     settings.control.contact_detector.reaction = {1e6, 1e6};
     settings.control.contact_detector.hard = {1e6, 1e6};
@@ -160,8 +160,11 @@ TEST(HealthyEncoders, AreTrustedWhilePressedAgainstAnObstacle) { collide(0.3, fa
 TEST(HealthyEncoders, AreTrustedInZeroGravityAndWhenPushed) {
   GuardedBenchSettings settings = passing_at(0.3);
   settings.control.trajectory.path.reset();
-  settings.station.applied_wrench = {
-      {.peak_in_base = {90.0, 0.0, 0.0}, .start = 400ms, .rise = 20ms, .hold = 50ms, .fall = 20ms}};
+  settings.station.applied_wrench = {{.peak_in_base = PlatformVector{{90.0, 0.0, 0.0}},
+                                      .start = 400ms,
+                                      .rise = 20ms,
+                                      .hold = 50ms,
+                                      .fall = 20ms}};
   expect_healthy_encoders(settings, 2s);
 }
 

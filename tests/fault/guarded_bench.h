@@ -9,6 +9,7 @@
 #include "plant/simulated_station.h"
 #include "plant/sundials_integrator.h"
 #include "systems/framework/simulator.h"
+#include "systems/robot/planar_rrr.h"
 #include "systems/robot/planar_rrr_presets.h"
 
 /// The simulated bench and its pipeline, with encoders that can be broken.
@@ -53,9 +54,10 @@ struct GuardedBenchSettings {
 /// Through the middle along x at `speed` [m/s].
 inline GuardedBenchSettings passing_at(double speed) {
   GuardedBenchSettings settings;
-  settings.station.bench.robot = bench_robot(BenchGeometry::individual, BenchFriction::test_bench);
+  const PlanarRrr robot(bench_robot(BenchGeometry::individual, BenchFriction::test_bench));
+  settings.station.bench.robot = std::make_shared<const PlanarRrr>(robot);
+  settings.station.drives.torque_constant = Eigen::Vector3d(6.021, 6.6116, 6.7315);
   settings.control.drive_torque.torque_constant = settings.station.drives.torque_constant;
-  const PlanarRrr robot(settings.station.bench.robot);
   const Passage passing = passage(robot, {.pose = Eigen::Vector3d::Zero(),
                                           .direction = Eigen::Vector2d(1.0, 0.0),
                                           .speed = speed,
@@ -80,7 +82,7 @@ inline Time middle_of_passage(double speed) {
 class GuardedBench {
  public:
   explicit GuardedBench(const GuardedBenchSettings& settings)
-      : robot_(std::make_shared<PlanarRrr>(settings.station.bench.robot)),
+      : robot_(std::dynamic_pointer_cast<const PlanarRrr>(settings.station.bench.robot)),
         station_(add_simulated_station(builder_, settings.station)),
         control_(add_contact_control(builder_, robot_, settings.control)),
         encoders_(builder_.add<BreakableEncoders>("breakable_encoders")),

@@ -8,7 +8,8 @@
 namespace flinch {
 namespace {
 
-const WrenchRamp push{.peak_in_base = {40.0, 0.0, 0.0}, .start = 1s, .rise = 2s, .hold = 500ms, .fall = 4s};
+const WrenchRamp push{
+    .peak_in_base = PlatformVector{{40.0, 0.0, 0.0}}, .start = 1s, .rise = 2s, .hold = 500ms, .fall = 4s};
 
 double force_at(Time now) { return push.at(now).x(); }
 
@@ -25,7 +26,8 @@ TEST(WrenchRamp, RisesHoldsAndFalls) {
 }
 
 TEST(WrenchRamp, OfNoDurationIsAStep) {
-  const WrenchRamp step{.peak_in_base = {0.0, 0.0, 3.0}, .start = 1ms, .rise = 0s, .hold = 2ms, .fall = 0s};
+  const WrenchRamp step{
+      .peak_in_base = PlatformVector{{0.0, 0.0, 3.0}}, .start = 1ms, .rise = 0s, .hold = 2ms, .fall = 0s};
   EXPECT_EQ(step.at(Time(999999)).z(), 0.0);
   EXPECT_EQ(step.at(1ms).z(), 3.0);
   EXPECT_EQ(step.at(Time(2999999)).z(), 3.0);
@@ -34,7 +36,8 @@ TEST(WrenchRamp, OfNoDurationIsAStep) {
 
 TEST(AppliedWrenchScript, AddsItsRampsUp) {
   DiagramBuilder builder("test", 1ms);
-  const WrenchRamp other{.peak_in_base = {1.0, 2.0, 3.0}, .start = 0s, .rise = 0s, .hold = 10s, .fall = 0s};
+  const WrenchRamp other{
+      .peak_in_base = PlatformVector{{1.0, 2.0, 3.0}}, .start = 0s, .rise = 0s, .hold = 10s, .fall = 0s};
   auto& script = builder.add<AppliedWrenchScript>("script", std::vector{push, other});
   const auto diagram = builder.build();
   Context context = diagram->make_context();
@@ -45,6 +48,10 @@ TEST(AppliedWrenchScript, AddsItsRampsUp) {
 
 TEST(AppliedWrenchScript, RefusesNegativeDurations) {
   EXPECT_THROW(AppliedWrenchScript({{.fall = -1s}}), SetupError);
+}
+
+TEST(AppliedWrenchScript, RefusesWrenchesOfDifferentSizes) {
+  EXPECT_THROW(AppliedWrenchScript({push, {.peak_in_base = PlatformVector::Ones(6)}}), SetupError);
 }
 
 }  // namespace

@@ -12,39 +12,36 @@
 #include "plant/sundials_integrator.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/runge_kutta.h"
-#include "systems/robot/planar_rrr_presets.h"
+#include "tests/plant/bench_scene.h"
 #include "tests/plant/integrate_bench.h"
 
 namespace flinch {
 namespace {
 
 const DriveAction coasting{
-    .torque = {0.0, 0.0, 0.0}, .current = {0.0, 0.0, 0.0}, .enabled = true, .braked = false};
+    .torque = JointVector::Zero(3), .current = JointVector::Zero(3), .enabled = true, .braked = false};
 
 BenchSettings bench(BenchFriction friction = BenchFriction::none) {
   BenchSettings settings;
-  settings.robot = bench_robot(BenchGeometry::individual, friction);
+  settings.robot = test::individual_bench(friction);
   settings.link_material.reset();
   return settings;
 }
 
 BenchSettings moving_bench(BenchFriction friction = BenchFriction::none) {
   BenchSettings settings = bench(friction);
-  settings.initial_velocity = {0.6, -0.4, 1.0};
+  settings.initial_velocity = PlatformVector{{0.6, -0.4, 1.0}};
   return settings;
-}
-
-Pylon pylon_at(double x, double y) {
-  Pylon pylon;
-  pylon.position_in_base = {x, y};
-  return pylon;
 }
 
 /// The bench and the work done on it, integrated tick by tick.
 class MovingBench {
+  std::unique_ptr<const BenchDynamics> dynamics_;
+
  public:
   explicit MovingBench(const BenchSettings& settings, std::unique_ptr<Integrator> method = nullptr)
-      : dynamics(settings),
+      : dynamics_(BenchDynamics::make(settings)),
+        dynamics(*dynamics_),
         equation(dynamics),
         y(equation.size(), 0.0),
         integrator_(method ? std::move(method) : std::make_unique<SundialsIntegrator>()) {
@@ -62,10 +59,10 @@ class MovingBench {
   Eigen::Vector3d pose() const { return state().head<3>(); }
   BenchSnapshot now() const {
     BenchSnapshot snapshot;
-    dynamics.snapshot(state(), equation.drives, equation.applied_wrench, snapshot);
+    dynamics.snapshot(state(), equation.drives, equation.applied_wrench, equation.step, 0.0, snapshot);
     return snapshot;
   }
-  double kinetic_energy() const { return dynamics.robot().kinetic_energy(now().motion); }
+  double kinetic_energy() const { return now().kinetic_energy; }
   /// Work of drives, applied wrench and contacts, less that lost to friction [J].
   double work() const {
     const auto works = std::span(y).last(test::BenchEquation::works);
@@ -73,7 +70,7 @@ class MovingBench {
   }
   double contact_work() const { return y[y.size() - 2]; }
 
-  const BenchDynamics dynamics;
+  const BenchDynamics& dynamics;
   test::BenchEquation equation;
   std::vector<double> y;
 
@@ -107,7 +104,7 @@ TEST(FreeMotion, KeepsItsEnergyForFiveSeconds) {
 
 TEST(DrivenMotion, GainsTheWorkOfDrivesWrenchAndContactsLessFriction) {
   BenchSettings settings = moving_bench(BenchFriction::test_bench);
-  settings.pylon = pylon_at(0.32, 0.20);
+  settings.obstacles = {test::fixed_post(0.32, 0.20)};
   settings.link_material = ContactMaterial{.stiffness = 5e4};
   const SundialsOptions tight{.relative_tolerance = 1e-11, .absolute_tolerance = 1e-12};
   MovingBench bench(settings, std::make_unique<SundialsIntegrator>(tight));
@@ -116,11 +113,12 @@ TEST(DrivenMotion, GainsTheWorkOfDrivesWrenchAndContactsLessFriction) {
   int in_contact = 0;
   for (int k = 0; k < 1500; ++k) {
     const double t = 1e-3 * k;
+    bench.equation.drives.torque.resize(3);
     bench.equation.drives.torque << 8.0 * std::sin(5.0 * t), 8.0 * std::cos(7.0 * t),
         -6.0 * std::sin(3.0 * t);
     bench.equation.applied_wrench << 10.0 * std::cos(4.0 * t), -5.0, 1.0;
     ASSERT_TRUE(bench.tick());
-    ASSERT_TRUE(bench.now().motion.reachable) << k;
+    ASSERT_TRUE(bench.now().reachable) << k;
     imbalance = std::max(imbalance, std::abs(bench.kinetic_energy() - start - bench.work()));
     if (bench.now().contacts.touch_count > 0) ++in_contact;
   }
@@ -141,15 +139,15 @@ double spring_energy(const ContactForces& contacts, double stiffness) {
 
 TEST(ElasticPylon, ReturnsTheEnergyThatItTook) {
   BenchSettings settings = moving_bench();
-  settings.pylon = pylon_at(0.32, 0.20);
-  settings.pylon->material.restitution = 1.0;
+  const ContactMaterial elastic{.restitution = 1.0};
+  settings.obstacles = {test::fixed_post(0.32, 0.20, elastic)};
   MovingBench bench(settings);
   const double start = bench.kinetic_energy();
   double drift = 0.0;
   double stored = 0.0;
   for (int k = 0; k < 1000; ++k) {
     ASSERT_TRUE(bench.tick());
-    const double spring = spring_energy(bench.now().contacts, settings.pylon->material.stiffness);
+    const double spring = spring_energy(bench.now().contacts, elastic.stiffness);
     stored = std::max(stored, spring);
     drift = std::max(drift, std::abs((bench.kinetic_energy() + spring) / start - 1.0));
   }
@@ -160,23 +158,21 @@ TEST(ElasticPylon, ReturnsTheEnergyThatItTook) {
 
 TEST(CompliantPylon, SharesItsEnergyWithTheRobot) {
   BenchSettings settings = moving_bench();
-  settings.pylon = pylon_at(0.32, 0.20);
-  settings.pylon->material.restitution = 1.0;
-  settings.pylon->mounting = Pylon::Mounting::compliant;
-  settings.pylon->mount_damping = 0.0;
+  const ContactMaterial elastic{.restitution = 1.0};
+  const CompliantMount pylon{.damping = 0.0};
+  settings.obstacles = {test::compliant_post(0.32, 0.20, elastic, pylon)};
   MovingBench bench(settings);
-  const Pylon& pylon = *settings.pylon;
   const double start = bench.kinetic_energy();
   double drift = 0.0;
   double in_pylon = 0.0;
   for (int k = 0; k < 1000; ++k) {
     ASSERT_TRUE(bench.tick());
     const BenchState state = bench.state();
-    ASSERT_EQ(state.size(), 10);
-    const double mount = 0.5 * pylon.mount_stiffness * state.segment<2>(6).squaredNorm() +
-                         0.5 * pylon.mass * state.segment<2>(8).squaredNorm();
+    ASSERT_EQ(state.size(), 12);
+    const double mount = 0.5 * pylon.stiffness * state.segment<3>(6).squaredNorm() +
+                         0.5 * pylon.mass * state.segment<3>(9).squaredNorm();
     in_pylon = std::max(in_pylon, mount);
-    const double spring = spring_energy(bench.now().contacts, pylon.material.stiffness);
+    const double spring = spring_energy(bench.now().contacts, elastic.stiffness);
     drift = std::max(drift, std::abs((bench.kinetic_energy() + spring + mount) / start - 1.0));
   }
   std::cout << "relative drift of the energy: " << drift << ", at most " << in_pylon
@@ -187,13 +183,13 @@ TEST(CompliantPylon, SharesItsEnergyWithTheRobot) {
 
 TEST(CompliantPylon, AloneIsADampedOscillator) {
   BenchSettings settings = bench();
-  settings.pylon = pylon_at(1.5, 0.0);
-  settings.pylon->mounting = Pylon::Mounting::compliant;
+  const CompliantMount mount;
+  settings.obstacles = {test::compliant_post(1.5, 0.0, {}, mount)};
   MovingBench moving(settings);
   moving.y[6] = 0.01;
-  const double m = settings.pylon->mass;
-  const double decay = settings.pylon->mount_damping / (2.0 * m);
-  const double omega = std::sqrt(settings.pylon->mount_stiffness / m - decay * decay);
+  const double m = mount.mass;
+  const double decay = mount.damping / (2.0 * m);
+  const double omega = std::sqrt(mount.stiffness / m - decay * decay);
   for (int k = 1; k <= 300; ++k) {
     moving.tick();
     const double t = 1e-3 * k;
@@ -209,7 +205,7 @@ TEST(CompliantPylon, AloneIsADampedOscillator) {
 TEST(BenchMotion, FollowsTinyFixedStepsInFreeMotionAndInContact) {
   for (const bool with_pylon : {false, true}) {
     BenchSettings settings = moving_bench(BenchFriction::simulation);
-    if (with_pylon) settings.pylon = pylon_at(0.32, 0.20);
+    if (with_pylon) settings.obstacles = {test::fixed_post(0.32, 0.20)};
     MovingBench bench(settings);
     MovingBench reference(settings, std::make_unique<RungeKutta>(100));
     double worst = 0.0;
@@ -240,54 +236,61 @@ TEST(Brakes, StopTheRobotAndHoldIt) {
 }
 
 TEST(BenchDynamics, StandsStillWhereALegWouldHaveToStretchBeyondItsReach) {
-  const BenchDynamics dynamics(bench());
-  BenchState state = dynamics.initial_state();
+  const auto dynamics = BenchDynamics::make(bench());
+  const PlatformVector nothing = PlatformVector::Zero(3);
+  BenchState state = dynamics->initial_state();
   state.head<3>() << 2.0, 0.0, 0.0;
   state.segment<3>(3) << 1.0, 1.0, 1.0;
   BenchState rates;
-  dynamics.rates(state, coasting, Eigen::Vector3d::Zero(), ContactCandidates::all(), rates);
+  dynamics->rates(state, coasting, nothing, dynamics->initial_step(), rates);
   EXPECT_EQ(rates, BenchState::Zero(6));
   BenchSnapshot snapshot;
-  dynamics.snapshot(state, coasting, Eigen::Vector3d::Zero(), snapshot);
-  EXPECT_FALSE(snapshot.motion.reachable);
+  dynamics->snapshot(state, coasting, nothing, dynamics->initial_step(), 1e-3, snapshot);
+  EXPECT_FALSE(snapshot.reachable);
 }
 
 TEST(BenchDynamics, MovesAlikeWithAllPairsAndWithThoseThatCanTouch) {
   BenchSettings settings = moving_bench();
-  settings.pylon = pylon_at(0.2, 0.1);
+  settings.obstacles = {test::fixed_post(0.2, 0.1), test::compliant_post(-0.05, 0.1)};
   settings.link_material = ContactMaterial{.stiffness = 5e4};
-  const BenchDynamics dynamics(settings);
-  const BenchState state = dynamics.initial_state();
+  const auto dynamics = BenchDynamics::make(settings);
+  const PlatformVector nothing = PlatformVector::Zero(3);
+  const BenchState state = dynamics->initial_state();
+  BenchStep step = dynamics->initial_step();
   BenchState with_all;
   BenchState with_some;
-  dynamics.rates(state, coasting, Eigen::Vector3d::Zero(), ContactCandidates::all(), with_all);
-  const ContactCandidates candidates = dynamics.candidates(state, 1e-3);
-  dynamics.rates(state, coasting, Eigen::Vector3d::Zero(), candidates, with_some);
+  dynamics->rates(state, coasting, nothing, step, with_all);
+  BenchSnapshot snapshot;
+  dynamics->snapshot(state, coasting, nothing, step, 1e-3, snapshot);
+  dynamics->next_step(state, 0.0, snapshot, dynamics->initial_step(), step);
+  dynamics->rates(state, coasting, nothing, step, with_some);
   EXPECT_EQ(with_all, with_some);
-  EXPECT_LT(candidates.count(), 5);
+  EXPECT_GT(snapshot.contacts.touch_count, 0);
+  EXPECT_LT(step.candidates.count(), 7);
 }
 
 TEST(BenchDynamics, RefusesImpossibleSettingsNamingThemAll) {
   BenchSettings settings = bench();
-  settings.pylon = pylon_at(0.0, 0.0);
-  settings.pylon->radius = -1.0;
-  settings.pylon->material.restitution = 1.5;
-  settings.pylon->mounting = Pylon::Mounting::compliant;
-  settings.pylon->mass = 0.0;
+  ObstacleForm form = test::post_form(0.0, 0.0, {.restitution = 1.5});
+  form.shape = Sphere{.centre = {0.0, 0.0, 0.0}, .radius = -1.0};
+  settings.obstacles = {std::make_shared<const CompliantObstacle>(form, CompliantMount{.mass = 0.0})};
   settings.link_material = ContactMaterial{.stiffness = 0.0};
   settings.brake.velocity = std::nan("");
   try {
-    const BenchDynamics dynamics(settings);
+    BenchDynamics::make(settings);
     FAIL();
   } catch (const SetupError& error) {
     ASSERT_EQ(error.problems().size(), 5U);
-    EXPECT_EQ(error.problems()[0], "pylon.radius is -1.000000; it must be positive");
-    EXPECT_EQ(error.problems()[2], "pylon.material.restitution is 1.500000; it must be at most 1.000000");
+    EXPECT_EQ(error.problems()[0], "post.radius is -1.000000; it must be positive");
+    EXPECT_EQ(error.problems()[2], "post.material.restitution is 1.500000; it must be at most 1.000000");
     EXPECT_EQ(error.problems()[4], "brake.velocity is nan; it must be positive");
   }
   settings = bench();
   settings.initial_pose = Eigen::Vector3d(3.0, 0.0, 0.0);
-  EXPECT_THROW(BenchDynamics{settings}, SetupError);
+  EXPECT_THROW(BenchDynamics::make(settings), SetupError);
+  settings = bench();
+  settings.obstacles.assign(max_obstacles + 1, test::fixed_post(3.0, 0.0));
+  EXPECT_THROW(BenchDynamics::make(settings), SetupError);
 }
 
 }  // namespace

@@ -18,9 +18,7 @@ namespace {
 
 SimulatedStationSettings station_with_pylon(double x, double y, double stiffness = 6000.0) {
   SimulatedStationSettings settings = test::bench_station();
-  settings.bench.pylon = Pylon{};
-  settings.bench.pylon->position_in_base = {x, y};
-  settings.bench.pylon->material.stiffness = stiffness;
+  settings.bench.obstacles = {test::fixed_post(x, y, {.stiffness = stiffness})};
   return settings;
 }
 
@@ -68,9 +66,10 @@ TEST(PlantTruth, AnglesTurnWithTheRatesOfTheKinematics) {
 TEST(PlantTruth, AccelerationIsThatOfTheTorqueWhichActedUntilNow) {
   SimulatedStationSettings settings = station_with_pylon(0.32, 0.20);
   settings.applied_wrench = {
-      {.peak_in_base = {10.0, -5.0, 0.5}, .start = 0s, .rise = 1s, .hold = 1s, .fall = 1s}};
+      {.peak_in_base = PlatformVector{{10.0, -5.0, 0.5}}, .start = 0s, .rise = 1s, .hold = 1s, .fall = 1s}};
   test::ServoedStation station(settings);
-  const PlanarRrr robot(settings.bench.robot);
+  const auto shared = std::dynamic_pointer_cast<const PlanarRrr>(settings.bench.robot);
+  const PlanarRrr& robot = *shared;
   for (int k = 0; k < 1500; ++k) {
     station.step();
     const PlantTruth& truth = station.truth();
@@ -97,7 +96,8 @@ TEST(PlantTruth, IsAlsoToldAsPlatformMotion) {
 /// Follows the bench from one tick to the next in steps of a microsecond.
 class Microscope {
  public:
-  explicit Microscope(const BenchSettings& settings) : dynamics_(settings), equation_(dynamics_) {}
+  explicit Microscope(const BenchSettings& settings)
+      : dynamics_(BenchDynamics::make(settings)), equation_(*dynamics_) {}
 
   /// When the least gap to the pylon changes its sign in the tick that begins at `start` [s after it].
   double crossing(const PlantTruth& start, const Eigen::Vector3d& torque) {
@@ -121,14 +121,14 @@ class Microscope {
 
  private:
   double least_gap(const std::vector<double>& y) const {
-    const Eigen::Map<const Eigen::Matrix<double, 6, 1>> state(y.data());
-    PylonGaps gaps;
-    const PylonMotion pylon{dynamics_.settings().pylon->position_in_base, {0.0, 0.0}};
-    dynamics_.contacts().pylon_gaps(dynamics_.robot().motion(state.head<3>(), state.tail<3>()), pylon, gaps);
-    return *std::min_element(gaps.gap.begin(), gaps.gap.end());
+    const BenchState state = Eigen::Map<const Eigen::Matrix<double, 6, 1>>(y.data());
+    BenchSnapshot snapshot;
+    dynamics_->snapshot(state, equation_.drives, equation_.applied_wrench, equation_.step, 0.0, snapshot);
+    const NearPair* const nearest = snapshot.near_pairs.nearest_of(0);
+    return nearest == nullptr ? NearPairs::near_distance : nearest->gap;
   }
 
-  BenchDynamics dynamics_;
+  std::unique_ptr<const BenchDynamics> dynamics_;
   test::BenchEquation equation_;
 };
 
@@ -193,23 +193,23 @@ TEST(ContactTruth, SumsUpTheContactsOfAnInstant) {
     if (contact.strongest.body == 0) {
       EXPECT_NEAR((contact.wrench_in_base.head(2) - sum).norm(), 0.0, 1e-9);
     }
-    const Eigen::Vector2d from_pylon =
-        contact.strongest.point_in_base - settings.bench.pylon->position_in_base;
+    const Eigen::Vector2d from_pylon = contact.strongest.point_in_base - Eigen::Vector2d(0.32, 0.20);
     EXPECT_GT(from_pylon.dot(contact.strongest.force_in_base), 0.0) << "it pushes the robot away";
-    EXPECT_NEAR(from_pylon.norm(), settings.bench.pylon->radius - 0.5 * contact.strongest.depth, 1e-12);
+    EXPECT_NEAR(from_pylon.norm(), 0.04 - 0.5 * contact.strongest.depth, 1e-12);
   }
   EXPECT_GT(in_contact, 100);
 }
 
 TEST(ContactTruth, SeesAPylonClampedBetweenTheLinksOfALeg) {
   SimulatedStationSettings settings = test::bench_station();
-  const PlanarRrr robot(settings.bench.robot);
+  const auto shared = std::dynamic_pointer_cast<const PlanarRrr>(settings.bench.robot);
+  const PlanarRrr& robot = *shared;
   const PlanarMotion home = robot.motion({0.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
   const PlanarLeg& leg = home.legs[0].leg;
   const Eigen::Vector2d bisector = (leg.u2 - leg.u1).normalized();
   const double half_angle = 0.5 * std::acos(-leg.u1.dot(leg.u2));
-  settings.bench.pylon = Pylon{};
-  settings.bench.pylon->position_in_base = leg.passive_joint + 0.068 / std::sin(half_angle) * bisector;
+  const Eigen::Vector2d at = leg.passive_joint + 0.068 / std::sin(half_angle) * bisector;
+  settings.bench.obstacles = {test::fixed_post(at.x(), at.y())};
   test::ServoedStation station(settings, {.amplitude = {0.0, 0.0, 0.0}});
   station.step();
   const ContactTruth& contact = station.contact();
@@ -238,7 +238,7 @@ TEST(BenchPlant, RefusesADiagramThatTicksMoreSlowlyThanItLooksAhead) {
 TEST(BenchPlant, MovesAlikeInFinerTicksUnderTheSameTorque) {
   SimulatedStationSettings settings = station_with_pylon(0.1, 0.1);
   settings.applied_wrench = {
-      {.peak_in_base = {20.0, 15.0, 1.0}, .start = 0s, .rise = 1s, .hold = 0s, .fall = 1s}};
+      {.peak_in_base = PlatformVector{{20.0, 15.0, 1.0}}, .start = 0s, .rise = 1s, .hold = 0s, .fall = 1s}};
   settings.bench.brake.torque = 0.0;
   const auto pose_after = [&](Time tick) {
     DiagramBuilder builder("test", tick);

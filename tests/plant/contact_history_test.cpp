@@ -7,19 +7,17 @@
 namespace flinch {
 namespace {
 
-PylonGaps gaps_of(double first_gap, double first_rate, double second_gap = 1.0, double second_rate = 0.0) {
-  PylonGaps gaps;
-  gaps.gap[2] = first_gap;
-  gaps.rate[2] = first_rate;
-  gaps.gap[5] = second_gap;
-  gaps.rate[5] = second_rate;
-  return gaps;
+NearPairs pairs_of(double first_gap, double first_rate, double second_gap = 1.0, double second_rate = 0.0) {
+  NearPairs near;
+  near.add({.body = 2, .obstacle = 0, .gap = first_gap, .rate = first_rate});
+  near.add({.body = 5, .obstacle = 1, .gap = second_gap, .rate = second_rate});
+  return near;
 }
 
 ContactForces pushing(double force) {
   ContactForces contacts;
   contacts.touch_count = 1;
-  contacts.touches[0].force_on_robot = {0.0, force};
+  contacts.touches[0] = {2, 0, {0.0, 0.0, 0.0}, {0.0, force, 0.0}, 0.0, false};
   return contacts;
 }
 
@@ -46,29 +44,29 @@ TEST(HermiteCrossing, OfABallInFreeFallIsItsFlightTime) {
 TEST(ContactHistory, TellsOnsetPeakAndEndOfAContact) {
   ContactHistory history;
   const ContactForces none;
-  history = history.next(0ms, gaps_of(0.75e-3, -1.0), none);
+  history = history.next(0ms, pairs_of(0.75e-3, -1.0), none);
   EXPECT_FALSE(history.in_contact);
   EXPECT_EQ(history.contacts, 0);
 
-  history = history.next(1ms, gaps_of(-0.25e-3, -1.0), pushing(3.0));
+  history = history.next(1ms, pairs_of(-0.25e-3, -1.0), pushing(3.0));
   EXPECT_TRUE(history.in_contact);
   EXPECT_EQ(history.contacts, 1);
   EXPECT_EQ(history.onset, 750us);
   EXPECT_EQ(history.end, 1ms);
 
-  history = history.next(2ms, gaps_of(-0.5e-3, 0.2), pushing(8.0));
-  history = history.next(3ms, gaps_of(-0.3e-3, 0.5), pushing(5.0));
+  history = history.next(2ms, pairs_of(-0.5e-3, 0.2), pushing(8.0));
+  history = history.next(3ms, pairs_of(-0.3e-3, 0.5), pushing(5.0));
   EXPECT_EQ(history.onset, 750us);
   EXPECT_EQ(history.end, 3ms);
   EXPECT_EQ(history.peak_force, 8.0);
 
-  history = history.next(4ms, gaps_of(0.2e-3, 0.5), none);
+  history = history.next(4ms, pairs_of(0.2e-3, 0.5), none);
   EXPECT_FALSE(history.in_contact);
   EXPECT_EQ(history.end, 3600us);
   EXPECT_EQ(history.peak_force, 8.0);
   EXPECT_EQ(history.onset, 750us);
 
-  history = history.next(5ms, gaps_of(-0.1e-3, -0.3), pushing(1.0));
+  history = history.next(5ms, pairs_of(-0.1e-3, -0.3), pushing(1.0));
   EXPECT_EQ(history.contacts, 2);
   EXPECT_EQ(history.onset, 4ms + Time(772936)) << "8 s^3 - 16 s^2 + 5 s + 2 = 0 on the way back";
   EXPECT_EQ(history.peak_force, 1.0);
@@ -77,7 +75,7 @@ TEST(ContactHistory, TellsOnsetPeakAndEndOfAContact) {
 TEST(ContactHistory, LastsFromTheFirstBodyToTheLast) {
   for (const bool swapped : {false, true}) {
     const auto gaps = [&](double a, double a_rate, double b, double b_rate) {
-      return swapped ? gaps_of(b, b_rate, a, a_rate) : gaps_of(a, a_rate, b, b_rate);
+      return swapped ? pairs_of(b, b_rate, a, a_rate) : pairs_of(a, a_rate, b, b_rate);
     };
     ContactHistory history;
     const ContactForces none;
@@ -94,7 +92,7 @@ TEST(ContactHistory, LastsFromTheFirstBodyToTheLast) {
 
 TEST(ContactHistory, ThatStartsInContactBeginsWithTheFirstTick) {
   ContactHistory history;
-  history = history.next(5ms, gaps_of(-1e-3, 0.0), pushing(2.0));
+  history = history.next(5ms, pairs_of(-1e-3, 0.0), pushing(2.0));
   EXPECT_TRUE(history.in_contact);
   EXPECT_EQ(history.onset, 5ms);
 }

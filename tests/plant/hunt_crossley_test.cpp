@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include <cmath>
 
 #include "plant/sundials_integrator.h"
@@ -75,11 +77,14 @@ TEST(HuntCrossley, WithoutDissipationIsASpring) {
 
 TEST(HuntCrossley, FrictionOpposesSlidingAndApproachesCoulombsLaw) {
   const HuntCrossley law({.friction = 0.3, .friction_velocity = 0.02});
-  EXPECT_EQ(law.friction_force(100.0, 0.0), 0.0);
-  EXPECT_NEAR(law.friction_force(100.0, 0.2), -30.0, 1e-6);
-  EXPECT_NEAR(law.friction_force(100.0, -0.2), 30.0, 1e-6);
-  EXPECT_NEAR(law.friction_force(100.0, 0.02), -30.0 * std::tanh(1.0), 1e-12);
-  EXPECT_EQ(HuntCrossley(ContactMaterial{}).friction_force(100.0, 1.0), 0.0);
+  const Eigen::Vector3d along(0.6, 0.0, -0.8);
+  const auto force = [&](double speed) { return law.friction_force(100.0, speed * along).dot(along); };
+  EXPECT_EQ(force(0.0), 0.0);
+  EXPECT_NEAR(force(0.2), -30.0, 1e-6);
+  EXPECT_NEAR(force(-0.2), 30.0, 1e-6);
+  EXPECT_NEAR(force(0.02), -30.0 * std::tanh(1.0), 1e-12);
+  EXPECT_NEAR(law.friction_force(100.0, along).cross(along).norm(), 0.0, 1e-12) << "against the motion";
+  EXPECT_EQ(HuntCrossley(ContactMaterial{}).friction_force(100.0, along), Eigen::Vector3d::Zero());
 }
 
 }  // namespace

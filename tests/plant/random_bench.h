@@ -3,7 +3,7 @@
 #include <random>
 
 #include "systems/robot/planar_rrr.h"
-#include "systems/robot/planar_rrr_presets.h"
+#include "tests/plant/bench_scene.h"
 
 namespace flinch::test {
 
@@ -11,9 +11,10 @@ namespace flinch::test {
 class RandomBench {
  public:
   explicit RandomBench(std::uint64_t seed, BenchFriction friction = BenchFriction::none)
-      : robot(bench_robot(BenchGeometry::individual, friction)), random_(seed) {}
+      : shared(individual_bench(friction)), robot(*shared), random_(seed) {}
 
-  const PlanarRrr robot;
+  const std::shared_ptr<const PlanarRrr> shared;
+  const PlanarRrr& robot;
 
   double uniform(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random_);

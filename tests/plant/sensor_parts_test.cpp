@@ -56,7 +56,7 @@ TEST(Quantised, ErrsByTheDeviationOfUniformNoise) {
 }
 
 TEST(NormalNumbers, AreIndependentAndChangeWithEveryDraw) {
-  NormalNumbers<2> numbers(7);
+  NormalNumbers<2> numbers(2, 7);
   test::Statistics first;
   test::Statistics product;
   constexpr int samples = 20000;
@@ -85,7 +85,7 @@ TEST(ConstantErrors, AreDrawnFromTheirDistributions) {
   test::Statistics uniform;
   constexpr int draws = 20000;
   for (int k = 0; k < draws; ++k) {
-    normal.add(normal_vector(random, 2.0).y());
+    normal.add(normal_vector(random, 3, 2.0)[1]);
     const Eigen::Vector3d bounded = uniform_vector(random, 3.0);
     EXPECT_LE(bounded.cwiseAbs().maxCoeff(), 3.0);
     uniform.add(bounded.z());

@@ -8,16 +8,17 @@
 #include "systems/framework/context.h"
 #include "systems/framework/diagram_builder.h"
 #include "systems/framework/simulator.h"
-#include "systems/robot/planar_rrr_presets.h"
 #include "systems/signals/brake_command.h"
+#include "tests/plant/bench_scene.h"
 #include "tests/plant/truth_servo.h"
 
 namespace flinch::test {
 
-/// The bench of the papers as a station: ideal sensors, no pylon.
+/// The bench of the papers as a station: ideal sensors, no obstacle.
 inline SimulatedStationSettings bench_station() {
   SimulatedStationSettings settings;
-  settings.bench.robot = bench_robot(BenchGeometry::individual, BenchFriction::test_bench);
+  settings.bench.robot = individual_bench(BenchFriction::test_bench);
+  settings.drives.torque_constant = Eigen::Vector3d(6.021, 6.6116, 6.7315);
   return with_ideal_sensors(settings);
 }
 

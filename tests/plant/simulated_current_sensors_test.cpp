@@ -26,7 +26,7 @@ class Currents {
 
  private:
   DiagramBuilder& wire(const SimulatedCurrentSensorsSettings& settings, std::uint64_t seed) {
-    auto& sensors = builder_.add<SimulatedCurrentSensors>("sensors", settings, seed);
+    auto& sensors = builder_.add<SimulatedCurrentSensors>("sensors", settings, 3, seed);
     drives_ = builder_.export_input("drives", sensors.drives);
     currents_ = sensors.currents;
     return builder_;

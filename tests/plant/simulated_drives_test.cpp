@@ -5,15 +5,20 @@
 #include <cmath>
 
 #include "systems/foundation/setup_error.h"
+#include "tests/plant/bench_scene.h"
 #include "tests/plant/sensor_bench.h"
 
 namespace flinch {
 namespace {
 
+const Eigen::Vector3d constants(6.021, 6.6116, 6.7315);
+
+SimulatedDrivesSettings bench_constants() { return {.torque_constant = constants}; }
+
 /// Drives whose commands the test sets; what they do after a tick is seen at the next one.
 class Drives {
  public:
-  explicit Drives(const SimulatedDrivesSettings& settings = {}) : ticking_(wire(settings)) {
+  explicit Drives(const SimulatedDrivesSettings& settings = bench_constants()) : ticking_(wire(settings)) {
     ticking_.set(truth_, test::truth_at_rest());
     ticking_.set(brake_, {.engage = false});
   }
@@ -37,7 +42,7 @@ class Drives {
 
  private:
   DiagramBuilder& wire(const SimulatedDrivesSettings& settings) {
-    auto& drives = builder_.add<SimulatedDrives>("drives", settings);
+    auto& drives = builder_.add<SimulatedDrives>("drives", settings, *test::individual_bench());
     command_ = builder_.export_input("command", drives.torque_command);
     brake_ = builder_.export_input("brake", drives.brake);
     truth_ = builder_.export_input("truth", drives.truth);
@@ -74,7 +79,7 @@ TEST(SimulatedDrives, TurnCommandsIntoCurrentsAndTorques) {
 }
 
 TEST(SimulatedDrives, MakeAnotherTorqueWhereTheDriverIsWrongAboutTheConstant) {
-  Drives drives({.driver_torque_constant = Eigen::Vector3d::Constant(6.1)});
+  Drives drives({.torque_constant = constants, .driver_torque_constant = Eigen::Vector3d::Constant(6.1)});
   const DriveAction action = drives.after(drives.fresh(6.1, 6.1, 6.1));
   EXPECT_TRUE(action.current.isApprox(Eigen::Vector3d::Ones()));
   EXPECT_TRUE(action.torque.isApprox(Eigen::Vector3d(6.021, 6.6116, 6.7315)));
@@ -138,11 +143,13 @@ TEST(SimulatedDrives, AreDisabledByAFaultWhenTheRobotCameApart) {
 }
 
 TEST(SimulatedDrives, RefuseConstantsAndLimitsThatAreNotPositive) {
-  SimulatedDrivesSettings settings;
+  SimulatedDrivesSettings settings = bench_constants();
   settings.torque_constant[1] = 0.0;
   settings.torque_limit = -1.0;
-  EXPECT_EQ(problems(settings).size(), 2U);
-  EXPECT_THROW(SimulatedDrives{settings}, SetupError);
+  const auto robot = test::individual_bench();
+  EXPECT_EQ(problems(settings, *robot).size(), 2U);
+  EXPECT_THROW(SimulatedDrives(settings, *robot), SetupError);
+  EXPECT_EQ(problems({.torque_constant = JointVector::Ones(2)}, *robot).size(), 1U);
 }
 
 }  // namespace

@@ -26,7 +26,8 @@ class Encoders {
 
  private:
   DiagramBuilder& wire(const SimulatedEncodersSettings& settings, std::uint64_t seed) {
-    auto& encoders = builder_.add<SimulatedEncoders>("encoders", settings, seed);
+    auto& encoders =
+        builder_.add<SimulatedEncoders>("encoders", settings, JointCounts{.active = 3, .passive = 3}, seed);
     truth_ = builder_.export_input("truth", encoders.truth);
     joints_ = encoders.joints;
     return builder_;

@@ -11,7 +11,7 @@
 namespace flinch {
 namespace {
 
-const Eigen::Vector2d pylon_in_base(0.3, 0.2);
+const Eigen::Vector3d pylon_in_base(0.3, 0.2, 0.0);
 
 /// A sensor below a pylon that touches as the test says.
 class Sensor {
@@ -39,20 +39,20 @@ class Sensor {
   test::Ticking ticking_;
 };
 
-BenchSnapshot touched_at(const Eigen::Vector2d& point, const Eigen::Vector2d& force_on_robot) {
+BenchSnapshot touched_at(const Eigen::Vector3d& point, const Eigen::Vector3d& force_on_robot) {
   BenchSnapshot bench;
-  bench.motion.reachable = true;
+  bench.reachable = true;
   bench.contacts.touch_count = 1;
-  bench.contacts.touches[0].point = point;
-  bench.contacts.touches[0].force_on_robot = force_on_robot;
-  bench.force_on_pylon_mount = -force_on_robot;
+  bench.obstacle_count = 1;
+  bench.contacts.touches[0] = {0, 0, point, force_on_robot, 0.0, false};
+  bench.force_on_mount[0] = -force_on_robot;
   return bench;
 }
 
 TEST(SimulatedForceTorqueSensor, IdealOneReadsTheForceOnTheRobotAndItsMoment) {
   Sensor sensor({.ideal = true, .depth = 0.1});
-  const Eigen::Vector2d arm(0.0, 0.04);
-  const ForceTorqueReading reading = sensor.read(touched_at(pylon_in_base + arm, {5.0, 30.0}));
+  const Eigen::Vector3d arm(0.0, 0.04, 0.0);
+  const ForceTorqueReading reading = sensor.read(touched_at(pylon_in_base + arm, {5.0, 30.0, 0.0}));
   EXPECT_TRUE(reading.valid);
   EXPECT_EQ(reading.acquired, 0ms);
   const Eigen::Vector3d force(5.0, 30.0, 0.0);
@@ -63,7 +63,7 @@ TEST(SimulatedForceTorqueSensor, IdealOneReadsTheForceOnTheRobotAndItsMoment) {
 
 TEST(SimulatedForceTorqueSensor, NoiseHasTheGivenDeviations) {
   Sensor sensor({.force_noise = 0.2, .moment_noise = 0.01});
-  const BenchSnapshot untouched = touched_at(pylon_in_base, {0.0, 0.0});
+  const BenchSnapshot untouched = touched_at(pylon_in_base, {0.0, 0.0, 0.0});
   test::Statistics force;
   test::Statistics moment;
   for (int k = 0; k < 20000; ++k) {
@@ -81,7 +81,7 @@ TEST(SimulatedForceTorqueSensor, DeliversLateWithTheTimeOfMeasurement) {
   settings.delay = 2ms;
   Sensor sensor(settings);
   for (int k = 0; k < 20; ++k) {
-    const ForceTorqueReading reading = sensor.read(touched_at(pylon_in_base, {1.0 * k, 0.0}));
+    const ForceTorqueReading reading = sensor.read(touched_at(pylon_in_base, {1.0 * k, 0.0, 0.0}));
     EXPECT_EQ(reading.valid, k >= 2);
     if (k < 2) continue;
     EXPECT_EQ(reading.acquired, 1ms * (k - 2));
@@ -90,8 +90,8 @@ TEST(SimulatedForceTorqueSensor, DeliversLateWithTheTimeOfMeasurement) {
 }
 
 TEST(SimulatedForceTorqueSensor, OfABenchThatCameApartIsNotValid) {
-  BenchSnapshot broken = touched_at(pylon_in_base, {1.0, 1.0});
-  broken.motion.reachable = false;
+  BenchSnapshot broken = touched_at(pylon_in_base, {1.0, 1.0, 0.0});
+  broken.reachable = false;
   EXPECT_FALSE(Sensor({}).read(broken).valid);
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "systems/foundation/setup_error.h"
+#include "tests/plant/bench_scene.h"
 #include "tests/plant/sensor_bench.h"
 
 namespace flinch {
@@ -30,7 +31,7 @@ class Imu {
 
  private:
   DiagramBuilder& wire(const SimulatedImuSettings& settings, std::uint64_t seed) {
-    auto& imu = builder_.add<SimulatedImu>("imu", settings, gravity, seed);
+    auto& imu = builder_.add<SimulatedImu>("imu", settings, *test::individual_bench(), seed);
     block_ = &imu;
     truth_ = builder_.export_input("truth", imu.truth);
     imu_ = imu.imu;
@@ -162,7 +163,7 @@ TEST(SimulatedImu, NoiseHasTheDeviationOfItsDensityAndBiasesStayWithinTheirLimit
   EXPECT_NEAR(rate.mean(), imu.block().gyroscope_bias().x(), 4.0 * rate_sigma / std::sqrt(samples));
 
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    const SimulatedImu each(settings, gravity, seed);
+    const SimulatedImu each(settings, *test::individual_bench(), seed);
     EXPECT_LE(each.accelerometer_bias().cwiseAbs().maxCoeff(), settings.accelerometer_bias);
     EXPECT_GT(each.accelerometer_bias().norm(), 0.0);
     EXPECT_LE(each.gyroscope_bias().cwiseAbs().maxCoeff(), settings.gyroscope_bias);
@@ -198,7 +199,7 @@ TEST(SimulatedImu, IsTheSameForTheSameSeedOnly) {
 TEST(SimulatedImu, RefusesADelayLongerThanItsMemory) {
   SimulatedImuSettings settings;
   settings.delay = 20ms;
-  EXPECT_THROW(SimulatedImu(settings, gravity, 1), SetupError);
+  EXPECT_THROW(SimulatedImu(settings, *test::individual_bench(), 1), SetupError);
   settings.period = Time::zero();
   EXPECT_EQ(problems(settings).size(), 2U);
 }

@@ -18,9 +18,9 @@ namespace {
 /// With the errors of real sensors and a pylon in the way.
 SimulatedStationSettings noisy_station(std::uint64_t seed = 3) {
   SimulatedStationSettings settings;
-  settings.bench.robot = bench_robot(BenchGeometry::individual, BenchFriction::test_bench);
-  settings.bench.pylon = Pylon{};
-  settings.bench.pylon->position_in_base = {0.32, 0.20};
+  settings.bench.robot = test::individual_bench(BenchFriction::test_bench);
+  settings.bench.obstacles = {test::fixed_post(0.32, 0.20)};
+  settings.drives.torque_constant = Eigen::Vector3d(6.021, 6.6116, 6.7315);
   settings.seed = seed;
   return settings;
 }
@@ -66,7 +66,7 @@ Recording record(const SimulatedStationSettings& settings, Time duration) {
   test::ServoedStation station(settings);
   Recorder recorder(station.diagram(), recordable_paths(station.diagram()),
                     static_cast<std::size_t>(duration / 1ms),
-                    quantity_units(PlanarRrr(settings.bench.robot)));
+                    quantity_units(*std::dynamic_pointer_cast<const PlanarRrr>(settings.bench.robot)));
   station.simulator().record(recorder);
   for (Time now{}; now < duration; now += 1ms) station.step();
   return recorder.recording();
@@ -126,9 +126,9 @@ TEST(SimulatedStation, WithIdealSensorsTellsTheTruth) {
 }
 
 TEST(SimulatedStation, AllocatesNothingInATick) {
-  for (const Pylon::Mounting mounting : {Pylon::Mounting::fixed, Pylon::Mounting::compliant}) {
+  for (const auto& post : {test::fixed_post(0.32, 0.20), test::compliant_post(0.32, 0.20)}) {
     SimulatedStationSettings settings = noisy_station();
-    settings.bench.pylon->mounting = mounting;
+    settings.bench.obstacles = {post};
     test::ServoedStation station(settings);
     station.step();
     const test::AllocationCounter counter;
@@ -212,9 +212,12 @@ TEST(SimulatedStation, HoldsTheTorqueOfATickUntilTheNext) {
 
 TEST(SimulatedStation, YieldsToAnAppliedWrenchAsStifflyAsItIsHeld) {
   SimulatedStationSettings settings = test::bench_station();
-  settings.bench.robot = bench_robot(BenchGeometry::individual, BenchFriction::none);
-  settings.applied_wrench = {
-      {.peak_in_base = {40.0, 0.0, 0.0}, .start = 100ms, .rise = 2s, .hold = 500ms, .fall = 2s}};
+  settings.bench.robot = test::individual_bench();
+  settings.applied_wrench = {{.peak_in_base = PlatformVector{{40.0, 0.0, 0.0}},
+                              .start = 100ms,
+                              .rise = 2s,
+                              .hold = 500ms,
+                              .fall = 2s}};
   test::ServoedStation station(settings, {.amplitude = {0.0, 0.0, 0.0}});
   station.advance_to(2500ms);
   EXPECT_NEAR(station.truth().pose[0], 40.0 / 2000.0, 1e-4) << "stiffness 2 N/mm";

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <cmath>
+#include <memory>
 
 #include "plant/plant_truth.h"
 #include "systems/framework/system.h"
-#include "systems/robot/planar_rrr.h"
+#include "systems/robot/mechanism.h"
 #include "systems/signals/torque_command.h"
 
 namespace flinch::test {
@@ -25,20 +26,20 @@ struct Path {
 /// Law that moves the platform along a path: F = K (x_d - x) - D v, tau_a = J_x,qa^T F.
 class Servo {
  public:
-  Servo(const PlanarRrrParameters& robot, const Path& path) : robot_(robot), path_(path) {}
+  Servo(const std::shared_ptr<const Mechanism>& robot, const Path& path) : robot_(robot), path_(path) {}
 
   /// Drive torques [Nm] at the time `t` [s]; none near a singularity.
   Eigen::Vector3d torque(double t, const Eigen::Vector3d& pose, const Eigen::Vector3d& velocity) const {
     Kinematics kinematics;
-    robot_.kinematics(pose, velocity, kinematics);
+    robot_->kinematics(pose, velocity, kinematics);
     if (!kinematics.valid) return Eigen::Vector3d::Zero();
-    const Eigen::Vector3d error = robot_.difference(path_.at(t), pose);
+    const Eigen::Vector3d error = robot_->difference(path_.at(t), pose);
     const Eigen::Vector3d force = stiffness_.cwiseProduct(error) - damping_.cwiseProduct(velocity);
     return kinematics.J_x_qa.transpose() * force;
   }
 
  private:
-  PlanarRrr robot_;
+  std::shared_ptr<const Mechanism> robot_;
   Path path_;
   Eigen::Vector3d stiffness_{2000.0, 2000.0, 85.0};
   Eigen::Vector3d damping_{170.0, 170.0, 4.0};
@@ -47,7 +48,7 @@ class Servo {
 /// The same as a block that knows the truth.
 class TruthServo final : public System {
  public:
-  TruthServo(const PlanarRrrParameters& robot, const Path& path) : servo_(robot, path) {}
+  TruthServo(const std::shared_ptr<const Mechanism>& robot, const Path& path) : servo_(robot, path) {}
 
   InputPort<PlantTruth> truth = input<PlantTruth>("truth");
   OutputPort<TorqueCommand> torque = output<&TruthServo::control>("torque", clock, truth);

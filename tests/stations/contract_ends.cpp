@@ -42,9 +42,9 @@ OutputPort<Reading> inject(DiagramBuilder& builder, const std::string& name, Out
 
 Station add_simulated(DiagramBuilder& builder) {
   SimulatedStationSettings settings;
-  settings.bench.robot = bench_robot(BenchGeometry::individual, BenchFriction::none);
-  settings.drives.torque_constant.setConstant(contract_torque_constant);
-  settings.drives.driver_torque_constant.setConstant(contract_torque_constant);
+  settings.bench.robot =
+      std::make_shared<const PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::none));
+  settings.drives.torque_constant.setConstant(3, contract_torque_constant);
   settings.drives.longest_silence = longest_age;
   return add_simulated_station(builder, settings);
 }

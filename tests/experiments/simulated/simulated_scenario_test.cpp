@@ -26,6 +26,10 @@ SimulatedScenario scenario_of(const test::Workplace& place, const std::string& t
   return read_simulated_scenario(place / "scenarios/own.yaml");
 }
 
+const PlanarRrrParameters& true_parameters(const SimulatedScenario& scenario) {
+  return dynamic_cast<const PlanarRrr&>(*scenario.station.bench.robot).parameters();
+}
+
 const PlanarRrrParameters& believed(const SimulatedScenario& scenario) {
   return dynamic_cast<const PlanarRrr&>(*scenario.robot.robot).parameters();
 }
@@ -47,16 +51,17 @@ TEST(ShippedScenarios, AreAllGood) {
 TEST(SimulatedScenario, HasNothingThatTouchesTheRobotUnlessItSaysSo) {
   const test::Workplace place;
   const SimulatedScenario scenario = scenario_of(place, least);
-  EXPECT_FALSE(scenario.station.bench.pylon.has_value());
+  EXPECT_TRUE(scenario.station.bench.obstacles.empty());
   EXPECT_TRUE(scenario.station.applied_wrench.empty());
   EXPECT_EQ(run_experiment(scenario).samples(), 250U);
 }
 
 TEST(SimulatedScenario, PutsThePylonWhereTheScenarioSays) {
   const SimulatedScenario scenario = read_simulated_scenario(shipped("scenarios/platform_collision.yaml"));
-  ASSERT_TRUE(scenario.station.bench.pylon.has_value());
-  EXPECT_EQ(scenario.station.bench.pylon->position_in_base, scenario.obstacles.at(0).position_in_base);
-  EXPECT_EQ(scenario.station.bench.pylon->radius, scenario.obstacles.at(0).radius);
+  ASSERT_EQ(scenario.station.bench.obstacles.size(), 1U);
+  const ObstacleForm& pylon = scenario.station.bench.obstacles[0]->form();
+  EXPECT_EQ(pylon.position_in_base.head<2>(), scenario.obstacles.at(0).position_in_base);
+  EXPECT_EQ(std::get<Sphere>(pylon.shape).radius, scenario.obstacles.at(0).radius);
 }
 
 TEST(SimulatedScenario, TellsWhatIsWrongWithItsOwnSectionsAsWell) {
@@ -73,8 +78,8 @@ TEST(SimulatedScenario, TellsWhatIsWrongWithItsOwnSectionsAsWell) {
 TEST(SimulatedScenario, SimulatesTheRobotThatTheControllerBelievesIn) {
   const test::Workplace place;
   const SimulatedScenario scenario = scenario_of(place, least);
-  EXPECT_EQ(scenario.station.bench.robot.platform_mass, believed(scenario).platform_mass);
-  EXPECT_EQ(scenario.station.bench.robot.legs[1].active_friction.coulomb,
+  EXPECT_EQ(true_parameters(scenario).platform_mass, believed(scenario).platform_mass);
+  EXPECT_EQ(true_parameters(scenario).legs[1].active_friction.coulomb,
             believed(scenario).legs[1].active_friction.coulomb);
 }
 
@@ -82,7 +87,7 @@ TEST(SimulatedScenario, CanLetThePlantDifferFromTheModel) {
   const test::Workplace place;
   const SimulatedScenario scenario = scenario_of(
       place, std::string(least) + "plant: {friction: none, payload_kg: 0.5, leg_inertia_scale: 1.1}\n");
-  const PlanarRrrParameters& plant = scenario.station.bench.robot;
+  const PlanarRrrParameters& plant = true_parameters(scenario);
   EXPECT_EQ(plant.platform_mass, believed(scenario).platform_mass + 0.5);
   EXPECT_EQ(plant.legs[2].inertia.p1, believed(scenario).legs[2].inertia.p1 * 1.1);
   EXPECT_EQ(plant.legs[0].active_friction.coulomb, 0.0);

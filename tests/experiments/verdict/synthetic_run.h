@@ -43,7 +43,7 @@ class SyntheticRun {
   SyntheticRun& touch(BodyId body, int first, int last, double force) {
     for (int k = first; k <= last; ++k) {
       at(k).contact.strongest.body = body.index();
-      at(k).contact.strongest.force_in_base = {force, 0.0};
+      at(k).contact.strongest.force_in_base = Eigen::Vector2d(force, 0.0);
       at(k).truth.wrench_in_base[0] = at(k).contact.wrench_in_base[0] = force;
     }
     return *this;
@@ -86,6 +86,7 @@ class SyntheticRun {
   static Moment quiet() {
     const PlatformVector zero = PlatformVector::Zero(3);
     Moment moment;
+    moment.contact.clear(3, 2);
     moment.truth.valid = moment.contact.valid = moment.detection.valid = true;
     moment.truth.pose = moment.truth.velocity = zero;
     moment.truth.wrench_in_base = moment.contact.wrench_in_base = zero;

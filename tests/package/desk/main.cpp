@@ -5,13 +5,16 @@
 #include "plant/sundials_integrator.h"
 #include "systems/framework/diagram_builder.h"
 #include "systems/framework/simulator.h"
+#include "systems/robot/planar_rrr.h"
 #include "systems/robot/planar_rrr_presets.h"
 
 /// Simulates the bench with its brakes closed and checks that it stays at home.
 int main() {
   using namespace flinch;
   SimulatedStationSettings settings;
-  settings.bench.robot = bench_robot(BenchGeometry::individual, BenchFriction::test_bench);
+  const auto robot =
+      std::make_shared<const PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::test_bench));
+  settings.bench.robot = robot;
 
   DiagramBuilder builder;
   const SimulatedStation station = add_simulated_station(builder, settings);
@@ -24,9 +27,8 @@ int main() {
   context.set(brake, BrakeCommand{.engage = true});
   Simulator(*diagram, std::make_unique<SundialsIntegrator>()).advance_to(context, 50ms);
 
-  const PlanarRrr robot(settings.bench.robot);
   const PlatformMotion& found = context.get(station.platform_truth);
-  const double way = robot.difference(found.pose, robot.home_pose()).norm();
+  const double way = robot->difference(found.pose, robot->home_pose()).norm();
   std::printf("behind closed brakes the platform moved by %.1e\n", way);
   return found.valid() && way < 1e-6 ? 0 : 1;
 }

@@ -1,34 +1,36 @@
 #pragma once
 
-#include "plant/contact_pairs.h"
 #include "plant/planar_gap.h"
-#include "plant/pylon.h"
+#include "plant/planar_pairs.h"
 #include "systems/robot/body_id.h"
 #include "systems/robot/planar_motion.h"
 
 namespace flinch {
 
-/// Outlines of the robot's bodies and of the pylon in the plane of motion. A body's axis begins at its
-/// proximal joint; the platform is a disc about the origin of its frame.
-struct BenchShapes {
+inline constexpr int planar_body_count = 7;
+
+/// Outlines of a planar 3-RRR in its plane of motion. A body's axis begins at its proximal joint; the
+/// platform is a disc about the origin of its frame.
+struct PlanarShapes {
   double link_radius = 0.0;      ///< [m]
   double platform_radius = 0.0;  ///< [m]
-  double pylon_radius = 0.0;     ///< [m]
 
   PlanarCapsule body(const PlanarMotion& motion, BodyId body) const noexcept;
-  Disc round(const ContactPair& pair, const PlanarMotion& motion, const PylonMotion& pylon) const noexcept;
+  /// The disc of a pair of the robot's own bodies.
+  Disc joint(const PlanarPair& pair, const PlanarMotion& motion) const noexcept;
+  double radius(BodyId body) const noexcept { return body.is_platform() ? platform_radius : link_radius; }
 };
 
-/// The body that a pair's disc belongs to; the pylon belongs to none, for which this is the platform.
-BodyId round_body(const ContactPair& pair) noexcept;
+/// The body that the disc of a pair of the robot's own bodies belongs to.
+BodyId round_body(const PlanarPair& pair) noexcept;
 
-/// Calls visit(body, gap) for the body or bodies of `pair` that its disc may touch. Around a joint of two
-/// links there is one contact: that with the nearer link. Around the coupling joint, as far as the platform's
+/// Calls visit(body, gap) for the body or bodies of `pair` that `disc` may touch. Around a joint of two links
+/// there is one contact: that with the nearer link. Around the coupling joint, as far as the platform's
 /// outline covers the link's end, there is only the contact with the platform.
 template <class Visit>
-void for_each_gap(const BenchShapes& shapes, const ContactPair& pair, const PlanarMotion& motion,
+void for_each_gap(const PlanarShapes& shapes, const PlanarPair& pair, const PlanarMotion& motion,
                   const Disc& disc, Visit&& visit) {
-  using Against = ContactPair::Against;
+  using Against = PlanarPair::Against;
   const BodyId link1 = BodyId::link1(pair.leg);
   const BodyId link2 = BodyId::link2(pair.leg);
   const auto gap_to = [&](BodyId body) { return gap_to_disc(shapes.body(motion, body), disc); };

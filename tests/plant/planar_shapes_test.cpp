@@ -1,4 +1,4 @@
-#include "plant/bench_shapes.h"
+#include "plant/planar_shapes.h"
 
 #include <gtest/gtest.h>
 
@@ -10,24 +10,26 @@
 #include <utility>
 #include <vector>
 
-#include "plant/broad_phase.h"
+#include "plant/contact_candidates.h"
 #include "tests/plant/bullet_gap.h"
 #include "tests/plant/random_bench.h"
 
 namespace flinch {
 namespace {
 
-constexpr BenchShapes shapes{.link_radius = 0.03, .platform_radius = 0.137, .pylon_radius = 0.04};
+constexpr PlanarShapes shapes{.link_radius = 0.03, .platform_radius = 0.137};
+constexpr double post_radius = 0.04;
 
 // The least gap that a body sees in all pairs of two legs, which joints of either against links of the other
 // make.
 double least_gap_of_legs(const PlanarMotion& motion, int leg, int other) {
   double least = 1e9;
-  for (const ContactPair& pair : contact_pairs) {
+  for (std::size_t i = 0; i < planar_self_pairs; ++i) {
+    const PlanarPair pair = planar_pair(i);
     const bool of_these =
-        (pair.round_leg == leg && pair.leg == other) || (pair.round_leg == other && pair.leg == leg);
+        (pair.which == leg && pair.leg == other) || (pair.which == other && pair.leg == leg);
     if (!of_these) continue;
-    for_each_gap(shapes, pair, motion, shapes.round(pair, motion, {}),
+    for_each_gap(shapes, pair, motion, shapes.joint(pair, motion),
                  [&](BodyId, const DiscGap& gap) { least = std::min(least, gap.gap); });
   }
   return least;
@@ -43,28 +45,27 @@ double least_bullet_gap_of_legs(test::BulletGap& bullet, const PlanarMotion& mot
   return least;
 }
 
-TEST(ContactPairs, AreAllDifferentAndComeWithThePylonFirst) {
+TEST(PlanarPairs, AreAllDifferentAndComeWithTheRobotsOwnFirst) {
   std::set<std::tuple<int, int, int, int>> seen;
-  for (std::size_t i = 0; i < contact_pair_count; ++i) {
-    const ContactPair& pair = contact_pairs[i];
-    seen.insert({static_cast<int>(pair.round), pair.round_leg, static_cast<int>(pair.against), pair.leg});
-    EXPECT_EQ(pair.round == ContactPair::Round::pylon, i < pylon_pair_count);
+  const std::size_t count = planar_self_pairs + 3 * planar_pairs_of_obstacle;
+  for (std::size_t i = 0; i < count; ++i) {
+    const PlanarPair pair = planar_pair(i);
+    seen.insert({static_cast<int>(pair.round), pair.which, static_cast<int>(pair.against), pair.leg});
+    EXPECT_EQ(pair.round == PlanarPair::Round::obstacle, i >= planar_self_pairs);
   }
-  EXPECT_EQ(seen.size(), contact_pair_count);
-  EXPECT_EQ(ContactCandidates::all().count(), static_cast<int>(contact_pair_count));
+  EXPECT_EQ(seen.size(), count);
 }
 
 TEST(ContactCandidates, VisitExactlyThoseThatWereAdded) {
   ContactCandidates candidates;
-  candidates.add(3);
-  candidates.add(30);
-  std::vector<const ContactPair*> visited;
-  candidates.for_each([&](const ContactPair& pair) { visited.push_back(&pair); });
-  ASSERT_EQ(visited.size(), 2U);
-  EXPECT_EQ(visited[0], &contact_pairs[3]);
-  EXPECT_EQ(visited[1], &contact_pairs[30]);
-  EXPECT_TRUE(candidates.contains(3));
+  for (const std::size_t pair : {3U, 63U, 64U, 200U}) candidates.add(pair);
+  std::vector<std::size_t> visited;
+  candidates.for_each(200, [&](std::size_t pair) { visited.push_back(pair); });
+  EXPECT_EQ(visited, (std::vector<std::size_t>{3, 63, 64})) << "those below the end";
+  EXPECT_TRUE(candidates.contains(200));
   EXPECT_FALSE(candidates.contains(4));
+  EXPECT_EQ(candidates.count(), 4);
+  EXPECT_EQ(ContactCandidates::all().count(), static_cast<int>(ContactCandidates::capacity));
 }
 
 double gap_of_coupling_joints(const PlanarMotion& motion, int leg, int other) {
@@ -73,7 +74,7 @@ double gap_of_coupling_joints(const PlanarMotion& motion, int leg, int other) {
 }
 
 // Coupling joints are a fixed distance apart, and no pair: where they are nearest, nothing is compared.
-TEST(BenchShapes, GapsOfJointsToLinksAreTheGapsOfTheLegsInBullet) {
+TEST(PlanarShapes, GapsOfJointsToLinksAreTheGapsOfTheLegsInBullet) {
   test::RandomBench random(11);
   test::BulletGap bullet;
   double worst = 0.0;
@@ -93,14 +94,13 @@ TEST(BenchShapes, GapsOfJointsToLinksAreTheGapsOfTheLegsInBullet) {
   EXPECT_LT(worst, 1e-14);
 }
 
-TEST(BenchShapes, GapsOfPlatformAndPylonAreThoseOfBullet) {
+TEST(PlanarShapes, GapsOfPlatformAndPylonAreThoseOfBullet) {
   test::RandomBench random(12);
   test::BulletGap bullet;
   double worst = 0.0;
   for (int i = 0; i < 3000; ++i) {
     const PlanarMotion motion = random.motion();
-    const PylonMotion pylon{random.point(0.8), {0.0, 0.0}};
-    const Disc post{pylon.position, shapes.pylon_radius};
+    const Disc post{random.point(0.8), post_radius};
     for (int body = 0; body < 7; ++body) {
       const PlanarCapsule capsule = shapes.body(motion, BodyId::from_index(body));
       worst = std::max(worst, std::abs(gap_to_disc(capsule, post).gap - bullet.to_post(capsule, post)));
@@ -114,35 +114,6 @@ TEST(BenchShapes, GapsOfPlatformAndPylonAreThoseOfBullet) {
   }
   std::cout << "largest difference from Bullet: " << worst << " m\n";
   EXPECT_LT(worst, 1e-14);
-}
-
-TEST(BroadPhase, PutsEveryBodyIntoItsBox) {
-  test::RandomBench random(13);
-  const BroadPhase broad_phase(shapes, random.robot.motion({0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}));
-  for (int i = 0; i < 3000; ++i) {
-    const PlanarMotion motion = random.motion();
-    const PylonMotion pylon{random.point(0.8), {0.0, 0.0}};
-    const BroadPhase::Boxes boxes = broad_phase.boxes(motion, pylon);
-    for (int body = 0; body < 7; ++body) {
-      const PlanarCapsule capsule = shapes.body(motion, BodyId::from_index(body));
-      const Eigen::Array2d low = capsule.begin.cwiseMin(capsule.end).array() - capsule.radius;
-      const Eigen::Array2d high = capsule.begin.cwiseMax(capsule.end).array() + capsule.radius;
-      const BroadPhase::Box& box = boxes[static_cast<std::size_t>(body)];
-      EXPECT_TRUE((box.low.array() <= low + 1e-12).all());
-      EXPECT_TRUE((box.high.array() >= high - 1e-12).all());
-    }
-    EXPECT_TRUE(boxes[BroadPhase::pylon].low.isApprox(pylon.position - Eigen::Vector2d::Constant(0.04)));
-    EXPECT_TRUE(boxes[BroadPhase::pylon].high.isApprox(pylon.position + Eigen::Vector2d::Constant(0.04)));
-  }
-}
-
-TEST(BroadPhase, BoxesOverlapWithinTheirReach) {
-  const BroadPhase::Box left{{0.0, 0.0}, {1.0, 1.0}};
-  const BroadPhase::Box right{{1.1, 0.5}, {2.0, 2.0}};
-  EXPECT_FALSE(left.overlaps(right, 0.05));
-  EXPECT_TRUE(left.overlaps(right, 0.15));
-  EXPECT_FALSE(right.overlaps(left, 0.05));
-  EXPECT_TRUE(right.overlaps(left, 0.15));
 }
 
 }  // namespace

@@ -1,0 +1,211 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "plant/bench_dynamics.h"
+#include "plant/hunt_crossley.h"
+
+namespace flinch {
+
+/// The bench with a robot whose motion and outlines `Robot` computes: PlanarBench or GeneralBench. What a
+/// Robot must offer is what those two have in common.
+template <class Robot>
+class BenchOf final : public BenchDynamics {
+ public:
+  using Instant = typename Robot::Instant;
+
+  explicit BenchOf(const BenchSettings& settings) : BenchDynamics(settings), robot_(settings) {
+    for (const auto& obstacle : settings.obstacles) laws_.emplace_back(obstacle->form().material);
+    if (settings.link_material) link_law_ = HuntCrossley(*settings.link_material);
+  }
+
+  const Robot& moving_robot() const noexcept { return robot_; }
+
+  /// Adds the forces of the contacts in `candidates` and of the points that are held in `step`.
+  void find_forces(const Instant& now, const PlacedObstacles& obstacles, const BenchStep& step,
+                   const ContactCandidates& candidates, ContactForces& out) const noexcept;
+
+  void rates(const BenchState& state, const DriveAction& drives, const PlatformVector& applied_wrench,
+             const BenchStep& step, BenchState& rates) const noexcept override;
+  void snapshot(const BenchState& state, const DriveAction& drives, const PlatformVector& applied_wrench,
+                const BenchStep& step, double duration, BenchSnapshot& out) const noexcept override;
+  void next_step(const BenchState& state, double t, const BenchSnapshot& snapshot, const BenchStep& before,
+                 BenchStep& out) const noexcept override;
+
+ private:
+  void touch(const Instant& now, int body, int obstacle, const PlacedObstacle& placed, const SurfaceGap& gap,
+             ContactForces& out) const noexcept;
+  void meet(const Instant& now, int body, int other, const SurfaceGap& gap,
+            ContactForces& out) const noexcept;
+  void hold(const Instant& now, int obstacle, const PlacedObstacle& placed, const HeldPoint& held,
+            ContactForces& out) const noexcept;
+  HeldPoint next_held(std::size_t obstacle, const BenchState& state, double t, const BenchSnapshot& snapshot,
+                      const BenchStep& before) const noexcept;
+  PlatformVector acceleration(const Instant& now, const DriveAction& drives,
+                              const PlatformVector& wrench) const noexcept;
+
+  Robot robot_;
+  std::vector<HuntCrossley> laws_;  ///< one an obstacle
+  HuntCrossley link_law_;
+};
+
+namespace internal {
+
+/// Force on a body whose surface approaches the other's with `velocity`.
+inline Eigen::Vector3d contact_force(const HuntCrossley& law, const SurfaceGap& gap,
+                                     const Eigen::Vector3d& velocity) {
+  const double approach = velocity.dot(gap.normal);
+  const double push = law.normal_force(-gap.gap, approach);
+  return -push * gap.normal + law.friction_force(push, velocity - approach * gap.normal);
+}
+
+inline void add(const Touch& touch, ContactForces& out) {
+  if (out.touch_count < max_touches) out.touches[static_cast<std::size_t>(out.touch_count++)] = touch;
+}
+
+}  // namespace internal
+
+// ---------------------------------------------------------------- forces
+
+template <class Robot>
+void BenchOf<Robot>::find_forces(const Instant& now, const PlacedObstacles& obstacles, const BenchStep& step,
+                                 const ContactCandidates& candidates, ContactForces& out) const noexcept {
+  robot_.for_each_gap(
+      now, obstacles, candidates,
+      [&](int body, int obstacle, const SurfaceGap& gap) {
+        if (gap.gap < 0.0)
+          touch(now, body, obstacle, obstacles[static_cast<std::size_t>(obstacle)], gap, out);
+      },
+      [&](int body, int other, const SurfaceGap& gap) {
+        if (gap.gap < 0.0) meet(now, body, other, gap, out);
+      });
+  for (int i = 0; i < obstacle_count(); ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    if (step.held[index].body >= 0) hold(now, i, obstacles[index], step.held[index], out);
+  }
+}
+
+template <class Robot>
+void BenchOf<Robot>::touch(const Instant& now, int body, int obstacle, const PlacedObstacle& placed,
+                           const SurfaceGap& gap, ContactForces& out) const noexcept {
+  const auto index = static_cast<std::size_t>(obstacle);
+  const Eigen::Vector3d velocity = robot_.point_velocity(now, body, gap.point) - placed.velocity;
+  const Eigen::Vector3d force = internal::contact_force(laws_[index], gap, velocity);
+  out.obstacle_wrench += robot_.wrench(now, body, gap.point, force);
+  out.on_obstacle[index] -= force;
+  internal::add({body, obstacle, gap.point, force, -gap.gap, false}, out);
+}
+
+template <class Robot>
+void BenchOf<Robot>::meet(const Instant& now, int body, int other, const SurfaceGap& gap,
+                          ContactForces& out) const noexcept {
+  const Eigen::Vector3d velocity =
+      robot_.point_velocity(now, body, gap.point) - robot_.point_velocity(now, other, gap.point);
+  const Eigen::Vector3d force = internal::contact_force(link_law_, gap, velocity);
+  out.self_wrench +=
+      robot_.wrench(now, body, gap.point, force) + robot_.wrench(now, other, gap.point, -force);
+  out.self_contact = true;
+}
+
+template <class Robot>
+void BenchOf<Robot>::hold(const Instant& now, int obstacle, const PlacedObstacle& placed,
+                          const HeldPoint& held, ContactForces& out) const noexcept {
+  const auto index = static_cast<std::size_t>(obstacle);
+  const Eigen::Vector3d point = robot_.point_in_base(now, held.body, held.point_in_body);
+  const Eigen::Vector3d stretch = point - (placed.position + held.offset);
+  const Eigen::Vector3d rate = robot_.point_velocity(now, held.body, point) - placed.velocity;
+  const Eigen::Vector3d force = settings().obstacles[index]->grip_force(stretch, rate);
+  out.obstacle_wrench += robot_.wrench(now, held.body, point, force);
+  out.on_obstacle[index] -= force;
+  internal::add({held.body, obstacle, point, force, 0.0, true}, out);
+}
+
+template <class Robot>
+PlatformVector BenchOf<Robot>::acceleration(const Instant& now, const DriveAction& drives,
+                                            const PlatformVector& wrench) const noexcept {
+  JointVector torque = drives.torque;
+  if (torque.size() != robot().drives()) torque.setZero(robot().drives());
+  if (!drives.braked) return robot_.acceleration(now, torque, wrench);
+  for (int i = 0; i < robot().drives(); ++i) torque[i] += brake_effort(i, robot_.drive_rate(now, i));
+  return robot_.acceleration(now, torque, wrench);
+}
+
+// ---------------------------------------------------------------- motion
+
+template <class Robot>
+void BenchOf<Robot>::rates(const BenchState& state, const DriveAction& drives,
+                           const PlatformVector& applied_wrench, const BenchStep& step,
+                           BenchState& rates) const noexcept {
+  rates.setZero(state.size());
+  Instant now;
+  if (!robot_.at(state, step.chart, now)) return;
+  ContactForces contacts(dof());
+  PlacedObstacles obstacles;
+  place_obstacles(state, obstacles);
+  find_forces(now, obstacles, step, step.candidates, contacts);
+  robot_.coordinate_rates(state, step.chart, rates);
+  rates.segment(dof(), dof()) =
+      acceleration(now, drives, applied_wrench + contacts.obstacle_wrench + contacts.self_wrench);
+  add_obstacle_rates(state, contacts, rates);
+}
+
+template <class Robot>
+void BenchOf<Robot>::snapshot(const BenchState& state, const DriveAction& drives,
+                              const PlatformVector& applied_wrench, const BenchStep& step, double duration,
+                              BenchSnapshot& out) const noexcept {
+  Instant now;
+  out.reachable = robot_.at(state, step.chart, now);
+  out.pose = robot_.pose(state, step.chart);
+  out.velocity = state.segment(dof(), dof());
+  out.applied_wrench = applied_wrench;
+  out.obstacle_count = obstacle_count();
+  out.contacts.clear(dof());
+  out.near_pairs.count = 0;
+  if (!out.reachable) return;
+  robot_.describe(now, out);
+  place_obstacles(state, out.obstacles);
+  out.candidates = robot_.candidates(now, out.obstacles, duration);
+  find_forces(now, out.obstacles, step, out.candidates, out.contacts);
+  out.acceleration =
+      acceleration(now, drives, applied_wrench + out.contacts.obstacle_wrench + out.contacts.self_wrench);
+  robot_.find_near_pairs(now, out.obstacles, out.near_pairs);
+  for (std::size_t i = 0; i < settings().obstacles.size(); ++i) {
+    out.force_on_mount[i] =
+        settings().obstacles[i]->force_on_mount(time(state), motion(i, state), out.contacts.on_obstacle[i]);
+  }
+}
+
+// ---------------------------------------------------------------- from tick to tick
+
+template <class Robot>
+void BenchOf<Robot>::next_step(const BenchState& state, double t, const BenchSnapshot& snapshot,
+                               const BenchStep& before, BenchStep& out) const noexcept {
+  if (!snapshot.reachable) {
+    out = before;
+    return;
+  }
+  out.chart.pose = snapshot.pose;
+  out.chart.xi = state.head(dof());
+  out.candidates = snapshot.candidates;
+  for (std::size_t i = 0; i < settings().obstacles.size(); ++i) {
+    out.held[i] = next_held(i, state, t, snapshot, before);
+  }
+}
+
+template <class Robot>
+HeldPoint BenchOf<Robot>::next_held(std::size_t obstacle, const BenchState& state, double t,
+                                    const BenchSnapshot& snapshot, const BenchStep& before) const noexcept {
+  const HoldingTimes* holding = settings().obstacles[obstacle]->holding();
+  if (holding == nullptr || t < holding->begin || t >= holding->end) return {};
+  if (before.held[obstacle].body >= 0) return before.held[obstacle];
+  const NearPair* touching = snapshot.near_pairs.nearest_of(static_cast<int>(obstacle));
+  Instant now;
+  if (touching == nullptr || touching->gap >= 0.0 || !robot_.at(state, before.chart, now)) return {};
+  const SurfaceGap gap = robot_.gap(now, touching->body, touching->obstacle, snapshot.obstacles);
+  return {touching->body, robot_.point_in_body(now, touching->body, gap.point),
+          gap.point - snapshot.obstacles[obstacle].position};
+}
+
+}  // namespace flinch

@@ -1,0 +1,157 @@
+#include "plant/planar_bench.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace flinch {
+namespace {
+
+// Room for what accelerates within a tick: 1 mm in 1 ms takes 2000 m/s^2.
+constexpr double reach_margin = 1e-3;  // [m]
+
+Eigen::Vector3d in_space(const Eigen::Vector2d& v) { return {v.x(), v.y(), 0.0}; }
+
+// No point of the robot is faster: links are as fast as their joints, and the platform's rim bounds these.
+double greatest_speed(const PlanarMotion& motion, double platform_radius) {
+  double speed = motion.velocity.head<2>().norm() + platform_radius * std::abs(motion.velocity.z());
+  for (const PlanarLegMotion& leg : motion.legs) {
+    speed = std::max(speed, std::abs(leg.qa_rate) * (leg.leg.passive_joint - leg.leg.base_joint).norm());
+  }
+  return speed;
+}
+
+/// A box whose sides are parallel to the axes of the base frame [m].
+struct PlanarBox {
+  Eigen::Vector2d low;
+  Eigen::Vector2d high;
+
+  explicit PlanarBox(const PlanarCapsule& capsule)
+      : low(capsule.begin.cwiseMin(capsule.end).array() - capsule.radius),
+        high(capsule.begin.cwiseMax(capsule.end).array() + capsule.radius) {}
+
+  /// Whether a disc comes within `reach` of the box.
+  bool is_near(const Disc& disc, double reach) const {
+    const double room = disc.radius + reach;
+    return ((disc.centre - high).array() <= room).all() && ((low - disc.centre).array() <= room).all();
+  }
+};
+
+/// Origin and x axis of a body's frame.
+struct PlanarFrame {
+  Eigen::Vector2d origin;
+  Eigen::Vector2d axis;
+};
+
+PlanarFrame frame(const PlanarMotion& motion, BodyId body) {
+  if (body.is_platform()) {
+    return {motion.pose.head<2>(), {std::cos(motion.pose.z()), std::sin(motion.pose.z())}};
+  }
+  const PlanarLeg& leg = motion.legs[static_cast<std::size_t>(body.leg())].leg;
+  if (body.is_link1()) return {leg.base_joint, leg.u1};
+  return {leg.passive_joint, leg.u2};
+}
+
+std::vector<Sphere> rounds_of(const Obstacles& obstacles) {
+  std::vector<Sphere> rounds;
+  for (const auto& obstacle : obstacles) rounds.push_back(std::get<Sphere>(obstacle->form().shape));
+  return rounds;
+}
+
+}  // namespace
+
+PlanarBench::PlanarBench(const BenchSettings& settings)
+    : robot_(std::dynamic_pointer_cast<const PlanarRrr>(settings.robot)),
+      shapes_{robot_->parameters().link_radius, robot_->parameters().platform_hull_radius},
+      rounds_(rounds_of(settings.obstacles)),
+      links_meet_(settings.link_material.has_value()) {}
+
+Disc PlanarBench::disc(int obstacle, const PlacedObstacle& placed) const noexcept {
+  const Sphere& round = rounds_[static_cast<std::size_t>(obstacle)];
+  return {placed.position.head<2>() + round.centre.head<2>(), round.radius};
+}
+
+SurfaceGap PlanarBench::surface_gap(const DiscGap& gap, BodyId body) const noexcept {
+  return {gap.gap, in_space(gap.normal),
+          in_space(gap.axis_point + (shapes_.radius(body) + 0.5 * gap.gap) * gap.normal)};
+}
+
+void PlanarBench::describe(const Instant& now, BenchSnapshot& out) const noexcept {
+  const WorkingMode mode = robot_->home_working_mode();
+  out.joints = robot_->inverse_kinematics(now.pose, mode).joints;
+  out.loop_closure_error = robot_->chain_closure_error(out.joints.active, out.joints.passive, now.pose);
+  out.kinetic_energy = robot_->kinetic_energy(now);
+}
+
+Eigen::Vector3d PlanarBench::point_velocity(const Instant& now, int body,
+                                            const Eigen::Vector3d& point) const noexcept {
+  return in_space(flinch::point_velocity(now, BodyId::from_index(body), point.head<2>()));
+}
+
+Eigen::Vector3d PlanarBench::point_in_body(const Instant& now, int body,
+                                           const Eigen::Vector3d& point) const noexcept {
+  const PlanarFrame at = frame(now, BodyId::from_index(body));
+  const Eigen::Vector2d arm = point.head<2>() - at.origin;
+  return {arm.dot(at.axis), cross(at.axis, arm), 0.0};
+}
+
+Eigen::Vector3d PlanarBench::point_in_base(const Instant& now, int body,
+                                           const Eigen::Vector3d& point) const noexcept {
+  const PlanarFrame at = frame(now, BodyId::from_index(body));
+  return in_space(at.origin + rotate(at.axis, point.head<2>()));
+}
+
+SurfaceGap PlanarBench::gap(const Instant& now, int body, int obstacle,
+                            const PlacedObstacles& obstacles) const noexcept {
+  const BodyId of = BodyId::from_index(body);
+  const Disc round = disc(obstacle, obstacles[static_cast<std::size_t>(obstacle)]);
+  return surface_gap(gap_to_disc(shapes_.body(now, of), round), of);
+}
+
+void PlanarBench::find_near_pairs(const Instant& now, const PlacedObstacles& obstacles,
+                                  NearPairs& out) const noexcept {
+  for (int obstacle = 0; obstacle < static_cast<int>(rounds_.size()); ++obstacle) {
+    const PlacedObstacle& placed = obstacles[static_cast<std::size_t>(obstacle)];
+    const Disc round = disc(obstacle, placed);
+    for (int index = 0; index < planar_body_count; ++index) {
+      const BodyId body = BodyId::from_index(index);
+      const DiscGap nearest = gap_to_disc(shapes_.body(now, body), round);
+      const Eigen::Vector2d velocity = flinch::point_velocity(now, body, nearest.axis_point);
+      const double rate = nearest.normal.dot(placed.velocity.head<2>() - velocity);
+      out.add({index, obstacle, nearest.gap, rate});
+    }
+  }
+}
+
+ContactCandidates PlanarBench::candidates(const Instant& now, const PlacedObstacles& obstacles,
+                                          double duration) const noexcept {
+  const double speed = 2.0 * greatest_speed(now, shapes_.platform_radius);
+  const auto box = [&](BodyId body) { return PlanarBox(shapes_.body(now, body)); };
+  const std::array<PlanarBox, planar_body_count> boxes = {
+      box(BodyId::platform()), box(BodyId::link1(0)), box(BodyId::link2(0)), box(BodyId::link1(1)),
+      box(BodyId::link2(1)),   box(BodyId::link1(2)), box(BodyId::link2(2))};
+  const auto box_is_near = [&](BodyId body, const Disc& disc, double reach) {
+    return boxes[static_cast<std::size_t>(body.index())].is_near(disc, reach);
+  };
+
+  ContactCandidates candidates;
+  for (std::size_t number = links_meet_ ? 0 : planar_self_pairs; number < pair_count(); ++number) {
+    const PlanarPair pair = planar_pair(number);
+    const bool of_obstacle = pair.round == PlanarPair::Round::obstacle;
+    const auto which = static_cast<std::size_t>(pair.which);
+    const Disc round = of_obstacle ? disc(pair.which, obstacles[which]) : shapes_.joint(pair, now);
+    const double other_speed = of_obstacle ? obstacles[which].velocity.norm() : 0.0;
+    const double reach = duration * (speed + other_speed) + reach_margin;
+    const bool boxes_are_near = pair.against == PlanarPair::Against::platform
+                                    ? box_is_near(BodyId::platform(), round, reach)
+                                    : box_is_near(BodyId::link1(pair.leg), round, reach) ||
+                                          box_is_near(BodyId::link2(pair.leg), round, reach);
+    if (!boxes_are_near) continue;
+    flinch::for_each_gap(shapes_, pair, now, round, [&](BodyId, const DiscGap& gap) {
+      if (gap.gap <= reach) candidates.add(number);
+    });
+  }
+  return candidates;
+}
+
+}  // namespace flinch
