@@ -29,10 +29,9 @@ void RealtimeRunner::follow_clock() {
   follows_clock_ = true;
 }
 
-TickTiming RealtimeRunner::time_start(Wake wake, Time due, const TickDurations& previous) {
+TickTiming RealtimeRunner::time_start(Time due, const TickDurations& previous) {
   TickTiming timing;
   timing.valid = true;
-  timing.without_sample = wake == Wake::no_sample;
   timing.started = ticks_.now();
   timing.lateness = std::max(Time::zero(), timing.started - due);
   timing.late = timing.lateness > late_start;
@@ -63,15 +62,15 @@ void RealtimeRunner::run(Context& context, Time end, const std::function<bool()>
   TickDurations durations;
   Time due = ticks_.first_due(ticks_.now(), period);
   while (context.time() < end && !stop_requested()) {
-    const Wake wake = ticks_.wait(due);
+    ticks_.wait(due);
     if (stop_requested()) return;
-    const TickTiming timing = time_start(wake, due, durations);
+    const TickTiming timing = time_start(due, durations);
     statistics_.count_start(timing);
     if (follows_clock_) context.set_time(context.time() + timing.lost_periods * period);
     durations = tick(context, timing);
     statistics_.count_end(durations);
     if (done && done()) return;
-    due = wake == Wake::sample ? timing.started + period : due + (timing.lost_periods + 1) * period;
+    due += (timing.lost_periods + 1) * period;
   }
 }
 

@@ -19,7 +19,7 @@ class Exchange;
 ///
 ///   t := the context's time,  d := when the first tick is due (TickSource::first_due)
 ///   while t < end and nobody asked to stop
-///     wait until d, or for a sample (see TickSource)
+///     wait until d
 ///     s := now,  n := floor((s - d) / T)
 ///     u := the timing of this tick, where an input was named for it, and what exchange.set_inputs() sets
 ///     y := every output, at t
@@ -27,7 +27,7 @@ class Exchange;
 ///     recorders see y and u
 ///     x := updates at t, and integration to t + T, as diagram.h says
 ///     t := t + T
-///     d := s + T if a sample came, d + (n + 1) T otherwise
+///     d := d + (n + 1) T
 ///
 /// So a tick is never dropped, and none is run twice as fast to catch up. After an overrun the next tick
 /// starts late, but at once; the ticks after it are due when they were before. When n whole periods have
@@ -84,7 +84,7 @@ class RealtimeRunner {
   std::int64_t inaccurate_steps() const { return simulator_.inaccurate_steps(); }
 
  private:
-  TickTiming time_start(Wake wake, Time due, const TickDurations& previous);
+  TickTiming time_start(Time due, const TickDurations& previous);
   TickDurations tick(Context& context, const TickTiming& timing);
 
   static_assert(std::atomic<bool>::is_always_lock_free);

@@ -7,7 +7,7 @@
 namespace flinch {
 
 /// Wakes the control thread when there is news. A wake-up is a hint: after it, look whether there is
-/// something new (see SampleTicks), and do not take one for a count of samples. Without locks.
+/// something new, and do not take one for a count of samples. Without locks.
 class SampleSignal {
  public:
   SampleSignal();

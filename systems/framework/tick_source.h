@@ -8,13 +8,6 @@
 
 namespace flinch {
 
-/// Why a tick starts.
-enum class Wake {
-  due,        ///< it is time
-  sample,     ///< what it waits for has come
-  no_sample,  ///< what it waits for has not come in time
-};
-
 /// What the ticks of a real-time run wait for, and the clock that they are timed with.
 class TickSource {
  public:
@@ -27,7 +20,7 @@ class TickSource {
   virtual Time first_due(Time now, Time /*period*/) { return now; }
 
   /// Blocks until the tick that is due at `due`, which may have passed, shall start.
-  virtual Wake wait(Time due) = 0;
+  virtual void wait(Time due) = 0;
 };
 
 /// Ticks by the clock: each starts when it is due. Runs that follow each other keep their step.
@@ -41,10 +34,9 @@ class ClockTicks final : public TickSource {
     const Time passed = std::max(now - *step_, Time::zero());
     return *step_ + (passed + period - Time(1)) / period * period;
   }
-  Wake wait(Time due) override {
+  void wait(Time due) override {
     MonotonicClock::sleep_until(due);
     step_ = due;
-    return Wake::due;
   }
 
  private:

@@ -5,7 +5,6 @@ namespace flinch {
 void TickStatistics::count_start(const TickTiming& timing) {
   ++ticks;
   if (timing.late) ++late_starts;
-  if (timing.without_sample) ++without_sample;
   lost_periods += timing.lost_periods;
   lateness.add(timing.lateness);
 }

@@ -11,9 +11,8 @@ namespace flinch {
 struct TickStatistics {
   std::int64_t ticks = 0;
   std::int64_t late_starts = 0;
-  std::int64_t overruns = 0;        ///< ticks that took longer than their period
-  std::int64_t lost_periods = 0;    ///< periods that passed without a tick
-  std::int64_t without_sample = 0;  ///< ticks whose sample did not come in time
+  std::int64_t overruns = 0;      ///< ticks that took longer than their period
+  std::int64_t lost_periods = 0;  ///< periods that passed without a tick
   DurationHistogram lateness;
   DurationHistogram evaluation;
   DurationHistogram update;

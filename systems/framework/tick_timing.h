@@ -30,7 +30,6 @@ struct TickDurations {
 struct TickTiming {
   bool valid = false;
   bool late = false;              ///< by more than RealtimeRunner::late_start
-  bool without_sample = false;    ///< the sample that it waited for did not come in time
   std::int64_t lost_periods = 0;  ///< whole periods that passed without a tick since it was due
   Time started{};                 ///< time of the tick source's clock (CLOCK_MONOTONIC) [ns]
   Time lateness{};                ///< of the start, since it was due [ns]
@@ -40,7 +39,6 @@ struct TickTiming {
   static void fields(Self& self, Visit&& visit) {
     visit("valid", "", self.valid);
     visit("late", "", self.late);
-    visit("without_sample", "", self.without_sample);
     visit("lost_periods", "", self.lost_periods);
     visit("started", "ns", self.started);
     visit("lateness", "ns", self.lateness);

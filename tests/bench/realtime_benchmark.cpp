@@ -22,7 +22,7 @@ constexpr int ticks_in_run = 5000;
 /// Never waits.
 class EagerTicks final : public TickSource {
  public:
-  Wake wait(Time) override { return Wake::due; }
+  void wait(Time) override {}
 };
 
 /// A tick of a runner that does not wait, against `SimulatedTick`: clock readings and statistics.

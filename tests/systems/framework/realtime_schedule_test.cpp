@@ -11,7 +11,6 @@ namespace {
 
 using test::Calls;
 using test::FakeClockTicks;
-using test::FakeSampleTicks;
 using test::Station;
 
 /// The timings that a run had, tick by tick.
@@ -117,48 +116,6 @@ TEST(RealtimeRunner, CallsATickLateOnlyBeyondHalfAMillisecond) {
   const auto timings = run_ticks(ticks, 2, [&](int) { ticks.wake_delay = 501us; });
   EXPECT_FALSE(timings[0].late);
   EXPECT_TRUE(timings[1].late);
-}
-
-// ---------------------------------------------------------------- ticks by samples
-
-struct Start {
-  Time when;
-  bool without_sample;
-  bool operator==(const Start&) const = default;
-};
-
-std::vector<Start> starts(const std::vector<TickTiming>& timings) {
-  std::vector<Start> result;
-  for (const TickTiming& timing : timings) result.push_back({timing.started, timing.without_sample});
-  return result;
-}
-
-TEST(RealtimeRunner, TicksWhenASampleComes) {
-  FakeSampleTicks ticks({100us, 1250us, 2050us}, 500us);
-  const auto timings = run_ticks(ticks, 3, [](int) {});
-  EXPECT_EQ(starts(timings), (std::vector<Start>{{100us, false}, {1250us, false}, {2050us, false}}));
-  EXPECT_EQ(timings[1].lateness, Time(150us));
-  EXPECT_EQ(timings[2].lateness, Time(0));  // early is not late
-}
-
-TEST(RealtimeRunner, TicksWithoutTheSampleThatIsLostAndNoSoonerThanItsPatienceEnds) {
-  FakeSampleTicks ticks({0us, 1ms, 3ms, 4ms}, 500us);
-  EXPECT_EQ(starts(run_ticks(ticks, 5, [](int) {})),
-            (std::vector<Start>{{0us, false}, {1ms, false}, {2500us, true}, {3ms, false}, {4ms, false}}));
-}
-
-TEST(RealtimeRunner, KeepsItsRateWhenSamplesStop) {
-  FakeSampleTicks ticks({0us}, 500us);
-  EXPECT_EQ(starts(run_ticks(ticks, 4, [](int) {})),
-            (std::vector<Start>{{0us, false}, {1500us, true}, {2500us, true}, {3500us, true}}));
-}
-
-TEST(RealtimeRunner, TakesOnlyTheLatestOfTheSamplesThatCameDuringAnOverrun) {
-  FakeSampleTicks ticks({0us, 1ms, 2ms, 3ms}, 500us);
-  const auto timings = run_ticks(ticks, 3, [&](int tick) { ticks.work(tick == 0 ? 2600us : 100us); });
-  EXPECT_EQ(starts(timings), (std::vector<Start>{{0us, false}, {2600us, false}, {3ms, false}}));
-  EXPECT_EQ(timings[1].lateness, Time(1600us));
-  EXPECT_EQ(timings[1].lost_periods, 1);
 }
 
 }  // namespace

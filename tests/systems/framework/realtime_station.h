@@ -8,7 +8,7 @@
 
 #include "systems/framework/diagram_builder.h"
 #include "systems/framework/exchange.h"
-#include "systems/framework/sample_ticks.h"
+#include "systems/framework/tick_source.h"
 #include "systems/framework/tick_timing.h"
 #include "tests/support/blocks.h"
 
@@ -19,37 +19,13 @@ namespace flinch::test {
 class FakeClockTicks final : public TickSource {
  public:
   Time now() override { return now_; }
-  Wake wait(Time due) override {
-    now_ = std::max(now_, due) + wake_delay;
-    return Wake::due;
-  }
+  void wait(Time due) override { now_ = std::max(now_, due) + wake_delay; }
   void work(Time duration) { now_ += duration; }
 
   Time wake_delay{};
 
  private:
   Time now_ = 5s;
-};
-
-/// Ticks by samples that come at the times `arrivals`, in the same kind of time.
-class FakeSampleTicks final : public SampleTicks {
- public:
-  FakeSampleTicks(std::vector<Time> arrivals, Time patience)
-      : SampleTicks([this](Time deadline) { return wait_for_sample(deadline); }, patience),
-        arrivals_(std::move(arrivals)) {}
-  Time now() override { return now_; }
-  void work(Time duration) { now_ += duration; }
-
- private:
-  bool wait_for_sample(Time deadline) {
-    const bool comes = next_ < arrivals_.size() && arrivals_[next_] <= std::max(deadline, now_);
-    now_ = std::max(now_, comes ? arrivals_[next_] : deadline);
-    while (next_ < arrivals_.size() && arrivals_[next_] <= now_) ++next_;  // the latest is what counts
-    return comes;
-  }
-  std::vector<Time> arrivals_;
-  std::size_t next_ = 0;
-  Time now_{};
 };
 
 /// Calls functions, where given.
