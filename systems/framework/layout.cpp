@@ -7,7 +7,7 @@ namespace flinch {
 Layout::Layout() {
   add(value_type<Time>, value_type<Time>.make_default());
   add(value_type<Time>, std::make_shared<const Time>(never));
-  put(PortId{}, time);
+  put(Clock().id, time);
 }
 
 std::uint32_t Layout::add(const ValueType& type, std::shared_ptr<const void> initial) {

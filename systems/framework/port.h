@@ -11,9 +11,10 @@ class System;
 
 /// Names one input, output or state of one System.
 struct PortId {
-  enum class Kind : std::uint8_t { clock, input, output, state };
+  /// A handle that is used before its declaration may be all zeros: that names nothing.
+  enum class Kind : std::uint8_t { none, clock, input, output, state };
   const System* owner = nullptr;
-  Kind kind = Kind::clock;
+  Kind kind = Kind::none;
   int index = 0;
 
   friend bool operator==(const PortId&, const PortId&) = default;
@@ -53,7 +54,7 @@ struct State {
 /// The time of the tick, for functions that read it.
 struct Clock {
   using Value = Time;
-  PortId id;
+  PortId id{nullptr, PortId::Kind::clock, 0};
 };
 
 /// An input, output or state that is true or false.

@@ -14,7 +14,7 @@ const std::string& System::port_name(PortId port) const {
       return outputs_.at(index).name;
     case PortId::Kind::state:
       return states_.at(index).name;
-    case PortId::Kind::clock:
+    default:
       break;
   }
   return clock_name;
@@ -29,8 +29,10 @@ bool System::declared(PortId port) const {
       return index < inputs_.size();
     case PortId::Kind::output:
       return index < outputs_.size();
-    default:
+    case PortId::Kind::state:
       return index < states_.size();
+    default:
+      return false;
   }
 }
 
@@ -43,6 +45,11 @@ std::vector<PortId> System::own(std::vector<PortId> ports) const {
     }
   }
   return ports;
+}
+
+void System::refuse_function_of(const std::type_info& other) const {
+  throw SetupError(std::string("block type ") + typeid(*this).name() + " declares a function of block type " +
+                   other.name() + "; name functions of the block itself");
 }
 
 Update System::add_keep(std::optional<Every> every, PortId state, PortId kept) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <tuple>
 #include <type_traits>
+#include <typeinfo>
 #include <utility>
 #include <vector>
 
@@ -174,6 +175,7 @@ class System {
   Derivative derivative(State<T> integrated, Reads... reads) {
     internal::check_result<function, T>();
     internal::check_arguments<function, typename Reads::Value...>();
+    check_owner<function>();
     own({integrated.id});
     derivatives_.push_back({integrated.id, internal::call<function>, own({reads.id...}), std::nullopt});
     return {};
@@ -190,6 +192,7 @@ class System {
   PortId add_output(Occasion occasion, std::string name, std::vector<PortId> reads, bool intermediate) {
     using Value = typename internal::Signature<function>::Result;
     internal::check_arguments<function, Values...>();
+    check_owner<function>();
     if (occasion.when) own({*occasion.when});
     outputs_.push_back({std::move(name), &value_type<Value>, internal::call<function>, own(std::move(reads)),
                         intermediate, occasion});
@@ -200,10 +203,21 @@ class System {
   Update add_update(std::optional<Every> every, PortId written, std::vector<PortId> reads) {
     internal::check_result<function, T>();
     internal::check_arguments<function, Values...>();
+    check_owner<function>();
     own({written});
     updates_.push_back({written, internal::call<function>, own(std::move(reads)), every});
     return {};
   }
+
+  /// Throws SetupError for a function of another block.
+  template <auto function>
+  void check_owner() const {
+    using Block = typename internal::Signature<function>::Block;
+    static_assert(std::is_base_of_v<System, Block>,
+                  "the declaration names a function of a class that is no block");
+    if (dynamic_cast<const Block*>(this) == nullptr) refuse_function_of(typeid(Block));
+  }
+  [[noreturn]] void refuse_function_of(const std::type_info& other) const;
 
   Update add_keep(std::optional<Every> every, PortId state, PortId kept);
 

@@ -336,18 +336,6 @@ TEST(DiagramBuilder, RefusesToWireIntoANestedDiagram) {
   EXPECT_EQ(problems[1], "outer/inner/in is not connected");
 }
 
-TEST(System, RefusesAFunctionThatReadsAStateDeclaredBelowIt) {
-  class Late final : public System {
-   public:
-    Late() {
-      State<double> foreign{{nullptr, PortId::Kind::state, 0}};
-      output<&Late::read>("out", foreign);
-    }
-    double read(double value) const { return value; }
-  };
-  EXPECT_THROW(Late(), SetupError);
-}
-
 TEST(Diagram, NamesTheNearestPortWhenATapIsUnknown) {
   const Loop loop = nested_loop();
   EXPECT_EQ(loop.diagram->tap("feedback/amplifier/gain/out").path, "feedback/amplifier/gain/out");
