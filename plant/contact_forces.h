@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "plant/obstacle.h"
+#include "systems/framework/never_allocates.h"
 #include "systems/robot/vectors.h"
 
 namespace flinch {
@@ -49,6 +50,10 @@ struct ContactForces {
   int touch_count = 0;
   bool self_contact = false;
 };
+
+template <>
+inline constexpr bool never_allocates<ContactForces> =
+    never_allocates<PlatformVector>&& never_allocates<Touch>;
 
 /// How near a body is to an obstacle.
 struct NearPair {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 
+#include "systems/framework/never_allocates.h"
 #include "systems/framework/time.h"
 
 namespace flinch {
@@ -39,5 +40,8 @@ class DelayLine {
   std::size_t next_ = 0;
   std::size_t count_ = 0;
 };
+
+template <class T>
+inline constexpr bool never_allocates<DelayLine<T>> = never_allocates<T>;
 
 }  // namespace flinch

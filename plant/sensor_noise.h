@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "systems/framework/never_allocates.h"
 #include "systems/framework/random.h"
 #include "systems/framework/time.h"
 #include "systems/robot/vectors.h"
@@ -31,6 +32,9 @@ class NormalNumbers {
   RandomGenerator generator_;
   Values values_;
 };
+
+template <int size>
+inline constexpr bool never_allocates<NormalNumbers<size>> = true;
 
 /// Standard deviation of white noise of a one-sided `density` [unit/sqrt(Hz)] that is sampled every `period`.
 inline double noise_deviation(double density, Time period) {

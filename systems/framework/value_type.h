@@ -7,6 +7,7 @@
 #include <typeinfo>
 
 #include "systems/framework/fields.h"
+#include "systems/framework/never_allocates.h"
 
 namespace flinch {
 
@@ -26,8 +27,8 @@ struct ValueType {
   void (*to_row)(const void* value, internal::Number* row);
 };
 
-/// A value that a port or state can hold. Its copies must not touch the heap: use fixed or bounded Eigen
-/// types.
+/// A value that a port or state can hold. That its copies do not touch the heap is checked apart, with a
+/// message of its own: see never_allocates.
 template <class T>
 concept PortValue = std::is_object_v<T> && !std::is_const_v<T> && std::is_default_constructible_v<T> &&
                     std::is_copy_constructible_v<T> && std::is_copy_assignable_v<T>;
@@ -40,6 +41,11 @@ namespace internal {
 
 template <class T>
 constexpr ValueType make_value_type() {
+  static_assert(
+      never_allocates<T>,
+      "a port or state may not hold this type, for its copies may allocate: in the place of strings, "
+      "std::vector and dynamic matrices use numbers, std::array, fixed or bounded Eigen types, and plain "
+      "structs of these (see never_allocates.h)");
   ValueType type{};
   type.id = &typeid(T);
   type.size = sizeof(T);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "systems/framework/never_allocates.h"
 #include "systems/motion/jerk_limited_profile.h"
 #include "systems/motion/synchronised_motion.h"
 #include "systems/robot/configuration_space.h"
@@ -44,5 +45,9 @@ class PoseMotion {
   SynchronisedMotion rotation_;
   bool valid_ = false;
 };
+
+template <>
+inline constexpr bool never_allocates<PoseMotion> =
+    never_allocates<Configuration>&& never_allocates<PlatformVector>;
 
 }  // namespace flinch

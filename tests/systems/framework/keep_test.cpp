@@ -34,6 +34,13 @@ struct Large {
   }
 };
 
+}  // namespace
+
+template <>
+inline constexpr bool never_allocates<Large> = true;
+
+namespace {
+
 /// Shifts its memory by one place and puts what it reads in front; `Keeps` says how the state comes by it.
 template <bool keeps>
 class Shift final : public System {
