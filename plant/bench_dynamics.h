@@ -40,8 +40,8 @@ struct BenchStep {
 
 /// Everything about the bench at one instant. Wrenches and forces in the base frame.
 struct BenchSnapshot {
-  bool reachable =
-      false;  ///< Unless all legs reach the pose, nothing below pose and velocity means anything.
+  /// Unless all legs reach the pose, nothing below pose and velocity means anything.
+  bool reachable = false;
   Configuration pose;
   PlatformVector velocity;
   JointAngles joints;
