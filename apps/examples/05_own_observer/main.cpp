@@ -19,7 +19,8 @@ int main() {
   const Verdict verdict = conclude_run(scenario, recording, "out/example_05");  // run.h5, report.html
   std::printf("%s", verdict_table(verdict, {.wall = 0.0, .seed = scenario.seed}).c_str());
 
-  const Verdict flinchs_own = judge(run_experiment(read_simulated_scenario(scenario.file)), {}, {});
+  const SimulatedScenario as_shipped = read_simulated_scenario(scenario.file);
+  const Verdict flinchs_own = judge(run_experiment(as_shipped), as_shipped.robot.robot->space(), {}, {});
   const auto delay = [](const Verdict& seen) {
     const ContactVerdict& contact = seen.contacts.at(0);
     return contact.detected.value_or(1.0) - contact.onset;
