@@ -41,24 +41,25 @@ double capsule_radius(const Body& body) {
   return 0.0;
 }
 
-void add_outline(const Shape& shape, ReportRobot& drawn) {
-  if (const auto* const sphere = std::get_if<Sphere>(&shape)) {
-    drawn.platform.push_back(in_space(sphere->centre));
-    drawn.platform_radius = std::max(drawn.platform_radius, sphere->radius);
-  } else if (const auto* const capsule = std::get_if<Capsule>(&shape)) {
-    drawn.platform.push_back(in_space(capsule->begin));
-    drawn.platform.push_back(in_space(capsule->end));
-    drawn.platform_radius = std::max(drawn.platform_radius, capsule->radius);
-  } else if (const auto* const box = std::get_if<Box>(&shape)) {
-    for (int corner = 0; corner < 8; ++corner) {
-      const Eigen::Vector3d signs(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-      drawn.platform.push_back(
-          in_space(Eigen::Vector3d(box->centre + box->axes * signs.cwiseProduct(box->half_lengths))));
-    }
-  } else if (const auto* const hull = std::get_if<ConvexHull>(&shape)) {
-    for (const Eigen::Vector3d& point : hull->points) drawn.platform.push_back(in_space(point));
-    drawn.platform_radius = std::max(drawn.platform_radius, hull->margin);
+/// The hull of `points`, grown by `radius`.
+struct Outline {
+  std::vector<Eigen::Vector3d> points;
+  double radius = 0.0;
+};
+
+Outline outline_of(const Shape& shape) {
+  if (const auto* const sphere = std::get_if<Sphere>(&shape)) return {{sphere->centre}, sphere->radius};
+  if (const auto* const capsule = std::get_if<Capsule>(&shape)) {
+    return {{capsule->begin, capsule->end}, capsule->radius};
   }
+  if (const auto* const hull = std::get_if<ConvexHull>(&shape)) return {hull->points, hull->margin};
+  const Box& box = std::get<Box>(shape);
+  Outline outline;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector3d signs(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+    outline.points.emplace_back(box.centre + box.axes * signs.cwiseProduct(box.half_lengths));
+  }
+  return outline;
 }
 
 /// The pose at a sample from its columns; of another size where the report has others.
@@ -85,8 +86,21 @@ ReportRobot drawn_robot(const ParallelRobot& robot) {
   for (int i = 1; i < robot.body_count(); ++i) {
     drawn.link_radius = std::max(drawn.link_radius, capsule_radius(robot.body(BodyId::from_index(i))));
   }
-  for (const Shape& shape : robot.body(BodyId::platform()).shapes) add_outline(shape, drawn);
+  for (const Shape& shape : robot.body(BodyId::platform()).shapes) {
+    const Outline outline = outline_of(shape);
+    for (const Eigen::Vector3d& point : outline.points) drawn.platform.push_back(in_space(point));
+    drawn.platform_radius = std::max(drawn.platform_radius, outline.radius);
+  }
   if (drawn.platform.empty()) drawn.platform.push_back({});
+  return drawn;
+}
+
+ReportObstacle drawn_obstacle(const std::string& name, const Shape& shape, const Eigen::Vector3d& position) {
+  const Outline outline = outline_of(shape);
+  ReportObstacle drawn{.name = name, .points = {}, .radius = outline.radius};
+  for (const Eigen::Vector3d& point : outline.points) {
+    drawn.points.push_back(in_space(Eigen::Vector3d(position + point)));
+  }
   return drawn;
 }
 

@@ -323,9 +323,7 @@ Report experiment_report(const Scenario& scenario, const Recording& recording, c
   report.robot = drawn_robot(robot);
   report.drive_unit = robot.drive_kind(0) == DriveKind::revolute ? "Nm" : "N";
   for (const ScenarioObstacle& obstacle : scenario.obstacles) {
-    report.obstacles.push_back({obstacle.name,
-                                {obstacle.position_in_base.x(), obstacle.position_in_base.y(), 0.0},
-                                obstacle.radius});
+    report.obstacles.push_back(drawn_obstacle(obstacle.name, obstacle.shape, obstacle.position_in_base));
   }
   const Recording shown = page_samples(recording);
   report.period = to_seconds(shown.period);

@@ -53,11 +53,11 @@ struct ReportRobot {
   double platform_radius = 0.0;       ///< grown by this [m].
 };
 
-/// A round thing that the robot may run into.
+/// What the robot may run into, as it stands at first.
 struct ReportObstacle {
   std::string name;
-  ReportPoint centre{};  ///< Base frame [m].
-  double radius = 0.0;   ///< [m]
+  std::vector<ReportPoint> points;  ///< Its outline is the hull of these points, base frame [m],
+  double radius = 0.0;              ///< grown by this [m].
 };
 
 /// A line across a chart: threshold or limit. `chart` is the id of a chart as listed in report/README.md.

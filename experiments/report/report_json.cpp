@@ -69,8 +69,9 @@ json encode(const ReportRobot& robot) {
 }
 
 json encode(const ReportObstacle& obstacle) {
-  return {
-      {"name", obstacle.name}, {"centre", rounded(obstacle.centre)}, {"radius", rounded(obstacle.radius)}};
+  return {{"name", obstacle.name},
+          {"points", list(obstacle.points, [](const ReportPoint& point) { return rounded(point); })},
+          {"radius", rounded(obstacle.radius)}};
 }
 
 json encode(const ReportBound& bound) {

@@ -64,14 +64,6 @@ RobotFile robot_or_stand_in(ConfigReader& reader, Read&& read) {
   return bench;
 }
 
-ScenarioObstacle read_pylon(ConfigReader reader) {
-  ScenarioObstacle pylon{.name = "pylon"};
-  reader.required().number("x", unit::m, pylon.position_in_base.x());
-  reader.required().number("y", unit::m, pylon.position_in_base.y());
-  reader.number("radius", unit::m, pylon.radius, positive);
-  return pylon;
-}
-
 /// Everything but the robot.
 void read_rest(ConfigReader& reader, std::optional<std::uint64_t> seed, const SectionReader& others,
                Scenario& scenario) {
@@ -87,7 +79,7 @@ void read_rest(ConfigReader& reader, std::optional<std::uint64_t> seed, const Se
   scenario.control.stages = std::move(stages);
   read_control(reader.section("control"), robot, scenario.control);
   read_motion(reader.section("motion"), robot, scenario.control);
-  if (reader.has("pylon")) scenario.obstacles.push_back(read_pylon(reader.section("pylon")));
+  scenario.obstacles = read_obstacles(reader);
   others(reader, scenario);
   read_expectations(reader.section("expect"), robot, scenario.expected);
   read_force_limits(reader.section("force_limits"), scenario.force_limits);
@@ -119,6 +111,7 @@ std::uint64_t recorded_seed(const Recording& recording, const std::filesystem::p
 void leave_simulation_unread(ConfigReader& file, const Scenario&) {
   for (const char* const section : {"plant", "applied_wrench", "sensors"}) file.leave_unread(section);
   if (file.has("pylon")) file.section("pylon").leave_rest_unread();
+  for (ConfigReader& obstacle : file.sections("obstacles")) obstacle.leave_rest_unread();
 }
 
 Scenario read_scenario(const std::filesystem::path& file, std::optional<std::uint64_t> seed,

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "diagrams/contact_control_settings.h"
+#include "experiments/scenario/scenario_obstacles.h"
 #include "experiments/verdict/verdict.h"
 #include "systems/config/read_value.h"
 #include "systems/config/robot_file.h"
@@ -17,13 +17,6 @@ namespace flinch {
 
 class ConfigReader;
 struct Recording;
-
-/// A round post beside the robot, to be run into.
-struct ScenarioObstacle {
-  std::string name;
-  Eigen::Vector2d position_in_base{0.0, 0.0};  ///< of its axis [m]
-  double radius = 0.04;                        ///< [m]
-};
 
 /// One experiment, whatever stands for the robot: what a scenario file says of it. docs/files.md has the
 /// keys.

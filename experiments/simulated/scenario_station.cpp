@@ -7,7 +7,8 @@
 
 #include "experiments/scenario/scenario.h"
 #include "experiments/scenario/scenario_pose.h"
-#include "plant/compliant_obstacle.h"
+#include "experiments/simulated/simulated_obstacles.h"
+#include "plant/contacts_at_start.h"
 #include "plant/simulated_station.h"
 #include "plant/true_robot.h"
 #include "systems/config/config_reader.h"
@@ -19,33 +20,6 @@ namespace {
 template <class Vector>
 std::span<double> entries(Vector& vector) {
   return {vector.data(), static_cast<std::size_t>(vector.size())};
-}
-
-void read_material(ConfigReader& reader, ContactMaterial& material) {
-  reader.number("stiffness", unit::N_per_m, material.stiffness, positive);
-  reader.number("restitution", unit::none, material.restitution,
-                {.low = 0.0, .high = 1.0, .low_included = false});
-  reader.number("restitution_speed", unit::m_per_s, material.restitution_speed, positive);
-  reader.number("friction", unit::none, material.friction, not_negative);
-}
-
-enum class Mounting { fixed, compliant };
-
-/// What only a simulation needs to know of the pylon: how it gives way.
-std::shared_ptr<const Obstacle> read_pylon(ConfigReader reader, const ScenarioObstacle& obstacle) {
-  ObstacleForm form;
-  form.name = obstacle.name;
-  form.position_in_base.head<2>() = obstacle.position_in_base;
-  form.shape = Sphere{.centre = {0.0, 0.0, 0.0}, .radius = obstacle.radius};
-  read_material(reader, form.material);
-  Mounting mounting = Mounting::fixed;
-  CompliantMount mount;
-  reader.choice("mounting", mounting, {{"fixed", Mounting::fixed}, {"compliant", Mounting::compliant}});
-  reader.number("mass", unit::kg, mount.mass, positive);
-  reader.number("mount_stiffness", unit::N_per_m, mount.stiffness, positive);
-  reader.number("mount_damping", unit::Ns_per_m, mount.damping, not_negative);
-  if (mounting == Mounting::compliant) return std::make_shared<const CompliantObstacle>(form, mount);
-  return std::make_shared<const FixedObstacle>(form);
 }
 
 enum class PlantFriction { as_robot_file, none };
@@ -149,13 +123,15 @@ void read_station(ConfigReader& file, const Scenario& scenario, SimulatedStation
   station.seed = scenario.seed;
   const std::optional<PlatformPath>& path = scenario.control.trajectory.path;
   if (path) station.bench.initial_pose = path->start();
-  for (const ScenarioObstacle& obstacle : scenario.obstacles)
-    station.bench.obstacles.push_back(read_pylon(file.section(obstacle.name), obstacle));
+  station.bench.obstacles = read_simulated_obstacles(file, scenario.obstacles);
   read_plant(file.section("plant"), scenario.robot, station);
   for (ConfigReader& ramp : file.sections("applied_wrench"))
     station.applied_wrench.push_back(read_ramp(ramp, station.bench.robot->space()));
   read_sensors(file.section("sensors"), station);
   for (const std::string& complaint : problems(station.bench)) file.add_problems({"plant: " + complaint});
+  if (file.good()) {
+    for (const std::string& contact : contacts_at_start(station.bench)) file.problem("", contact);
+  }
   for (const std::string& complaint : problems(station.imu)) file.add_problems({"sensors.imu: " + complaint});
 }
 

@@ -186,12 +186,15 @@ class View {
 
   drawObstacles() {
     this.obstacles.replaceChildren();
-    for (const { name, centre, radius } of report.obstacles) {
-      const [cx, cy] = this.project(centre);
-      const r = radius * this.scale;
-      shape(this.obstacles, "circle", { cx, cy, r, class: "obstacle" });
-      shape(this.obstacles, "circle", { cx, cy, r: 0.55 * r, class: "obstacle-ring" });
-      shape(this.obstacles, "text", { x: cx, y: cy - r - 8, class: "obstacle-name" }).textContent = name;
+    for (const { name, points, radius } of report.obstacles) {
+      const outline = convexHull(points.map((point) => this.project(point)));
+      const width = 2 * radius * this.scale;
+      const d = polyline(outline) + "Z";
+      shape(this.obstacles, "path", { d, class: "obstacle-edge", "stroke-width": width + 3 });
+      shape(this.obstacles, "path", { d, class: "obstacle", "stroke-width": width });
+      const [x, y] = [0, 1].map((k) => outline.reduce((sum, point) => sum + point[k], 0) / outline.length);
+      const top = Math.min(...outline.map((point) => point[1])) - width / 2;
+      shape(this.obstacles, "text", { x, y: Math.min(y, top) - 8, class: "obstacle-name" }).textContent = name;
     }
   }
 

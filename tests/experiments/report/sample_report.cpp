@@ -254,7 +254,7 @@ Report sample_report() {
   report.note = "Test data: this motion was fabricated to test the page. It is not a result of flinch.";
   report.period = period;
   report.robot = drawn_robot();
-  report.obstacles = {{"pylon", {pylon.x(), pylon.y(), 0.0}, pylon_radius}};
+  report.obstacles = {{"pylon", {{pylon.x(), pylon.y(), 0.0}}, pylon_radius}};
   add_verdict(experiment, report);
   add_background(report);
   return report;
