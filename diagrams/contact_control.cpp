@@ -97,6 +97,7 @@ MotionPorts add_motion(const Path& path, const SensedPorts& sensed, OutputPort<J
   path.builder.connect(joint_motion, pose.motion);
   path.builder.connect(pose.platform, model.platform);
   path.builder.connect(sensed.drives, torque.drives);
+  path.builder.connect(sensed.status, torque.status);
   return {sensed,         joint_motion,   pose.platform, model.kinematics,
           model.dynamics, model.measures, torque.torque};
 }
@@ -195,7 +196,7 @@ ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
   const ControlStages& stages = settings.stages;
 
   const SensedPorts sensed{builder.input<JointReading>("joints"), builder.input<DriveReading>("drives"),
-                           builder.optional_input<ImuReading>("imu")};
+                           builder.optional_input<ImuReading>("imu"), builder.input<StationStatus>("status")};
   const auto velocities = path.add(stages.velocities, sensed);
   const MotionPorts motion = add_motion(path, sensed, velocities.port());
   const auto accelerations = path.add(stages.accelerations, motion);
@@ -215,11 +216,12 @@ ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
 
   const auto pressed = builder.export_input("operator_command", buttons.buttons);
   builder.connect(pressed, safety.monitor.buttons);
+  builder.connect(sensed.status, safety.monitor.station);
   const ContactControl control{
       .joints = sensed.joints,
       .drives = sensed.drives,
       .imu = sensed.imu,
-      .status = builder.export_input("status", safety.monitor.station),
+      .status = sensed.status,
       .operator_command = pressed,
       .target = target,
       .tick_timing = builder.export_input("tick_timing", safety.monitor.timing),

@@ -15,6 +15,7 @@
 #include "systems/signals/platform_reference.h"
 #include "systems/signals/reaction_state.h"
 #include "systems/signals/reset_command.h"
+#include "systems/signals/station_status.h"
 #include "systems/signals/torque_command.h"
 #include "systems/signals/workspace_measures.h"
 #include "systems/signals/wrench_estimate.h"
@@ -26,6 +27,7 @@ struct SensedPorts {
   InputPort<JointReading> joints;
   InputPort<DriveReading> drives;
   InputPort<ImuReading> imu;  ///< never valid where the station has none
+  InputPort<StationStatus> status;
 };
 
 /// How the robot moves, and its model there.

@@ -28,10 +28,17 @@ std::string spoken(const std::string& body) {
   return "both links of leg " + leg + " (clamping)";
 }
 
-ReportContact report_contact(const ContactVerdict& contact) {
+/// The obstacle, or what else acted.
+std::string object_of(const ContactVerdict& contact, const std::vector<ScenarioObstacle>& obstacles) {
+  if (contact.is_push) return "push";
+  const auto place = static_cast<std::size_t>(contact.obstacle);
+  return place < obstacles.size() ? obstacles[place].name : "obstacle";
+}
+
+ReportContact report_contact(const ContactVerdict& contact, const std::vector<ScenarioObstacle>& obstacles) {
   ReportContact row;
   row.body = spoken(contact.body);
-  row.object = contact.is_push ? "push" : "pylon";
+  row.object = object_of(contact, obstacles);
   row.start = contact.onset;
   row.detected = contact.detected;
   row.removed = contact.removed;
@@ -317,7 +324,8 @@ Report experiment_report(const Scenario& scenario, const Recording& recording, c
   report.remarks = verdict.remarks;
   report.fault = verdict.fault;
   report.contacts_known = verdict.witness != Witness::none;
-  for (const ContactVerdict& contact : verdict.contacts) report.contacts.push_back(report_contact(contact));
+  for (const ContactVerdict& contact : verdict.contacts)
+    report.contacts.push_back(report_contact(contact, scenario.obstacles));
   report.measures = measures(verdict, scenario.expected);
   const ParallelRobot& robot = *scenario.robot.robot;
   report.robot = drawn_robot(robot);

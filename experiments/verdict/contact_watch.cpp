@@ -69,7 +69,9 @@ void ContactWatch::extend(const RunSample& now, double period) {
 
 /// A leg's clamping where that happens during the contact, else the body with the peak force.
 void ContactWatch::name_body(const RunSample& now, ContactVerdict& contact) {
-  if (!now.is_true || clamps_) return;
+  if (!now.is_true) return;
+  if (now.force() > contact.peak_force && !now.is_pushed()) contact.obstacle = now.obstacle;
+  if (clamps_) return;
   clamps_ = !pending_clamping_.empty();
   if (clamps_) {
     contact.body = pending_clamping_;

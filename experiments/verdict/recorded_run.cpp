@@ -49,6 +49,7 @@ void add_truth(const RecordedTruth& truth, const RecordedContact& contact, Confi
                RunSample& now) {
   now.is_true = true;
   now.body = contact.strongest.body;
+  now.obstacle = contact.strongest.obstacle;
   now.clamping = contact.clamping;
   now.contact_force = contact.strongest.force_in_base.norm();
   now.loop_closure = truth.loop_closure_error;

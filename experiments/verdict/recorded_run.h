@@ -17,6 +17,7 @@ struct RunSample {
   double time = 0.0;     ///< [s]
   bool is_true = false;  ///< body, clamping, pushes and loop closure are known
   int body = -1;         ///< that is touched hardest, BodyId::index()
+  int obstacle = -1;     ///< that touches hardest, by its place in the list of obstacles
   bool clamping = false;
   double contact_force = 0.0;  ///< of the hardest touch [N]
   double push_force = 0.0;     ///< of what acts on the platform without touching it [N]

@@ -28,6 +28,7 @@ struct RecordedTruth {
 };
 
 struct RecordedTouch {
+  int obstacle = -1;              ///< its place in the list of obstacles
   int body = -1;                  ///< BodyId::index(); -1: none
   CartesianVector point_in_base;  ///< [m]
   CartesianVector force_in_base;  ///< on the robot [N]
@@ -35,6 +36,7 @@ struct RecordedTouch {
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("body", "", self.body);
+    visit("obstacle", "", self.obstacle);
     visit("point_in_base", "m", self.point_in_base, "base");
     visit("force_in_base", "N", self.force_in_base, "base");
   }

@@ -33,6 +33,7 @@ struct Expectations {
 struct ContactVerdict {
   std::string body;      ///< "platform", "leg1_link2"; "leg1_clamping" where both links of a leg are touched;
                          ///< "" where nobody saw
+  int obstacle = -1;     ///< that touched hardest, by its place in the list of obstacles; -1: none seen
   bool is_push = false;  ///< something pushed the platform without touching it, as a scenario may ask for
   double onset = 0.0;    ///< t_c, when the force rose above `contact_force`, between samples [s]
   std::optional<double> detected;       ///< t_det, when the estimate reached the reaction threshold [s]

@@ -52,7 +52,8 @@ void MomentumObserver::advance(const MomentumSample& seen, const Kinematics& at,
     return;
   }
   const bool continued = can_continue(memory, seen.acquired);
-  next.wrench = continued ? step(memory, seen) : PlatformVector::Zero(robot_->dof());
+  const bool unexplained_by_brakes = !seen.braked && !memory.last.braked;
+  next.wrench = continued && unexplained_by_brakes ? step(memory, seen) : PlatformVector::Zero(robot_->dof());
   next.drive_torque = at.J_x_qa.transpose() * next.wrench;  // [SafePR] (6b)
   next.started = continued ? memory.started : now;
   next.arrived = now;

@@ -37,6 +37,9 @@ struct MomentumObserverMemory {
 /// before its inputs have settled. A tick at which any input is not valid, not finite or not new is skipped:
 /// the estimate stays, valid, for the longest hold, and the next sample is integrated over the whole time
 /// since the last. After that the observer starts anew.
+///
+/// What closed brakes hold cannot be told from what acts from outside. So at ticks with closed brakes the
+/// estimate is zero, and from then on it tells what has been added since they opened.
 class MomentumObserver final : public System {
   State<MomentumObserverMemory> memory_ = state<MomentumObserverMemory>("memory");
 

@@ -14,6 +14,7 @@ MomentumSample momentum_sample(const PlatformMotion& platform, const Kinematics&
   sample.beta = dynamics.g_x + dynamics.F_fr_x - dynamics.C_x.transpose() * dx;  // [SafePR] (12)
   sample.J_qa_x = kinematics.J_qa_x;
   sample.torque = torque.torque;
+  sample.braked = torque.braked;
   sample.valid = sample.p.allFinite() && sample.beta.allFinite() && sample.J_qa_x.allFinite();
   return sample.valid ? sample : MomentumSample();
 }

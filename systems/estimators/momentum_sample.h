@@ -14,10 +14,11 @@ namespace flinch {
 struct MomentumSample {
   bool valid = false;  ///< All of it was valid and finite; otherwise the rest is empty.
   Time acquired{};
-  PlatformVector p;       ///< M_x dx [Ns, Ns, Nms]
-  PlatformVector beta;    ///< g_x + F_fr_x - C_x^T dx [N, N, Nm]
+  PlatformVector p;       ///< M_x dx [Ns, Nms]
+  PlatformVector beta;    ///< g_x + F_fr_x - C_x^T dx [N, Nm]
   PlatformMatrix J_qa_x;  ///< Drive torques to platform wrench: F_a = J_qa_x^T tau_a.
-  JointVector torque;     ///< tau_a [Nm]
+  JointVector torque;     ///< tau_a [Nm or N]
+  bool braked = false;    ///< Brakes add to it what nobody measures.
 };
 
 /// The sample of one tick.
@@ -31,7 +32,7 @@ enum class TorqueTiming : std::uint8_t {
 };
 
 /// Mean over the interval from `previous` to `now` of all that should change the momentum, s = F_a - beta
-/// [N, N, Nm], so that dp/dt = s + F_ext. Second order in the interval if `timing` is right, first order if
+/// [N, Nm], so that dp/dt = s + F_ext. Second order in the interval if `timing` is right, first order if
 /// not.
 PlatformVector mean_known_wrench(const MomentumSample& previous, const MomentumSample& now,
                                  TorqueTiming timing);

@@ -41,6 +41,7 @@ std::optional<Configuration> ForwardKinematics::start_pose(const JointMotion& ac
   const bool prefer_previous = settings_.start == ForwardKinematicsStart::previous_pose;
   if (previous.valid && (prefer_previous || passive == nullptr)) return previous.pose;
   if (passive != nullptr) return robot_->start_pose(active.position, *passive);
+  if (!settings_.initial_pose && robot_->passive_joints() == 0) return robot_->home_pose();
   return settings_.initial_pose;
 }
 

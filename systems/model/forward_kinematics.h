@@ -21,7 +21,8 @@ enum class ForwardKinematicsStart : std::uint8_t {
 
 struct ForwardKinematicsSettings {
   ForwardKinematicsStart start = ForwardKinematicsStart::previous_pose;
-  /// Where to start with neither a previous pose nor passive angles. None: then there is no pose.
+  /// Where to start with neither a previous pose nor passive angles. None: at home for a robot that has no
+  /// passive encoders; for any other there is then no pose.
   std::optional<Configuration> initial_pose;
   double largest_closure_error = 0.01;  ///< between active and passive encoders [m]. [PAR]
   Sampling sampling;

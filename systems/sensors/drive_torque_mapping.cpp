@@ -46,9 +46,13 @@ JointVector DriveTorqueMapping::torque_of(const DriveReading& reading) const {
   return torque_constant_.cwiseProduct(reading.current);
 }
 
-void DriveTorqueMapping::advance(const DriveReading& reading, const DriveTorqueMemory& memory, Time now,
-                                 DriveTorqueMemory& next) const {
+void DriveTorqueMapping::advance(const DriveReading& reading, const StationStatus& station,
+                                 const DriveTorqueMemory& memory, Time now, DriveTorqueMemory& next) const {
   if (!low_pass_) return;
+  if (station.valid && station.braked) {
+    next = DriveTorqueMemory();
+    return;
+  }
   const bool is_new = is_usable(reading) && (!memory.torque.started || reading.acquired > memory.acquired);
   if (!is_new) {
     next = sampling_.expired(memory.arrived, now) ? DriveTorqueMemory() : memory;
@@ -61,13 +65,14 @@ void DriveTorqueMapping::advance(const DriveReading& reading, const DriveTorqueM
   next.torque = low_pass_->next(interrupted ? LowPassMemory() : memory.torque, torque_of(reading), interval);
 }
 
-void DriveTorqueMapping::read(const DriveReading& reading, const DriveTorqueMemory& next,
-                              DriveTorque& result) const {
+void DriveTorqueMapping::read(const DriveReading& reading, const StationStatus& station,
+                              const DriveTorqueMemory& next, DriveTorque& result) const {
   result.acquired = reading.acquired;
   result.valid = is_usable(reading);
+  result.braked = station.valid && station.braked;
   if (!result.valid) {
     result.torque.setZero(torque_constant_.size());
-  } else if (low_pass_) {
+  } else if (low_pass_ && next.torque.started) {
     result.torque = next.torque.output;
   } else {
     result.torque = torque_of(reading);

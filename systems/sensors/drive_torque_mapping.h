@@ -9,6 +9,7 @@
 #include "systems/signals/drive_reading.h"
 #include "systems/signals/drive_torque.h"
 #include "systems/signals/sampling.h"
+#include "systems/signals/station_status.h"
 
 namespace flinch {
 
@@ -37,7 +38,8 @@ struct DriveTorqueMemory {
 /// is the mean of the filtered torques at its two ends (`TorqueTiming::sampled` of the momentum observers).
 ///
 /// Not valid where the reading is not, or is not finite or of the wrong size. Nothing is held: what may live
-/// on old torques decides so itself. Only the low pass outlives missing samples, for the longest hold.
+/// on old torques decides so itself. Only the low pass outlives missing samples, for the longest hold. It
+/// begins anew when the brakes open: what they held, the drives hold from one tick to the next.
 class DriveTorqueMapping final : public System {
   State<DriveTorqueMemory> memory_ = state<DriveTorqueMemory>("memory");
 
@@ -46,18 +48,20 @@ class DriveTorqueMapping final : public System {
   DriveTorqueMapping(const std::shared_ptr<const ParallelRobot>& robot, const DriveTorqueSettings& settings);
 
   InputPort<DriveReading> drives = input<DriveReading>("drives");
+  InputPort<StationStatus> status = input<StationStatus>("status");  ///< for the brakes
 
  private:
   Intermediate<DriveTorqueMemory> next_ =
-      intermediate<&DriveTorqueMapping::advance>("next", drives, memory_, clock);
+      intermediate<&DriveTorqueMapping::advance>("next", drives, status, memory_, clock);
 
  public:
-  OutputPort<DriveTorque> torque = output<&DriveTorqueMapping::read>("torque", drives, next_);
+  OutputPort<DriveTorque> torque = output<&DriveTorqueMapping::read>("torque", drives, status, next_);
 
  private:
-  void advance(const DriveReading& reading, const DriveTorqueMemory& memory, Time now,
-               DriveTorqueMemory& next) const;
-  void read(const DriveReading& reading, const DriveTorqueMemory& next, DriveTorque& result) const;
+  void advance(const DriveReading& reading, const StationStatus& station, const DriveTorqueMemory& memory,
+               Time now, DriveTorqueMemory& next) const;
+  void read(const DriveReading& reading, const StationStatus& station, const DriveTorqueMemory& next,
+            DriveTorque& result) const;
   bool is_usable(const DriveReading& reading) const;
   JointVector torque_of(const DriveReading& reading) const;
 

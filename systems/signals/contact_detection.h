@@ -20,7 +20,7 @@ struct ContactDetection {
   ContactLevel level = ContactLevel::none;          ///< the highest level since the last reset
   ContactLevel present_level = ContactLevel::none;  ///< of this tick's estimate alone
   Time detected{};                ///< tick at which the reaction threshold was first reached
-  PlatformVector wrench_in_base;  ///< the estimate at that tick [N, N, Nm]; empty before
+  PlatformVector wrench_in_base;  ///< the estimate at that tick [N, Nm]; empty before
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {

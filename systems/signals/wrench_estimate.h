@@ -9,7 +9,7 @@ namespace flinch {
 struct WrenchEstimate {
   Time acquired{};
   bool valid = false;             ///< also false while an observer settles after a reset
-  PlatformVector wrench_in_base;  ///< F_ext, moment about the platform origin [N, N, Nm]
+  PlatformVector wrench_in_base;  ///< F_ext, moment about the platform origin [N, Nm]
   JointVector drive_torque;       ///< the same seen by the drives, tau_a,ext = J_x,qa^T F_ext [Nm]
 
   template <class Self, class Visit>

@@ -128,6 +128,7 @@ BENCHMARK(RobotModelTick);
 void DriveTorqueMappingTick(benchmark::State& state) {
   DiagramBuilder builder;
   auto& block = builder.add<DriveTorqueMapping>("block", bench(), drive_settings(state.range(0) != 0));
+  builder.connect(builder.optional_input<StationStatus>("brakes"), block.status);
   const auto drives = builder.export_input("drives", block.drives);
   Ticking ticking(builder);
   run(state, ticking, [&](const Instant& now) { show(ticking, drives, now.drives); });
@@ -170,6 +171,7 @@ void WholeChainTick(benchmark::State& state) {
   auto& pose = builder.add<ForwardKinematics>("pose", bench());
   auto& model = builder.add<RobotModel>("model", bench());
   auto& torque = builder.add<DriveTorqueMapping>("torque", bench(), drive_settings(true));
+  builder.connect(builder.optional_input<StationStatus>("brakes"), torque.status);
   auto& observer = builder.add<MomentumObserver>("observer", bench(), observer_settings());
   auto& detector = builder.add<ContactDetector>("detector", bench());
   const auto joints = builder.input<JointReading>("joints");

@@ -33,6 +33,7 @@ struct Mapping {
   explicit Mapping(const DriveTorqueSettings& settings)
       : block(builder.add<DriveTorqueMapping>("mapping", bench(), settings)),
         drives(builder.export_input("drives", block.drives)),
+        status(builder.export_input("status", block.status)),
         ticking(builder) {}
 
   const DriveTorque& see(const DriveReading& reading) {
@@ -46,8 +47,22 @@ struct Mapping {
   DiagramBuilder builder;
   DriveTorqueMapping& block;
   InputPort<DriveReading> drives;
+  InputPort<StationStatus> status;
   test::Ticking ticking;
 };
+
+TEST(DriveTorqueMapping, BeginsItsLowPassAnewWhenTheBrakesOpen) {
+  Mapping mapping(unit_drives(LowPassForm::tustin));
+  StationStatus station{.acquired = 0ms, .valid = true, .enabled = true, .braked = true};
+  mapping.ticking.set(mapping.status, station);
+  for (int k = 0; k < 5; ++k) EXPECT_TRUE(mapping.see(JointVector::Zero(3)).braked);
+  station.braked = false;
+  mapping.ticking.set(mapping.status, station);
+  const JointVector held{{5.0, -3.0, 8.0}};
+  EXPECT_EQ(mapping.see(held).torque, held);
+  EXPECT_FALSE(mapping.see(held).braked);
+  EXPECT_EQ(mapping.see(held).torque, held);
+}
 
 TEST(DriveTorqueMapping, MultipliesEachCurrentByTheConstantOfItsDrive) {
   DriveTorqueSettings settings;
@@ -86,6 +101,7 @@ TEST_P(AlignedTorque, LagsAsTheVelocityDoes) {
   auto& velocity =
       builder.add<VelocityFilter>("velocity", bench(), VelocityFilterSettings{{30.0, GetParam()}, {}});
   auto& mapping = builder.add<DriveTorqueMapping>("mapping", bench(), unit_drives(GetParam()));
+  builder.connect(builder.optional_input<StationStatus>("brakes"), mapping.status);
   const auto joints = builder.export_input("joints", velocity.joints);
   const auto drives = builder.export_input("drives", mapping.drives);
   test::Ticking ticking(builder);
@@ -111,6 +127,7 @@ TEST_P(AlignedTorque, ExplainsTheChangeOfTheFilteredMomentumAsTheMeanOfItsTwoEnd
   auto& velocity =
       builder.add<VelocityFilter>("velocity", bench(), VelocityFilterSettings{{30.0, GetParam()}, {}});
   auto& mapping = builder.add<DriveTorqueMapping>("mapping", bench(), unit_drives(GetParam()));
+  builder.connect(builder.optional_input<StationStatus>("brakes"), mapping.status);
   const auto joints = builder.export_input("joints", velocity.joints);
   const auto drives = builder.export_input("drives", mapping.drives);
   test::Ticking ticking(builder);
