@@ -1,0 +1,107 @@
+#include "experiments/simulated/simulated_obstacles.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "experiments/simulated/experiment.h"
+#include "experiments/simulated/simulated_scenario.h"
+#include "experiments/verdict/verdict.h"
+#include "plant/compliant_obstacle.h"
+#include "plant/hand.h"
+#include "systems/foundation/setup_error.h"
+#include "systems/framework/recording.h"
+#include "tests/support/workplace.h"
+
+namespace flinch {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+SimulatedScenario scenario_with(const std::string& obstacles, const std::string& more = "") {
+  const test::Workplace place;
+  place.write("scenarios/own.yaml",
+              "robot: ../robots/planar_3rrr.yaml\nduration_s: 1.5\n" + more + "obstacles:\n" + obstacles);
+  return read_simulated_scenario(place / "scenarios/own.yaml");
+}
+
+std::vector<std::string> problems_with(const std::string& obstacles) {
+  try {
+    scenario_with(obstacles);
+  } catch (const SetupError& error) {
+    return error.problems();
+  }
+  return {};
+}
+
+Verdict verdict_on(const SimulatedScenario& scenario) {
+  const Recording recording = run_experiment(scenario);
+  return judge(recording, scenario.robot.robot->space(), scenario.expected, scenario.force_limits);
+}
+
+TEST(ScenarioObstacles, AreOfTheKindThatTheyName) {
+  const SimulatedScenario scenario = scenario_with(
+      "  - {x_m: 0.6, y_m: 0.6}\n"
+      "  - {name: rail, shape: capsule, x_m: 0, y_m: 0.7, axis_m: [0.4, 0, 0], kind: compliant, mass_kg: 3}\n"
+      "  - {name: crate, shape: box, x_m: -0.7, y_m: 0.7, size_m: [0.1, 0.2, 0.3], kind: path, path: "
+      "[{time_s: 1, "
+      "x_m: 0.1}]}\n"
+      "  - {name: hand, x_m: 0.7, y_m: -0.7, kind: hand, grip: {begin_s: 1, end_s: 2}}\n");
+  const Obstacles& obstacles = scenario.station.bench.obstacles;
+  ASSERT_EQ(obstacles.size(), 4U);
+  EXPECT_EQ(obstacles[0]->form().name, "obstacle 1");
+  EXPECT_EQ(std::get<Sphere>(obstacles[0]->form().shape).radius, 0.04);
+  EXPECT_EQ(std::get<Capsule>(obstacles[1]->form().shape).end, Eigen::Vector3d(0.2, 0.0, 0.0));
+  EXPECT_EQ(dynamic_cast<const CompliantObstacle&>(*obstacles[1]).mount().mass, 3.0);
+  EXPECT_EQ(std::get<Box>(obstacles[2]->form().shape).half_lengths, Eigen::Vector3d(0.05, 0.1, 0.15));
+  EXPECT_EQ(dynamic_cast<const MovingObstacle&>(*obstacles[2]).path().points().front().displacement.x(), 0.1);
+  ASSERT_NE(obstacles[3]->holding(), nullptr);
+  EXPECT_EQ(obstacles[3]->holding()->end, 2.0);
+}
+
+TEST(ScenarioObstacles, MayNotBeginInContact) {
+  EXPECT_THAT(problems_with("  - {name: post, x_m: 0.15, y_m: 0}\n"),
+              ElementsAre(HasSubstr("begins in contact: platform is 27 mm deep in post")));
+}
+
+TEST(ScenarioObstacles, AreRefusedWhereTheyCannotBeToldApartOrMoveBackInTime) {
+  EXPECT_THAT(problems_with("  - {name: post, x_m: 0.7, y_m: 0.7}\n  - {name: post, x_m: -0.7, y_m: 0.7}\n"),
+              ElementsAre(HasSubstr("as that of another obstacle is")));
+  EXPECT_THAT(
+      problems_with("  - {x_m: 0.7, y_m: 0.7, kind: path, path: [{time_s: 1}, {time_s: 0.5, x_m: 0.1}]}\n"),
+      ElementsAre(HasSubstr("own.yaml:4")));
+  EXPECT_THAT(problems_with("  - {x_m: 0.7, y_m: 0.7, kind: hnad}\n"), ElementsAre(HasSubstr("hand")));
+}
+
+/// The platform rests; first a hand strikes it from the right, later a crate is driven into it from below.
+TEST(ScenarioObstacles, AreToldApartByTheVerdict) {
+  const SimulatedScenario scenario = scenario_with(
+      "  - {name: hand, x_m: 0.25, y_m: 0, kind: hand, path: [{time_s: 0.4}, {time_s: 0.6, x_m: -0.09}, "
+      "{time_s: "
+      "0.75}]}\n"
+      "  - {name: crate, shape: box, x_m: -0.05, y_m: -0.3, size_m: [0.1, 0.1, 0.1], kind: path, path: "
+      "[{time_s: "
+      "1.0}, {time_s: 1.3, y_m: 0.13}]}\n");
+  const Verdict verdict = verdict_on(scenario);
+  ASSERT_EQ(verdict.contacts.size(), 2U);
+  EXPECT_EQ(verdict.contacts[0].obstacle, 0);
+  EXPECT_EQ(verdict.contacts[1].obstacle, 1);
+  for (const ContactVerdict& contact : verdict.contacts) EXPECT_EQ(contact.body, "platform");
+  EXPECT_TRUE(verdict.contacts[0].detected.has_value());
+  EXPECT_TRUE(verdict.contacts[0].removed.has_value());
+  EXPECT_EQ(verdict.false_detections, 0);
+}
+
+TEST(ScenarioObstacles, HoldUntilTheyLetGo) {
+  const SimulatedScenario scenario = scenario_with(
+      "  - {name: hand, x_m: 0.25, y_m: 0, kind: hand, path: [{time_s: 0.4}, {time_s: 0.6, x_m: -0.08}], "
+      "grip: "
+      "{begin_s: 0.5, end_s: 1.1}}\n");
+  const Verdict verdict = verdict_on(scenario);
+  ASSERT_EQ(verdict.contacts.size(), 1U);
+  ASSERT_TRUE(verdict.contacts[0].removed.has_value());
+  EXPECT_NEAR(*verdict.contacts[0].removed, 1.1, 0.01);
+}
+
+}  // namespace
+}  // namespace flinch
