@@ -128,7 +128,9 @@ void read_station(ConfigReader& file, const Scenario& scenario, SimulatedStation
   for (ConfigReader& ramp : file.sections("applied_wrench"))
     station.applied_wrench.push_back(read_ramp(ramp, station.bench.robot->space()));
   read_sensors(file.section("sensors"), station);
-  for (const std::string& complaint : problems(station.bench)) file.add_problems({"plant: " + complaint});
+  if (file.good()) {
+    for (const std::string& complaint : problems(station.bench)) file.add_problems({"plant: " + complaint});
+  }
   if (file.good()) {
     for (const std::string& contact : contacts_at_start(station.bench)) file.problem("", contact);
   }

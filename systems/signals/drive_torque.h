@@ -9,15 +9,15 @@ namespace flinch {
 struct DriveTorque {
   Time acquired{};
   bool valid = false;
-  bool braked = false;  ///< closed brakes add to it what nobody measures
   JointVector torque;   ///< tau_a = k_t i [Nm or N]
+  bool braked = false;  ///< closed brakes add to it what nobody measures
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("acquired", "ns", self.acquired);
     visit("valid", "", self.valid);
-    visit("braked", "", self.braked);
     visit("torque", "<drive force>", self.torque);
+    visit("braked", "", self.braked);
   }
 };
 

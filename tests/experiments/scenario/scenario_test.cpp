@@ -116,7 +116,7 @@ TEST(Scenario, KnowsWhatCanBeRunInto) {
   const Scenario scenario = read_scenario(shipped("scenarios/platform_collision.yaml"));
   ASSERT_EQ(scenario.obstacles.size(), 1U);
   EXPECT_EQ(scenario.obstacles[0].name, "pylon");
-  EXPECT_NEAR(scenario.obstacles[0].radius, 0.04, 1e-15);
+  EXPECT_NEAR(std::get<Sphere>(scenario.obstacles[0].shape).radius, 0.04, 1e-15);
 }
 
 // ---------------------------------------------------------------- what only a simulation reads
