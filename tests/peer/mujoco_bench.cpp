@@ -2,9 +2,7 @@
 
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <sstream>
-#include <stdexcept>
 
 namespace flinch::peer {
 namespace {
@@ -56,30 +54,14 @@ std::string bench_xml(const PlanarRrrParameters& robot, const LinkBody& link1, c
   return text.str();
 }
 
-mjModel* load(const std::string& xml) {
-  // MuJoCo reads XML from files, or from its own virtual file system.
-  auto files = std::make_unique<mjVFS>();
-  mj_defaultVFS(files.get());
-  mj_makeEmptyFileVFS(files.get(), "bench.xml", static_cast<int>(xml.size()));
-  std::memcpy(files->filedata[0], xml.data(), xml.size());
-  std::array<char, 1000> error{};
-  mjModel* model = mj_loadXML("bench.xml", files.get(), error.data(), error.size());
-  mj_deleteVFS(files.get());
-  if (model == nullptr) throw std::runtime_error(error.data());
-  return model;
-}
-
 }  // namespace
 
 MujocoBench::MujocoBench(const PlanarRrrParameters& robot, const LinkBody& link1, const LinkBody& link2)
-    : xml_(bench_xml(robot, link1, link2)),
-      model_(load(xml_)),
-      data_(mj_makeData(model_.get())),
-      probe_(mj_makeData(model_.get())) {
+    : xml_(bench_xml(robot, link1, link2)), mujoco_(xml_) {
   // The anchor on the platform is where the coupling joint is, not where the legs stand at zero angles.
   for (int i = 0; i < 3; ++i) {
     const PlanarRrrLeg& leg = robot.legs[static_cast<std::size_t>(i)];
-    mjtNum* anchors = model_->eq_data + i * mjNEQDATA;
+    mjtNum* anchors = model()->eq_data + i * mjNEQDATA;
     anchors[3] = robot.coupling_radius * std::cos(leg.coupling_angle);
     anchors[4] = robot.coupling_radius * std::sin(leg.coupling_angle);
     anchors[5] = 0.0;
@@ -91,52 +73,19 @@ void MujocoBench::set_state(const Eigen::Vector3d& pose, const Eigen::Vector3d& 
                             const std::array<double, 3>& active_rate,
                             const std::array<double, 3>& passive_rate) {
   for (int i = 0; i < 3; ++i) {
-    data_->qpos[i] = pose[i];
-    data_->qvel[i] = velocity[i];
+    data()->qpos[i] = pose[i];
+    data()->qvel[i] = velocity[i];
     const auto leg = static_cast<std::size_t>(i);
-    data_->qpos[3 + 2 * i] = active[leg];
-    data_->qpos[4 + 2 * i] = passive[leg];
-    data_->qvel[3 + 2 * i] = active_rate[leg];
-    data_->qvel[4 + 2 * i] = passive_rate[leg];
+    data()->qpos[3 + 2 * i] = active[leg];
+    data()->qpos[4 + 2 * i] = passive[leg];
+    data()->qvel[3 + 2 * i] = active_rate[leg];
+    data()->qvel[4 + 2 * i] = passive_rate[leg];
   }
-}
-
-Eigen::MatrixXd MujocoBench::constraint_jacobian(mjData* data) const {
-  mj_fwdPosition(model_.get(), data);
-  Eigen::MatrixXd jacobian(data->nefc, model_->nv);
-  if (mj_isSparse(model_.get()) != 0) {
-    throw std::runtime_error("the constraint Jacobian is sparse; the bench is small enough for a dense one");
-  }
-  for (int row = 0; row < data->nefc; ++row) {
-    for (int column = 0; column < model_->nv; ++column)
-      jacobian(row, column) = data->efc_J[row * model_->nv + column];
-  }
-  return jacobian;
-}
-
-Eigen::VectorXd MujocoBench::jacobian_rate_times_velocity() const {
-  constexpr double h = 1e-6;
-  const Eigen::Map<const Eigen::VectorXd> q(data_->qpos, model_->nq);
-  const Eigen::Map<const Eigen::VectorXd> v(data_->qvel, model_->nv);
-  Eigen::Map<Eigen::VectorXd> probe(probe_->qpos, model_->nq);
-  probe = q + h * v;  // all joints are slides and hinges: coordinates and rates agree
-  const Eigen::MatrixXd after = constraint_jacobian(probe_.get());
-  probe = q - h * v;
-  const Eigen::MatrixXd before = constraint_jacobian(probe_.get());
-  return (after - before) * v / (2 * h);
 }
 
 Eigen::Vector3d MujocoBench::platform_acceleration(const Eigen::Vector3d& drive_torques) {
-  mjData* data = data_.get();
-  for (int i = 0; i < 3; ++i) data->ctrl[i] = drive_torques[i];
-  const Eigen::VectorXd drift = jacobian_rate_times_velocity();
-  mj_fwdPosition(model_.get(), data);
-  mj_fwdVelocity(model_.get(), data);
-  mj_fwdActuation(model_.get(), data);
-  mj_fwdAcceleration(model_.get(), data);
-  for (int row = 0; row < data->nefc; ++row) data->efc_aref[row] -= drift[row];
-  mj_fwdConstraint(model_.get(), data);
-  return {data->qacc[0], data->qacc[1], data->qacc[2]};
+  for (int i = 0; i < 3; ++i) data()->ctrl[i] = drive_torques[i];
+  return mujoco_.acceleration().head<3>();
 }
 
 }  // namespace flinch::peer

@@ -1,13 +1,11 @@
 #pragma once
 
-#include <mujoco/mujoco.h>
-
 #include <Eigen/Core>
 #include <array>
-#include <memory>
 #include <string>
 
 #include "systems/robot/planar_rrr_parameters.h"
+#include "tests/peer/mujoco_model.h"
 
 namespace flinch::peer {
 
@@ -24,30 +22,18 @@ class MujocoBench {
                  const std::array<double, 3>& active, const std::array<double, 3>& passive,
                  const std::array<double, 3>& active_rate, const std::array<double, 3>& passive_rate);
 
-  /// Platform acceleration under drive torques, by MuJoCo's own constraint solver. MuJoCo lets a constraint's
-  /// reference acceleration be -b J v - k r, without the term -dJ/dt v that keeps moving legs closed; it is
-  /// put in here, from differences of MuJoCo's own Jacobian.
+  /// Platform acceleration under drive torques, by MuJoCo's own constraint solver.
   Eigen::Vector3d platform_acceleration(const Eigen::Vector3d& drive_torques);
 
-  mjModel* model() { return model_.get(); }
-  mjData* data() { return data_.get(); }
+  mjModel* model() { return mujoco_.model(); }
+  mjData* data() { return mujoco_.data(); }
 
   /// The description as MuJoCo's XML.
   const std::string& xml() const { return xml_; }
 
  private:
-  struct Delete {
-    void operator()(mjModel* model) const { mj_deleteModel(model); }
-    void operator()(mjData* data) const { mj_deleteData(data); }
-  };
-
-  Eigen::MatrixXd constraint_jacobian(mjData* data) const;
-  Eigen::VectorXd jacobian_rate_times_velocity() const;
-
   std::string xml_;
-  std::unique_ptr<mjModel, Delete> model_;
-  std::unique_ptr<mjData, Delete> data_;
-  std::unique_ptr<mjData, Delete> probe_;
+  MujocoModel mujoco_;
 };
 
 }  // namespace flinch::peer
