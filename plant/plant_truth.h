@@ -10,13 +10,13 @@ struct PlantTruth {
   Time acquired{};
   bool valid = false;       ///< All legs reach the pose. Otherwise the robot has come apart and stands still.
   Configuration pose;       ///< x, in the base frame
-  PlatformVector velocity;  ///< [m/s, m/s, rad/s]
+  PlatformVector velocity;  ///< v
   PlatformVector acceleration;  ///< [m/s^2, m/s^2, rad/s^2]
   JointVector active;           ///< q_a [rad]
   JointVector passive;          ///< q_p [rad]
   JointVector coupling;         ///< q_c [rad]
   JointVector drive_torque;     ///< tau_a that acts, without the brakes' [Nm]
-  /// F_ext: all that acts from outside, contacts and applied wrench [N, N, Nm].
+  /// F_ext: all that acts from outside, contacts and applied wrench.
   PlatformVector wrench_in_base;
   /// Largest coordinate by which a leg, followed along its joint angles, misses its joint on the platform
   /// [m].

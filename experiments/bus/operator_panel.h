@@ -44,6 +44,7 @@ class OperatorPanel final : public Exchange {
   Slot<ReactionState> reaction_;
   Slot<GateStatus> gate_;
   Slot<WrenchEstimate> wrench_;
+  int translations_;
   bool stop_ = true;
   TripleBuffer<LiveState> states_;
   LiveState last_;

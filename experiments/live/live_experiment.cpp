@@ -23,6 +23,7 @@ LiveExperiment build_live_experiment(const Scenario& scenario) {
   builder.export_output("drives_link", experiment.station.drives_link);
   builder.export_output("imu_link", experiment.station.imu_link);
   builder.export_output("status_link", experiment.station.status_link);
+  experiment.translations = scenario.robot.robot->space().translations();
   experiment.diagram = builder.build();
   return experiment;
 }

@@ -20,6 +20,7 @@ struct LiveExperiment {
   InputPort<OperatorCommand> operator_command;
   InputPort<TargetCommand> target;
   InputPort<TickTiming> tick_timing;  ///< for RealtimeRunner::feed_timing()
+  int translations = 2;               ///< directions in which the platform moves
 };
 
 /// Throws SetupError for settings that do not fit together.

@@ -107,7 +107,7 @@ WrenchRamp read_ramp(ConfigReader reader, const ConfigurationSpace& space) {
     reader.number(forces[static_cast<std::size_t>(i)], unit::N, ramp.peak_in_base[i]);
   }
   if (space.rotations() == 1) reader.number("moment", unit::Nm, ramp.peak_in_base[directions]);
-  for (int i = 0; space.rotations() == 3 && i < 3; ++i) {
+  for (int i = 0; space.rotations() > 1 && i < space.rotations(); ++i) {
     reader.number(moments[static_cast<std::size_t>(i)], unit::Nm, ramp.peak_in_base[directions + i]);
   }
   reader.duration("start", ramp.start, not_negative);

@@ -5,7 +5,7 @@
 namespace flinch {
 namespace {
 
-/// `count` more entries of a list such as "m, m, rad".
+/// `count` more entries of a list of units, joined by commas.
 void append(std::string& units, int count, const std::string& unit) {
   for (int i = 0; i < count; ++i) units += (units.empty() ? "" : ", ") + unit;
 }

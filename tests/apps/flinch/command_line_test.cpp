@@ -253,8 +253,7 @@ TEST_F(CommandLine, ChecksScenariosRobotsAndRecordings) {
 
 TEST_F(CommandLine, FindsEveryShippedRobotGood) {
   for (const auto& entry : std::filesystem::directory_iterator(place / "robots")) {
-    EXPECT_EQ(flinch({"check", entry.path().string()}).out,
-              entry.path().string() + ": a good robot file\n");
+    EXPECT_EQ(flinch({"check", entry.path().string()}).out, entry.path().string() + ": a good robot file\n");
   }
 }
 
