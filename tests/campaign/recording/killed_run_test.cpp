@@ -2,8 +2,10 @@
 #include "tests/systems/framework/killed_run.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
+#include <string>
 
 namespace flinch {
 namespace {
@@ -13,7 +15,8 @@ class KilledRun : public testing::Test {
   void SetUp() override { std::filesystem::create_directories(folder_); }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "flinch_killed_runs";
+  std::filesystem::path folder_ =
+      std::filesystem::path(testing::TempDir()) / ("flinch_killed_runs_" + std::to_string(getpid()));
 };
 
 TEST_F(KilledRun, InRealTimeHoldsAllButTheLastSecond) {
