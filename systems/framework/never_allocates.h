@@ -33,6 +33,7 @@ namespace internal {
 template <class Aggregate>
 struct AnyMember {
   template <class Member>
+  // NOLINTNEXTLINE(google-explicit-constructor): an aggregate is initialised from it.
   requires(!std::same_as<Member, Aggregate>) operator Member() const noexcept(never_allocates<Member>);
 };
 
