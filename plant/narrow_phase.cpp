@@ -88,7 +88,7 @@ struct Solid::Convex {
 
 Solid::Solid(const Shape& shape) {
   LocalShape local = std::visit([](const auto& of) { return make(of); }, shape);
-  convex_ = std::make_unique<const Convex>(std::move(local.shape), local.in_body);
+  convex_ = std::make_unique<const Convex>(Convex{std::move(local.shape), local.in_body});
 }
 
 Solid::~Solid() = default;

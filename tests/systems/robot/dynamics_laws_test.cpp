@@ -1,5 +1,6 @@
 #include "systems/robot/forward_dynamics.h"
 
+#include <Eigen/Dense>
 #include <span>
 
 #include "systems/robot/joint_space_dynamics.h"
@@ -115,7 +116,9 @@ TEST_P(DynamicLaws, MassMatrixChangesByCoriolisMatrixPlusItsTranspose) {
 // C^T v = d(v^T M v / 2)/dx at fixed v, and for rotations in space the moment omega x p_omega of Hamel.
 TEST_P(DynamicLaws, TransposedCoriolisMatrixTimesVelocityIsTheDerivativeOfTheKineticEnergy) {
   Residual residual("C^T v against the kinetic energy", tolerances.momentum);
-  for (const auto& [pose, velocity] : states) {
+  for (const auto& state : states) {
+    const auto& pose = state.pose;
+    const auto& velocity = state.velocity;
     const Dynamics dynamics = dynamics_at(pose, velocity);
     PlatformVector expected(n);
     for (int axis = 0; axis < n; ++axis) {
@@ -132,13 +135,14 @@ TEST_P(DynamicLaws, TransposedCoriolisMatrixTimesVelocityIsTheDerivativeOfTheKin
 
 TEST_P(DynamicLaws, GravityIsTheDerivativeOfThePotential) {
   Residual residual("g against the potential", tolerances.gravity);
-  for (const auto& [pose, velocity] : states) {
+  for (const auto& state : states) {
+    const auto& pose = state.pose;
     PlatformVector expected(n);
     for (int axis = 0; axis < n; ++axis) {
       expected[axis] =
           derivative([&](double h) { return potential(space.plus(pose, h * unit(axis))); }, 1e-3);
     }
-    compare(residual, dynamics_at(pose, velocity).g_x, expected);
+    compare(residual, dynamics_at(pose, state.velocity).g_x, expected);
   }
 }
 

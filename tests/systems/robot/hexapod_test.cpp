@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/SVD>
+
 #include <numbers>
 
 #include "systems/foundation/setup_error.h"
