@@ -269,7 +269,8 @@ void Hexapod::kinematics(const Configuration& pose, const PlatformVector& veloci
                          Kinematics& out) const noexcept {
   const bool reachable = usable(velocity, 6) && inverse_kinematics(pose, mode).reachable;
   if (!reachable) return set_unreachable(space(), joints, out);
-  const Configuration x = pose;  // which may be part of `out`
+  // Which may be part of `out`. NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
+  const Configuration x = pose;
   const Platform at = platform(pose, velocity);
   set_unreachable(space(), joints, out);
   Matrix6 A;

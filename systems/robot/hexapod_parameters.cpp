@@ -18,7 +18,7 @@ void check_body(const std::string& field, const RigidBodyInertia& body, Paramete
     return findings.add(field + ".inertia is not a finite symmetric matrix");
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(body.inertia, Eigen::EigenvaluesOnly);
-  const Eigen::Vector3d moments = solver.eigenvalues();
+  const Eigen::Vector3d& moments = solver.eigenvalues();
   if (moments[0] > 0.0 && moments[2] <= (moments[0] + moments[1]) * (1.0 + 1e-9)) return;
   std::ostringstream sentence;
   sentence << field << ".inertia has the principal moments " << moments.transpose()

@@ -40,7 +40,7 @@ double distance_from_centre(const WorkspaceLimits& limits, const Mechanism& mech
 }
 
 std::vector<std::string> problems(const WorkspaceLimits& limits, const ParallelRobot& robot) {
-  const Configuration pose = robot.home_pose();
+  const Configuration& pose = robot.home_pose();
   Kinematics home;
   robot.kinematics(pose, PlatformVector::Zero(robot.dof()), home);
 

@@ -42,7 +42,9 @@ Scenario scenario_of(const Recording& recording, const std::filesystem::path& fi
   if (!was_simulated(recording)) {
     return control.empty() ? recorded_scenario(recording, file) : read_scenario(control);
   }
-  return control.empty() ? recorded_simulated_scenario(recording, file) : read_simulated_scenario(control);
+  const SimulatedScenario scenario =
+      control.empty() ? recorded_simulated_scenario(recording, file) : read_simulated_scenario(control);
+  return static_cast<const Scenario&>(scenario);
 }
 
 }  // namespace flinch

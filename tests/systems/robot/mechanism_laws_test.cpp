@@ -1,5 +1,6 @@
 #include "tests/systems/robot/mechanism_laws.h"
 
+#include <Eigen/SVD>
 #include <span>
 
 #include "systems/robot/five_bar.h"
@@ -24,7 +25,9 @@ FLINCH_FOR_ALL_MECHANISMS(KinematicLaws);
 TEST_P(KinematicLaws, ForwardKinematicsUndoesInverseKinematics) {
   Residual residual("pose, started 10 ms earlier", 3e-12);
   Residual iterations("iterations", 5);
-  for (const auto& [pose, velocity] : states) {
+  for (const auto& motion_state : states) {
+    const auto& pose = motion_state.pose;
+    const auto& velocity = motion_state.velocity;
     const Configuration earlier = space.plus(pose, -0.01 * velocity);
     const ForwardSolution solution = forward(joints_at(pose).active, earlier);
     ASSERT_TRUE(solution.converged);
@@ -36,7 +39,9 @@ TEST_P(KinematicLaws, ForwardKinematicsUndoesInverseKinematics) {
 TEST_P(KinematicLaws, ForwardKinematicsWithoutAPoseOfTheSameBranchHasNotConverged) {
   int converged = 0;
   int not_converged = 0;
-  for (const auto& [pose, velocity] : states) {
+  for (const auto& motion_state : states) {
+    const auto& pose = motion_state.pose;
+    const auto& velocity = motion_state.velocity;
     const Configuration far = space.plus(pose, 6.0 * GetParam().region);
     for (const Configuration& start : {far, space.plus(pose, -3.0 * GetParam().region), robot.home_pose()}) {
       const ForwardSolution solution = forward(joints_at(pose).active, start);
@@ -70,7 +75,9 @@ TEST_P(KinematicLaws, StartPoseOfExactAnglesIsThePose) {
 TEST_P(KinematicLaws, MapsToJointsAreTheDerivativesOfTheJoints) {
   Residual active("drive map", tolerances.drive_map);
   Residual passive("passive map", tolerances.drive_map);
-  for (const auto& [pose, velocity] : states) {
+  for (const auto& motion_state : states) {
+    const auto& pose = motion_state.pose;
+    const auto& velocity = motion_state.velocity;
     const Kinematics k = kinematics_at(pose, velocity);
     for (int axis = 0; axis < n; ++axis) {
       const auto moved = [&](double h) { return joints_at(space.plus(pose, h * unit(axis))); };
@@ -113,7 +120,9 @@ TEST_P(KinematicLaws, RatesInverseAndConditionFollowFromTheDriveMap) {
   Residual condition("sigma_kappa against singular values, relative", 1e-11);
   PlatformVector scale = PlatformVector::Ones(n);
   scale.tail(space.rotations()).setConstant(1.0 / robot.description().characteristic_length);
-  for (const auto& [pose, velocity] : states) {
+  for (const auto& motion_state : states) {
+    const auto& pose = motion_state.pose;
+    const auto& velocity = motion_state.velocity;
     const Kinematics k = kinematics_at(pose, velocity);
     compare(rates, k.rates.active, PlatformVector(k.J_qa_x * velocity));
     compare(rates, k.rates.passive, PlatformVector(k.J_qp_x * velocity));
@@ -127,9 +136,13 @@ TEST_P(KinematicLaws, RatesInverseAndConditionFollowFromTheDriveMap) {
 TEST_P(KinematicLaws, ContactJacobiansAreTheDerivativesOfPoints) {
   Residual translation("points of all bodies", tolerances.contact);
   Residual rotation("axes of all bodies", tolerances.contact);
-  for (const auto& [pose, velocity] : std::span(states).first(100)) {
+  for (const auto& motion_state : std::span(states).first(100)) {
+    const auto& pose = motion_state.pose;
+    const auto& velocity = motion_state.velocity;
     const Kinematics k = kinematics_at(pose, velocity);
-    for (const auto& [body, point] : points()) {
+    for (const auto& place : points()) {
+      const BodyId body = place.first;
+      const CartesianVector& point = place.second;
       const ContactJacobian contact = robot.contact_jacobian(k, body, point);
       ASSERT_TRUE(contact.valid);
       for (int axis = 0; axis < n; ++axis) {
@@ -155,7 +168,9 @@ TEST_P(KinematicLaws, RatesOfContactJacobiansAreTheirDerivativesAlongTheMotion) 
   Residual rotation("axes of all bodies", tolerances.contact_rate);
   Residual joints("from drives", 20.0 * tolerances.contact_rate);
   for (const MotionState& state : std::span(states).first(100)) {
-    for (const auto& [body, point] : points()) {
+    for (const auto& place : points()) {
+      const BodyId body = place.first;
+      const CartesianVector& point = place.second;
       const auto at = [&](double h) {
         return robot.contact_jacobian(kinematics_after(state, h), body, point);
       };
@@ -177,9 +192,13 @@ TEST_P(KinematicLaws, ForcesDoTheSameWorkOnEveryWay) {
   Residual drive_power("power of wrenches by drives [W]", 1e-11);
   Residual round_trip("wrench to drives and back", 1e-12);
   const CartesianVector force = Eigen::Vector3d(30.0, -40.0, 20.0).head(robot.space_dimension());
-  for (const auto& [pose, velocity] : states) {
+  for (const auto& motion_state : states) {
+    const auto& pose = motion_state.pose;
+    const auto& velocity = motion_state.velocity;
     const Kinematics k = kinematics_at(pose, velocity);
-    for (const auto& [body, point] : points()) {
+    for (const auto& place : points()) {
+      const BodyId body = place.first;
+      const CartesianVector& point = place.second;
       const ContactJacobian contact = robot.contact_jacobian(k, body, point);
       const PlatformVector wrench = platform_wrench(contact, force);
       const double power = force.dot(contact.translation * velocity);
@@ -193,7 +212,9 @@ TEST_P(KinematicLaws, ForcesDoTheSameWorkOnEveryWay) {
 
 TEST_P(KinematicLaws, LegsJoinBaseAndPlatform) {
   Residual residual("leg points are points of the links [m]", 1e-14);
-  for (const auto& [pose, velocity] : states) {
+  for (const auto& motion_state : states) {
+    const auto& pose = motion_state.pose;
+    const auto& velocity = motion_state.velocity;
     const Kinematics k = kinematics_at(pose, velocity);
     for (int i = 0; i < robot.legs(); ++i) {
       const LegPoints& leg = k.legs[static_cast<std::size_t>(i)];
