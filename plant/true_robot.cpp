@@ -49,12 +49,14 @@ std::shared_ptr<const Mechanism> deviating(FiveBarParameters robot, const RobotD
   return std::make_shared<const FiveBar>(robot);
 }
 
-// All legs of a hexapod are equal: they take the scales of the first.
+// The links of a hexapod's legs are equal: they take the scale of the first.
 std::shared_ptr<const Mechanism> deviating(HexapodParameters robot, const RobotDeviation& deviation) {
   scale(robot.cylinder, scale_of(deviation.leg_inertia_scale, 0));
   scale(robot.rod, scale_of(deviation.leg_inertia_scale, 0));
-  scale(robot.drive_friction, scale_of(deviation.drive_friction_scale, 0));
-  scale(robot.universal_friction, scale_of(deviation.passive_friction_scale, 0));
+  for (std::size_t i = 0; i < robot.legs.size(); ++i) {
+    scale(robot.legs[i].drive_friction, scale_of(deviation.drive_friction_scale, i));
+    scale(robot.legs[i].universal_friction, scale_of(deviation.passive_friction_scale, i));
+  }
   scale(robot.platform, deviation.platform_inertia_scale);
   if (deviation.payload > 0.0) {
     const RigidBodyInertia load{.mass = deviation.payload};

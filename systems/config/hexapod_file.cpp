@@ -11,13 +11,17 @@ namespace {
 
 std::span<double> entries(Eigen::Vector3d& v) { return {v.data(), 3}; }
 
-HexapodLeg read_leg(const ConfigReader& file) {
-  HexapodLeg leg;
+/// `common` has what is equal in all legs.
+HexapodLeg read_leg(ConfigReader file, const HexapodLeg& common) {
+  HexapodLeg leg = common;
   ConfigReader required = file.required();
   required.numbers("base_joint", unit::m, entries(leg.base_joint));
   required.numbers("platform_joint", unit::m, entries(leg.platform_joint));
   required.numbers("universal_axis", unit::none, entries(leg.universal_axis));
   leg.universal_axis.normalize();
+  if (file.has("drive_friction")) leg.drive_friction = read_sliding_friction(file.section("drive_friction"));
+  if (file.has("universal_friction"))
+    leg.universal_friction = read_friction(file.section("universal_friction"));
   return leg;
 }
 
@@ -48,8 +52,6 @@ void read_links(ConfigReader& file, HexapodParameters& robot) {
 
 void read_joints(ConfigReader& file, HexapodParameters& robot) {
   file.number("drive_armature", unit::kg, robot.drive_armature);
-  robot.drive_friction = read_sliding_friction(file.section("drive_friction"));
-  robot.universal_friction = read_friction(file.section("universal_friction"));
   file.number("drive_friction_velocity", unit::m_per_s, robot.drive_friction_velocity);
   file.number("universal_friction_velocity", unit::rad_per_s, robot.universal_friction_velocity);
 }
@@ -84,7 +86,10 @@ std::shared_ptr<const ParallelRobot> read_hexapod(ConfigReader& file) {
   HexapodParameters robot;
   const std::vector<ConfigReader> legs = file.required().sections("legs", robot.legs.size());
   file.text("name", robot.name);
-  for (std::size_t i = 0; i < legs.size(); ++i) robot.legs[i] = read_leg(legs[i]);
+  HexapodLeg common;
+  common.drive_friction = read_sliding_friction(file.section("drive_friction"));
+  common.universal_friction = read_friction(file.section("universal_friction"));
+  for (std::size_t i = 0; i < legs.size(); ++i) robot.legs[i] = read_leg(legs[i], common);
   read_links(file, robot);
   read_joints(file, robot);
   read_platform(file.required().section("platform"), robot);

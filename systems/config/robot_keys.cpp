@@ -6,15 +6,15 @@ namespace flinch {
 
 JointFriction read_friction(ConfigReader file) {
   JointFriction friction;
-  file.number("viscous", unit::Nms_per_rad, friction.viscous);
-  file.number("coulomb", unit::Nm, friction.coulomb);
+  file.number("viscous", unit::Nms_per_rad, friction.viscous, not_negative);
+  file.number("coulomb", unit::Nm, friction.coulomb, not_negative);
   return friction;
 }
 
 JointFriction read_sliding_friction(ConfigReader file) {
   JointFriction friction;
-  file.number("viscous", unit::Ns_per_m, friction.viscous);
-  file.number("coulomb", unit::N, friction.coulomb);
+  file.number("viscous", unit::Ns_per_m, friction.viscous, not_negative);
+  file.number("coulomb", unit::N, friction.coulomb, not_negative);
   return friction;
 }
 

@@ -324,9 +324,9 @@ void Hexapod::dynamics(const Kinematics& kinematics, Dynamics& out) const noexce
     const auto resist = [&](const JointFriction& joint, const Row& row, double friction_velocity) {
       friction += row.transpose() * friction_effort(joint, row.dot(v), friction_velocity);
     };
-    resist(p.drive_friction, moving.row, p.drive_friction_velocity);
-    resist(p.universal_friction, turning.J_first, p.universal_friction_velocity);
-    resist(p.universal_friction, turning.J_second, p.universal_friction_velocity);
+    resist(p.legs[i].drive_friction, moving.row, p.drive_friction_velocity);
+    resist(p.legs[i].universal_friction, turning.J_first, p.universal_friction_velocity);
+    resist(p.legs[i].universal_friction, turning.J_second, p.universal_friction_velocity);
   }
   if (!sum.M.allFinite() || !sum.C.allFinite() || !friction.allFinite()) return set_invalid(6, out);
   out.M_x = sum.M;

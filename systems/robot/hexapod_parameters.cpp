@@ -32,6 +32,8 @@ void check_leg(const std::string& path, const HexapodLeg& leg, ParameterFindings
   if (!(std::abs(leg.universal_axis.norm() - 1.0) < 1e-9)) {
     findings.add(path + "universal_axis", leg.universal_axis.norm(), "long", "it must be a unit vector");
   }
+  findings.sliding_friction(path + "drive_friction", leg.drive_friction);
+  findings.friction(path + "universal_friction", leg.universal_friction);
 }
 
 void check_home(const HexapodParameters& robot, ParameterFindings& findings) {
@@ -69,8 +71,6 @@ std::vector<std::string> problems(const HexapodParameters& parameters) {
   check_body("cylinder", p.cylinder, findings);
   check_body("rod", p.rod, findings);
   findings.not_negative("drive_armature", p.drive_armature, "kg");
-  findings.sliding_friction("drive_friction", p.drive_friction);
-  findings.friction("universal_friction", p.universal_friction);
   findings.positive("drive_friction_velocity", p.drive_friction_velocity, "m/s");
   findings.positive("universal_friction_velocity", p.universal_friction_velocity, "rad/s");
   check_body("platform", p.platform, findings);

@@ -17,9 +17,12 @@ struct HexapodLeg {
   Eigen::Vector3d base_joint{0.0, 0.0, 0.0};      ///< a, in the base frame [m].
   Eigen::Vector3d platform_joint{0.0, 0.0, 0.0};  ///< b, in frame E [m].
   Eigen::Vector3d universal_axis{0.0, 0.0, 0.0};  ///< k: unit vector along the first axis, fixed to the base.
+  JointFriction drive_friction;                   ///< Along the leg [N s/m], [N].
+  JointFriction universal_friction;               ///< About each of the two axes [Nm s/rad], [Nm].
 };
 
-/// Everything about a hexapod 6-UPS, or Gough-Stewart platform: six equal legs, each driven in its length.
+/// Everything about a hexapod 6-UPS, or Gough-Stewart platform: six legs, each driven in its length, with
+/// links of one make.
 /// Body frames: the platform's is E; the cylinder's has its origin on the base joint, the rod's on the
 /// platform joint, and the z axis of both points along the leg to the platform.
 struct HexapodParameters {
@@ -34,9 +37,7 @@ struct HexapodParameters {
   double rod_radius = 0.0;       ///< Outline [m].
   RigidBodyInertia cylinder;
   RigidBodyInertia rod;
-  double drive_armature = 0.0;       ///< Rotor and screw of a drive, felt along the leg [kg].
-  JointFriction drive_friction;      ///< [N s/m], [N]
-  JointFriction universal_friction;  ///< About each of the two axes [Nm s/rad], [Nm].
+  double drive_armature = 0.0;  ///< Rotor and screw of a drive, felt along the leg [kg].
   /// Coulomb friction is coulomb * tanh(rate / velocity).
   double drive_friction_velocity = 0.01;      ///< [m/s]
   double universal_friction_velocity = 0.01;  ///< [rad/s]

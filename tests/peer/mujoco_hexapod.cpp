@@ -56,10 +56,10 @@ std::string leg_xml(const HexapodParameters& p, std::size_t i, const Matrix3d& a
   text.precision(17);
   text << "<body name='cylinder" << i << "' pos='" << leg.base_joint << "' quat='" << turned.w() << ' '
        << turned.x() << ' ' << turned.y() << ' ' << turned.z() << "'><joint type='hinge' axis='"
-       << Vector3d(axes.transpose() * leg.universal_axis) << "' damping='" << p.universal_friction.viscous
-       << "'/><joint type='hinge' axis='0 1 0' damping='" << p.universal_friction.viscous << "'/>"
+       << Vector3d(axes.transpose() * leg.universal_axis) << "' damping='" << leg.universal_friction.viscous
+       << "'/><joint type='hinge' axis='0 1 0' damping='" << leg.universal_friction.viscous << "'/>"
        << inertial(p.cylinder) << "<body name='rod" << i << "'><joint name='q" << i
-       << "' type='slide' axis='0 0 1' damping='" << p.drive_friction.viscous << "'/>" << inertial(p.rod)
+       << "' type='slide' axis='0 0 1' damping='" << leg.drive_friction.viscous << "'/>" << inertial(p.rod)
        << "</body></body>";
   return text.str();
 }

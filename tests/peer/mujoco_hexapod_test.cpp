@@ -48,7 +48,7 @@ std::vector<double> differences(const HexapodParameters& parameters) {
 
 TEST(MujocoHexapodPeer, GivesTheSamePlatformAccelerations) {
   HexapodParameters loaded = hexapod_robot(HexapodPayload::eccentric, HexapodFriction::ball_screws);
-  loaded.drive_friction.coulomb = 0.0;  // for which MuJoCo has another law
+  for (HexapodLeg& leg : loaded.legs) leg.drive_friction.coulomb = 0.0;  // for which MuJoCo has another law
   for (const HexapodParameters& robot : {hexapod_robot(), loaded}) {
     const std::vector<double> found = differences(robot);
     std::printf(

@@ -13,8 +13,6 @@
 
 #include "systems/robot/five_bar.h"
 #include "systems/robot/five_bar_presets.h"
-#include "systems/robot/hexapod.h"
-#include "systems/robot/hexapod_presets.h"
 #include "systems/robot/planar_rrr.h"
 #include "systems/robot/planar_rrr_presets.h"
 #include "tests/systems/config/problems_of.h"
@@ -72,12 +70,6 @@ void expect_same_robot(const PlanarRrrParameters& a, const PlanarRrrParameters& 
   EXPECT_EQ(a.home_pose, b.home_pose);
 }
 
-void expect_same_body(const RigidBodyInertia& a, const RigidBodyInertia& b) {
-  EXPECT_EQ(a.mass, b.mass);
-  EXPECT_EQ(a.centre_of_mass, b.centre_of_mass);
-  EXPECT_EQ(a.inertia, b.inertia);
-}
-
 // Every planar 3-RRR that ships is one of the published benches, bit for bit.
 TEST(ShippedRobots, AreThePublishedOnes) {
   expect_same_robot(parameters_of<PlanarRrr>(robots / "planar_3rrr.yaml"),
@@ -100,37 +92,6 @@ TEST(ShippedRobots, HaveAFiveBarThatIsThePreset) {
   EXPECT_EQ(a.friction_velocity, b.friction_velocity);
   EXPECT_EQ(a.gravity, b.gravity);
   EXPECT_EQ(a.home_pose, b.home_pose);
-}
-
-TEST(ShippedRobots, HaveAHexapodThatIsThePresetToANanometre) {
-  const HexapodParameters a = parameters_of<Hexapod>(robots / "hexapod_6ups.yaml");
-  const HexapodParameters b = hexapod_robot(HexapodPayload::none, HexapodFriction::ball_screws);
-  EXPECT_EQ(a.name, b.name);
-  for (std::size_t i = 0; i < 6; ++i) {
-    EXPECT_LT((a.legs[i].base_joint - b.legs[i].base_joint).norm(), 1e-9);
-    EXPECT_LT((a.legs[i].platform_joint - b.legs[i].platform_joint).norm(), 1e-9);
-    EXPECT_LT((a.legs[i].universal_axis - b.legs[i].universal_axis).norm(), 1e-9);
-  }
-  EXPECT_EQ(a.cylinder_length, b.cylinder_length);
-  EXPECT_EQ(a.rod_length, b.rod_length);
-  EXPECT_EQ(a.cylinder_radius, b.cylinder_radius);
-  EXPECT_EQ(a.rod_radius, b.rod_radius);
-  expect_same_body(a.cylinder, b.cylinder);
-  expect_same_body(a.rod, b.rod);
-  expect_same_body(a.platform, b.platform);
-  EXPECT_FALSE(a.payload.has_value());
-  EXPECT_EQ(a.drive_armature, b.drive_armature);
-  expect_same_friction(a.drive_friction, b.drive_friction);
-  expect_same_friction(a.universal_friction, b.universal_friction);
-  EXPECT_EQ(a.drive_friction_velocity, b.drive_friction_velocity);
-  EXPECT_EQ(a.universal_friction_velocity, b.universal_friction_velocity);
-  EXPECT_EQ(a.platform_radius, b.platform_radius);
-  EXPECT_EQ(a.platform_bottom, b.platform_bottom);
-  EXPECT_EQ(a.platform_top, b.platform_top);
-  EXPECT_EQ(a.gravity, b.gravity);
-  EXPECT_EQ(a.home_position, b.home_position);
-  EXPECT_EQ(a.home_rotation, b.home_rotation);
-  EXPECT_EQ(a.characteristic_length, b.characteristic_length);
 }
 
 TEST(ShippedRobots, CanAllBeLoaded) {
@@ -224,36 +185,6 @@ TEST(DocumentOfFiles, NamesEveryKeyOfEveryKindOfRobot) {
     }
   }
   EXPECT_GT(names, 200);
-}
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-TEST(HexapodFile, MayTellOfAPayload) {
-  const std::string text = text_of(robots / "hexapod_6ups.yaml") +
-                           "payload: {mass_kg: 5.0, centre_of_mass_m: [0.03, -0.02, 0.08],\n"
-                           "          inertia_kg_m2: [0.025, 0.030, 0.020]}\n";
-  const RobotFile file = parse_robot_file(text, "hexapod.yaml");
-  const HexapodParameters found = std::dynamic_pointer_cast<const Hexapod>(file.robot)->parameters();
-  ASSERT_TRUE(found.payload.has_value());
-  expect_same_body(*found.payload, *hexapod_robot(HexapodPayload::eccentric).payload);
-}
-
-TEST(HexapodFile, HasDrivesThatSlide) {
-  const std::string file = "kind: hexapod_6ups\ndrives: {max_torque_Nm: 3}\n";
-  EXPECT_THAT(problems_of([&] { parse_robot_file(file, "hexapod.yaml"); }),
-              Contains(::testing::StartsWith("hexapod.yaml:2: drives.max_torque_Nm: ")));
-}
-
-TEST(HexapodFile, TellsWhichBodyIsNone) {
-  std::string text = text_of(robots / "hexapod_6ups.yaml");
-  const std::string good = "inertia_kg_m2: [0.030, 0.030, 0.0016]";
-  text.replace(text.find(good), good.size(), "inertia_kg_m2: [0.030, 0.030, 0.9999]");
-  EXPECT_THAT(problems_of([&] { parse_robot_file(text, "hexapod.yaml"); }),
-              ElementsAre(::testing::HasSubstr(
-                  "cylinder.inertia_kg_m2: has the principal moments   0.03   0.03 0.9999 kg m^2;")));
 }
 
 // ---------------------------------------------------------------- files with one change

@@ -41,8 +41,8 @@ void add_leg(ConstrainedBodies& model, const HexapodParameters& p, const Hexapod
   model.screw(ConstrainedBodies::base, leg.base_joint, rod, platform_joint, p.drive_armature);
 }
 
-void load_leg(ConstrainedBodies& model, const HexapodParameters& p, const HexapodLeg& leg,
-              const Vector& platform_joint, int cylinder, double force) {
+void load_leg(ConstrainedBodies& model, const HexapodLeg& leg, const Vector& platform_joint, int cylinder,
+              double force) {
   const int rod = cylinder + 1;
   const Vector s = (platform_joint - leg.base_joint).normalized();
   const Vector k = leg.universal_axis;
@@ -51,10 +51,10 @@ void load_leg(ConstrainedBodies& model, const HexapodParameters& p, const Hexapo
   // omega = first k + second e_2 has the component along s that the joint enforces.
   const Vector across = second.cross(k);
   EXPECT_NEAR(omega.dot(across), 0.0, 1e-12);
-  model.turn(cylinder, -friction(p.universal_friction, omega.dot(k)) * k -
-                           friction(p.universal_friction, omega.dot(second)) * second);
+  model.turn(cylinder, -friction(leg.universal_friction, omega.dot(k)) * k -
+                           friction(leg.universal_friction, omega.dot(second)) * second);
   const double rate = s.dot(model.velocity(rod, platform_joint));
-  const Vector along = (force - friction(p.drive_friction, rate)) * s;
+  const Vector along = (force - friction(leg.drive_friction, rate)) * s;
   model.push(rod, platform_joint, along);
   model.push(cylinder, platform_joint, -along);
 }
@@ -83,7 +83,7 @@ MechanismCase hexapod_case(const std::string& name, const HexapodParameters& p) 
     EXPECT_LT(model.set_velocity(0, origin, velocity, state.velocity.tail<3>()), 1e-12);
     for (int i = 0; i < 6; ++i) {
       const HexapodLeg& leg = p.legs[static_cast<std::size_t>(i)];
-      load_leg(model, p, leg, platform_joint(leg), BodyId::link1(i).index(), loads.drives[i]);
+      load_leg(model, leg, platform_joint(leg), BodyId::link1(i).index(), loads.drives[i]);
     }
     model.push(0, origin, loads.wrench.head<3>());
     model.turn(0, loads.wrench.tail<3>());
@@ -114,11 +114,13 @@ HexapodParameters uneven_hexapod() {
     p.legs[i].base_joint += Vector(more, -0.5 * more, 0.3 * more);
     p.legs[i].platform_joint += Vector(-0.2 * more, 0.3 * more, 0.4 * more);
     p.legs[i].universal_axis = (p.legs[i].universal_axis + Vector(0.0, more, -2.0 * more)).normalized();
+    p.legs[i].drive_friction.viscous *= 1.0 + 10.0 * more;
+    p.legs[i].drive_friction.coulomb *= 1.0 - 5.0 * more;
+    p.legs[i].universal_friction = {.viscous = 0.05 + more, .coulomb = 0.02 + more};
   }
   p.cylinder.centre_of_mass = {0.01, -0.02, 0.20};
   p.cylinder.inertia << 0.030, 0.001, 0.002, 0.001, 0.028, -0.001, 0.002, -0.001, 0.0056;
   p.rod.centre_of_mass = {-0.005, 0.004, -0.22};
-  p.universal_friction.coulomb = 0.02;
   p.drive_armature = 3.0;
   p.gravity = {1.0, -0.5, -9.7};
   return p;
