@@ -48,8 +48,7 @@ struct Path {
       const StageSite site{builder, stage.name, robot, settings};
       added.all.push_back({stage.name, stage.add(site, given)});
     }
-    added.followed = stages.followed;
-    if (added.followed.empty() && !added.all.empty()) added.followed = added.all.front().name;
+    added.followed = followed_name(stages);
     return added;
   }
 
@@ -164,6 +163,20 @@ Safety add_safety(const Path& path, const ReactionPorts& given, const Laws& laws
   return safety;
 }
 
+/// Lets a contact detector follow each estimator that the others do not follow, for comparison.
+std::vector<Named<OutputPort<ContactDetection>>> show_detections_by(
+    const Path& path, const Added<OutputPort<WrenchEstimate>>& estimators, OutputPort<ResetCommand> reset) {
+  std::vector<Named<OutputPort<ContactDetection>>> shown;
+  for (const Named<OutputPort<WrenchEstimate>>& estimator : estimators.others()) {
+    const std::string name = "detection_by_" + estimator.name;
+    auto& detector = path.builder.add<ContactDetector>(name, path.robot, path.settings.contact_detector);
+    path.builder.connect(estimator.port, detector.wrench);
+    path.builder.connect(reset, detector.reset);
+    shown.push_back({name, path.builder.export_output(name, detector.contact)});
+  }
+  return shown;
+}
+
 /// That of the followed source is "acceleration".
 std::vector<Named<OutputPort<PlatformAcceleration>>> show_accelerations(
     const Path& path, const Added<OutputPort<PlatformAcceleration>>& sources) {
@@ -242,6 +255,7 @@ ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
                  .accelerations = show_accelerations(path, accelerations),
                  .wrenches = path.show_others("wrench", estimators),
                  .detections = path.show_others("detection", detectors),
+                 .detections_by_estimator = show_detections_by(path, estimators, buttons.reset),
                  .torques = show_torques(path, laws)}};
   outer.add(builder.build());
   return control;

@@ -19,6 +19,9 @@ struct OtherStages {
   std::vector<Named<OutputPort<PlatformAcceleration>>> accelerations;
   std::vector<Named<OutputPort<WrenchEstimate>>> wrenches;
   std::vector<Named<OutputPort<ContactDetection>>> detections;
+  /// What a contact detector says that follows an estimator which the others do not: "detection_by_" + its
+  /// name.
+  std::vector<Named<OutputPort<ContactDetection>>> detections_by_estimator;
   std::vector<Named<OutputPort<TorqueCommand>>> torques;
 };
 

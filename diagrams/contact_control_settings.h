@@ -2,6 +2,7 @@
 
 #include "diagrams/control_stages.h"
 #include "systems/contact/contact_detector.h"
+#include "systems/estimators/momentum_kalman_filter.h"
 #include "systems/estimators/momentum_observer.h"
 #include "systems/laws/controlled_stop.h"
 #include "systems/laws/impedance_controller.h"
@@ -31,7 +32,8 @@ struct ContactControlSettings {
 
   // ---- contacts
   MomentumObserverSettings momentum_observer;  ///< 20 1/s, [SafePR] V-A
-  ContactDetectorSettings contact_detector;    ///< 10 N, 1 Nm; hard: 60 N, 3 Nm
+  MomentumKalmanFilterSettings momentum_kalman_filter;
+  ContactDetectorSettings contact_detector;  ///< 10 N, 1 Nm; hard: 60 N, 3 Nm
 
   // ---- what to do
   PlatformTrajectorySettings trajectory;  ///< stays where the robot is

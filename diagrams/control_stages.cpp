@@ -5,6 +5,7 @@
 #include <string>
 
 #include "diagrams/contact_control_settings.h"
+#include "diagrams/estimator_stages.h"
 #include "systems/foundation/nearest_name.h"
 #include "systems/foundation/setup_error.h"
 
@@ -15,15 +16,6 @@ OutputPort<JointMotion> add_velocity_filter(const StageSite& site, const SensedP
   auto& filter = site.builder.add<VelocityFilter>(site.name, site.robot, site.settings.velocity_filter);
   site.builder.connect(given.joints, filter.joints);
   return filter.motion;
-}
-
-OutputPort<WrenchEstimate> add_momentum_observer(const StageSite& site, const AcceleratedPorts& given) {
-  auto& observer = site.builder.add<MomentumObserver>(site.name, site.robot, site.settings.momentum_observer);
-  site.builder.connect(given.platform, observer.platform);
-  site.builder.connect(given.kinematics, observer.kinematics);
-  site.builder.connect(given.dynamics, observer.dynamics);
-  site.builder.connect(given.drive_torque, observer.torque);
-  return observer.wrench;
 }
 
 OutputPort<ContactDetection> add_contact_detector(const StageSite& site, const EstimatePorts& given) {
@@ -102,10 +94,16 @@ void require(const Stages<S>& stages, const std::string& kind, std::vector<std::
 ControlStages standard_stages() {
   return {.velocities = {.all = {{"velocity_filter", add_velocity_filter}}, .followed = ""},
           .accelerations = {},
-          .estimators = {.all = {{"momentum_observer", add_momentum_observer}}, .followed = ""},
+          .estimators = {.all = {estimator_stages().front()}, .followed = ""},
           .detectors = {.all = {{"contact_detector", add_contact_detector}}, .followed = ""},
           .nominal_laws = {.all = {{"nominal_impedance", add_nominal_impedance}}, .followed = ""},
           .reaction_laws = {.all = {{"retraction", add_retraction}}, .followed = ""}};
+}
+
+ControlStages known_stages() {
+  ControlStages stages = standard_stages();
+  stages.estimators.all = estimator_stages();
+  return stages;
 }
 
 std::vector<std::string> problems(const ControlStages& stages) {

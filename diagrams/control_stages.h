@@ -88,6 +88,9 @@ struct ControlStages {
 /// "nominal_impedance" and "retraction", an impedance that follows a retreat; no acceleration.
 ControlStages standard_stages();
 
+/// All stages that flinch has, of which a scenario file names those that run: the standard ones first.
+ControlStages known_stages();
+
 /// All that is wrong with the choice of stages, one sentence each: no stage of a kind, names used twice or of
 /// other characters, a followed one that there is not.
 std::vector<std::string> problems(const ControlStages& stages);

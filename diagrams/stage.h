@@ -47,6 +47,13 @@ struct Stages {
   }
 };
 
+/// The name of the stage that is followed; "" where there is none.
+template <class S>
+std::string followed_name(const Stages<S>& stages) {
+  if (!stages.followed.empty() || stages.all.empty()) return stages.followed;
+  return stages.all.front().name;
+}
+
 /// An output of the stage called `name`.
 template <class Port>
 struct Named {

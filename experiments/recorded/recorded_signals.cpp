@@ -34,6 +34,7 @@ void export_control(DiagramBuilder& builder, const ContactControl& control) {
   show(control.others.accelerations);
   show(control.others.wrenches);
   show(control.others.detections);
+  show(control.others.detections_by_estimator);
   show(control.others.torques);
 }
 
@@ -49,6 +50,7 @@ std::map<std::string, std::string> recorded_attributes(const Scenario& scenario,
   std::map<std::string, std::string> attributes = provenance;
   attributes["flinch.version"] = FLINCH_VERSION;
   attributes["seed"] = std::to_string(scenario.seed);
+  attributes["control.estimator"] = followed_name(scenario.control.stages.estimators);
   attributes["scenario.name"] = scenario.name;
   attributes["scenario.file"] = scenario.file.filename().string();
   attributes["scenario.text"] = scenario.text;

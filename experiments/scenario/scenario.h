@@ -52,12 +52,12 @@ void leave_simulation_unread(ConfigReader& file, const Scenario& so_far);
 /// name; the first of a kind runs where it names none.
 Scenario read_scenario(const std::filesystem::path& file, std::optional<std::uint64_t> seed = std::nullopt,
                        const SectionReader& others = leave_simulation_unread,
-                       const ControlStages& known = standard_stages());
+                       const ControlStages& known = known_stages());
 
 /// The scenario that a recording was made from, out of the texts that it keeps. Throws SetupError naming
 /// `file`, where the recording comes from, when it keeps none.
 Scenario recorded_scenario(const Recording& recording, const std::filesystem::path& file,
                            const SectionReader& others = leave_simulation_unread,
-                           const ControlStages& known = standard_stages());
+                           const ControlStages& known = known_stages());
 
 }  // namespace flinch

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "diagrams/contact_control_settings.h"
+#include "experiments/scenario/scenario_estimators.h"
 #include "experiments/scenario/scenario_pose.h"
 #include "experiments/scenario/scenario_stages.h"
 #include "systems/config/config_reader.h"
@@ -17,13 +18,6 @@ namespace {
 
 std::span<double> entries(PlatformVector& vector) {
   return {vector.data(), static_cast<std::size_t>(vector.size())};
-}
-
-/// What is left to the robot's size is written out, so that a file can change one entry.
-void write_out(const ParallelRobot& robot, ContactControlSettings& settings) {
-  settings.impedance = complete(settings.impedance, robot.space());
-  if (settings.momentum_observer.gain.size() == 0)
-    settings.momentum_observer.gain.setConstant(robot.dof(), 20.0);
 }
 
 void read_limits(ConfigReader reader, PoseLimits& limits) {
@@ -51,9 +45,6 @@ void read_sensing(ConfigReader& control, const ParallelRobot& robot, ContactCont
 }
 
 void read_detection(ConfigReader& control, ContactControlSettings& settings) {
-  control.section("momentum_observer")
-      .numbers("gain", unit::per_s, entries(settings.momentum_observer.gain), positive);
-
   ConfigReader detector = control.section("contact_detector");
   detector.number("reaction_force", unit::N, settings.contact_detector.reaction.force, positive);
   detector.number("reaction_moment", unit::Nm, settings.contact_detector.reaction.moment, positive);
@@ -137,9 +128,10 @@ enum class MotionKind { hold, through, passage, square };
 }  // namespace
 
 void read_control(ConfigReader control, const ParallelRobot& robot, ContactControlSettings& settings) {
-  write_out(robot, settings);
+  settings.impedance = complete(settings.impedance, robot.space());  // so that a file can change one entry
   read_stages(control, settings.stages);
   read_sensing(control, robot, settings);
+  read_estimators(control, robot, settings);
   read_detection(control, settings);
   read_laws(control, robot, settings);
 }

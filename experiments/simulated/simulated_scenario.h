@@ -17,8 +17,8 @@ struct SimulatedScenario : Scenario {
 /// As read_scenario() and recorded_scenario(), with the sections that describe the simulation.
 SimulatedScenario read_simulated_scenario(const std::filesystem::path& file,
                                           std::optional<std::uint64_t> seed = std::nullopt,
-                                          const ControlStages& known = standard_stages());
+                                          const ControlStages& known = known_stages());
 SimulatedScenario recorded_simulated_scenario(const Recording& recording, const std::filesystem::path& file,
-                                              const ControlStages& known = standard_stages());
+                                              const ControlStages& known = known_stages());
 
 }  // namespace flinch

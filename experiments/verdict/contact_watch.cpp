@@ -15,13 +15,19 @@ void ContactWatch::see(const RunSample& now, double period) {
       pending_clamping_ = "leg" + std::to_string(BodyId::from_index(now.body).leg() + 1) + "_clamping";
     }
     if (touches) extend(now, period);
-    // The latched level would not do: of a second contact it knows nothing.
-    const bool noticed = now.detection.present_level != ContactLevel::none;
-    if (noticed && !contacts_.back().detected && now.time < last_ + Verdict::same_contact) {
-      contacts_.back().detected = now.time;
-    }
+    if (now.time < last_ + Verdict::same_contact) note_detections(now);
   }
   before_ = now;
+}
+
+/// By the present levels; a latched one would not do: of a second contact it knows nothing.
+void ContactWatch::note_detections(const RunSample& now) {
+  ContactVerdict& contact = contacts_.back();
+  for (std::size_t i = 0; i < contact.detected_by.size() && i < now.noticed_by.size(); ++i) {
+    std::optional<double>& detected = contact.detected_by[i].detected;
+    if (now.noticed_by[i] && !detected) detected = now.time;
+  }
+  if (now.detection.present_level != ContactLevel::none && !contact.detected) contact.detected = now.time;
 }
 
 std::vector<ContactVerdict> ContactWatch::contacts() const {
@@ -41,6 +47,7 @@ void ContactWatch::begin(const RunSample& now) {
     contact.speed = before_->speed + share * (now.speed - before_->speed);
   }
   contact.peak_force = -1.0;
+  for (const std::string& estimator : estimators_) contact.detected_by.push_back({estimator, std::nullopt});
   contacts_.push_back(contact);
   pending_clamping_.clear();
   clamps_ = false;

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiments/verdict/recorded_run.h"
@@ -12,7 +13,9 @@ namespace flinch {
 /// Finds the contacts and pushes of a run, sample by sample.
 class ContactWatch {
  public:
-  explicit ContactWatch(const ForceLimits& limits) : limits_(limits) {}
+  /// `estimators`: names of those that `RunSample::noticed_by` tells of.
+  ContactWatch(const ForceLimits& limits, std::vector<std::string> estimators)
+      : limits_(limits), estimators_(std::move(estimators)) {}
 
   /// The next sample; `period` [s].
   void see(const RunSample& now, double period);
@@ -22,12 +25,14 @@ class ContactWatch {
 
  private:
   void begin(const RunSample& now);
+  void note_detections(const RunSample& now);
   double onset_share(const RunSample& now) const;
   void extend(const RunSample& now, double period);
   void name_body(const RunSample& now, ContactVerdict& contact);
   void limit_force(ContactVerdict& contact) const;
 
   ForceLimits limits_;
+  std::vector<std::string> estimators_;
   std::vector<ContactVerdict> contacts_;
   bool is_open_ = false;          ///< there was one
   double last_ = 0.0;             ///< sample that was touched [s]

@@ -11,7 +11,6 @@
 #include "systems/signals/force_torque_reading.h"
 #include "systems/signals/platform_motion.h"
 #include "systems/signals/platform_reference.h"
-#include "systems/signals/wrench_estimate.h"
 
 namespace flinch {
 namespace {
@@ -20,6 +19,29 @@ Witness witness_of(const Recording& recording) {
   if (recording.find("contact") != nullptr || recording.find("truth") != nullptr) return Witness::truth;
   return recording.find("force_torque") != nullptr ? Witness::force_torque : Witness::none;
 }
+
+const std::string detection_by = "detection_by_";
+
+std::vector<std::string> estimators_of(const Recording& recording) {
+  const auto followed = recording.attributes.find("control.estimator");
+  std::vector<std::string> names = {followed == recording.attributes.end() ? "" : followed->second};
+  for (const Signal& signal : recording.signals) {
+    if (signal.path.starts_with(detection_by)) names.push_back(signal.path.substr(detection_by.size()));
+  }
+  return names;
+}
+
+/// What a verdict looks at of an estimate.
+struct RecordedEstimate {
+  bool valid = false;
+  PlatformVector wrench_in_base;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("valid", "", self.valid);
+    visit("wrench_in_base", "<wrench>", self.wrench_in_base, "base");
+  }
+};
 
 /// Force and moment of a wrench [N, Nm]; none where it has another size.
 struct Strength {
@@ -75,12 +97,15 @@ void compare_motion(const Configuration& pose, const PlatformVector& velocity, c
 
 /// Those that the witness has.
 struct RecordedRun::Signals {
-  Signals(const Recording& recording, Witness witness)
+  Signals(const Recording& recording, Witness witness, const std::vector<std::string>& estimators)
       : detection(recording, "detection"),
         reaction(recording, "reaction"),
         wrench(recording, "wrench"),
         reference(recording, "reference"),
         gate(recording, "gate") {
+    for (std::size_t i = 1; i < estimators.size(); ++i) {
+      detections_by.emplace_back(recording, detection_by + estimators[i]);
+    }
     if (recording.find("tick_timing") != nullptr) timing.emplace(recording, "tick_timing");
     if (recording.find("joints_link") != nullptr) joints_link.emplace(recording, "joints_link");
     if (witness == Witness::truth) {
@@ -94,7 +119,8 @@ struct RecordedRun::Signals {
 
   RecordedValues<ContactDetection> detection;
   RecordedValues<ReactionState> reaction;
-  RecordedValues<WrenchEstimate> wrench;
+  std::vector<RecordedValues<ContactDetection>> detections_by;
+  RecordedValues<RecordedEstimate> wrench;
   RecordedValues<PlatformReference> reference;
   RecordedValues<GateStatus> gate;
   std::optional<RecordedValues<RecordedContact>> contact;
@@ -109,7 +135,8 @@ RecordedRun::RecordedRun(const Recording& recording, ConfigurationSpace space)
     : recording_(recording),
       space_(space),
       witness_(witness_of(recording)),
-      signals_(std::make_unique<Signals>(recording, witness_)) {}
+      estimators_(estimators_of(recording)),
+      signals_(std::make_unique<Signals>(recording, witness_, estimators_)) {}
 
 RecordedRun::~RecordedRun() = default;
 
@@ -128,11 +155,15 @@ RunSample RecordedRun::operator[](std::size_t sample) const {
   RunSample now;
   now.time = to_seconds(Time(recording_.time_ns[sample]));
   now.detection = signals.detection[sample];
+  now.noticed_by.push_back(now.detection.present_level != ContactLevel::none);
+  for (const auto& detection : signals.detections_by) {
+    now.noticed_by.push_back(detection[sample].present_level != ContactLevel::none);
+  }
   now.mode = signals.reaction[sample].mode;
   now.gate = signals.gate[sample];
   if (signals.timing) now.lost_ticks = static_cast<int>((*signals.timing)[sample].lost_periods);
   if (signals.joints_link) now.unread_readings = static_cast<int>((*signals.joints_link)[sample].skipped);
-  const WrenchEstimate estimate = signals.wrench[sample];
+  const RecordedEstimate estimate = signals.wrench[sample];
   now.estimate_valid = estimate.valid;
   const PlatformReference reference = signals.reference[sample];
   now.reference_valid = reference.valid;

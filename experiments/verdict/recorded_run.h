@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "experiments/verdict/verdict.h"
 #include "systems/robot/configuration_space.h"
@@ -34,6 +36,9 @@ struct RunSample {
   double position_error = 0.0;     ///< [m]
   double orientation_error = 0.0;  ///< [rad]
   ContactDetection detection;
+  /// Whether a detector notices something that follows the estimator of this name in
+  /// `RecordedRun::estimators`.
+  std::vector<bool> noticed_by;
   ReactionMode mode = ReactionMode::stopped;
   GateStatus gate;
   int lost_ticks = 0;       ///< periods without a tick before this one
@@ -58,6 +63,9 @@ class RecordedRun {
   ~RecordedRun();
 
   Witness witness() const { return witness_; }
+  /// The estimators that detectors follow, first the one that the robot follows: "" where the recording does
+  /// not name it.
+  const std::vector<std::string>& estimators() const { return estimators_; }
   std::size_t size() const;
   double period() const;    ///< [s]
   double duration() const;  ///< of all samples, each one period long [s]
@@ -69,6 +77,7 @@ class RecordedRun {
   const Recording& recording_;
   ConfigurationSpace space_;
   Witness witness_;
+  std::vector<std::string> estimators_;
   std::unique_ptr<Signals> signals_;
 };
 

@@ -171,7 +171,7 @@ Verdict measure(const Recording& recording, const ConfigurationSpace& space, con
   const RecordedRun run(recording, space);
   Verdict verdict;
   verdict.witness = run.witness();
-  ContactWatch contacts(limits);
+  ContactWatch contacts(limits, run.estimators());
   DetectionWatch detections;
   FaultWatch faults;
   bool was_touched = false, gate_opens = false;

@@ -28,6 +28,12 @@ struct Expectations {
   double loop_closure = 1e-9;                   ///< [m]
 };
 
+/// When a detector that follows an estimator noticed a contact.
+struct DetectionBy {
+  std::string estimator;           ///< "" where the recording does not name it
+  std::optional<double> detected;  ///< [s]; none: never
+};
+
 /// One contact: from the first force above `contact_force`, or push with a moment above `contact_moment`, to
 /// the last, where interruptions shorter than `same_contact` do not count.
 struct ContactVerdict {
@@ -36,7 +42,10 @@ struct ContactVerdict {
   int obstacle = -1;     ///< that touched hardest, by its place in the list of obstacles; -1: none seen
   bool is_push = false;  ///< something pushed the platform without touching it, as a scenario may ask for
   double onset = 0.0;    ///< t_c, when the force rose above `contact_force`, between samples [s]
-  std::optional<double> detected;       ///< t_det, when the estimate reached the reaction threshold [s]
+  std::optional<double> detected;  ///< t_det, when the estimate reached the reaction threshold [s]
+  /// The same for every estimator that ran, as by a contact detector that followed it; first that which the
+  /// robot followed.
+  std::vector<DetectionBy> detected_by;
   std::optional<double> removed;        ///< t_rem; none: still touching at the end [s]
   double speed = 0.0;                   ///< of the platform at the onset [m/s]
   double peak_force = 0.0;              ///< of one touching body [N]

@@ -20,11 +20,20 @@ std::string milliseconds_text(double start, const std::optional<double>& end) {
   return end ? fmt::format("{:.1f}", 1e3 * (*end - start)) : "never";
 }
 
+Json by_estimator(const ContactVerdict& contact) {
+  Json times = Json::object();
+  for (const DetectionBy& by : contact.detected_by) {
+    if (!by.estimator.empty()) times[by.estimator] = milliseconds(contact.onset, by.detected);
+  }
+  return times;
+}
+
 Json contact_json(const ContactVerdict& contact) {
   return {{"body", contact.body.empty() ? Json(nullptr) : Json(contact.body)},
           {"pushed", contact.is_push},
           {"detected", contact.detected.has_value()},
           {"detection_ms", milliseconds(contact.onset, contact.detected)},
+          {"detection_by_estimator_ms", by_estimator(contact)},
           {"removal_ms", milliseconds(contact.onset, contact.removed)},
           {"peak_force_N", contact.peak_force},
           {"limit_N", contact.limit},
@@ -45,6 +54,16 @@ std::string contact_line(const ContactVerdict& contact) {
                      contact.onset, contact.speed, milliseconds_text(contact.onset, contact.detected),
                      milliseconds_text(contact.onset, contact.removed), contact.peak_force, contact.limit,
                      contact.within_limit ? "yes" : "NO");
+}
+
+/// Where several estimators ran: what each of them would have noticed when.
+std::string by_estimator_lines(const ContactVerdict& contact) {
+  if (contact.detected_by.size() < 2) return "";
+  std::string lines;
+  for (const DetectionBy& by : contact.detected_by) {
+    lines += fmt::format("  by {:<37} {:>10}\n", by.estimator, milliseconds_text(contact.onset, by.detected));
+  }
+  return lines;
 }
 
 std::string no_contact_line(const Verdict& verdict) {
@@ -72,7 +91,9 @@ const char* name(Witness witness) {
 std::string verdict_table(const Verdict& verdict, const RunFacts& facts) {
   std::string text = fmt::format("{:<15} {:>8} {:>6} {:>10} {:>10} {:>8} {:>8}  {}\n", "contact with", "at s",
                                  "m/s", "noticed ms", "removed ms", "peak N", "limit N", "within");
-  for (const ContactVerdict& contact : verdict.contacts) text += contact_line(contact);
+  for (const ContactVerdict& contact : verdict.contacts) {
+    text += contact_line(contact) + by_estimator_lines(contact);
+  }
   text += no_contact_line(verdict);
   text += fmt::format(
       "\nfalse detections   {}\nobserver error     {:.2f} N, {:.3f} Nm before any contact\n"

@@ -1,0 +1,69 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "experiments/simulated/experiment.h"
+#include "experiments/simulated/simulated_scenario.h"
+#include "experiments/verdict/verdict.h"
+#include "experiments/verdict/verdict_output.h"
+#include "systems/framework/recording.h"
+#include "tests/support/workplace.h"
+
+namespace flinch {
+namespace {
+
+using testing::ElementsAre;
+
+/// The shipped collision with the platform, aligned, with these lines more in `control`.
+Verdict collision(const std::string& control) {
+  const test::Workplace place;
+  place.replace("scenarios/platform_collision.yaml", "control:\n", "control:\n" + control);
+  place.replace("scenarios/platform_collision.yaml", "aligned_with_velocity: false",
+                "aligned_with_velocity: true");
+  const SimulatedScenario scenario = read_simulated_scenario(place / "scenarios/platform_collision.yaml");
+  return judge(run_experiment(scenario), scenario.robot.robot->space(), scenario.expected, {});
+}
+
+std::vector<std::string> names(const ContactVerdict& contact) {
+  std::vector<std::string> names;
+  for (const DetectionBy& by : contact.detected_by) names.push_back(by.estimator);
+  return names;
+}
+
+TEST(EstimatorsSideBySide, AreEachFollowedByADetectorForTheVerdict) {
+  const Verdict together = collision("  estimators: [momentum_observer, momentum_kalman_filter]\n");
+  const ContactVerdict& contact = together.contacts.at(0);
+  ASSERT_THAT(names(contact), ElementsAre("momentum_observer", "momentum_kalman_filter"));
+  EXPECT_EQ(contact.detected_by[0].detected, contact.detected);
+
+  const Verdict alone = collision("  estimators: [momentum_kalman_filter]\n");
+  ASSERT_THAT(names(alone.contacts.at(0)), ElementsAre("momentum_kalman_filter"));
+  // The same but for noise: alone it settles earlier, and the motion begins a little earlier.
+  EXPECT_NEAR(*alone.contacts[0].detected - alone.contacts[0].onset,
+              *contact.detected_by[1].detected - contact.onset, 1.1e-3);
+}
+
+TEST(EstimatorsSideBySide, AreToldByNameWhicheverIsFollowed) {
+  const Verdict verdict = collision(
+      "  estimators: [momentum_observer, momentum_kalman_filter]\n"
+      "  follow: {estimator: momentum_kalman_filter}\n");
+  const ContactVerdict& contact = verdict.contacts.at(0);
+  ASSERT_THAT(names(contact), ElementsAre("momentum_kalman_filter", "momentum_observer"));
+  const nlohmann::json told = nlohmann::json::parse(verdict_json(verdict, {}));
+  const nlohmann::json& first = told["contacts"][0];
+  EXPECT_EQ(first["detection_by_estimator_ms"]["momentum_kalman_filter"], first["detection_ms"]);
+  EXPECT_GT(first["detection_by_estimator_ms"]["momentum_observer"], first["detection_ms"]);
+  EXPECT_THAT(verdict_table(verdict, {}), testing::HasSubstr("by momentum_observer"));
+}
+
+TEST(EstimatorsSideBySide, ThatNeverNoticeAreToldAsNever) {
+  const Verdict verdict = collision(
+      "  estimators: [momentum_observer, momentum_kalman_filter]\n"
+      "  momentum_kalman_filter: {force_density_N2_per_s: 1.0e-6, moment_density_N2m2_per_s: 1.0e-8}\n");
+  const nlohmann::json told = nlohmann::json::parse(verdict_json(verdict, {}));
+  EXPECT_TRUE(told["contacts"][0]["detection_by_estimator_ms"]["momentum_kalman_filter"].is_null());
+}
+
+}  // namespace
+}  // namespace flinch
