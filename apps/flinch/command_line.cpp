@@ -88,6 +88,7 @@ std::string number_of_station(std::string& text) {
 /// The verbs and their options.
 struct Verbs {
   RunOptions run;
+  CampaignOptions campaign;
   ServeOptions serve;
   LinkOptions link;
   KeysOptions keys;
@@ -171,6 +172,33 @@ void add_verbs(CLI::App& app, Verbs& verbs) {
       ->type_name("FILE");
 }
 
+void add_campaign_verb(CLI::App& app, Verbs& verbs) {
+  CampaignOptions& options = verbs.campaign;
+  CLI::App& verb =
+      verbs.add(app, "campaign", "Run a scenario many times with other values: one table of what it shows",
+                "flinch campaign apps/campaigns/random_contacts.yaml --set "
+                "control.momentum_observer.gain_per_s=[20,20,20],[100,100,100]",
+                options, &campaign);
+  verb.add_option("campaign", options.file, "Campaign file (YAML)")->required()->type_name("CAMPAIGN.yaml");
+  verb.add_option("--set", options.set,
+                  "Values of a key of the scenario, one axis of the grid; any number of times")
+      ->allow_extra_args(false)
+      ->type_name("KEY=V,V...");
+  verb.add_option("--runs", options.runs, "Runs at each point of the grid [the file's]")
+      ->check(between(1, 10'000'000))
+      ->type_name("N");
+  verb.add_option("--seed", options.seed, "Seed of all that is drawn [the file's]")
+      ->check(problem_with_seed)
+      ->type_name("N");
+  verb.add_option("--run", options.run, "Do only this run of the table again, with recording and report")
+      ->type_name("NUMBER");
+  verb.add_option("--out", options.out, "Folder for results.csv and results.h5 [out/NAME]")->type_name("DIR");
+  verb.add_option("--threads", options.threads, "Runs at once [one a processor]")
+      ->check(between(1, 1024))
+      ->type_name("N");
+  verb.add_flag("--fresh", options.fresh, "Begin anew, whatever the folder holds already");
+}
+
 void add_bus_verbs(CLI::App& app, Verbs& verbs) {
   CLI::App& serve_verb = verbs.add(
       app, "serve", "Put the simulated robot of a scenario on the bus, in real time, as if it were there",
@@ -243,6 +271,7 @@ int run_command_line(int argc, const char* const* argv) {
       "'flinch VERB --help' shows the options of a verb.");
   Verbs verbs;
   add_verbs(app, verbs);
+  add_campaign_verb(app, verbs);
   add_bus_verbs(app, verbs);
   add_keys_verb(app, verbs);
   try {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/flinch/bus_options.h"
 
@@ -41,6 +42,18 @@ struct RunOptions {
   bool reset_faults = false;  ///< of the drives, before the run
 };
 
+struct CampaignOptions {
+  CommonOptions common;
+  std::filesystem::path file;
+  std::filesystem::path out;  ///< empty: out/NAME
+  std::vector<std::string> set;
+  std::optional<std::size_t> runs;  ///< at each point of the grid
+  std::optional<std::uint64_t> seed;
+  std::optional<std::size_t> threads;
+  std::optional<std::size_t> run;  ///< only this one, with recording and page
+  bool fresh = false;              ///< whatever the folder holds
+};
+
 struct ReportOptions {
   CommonOptions common;
   std::filesystem::path recording;
@@ -60,6 +73,7 @@ struct CheckOptions {
 
 /// The verbs. Each throws SetupError for bad input.
 ExitStatus run(const RunOptions& options);
+ExitStatus campaign(const CampaignOptions& options);
 ExitStatus report(const ReportOptions& options);
 ExitStatus graph(const GraphOptions& options);
 ExitStatus check(const CheckOptions& options);

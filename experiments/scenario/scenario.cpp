@@ -116,11 +116,17 @@ void leave_simulation_unread(ConfigReader& file, const Scenario&) {
 
 Scenario read_scenario(const std::filesystem::path& file, std::optional<std::uint64_t> seed,
                        const SectionReader& others, const ControlStages& known) {
+  return parse_scenario(read_config_file(file), file, seed, others, known);
+}
+
+Scenario parse_scenario(std::string text, const std::filesystem::path& file,
+                        std::optional<std::uint64_t> seed, const SectionReader& others,
+                        const ControlStages& known) {
   Scenario scenario;
   scenario.control.stages = known;
   scenario.file = file;
   scenario.name = file.stem().string();
-  scenario.text = read_config_file(file);
+  scenario.text = std::move(text);
   ConfigReader reader = ConfigReader::parse(scenario.text, file.string());
   reader.required().file("robot", scenario.robot_file);
   scenario.robot = robot_or_stand_in(reader, [&] {

@@ -54,6 +54,12 @@ Scenario read_scenario(const std::filesystem::path& file, std::optional<std::uin
                        const SectionReader& others = leave_simulation_unread,
                        const ControlStages& known = known_stages());
 
+/// The same for text that came from `file`.
+Scenario parse_scenario(std::string text, const std::filesystem::path& file,
+                        std::optional<std::uint64_t> seed = std::nullopt,
+                        const SectionReader& others = leave_simulation_unread,
+                        const ControlStages& known = known_stages());
+
 /// The scenario that a recording was made from, out of the texts that it keeps. Throws SetupError naming
 /// `file`, where the recording comes from, when it keeps none.
 Scenario recorded_scenario(const Recording& recording, const std::filesystem::path& file,

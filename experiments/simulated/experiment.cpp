@@ -3,6 +3,7 @@
 #include "diagrams/contact_control.h"
 #include "experiments/recorded/recorded_signals.h"
 #include "experiments/simulated/simulated_scenario.h"
+#include "experiments/verdict/recorded_run.h"
 #include "plant/simulated_station.h"
 #include "plant/sundials_integrator.h"
 #include "systems/framework/constant.h"
@@ -51,18 +52,29 @@ std::map<std::string, std::string> simulate(const SimulatedScenario& scenario, c
   return {{"simulation.inaccurate_steps", std::to_string(simulator.inaccurate_steps())}};
 }
 
+Recording run_in_memory(const SimulatedScenario& scenario, const Diagram& diagram,
+                        const std::vector<std::string>& paths,
+                        const std::map<std::string, std::string>& provenance,
+                        const std::function<void(double share)>& progress) {
+  Recorder recorder(diagram, paths, ticks_of(scenario, diagram), quantity_units(*scenario.robot.robot));
+  auto attributes = simulate(scenario, diagram, recorder, {}, progress);
+  attributes.merge(recorded_attributes(scenario, provenance));
+  return recorder.recording(std::move(attributes));
+}
+
 }  // namespace
 
 Recording run_experiment(const SimulatedScenario& scenario,
                          const std::map<std::string, std::string>& provenance,
                          const std::function<void(double share)>& progress) {
   const Experiment experiment = build_experiment(scenario);
-  const Diagram& diagram = *experiment.diagram;
-  Recorder recorder(diagram, recorded_paths(diagram), ticks_of(scenario, diagram),
-                    quantity_units(*scenario.robot.robot));
-  auto attributes = simulate(scenario, diagram, recorder, {}, progress);
-  attributes.merge(recorded_attributes(scenario, provenance));
-  return recorder.recording(std::move(attributes));
+  return run_in_memory(scenario, *experiment.diagram, recorded_paths(*experiment.diagram), provenance,
+                       progress);
+}
+
+Recording run_for_verdict(const SimulatedScenario& scenario) {
+  const Experiment experiment = build_experiment(scenario);
+  return run_in_memory(scenario, *experiment.diagram, judged_signals(), {}, {});
 }
 
 Recording record_experiment(const SimulatedScenario& scenario, const std::filesystem::path& file,

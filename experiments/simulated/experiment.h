@@ -33,6 +33,9 @@ Recording run_experiment(const SimulatedScenario& scenario,
                          const std::map<std::string, std::string>& provenance = {},
                          const std::function<void(double share)>& progress = {});
 
+/// The same, recording only what a verdict rests on.
+Recording run_for_verdict(const SimulatedScenario& scenario);
+
 /// The same, recorded into `file` while it runs, so that its length takes no memory; what it returns reads
 /// from there. Throws SetupError also where the file cannot be written.
 Recording record_experiment(const SimulatedScenario& scenario, const std::filesystem::path& file,

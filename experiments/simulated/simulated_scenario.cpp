@@ -18,6 +18,13 @@ SimulatedScenario read_simulated_scenario(const std::filesystem::path& file,
   return {std::move(scenario), std::move(station)};
 }
 
+SimulatedScenario parse_simulated_scenario(std::string text, const std::filesystem::path& file,
+                                           std::optional<std::uint64_t> seed, const ControlStages& known) {
+  SimulatedStationSettings station;
+  Scenario scenario = parse_scenario(std::move(text), file, seed, station_into(station), known);
+  return {std::move(scenario), std::move(station)};
+}
+
 SimulatedScenario recorded_simulated_scenario(const Recording& recording, const std::filesystem::path& file,
                                               const ControlStages& known) {
   SimulatedStationSettings station;

@@ -95,6 +95,12 @@ void compare_motion(const Configuration& pose, const PlatformVector& velocity, c
 
 }  // namespace
 
+const std::vector<std::string>& judged_signals() {
+  static const std::vector<std::string> signals = {"detection", "reaction", "wrench", "reference",
+                                                   "gate",      "truth",    "contact"};
+  return signals;
+}
+
 /// Those that the witness has.
 struct RecordedRun::Signals {
   Signals(const Recording& recording, Witness witness, const std::vector<std::string>& estimators)

@@ -53,6 +53,9 @@ struct RunSample {
   }
 };
 
+/// What of a simulation a RecordedRun reads.
+const std::vector<std::string>& judged_signals();
+
 /// The samples of a recording as its best witness saw them: the truth of a simulation, or an instrument. To
 /// be read in their order; however many there are, few are in memory.
 class RecordedRun {

@@ -7,6 +7,7 @@
 #include "systems/config/config_file.h"
 #include "systems/config/config_node.h"
 #include "systems/config/parsed.h"
+#include "systems/config/yaml_text.h"
 #include "systems/foundation/nearest_name.h"
 #include "systems/foundation/setup_error.h"
 
@@ -189,6 +190,21 @@ void ConfigReader::words(std::string_view name, std::vector<std::string>& values
     if (!words.empty()) values = words;
   }
   document_->add_value(found, text_of(values), unit::none);
+}
+
+void ConfigReader::nodes(std::string_view name, std::vector<std::shared_ptr<const ConfigNode>>& values) {
+  const FoundValue found = document_->find(*section_, name, unit::none, required_);
+  std::string text;
+  if (found.node != nullptr) {
+    const std::string complaint = complaint_about_list(*found.node, std::nullopt, "values");
+    if (complaint.empty()) {
+      values = found.node->items;
+    } else {
+      document_->add_problem(found, complaint);
+    }
+  }
+  for (const auto& value : values) text += (text.empty() ? "" : ", ") + yaml_line(*value);
+  document_->add_value(found, "[" + text + "]", unit::none);
 }
 
 void ConfigReader::file(std::string_view name, std::filesystem::path& value) {

@@ -22,6 +22,7 @@
 namespace flinch {
 
 class ConfigDocument;
+struct ConfigNode;
 struct ConfigSection;
 
 /// A YAML file, or a section of it, that fills a struct of settings and notes all that is wrong:
@@ -75,6 +76,8 @@ class ConfigReader {
   void text(std::string_view name, std::string& value);
   /// A list of one word or more, each of them one of `known` and none twice.
   void words(std::string_view name, std::vector<std::string>& values, const std::vector<std::string>& known);
+  /// A list of one value or more of any kind, as they stand there.
+  void nodes(std::string_view name, std::vector<std::shared_ptr<const ConfigNode>>& values);
   /// Name of another file, relative to the folder of this one, which must exist.
   void file(std::string_view name, std::filesystem::path& value);
   /// One of several words.

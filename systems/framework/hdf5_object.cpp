@@ -132,6 +132,35 @@ void write_integer(Hdf5Object::Id object, const std::string& name, std::int64_t 
   check(H5Awrite(attribute, H5T_NATIVE_INT64, &value), "writing the attribute '" + name + "'");
 }
 
+namespace {
+
+void write_column(Hdf5Object::Id parent, const std::string& name, hid_t type_in_file, hid_t type_in_memory,
+                  std::size_t size, const void* values) {
+  const hsize_t length = size;
+  const Hdf5Object space(H5Screate_simple(1, &length, nullptr), H5Sclose, "making a column");
+  const Hdf5Object properties = timeless(H5P_DATASET_CREATE);
+  const Hdf5Object column(
+      H5Dcreate2(parent, name.c_str(), type_in_file, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose,
+      "making the column '" + name + "'");
+  check(H5Dwrite(column, type_in_memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values),
+        "writing the column '" + name + "'");
+}
+
+}  // namespace
+
+void write_reals(Hdf5Object::Id parent, const std::string& name, const std::vector<double>& values) {
+  write_column(parent, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values.size(), values.data());
+}
+
+void write_texts(Hdf5Object::Id parent, const std::string& name, const std::vector<std::string>& values) {
+  std::size_t width = 1;
+  for (const std::string& value : values) width = std::max(width, value.size());
+  std::string rows;
+  for (const std::string& value : values) rows += value + std::string(width - value.size(), '\0');
+  const Hdf5Object type = text_type(width);
+  write_column(parent, name, type, type, values.size(), rows.data());
+}
+
 std::string read_text(Hdf5Object::Id object, const std::string& name) {
   const Hdf5Object attribute = open_attribute(object, name);
   const Hdf5Object type(H5Aget_type(attribute), H5Tclose, "reading the type of '" + name + "'");

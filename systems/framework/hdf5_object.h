@@ -52,6 +52,10 @@ std::string read_text(Hdf5Object::Id object, const std::string& name);
 std::int64_t read_integer(Hdf5Object::Id object, const std::string& name);
 std::vector<std::string> attribute_names(Hdf5Object::Id object);
 
+/// Writes a dataset of one column.
+void write_reals(Hdf5Object::Id parent, const std::string& name, const std::vector<double>& values);
+void write_texts(Hdf5Object::Id parent, const std::string& name, const std::vector<std::string>& values);
+
 /// Makes a table of numbers that rows can be appended to, compressed in chunks of `chunk_rows`.
 Hdf5Object make_table(Hdf5Object::Id parent, const std::string& name, Field::Kind kind, std::size_t columns,
                       std::size_t chunk_rows);

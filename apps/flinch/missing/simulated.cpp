@@ -12,6 +12,12 @@ ExitStatus run_simulated(const RunOptions& options) {
                    "(FLINCH_BUILD_PLANT=OFF); choose --station dds or recorded");
 }
 
+ExitStatus campaign(const CampaignOptions& options) {
+  throw SetupError(options.file.string() +
+                   ": its runs are simulated, and this flinch was built without the simulation "
+                   "(FLINCH_BUILD_PLANT=OFF)");
+}
+
 std::unique_ptr<Diagram> closed_loop(const std::filesystem::path& scenario) {
   const Scenario read = read_scenario(scenario);
   return out_of(read.file, [&read] { return build_live_experiment(read); }).diagram;

@@ -1,0 +1,141 @@
+#include "experiments/campaign/campaign.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "systems/config/config_file.h"
+#include "systems/config/config_node.h"
+#include "systems/config/config_reader.h"
+#include "systems/config/parsed.h"
+#include "systems/config/yaml_text.h"
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+void read_scenarios(ConfigReader& reader, Campaign& campaign) {
+  if (reader.one_of({"scenario", "scenarios"}) == "scenarios") {
+    for (ConfigReader& entry : reader.sections("scenarios"))
+      entry.required().file("file", campaign.scenarios.emplace_back());
+  } else {
+    reader.required().file("scenario", campaign.scenarios.emplace_back());
+  }
+}
+
+CampaignDraw read_draw(ConfigReader& reader) {
+  CampaignDraw draw;
+  reader.required().text("key", draw.key);
+  if (reader.one_of({"of", "from"}) == "of") {
+    reader.required().nodes("of", draw.of);
+    return draw;
+  }
+  reader.required().number("from", unit::none, draw.from);
+  reader.required().number("to", unit::none, draw.to);
+  reader.choice("scale", draw.scale,
+                {{"linear", CampaignDraw::Scale::linear}, {"logarithmic", CampaignDraw::Scale::logarithmic}});
+  if (draw.to < draw.from) reader.problem("to", "is below 'from'");
+  if (draw.scale == CampaignDraw::Scale::logarithmic && draw.from <= 0.0) {
+    reader.problem("from", "is not positive; a logarithmic scale needs that");
+  }
+  return draw;
+}
+
+CampaignAxis read_axis(ConfigReader& reader) {
+  CampaignAxis axis;
+  reader.required().text("key", axis.key);
+  reader.required().nodes("values", axis.values);
+  return axis;
+}
+
+/// "a.b=1,2" as an axis of the grid.
+CampaignAxis parsed_axis(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  const std::string place = "--set " + text;
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
+    throw SetupError(place + ": is not of the form KEY=VALUE,VALUE,...");
+  }
+  const std::shared_ptr<const ConfigNode> list = parse_yaml("[" + text.substr(equals + 1) + "]", place);
+  return {text.substr(0, equals), list->items};
+}
+
+/// The axis takes the place of whatever the file says of its key.
+void replace(const CampaignAxis& axis, Campaign& campaign) {
+  std::erase_if(campaign.drawn, [&](const CampaignDraw& draw) { return draw.key == axis.key; });
+  const auto same = std::find_if(campaign.grid.begin(), campaign.grid.end(),
+                                 [&](const CampaignAxis& other) { return other.key == axis.key; });
+  if (same == campaign.grid.end()) {
+    campaign.grid.push_back(axis);
+  } else {
+    *same = axis;
+  }
+}
+
+std::string line_of(const std::vector<std::shared_ptr<const ConfigNode>>& values) {
+  std::string line;
+  for (const auto& value : values) line += (line.empty() ? "" : ", ") + yaml_line(*value);
+  return line;
+}
+
+}  // namespace
+
+std::string Campaign::identity() const {
+  std::string text = "flinch " FLINCH_VERSION "\nseed " + std::to_string(seed) + "\ndraws " +
+                     std::to_string(draws) + "\nmissed after " + exact_text(missed_after) + "\n";
+  for (const CampaignAxis& axis : grid) text += "grid " + axis.key + ": " + line_of(axis.values) + "\n";
+  for (const CampaignDraw& draw : drawn) {
+    text += "draw " + draw.key + ": " + exact_text(draw.from) + " " + exact_text(draw.to) + " " +
+            std::to_string(static_cast<int>(draw.scale)) + " " + line_of(draw.of) + "\n";
+  }
+  if (contact) {
+    for (const std::string& body : contact->bodies) text += "contact " + body + "\n";
+  }
+  for (const std::string& scenario : scenario_texts) text += scenario;
+  return text;
+}
+
+std::size_t Campaign::grid_points() const {
+  std::size_t points = scenarios.size();
+  for (const CampaignAxis& axis : grid) points *= axis.values.size();
+  return contact ? points * contact->bodies.size() : points;
+}
+
+Campaign read_campaign(const std::filesystem::path& file, const CampaignOverrides& overrides) {
+  Campaign campaign;
+  campaign.file = file;
+  campaign.name = file.stem().string();
+  campaign.title = campaign.name;
+  ConfigReader reader = ConfigReader::open(file);
+  reader.text("title", campaign.title);
+  reader.text("description", campaign.description);
+  read_scenarios(reader, campaign);
+  int draws = 1;
+  reader.integer("runs", draws, 1, 10'000'000);
+  campaign.draws = static_cast<std::size_t>(draws);
+  reader.seed("seed", campaign.seed);
+  reader.number("missed_after", unit::s, campaign.missed_after, positive);
+  for (ConfigReader& axis : reader.sections("grid")) campaign.grid.push_back(read_axis(axis));
+  for (ConfigReader& draw : reader.sections("draw")) campaign.drawn.push_back(read_draw(draw));
+  if (reader.has("contact")) {
+    campaign.contact.emplace();
+    reader.section("contact").required().words("body", campaign.contact->bodies,
+                                               {"platform", "link1", "link2", "clamping"});
+  }
+  reader.finish();
+
+  std::vector<std::string> problems;
+  for (const std::string& text : overrides.set) {
+    try {
+      replace(parsed_axis(text), campaign);
+    } catch (const SetupError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  throw_if_any(std::move(problems));
+  if (overrides.draws) campaign.draws = *overrides.draws;
+  if (overrides.seed) campaign.seed = *overrides.seed;
+  for (const std::filesystem::path& scenario : campaign.scenarios)
+    campaign.scenario_texts.push_back(read_config_file(scenario));
+  return campaign;
+}
+
+}  // namespace flinch

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace flinch {
+
+struct ConfigNode;
+
+/// The values that a key of the scenario takes in turn: one axis of the grid.
+struct CampaignAxis {
+  std::string key;  ///< "control.momentum_observer.gain_per_s"
+  std::vector<std::shared_ptr<const ConfigNode>> values;
+};
+
+/// A key of the scenario that is drawn anew for each run.
+struct CampaignDraw {
+  enum class Scale { linear, logarithmic };
+  std::string key;
+  std::vector<std::shared_ptr<const ConfigNode>> of;  ///< one of these; empty: a number between the bounds
+  double from = 0.0;
+  double to = 0.0;
+  Scale scale = Scale::linear;
+};
+
+/// Contacts that are drawn anew for each run: where the first obstacle of the scenario stands, so that the
+/// motion runs a body into it.
+struct CampaignContact {
+  /// "platform", "link1", "link2": of a leg that is drawn; "clamping": between the links of a leg.
+  std::vector<std::string> bodies;
+};
+
+/// Many runs of scenarios that differ in some of their keys. docs/files.md has the keys of the file.
+struct Campaign {
+  std::filesystem::path file;
+  std::string name;  ///< the file's name without ".yaml"
+  std::string title;
+  std::string description;
+  std::uint64_t seed = 1;
+  std::size_t draws = 1;      ///< runs at each point of the grid
+  double missed_after = 0.1;  ///< a contact that is not noticed by then counts as missed [s]
+
+  std::vector<std::filesystem::path> scenarios;
+  std::vector<std::string> scenario_texts;
+  std::vector<CampaignAxis> grid;
+  std::vector<CampaignDraw> drawn;
+  std::optional<CampaignContact> contact;
+
+  /// Everything that decides about the results, in words: two campaigns with one identity have one table.
+  std::string identity() const;
+
+  std::size_t grid_points() const;
+  std::size_t runs() const { return grid_points() * draws; }
+};
+
+/// What the command line says in place of the file.
+struct CampaignOverrides {
+  std::vector<std::string> set;  ///< "control.contact_detector.reaction_force_N=5,10"
+  std::optional<std::size_t> draws;
+  std::optional<std::uint64_t> seed;
+};
+
+/// Throws SetupError with all that is wrong with the file and with `overrides`.
+Campaign read_campaign(const std::filesystem::path& file, const CampaignOverrides& overrides = {});
+
+}  // namespace flinch

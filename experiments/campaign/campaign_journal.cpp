@@ -1,0 +1,86 @@
+#include "experiments/campaign/campaign_journal.h"
+
+#include <fmt/core.h>
+
+#include "experiments/campaign/campaign.h"
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+/// FNV-1a: two texts with one number are one text, short of intent.
+std::uint64_t hash_of(const std::string& text) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  return hash;
+}
+
+std::string sealed(const std::string& row) { return fmt::format("{},{:016x}\n", row, hash_of(row)); }
+
+/// The row that was sealed; "" where the line is torn.
+std::string unsealed(const std::string& line) {
+  const std::size_t comma = line.rfind(',');
+  if (comma == std::string::npos) return "";
+  std::string row = line.substr(0, comma);
+  return line + "\n" == sealed(row) ? row : "";
+}
+
+std::string first_line(const Campaign& campaign) {
+  return fmt::format("flinch campaign {:016x}", hash_of(campaign.identity()));
+}
+
+}  // namespace
+
+CampaignJournal::CampaignJournal(const std::filesystem::path& folder, const Campaign& campaign)
+    : file_(folder / "results.part") {
+  if (std::filesystem::exists(file_)) read(campaign);
+  // Written anew, so that what follows does not stand behind half a row.
+  std::string text = first_line(campaign) + "\n" + (header_.empty() ? "" : sealed(header_));
+  for (const auto& [number, result] : results_) text += sealed(csv_row(result));
+  replace_file(file_, text);
+  stream_.open(file_, std::ios::binary | std::ios::app);
+  if (!stream_) throw SetupError(file_.string() + ": the file cannot be written");
+}
+
+void CampaignJournal::read(const Campaign& campaign) {
+  std::ifstream stream(file_, std::ios::binary);
+  std::string line;
+  if (!stream || !std::getline(stream, line)) return;
+  if (line != first_line(campaign)) {
+    throw SetupError(
+        file_.string() +
+        ": holds the results of another campaign, or of other scenarios, seeds or versions; choose "
+        "another folder with --out, or begin anew with --fresh");
+  }
+  if (!std::getline(stream, line)) return;
+  header_ = unsealed(line);
+  while (!header_.empty() && std::getline(stream, line)) {
+    const std::string row = unsealed(line);
+    const auto result = row.empty() ? std::nullopt : parse_csv_row(header_, row);
+    if (result && result->run < campaign.runs()) results_.insert_or_assign(result->run, *result);
+  }
+}
+
+void CampaignJournal::add(const RunResult& result) {
+  std::string text;
+  if (header_.empty()) text = sealed(header_ = csv_header(result));
+  text += sealed(csv_row(result));
+  stream_ << text;
+  if (!stream_.flush()) {
+    throw SetupError(file_.string() +
+                     ": the disk takes no more; what is done is kept, go on with the same call");
+  }
+  results_.insert_or_assign(result.run, result);
+}
+
+void replace_file(const std::filesystem::path& file, const std::string& text) {
+  const std::filesystem::path other = file.string() + ".new";
+  std::ofstream stream(other, std::ios::binary);
+  stream << text;
+  stream.close();
+  std::error_code error;
+  if (stream) std::filesystem::rename(other, file, error);
+  if (!stream || error) throw SetupError(file.string() + ": the file cannot be written");
+}
+
+}  // namespace flinch

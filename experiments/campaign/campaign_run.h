@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "experiments/simulated/simulated_scenario.h"
+
+namespace flinch {
+
+struct Campaign;
+
+/// One run of a campaign: where it stands in the grid, and what was drawn for it.
+struct CampaignRun {
+  std::size_t number = 0;  ///< from 0; what is drawn follows from it alone
+  std::size_t point = 0;   ///< of the grid
+  std::size_t draw = 0;    ///< the same draws are made at every point
+  int attempts = 1;        ///< until what was drawn was possible
+  std::uint64_t seed = 0;  ///< of the noise
+  /// Key and value: of the grid's axes, then of what was drawn. The same keys in all runs of a campaign.
+  std::vector<std::pair<std::string, std::string>> values;
+  SimulatedScenario scenario;  ///< its text is a whole scenario file
+};
+
+/// Draws run `number` of the campaign. Where what was drawn cannot be (a pose out of reach, a body that does
+/// not move), it is drawn again, up to `most_attempts` times. Throws SetupError with the last reason, the run
+/// and what was drawn for it where none was possible, and for keys that fit no scenario.
+CampaignRun draw_run(const Campaign& campaign, std::size_t number);
+
+inline constexpr int most_attempts = 200;
+
+}  // namespace flinch

@@ -1,0 +1,159 @@
+#include "experiments/campaign/campaign_summary.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "experiments/campaign/campaign.h"
+#include "experiments/campaign/exact_bounds.h"
+
+namespace flinch {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The smallest time within which at least this share of all contacts was noticed; none where more were
+/// missed.
+std::optional<double> quantile(std::vector<double> times, std::size_t contacts, double share) {
+  const auto place = static_cast<std::size_t>(std::ceil(share * static_cast<double>(contacts)));
+  if (place == 0 || place > times.size()) return std::nullopt;
+  std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(place - 1), times.end());
+  return times[place - 1];
+}
+
+/// The scenario and the axes of the grid, without what was drawn.
+std::vector<std::pair<std::string, std::string>> axes_of(const Campaign& campaign, const RunResult& result) {
+  const std::size_t count = campaign.grid.size() + (campaign.scenarios.size() > 1 ? 1U : 0U);
+  return {result.values.begin(), result.values.begin() + static_cast<std::ptrdiff_t>(count)};
+}
+
+/// What the runs of a group add up to.
+struct Collected {
+  CampaignGroup group;
+  std::vector<double> times;
+
+  void add(const RunResult& result, double missed_after) {
+    ++group.n;
+    group.faults += result.fault.empty() ? 0U : 1U;
+    group.false_alarms += result.false_alarm ? 1U : 0U;
+    group.contact_free += result.contact_free;
+    const auto keep_largest = [](double value, double& largest) { largest = std::max(largest, value); };
+    keep_largest(result.observer_error_force, group.largest_observer_error_force);
+    keep_largest(result.observer_error_moment, group.largest_observer_error_moment);
+    keep_largest(result.tracking_error, group.largest_tracking_error);
+    if (result.body == "none" || result.false_alarm) return;
+    ++group.contacts;
+    if (result.detection_time && *result.detection_time <= missed_after) {
+      times.push_back(*result.detection_time);
+    } else {
+      ++group.missed;
+    }
+  }
+
+  CampaignGroup finished() {
+    if (group.contacts > 0) group.missed_at_most = upper_share(group.missed, group.contacts);
+    group.median = quantile(times, group.contacts, 0.5);
+    group.p90 = quantile(times, group.contacts, 0.9);
+    const double hours = group.contact_free / 3600.0;
+    group.false_alarms_per_hour = hours > 0.0 ? static_cast<double>(group.false_alarms) / hours : 0.0;
+    group.false_alarms_per_hour_at_most = upper_rate(group.false_alarms, hours);
+    return std::move(group);
+  }
+};
+
+std::string milliseconds(std::optional<double> time) {
+  return time ? fmt::format("{:.1f}", 1e3 * *time) : "-";
+}
+
+Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json in_ms(std::optional<double> time) { return time ? Json(1e3 * *time) : Json(nullptr); }
+
+std::string text_of(const std::vector<std::pair<std::string, std::string>>& at) {
+  std::string text;
+  for (const auto& [key, value] : at) text += (text.empty() ? "" : ", ") + key + " = " + value;
+  return text;
+}
+
+}  // namespace
+
+std::vector<CampaignGroup> groups_of(const Campaign& campaign, const std::vector<RunResult>& results) {
+  const std::size_t bodies = campaign.contact ? campaign.contact->bodies.size() : 1;
+  std::map<std::pair<std::size_t, std::string>, Collected> collected;
+  for (const RunResult& result : results) {
+    // The last digit of a point is the body that was drawn; runs are grouped by what was touched.
+    const std::size_t point = result.point % (campaign.grid_points() / bodies);
+    Collected& group = collected[{point, result.body}];
+    group.group.at = axes_of(campaign, result);
+    group.group.body = result.body;
+    group.group.estimator = "followed";
+    group.add(result, campaign.missed_after);
+  }
+  std::vector<CampaignGroup> groups;
+  for (auto& [key, group] : collected) groups.push_back(group.finished());
+  return groups;
+}
+
+std::string campaign_table(const Campaign& campaign, const std::vector<CampaignGroup>& groups,
+                           const CampaignPace& pace) {
+  std::string text = fmt::format("{}: {} runs", campaign.title, campaign.runs());
+  if (pace.runs_now > 0) {
+    text += fmt::format(", {} of them now, {:.0f} a second", pace.runs_now,
+                        static_cast<double>(pace.runs_now) / pace.wall);
+  }
+  text += "\n";
+  std::string at = "?";
+  for (const CampaignGroup& group : groups) {
+    if (const std::string here = text_of(group.at); here != at) {
+      at = here;
+      if (!at.empty()) text += "\n" + at + "\n";
+      text += fmt::format("{:<10} {:>6} {:>7} {:>9} {:>8} {:>8} {:>12} {:>12} {:>7}\n", "touched", "runs",
+                          "missed", "at most", "median", "p90", "false alarms", "at most", "faults");
+      text += fmt::format("{:<10} {:>6} {:>7} {:>9} {:>8} {:>8} {:>12} {:>12} {:>7}\n", "", "", "", "(95 %)",
+                          "[ms]", "[ms]", "[1/h]", "(95 %)", "");
+    }
+    text += fmt::format("{:<10} {:>6} {:>7} {:>9} {:>8} {:>8} {:>12.1f} {:>12.1f} {:>7}\n", group.body,
+                        group.n, group.contacts > 0 ? fmt::format("{}", group.missed) : "-",
+                        group.missed_at_most ? fmt::format("{:.2f} %", 100.0 * *group.missed_at_most) : "-",
+                        milliseconds(group.median), milliseconds(group.p90), group.false_alarms_per_hour,
+                        group.false_alarms_per_hour_at_most, group.faults);
+  }
+  return text;
+}
+
+std::string campaign_json(const Campaign& campaign, const std::vector<CampaignGroup>& groups,
+                          const CampaignPace& pace) {
+  Json list = Json::array();
+  std::size_t failed = 0;
+  for (const CampaignGroup& group : groups) {
+    failed += group.faults;
+    Json at = Json::object();
+    for (const auto& [key, value] : group.at) at[key] = value;
+    list.push_back(
+        {{"estimator", group.estimator},
+         {"body", group.body},
+         {"n", group.n},
+         {"missed", group.missed},
+         {"median_ms", in_ms(group.median)},
+         {"p90_ms", in_ms(group.p90)},
+         {"false_alarms_per_h", group.false_alarms_per_hour},
+         {"at", at},
+         {"contacts", group.contacts},
+         {"missed_share_at_most", group.missed_at_most ? Json(*group.missed_at_most) : Json(nullptr)},
+         {"false_alarms", group.false_alarms},
+         {"contact_free_h", group.contact_free / 3600.0},
+         {"false_alarms_per_h_at_most", finite(group.false_alarms_per_hour_at_most)},
+         {"faults", group.faults},
+         {"observer_error_force_N", group.largest_observer_error_force},
+         {"observer_error_moment_Nm", group.largest_observer_error_moment},
+         {"tracking_error_m", group.largest_tracking_error}});
+  }
+  const double rate = pace.wall > 0.0 ? static_cast<double>(pace.runs_now) / pace.wall : 0.0;
+  return Json{{"campaign", campaign.name}, {"runs", campaign.runs()}, {"failed", failed},
+              {"wall_s", pace.wall},       {"runs_per_s", rate},      {"groups", list}}
+      .dump();
+}
+
+}  // namespace flinch

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "experiments/campaign/run_result.h"
+
+namespace flinch {
+
+struct Campaign;
+
+/// The runs of one point of the grid that touched the same sort of body.
+struct CampaignGroup {
+  std::vector<std::pair<std::string, std::string>> at;  ///< the grid's axes
+  std::string estimator;                                ///< whose detections count
+  std::string body;                                     ///< as RunResult::body
+  std::size_t n = 0;                                    ///< runs
+  std::size_t faults = 0;
+
+  // Of runs whose contact no false alarm came before.
+  std::size_t contacts = 0;
+  std::size_t missed = 0;                ///< not noticed within Campaign::missed_after
+  std::optional<double> missed_at_most;  ///< share, 95 % exact bound; none without contacts
+  /// Half and nine tenths of the contacts were noticed so soon; none where too many were missed [s].
+  std::optional<double> median, p90;
+
+  std::size_t false_alarms = 0;
+  double contact_free = 0.0;  ///< [s]
+  double false_alarms_per_hour = 0.0;
+  double false_alarms_per_hour_at_most = 0.0;  ///< 95 % exact bound
+  double largest_observer_error_force = 0.0;   ///< [N]
+  double largest_observer_error_moment = 0.0;  ///< [Nm]
+  double largest_tracking_error = 0.0;         ///< [m]
+};
+
+/// By point of the grid, then by body.
+std::vector<CampaignGroup> groups_of(const Campaign& campaign, const std::vector<RunResult>& results);
+
+/// How fast a campaign went, for who looks on; not part of its results.
+struct CampaignPace {
+  std::size_t runs_now = 0;  ///< done by this call
+  double wall = 0.0;         ///< [s]
+};
+
+/// The groups as a table for people, and the campaign as one JSON object on one line. Later versions add keys
+/// and rename none.
+std::string campaign_table(const Campaign& campaign, const std::vector<CampaignGroup>& groups,
+                           const CampaignPace& pace);
+std::string campaign_json(const Campaign& campaign, const std::vector<CampaignGroup>& groups,
+                          const CampaignPace& pace);
+
+}  // namespace flinch

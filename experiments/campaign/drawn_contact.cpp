@@ -1,0 +1,178 @@
+#include "experiments/campaign/drawn_contact.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/scenario/scenario.h"
+#include "plant/narrow_phase.h"
+#include "systems/foundation/setup_error.h"
+#include "systems/framework/random.h"
+#include "systems/robot/parallel_robot.h"
+
+namespace flinch {
+namespace {
+
+constexpr double slowest = 0.02;  // [m/s]
+constexpr double reach = 10.0;    // further from a body than any obstacle that touches it [m]
+
+Eigen::Vector3d in_space(const CartesianVector& vector) {
+  Eigen::Vector3d result = Eigen::Vector3d::Zero();
+  result.head(vector.size()) = vector;
+  return result;
+}
+
+CartesianVector point(const Mechanism& robot, const Eigen::Vector3d& in_body) {
+  return in_body.head(robot.space_dimension());
+}
+
+Placement placement(const Mechanism& robot, const Kinematics& now, BodyId body) {
+  Placement at;
+  at.origin = in_space(robot.point_on_body(now, body, point(robot, Eigen::Vector3d::Zero())));
+  for (int axis = 0; axis < robot.space_dimension(); ++axis) {
+    at.axes.col(axis) =
+        in_space(robot.point_on_body(now, body, point(robot, Eigen::Vector3d::Unit(axis)))) - at.origin;
+  }
+  return at;
+}
+
+/// A direction of length 1 in the space in which the robot's points move.
+Eigen::Vector3d random_direction(const Mechanism& robot, RandomGenerator& random) {
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  do {
+    for (int i = 0; i < robot.space_dimension(); ++i) direction[i] = random.uniform(-1.0, 1.0);
+  } while (direction.norm() > 1.0 || direction.norm() < 0.1);
+  return direction.normalized();
+}
+
+/// A body where it is now, for distances from it.
+class PlacedBody {
+ public:
+  PlacedBody(const Mechanism& robot, const Kinematics& now, BodyId body) : at_(placement(robot, now, body)) {
+    for (const Shape& part : robot.body(body).shapes) parts_.emplace_back(part);
+  }
+
+  /// From `obstacle` with its frame's origin at `place` [m]; negative where they penetrate.
+  double gap(const Solid& obstacle, const Eigen::Vector3d& place) const {
+    double smallest = reach;
+    for (const Solid& part : parts_)
+      smallest = std::min(smallest, nearest(part, at_, obstacle, {.origin = place}).gap);
+    return smallest;
+  }
+
+ private:
+  Placement at_;
+  std::vector<Solid> parts_;
+};
+
+/// The obstacle's place on the ray from `start` along `normal` at which it just touches the body.
+Eigen::Vector3d touching(const Mechanism& robot, const Kinematics& now, BodyId body, const Shape& shape,
+                         const Eigen::Vector3d& start, const Eigen::Vector3d& normal) {
+  const PlacedBody placed(robot, now, body);
+  const Solid obstacle(shape);
+  double inside = 0.0, outside = reach;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (inside + outside);
+    (placed.gap(obstacle, start + middle * normal) < 0.0 ? inside : outside) = middle;
+  }
+  return start + outside * normal;
+}
+
+/// Whether no body but those of `meant` is where the obstacle stands.
+bool stands_free(const Mechanism& robot, const Kinematics& now, const Shape& shape,
+                 const DrawnContact& contact, const std::vector<BodyId>& meant) {
+  const Solid obstacle(shape);
+  for (int i = 0; i < robot.body_count(); ++i) {
+    const BodyId body = BodyId::from_index(i);
+    if (std::find(meant.begin(), meant.end(), body) != meant.end()) continue;
+    if (PlacedBody(robot, now, body).gap(obstacle, contact.position_in_base) < 0.0) return false;
+  }
+  return true;
+}
+
+/// The robot half-way through the motion of a scenario, and a millisecond later.
+struct Instant {
+  Kinematics now, later;
+};
+
+Instant half_way(const Scenario& scenario) {
+  const ParallelRobot& robot = *scenario.robot.robot;
+  const std::optional<PlatformPath>& path = scenario.control.trajectory.path;
+  if (!path) throw SetupError("the scenario has no motion, so nothing runs into an obstacle");
+  Instant instant;
+  const double time = 0.5 * path->duration();
+  const PlatformReference reference = path->evaluate(time), next = path->evaluate(time + 1e-3);
+  robot.kinematics(reference.pose, reference.velocity, instant.now);
+  robot.kinematics(next.pose, next.velocity, instant.later);
+  return instant;
+}
+
+std::optional<DrawnContact> touch_body(const Mechanism& robot, const Kinematics& now, BodyId body,
+                                       const Shape& shape, RandomGenerator& random) {
+  const CartesianVector in_body = robot.axis_point(body, body.is_platform() ? 0.0 : random.uniform(0.1, 0.9));
+  const ContactJacobian jacobian = robot.contact_jacobian(now, body, in_body);
+  const Eigen::Vector3d velocity = in_space(jacobian.translation * now.velocity);
+  Eigen::Vector3d normal;
+  if (body.is_platform()) {
+    if (velocity.norm() < slowest) return std::nullopt;
+    normal = velocity.normalized() + 0.7 * random_direction(robot, random);
+  } else {
+    const Eigen::Vector3d along = in_space(robot.point_on_body(now, body, robot.axis_point(body, 1.0)) -
+                                           robot.point_on_body(now, body, robot.axis_point(body, 0.0)))
+                                      .normalized();
+    normal = velocity - velocity.dot(along) * along;
+    if (normal.norm() < slowest) return std::nullopt;
+  }
+  normal.normalize();
+  const Eigen::Vector3d start = in_space(robot.point_on_body(now, body, in_body));
+  const DrawnContact contact{body_name(body), touching(robot, now, body, shape, start, normal)};
+  return stands_free(robot, now, shape, contact, {body}) ? std::optional(contact) : std::nullopt;
+}
+
+/// The half-plane angle between the links of a leg at the elbow, and the direction half-way between them.
+struct Elbow {
+  Elbow(const LegPoints& leg) {
+    const Eigen::Vector3d inwards = in_space(leg.base_joint - leg.passive_joint).normalized();
+    const Eigen::Vector3d outwards = in_space(leg.coupling_joint - leg.passive_joint).normalized();
+    angle = std::acos(std::clamp(inwards.dot(outwards), -1.0, 1.0));
+    bisector = (inwards + outwards).normalized();
+    joint = in_space(leg.passive_joint);
+  }
+  double angle;
+  Eigen::Vector3d bisector, joint;
+};
+
+std::optional<DrawnContact> clamp(const Mechanism& robot, const Instant& instant, int leg,
+                                  const Shape& shape) {
+  const Elbow now(instant.now.legs[static_cast<std::size_t>(leg)]);
+  const Elbow later(instant.later.legs[static_cast<std::size_t>(leg)]);
+  if (later.angle >= now.angle || now.angle > 0.9 * EIGEN_PI) return std::nullopt;
+  const BodyId link1 = BodyId::link1(leg), link2 = BodyId::link2(leg);
+  const Eigen::Vector3d at1 = touching(robot, instant.now, link1, shape, now.joint, now.bisector);
+  const Eigen::Vector3d at2 = touching(robot, instant.now, link2, shape, now.joint, now.bisector);
+  const bool at1_is_further = (at1 - now.joint).norm() > (at2 - now.joint).norm();
+  const DrawnContact contact{"leg" + std::to_string(leg + 1) + "_clamping", at1_is_further ? at1 : at2};
+  const bool is_free = stands_free(robot, instant.now, shape, contact, {link1, link2});
+  return is_free ? std::optional(contact) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<DrawnContact> draw_contact(const Scenario& scenario, const std::string& kind,
+                                         const Shape& shape, RandomGenerator& random) {
+  const ParallelRobot& robot = *scenario.robot.robot;
+  const Instant instant = half_way(scenario);
+  if (!instant.now.reachable || !instant.later.reachable) return std::nullopt;
+  if (kind == "platform") return touch_body(robot, instant.now, BodyId::platform(), shape, random);
+  const int leg = static_cast<int>(random() % static_cast<std::uint64_t>(robot.legs()));
+  if (kind == "clamping") {
+    if (robot.space_dimension() > 2) {
+      throw SetupError("contact.body: the links of this robot's legs slide; nothing is clamped between them");
+    }
+    return clamp(robot, instant, leg, shape);
+  }
+  return touch_body(robot, instant.now, kind == "link1" ? BodyId::link1(leg) : BodyId::link2(leg), shape,
+                    random);
+}
+
+}  // namespace flinch

@@ -1,0 +1,117 @@
+#include "experiments/campaign/run_campaign.h"
+
+#include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "experiments/campaign/campaign.h"
+#include "experiments/campaign/campaign_journal.h"
+#include "experiments/campaign/campaign_run.h"
+#include "experiments/campaign/results_file.h"
+#include "experiments/simulated/experiment.h"
+#include "experiments/verdict/verdict.h"
+#include "systems/framework/recording.h"
+#include "systems/robot/parallel_robot.h"
+
+namespace flinch {
+namespace {
+
+/// Hands out the numbers of the runs that are to be done, and takes their results in.
+class WorkList {
+ public:
+  WorkList(CampaignJournal& journal, std::size_t runs) : journal_(journal), runs_(runs) { skip_done(); }
+
+  /// The next run; none once all are given out, or the work was ended.
+  std::optional<std::size_t> next() {
+    const std::lock_guard lock(mutex_);
+    if (ended_ || next_ >= runs_) return std::nullopt;
+    const std::size_t number = next_++;
+    skip_done();
+    return number;
+  }
+
+  void add(const RunResult& result) {
+    const std::lock_guard lock(mutex_);
+    journal_.add(result);
+    changed_.notify_one();
+  }
+
+  /// Nothing more is given out.
+  void end(std::exception_ptr why = nullptr) {
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+    if (why && !problem_) problem_ = std::move(why);
+    changed_.notify_one();
+  }
+
+  /// Runs that are done, once that changed or a tenth of a second has passed.
+  std::size_t wait_for_change() {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, std::chrono::milliseconds(100));
+    return journal_.results().size();
+  }
+
+  bool ended() {
+    const std::lock_guard lock(mutex_);
+    return ended_ || journal_.results().size() >= runs_;
+  }
+
+  void rethrow_problem() const {
+    if (problem_) std::rethrow_exception(problem_);
+  }
+
+ private:
+  void skip_done() {
+    while (next_ < runs_ && journal_.results().contains(next_)) ++next_;
+  }
+
+  CampaignJournal& journal_;
+  std::size_t runs_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::size_t next_ = 0;
+  bool ended_ = false;
+  std::exception_ptr problem_;
+};
+
+void work(const Campaign& campaign, WorkList& list) {
+  try {
+    while (const auto number = list.next()) list.add(simulate_run(draw_run(campaign, *number)));
+  } catch (...) {
+    list.end(std::current_exception());
+  }
+}
+
+}  // namespace
+
+RunResult simulate_run(const CampaignRun& run) {
+  const SimulatedScenario& scenario = run.scenario;
+  const Recording recording = run_for_verdict(scenario);
+  return result_of(run,
+                   judge(recording, scenario.robot.robot->space(), scenario.expected, scenario.force_limits));
+}
+
+std::vector<RunResult> run_campaign(const Campaign& campaign, const std::filesystem::path& folder,
+                                    std::size_t threads, const CampaignProgress& progress) {
+  CampaignJournal journal(folder, campaign);
+  const std::size_t done_before = journal.results().size();
+  WorkList list(journal, campaign.runs());
+  if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
+  {
+    std::vector<std::jthread> workers;
+    for (std::size_t i = 0; i < threads; ++i) workers.emplace_back([&] { work(campaign, list); });
+    while (!list.ended()) {
+      const std::size_t done = list.wait_for_change();
+      if (progress && !progress(done, done_before)) list.end();
+    }
+  }
+  list.rethrow_problem();
+  std::vector<RunResult> results;
+  for (const auto& [number, result] : journal.results()) results.push_back(result);
+  if (results.size() == campaign.runs()) write_results(results, folder);
+  return results;
+}
+
+}  // namespace flinch

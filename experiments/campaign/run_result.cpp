@@ -1,0 +1,179 @@
+#include "experiments/campaign/run_result.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "experiments/campaign/campaign_run.h"
+#include "experiments/verdict/verdict.h"
+#include "systems/config/parsed.h"
+
+namespace flinch {
+namespace {
+
+/// "leg2_link1" is a link1.
+std::string kind_of(const ContactVerdict& contact) {
+  if (contact.is_push) return "push";
+  if (!contact.body.starts_with("leg")) return contact.body;
+  return contact.body.substr(contact.body.find('_') + 1);
+}
+
+std::string text_of(const std::string& value) { return value; }
+std::string text_of(double value) { return exact_text(value); }
+std::string text_of(bool value) { return value ? "1" : "0"; }
+std::string text_of(std::integral auto value) { return std::to_string(value); }
+std::string text_of(const std::optional<double>& value) { return value ? exact_text(*value) : ""; }
+
+bool parse(const std::string& text, std::string& value) {
+  value = text;
+  return true;
+}
+bool parse(const std::string& text, bool& value) {
+  value = text == "1";
+  return text == "0" || text == "1";
+}
+template <class Number>
+requires std::is_arithmetic_v<Number>
+bool parse(const std::string& text, Number& value) {
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc{} && rest == end;
+}
+bool parse(const std::string& text, std::optional<double>& value) {
+  value.reset();
+  return text.empty() || parse(text, value.emplace());
+}
+
+/// Visits all columns in their order; `values` is visited between.
+template <class Result, class Visit, class VisitValues>
+void columns(Result& result, Visit&& visit, VisitValues&& visit_values) {
+  visit("run", result.run);
+  visit("point", result.point);
+  visit("draw", result.draw);
+  visit("seed", result.seed);
+  visit("attempts", result.attempts);
+  visit_values();
+  visit("good", result.good);
+  visit("fault", result.fault);
+  visit("body", result.body);
+  visit("detection_time_s", result.detection_time);
+  visit("removal_time_s", result.removal_time);
+  visit("speed_m_per_s", result.speed);
+  visit("peak_force_N", result.peak_force);
+  visit("false_alarm", result.false_alarm);
+  visit("contact_free_s", result.contact_free);
+  visit("observer_error_force_N", result.observer_error_force);
+  visit("observer_error_moment_Nm", result.observer_error_moment);
+  visit("tracking_error_m", result.tracking_error);
+  visit("simulated_s", result.simulated);
+}
+
+constexpr std::size_t columns_before_values = 5;
+constexpr std::size_t columns_after_values = 14;
+
+std::string cell(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+}  // namespace
+
+RunResult result_of(const CampaignRun& run, const Verdict& verdict) {
+  RunResult result;
+  result.run = run.number;
+  result.point = run.point;
+  result.draw = run.draw;
+  result.seed = run.seed;
+  result.attempts = run.attempts;
+  result.values = run.values;
+  result.good = verdict.good();
+  result.fault = verdict.fault;
+  result.simulated = result.contact_free = verdict.simulated;
+  result.observer_error_force = verdict.max_observer_error_force;
+  result.observer_error_moment = verdict.max_observer_error_moment;
+  result.tracking_error = verdict.max_tracking_error;
+  if (!verdict.contacts.empty()) {
+    const ContactVerdict& first = verdict.contacts.front();
+    result.body = kind_of(first);
+    result.contact_free = first.onset;
+    if (first.detected) result.detection_time = *first.detected - first.onset;
+    if (first.removed) result.removal_time = *first.removed - first.onset;
+    result.speed = first.speed;
+    result.peak_force = first.peak_force;
+  }
+  if (!verdict.detections.empty() && verdict.detections.front() < result.contact_free) {
+    result.false_alarm = true;
+    result.contact_free = verdict.detections.front();
+  }
+  return result;
+}
+
+std::string csv_header(const RunResult& result) {
+  std::string line;
+  const auto add = [&line](const std::string& name) { line += (line.empty() ? "" : ",") + cell(name); };
+  columns(
+      result, [&](const char* name, const auto&) { add(name); },
+      [&] {
+        for (const auto& [key, value] : result.values) add(key);
+      });
+  return line;
+}
+
+std::string csv_row(const RunResult& result) {
+  std::string line;
+  bool is_first = true;
+  const auto add = [&](const std::string& text) {
+    if (!std::exchange(is_first, false)) line += ',';
+    line += cell(text);
+  };
+  columns(
+      result, [&](const char*, const auto& value) { add(text_of(value)); },
+      [&] {
+        for (const auto& [key, value] : result.values) add(value);
+      });
+  return line;
+}
+
+std::vector<std::string> csv_cells(const std::string& line) {
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (quoted) {
+      if (c != '"') {
+        cells.back() += c;
+      } else if (i + 1 < line.size() && line[i + 1] == '"') {
+        cells.back() += line[++i];
+      } else {
+        quoted = false;
+      }
+    } else if (c == '"') {
+      quoted = true;
+    } else if (c == ',') {
+      cells.emplace_back();
+    } else {
+      cells.back() += c;
+    }
+  }
+  return quoted ? std::vector<std::string>{} : cells;
+}
+
+std::optional<RunResult> parse_csv_row(const std::string& header, const std::string& row) {
+  const std::vector<std::string> names = csv_cells(header), cells = csv_cells(row);
+  if (cells.size() != names.size() || cells.size() < columns_before_values + columns_after_values)
+    return std::nullopt;
+  RunResult result;
+  std::size_t next = 0;
+  bool is_whole = true;
+  columns(
+      result, [&](const char*, auto& value) { is_whole = parse(cells[next++], value) && is_whole; },
+      [&] {
+        const std::size_t end = cells.size() - columns_after_values;
+        for (; next < end; ++next) result.values.emplace_back(names[next], cells[next]);
+      });
+  return is_whole ? std::optional(result) : std::nullopt;
+}
+
+}  // namespace flinch

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace flinch {
+
+struct CampaignRun;
+struct Verdict;
+
+/// What one run of a campaign showed: one row of its table.
+struct RunResult {
+  std::size_t run = 0;
+  std::size_t point = 0;  ///< of the grid
+  std::size_t draw = 0;
+  std::uint64_t seed = 0;
+  int attempts = 1;
+  std::vector<std::pair<std::string, std::string>> values;  ///< as CampaignRun::values
+
+  bool good = false;  ///< the verdict
+  std::string fault;  ///< why the torque gate closed; "" if it did not
+  /// What was touched first: "platform", "link1", "link2" of any leg, "clamping", "push"; "none".
+  std::string body = "none";
+  std::optional<double> detection_time;  ///< from the onset [s]; none: not noticed, or nothing was touched
+  std::optional<double> removal_time;    ///< from the onset [s]
+  std::optional<double> speed;           ///< of the platform at the onset [m/s]
+  std::optional<double> peak_force;      ///< [N]
+  bool false_alarm = false;              ///< something was detected before anything was touched
+  double contact_free = 0.0;             ///< until the first touch, detection, or the end [s]
+  double observer_error_force = 0.0;     ///< as in Verdict [N]
+  double observer_error_moment = 0.0;    ///< [Nm]
+  double tracking_error = 0.0;           ///< [m]
+  double simulated = 0.0;                ///< [s]
+};
+
+RunResult result_of(const CampaignRun& run, const Verdict& verdict);
+
+/// The header of a table in CSV, and a row of it, without the end of the line. `result` gives the names of
+/// the drawn values. Numbers are written so that reading them gives the same bits; what is not known is empty.
+std::string csv_header(const RunResult& result);
+std::string csv_row(const RunResult& result);
+
+/// The reverse, for rows below a header. None where `row` is no whole row.
+std::optional<RunResult> parse_csv_row(const std::string& header, const std::string& row);
+
+/// The cells of a line of CSV; "" where quotes do not match.
+std::vector<std::string> csv_cells(const std::string& line);
+
+}  // namespace flinch
