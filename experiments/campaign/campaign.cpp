@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "systems/config/config_file.h"
+#include "experiments/scenario/scenario.h"
 #include "systems/config/config_node.h"
 #include "systems/config/config_reader.h"
 #include "systems/config/parsed.h"
@@ -25,10 +25,9 @@ void read_scenarios(ConfigReader& reader, Campaign& campaign) {
 CampaignDraw read_draw(ConfigReader& reader) {
   CampaignDraw draw;
   reader.required().text("key", draw.key);
-  if (reader.one_of({"of", "from"}) == "of") {
-    reader.required().nodes("of", draw.of);
-    return draw;
-  }
+  const std::string_view given = reader.one_of({"of", "from"});
+  if (given == "of") reader.required().nodes("of", draw.of);
+  if (given != "from") return draw;
   reader.required().number("from", unit::none, draw.from);
   reader.required().number("to", unit::none, draw.to);
   reader.choice("scale", draw.scale,
@@ -90,6 +89,7 @@ std::string Campaign::identity() const {
     for (const std::string& body : contact->bodies) text += "contact " + body + "\n";
   }
   for (const std::string& scenario : scenario_texts) text += scenario;
+  for (const std::string& robot : robot_texts) text += robot;
   return text;
 }
 
@@ -133,8 +133,11 @@ Campaign read_campaign(const std::filesystem::path& file, const CampaignOverride
   throw_if_any(std::move(problems));
   if (overrides.draws) campaign.draws = *overrides.draws;
   if (overrides.seed) campaign.seed = *overrides.seed;
-  for (const std::filesystem::path& scenario : campaign.scenarios)
-    campaign.scenario_texts.push_back(read_config_file(scenario));
+  for (const std::filesystem::path& file_of_scenario : campaign.scenarios) {
+    const Scenario scenario = read_scenario(file_of_scenario);
+    campaign.scenario_texts.push_back(scenario.text);
+    campaign.robot_texts.push_back(scenario.robot_text);
+  }
   return campaign;
 }
 

@@ -22,7 +22,8 @@ struct CampaignAxis {
 struct CampaignDraw {
   enum class Scale { linear, logarithmic };
   std::string key;
-  std::vector<std::shared_ptr<const ConfigNode>> of;  ///< one of these; empty: a number between the bounds
+  std::vector<std::shared_ptr<const ConfigNode>> of =
+      {};  ///< one of these; empty: a number between the bounds
   double from = 0.0;
   double to = 0.0;
   Scale scale = Scale::linear;
@@ -47,6 +48,7 @@ struct Campaign {
 
   std::vector<std::filesystem::path> scenarios;
   std::vector<std::string> scenario_texts;
+  std::vector<std::string> robot_texts;
   std::vector<CampaignAxis> grid;
   std::vector<CampaignDraw> drawn;
   std::optional<CampaignContact> contact;
@@ -60,12 +62,12 @@ struct Campaign {
 
 /// What the command line says in place of the file.
 struct CampaignOverrides {
-  std::vector<std::string> set;  ///< "control.contact_detector.reaction_force_N=5,10"
-  std::optional<std::size_t> draws;
-  std::optional<std::uint64_t> seed;
+  std::vector<std::string> set = {};  ///< "control.contact_detector.reaction_force_N=5,10"
+  std::optional<std::size_t> draws = std::nullopt;
+  std::optional<std::uint64_t> seed = std::nullopt;
 };
 
-/// Throws SetupError with all that is wrong with the file and with `overrides`.
+/// Throws SetupError with all that is wrong with the file, with `overrides`, and with the scenarios.
 Campaign read_campaign(const std::filesystem::path& file, const CampaignOverrides& overrides = {});
 
 }  // namespace flinch

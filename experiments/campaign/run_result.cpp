@@ -68,8 +68,6 @@ void columns(Result& result, Visit&& visit, VisitValues&& visit_values) {
   visit("simulated_s", result.simulated);
 }
 
-constexpr std::size_t columns_before_values = 5;
-constexpr std::size_t columns_after_values = 14;
 
 std::string cell(const std::string& text) {
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
@@ -162,15 +160,15 @@ std::vector<std::string> csv_cells(const std::string& line) {
 
 std::optional<RunResult> parse_csv_row(const std::string& header, const std::string& row) {
   const std::vector<std::string> names = csv_cells(header), cells = csv_cells(row);
-  if (cells.size() != names.size() || cells.size() < columns_before_values + columns_after_values)
-    return std::nullopt;
+  const std::size_t others = csv_cells(csv_header(RunResult())).size();  // columns that are no drawn values
+  if (cells.size() != names.size() || cells.size() < others) return std::nullopt;
   RunResult result;
   std::size_t next = 0;
   bool is_whole = true;
   columns(
       result, [&](const char*, auto& value) { is_whole = parse(cells[next++], value) && is_whole; },
       [&] {
-        const std::size_t end = cells.size() - columns_after_values;
+        const std::size_t end = next + cells.size() - others;
         for (; next < end; ++next) result.values.emplace_back(names[next], cells[next]);
       });
   return is_whole ? std::optional(result) : std::nullopt;

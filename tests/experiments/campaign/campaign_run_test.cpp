@@ -1,0 +1,103 @@
+#include "experiments/campaign/campaign_run.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "experiments/campaign/campaign.h"
+#include "systems/foundation/setup_error.h"
+#include "tests/experiments/campaign/small_campaign.h"
+
+namespace flinch {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string value(const CampaignRun& run, const std::string& key) {
+  for (const auto& [name, text] : run.values) {
+    if (name == key) return text;
+  }
+  return "";
+}
+
+TEST(ARunOfACampaign, FollowsFromItsNumberAlone) {
+  const test::Workplace place;
+  const Campaign campaign = test::small_campaign(place);
+  for (const std::size_t number : {0U, 5U, 11U}) {
+    const CampaignRun once = draw_run(campaign, number), again = draw_run(campaign, number);
+    EXPECT_EQ(once.scenario.text, again.scenario.text);
+    EXPECT_EQ(once.seed, again.seed);
+    EXPECT_EQ(once.values, again.values);
+  }
+}
+
+TEST(ARunOfACampaign, IsAWholeScenarioWithTheDrawnValues) {
+  const test::Workplace place;
+  const Campaign campaign = test::small_campaign(place);
+  const CampaignRun run = draw_run(campaign, 4);
+  place.write("scenarios/alone.yaml", run.scenario.text);
+  const SimulatedScenario alone = read_simulated_scenario(place / "scenarios/alone.yaml");
+  EXPECT_EQ(alone.seed, run.seed);
+  EXPECT_THAT(alone.text, HasSubstr("speed_m_per_s: " + value(run, "motion.speed_m_per_s")));
+  EXPECT_THAT(alone.text, HasSubstr("x_m: " + value(run, "x_m")));
+}
+
+TEST(TheGrid, TakesEveryCombinationAndDrawsTheSameAtEachPoint) {
+  const test::Workplace place;
+  const Campaign campaign = test::small_campaign(place);
+  std::set<std::pair<std::string, std::string>> points;
+  for (std::size_t number = 0; number < campaign.runs(); ++number) {
+    const CampaignRun run = draw_run(campaign, number);
+    const std::string body = value(run, "contact");
+    points.insert({value(run, "control.momentum_observer.gain_per_s"), body.substr(body.find('_') + 1)});
+    EXPECT_EQ(run.seed, draw_run(campaign, run.draw).seed) << "paired comparisons";
+  }
+  EXPECT_EQ(points.size(), 4U);
+}
+
+TEST(Draws, StayBetweenTheirBoundsAndFillThem) {
+  const test::Workplace place;
+  Campaign campaign = test::small_campaign(place, 60);
+  campaign.contact.reset();
+  double lowest = 1e9, highest = 0.0, sum_of_logs = 0.0;
+  for (std::size_t number = 0; number < 60; ++number) {
+    const double stiffness = std::stod(value(draw_run(campaign, number), "pylon.stiffness_N_per_m"));
+    lowest = std::min(lowest, stiffness);
+    highest = std::max(highest, stiffness);
+    sum_of_logs += std::log(stiffness);
+  }
+  EXPECT_GE(lowest, 2000.0);
+  EXPECT_LE(highest, 20000.0);
+  EXPECT_LT(lowest, 3000.0);
+  EXPECT_GT(highest, 14000.0);
+  EXPECT_NEAR(sum_of_logs / 60.0, 0.5 * (std::log(2000.0) + std::log(20000.0)), 0.3);
+}
+
+TEST(ADrawThatIsImpossible, IsDrawnAgain) {
+  const test::Workplace place;
+  Campaign campaign = test::small_campaign(place, 20);
+  campaign.contact.reset();
+  campaign.drawn.push_back({.key = "motion.pose.x_mm", .from = -400.0, .to = 400.0});
+  int attempts = 0;
+  for (std::size_t number = 0; number < 20; ++number) attempts += draw_run(campaign, number).attempts;
+  EXPECT_GT(attempts, 20) << "the legs do not reach all of these poses";
+}
+
+TEST(ARunThatCannotBeMade, NamesItselfAndWhatWasDrawn) {
+  const test::Workplace place;
+  Campaign campaign = test::small_campaign(place);
+  campaign.drawn.push_back({.key = "motion.sped_m_per_s", .from = 1.0, .to = 1.0});
+  try {
+    draw_run(campaign, 2);
+    FAIL() << "the key is misspelt";
+  } catch (const SetupError& error) {
+    EXPECT_THAT(error.problems().front(),
+                HasSubstr("run 2 (control.momentum_observer.gain_per_s = [20, 20, 20]"));
+    EXPECT_THAT(error.problems().front(), HasSubstr("is not a known key"));
+  }
+}
+
+}  // namespace
+}  // namespace flinch

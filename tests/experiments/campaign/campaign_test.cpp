@@ -1,0 +1,95 @@
+#include "experiments/campaign/campaign.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "systems/config/config_node.h"
+#include "systems/config/yaml_text.h"
+#include "systems/foundation/setup_error.h"
+#include "tests/experiments/campaign/small_campaign.h"
+
+namespace flinch {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::vector<std::string> problems_of(const std::filesystem::path& file,
+                                     const CampaignOverrides& overrides = {}) {
+  try {
+    read_campaign(file, overrides);
+  } catch (const SetupError& error) {
+    return error.problems();
+  }
+  return {};
+}
+
+TEST(ReadingACampaign, FindsScenarioGridAndDraws) {
+  const test::Workplace place;
+  const Campaign campaign = test::small_campaign(place, 7);
+  EXPECT_EQ(campaign.scenarios.size(), 1U);
+  EXPECT_EQ(campaign.grid.size(), 1U);
+  EXPECT_EQ(campaign.drawn.size(), 3U);
+  EXPECT_EQ(campaign.grid_points(), 4U) << "two gains, two bodies";
+  EXPECT_EQ(campaign.runs(), 28U);
+}
+
+TEST(ReadingACampaign, TellsAllThatIsWrong) {
+  const test::Workplace place;
+  place.write("campaigns/bad.yaml",
+              "scenario: ../scenarios/nothing.yaml\n"
+              "runs: 0\n"
+              "contact: {body: [elbow]}\n"
+              "draw:\n"
+              "  - {key: a, from: 2, to: 1}\n"
+              "  - {key: b, from: 0, to: 1, scale: logarithmic}\n"
+              "  - {key: c}\n");
+  EXPECT_THAT(
+      problems_of(place / "campaigns/bad.yaml"),
+      ElementsAre(HasSubstr("bad.yaml:1: scenario: is '../scenarios/nothing.yaml': no such file"),
+                  HasSubstr("bad.yaml:2: runs: is 0"), HasSubstr("bad.yaml:3: contact.body[0]: is 'elbow'"),
+                  HasSubstr("bad.yaml:5: draw[0].to: is below 'from'"),
+                  HasSubstr("bad.yaml:6: draw[1].from: is not positive"),
+                  HasSubstr("bad.yaml:7: draw[2]: has none of of, from")));
+}
+
+TEST(TheCommandLine, AddsAxesAndReplacesWhatTheFileSaysOfAKey) {
+  const test::Workplace place;
+  test::small_campaign(place);
+  const Campaign campaign = read_campaign(
+      place / "campaigns/small.yaml",
+      {.set = {"motion.speed_m_per_s=0.5,0.9", "control.momentum_observer.gain_per_s=[30, 30, 30]"},
+       .draws = 5,
+       .seed = 9});
+  EXPECT_EQ(campaign.drawn.size(), 2U) << "the speed is drawn no longer";
+  ASSERT_EQ(campaign.grid.size(), 2U);
+  EXPECT_EQ(yaml_line(*campaign.grid[0].values.at(0)), "[30, 30, 30]");
+  EXPECT_EQ(yaml_line(*campaign.grid[1].values.at(1)), "0.9");
+  EXPECT_EQ(campaign.runs(), 2U * 2U * 5U);
+  EXPECT_EQ(campaign.seed, 9U);
+}
+
+TEST(TheCommandLine, IsToldWhatIsNoKeyWithValues) {
+  const test::Workplace place;
+  test::small_campaign(place);
+  const std::filesystem::path file = place / "campaigns/small.yaml";
+  EXPECT_THAT(
+      problems_of(file, {.set = {"gain", "a="}}),
+      ElementsAre(HasSubstr("--set gain: is not of the form KEY=VALUE"), HasSubstr("--set a=: is not")));
+  EXPECT_THAT(problems_of(file, {.set = {"a=[1"}}), ElementsAre(HasSubstr("is not valid YAML")));
+}
+
+TEST(TheIdentityOfACampaign, ChangesWithWhateverDecidesAboutItsResults) {
+  const test::Workplace place;
+  const Campaign campaign = test::small_campaign(place);
+  const std::filesystem::path file = place / "campaigns/small.yaml";
+  EXPECT_EQ(read_campaign(file).identity(), campaign.identity());
+  EXPECT_NE(read_campaign(file, {.seed = 2}).identity(), campaign.identity());
+  EXPECT_NE(read_campaign(file, {.draws = 4}).identity(), campaign.identity());
+  EXPECT_NE(read_campaign(file, {.set = {"motion.speed_m_per_s=0.5"}}).identity(), campaign.identity());
+  place.replace("robots/planar_3rrr.yaml", "# The platform. Its", "# The platform, whose");
+  EXPECT_NE(read_campaign(file).identity(), campaign.identity()) << "the file of the robot counts, too";
+}
+
+}  // namespace
+}  // namespace flinch

@@ -1,0 +1,50 @@
+#include "experiments/campaign/exact_bounds.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace flinch {
+namespace {
+
+TEST(UpperRate, IsThatOfNoEventsInClosedForm) {
+  for (const double hours : {0.5, 3.0, 100.0})
+    EXPECT_NEAR(upper_rate(0, hours), -std::log(0.05) / hours, 1e-9);
+}
+
+TEST(UpperRate, IsHalfTheQuantileOfChiSquare) {
+  EXPECT_NEAR(upper_rate(3, 1.0), 7.7537, 1e-4);  // chi-square of 8 degrees of freedom, 0.95: 15.5073
+  EXPECT_NEAR(upper_rate(10, 1.0), 16.9622, 1e-4);
+}
+
+TEST(UpperRate, CoversTheTrueRateAsOftenAsItSays) {
+  std::mt19937_64 random(1);
+  std::poisson_distribution<int> events(4.0);
+  int covered = 0;
+  constexpr int trials = 20000;
+  for (int i = 0; i < trials; ++i)
+    covered += upper_rate(static_cast<std::size_t>(events(random)), 1.0) >= 4.0 ? 1 : 0;
+  EXPECT_GE(covered, static_cast<int>(0.945 * trials));
+}
+
+TEST(UpperRate, IsInfiniteWithoutExposure) { EXPECT_TRUE(std::isinf(upper_rate(0, 0.0))); }
+
+TEST(UpperShare, IsThatOfNoneAndOfAllButOneInClosedForm) {
+  EXPECT_NEAR(upper_share(0, 100), 1.0 - std::pow(0.05, 0.01), 1e-12);
+  EXPECT_NEAR(upper_share(9, 10), std::pow(0.95, 0.1), 1e-12);
+}
+
+TEST(UpperShare, IsOneWhereAllOrNothingHappened) {
+  EXPECT_EQ(upper_share(5, 5), 1.0);
+  EXPECT_EQ(upper_share(0, 0), 1.0);
+}
+
+TEST(UpperShare, HoldsForManyTrials) {  // no sum under- or overflows
+  EXPECT_NEAR(upper_share(0, 1'000'000), -std::log(0.05) / 1e6, 1e-11);
+  EXPECT_GT(upper_share(5000, 10'000), 0.5);
+  EXPECT_LT(upper_share(5000, 10'000), 0.51);
+}
+
+}  // namespace
+}  // namespace flinch

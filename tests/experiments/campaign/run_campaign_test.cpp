@@ -1,0 +1,76 @@
+#include "experiments/campaign/run_campaign.h"
+
+#include <gtest/gtest.h>
+
+#include "experiments/campaign/campaign.h"
+#include "experiments/campaign/campaign_run.h"
+#include "systems/framework/random.h"
+#include "tests/experiments/campaign/small_campaign.h"
+
+namespace flinch {
+namespace {
+
+using test::bytes_of;
+
+class ACampaign : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    for (const char* folder : {"whole", "other"}) std::filesystem::create_directories(place / folder);
+    campaign = test::small_campaign(place);
+    whole = run_campaign(campaign, place / "whole", 1);
+  }
+
+  void expect_the_same_tables() const {
+    for (const char* name : {"results.csv", "results.h5"}) {
+      EXPECT_FALSE(bytes_of(place / ("whole/" + std::string(name))).empty());
+      EXPECT_EQ(bytes_of(place / ("other/" + std::string(name))),
+                bytes_of(place / ("whole/" + std::string(name))));
+    }
+  }
+
+  test::Workplace place;
+  Campaign campaign;
+  std::vector<RunResult> whole;
+};
+
+TEST_F(ACampaign, GivesTheSameTableForAnyNumberOfThreads) {
+  run_campaign(campaign, place / "other", 3);
+  expect_the_same_tables();
+}
+
+TEST_F(ACampaign, GivesTheSameTableHoweverOftenItIsStoppedOnTheWay) {
+  RandomGenerator random(3);
+  std::size_t last = 0;
+  for (int calls = 0; last < campaign.runs() && calls < 100; ++calls) {
+    run_campaign(campaign, place / "other", 2, [&](std::size_t done, std::size_t before) {
+      return done == before || done == campaign.runs();
+    });
+    // As a program that is killed may leave it.
+    const std::string journal = bytes_of(place / "other/results.part");
+    const bool cut = calls < 6;
+    place.write("other/results.part", cut ? journal.substr(0, journal.size() - random() % 100) : journal);
+    last = run_campaign(campaign, place / "other", 1, [](std::size_t, std::size_t) { return false; }).size();
+  }
+  EXPECT_EQ(last, campaign.runs());
+  run_campaign(campaign, place / "other", 2);
+  expect_the_same_tables();
+}
+
+TEST_F(ACampaign, HasRunsThatGiveTheSameAlone) {
+  for (const std::size_t number : {1U, 7U})
+    EXPECT_EQ(csv_row(simulate_run(draw_run(campaign, number))), csv_row(whole[number]));
+}
+
+TEST_F(ACampaign, RunsBodiesIntoThePylon) {
+  std::size_t as_drawn = 0;
+  for (const RunResult& result : whole) {
+    EXPECT_NE(result.body, "none");
+    for (const auto& [key, value] : result.values) {
+      if (key == "contact" && value.ends_with(result.body)) ++as_drawn;
+    }
+  }
+  EXPECT_GE(as_drawn, whole.size() - 2) << "of " << whole.size();
+}
+
+}  // namespace
+}  // namespace flinch

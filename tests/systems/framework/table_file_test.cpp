@@ -1,0 +1,71 @@
+#include "systems/framework/table_file.h"
+
+#include <gtest/gtest.h>
+#include <hdf5.h>
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+class ATableFile : public ::testing::Test {
+ protected:
+  void SetUp() override { std::filesystem::create_directories(folder); }
+  void TearDown() override { std::filesystem::remove_all(folder); }
+
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("flinch_table_" + std::to_string(::getpid()));
+  const std::vector<TableColumn> columns = {
+      {"time_s", std::vector<double>{0.1, std::numeric_limits<double>::quiet_NaN(), -3e-300}},
+      {"obstacles[0].name", std::vector<std::string>{"pylon", "", "a longer name"}}};
+};
+
+TEST_F(ATableFile, HoldsEveryColumn) {
+  write_table(columns, {{"format", "a table"}}, folder / "table.h5");
+  const hid_t file = H5Fopen((folder / "table.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const hid_t numbers = H5Dopen2(file, "time_s", H5P_DEFAULT);
+  std::array<double, 3> read{};
+  ASSERT_GE(H5Dread(numbers, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, read.data()), 0);
+  EXPECT_EQ(read[0], 0.1);
+  EXPECT_TRUE(std::isnan(read[1]));
+  EXPECT_EQ(read[2], -3e-300);
+  const hid_t texts = H5Dopen2(file, "obstacles[0].name", H5P_DEFAULT);
+  const hid_t type = H5Dget_type(texts);
+  const std::size_t width = H5Tget_size(type);
+  std::string rows(3 * width, '?');
+  ASSERT_GE(H5Dread(texts, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data()), 0);
+  EXPECT_STREQ(rows.substr(0, width).c_str(), "pylon");
+  EXPECT_STREQ(rows.substr(width, width).c_str(), "");
+  EXPECT_EQ(rows.substr(2 * width, width), "a longer name");
+  H5Tclose(type);
+  H5Dclose(texts);
+  H5Dclose(numbers);
+  H5Fclose(file);
+}
+
+TEST_F(ATableFile, IsTheSameForTheSameTable) {
+  write_table(columns, {}, folder / "a.h5");
+  write_table(columns, {}, folder / "b.h5");
+  EXPECT_EQ(bytes_of(folder / "a.h5"), bytes_of(folder / "b.h5"));
+}
+
+TEST_F(ATableFile, ThatCannotBeWrittenIsToldOf) {
+  EXPECT_THROW(write_table(columns, {}, folder / "nowhere" / "a.h5"), SetupError);
+}
+
+}  // namespace
+}  // namespace flinch
