@@ -22,8 +22,8 @@ struct CampaignAxis {
 struct CampaignDraw {
   enum class Scale { linear, logarithmic };
   std::string key;
-  std::vector<std::shared_ptr<const ConfigNode>> of =
-      {};  ///< one of these; empty: a number between the bounds
+  /// One of these; empty: a number between the bounds.
+  std::vector<std::shared_ptr<const ConfigNode>> of = {};
   double from = 0.0;
   double to = 0.0;
   Scale scale = Scale::linear;

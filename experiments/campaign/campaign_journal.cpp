@@ -15,6 +15,8 @@ std::uint64_t hash_of(const std::string& text) {
   return hash;
 }
 
+const std::string first_column = "run,";  // with which headers begin
+
 std::string sealed(const std::string& row) { return fmt::format("{},{:016x}\n", row, hash_of(row)); }
 
 /// The row that was sealed; "" where the line is torn.
@@ -35,8 +37,8 @@ CampaignJournal::CampaignJournal(const std::filesystem::path& folder, const Camp
     : file_(folder / "results.part") {
   if (std::filesystem::exists(file_)) read(campaign);
   // Written anew, so that what follows does not stand behind half a row.
-  std::string text = first_line(campaign) + "\n" + (header_.empty() ? "" : sealed(header_));
-  for (const auto& [number, result] : results_) text += sealed(csv_row(result));
+  std::string text = first_line(campaign) + "\n";
+  for (const auto& [number, result] : results_) text += lines_of(result);
   replace_file(file_, text);
   stream_.open(file_, std::ios::binary | std::ios::app);
   if (!stream_) throw SetupError(file_.string() + ": the file cannot be written");
@@ -52,20 +54,27 @@ void CampaignJournal::read(const Campaign& campaign) {
         ": holds the results of another campaign, or of other scenarios, seeds or versions; choose "
         "another folder with --out, or begin anew with --fresh");
   }
-  if (!std::getline(stream, line)) return;
-  header_ = unsealed(line);
-  while (!header_.empty() && std::getline(stream, line)) {
+  std::string header;
+  while (std::getline(stream, line)) {
     const std::string row = unsealed(line);
-    const auto result = row.empty() ? std::nullopt : parse_csv_row(header_, row);
+    if (row.starts_with(first_column)) {
+      header = row;
+      continue;
+    }
+    const auto result = parse_csv_row(header, row);
     if (result && result->run < campaign.runs()) results_.insert_or_assign(result->run, *result);
   }
 }
 
+std::string CampaignJournal::lines_of(const RunResult& result) {
+  std::string header = csv_header(result);
+  const bool is_another = header != header_;
+  header_ = std::move(header);
+  return (is_another ? sealed(header_) : "") + sealed(csv_row(result));
+}
+
 void CampaignJournal::add(const RunResult& result) {
-  std::string text;
-  if (header_.empty()) text = sealed(header_ = csv_header(result));
-  text += sealed(csv_row(result));
-  stream_ << text;
+  stream_ << lines_of(result);
   if (!stream_.flush()) {
     throw SetupError(file_.string() +
                      ": the disk takes no more; what is done is kept, go on with the same call");

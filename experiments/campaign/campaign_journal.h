@@ -28,10 +28,12 @@ class CampaignJournal {
 
  private:
   void read(const Campaign& campaign);
+  /// The result's row, after its header where that is another than the last one's.
+  std::string lines_of(const RunResult& result);
 
   std::filesystem::path file_;
   std::ofstream stream_;
-  std::string header_;
+  std::string header_;  ///< of the last row in the file
   std::map<std::size_t, RunResult> results_;
 };
 

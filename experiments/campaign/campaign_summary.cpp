@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "experiments/campaign/campaign.h"
 #include "experiments/campaign/exact_bounds.h"
@@ -35,19 +36,19 @@ struct Collected {
   CampaignGroup group;
   std::vector<double> times;
 
-  void add(const RunResult& result, double missed_after) {
+  void add(const RunResult& result, const EstimatorResult& estimator, double missed_after) {
     ++group.n;
     group.faults += result.fault.empty() ? 0U : 1U;
-    group.false_alarms += result.false_alarm ? 1U : 0U;
-    group.contact_free += result.contact_free;
+    group.false_alarms += estimator.false_alarm ? 1U : 0U;
+    group.contact_free += estimator.contact_free;
     const auto keep_largest = [](double value, double& largest) { largest = std::max(largest, value); };
     keep_largest(result.observer_error_force, group.largest_observer_error_force);
     keep_largest(result.observer_error_moment, group.largest_observer_error_moment);
     keep_largest(result.tracking_error, group.largest_tracking_error);
-    if (result.body == "none" || result.false_alarm) return;
+    if (result.body == "none" || estimator.false_alarm) return;
     ++group.contacts;
-    if (result.detection_time && *result.detection_time <= missed_after) {
-      times.push_back(*result.detection_time);
+    if (estimator.detection_time && *estimator.detection_time <= missed_after) {
+      times.push_back(*estimator.detection_time);
     } else {
       ++group.missed;
     }
@@ -81,15 +82,18 @@ std::string text_of(const std::vector<std::pair<std::string, std::string>>& at) 
 
 std::vector<CampaignGroup> groups_of(const Campaign& campaign, const std::vector<RunResult>& results) {
   const std::size_t bodies = campaign.contact ? campaign.contact->bodies.size() : 1;
-  std::map<std::pair<std::size_t, std::string>, Collected> collected;
+  // Place of the point and of the estimator, and the body.
+  std::map<std::tuple<std::size_t, std::string, std::size_t>, Collected> collected;
   for (const RunResult& result : results) {
     // The last digit of a point is the body that was drawn; runs are grouped by what was touched.
     const std::size_t point = result.point % (campaign.grid_points() / bodies);
-    Collected& group = collected[{point, result.body}];
-    group.group.at = axes_of(campaign, result);
-    group.group.body = result.body;
-    group.group.estimator = "followed";
-    group.add(result, campaign.missed_after);
+    for (std::size_t i = 0; i < result.estimators.size(); ++i) {
+      Collected& group = collected[{point, result.body, i}];
+      group.group.at = axes_of(campaign, result);
+      group.group.body = result.body;
+      group.group.estimator = result.estimators[i].name;
+      group.add(result, result.estimators[i], campaign.missed_after);
+    }
   }
   std::vector<CampaignGroup> groups;
   for (auto& [key, group] : collected) groups.push_back(group.finished());
@@ -109,13 +113,14 @@ std::string campaign_table(const Campaign& campaign, const std::vector<CampaignG
     if (const std::string here = text_of(group.at); here != at) {
       at = here;
       if (!at.empty()) text += "\n" + at + "\n";
-      text += fmt::format("{:<10} {:>6} {:>7} {:>9} {:>8} {:>8} {:>12} {:>12} {:>7}\n", "touched", "runs",
-                          "missed", "at most", "median", "p90", "false alarms", "at most", "faults");
-      text += fmt::format("{:<10} {:>6} {:>7} {:>9} {:>8} {:>8} {:>12} {:>12} {:>7}\n", "", "", "", "(95 %)",
-                          "[ms]", "[ms]", "[1/h]", "(95 %)", "");
+      text += fmt::format("{:<10} {:<24} {:>6} {:>7} {:>9} {:>8} {:>8} {:>12} {:>12} {:>7}\n", "touched",
+                          "noticed by", "runs", "missed", "at most", "median", "p90", "false alarms",
+                          "at most", "faults");
+      text += fmt::format("{:<10} {:<24} {:>6} {:>7} {:>9} {:>8} {:>8} {:>12} {:>12} {:>7}\n", "", "", "", "",
+                          "(95 %)", "[ms]", "[ms]", "[1/h]", "(95 %)", "");
     }
-    text += fmt::format("{:<10} {:>6} {:>7} {:>9} {:>8} {:>8} {:>12.1f} {:>12.1f} {:>7}\n", group.body,
-                        group.n, group.contacts > 0 ? fmt::format("{}", group.missed) : "-",
+    text += fmt::format("{:<10} {:<24} {:>6} {:>7} {:>9} {:>8} {:>8} {:>12.1f} {:>12.1f} {:>7}\n", group.body,
+                        group.estimator, group.n, group.contacts > 0 ? fmt::format("{}", group.missed) : "-",
                         group.missed_at_most ? fmt::format("{:.2f} %", 100.0 * *group.missed_at_most) : "-",
                         milliseconds(group.median), milliseconds(group.p90), group.false_alarms_per_hour,
                         group.false_alarms_per_hour_at_most, group.faults);

@@ -44,7 +44,18 @@ bool parse(const std::string& text, std::optional<double>& value) {
   return text.empty() || parse(text, value.emplace());
 }
 
-/// Visits all columns in their order; `values` is visited between.
+/// Visits the columns of one estimator.
+template <class Result, class Visit>
+void estimator_columns(Result& result, Visit&& visit) {
+  visit("detection_time_s", result.detection_time);
+  visit("false_alarm", result.false_alarm);
+  visit("contact_free_s", result.contact_free);
+}
+
+constexpr std::size_t columns_an_estimator = 3;
+const std::string last_of_estimator = ".contact_free_s";
+
+/// Visits all columns but those of estimators, in their order; `values` is visited between.
 template <class Result, class Visit, class VisitValues>
 void columns(Result& result, Visit&& visit, VisitValues&& visit_values) {
   visit("run", result.run);
@@ -56,24 +67,35 @@ void columns(Result& result, Visit&& visit, VisitValues&& visit_values) {
   visit("good", result.good);
   visit("fault", result.fault);
   visit("body", result.body);
-  visit("detection_time_s", result.detection_time);
   visit("removal_time_s", result.removal_time);
   visit("speed_m_per_s", result.speed);
   visit("peak_force_N", result.peak_force);
-  visit("false_alarm", result.false_alarm);
-  visit("contact_free_s", result.contact_free);
   visit("observer_error_force_N", result.observer_error_force);
   visit("observer_error_moment_Nm", result.observer_error_moment);
   visit("tracking_error_m", result.tracking_error);
   visit("simulated_s", result.simulated);
 }
 
-
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
+/// What each detector saw until something was touched, and of the first contact.
+std::vector<EstimatorResult> results_by_estimator(const Verdict& verdict, std::optional<double> onset) {
+  std::vector<EstimatorResult> results;
+  for (std::size_t i = 0; i < verdict.first_noticed.size(); ++i) {
+    const DetectionBy& first = verdict.first_noticed[i];
+    EstimatorResult result{.name = first.estimator.empty() ? "followed" : first.estimator};
+    const std::optional<double>& followed = verdict.first_noticed.front().detected;
+    result.contact_free = std::min(onset.value_or(verdict.simulated), followed.value_or(verdict.simulated));
+    if (first.detected && *first.detected < onset.value_or(verdict.simulated) &&
+        *first.detected <= result.contact_free) {
+      result.false_alarm = true;
+      result.contact_free = *first.detected;
+    }
+    if (onset) {
+      const DetectionBy& by = verdict.contacts.front().detected_by[i];
+      if (by.detected) result.detection_time = *by.detected - *onset;
+    }
+    results.push_back(std::move(result));
+  }
+  return results;
 }
 
 }  // namespace
@@ -88,34 +110,41 @@ RunResult result_of(const CampaignRun& run, const Verdict& verdict) {
   result.values = run.values;
   result.good = verdict.good();
   result.fault = verdict.fault;
-  result.simulated = result.contact_free = verdict.simulated;
+  result.simulated = verdict.simulated;
   result.observer_error_force = verdict.max_observer_error_force;
   result.observer_error_moment = verdict.max_observer_error_moment;
   result.tracking_error = verdict.max_tracking_error;
+  const std::optional<double> onset =
+      verdict.contacts.empty() ? std::nullopt : std::optional(verdict.contacts.front().onset);
+  result.estimators = results_by_estimator(verdict, onset);
   if (!verdict.contacts.empty()) {
     const ContactVerdict& first = verdict.contacts.front();
     result.body = kind_of(first);
-    result.contact_free = first.onset;
-    if (first.detected) result.detection_time = *first.detected - first.onset;
     if (first.removed) result.removal_time = *first.removed - first.onset;
     result.speed = first.speed;
     result.peak_force = first.peak_force;
   }
-  if (!verdict.detections.empty() && verdict.detections.front() < result.contact_free) {
-    result.false_alarm = true;
-    result.contact_free = verdict.detections.front();
-  }
   return result;
+}
+
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
 }
 
 std::string csv_header(const RunResult& result) {
   std::string line;
-  const auto add = [&line](const std::string& name) { line += (line.empty() ? "" : ",") + cell(name); };
+  const auto add = [&line](const std::string& name) { line += (line.empty() ? "" : ",") + csv_cell(name); };
   columns(
       result, [&](const char* name, const auto&) { add(name); },
       [&] {
         for (const auto& [key, value] : result.values) add(key);
       });
+  for (const EstimatorResult& estimator : result.estimators) {
+    estimator_columns(estimator, [&](const char* name, const auto&) { add(estimator.name + "." + name); });
+  }
   return line;
 }
 
@@ -124,13 +153,16 @@ std::string csv_row(const RunResult& result) {
   bool is_first = true;
   const auto add = [&](const std::string& text) {
     if (!std::exchange(is_first, false)) line += ',';
-    line += cell(text);
+    line += csv_cell(text);
   };
   columns(
       result, [&](const char*, const auto& value) { add(text_of(value)); },
       [&] {
         for (const auto& [key, value] : result.values) add(value);
       });
+  for (const EstimatorResult& estimator : result.estimators) {
+    estimator_columns(estimator, [&](const char*, const auto& value) { add(text_of(value)); });
+  }
   return line;
 }
 
@@ -160,17 +192,23 @@ std::vector<std::string> csv_cells(const std::string& line) {
 
 std::optional<RunResult> parse_csv_row(const std::string& header, const std::string& row) {
   const std::vector<std::string> names = csv_cells(header), cells = csv_cells(row);
-  const std::size_t others = csv_cells(csv_header(RunResult())).size();  // columns that are no drawn values
-  if (cells.size() != names.size() || cells.size() < others) return std::nullopt;
   RunResult result;
+  std::size_t end = names.size();  // of all but the estimators
+  for (; end >= columns_an_estimator && names[end - 1].ends_with(last_of_estimator);
+       end -= columns_an_estimator) {
+    std::string name = names[end - 1].substr(0, names[end - 1].size() - last_of_estimator.size());
+    result.estimators.insert(result.estimators.begin(), EstimatorResult{.name = std::move(name)});
+  }
+  const std::size_t others = csv_cells(csv_header(RunResult())).size();
+  if (cells.size() != names.size() || end < others) return std::nullopt;
   std::size_t next = 0;
   bool is_whole = true;
-  columns(
-      result, [&](const char*, auto& value) { is_whole = parse(cells[next++], value) && is_whole; },
-      [&] {
-        const std::size_t end = next + cells.size() - others;
-        for (; next < end; ++next) result.values.emplace_back(names[next], cells[next]);
-      });
+  const auto take = [&](const char*, auto& value) { is_whole = parse(cells[next++], value) && is_whole; };
+  columns(result, take, [&] {
+    const std::size_t end_of_values = next + end - others;
+    for (; next < end_of_values; ++next) result.values.emplace_back(names[next], cells[next]);
+  });
+  for (EstimatorResult& estimator : result.estimators) estimator_columns(estimator, take);
   return is_whole ? std::optional(result) : std::nullopt;
 }
 

@@ -12,6 +12,17 @@ namespace flinch {
 struct CampaignRun;
 struct Verdict;
 
+/// What a detector saw that follows an estimator.
+struct EstimatorResult {
+  std::string name;
+  /// From the onset [s]; none: not noticed, or nothing was touched.
+  std::optional<double> detection_time = std::nullopt;
+  bool false_alarm = false;  ///< something was detected before anything was touched
+  /// Until the first touch or detection, or the end [s]: by this detector or, after which the robot does
+  /// something else, by the one that is followed.
+  double contact_free = 0.0;
+};
+
 /// What one run of a campaign showed: one row of its table.
 struct RunResult {
   std::size_t run = 0;
@@ -25,29 +36,32 @@ struct RunResult {
   std::string fault;  ///< why the torque gate closed; "" if it did not
   /// What was touched first: "platform", "link1", "link2" of any leg, "clamping", "push"; "none".
   std::string body = "none";
-  std::optional<double> detection_time;  ///< from the onset [s]; none: not noticed, or nothing was touched
-  std::optional<double> removal_time;    ///< from the onset [s]
-  std::optional<double> speed;           ///< of the platform at the onset [m/s]
-  std::optional<double> peak_force;      ///< [N]
-  bool false_alarm = false;              ///< something was detected before anything was touched
-  double contact_free = 0.0;             ///< until the first touch, detection, or the end [s]
-  double observer_error_force = 0.0;     ///< as in Verdict [N]
-  double observer_error_moment = 0.0;    ///< [Nm]
-  double tracking_error = 0.0;           ///< [m]
-  double simulated = 0.0;                ///< [s]
+  std::optional<double> removal_time;  ///< from the onset [s]
+  std::optional<double> speed;         ///< of the platform at the onset [m/s]
+  std::optional<double> peak_force;    ///< [N]
+  double observer_error_force = 0.0;   ///< as in Verdict [N]
+  double observer_error_moment = 0.0;  ///< [Nm]
+  double tracking_error = 0.0;         ///< [m]
+  double simulated = 0.0;              ///< [s]
+
+  std::vector<EstimatorResult> estimators;  ///< first the one that the robot followed
 };
 
 RunResult result_of(const CampaignRun& run, const Verdict& verdict);
 
-/// The header of a table in CSV, and a row of it, without the end of the line. `result` gives the names of
-/// the drawn values. Numbers are written so that reading them gives the same bits; what is not known is empty.
+/// The header of a table in CSV, and a row of it, without the end of the line. The drawn values and the
+/// estimators of `result` name some of the columns. Numbers are written so that reading them gives the same
+/// bits; what is not known is empty.
 std::string csv_header(const RunResult& result);
 std::string csv_row(const RunResult& result);
 
 /// The reverse, for rows below a header. None where `row` is no whole row.
 std::optional<RunResult> parse_csv_row(const std::string& header, const std::string& row);
 
-/// The cells of a line of CSV; "" where quotes do not match.
+/// A cell of CSV, in quotes where it needs them.
+std::string csv_cell(const std::string& text);
+
+/// The cells of a line of CSV; none where quotes do not match.
 std::vector<std::string> csv_cells(const std::string& line);
 
 }  // namespace flinch

@@ -74,7 +74,9 @@ Recording run_experiment(const SimulatedScenario& scenario,
 
 Recording run_for_verdict(const SimulatedScenario& scenario) {
   const Experiment experiment = build_experiment(scenario);
-  return run_in_memory(scenario, *experiment.diagram, judged_signals(), {}, {});
+  std::vector<std::string> paths = recorded_paths(*experiment.diagram);
+  std::erase_if(paths, [](const std::string& path) { return !is_judged(path); });
+  return run_in_memory(scenario, *experiment.diagram, paths, {}, {});
 }
 
 Recording record_experiment(const SimulatedScenario& scenario, const std::filesystem::path& file,

@@ -14,7 +14,8 @@ struct SimulatedScenario : Scenario {
   SimulatedStationSettings station;
 };
 
-/// As read_scenario(), parse_scenario() and recorded_scenario(), with the sections that describe the simulation.
+/// As read_scenario(), parse_scenario() and recorded_scenario(), with the sections that describe the
+/// simulation.
 SimulatedScenario read_simulated_scenario(const std::filesystem::path& file,
                                           std::optional<std::uint64_t> seed = std::nullopt,
                                           const ControlStages& known = known_stages());

@@ -1,6 +1,7 @@
 #include "experiments/verdict/recorded_run.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -95,10 +96,10 @@ void compare_motion(const Configuration& pose, const PlatformVector& velocity, c
 
 }  // namespace
 
-const std::vector<std::string>& judged_signals() {
-  static const std::vector<std::string> signals = {"detection", "reaction", "wrench", "reference",
-                                                   "gate",      "truth",    "contact"};
-  return signals;
+bool is_judged(const std::string& path) {
+  static constexpr std::array judged = {"detection", "reaction", "wrench", "reference",
+                                        "gate",      "truth",    "contact"};
+  return path.starts_with(detection_by) || std::find(judged.begin(), judged.end(), path) != judged.end();
 }
 
 /// Those that the witness has.

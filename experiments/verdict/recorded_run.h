@@ -53,8 +53,8 @@ struct RunSample {
   }
 };
 
-/// What of a simulation a RecordedRun reads.
-const std::vector<std::string>& judged_signals();
+/// Whether a RecordedRun of a simulation reads the signal `path`.
+bool is_judged(const std::string& path);
 
 /// The samples of a recording as its best witness saw them: the truth of a simulation, or an instrument. To
 /// be read in their order; however many there are, few are in memory.

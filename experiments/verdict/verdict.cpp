@@ -40,6 +40,13 @@ class DetectionWatch {
   double last_touched_ = -Verdict::same_contact;
 };
 
+void note_first(const RunSample& now, Verdict& verdict) {
+  for (std::size_t i = 0; i < verdict.first_noticed.size() && i < now.noticed_by.size(); ++i) {
+    std::optional<double>& first = verdict.first_noticed[i].detected;
+    if (now.noticed_by[i] && !first) first = now.time;
+  }
+}
+
 /// The largest errors, as long as nothing has touched the robot.
 void measure_errors(const RunSample& now, Verdict& verdict) {
   const auto keep_largest = [](double error, double& largest) { largest = std::max(largest, error); };
@@ -171,6 +178,8 @@ Verdict measure(const Recording& recording, const ConfigurationSpace& space, con
   const RecordedRun run(recording, space);
   Verdict verdict;
   verdict.witness = run.witness();
+  for (const std::string& estimator : run.estimators())
+    verdict.first_noticed.push_back({estimator, std::nullopt});
   ContactWatch contacts(limits, run.estimators());
   DetectionWatch detections;
   FaultWatch faults;
@@ -181,6 +190,7 @@ Verdict measure(const Recording& recording, const ConfigurationSpace& space, con
     const bool touched = is_touched(now, verdict.witness);
     contacts.see(now, run.period());
     detections.see(now, touched, verdict);
+    note_first(now, verdict);
     was_touched |= touched;
     if (!was_touched) measure_errors(now, verdict);
     if (now.is_true) verdict.loop_closure = std::max(verdict.loop_closure.value_or(0.0), now.loop_closure);

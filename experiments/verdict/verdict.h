@@ -74,6 +74,8 @@ struct Verdict {
 
   Witness witness = Witness::truth;
   std::vector<ContactVerdict> contacts;
+  /// When each estimator first noticed anything at all, in the order of `ContactVerdict::detected_by`.
+  std::vector<DetectionBy> first_noticed;
   std::vector<double> detections;         ///< when the detector noticed something after it had been quiet [s]
   int false_detections = 0;               ///< while nothing has touched the robot in the last `same_contact`
   double max_observer_error_force = 0.0;  ///< of any component, before anything touches the robot [N]

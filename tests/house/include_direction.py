@@ -27,12 +27,13 @@ MAY_INCLUDE = {
     **{room: EXPERIMENTS for room in EXPERIMENT_ROOMS},
     "experiments/simulated": ["experiments/simulated", "plant", *EXPERIMENTS],
     "experiments/bus": ["experiments/bus", "drivers", *EXPERIMENTS],
+    "experiments/campaign": ["experiments/campaign", "experiments/simulated", "plant", *EXPERIMENTS],
     "experiments/served": ["experiments/served", "experiments/simulated", "plant", "drivers", *EXPERIMENTS],
 }
 # Parts of the program that a build without the bus, or without the plant, leaves out: only they may include these.
 PARTS = {
     ("drivers", "experiments/bus"): ["apps/flinch/bus", "apps/flinch/served"],
-    ("plant", "experiments/simulated"): ["apps/flinch/simulated", "apps/flinch/served"],
+    ("plant", "experiments/simulated", "experiments/campaign"): ["apps/flinch/simulated", "apps/flinch/served"],
     ("experiments/served",): ["apps/flinch/served"],
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"')

@@ -25,8 +25,7 @@ Campaign without_grid(std::size_t draws) {
 RunResult contact(std::optional<double> detection_time, const std::string& body = "platform") {
   RunResult result;
   result.body = body;
-  result.detection_time = detection_time;
-  result.contact_free = 3.6;
+  result.estimators = {{.name = "observer", .detection_time = detection_time, .contact_free = 3.6}};
   return result;
 }
 
@@ -47,7 +46,7 @@ TEST(AGroup, CountsWhatIsMissedAsLaterThanEverythingElse) {
 
 TEST(AGroup, HasItsRateOfFalseAlarmsWithItsBound) {
   std::vector<RunResult> results(1000, contact(std::nullopt, "none"));  // one hour
-  results[3].false_alarm = true;
+  results[3].estimators[0].false_alarm = true;
   const auto groups = groups_of(without_grid(1000), results);
   EXPECT_NEAR(groups[0].false_alarms_per_hour, 1.0, 1e-9);
   EXPECT_NEAR(groups[0].false_alarms_per_hour_at_most, 4.7439, 1e-3);  // half of chi-square 9.4877
@@ -56,7 +55,7 @@ TEST(AGroup, HasItsRateOfFalseAlarmsWithItsBound) {
 
 TEST(AContactAfterAFalseAlarm, IsNoContactThatWasNoticedOrMissed) {
   std::vector<RunResult> results = {contact(1e-3), contact(1e-3)};
-  results[1].false_alarm = true;
+  results[1].estimators[0].false_alarm = true;
   const auto groups = groups_of(without_grid(2), results);
   EXPECT_EQ(groups[0].n, 2U);
   EXPECT_EQ(groups[0].contacts, 1U);

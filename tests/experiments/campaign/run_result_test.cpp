@@ -20,9 +20,9 @@ RunResult some_result() {
   result.values = {{"a.b", "[1, 2]"}, {"text", "says \"no\""}};
   result.fault = "a drive is hot; ticks, too";
   result.body = "link2";
-  result.detection_time = 0.1 + 0.2;
-  result.false_alarm = true;
-  result.contact_free = 1e-300;
+  result.estimators = {
+      {.name = "observer", .detection_time = 0.1 + 0.2, .contact_free = 0.5},
+      {.name = "filter", .detection_time = std::nullopt, .false_alarm = true, .contact_free = 1e-300}};
   result.simulated = 1.2;
   return result;
 }
@@ -34,9 +34,11 @@ TEST(ARowOfTheTable, ReadsBackBitForBit) {
   EXPECT_EQ(csv_row(*read), csv_row(result));
   EXPECT_EQ(read->seed, result.seed);
   EXPECT_EQ(read->values, result.values);
-  EXPECT_EQ(read->detection_time, result.detection_time);
+  ASSERT_EQ(read->estimators.size(), 2U);
+  EXPECT_EQ(read->estimators[0].name, "observer");
+  EXPECT_EQ(read->estimators[0].detection_time, result.estimators[0].detection_time);
   EXPECT_EQ(read->removal_time, std::nullopt);
-  EXPECT_EQ(read->contact_free, result.contact_free);
+  EXPECT_EQ(read->estimators[1].contact_free, 1e-300);
 }
 
 TEST(ARowOfTheTable, IsNoneOnceAnyOfItIsMissing) {
@@ -53,38 +55,55 @@ TEST(CellsOfCsv, MayHoldCommasAndQuotes) {
   EXPECT_TRUE(csv_cells("a,\"b").empty());
 }
 
-Verdict verdict_with(double onset, std::optional<double> detected, std::vector<double> detections) {
+/// Two estimators that first noticed something at these times, and noticed the contact at those.
+Verdict verdict_with(double onset, std::vector<std::optional<double>> first,
+                     std::vector<std::optional<double>> contact_noticed) {
   Verdict verdict;
   ContactVerdict contact;
   contact.body = "leg3_clamping";
   contact.onset = onset;
-  contact.detected = detected;
+  for (const char* name : {"observer", "filter"}) {
+    const std::size_t i = verdict.first_noticed.size();
+    verdict.first_noticed.push_back({name, first[i]});
+    contact.detected_by.push_back({name, contact_noticed[i]});
+  }
   verdict.contacts.push_back(contact);
-  verdict.detections = std::move(detections);
   verdict.simulated = 1.0;
   return verdict;
 }
 
 TEST(AResult, CountsFromTheOnsetOfTheFirstContact) {
-  const RunResult result = result_of(CampaignRun(), verdict_with(0.5, 0.51, {0.51}));
+  const RunResult result = result_of(CampaignRun(), verdict_with(0.5, {0.51, 0.52}, {0.51, 0.52}));
   EXPECT_EQ(result.body, "clamping");
-  EXPECT_NEAR(*result.detection_time, 0.01, 1e-15);
-  EXPECT_FALSE(result.false_alarm);
-  EXPECT_EQ(result.contact_free, 0.5);
+  ASSERT_EQ(result.estimators.size(), 2U);
+  EXPECT_NEAR(*result.estimators[0].detection_time, 0.01, 1e-15);
+  EXPECT_NEAR(*result.estimators[1].detection_time, 0.02, 1e-15);
+  EXPECT_FALSE(result.estimators[0].false_alarm);
+  EXPECT_EQ(result.estimators[0].contact_free, 0.5);
 }
 
 TEST(AResult, IsAFalseAlarmWhereSomethingWasDetectedBeforeAnythingTouched) {
-  const RunResult result = result_of(CampaignRun(), verdict_with(0.5, std::nullopt, {0.2}));
-  EXPECT_TRUE(result.false_alarm);
-  EXPECT_EQ(result.contact_free, 0.2);
+  const RunResult result = result_of(CampaignRun(), verdict_with(0.5, {std::nullopt, 0.2}, {0.51, 0.51}));
+  EXPECT_FALSE(result.estimators[0].false_alarm);
+  EXPECT_TRUE(result.estimators[1].false_alarm);
+  EXPECT_EQ(result.estimators[1].contact_free, 0.2);
+}
+
+TEST(AResult, CountsNoAlarmAfterTheRobotHasReactedToAnother) {
+  const RunResult result =
+      result_of(CampaignRun(), verdict_with(0.5, {0.2, 0.3}, {std::nullopt, std::nullopt}));
+  EXPECT_TRUE(result.estimators[0].false_alarm);
+  EXPECT_FALSE(result.estimators[1].false_alarm) << "what the robot does then is no motion without contact";
+  EXPECT_EQ(result.estimators[1].contact_free, 0.2);
 }
 
 TEST(AResult, OfARunWithoutContactIsFreeOfItToTheEnd) {
   Verdict verdict;
   verdict.simulated = 3.0;
+  verdict.first_noticed.push_back({"observer", std::nullopt});
   const RunResult result = result_of(CampaignRun(), verdict);
   EXPECT_EQ(result.body, "none");
-  EXPECT_EQ(result.contact_free, 3.0);
+  EXPECT_EQ(result.estimators[0].contact_free, 3.0);
   EXPECT_FALSE(result.speed);
 }
 
