@@ -54,6 +54,11 @@ TEST(ControlStages, WhatIsNotFollowedChangesNoBit) {
 
 TEST(ControlStages, AnEstimatorSeesTheSameWhetherItIsFollowedOrNot) {
   Experiment followed, beside;
+  for (Experiment* each : {&followed, &beside}) {
+    each->station.encoder_noise = test::encoder_noise;
+    // The gate opens when the followed estimate is valid: that shall be at the same tick for both robots.
+    each->control.momentum_observer.input_settling_time = 250ms;
+  }
   followed.control.stages.estimators.follow(momentum_observer("fast", 200.0));
   beside.control.stages.estimators.add(momentum_observer("fast", 200.0));
   Bench first(followed), second(beside);
@@ -62,6 +67,7 @@ TEST(ControlStages, AnEstimatorSeesTheSameWhetherItIsFollowedOrNot) {
     bench->push(Eigen::Vector3d(5.0, 0.0, 0.0));
     bench->run(20ms);
   }
+  ASSERT_EQ(first.context.get(first.station.motion), second.context.get(second.station.motion));
   const PlatformVector fast = first.context.get(first.control.wrench_estimate).wrench_in_base;
   const PlatformVector slow = second.context.get(second.control.wrench_estimate).wrench_in_base;
   EXPECT_EQ(fast, second.context.get(other_wrench(second, "wrench_fast")).wrench_in_base);
