@@ -57,8 +57,9 @@ PlatformMotion::Status ForwardKinematics::solve_pose(const JointMotion& active, 
   if (!start) return Status::no_data;
 
   const ForwardSolution solution = robot_->forward_kinematics(active.position, *start, mode_);
-  if (!solution.converged) return Status::not_converged;
+  if (!solution.converged && !solution.other_branch) return Status::not_converged;
   pose = solution.pose;
+  if (solution.other_branch) return Status::implausible;
   if (passive == nullptr) return Status::valid;
   const double closure_error = robot_->chain_closure_error(active.position, *passive, pose);
   return closure_error <= settings_.largest_closure_error ? Status::valid : Status::implausible;
@@ -72,10 +73,9 @@ void ForwardKinematics::solve(const JointMotion& active, const JointReading& rea
   result.status = solve_pose(active, reading, previous, result.pose);
   if (!result.valid()) return;
 
-  Kinematics at_rest;
-  robot_->kinematics(result.pose, result.velocity, mode_, at_rest);
-  if (at_rest.valid) {
-    result.velocity = at_rest.J_x_qa * active.velocity;  // [SafePR] (2)
+  const auto velocity = robot_->platform_velocity(result.pose, active.velocity, mode_);
+  if (velocity) {
+    result.velocity = *velocity;
   } else {
     result.status = PlatformMotion::Status::singular;
   }

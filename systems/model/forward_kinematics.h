@@ -37,9 +37,10 @@ struct ForwardKinematicsMemory {
 
 /// Pose of the platform from the drive angles, by iteration, and its velocity dx = J_x,qa dq_a, elbows as in
 /// the home working mode. The passive angles start the iteration and are the check of its result: chains that
-/// do not close, because of an encoder or because an elbow has changed sides, are `implausible`. Passive
+/// do not close, because of an encoder or because an elbow has changed sides, are `implausible`. So is a pose
+/// to which the platform would have had to jump, from where the iteration started to another branch. Passive
 /// angles count only where they were acquired together with the active ones; without them the result stands
-/// unchecked.
+/// unchecked but for jumps.
 ///
 /// Where the status is not `valid` the velocity is zero, and so is the pose for `no_data` and
 /// `not_converged`.

@@ -140,7 +140,7 @@ InverseSolution FiveBar::inverse_kinematics(const Configuration& pose,
   return {joint_angles(*legs), true};
 }
 
-// The drive angles at the pose found tell whether the legs reach it in this working mode.
+// The drive angles at the point found tell whether the elbows are on their sides there.
 ForwardSolution FiveBar::forward_kinematics(const JointVector& active, const Configuration& start,
                                             const WorkingMode& mode) const noexcept {
   ForwardSolution solution{home_pose(), 0, false};
@@ -152,7 +152,8 @@ ForwardSolution FiveBar::forward_kinematics(const JointVector& active, const Con
   const auto legs = close_legs(point, mode);
   if (!legs) return solution;
   const JointVector error = drive_difference(active, joint_angles(*legs).active);
-  return {point, 1, error.lpNorm<Eigen::Infinity>() < largest_angle_error};
+  const bool same_elbows = error.lpNorm<Eigen::Infinity>() < largest_angle_error;
+  return {point, 1, same_elbows, !same_elbows};
 }
 
 Configuration FiveBar::start_pose(const JointVector& active, const JointVector& passive) const noexcept {

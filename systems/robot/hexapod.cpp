@@ -219,7 +219,7 @@ InverseSolution Hexapod::inverse_kinematics(const Configuration& pose,
 }
 
 // Newton's method on the leg lengths: x <- x (+) A(x)^-1 (q - q(x)). The sign of det A tells whether the
-// pose found is assembled as the start is; a jump to another branch is no solution.
+// pose found is assembled as the start is.
 ForwardSolution Hexapod::forward_kinematics(const JointVector& active, const Configuration& start,
                                             const WorkingMode& mode) const noexcept {
   ForwardSolution solution{home_pose(), 0, false};
@@ -227,7 +227,8 @@ ForwardSolution Hexapod::forward_kinematics(const JointVector& active, const Con
 
   Configuration pose = start;
   double determinant_at_start = 0.0;
-  while (!solution.converged && solution.iterations < max_iterations) {
+  bool met = false;
+  while (!met && solution.iterations < max_iterations) {
     const Platform at = platform(pose, Twist::Zero());
     Matrix6 A;
     Vector6 error;
@@ -242,10 +243,11 @@ ForwardSolution Hexapod::forward_kinematics(const JointVector& active, const Con
     if (solution.iterations == 0) determinant_at_start = lu.determinant();
     pose = space().plus(pose, step);
     ++solution.iterations;
-    solution.converged = error.lpNorm<Eigen::Infinity>() < largest_length_error &&
-                         step.lpNorm<Eigen::Infinity>() < largest_last_step &&
-                         lu.determinant() * determinant_at_start > 0.0;
+    met = error.lpNorm<Eigen::Infinity>() < largest_length_error &&
+          step.lpNorm<Eigen::Infinity>() < largest_last_step;
+    solution.converged = met && lu.determinant() * determinant_at_start > 0.0;
   }
+  solution.other_branch = met && !solution.converged;
   if (!space().contains(pose)) return solution;
   solution.pose = pose;
   solution.converged = solution.converged && inverse_kinematics(pose, mode).reachable;

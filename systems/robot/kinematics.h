@@ -42,6 +42,9 @@ struct ForwardSolution {
   Configuration pose;
   int iterations = 0;
   bool converged = false;
+  /// Not converged, since the drives fit only a pose to which the robot would have had to jump: with an elbow
+  /// on another side than the working mode says, or with another sign of det A than at the start.
+  bool other_branch = false;
 };
 
 /// Everything about the robot's motion at one instant, evaluated once a tick and handed on by reference.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "systems/robot/mechanism.h"
 
 namespace flinch {
@@ -25,6 +27,11 @@ class ParallelRobot : public Mechanism {
   /// Pose from the drives alone, by iteration from `start` until they agree to 1e-10 rad or m.
   virtual ForwardSolution forward_kinematics(const JointVector& active, const Configuration& start,
                                              const WorkingMode& mode) const noexcept = 0;
+  /// Velocity of the platform at `pose` from the rates of the drives; nothing where it does not follow from
+  /// them, because the pose is out of reach or singular.
+  virtual std::optional<PlatformVector> platform_velocity(const Configuration& pose,
+                                                          const JointVector& drive_rates,
+                                                          const WorkingMode& mode) const noexcept;
   /// Start of that iteration from active and passive joints: each leg followed to its coupling joint, the
   /// pose fitted through the tips. Exact for exact readings; the home pose without passive joints.
   /// [ICRA23] (3)

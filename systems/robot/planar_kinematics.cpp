@@ -1,7 +1,7 @@
 #include "systems/robot/planar_kinematics.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -12,13 +12,21 @@ namespace {
 // Beyond this, inverting J_qa_x leaves less than ten digits.
 constexpr double largest_condition_number = 1e6;
 
-// cond_2 of J, hence also of its inverse; infinite if J is singular to working precision.
-double condition_number(const Eigen::Matrix3d& J) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> squared(J.transpose() * J, Eigen::EigenvaluesOnly);
-  const double smallest = squared.eigenvalues()[0];
-  const double largest = squared.eigenvalues()[2];
-  const bool regular = smallest > std::numeric_limits<double>::epsilon() * largest;
-  return regular ? std::sqrt(largest / smallest) : std::numeric_limits<double>::infinity();
+// Largest singular value of J: the largest eigenvalue of J^T J is q + 2 p cos(acos(r) / 3), which loses no
+// digits.
+double norm(const Eigen::Matrix3d& J) {
+  Eigen::Matrix3d S = J.transpose() * J;
+  const double q = S.trace() / 3.0;
+  S.diagonal().array() -= q;
+  const double p = std::sqrt(S.squaredNorm() / 6.0);
+  const double r = p > 0.0 ? 0.5 * S.determinant() / (p * p * p) : 1.0;
+  return std::sqrt(q + 2.0 * p * std::cos(std::acos(std::clamp(r, -1.0, 1.0)) / 3.0));
+}
+
+// cond_2 of J, and of its inverse; infinite if J is singular to working precision.
+double condition_number(const Eigen::Matrix3d& J, const Eigen::Matrix3d& inverse) {
+  const double condition = norm(J) * norm(inverse);
+  return condition < 1e8 ? condition : std::numeric_limits<double>::infinity();
 }
 
 void set_points_and_rates(const PlanarMotion& motion, Kinematics& out) {
@@ -53,6 +61,12 @@ Eigen::Matrix3d stacked_rows(const PlanarMotion& motion, Eigen::RowVector3d Plan
   return rows;
 }
 
+// Norms that are never less than those of the condition number, without its trigonometry, mostly suffice.
+bool is_regular(const Eigen::Matrix3d& J, const Eigen::Matrix3d& inverse) noexcept {
+  return J.norm() * inverse.norm() < largest_condition_number ||
+         condition_number(J, inverse) < largest_condition_number;
+}
+
 void differential_kinematics(const std::array<PlanarLegGeometry, 3>& geometry, const PlanarMotion& motion,
                              Kinematics& out) noexcept {
   const Eigen::Matrix3d J_qa = stacked_rows(motion, &PlanarLegMotion::J_qa);
@@ -79,10 +93,11 @@ void differential_kinematics(const std::array<PlanarLegGeometry, 3>& geometry, c
   out.dJ_qc_x = -dJ_theta2;
 
   set_determinants(geometry, motion, J_qa, out);
-  out.sigma_kappa = condition_number(J_qa);
+  const Eigen::Matrix3d inverse = J_qa.inverse();
+  out.sigma_kappa = condition_number(J_qa, inverse);
   out.reachable = true;
   out.valid = out.sigma_kappa < largest_condition_number;
-  const Eigen::Matrix3d J_x = out.valid ? Eigen::Matrix3d(J_qa.inverse()) : Eigen::Matrix3d::Zero();
+  const Eigen::Matrix3d J_x = out.valid ? inverse : Eigen::Matrix3d::Zero();
   out.J_x_qa = J_x;
   out.dJ_x_qa = -J_x * dJ_qa * J_x;
 }

@@ -17,6 +17,13 @@ namespace {
 constexpr int max_iterations = 10;
 constexpr double largest_angle_error = 1e-10;  // [rad]
 constexpr double largest_last_step = 1e-8;     // [m, rad]
+constexpr double largest_near_error = 0.05;    // [rad]
+
+// A small error alone does not prove convergence: near a singularity it still allows a long step.
+bool is_last(const Eigen::Vector3d& angle_error, const Eigen::Vector3d& step) {
+  return angle_error.lpNorm<Eigen::Infinity>() < largest_angle_error &&
+         step.lpNorm<Eigen::Infinity>() < largest_last_step;
+}
 
 // Signs of the passive angles; nothing unless the working mode has three entries of 0 or 1.
 std::optional<std::array<double, 3>> elbow_signs(const WorkingMode& mode) {
@@ -140,29 +147,105 @@ InverseSolution PlanarRrr::inverse_kinematics(const Configuration& pose,
   return solution;
 }
 
-// Newton's method on the drive angles: x <- x + J_x,qa(x) (qa - IK(x)). A small error alone does not prove
-// convergence: near a singularity it still allows a long step.
+// From a start nearby, the lengths of the second links determine the pose without any inverse kinematics.
+// From elsewhere they could lead to another side of an elbow.
 ForwardSolution PlanarRrr::forward_kinematics(const JointVector& active, const Configuration& start,
                                               const WorkingMode& mode) const noexcept {
-  ForwardSolution solution{home_pose(), 0, false};
   const auto signs = elbow_signs(mode);
-  if (!signs || !usable(active, 3) || !usable(start, 3)) return solution;
+  if (!signs || !usable(active, 3) || !usable(start, 3)) return {home_pose(), 0};
+  const Eigen::Vector3d angles = active;
+  const Eigen::Vector3d pose = start;
+  const ForwardSolution near = solve_lengths(angles, pose, *signs);
+  return near.converged ? near : solve_angles(angles, pose, *signs);
+}
 
-  Eigen::Vector3d pose = start;
+// Newton's method on f = (|v|^2 - l2^2) / 2 = 0, v from the elbow to the coupling joint of each leg, with the
+// rows [v^T, d x v], which are those of A to a factor. Its drive has the angle error f / (l1 u1 x v); u1 x v
+// has the sign of its elbow.
+ForwardSolution PlanarRrr::solve_lengths(const Eigen::Vector3d& active, Eigen::Vector3d pose,
+                                         const ElbowSigns& signs) const noexcept {
+  std::array<Eigen::Vector2d, 3> u1, elbow;
+  for (std::size_t i = 0; i < 3; ++i) {
+    u1[i] = unit_vector(geometry_[i].base_angle + active[static_cast<int>(i)]);
+    elbow[i] = geometry_[i].base_joint + geometry_[i].link1_length * u1[i];
+  }
+  ForwardSolution solution{home_pose(), 0};
+  double determinant_at_start = 0.0;
   while (!solution.converged && solution.iterations < max_iterations) {
-    const PlanarMotion closed = motion(pose, Eigen::Vector3d::Zero(), *signs);
+    const Eigen::Vector2d axis = unit_vector(pose.z());
+    Eigen::Matrix3d rows;
+    Eigen::Vector3d f, angle_error;
+    bool same_branch = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const PlanarLegGeometry& leg = geometry_[i];
+      const Eigen::Vector2d d = rotate(axis, leg.coupling_in_platform);
+      const Eigen::Vector2d v = pose.head<2>() + d - elbow[i];
+      const double u1_x_v = cross(u1[i], v);
+      const int row = static_cast<int>(i);
+      rows.row(row) << v.x(), v.y(), cross(d, v);
+      f[row] = 0.5 * (v.squaredNorm() - leg.link2_length * leg.link2_length);
+      angle_error[row] = f[row] / (leg.link1_length * u1_x_v);
+      same_branch = same_branch && u1_x_v * signs[i] > 0.0;
+    }
+    const Eigen::Matrix3d adjugate_rows = adjugate(rows);
+    const double determinant = rows.row(0).dot(adjugate_rows.col(0));
+    if (solution.iterations == 0) determinant_at_start = determinant;
+    same_branch = same_branch && determinant * determinant_at_start > 0.0;
+    if (!same_branch || !(angle_error.array().abs() < largest_near_error).all()) break;
+    const Eigen::Vector3d step = adjugate_rows * f / determinant;
+    pose -= step;
+    ++solution.iterations;
+    solution.converged = is_last(angle_error, step);
+  }
+  if (solution.converged) solution.pose << pose.head<2>(), wrap_angle(pose.z());
+  return solution;
+}
+
+// Newton's method on the drive angles: x <- x + J_x,qa(x) (qa - IK(x)). While the elbows stay on their sides,
+// det A changes its sign with det J_qa,x.
+ForwardSolution PlanarRrr::solve_angles(const Eigen::Vector3d& active, Eigen::Vector3d pose,
+                                        const ElbowSigns& signs) const noexcept {
+  ForwardSolution solution{home_pose(), 0};
+  double determinant_at_start = 0.0;
+  bool met = false;
+  while (!met && solution.iterations < max_iterations) {
+    const PlanarMotion closed = motion(pose, Eigen::Vector3d::Zero(), signs);
     if (!closed.reachable) break;
+    const Eigen::Matrix3d J_qa = stacked_rows(closed, &PlanarLegMotion::J_qa);
+    const double determinant = J_qa.determinant();
+    if (solution.iterations == 0) determinant_at_start = determinant;
     const Eigen::Vector3d error = active_error(active, closed);
-    const Eigen::Vector3d step = stacked_rows(closed, &PlanarLegMotion::J_qa).inverse() * error;
+    const Eigen::Vector3d step = J_qa.inverse() * error;
     if (!step.allFinite()) break;
     pose += step;
     ++solution.iterations;
-    solution.converged = error.lpNorm<Eigen::Infinity>() < largest_angle_error &&
-                         step.lpNorm<Eigen::Infinity>() < largest_last_step;
+    met = is_last(error, step);
+    solution.converged = met && determinant * determinant_at_start > 0.0;
   }
-  pose[2] = wrap_angle(pose[2]);
-  solution.pose = pose;
+  solution.other_branch = met && !solution.converged;
+  if (usable(pose, 3)) solution.pose << pose.head<2>(), wrap_angle(pose.z());
   return solution;
+}
+
+// dx of [v^T, d x v] dx = l1 (u1 x v) dq_a, v along the second links.
+std::optional<PlatformVector> PlanarRrr::platform_velocity(const Configuration& pose,
+                                                           const JointVector& drive_rates,
+                                                           const WorkingMode& mode) const noexcept {
+  const auto signs = elbow_signs(mode);
+  if (!signs || !usable(pose, 3) || !usable(drive_rates, 3)) return std::nullopt;
+  const Eigen::Vector2d axis = unit_vector(pose[2]);
+  const Eigen::Vector2d origin = pose.head<2>();
+  Eigen::Matrix3d J_qa;
+  for (int i = 0; i < 3; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    const PlanarLeg leg = close_leg(geometry_[index], origin, axis, (*signs)[index]);
+    if (!leg.reachable) return std::nullopt;
+    const double lever = 1.0 / (geometry_[index].link1_length * leg.sin_qp);
+    J_qa.row(i) << lever * leg.u2.x(), lever * leg.u2.y(), lever * cross(leg.arm, leg.u2);
+  }
+  const Eigen::Matrix3d J_x = J_qa.inverse();
+  if (!is_regular(J_qa, J_x)) return std::nullopt;
+  return J_x * drive_rates.head<3>();
 }
 
 // Rigid fit of the coupling joints, given in the platform frame, to the tips of the legs.

@@ -28,6 +28,8 @@ class PlanarRrr final : public ParallelRobot {
                                      const WorkingMode& mode) const noexcept override;
   ForwardSolution forward_kinematics(const JointVector& active, const Configuration& start,
                                      const WorkingMode& mode) const noexcept override;
+  std::optional<PlatformVector> platform_velocity(const Configuration& pose, const JointVector& drive_rates,
+                                                  const WorkingMode& mode) const noexcept override;
   Configuration start_pose(const JointVector& active, const JointVector& passive) const noexcept override;
   double chain_closure_error(const JointVector& active, const JointVector& passive,
                              const Configuration& pose) const noexcept override;
@@ -67,6 +69,10 @@ class PlanarRrr final : public ParallelRobot {
 
   PlanarMotion motion(const Eigen::Vector3d& pose, const Eigen::Vector3d& velocity,
                       const ElbowSigns& signs) const noexcept;
+  ForwardSolution solve_lengths(const Eigen::Vector3d& active, Eigen::Vector3d pose,
+                                const ElbowSigns& signs) const noexcept;
+  ForwardSolution solve_angles(const Eigen::Vector3d& active, Eigen::Vector3d pose,
+                               const ElbowSigns& signs) const noexcept;
   JointAngles joint_angles(const PlanarMotion& motion) const noexcept;
   Eigen::Vector3d active_error(const JointVector& active, const PlanarMotion& motion) const noexcept;
 

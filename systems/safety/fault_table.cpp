@@ -172,7 +172,7 @@ constexpr std::array rows{
     FaultRow{GateFault::drives_stale, stop, 3, drives_stale, "the motor currents are too old"},
     FaultRow{GateFault::forward_kinematics, stop, 0, forward_kinematics, "the platform's pose is not known"},
     FaultRow{GateFault::encoders_implausible, stop, 0, encoders_implausible,
-             "active and passive encoders contradict each other"},
+             "encoders contradict each other or the last pose"},
     FaultRow{GateFault::type_1_singularity, stop, 0, type_1_singularity,
              "a leg is nearly stretched or folded"},
     FaultRow{GateFault::type_2_singularity, stop, 0, type_2_singularity,

@@ -13,7 +13,7 @@ struct PlatformMotion {
     valid,
     no_data,        ///< the joint reading was not valid
     not_converged,  ///< forward kinematics found no pose
-    implausible,    ///< active and passive encoders contradict each other
+    implausible,    ///< encoders contradict each other, or the pose has jumped to another branch
     singular,       ///< the pose is too near to a singularity to compute a velocity
   };
   Time acquired{};

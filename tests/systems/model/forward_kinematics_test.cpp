@@ -195,6 +195,36 @@ TEST(ForwardKinematics, TellsThatAnElbowHasChangedSides) {
   EXPECT_FALSE(platform.valid());
 }
 
+// From starts and poses on both sides of singularities.
+TEST(ForwardKinematics, TellsAJumpToAnotherBranchAlsoWithoutPassiveAngles) {
+  const auto robot = bench();
+  RandomGenerator random(3);
+  int jumps = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const auto draw = [&] {
+      return PlatformVector{
+          {random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2), random.uniform(-2.0, 2.0)}};
+    };
+    const PlatformVector start = draw();
+    Joints joints = joints_at(*robot, draw(), PlatformVector::Ones(3), 0ms);
+    joints.reading.passive_valid = false;
+    if (!robot->inverse_kinematics(start, robot->home_working_mode()).reachable) continue;
+    ForwardKinematicsSettings settings;
+    settings.initial_pose = start;
+    const PlatformMotion platform = Solver(settings, robot).see(joints);
+    Kinematics at_start, found;
+    robot->kinematics(start, PlatformVector::Zero(3), at_start);
+    robot->kinematics(platform.pose, PlatformVector::Zero(3), found);
+    const bool jumped = at_start.det_A * found.det_A < 0.0;
+    EXPECT_FALSE(platform.valid() && jumped);
+    if (platform.status != Status::implausible) continue;
+    ++jumps;
+    EXPECT_TRUE(jumped);
+    EXPECT_EQ(platform.velocity, PlatformVector::Zero(3));
+  }
+  EXPECT_GT(jumps, 50);
+}
+
 TEST(ForwardKinematics, DoesNotJudgeByPassiveAnglesOfAnotherTime) {
   Solver solver;
   ASSERT_EQ(solver.see(solver.at(somewhere)).status, Status::valid);

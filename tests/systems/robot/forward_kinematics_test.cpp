@@ -58,6 +58,44 @@ TEST_P(ForwardKinematics, DependsOnTheActiveAnglesOnly) {
   }
 }
 
+// Far away the iteration is on the drive angles, next to the pose on the lengths of the second links.
+TEST_P(ForwardKinematics, FindsFromFarAwayWhatItFindsFromNextToIt) {
+  std::mt19937 generator(11);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  Residual residual("pose from a start far away and from the pose itself [m, rad]", 1e-13);
+  int compared = 0;
+  for (const auto& [pose, velocity] : motions) {
+    const JointVector active = joints_at(pose).active;
+    const Eigen::Vector3d away(0.08 * uniform(generator), 0.08 * uniform(generator),
+                               0.3 * uniform(generator));
+    const ForwardSolution near = robot.forward_kinematics(active, pose, robot.home_working_mode());
+    const ForwardSolution far = robot.forward_kinematics(active, pose + away, robot.home_working_mode());
+    ASSERT_TRUE(near.converged);
+    if (!far.converged) continue;
+    ++compared;
+    residual.add(robot.difference(far.pose, near.pose), Eigen::Vector3d(0, 0, 0));
+  }
+  EXPECT_GT(compared, 250);
+}
+
+// The second links have their lengths there, but elbows are on the other side.
+TEST_P(ForwardKinematics, HasNoSolutionWithElbowsOnTheOtherSide) {
+  const WorkingMode home = robot.home_working_mode();
+  int flipped = 0;
+  for (const auto& [pose, velocity] : motions) {
+    WorkingMode other = home;
+    other[flipped % 3] = 1 - home[flipped % 3];
+    const InverseSolution drives = robot.inverse_kinematics(pose, other);
+    ASSERT_TRUE(drives.reachable);
+    ++flipped;
+    const ForwardSolution solution = robot.forward_kinematics(drives.joints.active, pose, home);
+    if (solution.converged) {
+      EXPECT_GT(robot.difference(solution.pose, pose).norm(), 1e-3);
+    }
+    EXPECT_TRUE(robot.forward_kinematics(drives.joints.active, pose, other).converged);
+  }
+}
+
 TEST_P(ForwardKinematics, ConvergedMeansThatTheDriveAnglesAreReproduced) {
   std::mt19937 generator(3);
   std::uniform_real_distribution<double> angle(-0.6, 2.6);

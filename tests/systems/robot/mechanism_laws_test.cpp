@@ -59,6 +59,30 @@ TEST_P(KinematicLaws, ForwardKinematicsWithoutAPoseOfTheSameBranchHasNotConverge
   EXPECT_GT(not_converged, 0);
 }
 
+// Starts and poses from a wide region, which singularities divide.
+TEST_P(KinematicLaws, ForwardKinematicsTellsAJumpToAnotherBranch) {
+  MechanismCase wide = GetParam();
+  wide.region *= 5.0;
+  wide.least_det_A = 0.0;
+  const std::vector<MotionState> wide_states = random_states(wide, 2000);
+  const PlatformVector rest = PlatformVector::Zero(n);
+  int jumps = 0;
+  for (std::size_t i = 1; i < wide_states.size(); ++i) {
+    const JointVector active = joints_at(wide_states[i].pose).active;
+    const Configuration& start = wide_states[i - 1].pose;
+    const ForwardSolution solution = forward(active, start);
+    EXPECT_FALSE(solution.converged && solution.other_branch);
+    if (!solution.converged && !solution.other_branch) continue;
+    const Kinematics found = kinematics_at(solution.pose, rest);
+    const JointVector error = robot.drive_difference(found.joints.active, active);
+    const bool same_mode = error.lpNorm<Eigen::Infinity>() < 1e-9;
+    const bool same_assembly = found.det_A * kinematics_at(start, rest).det_A > 0.0;
+    EXPECT_EQ(solution.converged, same_mode && same_assembly);
+    jumps += solution.other_branch;
+  }
+  EXPECT_GT(jumps, 20);
+}
+
 // Without passive encoders it is the home pose.
 TEST_P(KinematicLaws, StartPoseOfExactAnglesIsThePose) {
   Residual residual("start pose [m, rad]", 1e-14);
@@ -130,6 +154,20 @@ TEST_P(KinematicLaws, RatesInverseAndConditionFollowFromTheDriveMap) {
     const Eigen::MatrixXd A = k.J_qa_x * scale.asDiagonal();
     const Eigen::VectorXd values = A.jacobiSvd().singularValues();
     condition.add(k.sigma_kappa * values[n - 1] / values[0] - 1.0);
+  }
+}
+
+TEST_P(KinematicLaws, PlatformVelocityFollowsFromTheRatesOfTheDrives) {
+  Residual residual("velocity from drive rates", 1e-13);
+  const WorkingMode mode = robot.home_working_mode();
+  for (const auto& [pose, velocity] : states) {
+    const Kinematics k = kinematics_at(pose, velocity);
+    const auto found = robot.platform_velocity(pose, k.rates.active, mode);
+    ASSERT_TRUE(found.has_value());
+    compare(residual, *found, velocity);
+    const Configuration far = space.plus(pose, PlatformVector::Constant(n, 9.0));
+    EXPECT_FALSE(robot.platform_velocity(far, k.rates.active, mode).has_value());
+    EXPECT_FALSE(robot.platform_velocity(pose, JointVector(), mode).has_value());
   }
 }
 
