@@ -47,6 +47,7 @@ struct BenchSnapshot {
   JointAngles joints;
   double loop_closure_error = 0.0;  ///< As in PlantTruth [m].
   double kinetic_energy = 0.0;      ///< [J]
+  JointVector drive_torque;         ///< That acts, without the brakes' [Nm or N].
   PlatformVector acceleration;
   PlatformVector applied_wrench;
   ContactForces contacts;

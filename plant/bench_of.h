@@ -43,7 +43,8 @@ class BenchOf final : public BenchDynamics {
             ContactForces& out) const noexcept;
   HeldPoint next_held(std::size_t obstacle, const BenchState& state, double t, const BenchSnapshot& snapshot,
                       const BenchStep& before) const noexcept;
-  PlatformVector acceleration(const Instant& now, const DriveAction& drives,
+  JointVector drive_torque(const Instant& now, const DriveAction& drives) const noexcept;
+  PlatformVector acceleration(const Instant& now, JointVector torque, bool braked,
                               const PlatformVector& wrench) const noexcept;
 
   Robot robot_;
@@ -123,11 +124,20 @@ void BenchOf<Robot>::hold(const Instant& now, int obstacle, const PlacedObstacle
 }
 
 template <class Robot>
-PlatformVector BenchOf<Robot>::acceleration(const Instant& now, const DriveAction& drives,
-                                            const PlatformVector& wrench) const noexcept {
+JointVector BenchOf<Robot>::drive_torque(const Instant& now, const DriveAction& drives) const noexcept {
   JointVector torque = drives.torque;
   if (torque.size() != robot().drives()) torque.setZero(robot().drives());
-  if (!drives.braked) return robot_.acceleration(now, torque, wrench);
+  const std::vector<UnevenTorque>& uneven = settings().uneven_torque;
+  for (int i = 0; i < static_cast<int>(uneven.size()); ++i) {
+    torque[i] = uneven[static_cast<std::size_t>(i)].at(robot_.drive_position(now, i), torque[i]);
+  }
+  return torque;
+}
+
+template <class Robot>
+PlatformVector BenchOf<Robot>::acceleration(const Instant& now, JointVector torque, bool braked,
+                                            const PlatformVector& wrench) const noexcept {
+  if (!braked) return robot_.acceleration(now, torque, wrench);
   for (int i = 0; i < robot().drives(); ++i) torque[i] += brake_effort(i, robot_.drive_rate(now, i));
   return robot_.acceleration(now, torque, wrench);
 }
@@ -147,7 +157,8 @@ void BenchOf<Robot>::rates(const BenchState& state, const DriveAction& drives,
   find_forces(now, obstacles, step, step.candidates, contacts);
   robot_.coordinate_rates(state, step.chart, rates);
   rates.segment(dof(), dof()) =
-      acceleration(now, drives, applied_wrench + contacts.obstacle_wrench + contacts.self_wrench);
+      acceleration(now, drive_torque(now, drives), drives.braked,
+                   applied_wrench + contacts.obstacle_wrench + contacts.self_wrench);
   add_obstacle_rates(state, contacts, rates);
 }
 
@@ -168,8 +179,9 @@ void BenchOf<Robot>::snapshot(const BenchState& state, const DriveAction& drives
   place_obstacles(state, out.obstacles);
   out.candidates = robot_.candidates(now, out.obstacles, duration);
   find_forces(now, out.obstacles, step, out.candidates, out.contacts);
-  out.acceleration =
-      acceleration(now, drives, applied_wrench + out.contacts.obstacle_wrench + out.contacts.self_wrench);
+  out.drive_torque = drive_torque(now, drives);
+  out.acceleration = acceleration(now, out.drive_torque, drives.braked,
+                                  applied_wrench + out.contacts.obstacle_wrench + out.contacts.self_wrench);
   robot_.find_near_pairs(now, out.obstacles, out.near_pairs);
   for (std::size_t i = 0; i < settings().obstacles.size(); ++i) {
     out.force_on_mount[i] =

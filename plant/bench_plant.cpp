@@ -60,7 +60,7 @@ void BenchPlant::tell_truth(Time now, const BenchSnapshot& bench, const DriveAct
   out.valid = bench.reachable;
   out.pose = bench.pose;
   out.velocity = bench.velocity;
-  out.drive_torque = acting.torque;
+  out.drive_torque = out.valid ? bench.drive_torque : acting.torque;
   if (!out.valid) return;
   out.acceleration = bench.acceleration;
   out.wrench_in_base = bench.applied_wrench + bench.contacts.obstacle_wrench;

@@ -34,6 +34,11 @@ std::vector<std::string> problems(const BenchSettings& settings) {
   }
   for (const auto& obstacle : settings.obstacles) add(obstacle->problems(obstacle->form().name + "."));
   if (settings.link_material) add(problems(*settings.link_material, "link_material."));
+  if (!settings.uneven_torque.empty() &&
+      settings.uneven_torque.size() != static_cast<std::size_t>(settings.robot->drives())) {
+    found.push_back("uneven_torque has " + std::to_string(settings.uneven_torque.size()) +
+                    " entries; the robot has " + std::to_string(settings.robot->drives()) + " drives");
+  }
   SettingProblems brake("brake.");
   brake.require_not_negative("torque", settings.brake.torque);
   brake.require_positive("velocity", settings.brake.velocity);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "plant/obstacle.h"
+#include "plant/uneven_torque.h"
 #include "systems/robot/mechanism.h"
 
 namespace flinch {
@@ -27,6 +28,7 @@ struct BenchSettings {
   /// How the robot's own bodies touch; nothing: they pass through one another.
   std::optional<ContactMaterial> link_material = ContactMaterial{.stiffness = 5e4};
   BrakeFriction brake;
+  std::vector<UnevenTorque> uneven_torque;  ///< Of each drive; empty: all are even.
 };
 
 /// All that is wrong with `settings`, one sentence each.

@@ -29,6 +29,9 @@ class GeneralBench {
   Configuration pose(const BenchState& state, const BenchChart& chart) const noexcept;
   /// xi' = (p', J_l^-1(xi_r) omega), the rotation counted from the chart's pose; xi' = v elsewhere.
   void coordinate_rates(const BenchState& state, const BenchChart& chart, BenchState& rates) const noexcept;
+  double drive_position(const Instant& now, int drive) const noexcept {
+    return now.kinematics.joints.active[drive];
+  }
   double drive_rate(const Instant& now, int drive) const noexcept {
     return now.kinematics.rates.active[drive];
   }

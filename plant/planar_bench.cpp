@@ -58,10 +58,16 @@ std::vector<Sphere> rounds_of(const Obstacles& obstacles) {
   return rounds;
 }
 
+std::array<Eigen::Vector2d, 3> base_directions(const PlanarRrr& robot) {
+  const auto& legs = robot.parameters().legs;
+  return {unit_vector(legs[0].base_angle), unit_vector(legs[1].base_angle), unit_vector(legs[2].base_angle)};
+}
+
 }  // namespace
 
 PlanarBench::PlanarBench(const BenchSettings& settings)
     : robot_(std::dynamic_pointer_cast<const PlanarRrr>(settings.robot)),
+      base_directions_(base_directions(*robot_)),
       shapes_{robot_->parameters().link_radius, robot_->parameters().platform_hull_radius},
       rounds_(rounds_of(settings.obstacles)),
       links_meet_(settings.link_material.has_value()) {}
@@ -74,6 +80,12 @@ Disc PlanarBench::disc(int obstacle, const PlacedObstacle& placed) const noexcep
 SurfaceGap PlanarBench::surface_gap(const DiscGap& gap, BodyId body) const noexcept {
   return {gap.gap, in_space(gap.normal),
           in_space(gap.axis_point + (shapes_.radius(body) + 0.5 * gap.gap) * gap.normal)};
+}
+
+double PlanarBench::drive_position(const Instant& now, int drive) const noexcept {
+  const auto index = static_cast<std::size_t>(drive);
+  const Eigen::Vector2d& link = now.legs[index].leg.u1;
+  return std::atan2(cross(base_directions_[index], link), base_directions_[index].dot(link));
 }
 
 void PlanarBench::describe(const Instant& now, BenchSnapshot& out) const noexcept {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -33,6 +34,7 @@ class PlanarBench {
   void coordinate_rates(const BenchState& state, const BenchChart&, BenchState& rates) const noexcept {
     rates.head<3>() = state.segment<3>(3);
   }
+  double drive_position(const Instant& now, int drive) const noexcept;
   double drive_rate(const Instant& now, int drive) const noexcept {
     return now.legs[static_cast<std::size_t>(drive)].qa_rate;
   }
@@ -69,6 +71,7 @@ class PlanarBench {
   SurfaceGap surface_gap(const DiscGap& gap, BodyId body) const noexcept;
 
   std::shared_ptr<const PlanarRrr> robot_;
+  std::array<Eigen::Vector2d, 3> base_directions_;  ///< From which the drive angles count.
   PlanarShapes shapes_;
   std::vector<Sphere> rounds_;  ///< one an obstacle
   bool links_meet_;

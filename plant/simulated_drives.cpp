@@ -1,5 +1,7 @@
 #include "plant/simulated_drives.h"
 
+#include <cmath>
+
 #include "plant/setting_problems.h"
 #include "systems/foundation/setup_error.h"
 
@@ -7,15 +9,10 @@ namespace flinch {
 
 namespace {
 
-void check(const JointVector& constants, const char* name, int drives, std::vector<std::string>& found) {
-  if (constants.size() == 0) return;
-  if (constants.size() != drives) {
-    found.push_back(std::string("drives.") + name + " has " + std::to_string(constants.size()) +
-                    " entries; the robot has " + std::to_string(drives) + " drives");
-  }
-  SettingProblems problems("drives.");
-  for (const double constant : constants) problems.require_positive(name, constant);
-  problems.append_to(found);
+void check_count(const JointVector& values, const char* name, int drives, std::vector<std::string>& found) {
+  if (values.size() == 0 || values.size() == drives) return;
+  found.push_back(std::string("drives.") + name + " has " + std::to_string(values.size()) +
+                  " entries; the robot has " + std::to_string(drives) + " drives");
 }
 
 JointVector limits(const SimulatedDrivesSettings& settings, const Mechanism& robot) {
@@ -26,7 +23,27 @@ JointVector limits(const SimulatedDrivesSettings& settings, const Mechanism& rob
   return limit;
 }
 
-SimulatedDrivesSettings completed(SimulatedDrivesSettings settings, const Mechanism& robot) {
+}  // namespace
+
+std::vector<std::string> problems(const SimulatedDrivesSettings& settings, const Mechanism& robot) {
+  std::vector<std::string> found;
+  check_count(settings.torque_constant, "torque_constant", robot.drives(), found);
+  check_count(settings.driver_torque_constant, "driver_torque_constant", robot.drives(), found);
+  check_count(settings.current_lag, "current_lag", robot.drives(), found);
+  SettingProblems problems("drives.");
+  for (const double constant : settings.torque_constant)
+    problems.require_positive("torque_constant", constant);
+  for (const double constant : settings.driver_torque_constant)
+    problems.require_positive("driver_torque_constant", constant);
+  for (const double lag : settings.current_lag) problems.require_not_negative("current_lag [s]", lag);
+  problems.require_positive("torque_limit", settings.torque_limit);
+  problems.require_positive("force_limit", settings.force_limit);
+  problems.require_not_negative("longest_silence [s]", to_seconds(settings.longest_silence));
+  problems.append_to(found);
+  return found;
+}
+
+SimulatedDrivesSettings complete(SimulatedDrivesSettings settings, const Mechanism& robot) {
   throw_if_any(problems(settings, robot));
   constexpr double usual_constant = 6.1;
   if (settings.torque_constant.size() == 0)
@@ -35,24 +52,11 @@ SimulatedDrivesSettings completed(SimulatedDrivesSettings settings, const Mechan
   return settings;
 }
 
-}  // namespace
+SimulatedDrives::SimulatedDrives(const SimulatedDrivesSettings& settings, const Mechanism& robot, Time tick)
+    : settings_(complete(settings, robot)), limit_(limits(settings, robot)), tick_(tick) {}
 
-std::vector<std::string> problems(const SimulatedDrivesSettings& settings, const Mechanism& robot) {
-  std::vector<std::string> found;
-  check(settings.torque_constant, "torque_constant", robot.drives(), found);
-  check(settings.driver_torque_constant, "driver_torque_constant", robot.drives(), found);
-  SettingProblems problems("drives.");
-  problems.require_positive("torque_limit", settings.torque_limit);
-  problems.require_positive("force_limit", settings.force_limit);
-  problems.require_not_negative("longest_silence [s]", to_seconds(settings.longest_silence));
-  problems.append_to(found);
-  return found;
-}
-
-SimulatedDrives::SimulatedDrives(const SimulatedDrivesSettings& settings, const Mechanism& robot)
-    : settings_(completed(settings, robot)), limit_(limits(settings, robot)) {}
-
-DriveAction SimulatedDrives::act(Time now, const TorqueCommand& command, const BrakeCommand& brakes) const {
+DriveAction SimulatedDrives::act(Time now, const DriveAction& before, const TorqueCommand& command,
+                                 const BrakeCommand& brakes) const {
   const Time age = now - command.computed;
   const bool fresh = age >= Time::zero() && age <= settings_.longest_silence;
   const bool usable =
@@ -62,7 +66,16 @@ DriveAction SimulatedDrives::act(Time now, const TorqueCommand& command, const B
   DriveAction action;
   const JointVector wanted = command.torque.cwiseMax(-limit_).cwiseMin(limit_);
   action.current = wanted.cwiseQuotient(settings_.driver_torque_constant);
-  action.torque = settings_.torque_constant.cwiseProduct(action.current);
+  JointVector mean = action.current;
+  // i(t) = i_wanted + (i_before - i_wanted) exp(-t / lag), its mean over the tick, and its value at the end.
+  for (int i = 0; i < settings_.current_lag.size(); ++i) {
+    const double ticks = settings_.current_lag[i] / to_seconds(tick_);
+    const double left = std::exp(-1.0 / ticks);
+    const double step = before.current[i] - action.current[i];
+    mean[i] += step * ticks * (1.0 - left);
+    action.current[i] += step * left;
+  }
+  action.torque = settings_.torque_constant.cwiseProduct(mean);
   action.enabled = true;
   action.braked = false;
   return action;

@@ -19,6 +19,8 @@ struct SimulatedDrivesSettings {
   JointVector torque_constant{};
   /// What the driver believes when it turns a torque command into a current; empty: the truth.
   JointVector driver_torque_constant{};
+  /// Time constant with which each current follows its command [s]; empty: at once.
+  JointVector current_lag{};
   double torque_limit = 100.0;  ///< Commands are cut to this [Nm].
   double force_limit = 500.0;   ///< Those for drives that slide [N].
   Time longest_silence = 3ms;   ///< Age of a command from which on it is not obeyed.
@@ -27,17 +29,23 @@ struct SimulatedDrivesSettings {
 /// All that is wrong with `settings` for the drives of `robot`.
 std::vector<std::string> problems(const SimulatedDrivesSettings& settings, const Mechanism& robot);
 
-/// Turns commands into torque, held from tick to tick. A command that is not valid or not finite, older than
-/// the longest silence or from the future, or that comes with the brakes engaged, gives no torque and closes
-/// the brakes. The drives obey again at the first command without these faults.
+/// The same with the constants of all drives of `robot` written out. Throws SetupError.
+SimulatedDrivesSettings complete(SimulatedDrivesSettings settings, const Mechanism& robot);
+
+/// Turns commands into torque, held from tick to tick. Where the current lags the torque is its mean over the
+/// tick, so that the robot's momentum at the ticks is exact, and the current that of the tick's end. A
+/// command that is not valid or not finite, older than the longest silence or from the future, or that comes
+/// with the brakes engaged, gives no torque and closes the brakes. The drives obey again at the first command
+/// without these faults.
 class SimulatedDrives final : public System {
   SimulatedDrivesSettings settings_;
   JointVector limit_;
+  Time tick_;
   State<DriveAction> acting_ = state<DriveAction>("acting", at_rest());  // from this tick on
 
  public:
-  /// Throws SetupError.
-  SimulatedDrives(const SimulatedDrivesSettings& settings, const Mechanism& robot);
+  /// `tick` is the time between ticks of the diagram, or a multiple of it. Throws SetupError.
+  SimulatedDrives(const SimulatedDrivesSettings& settings, const Mechanism& robot, Time tick = 1ms);
 
   InputPort<TorqueCommand> torque_command = input<TorqueCommand>("torque_command");
   InputPort<BrakeCommand> brake = input<BrakeCommand>("brake");
@@ -49,9 +57,10 @@ class SimulatedDrives final : public System {
   OutputPort<StationStatus> status = output<&SimulatedDrives::report>("status", clock, acting_, truth);
 
  private:
-  Update act_ = update<&SimulatedDrives::act>(acting_, clock, torque_command, brake);
+  Update act_ = update<&SimulatedDrives::act>(Every{tick_}, acting_, clock, acting_, torque_command, brake);
 
-  DriveAction act(Time now, const TorqueCommand& command, const BrakeCommand& brakes) const;
+  DriveAction act(Time now, const DriveAction& before, const TorqueCommand& command,
+                  const BrakeCommand& brakes) const;
   void read(const DriveAction& now, DriveAction& out) const { out = now; }
   StationStatus report(Time now, const DriveAction& action, const PlantTruth& robot) const;
   DriveAction at_rest() const;

@@ -1,18 +1,37 @@
 #include "plant/simulated_encoders.h"
 
+#include <cstddef>
+#include <string>
+
 #include "plant/quantisation.h"
+#include "systems/foundation/setup_error.h"
 
 namespace flinch {
 namespace {
 
+void check_count(const char* name, std::ptrdiff_t count, int encoders) {
+  if (count == 0 || count == encoders) return;
+  throw SetupError("encoders: " + std::string(name) + " has " + std::to_string(count) +
+                   " entries; there are " + std::to_string(encoders) + " encoders");
+}
+
 JointVector constant_error(const EncoderErrors& errors, int count, std::uint64_t seed) {
+  check_count("offset", errors.offset.size(), count);
+  check_count("wave", static_cast<std::ptrdiff_t>(errors.wave.size()), count);
   RandomGenerator generator(seed);
-  return normal_vector(generator, count, errors.accuracy);
+  JointVector error = normal_vector(generator, count, errors.accuracy);
+  if (errors.offset.size() > 0) error += errors.offset;
+  return error;
 }
 
 JointVector measured(const JointVector& position, const EncoderErrors& errors, const JointVector& error,
                      const JointVector& normal) {
-  return quantised(JointVector(position + error + errors.noise * normal), errors.resolution);
+  JointVector read = position + error + errors.noise * normal;
+  for (std::size_t i = 0; i < errors.wave.size(); ++i) {
+    const auto joint = static_cast<Eigen::Index>(i);
+    read[joint] += errors.wave[i].at(position[joint]);
+  }
+  return quantised(read, errors.resolution);
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <numbers>
+#include <vector>
 
 #include "plant/plant_truth.h"
+#include "plant/position_wave.h"
 #include "plant/sensor_noise.h"
 #include "systems/framework/system.h"
 #include "systems/robot/kinematics.h"
@@ -11,11 +13,14 @@
 
 namespace flinch {
 
-/// How far the encoders of one kind are off the truth [rad].
+/// How far the encoders of one kind are off the truth [rad, or m where the joint slides].
 struct EncoderErrors {
   double accuracy = 0.0;    ///< Standard deviation of a constant error, drawn once for each encoder.
   double noise = 0.0;       ///< Standard deviation of white noise.
   double resolution = 0.0;  ///< Readings are multiples of it.
+  JointVector offset{};     ///< A constant error of each encoder, besides `accuracy`; empty: none.
+  /// An error of each encoder that depends on the position, as of a disc that is not centred; empty: none.
+  std::vector<PositionWave> wave{};
 };
 
 /// The encoders of the bench.
@@ -38,7 +43,8 @@ class SimulatedEncoders final : public System {
   using Noise = NormalNumbers<2 * max_dof>;  // of the active, then of the passive joints
 
  public:
-  /// `counts`: how many are measured; coupling joints are not.
+  /// `counts`: how many are measured; coupling joints are not. Throws SetupError where offsets or waves are
+  /// not as many.
   SimulatedEncoders(const SimulatedEncodersSettings& settings, const JointCounts& counts, std::uint64_t seed);
 
  private:

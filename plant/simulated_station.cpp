@@ -15,7 +15,7 @@ struct Parts {
 };
 
 Parts add_robot(DiagramBuilder& inside, const SimulatedStationSettings& settings) {
-  auto& drives = inside.add<SimulatedDrives>("drives", settings.drives, *settings.bench.robot);
+  auto& drives = inside.add<SimulatedDrives>("drives", settings.drives, *settings.bench.robot, settings.tick);
   auto& script = inside.add<AppliedWrenchScript>("applied_wrench", settings.applied_wrench);
   auto& plant = inside.add<BenchPlant>("plant", settings.bench, settings.tick);
   inside.connect(drives.acting, plant.drives);

@@ -20,11 +20,6 @@ void scale(JointFriction& friction, double factor) {
   friction.coulomb *= factor;
 }
 
-void scale(RigidBodyInertia& body, double factor) {
-  body.mass *= factor;
-  body.inertia *= factor;
-}
-
 template <class Parameters>
 void deviate_planar_legs(Parameters& robot, const RobotDeviation& deviation) {
   for (std::size_t i = 0; i < robot.legs.size(); ++i) {
@@ -49,18 +44,15 @@ std::shared_ptr<const Mechanism> deviating(FiveBarParameters robot, const RobotD
   return std::make_shared<const FiveBar>(robot);
 }
 
-// The links of a hexapod's legs are equal: they take the scale of the first.
 std::shared_ptr<const Mechanism> deviating(HexapodParameters robot, const RobotDeviation& deviation) {
-  scale(robot.cylinder, scale_of(deviation.leg_inertia_scale, 0));
-  scale(robot.rod, scale_of(deviation.leg_inertia_scale, 0));
   for (std::size_t i = 0; i < robot.legs.size(); ++i) {
+    robot.legs[i].mass_scale *= scale_of(deviation.leg_inertia_scale, i);
     scale(robot.legs[i].drive_friction, scale_of(deviation.drive_friction_scale, i));
     scale(robot.legs[i].universal_friction, scale_of(deviation.passive_friction_scale, i));
   }
-  scale(robot.platform, deviation.platform_inertia_scale);
+  robot.platform = scaled(robot.platform, deviation.platform_inertia_scale);
   if (deviation.payload > 0.0) {
-    const RigidBodyInertia load{.mass = deviation.payload};
-    robot.payload = robot.payload ? together(*robot.payload, load) : load;
+    robot.platform = together(robot.platform, RigidBodyInertia{.mass = deviation.payload});
   }
   return std::make_shared<const Hexapod>(robot);
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "experiments/recorded/robot_as_drawn.h"
 #include "experiments/report/run_folder.h"
 #include "experiments/scenario/scenario.h"
 #include "experiments/verdict/verdict_output.h"
@@ -33,7 +34,7 @@ void tell_if_partial(const Recording& recording, const CommonOptions& common) {
 ExitStatus conclude(const Scenario& scenario, double wall, const std::filesystem::path& folder,
                     const CommonOptions& common) {
   const Verdict verdict = conclude_run(scenario, folder);
-  const RunFacts facts{wall, scenario.seed};
+  const RunFacts facts{wall, scenario.seed, robot_as_drawn(open_recording(recording_in(folder)))};
   fmt::print("{}", common.json ? verdict_json(verdict, facts) + "\n" : verdict_table(verdict, facts));
   if (!common.quiet) {
     fmt::print(stderr, "recording: {}\nreport:    {}\n", recording_in(folder).string(),

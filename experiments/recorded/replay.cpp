@@ -7,6 +7,7 @@
 #include "diagrams/contact_control.h"
 #include "diagrams/recorded_station.h"
 #include "experiments/recorded/recorded_signals.h"
+#include "experiments/recorded/robot_as_drawn.h"
 #include "experiments/scenario/scenario.h"
 #include "systems/framework/constant.h"
 #include "systems/framework/diagram_builder.h"
@@ -87,7 +88,9 @@ Replay replay(const Scenario& scenario, const Recording& recorded,
     simulator.step(context);
   }
 
-  Replay result{recorder.recording(recorded_attributes(scenario, provenance)), {}};
+  auto attributes = recorded_attributes(scenario, provenance);
+  note_robot(robot_as_drawn(recorded), attributes);
+  Replay result{recorder.recording(std::move(attributes)), {}};
   for (const Signal& signal : result.recording.signals) {
     const Signal* const old = find(recorded, signal.path);
     if (old == nullptr || !is_same(*old, signal)) result.differing.push_back(signal.path);

@@ -1,10 +1,11 @@
 #include "experiments/report/experiment_report.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <array>
 #include <cmath>
 
+#include "experiments/recorded/robot_as_drawn.h"
 #include "experiments/report/drawn_robot.h"
 #include "experiments/report/page_samples.h"
 #include "experiments/scenario/scenario.h"
@@ -303,6 +304,16 @@ std::vector<ReportParameter> scenario_parameters(const Scenario& scenario) {
   return rows;
 }
 
+/// What was drawn of the robot, for it is no value of any file.
+std::vector<ReportParameter> drawn_parameters(const Recording& recording) {
+  std::vector<ReportParameter> rows;
+  for (const auto& [key, values] : robot_as_drawn(recording)) {
+    rows.push_back(
+        {"robot as drawn", key, fmt::format("[{:.4g}]", fmt::join(values, ", ")), "", "by the seed"});
+  }
+  return rows;
+}
+
 std::vector<ReportParameter> provenance(const Recording& recording) {
   std::vector<ReportParameter> rows;
   for (const auto& [name, text] : recording.attributes) {
@@ -344,6 +355,7 @@ Report experiment_report(const Scenario& scenario, const Recording& recording, c
   report.parameters = scenario_parameters(scenario);
   for (ReportParameter& row : parameters("robot", scenario.robot.values))
     report.parameters.push_back(std::move(row));
+  for (ReportParameter& row : drawn_parameters(recording)) report.parameters.push_back(std::move(row));
   report.provenance = provenance(recording);
   report.texts = {{"Scenario " + scenario.file.filename().string(), scenario.text},
                   {"Robot " + scenario.robot_file.filename().string(), scenario.robot_text}};

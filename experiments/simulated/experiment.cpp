@@ -2,6 +2,7 @@
 
 #include "diagrams/contact_control.h"
 #include "experiments/recorded/recorded_signals.h"
+#include "experiments/recorded/robot_as_drawn.h"
 #include "experiments/simulated/simulated_scenario.h"
 #include "experiments/verdict/recorded_run.h"
 #include "plant/simulated_station.h"
@@ -36,6 +37,14 @@ std::size_t ticks_of(const SimulatedScenario& scenario, const Diagram& diagram) 
   return static_cast<std::size_t>(scenario.duration / diagram.tick());
 }
 
+/// What is known of a run before it begins.
+std::map<std::string, std::string> attributes_of(const SimulatedScenario& scenario,
+                                                 const std::map<std::string, std::string>& provenance) {
+  auto attributes = recorded_attributes(scenario, provenance);
+  note_robot(specimen_values(scenario.specimen, *scenario.robot.robot), attributes);
+  return attributes;
+}
+
 /// Runs the whole scenario; `before_tick` is called between ticks. What is known of the run only then.
 std::map<std::string, std::string> simulate(const SimulatedScenario& scenario, const Diagram& diagram,
                                             Recorder& recorder, const std::function<void()>& before_tick,
@@ -58,7 +67,7 @@ Recording run_in_memory(const SimulatedScenario& scenario, const Diagram& diagra
                         const std::function<void(double share)>& progress) {
   Recorder recorder(diagram, paths, ticks_of(scenario, diagram), quantity_units(*scenario.robot.robot));
   auto attributes = simulate(scenario, diagram, recorder, {}, progress);
-  attributes.merge(recorded_attributes(scenario, provenance));
+  attributes.merge(attributes_of(scenario, provenance));
   return recorder.recording(std::move(attributes));
 }
 
@@ -86,7 +95,7 @@ Recording record_experiment(const SimulatedScenario& scenario, const std::filesy
   const Diagram& diagram = *experiment.diagram;
   Recorder recorder(diagram, recorded_paths(diagram), RecordingStream::ring,
                     quantity_units(*scenario.robot.robot));
-  RecordingStream stream(recorder, file, recorded_attributes(scenario, provenance));
+  RecordingStream stream(recorder, file, attributes_of(scenario, provenance));
   stream.finish(simulate(
       scenario, diagram, recorder, [&stream] { stream.wait_for_room(); }, progress));
   return open_recording(file);

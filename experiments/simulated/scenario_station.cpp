@@ -7,9 +7,11 @@
 
 #include "experiments/scenario/scenario.h"
 #include "experiments/scenario/scenario_pose.h"
+#include "experiments/simulated/scenario_realism.h"
 #include "experiments/simulated/simulated_obstacles.h"
 #include "plant/contacts_at_start.h"
 #include "plant/simulated_station.h"
+#include "plant/specimen.h"
 #include "plant/true_robot.h"
 #include "systems/config/config_reader.h"
 #include "systems/robot/parallel_robot.h"
@@ -24,8 +26,15 @@ std::span<double> entries(Vector& vector) {
 
 enum class PlantFriction { as_robot_file, none };
 
-/// What is true of the robot, where that differs from what the controller believes.
-void read_plant(ConfigReader plant, const RobotFile& believed, SimulatedStationSettings& station) {
+/// Factors on the model, one for each drive or leg.
+void read_scales(ConfigReader& plant, const char* name, int count, JointVector& scales) {
+  scales.setOnes(count);
+  plant.numbers(name, unit::none, entries(scales), not_negative);
+}
+
+/// What is true of the robot, where that differs from what the controller believes; how far one that is drawn
+/// may be off that.
+Realism read_plant(ConfigReader plant, const RobotFile& believed, SimulatedStationSettings& station) {
   const int drives = believed.robot->drives();
   PlantFriction friction = PlantFriction::as_robot_file;
   double mass_scale = 1.0;
@@ -34,6 +43,8 @@ void read_plant(ConfigReader plant, const RobotFile& believed, SimulatedStationS
   station.drives.driver_torque_constant = believed.drives.torque_constant;
   plant.choice("friction", friction,
                {{"as_robot_file", PlantFriction::as_robot_file}, {"none", PlantFriction::none}});
+  read_scales(plant, "drive_friction_scale", drives, deviation.drive_friction_scale);
+  read_scales(plant, "passive_friction_scale", believed.robot->legs(), deviation.passive_friction_scale);
   plant.number("leg_inertia_scale", unit::none, mass_scale, positive);
   plant.number("payload", unit::kg, deviation.payload, not_negative);
   const Unit& per_ampere =
@@ -44,13 +55,14 @@ void read_plant(ConfigReader plant, const RobotFile& believed, SimulatedStationS
 
   deviation.leg_inertia_scale.setConstant(drives, mass_scale);
   if (friction == PlantFriction::none) {
-    deviation.drive_friction_scale.setZero(drives);
-    deviation.passive_friction_scale.setZero(drives);
+    deviation.drive_friction_scale.setZero();
+    deviation.passive_friction_scale.setZero();
   }
   station.bench.robot = true_robot(believed.robot, deviation);
   if (plant.has("initial_pose")) {
     station.bench.initial_pose = read_pose(plant.section("initial_pose"), *believed.robot);
   }
+  return read_realism(plant, *believed.robot);
 }
 
 void read_encoder(ConfigReader reader, EncoderErrors& errors) {
@@ -119,15 +131,18 @@ WrenchRamp read_ramp(ConfigReader reader, const ConfigurationSpace& space) {
 
 }  // namespace
 
-void read_station(ConfigReader& file, const Scenario& scenario, SimulatedStationSettings& station) {
+void read_station(ConfigReader& file, const Scenario& scenario, SimulatedStationSettings& station,
+                  Specimen& specimen) {
   station.seed = scenario.seed;
   const std::optional<PlatformPath>& path = scenario.control.trajectory.path;
   if (path) station.bench.initial_pose = path->start();
   station.bench.obstacles = read_simulated_obstacles(file, scenario.obstacles);
-  read_plant(file.section("plant"), scenario.robot, station);
+  const Realism realism = read_plant(file.section("plant"), scenario.robot, station);
   for (ConfigReader& ramp : file.sections("applied_wrench"))
     station.applied_wrench.push_back(read_ramp(ramp, station.bench.robot->space()));
   read_sensors(file.section("sensors"), station);
+  specimen = draw_specimen(realism, *scenario.robot.robot, scenario.robot.drives.max_torque, scenario.seed);
+  station = with_specimen(std::move(station), specimen);
   if (file.good()) {
     for (const std::string& complaint : problems(station.bench)) file.add_problems({"plant: " + complaint});
   }

@@ -74,6 +74,13 @@ std::string no_contact_line(const Verdict& verdict) {
   return "no instrument saw what touched the robot; noticed at:" + (times.empty() ? " never" : times) + "\n";
 }
 
+Json robot_json(const RunFacts& facts) {
+  if (facts.robot.empty()) return nullptr;
+  Json robot = Json::object();
+  for (const auto& [key, values] : facts.robot) robot[key] = values;
+  return robot;
+}
+
 const char* name(Witness witness) {
   switch (witness) {
     case Witness::truth:
@@ -105,6 +112,8 @@ std::string verdict_table(const Verdict& verdict, const RunFacts& facts) {
   text += fmt::format("{:<18} {:.3f} s in {:.2f} s, seed {}\n\n",
                       verdict.witness == Witness::truth ? "simulated" : "ran", verdict.simulated, facts.wall,
                       facts.seed);
+  if (!facts.robot.empty())
+    text.insert(text.size() - 1, "robot              drawn by the seed, see the report\n");
   text += verdict.good() ? "verdict: good" : "verdict: bad";
   text += verdict.good() && !verdict.remarks.empty() ? ", but\n" : "\n";
   for (const std::string& failure : verdict.failures) text += "  - " + failure + "\n";
@@ -127,6 +136,7 @@ std::string verdict_json(const Verdict& verdict, const RunFacts& facts) {
                      {"simulated_s", verdict.simulated},
                      {"wall_s", facts.wall},
                      {"seed", facts.seed},
+                     {"robot_drawn", robot_json(facts)},
                      {"fault", verdict.fault},
                      {"failures", verdict.failures},
                      {"remarks", verdict.remarks}};

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace flinch {
 
@@ -11,6 +13,8 @@ struct Verdict;
 struct RunFacts {
   double wall = 0.0;  ///< time that the run took [s]
   std::uint64_t seed = 0;
+  /// Where the simulated robot was drawn: what differs from its model, see robot_as_drawn().
+  std::vector<std::pair<std::string, std::vector<double>>> robot{};
 };
 
 /// The verdict as a table for people.

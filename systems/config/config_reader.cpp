@@ -241,6 +241,11 @@ std::optional<std::size_t> ConfigReader::choose(std::string_view name, const std
 
 bool ConfigReader::has(std::string_view name) const { return document_->has(*section_, name); }
 
+bool ConfigReader::has_section(std::string_view name) const {
+  const FoundValue found = document_->find(*section_, name, unit::none, false);
+  return found.node != nullptr && found.node->kind == Kind::mapping;
+}
+
 std::string_view ConfigReader::one_of(std::initializer_list<std::string_view> names) {
   std::string list;
   std::vector<FoundValue> given;

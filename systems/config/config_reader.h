@@ -87,6 +87,8 @@ class ConfigReader {
 
   /// Whether the key is there, without a unit: a section, a list of sections or a word.
   bool has(std::string_view name) const;
+  /// Whether a mapping stands there, and not one word or number.
+  bool has_section(std::string_view name) const;
   /// The one key of these that is there. None is a problem and gives "", several are and give the first.
   std::string_view one_of(std::initializer_list<std::string_view> names);
 

@@ -11,6 +11,10 @@ Eigen::Matrix3d moved(const RigidBodyInertia& body, const Eigen::Vector3d& offse
 
 }  // namespace
 
+RigidBodyInertia scaled(const RigidBodyInertia& body, double factor) {
+  return {factor * body.mass, body.centre_of_mass, factor * body.inertia};
+}
+
 RigidBodyInertia together(const RigidBodyInertia& a, const RigidBodyInertia& b) {
   const double mass = a.mass + b.mass;
   const Eigen::Vector3d centre = (a.mass * a.centre_of_mass + b.mass * b.centre_of_mass) / mass;

@@ -15,6 +15,9 @@ struct RigidBodyInertia {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< About it, in the body's axes [kg m^2].
 };
 
+/// A body of the same shape that is `factor` times as heavy.
+RigidBodyInertia scaled(const RigidBodyInertia& body, double factor);
+
 /// Inertia of two bodies that are fixed to one another, both given in one frame.
 RigidBodyInertia together(const RigidBodyInertia& a, const RigidBodyInertia& b);
 

@@ -98,6 +98,10 @@ Hexapod::Hexapod(const HexapodParameters& parameters)
     : ParallelRobot(describe(parameters)), parameters_(parameters) {
   loaded_platform_ =
       parameters.payload ? together(parameters.platform, *parameters.payload) : parameters.platform;
+  for (std::size_t i = 0; i < 6; ++i) {
+    cylinders_[i] = scaled(parameters.cylinder, parameters.legs[i].mass_scale);
+    rods_[i] = scaled(parameters.rod, parameters.legs[i].mass_scale);
+  }
   scale_ << Eigen::Vector3d::Ones(), Eigen::Vector3d::Constant(1.0 / parameters.characteristic_length);
 }
 
@@ -320,8 +324,8 @@ void Hexapod::dynamics(const Kinematics& kinematics, Dynamics& out) const noexce
     const Leg closed = leg(i, at);
     const LegRates moving = rates(closed, at);
     const UniversalLeg<6> turning = universal(i, closed, moving, at);
-    sum.add_body(p.cylinder, cylinder_motion(i, turning), v, p.gravity);
-    sum.add_body(p.rod, rod_motion(closed, turning, at), v, p.gravity);
+    sum.add_body(cylinders_[i], cylinder_motion(i, turning), v, p.gravity);
+    sum.add_body(rods_[i], rod_motion(closed, turning, at), v, p.gravity);
     sum.add_armature(p.drive_armature, moving.row, moving.row_rate);
     const auto resist = [&](const JointFriction& joint, const Row& row, double friction_velocity) {
       friction += row.transpose() * friction_effort(joint, row.dot(v), friction_velocity);

@@ -87,6 +87,8 @@ class Hexapod final : public ParallelRobot {
 
   HexapodParameters parameters_;
   RigidBodyInertia loaded_platform_;
+  std::array<RigidBodyInertia, 6> cylinders_;
+  std::array<RigidBodyInertia, 6> rods_;
   Twist scale_;  ///< Of the columns of the drive map: 1 for translations, 1 / characteristic length.
 };
 

@@ -32,6 +32,7 @@ void check_leg(const std::string& path, const HexapodLeg& leg, ParameterFindings
   if (!(std::abs(leg.universal_axis.norm() - 1.0) < 1e-9)) {
     findings.add(path + "universal_axis", leg.universal_axis.norm(), "long", "it must be a unit vector");
   }
+  findings.positive(path + "mass_scale", leg.mass_scale, "");
   findings.sliding_friction(path + "drive_friction", leg.drive_friction);
   findings.friction(path + "universal_friction", leg.universal_friction);
 }

@@ -17,6 +17,7 @@ struct HexapodLeg {
   Eigen::Vector3d base_joint{0.0, 0.0, 0.0};      ///< a, in the base frame [m].
   Eigen::Vector3d platform_joint{0.0, 0.0, 0.0};  ///< b, in frame E [m].
   Eigen::Vector3d universal_axis{0.0, 0.0, 0.0};  ///< k: unit vector along the first axis, fixed to the base.
+  double mass_scale = 1.0;                        ///< Times masses and moments of inertia of the links below.
   JointFriction drive_friction;                   ///< Along the leg [N s/m], [N].
   JointFriction universal_friction;               ///< About each of the two axes [Nm s/rad], [Nm].
 };

@@ -58,9 +58,9 @@ std::string leg_xml(const HexapodParameters& p, std::size_t i, const Matrix3d& a
        << turned.x() << ' ' << turned.y() << ' ' << turned.z() << "'><joint type='hinge' axis='"
        << Vector3d(axes.transpose() * leg.universal_axis) << "' damping='" << leg.universal_friction.viscous
        << "'/><joint type='hinge' axis='0 1 0' damping='" << leg.universal_friction.viscous << "'/>"
-       << inertial(p.cylinder) << "<body name='rod" << i << "'><joint name='q" << i
-       << "' type='slide' axis='0 0 1' damping='" << leg.drive_friction.viscous << "'/>" << inertial(p.rod)
-       << "</body></body>";
+       << inertial(scaled(p.cylinder, leg.mass_scale)) << "<body name='rod" << i << "'><joint name='q" << i
+       << "' type='slide' axis='0 0 1' damping='" << leg.drive_friction.viscous << "'/>"
+       << inertial(scaled(p.rod, leg.mass_scale)) << "</body></body>";
   return text.str();
 }
 

@@ -38,6 +38,12 @@ class Drives {
     ticking_.tick();
     return ticking_.get(acting_);
   }
+  /// Obeys `command` for a tick, and says what the command before it has done.
+  DriveAction then(const TorqueCommand& command) {
+    ticking_.set(command_, command);
+    ticking_.tick();
+    return ticking_.get(acting_);
+  }
   const StationStatus& status() const { return ticking_.get(status_); }
 
  private:
@@ -83,6 +89,41 @@ TEST(SimulatedDrives, MakeAnotherTorqueWhereTheDriverIsWrongAboutTheConstant) {
   const DriveAction action = drives.after(drives.fresh(6.1, 6.1, 6.1));
   EXPECT_TRUE(action.current.isApprox(Eigen::Vector3d::Ones()));
   EXPECT_TRUE(action.torque.isApprox(Eigen::Vector3d(6.021, 6.6116, 6.7315)));
+}
+
+// Against i' = (i_wanted - i) / lag in small steps: the torque is the mean of a tick, the current that of its
+// end, and no tick begins anew.
+TEST(SimulatedDrives, FollowTheirCommandsWithTheLagOfTheCurrent) {
+  const Eigen::Vector3d lag(0.16e-3, 0.5e-3, 3e-3);
+  Drives drives({.torque_constant = constants, .current_lag = lag});
+  Eigen::Vector3d current = Eigen::Vector3d::Zero();
+  Eigen::Vector3d wanted(1.0, 2.0, 3.0);
+  const auto command = [&] {
+    const Eigen::Vector3d torque = constants.cwiseProduct(wanted);
+    return drives.fresh(torque[0], torque[1], torque[2]);
+  };
+  drives.then(command());
+  for (const double factor : {-2.0, 0.1, 3.0}) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    constexpr int steps = 200000;
+    for (int step = 0; step < steps; ++step) {
+      const Eigen::Vector3d rate = (wanted - current).cwiseQuotient(lag) * (1e-3 / steps);
+      sum += current + 0.5 * rate;
+      current += rate;
+    }
+    wanted *= factor;
+    const DriveAction action = drives.then(command());
+    EXPECT_LT((action.current - current).norm(), 1e-4);
+    EXPECT_LT((action.torque - constants.cwiseProduct(sum / steps)).norm(), 1e-3);
+  }
+  expect_stopped(drives.after(TorqueCommand()));
+}
+
+TEST(SimulatedDrives, WithoutLagObeyAtOnce) {
+  Drives drives({.torque_constant = constants, .current_lag = Eigen::Vector3d::Zero()});
+  const DriveAction action = drives.after(drives.fresh(6.021, -13.2232, 0.0));
+  EXPECT_EQ(action.torque, Eigen::Vector3d(6.021, -13.2232, 0.0));
+  EXPECT_TRUE(action.current.isApprox(Eigen::Vector3d(1.0, -2.0, 0.0)));
 }
 
 TEST(SimulatedDrives, CutCommandsToTheirLimit) {

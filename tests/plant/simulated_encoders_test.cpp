@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "systems/foundation/setup_error.h"
 #include "tests/plant/sensor_bench.h"
 
 namespace flinch {
@@ -55,6 +56,28 @@ TEST(SimulatedEncoders, IdealOnesTellTheTruthWithItsTime) {
   EXPECT_EQ(reading.acquired, 1ms);
   EXPECT_EQ(reading.active, truth.active);
   EXPECT_EQ(reading.passive, truth.passive);
+}
+
+TEST(SimulatedEncoders, AreOffByTheirOffsetAndByWhatRepeatsEveryTurn) {
+  SimulatedEncodersSettings settings;
+  settings.active = {.wave = {{1e-4, 1.0, 0.2}, {2e-4, 1.0, 1.0}, {0.0, 1.0, 0.0}}};
+  settings.passive = {.offset = Eigen::Vector3d(1e-3, -2e-3, 0.0)};
+  Encoders encoders(settings);
+  const PlantTruth truth = test::truth_at_rest();
+  encoders.read();
+  const JointReading reading = encoders.read();
+  const Eigen::Vector3d wave(1e-4 * std::sin(0.4 + 0.2), 2e-4 * std::sin(-0.3 + 1.0), 0.0);
+  EXPECT_LT((reading.active - truth.active - wave).norm(), 1e-15);
+  EXPECT_LT((reading.passive - truth.passive - Eigen::Vector3d(1e-3, -2e-3, 0.0)).norm(), 1e-15);
+}
+
+TEST(SimulatedEncoders, RefuseErrorsOfAnotherNumberOfEncoders) {
+  SimulatedEncodersSettings settings;
+  settings.active.wave.resize(2);
+  EXPECT_THROW(Encoders encoders(settings), SetupError);
+  settings = {};
+  settings.passive.offset = Eigen::Vector2d(0.1, 0.1);
+  EXPECT_THROW(Encoders encoders(settings), SetupError);
 }
 
 TEST(SimulatedEncoders, ActiveNoiseIsWhiteWithTheGivenDeviation) {

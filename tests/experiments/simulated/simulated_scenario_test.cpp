@@ -34,11 +34,11 @@ const PlanarRrrParameters& believed(const SimulatedScenario& scenario) {
   return dynamic_cast<const PlanarRrr&>(*scenario.robot.robot).parameters();
 }
 
-TEST(ShippedScenarios, AreThoseOfThePapersAndOneOrTwoOfEveryOtherRobot) {
-  EXPECT_THAT(
-      test::shipped_scenarios(),
-      ElementsAre("clamping", "first_link_collision", "five_bar_collision", "hexapod_collision",
-                  "hexapod_push", "platform_collision", "second_link_collision", "square", "stiffness"));
+TEST(ShippedScenarios, AreThoseOfThePapersTwoOnRealisticRobotsAndOneOrTwoOfEveryOtherRobot) {
+  EXPECT_THAT(test::shipped_scenarios(),
+              ElementsAre("clamping", "first_link_collision", "five_bar_collision", "hexapod_collision",
+                          "hexapod_push", "platform_collision", "platform_collision_realistic",
+                          "second_link_collision", "square", "square_realistic", "stiffness"));
 }
 
 TEST(ShippedScenarios, AreAllGood) {

@@ -223,6 +223,12 @@ auto is_value(const std::string& key, const std::string& value, const std::strin
                           ::testing::Field(&ReadValue::from_file, from_file));
 }
 
+TEST(ReadingSections, CanAskWhetherThereIsASectionOrAWord) {
+  ConfigReader reader = reader_of("a: {b: 1}\nc: word\nd: [1]\ne:\n");
+  EXPECT_TRUE(reader.has_section("a"));
+  for (const char* const other : {"b", "c", "d", "e"}) EXPECT_FALSE(reader.has_section(other)) << other;
+}
+
 TEST(ReadValues, ListsEverySettingInSiAndWhereItComesFrom) {
   double length = 0.0, mass = 1.5;
   std::array<double, 2> gain = {20.0, 10.0};

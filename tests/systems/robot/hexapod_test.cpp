@@ -166,6 +166,7 @@ TEST(HexapodParameters, AreReportedByTheirPathWhereTheyAreWrong) {
       {"legs[1].base_joint[2]", [](HexapodParameters& p) { p.legs[1].base_joint.z() = std::nan(""); }},
       {"legs[5].platform_joint[0]", [](HexapodParameters& p) { p.legs[5].platform_joint.x() = HUGE_VAL; }},
       {"legs[2].universal_axis", [](HexapodParameters& p) { p.legs[2].universal_axis *= 2.0; }},
+      {"legs[3].mass_scale", [](HexapodParameters& p) { p.legs[3].mass_scale = 0.0; }},
       {"cylinder_length", [](HexapodParameters& p) { p.cylinder_length = 0.0; }},
       {"rod_radius", [](HexapodParameters& p) { p.rod_radius = -0.1; }},
       {"rod.mass", [](HexapodParameters& p) { p.rod.mass = 0.0; }},

@@ -32,8 +32,8 @@ void add_leg(ConstrainedBodies& model, const HexapodParameters& p, const Hexapod
   const auto add = [&](const RigidBodyInertia& body, const Vector& origin) {
     return model.add_body(body.mass, origin + R * body.centre_of_mass, R * body.inertia * R.transpose());
   };
-  const int cylinder = add(p.cylinder, leg.base_joint);
-  const int rod = add(p.rod, platform_joint);
+  const int cylinder = add(scaled(p.cylinder, leg.mass_scale), leg.base_joint);
+  const int rod = add(scaled(p.rod, leg.mass_scale), platform_joint);
   model.ball(ConstrainedBodies::base, cylinder, leg.base_joint);
   model.perpendicular(ConstrainedBodies::base, leg.universal_axis, cylinder, second);
   model.slider(cylinder, rod, s, leg.base_joint, platform_joint);
@@ -62,7 +62,9 @@ void load_leg(ConstrainedBodies& model, const HexapodLeg& leg, const Vector& pla
 MechanismCase hexapod_case(const std::string& name, const HexapodParameters& p) {
   const RigidBodyInertia platform = p.payload ? together(p.platform, *p.payload) : p.platform;
   std::vector<RigidBodyInertia> bodies = {platform};
-  for (int i = 0; i < 6; ++i) bodies.insert(bodies.end(), {p.cylinder, p.rod});
+  for (const HexapodLeg& leg : p.legs) {
+    bodies.insert(bodies.end(), {scaled(p.cylinder, leg.mass_scale), scaled(p.rod, leg.mass_scale)});
+  }
 
   const auto reference = [p](const MotionState& state, const Loads& loads) {
     const Eigen::Matrix3d R = axes_of(state.pose);
@@ -114,6 +116,7 @@ HexapodParameters uneven_hexapod() {
     p.legs[i].base_joint += Vector(more, -0.5 * more, 0.3 * more);
     p.legs[i].platform_joint += Vector(-0.2 * more, 0.3 * more, 0.4 * more);
     p.legs[i].universal_axis = (p.legs[i].universal_axis + Vector(0.0, more, -2.0 * more)).normalized();
+    p.legs[i].mass_scale = 1.0 + 2.0 * more;
     p.legs[i].drive_friction.viscous *= 1.0 + 10.0 * more;
     p.legs[i].drive_friction.coulomb *= 1.0 - 5.0 * more;
     p.legs[i].universal_friction = {.viscous = 0.05 + more, .coulomb = 0.02 + more};

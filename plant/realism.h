@@ -1,0 +1,34 @@
+#pragma once
+
+#include "systems/robot/drive_parameters.h"
+
+namespace flinch {
+
+/// How far robots that are built alike may be off their model: the largest sizes from which one robot is
+/// drawn, see `draw_specimen`. Zero: it is as the model says.
+struct Realism {
+  // ---- mechanics
+  double friction = 0.0;          ///< Of each drive and passive joint, a share either way.
+  double leg_inertia = 0.0;       ///< Of each leg's masses and moments of inertia, a share either way.
+  double platform_inertia = 0.0;  ///< Likewise, of the platform.
+  double payload = 0.0;           ///< Point mass at the platform's origin that nobody knows of [kg].
+
+  // ---- drives
+  double torque_constant = 0.0;    ///< Of each motor against the calibrated one, a share either way.
+  double cogging = 0.0;            ///< Amplitude, a share of the largest torque of the drives.
+  int cogging_periods = 24;        ///< Of a turn of the motor.
+  double torque_ripple = 0.0;      ///< Amplitude, a share of the torque.
+  int torque_ripple_periods = 66;  ///< Of a turn of the motor.
+  double current_lag = 0.0;        ///< Time constant with which a current follows its command [s].
+  double screw_lead = 5e-3;        ///< Way of a drive that slides in a turn of its motor [m].
+
+  // ---- encoders
+  double active_encoder_wave = 0.0;     ///< Amplitude of an error once a turn of the motor [rad or m].
+  double passive_encoder_wave = 0.0;    ///< Amplitude of an error once a turn [rad].
+  double passive_encoder_offset = 0.0;  ///< Constant error, either way [rad].
+};
+
+/// Sizes as of a bench that was built and calibrated with care; docs/theory.md has their sources.
+Realism bench_realism(DriveKind drives);
+
+}  // namespace flinch
