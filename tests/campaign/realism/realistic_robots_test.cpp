@@ -1,0 +1,43 @@
+// 50 robots that differ from their model, each drawn anew, in contact-free motion at 1.5 m/s and 12 m/s^2;
+// beside them the model itself with the same noise and motions. FLINCH_ROBOTS in the environment says how
+// many robots instead.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "tests/experiments/simulated/realistic_robots.h"
+
+namespace flinch {
+namespace {
+
+using test::FreeMotion;
+using test::FreeMotionErrors;
+using test::RobotTrial;
+
+int wanted_robots() {
+  const char* const wanted = std::getenv("FLINCH_ROBOTS");
+  return wanted != nullptr ? std::atoi(wanted) : 50;
+}
+
+TEST(RealisticRobots, MoveWithoutAFaultAndAlignedWithoutAContactThatIsNone) {
+  std::printf("%s", test::table_head().c_str());
+  for (const FreeMotion motion : {FreeMotion::square, FreeMotion::point_to_point}) {
+    for (const bool realistic : {true, false}) {
+      for (const bool aligned : {true, false}) {
+        const RobotTrial trial{.motion = motion, .realistic = realistic, .aligned = aligned};
+        const FreeMotionErrors errors = test::try_robots(trial, wanted_robots());
+        std::printf("%s", test::table_row(trial, errors).c_str());
+        EXPECT_THAT(errors.faults, ::testing::IsEmpty());
+        if (aligned) {
+          EXPECT_EQ(errors.crossings, 0);
+          EXPECT_EQ(errors.alarmed_robots, 0);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace flinch

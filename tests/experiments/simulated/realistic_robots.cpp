@@ -1,0 +1,181 @@
+#include "tests/experiments/simulated/realistic_robots.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <thread>
+
+#include "experiments/simulated/experiment.h"
+#include "experiments/verdict/recorded_run.h"
+#include "systems/framework/random.h"
+#include "systems/framework/recording.h"
+#include "systems/robot/link_segments.h"
+#include "systems/robot/parallel_robot.h"
+#include "tests/support/workplace.h"
+
+namespace flinch::test {
+namespace {
+
+constexpr double force_threshold = 10.0;  // [N]
+constexpr double moment_threshold = 1.0;  // [Nm]
+
+const PoseLimits limits{.translation = {.velocity = 1.5, .acceleration = 12.0, .jerk = 600.0},
+                        .rotation = {.velocity = 4.0, .acceleration = 80.0, .jerk = 8000.0}};
+
+/// Whether a robot that follows the path stays within its limits, with a tenth of each to spare.
+bool is_feasible(const PlatformPath& path, const RobotFile& file) {
+  const ParallelRobot& robot = *file.robot;
+  Kinematics k;
+  for (double time = 0.0; time <= path.duration(); time += 2e-3) {
+    const PlatformReference at = path.evaluate(time);
+    robot.kinematics(at.pose, at.velocity, k);
+    const double middle = 0.5 * (file.limits.min_active + file.limits.max_active);
+    const double reach = 0.45 * (file.limits.max_active - file.limits.min_active);
+    const bool inside = k.valid && std::abs(k.det_A) > 1.1 * file.limits.min_abs_det_A &&
+                        std::abs(k.det_B) > 1.1 * file.limits.min_abs_det_B &&
+                        self_collision_distance(robot, k) > 1.1 * file.limits.min_self_collision_distance &&
+                        distance_from_centre(file.limits, robot, at.pose) < 0.9 * file.limits.max_distance &&
+                        (k.joints.active.array() - middle).abs().maxCoeff() < reach &&
+                        k.rates.active.cwiseAbs().maxCoeff() < 0.9 * file.drives.max_speed;
+    if (!inside) return false;
+  }
+  return true;
+}
+
+/// Straight lines between random poses in the workspace, as many as fill the time.
+PlatformPath random_path(const RobotFile& file, std::uint64_t seed) {
+  constexpr double duration = 6.0;
+  constexpr double radius = 0.25;    // [m]
+  constexpr double rotation = 0.35;  // [rad]
+  RandomGenerator random(derive_seed(seed, "targets"));
+  std::vector<Configuration> poses = {file.robot->home_pose()};
+  while (true) {
+    const double distance = radius * std::sqrt(random.uniform(0.0, 1.0));
+    const double bearing = random.uniform(-M_PI, M_PI);
+    const double turned = random.uniform(-rotation, rotation);
+    const Eigen::Vector3d next(distance * std::cos(bearing), distance * std::sin(bearing), turned);
+    if (!is_feasible(PlatformPath::through(*file.robot, {poses.back(), next}, limits), file)) continue;
+    poses.emplace_back(next);
+    PlatformPath path = PlatformPath::through(*file.robot, poses, limits);
+    if (path.duration() > duration) return path;
+  }
+}
+
+/// Errors of one robot.
+struct OneRobot {
+  std::vector<double> forces, moments;  ///< Of every tick with an estimate.
+  double seconds = 0.0;
+  double tracking = 0.0;
+  int crossings = 0;
+  bool alarmed = false;
+  std::vector<std::string> faults;
+};
+
+Verdict verdict_of(const SimulatedScenario& scenario, const Recording& recording) {
+  return judge(recording, scenario.robot.robot->space(), scenario.expected, scenario.force_limits);
+}
+
+void note_fault(const Verdict& verdict, std::uint64_t seed, OneRobot& robot) {
+  if (!verdict.fault.empty()) robot.faults.push_back("seed " + std::to_string(seed) + ": " + verdict.fault);
+}
+
+OneRobot try_robot(const RobotTrial& trial, std::uint64_t seed) {
+  OneRobot robot;
+  const SimulatedScenario going_on = scenario_of(trial, seed, false);
+  const Recording recording = run_experiment(going_on);
+  const RecordedRun run(recording, going_on.robot.robot->space());
+  double last_crossing = -1.0;
+  for (std::size_t k = 0; k < run.size(); ++k) {
+    const RunSample now = run[k];
+    if (!now.estimate_valid) continue;
+    robot.forces.push_back(now.observer_error_force);
+    robot.moments.push_back(now.observer_error_moment);
+    if (now.observer_error_force < force_threshold && now.observer_error_moment < moment_threshold) continue;
+    if (now.time - last_crossing > Verdict::same_contact) ++robot.crossings;
+    last_crossing = now.time;
+  }
+  const Verdict verdict = verdict_of(going_on, recording);
+  robot.seconds = run.duration();
+  robot.tracking = verdict.max_tracking_error;
+  note_fault(verdict, seed, robot);
+
+  const SimulatedScenario as_shipped = scenario_of(trial, seed, true);
+  const Verdict shipped_verdict = verdict_of(as_shipped, run_experiment(as_shipped));
+  robot.alarmed = shipped_verdict.false_detections > 0;
+  note_fault(shipped_verdict, seed, robot);
+  return robot;
+}
+
+double percentile(std::vector<double>& values, double share) {
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+}  // namespace
+
+SimulatedScenario scenario_of(const RobotTrial& trial, std::uint64_t seed, bool reacts) {
+  const std::string file = trial.realistic ? "scenarios/square_realistic.yaml" : "scenarios/square.yaml";
+  SimulatedScenario scenario = read_simulated_scenario(shipped(file), seed);
+  if (!trial.aligned) scenario.control.drive_torque.low_pass.reset();
+  if (!reacts) scenario.control.contact_detector = {.reaction = {1e6, 1e6}, .hard = {1e6, 1e6}};
+  if (trial.motion == FreeMotion::point_to_point) {
+    scenario.control.trajectory.path = random_path(scenario.robot, seed);
+    scenario.station.bench.initial_pose = scenario.control.trajectory.path->start();
+    const double end = to_seconds(scenario.control.trajectory.start.value_or(Time::zero())) +
+                       scenario.control.trajectory.path->duration();
+    scenario.duration = std::chrono::milliseconds(static_cast<int>(1e3 * end) + 200);
+  }
+  return scenario;
+}
+
+FreeMotionErrors try_robots(const RobotTrial& trial, int robots, std::uint64_t first_seed) {
+  std::vector<OneRobot> tried(static_cast<std::size_t>(robots));
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < tried.size(); i = next++) tried[i] = try_robot(trial, first_seed + i);
+  };
+  std::vector<std::thread> workers;
+  for (unsigned i = 0; i < std::max(1U, std::thread::hardware_concurrency()); ++i) workers.emplace_back(work);
+  for (std::thread& worker : workers) worker.join();
+
+  FreeMotionErrors errors;
+  errors.robots = robots;
+  std::vector<double> forces, moments;
+  for (const OneRobot& robot : tried) {
+    forces.insert(forces.end(), robot.forces.begin(), robot.forces.end());
+    moments.insert(moments.end(), robot.moments.begin(), robot.moments.end());
+    errors.seconds += robot.seconds;
+    errors.tracking = std::max(errors.tracking, robot.tracking);
+    errors.crossings += robot.crossings;
+    errors.alarmed_robots += robot.alarmed ? 1 : 0;
+    errors.faults.insert(errors.faults.end(), robot.faults.begin(), robot.faults.end());
+  }
+  if (forces.empty()) return errors;
+  errors.p99_force = percentile(forces, 0.99);
+  errors.p99_moment = percentile(moments, 0.99);
+  errors.largest_force = percentile(forces, 1.0);
+  errors.largest_moment = percentile(moments, 1.0);
+  return errors;
+}
+
+std::string table_head() {
+  return "  robots     motion          torque     robots     s   force N: max   p99   moment Nm: max   p99   "
+         "tracking mm   contacts seen   robots stopped by one   faults\n";
+}
+
+std::string table_row(const RobotTrial& trial, const FreeMotionErrors& errors) {
+  std::array<char, 256> row{};
+  std::snprintf(row.data(), row.size(),
+                "  %-9s  %-14s  %-9s  %6d  %4.0f  %12.2f %5.2f  %15.3f %5.3f  %12.2f  %14d  %22d  %7zu\n",
+                trial.realistic ? "realistic" : "ideal",
+                trial.motion == FreeMotion::square ? "square" : "point to point",
+                trial.aligned ? "aligned" : "unaligned", errors.robots, errors.seconds, errors.largest_force,
+                errors.p99_force, errors.largest_moment, errors.p99_moment, 1e3 * errors.tracking,
+                errors.crossings, errors.alarmed_robots, errors.faults.size());
+  return row.data();
+}
+
+}  // namespace flinch::test
