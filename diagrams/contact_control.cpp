@@ -169,7 +169,8 @@ std::vector<Named<OutputPort<ContactDetection>>> show_detections_by(
   std::vector<Named<OutputPort<ContactDetection>>> shown;
   for (const Named<OutputPort<WrenchEstimate>>& estimator : estimators.others()) {
     const std::string name = "detection_by_" + estimator.name;
-    auto& detector = path.builder.add<ContactDetector>(name, path.robot, path.settings.contact_detector);
+    auto& detector =
+        path.builder.add<ContactDetector>(name, path.robot, path.settings.detector_of(estimator.name));
     path.builder.connect(estimator.port, detector.wrench);
     path.builder.connect(reset, detector.reset);
     shown.push_back({name, path.builder.export_output(name, detector.contact)});

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <map>
+#include <string>
+
 #include "diagrams/control_stages.h"
 #include "systems/contact/contact_detector.h"
 #include "systems/estimators/momentum_kalman_filter.h"
@@ -34,6 +37,11 @@ struct ContactControlSettings {
   MomentumObserverSettings momentum_observer;  ///< 20 1/s, [SafePR] V-A
   MomentumKalmanFilterSettings momentum_kalman_filter;
   ContactDetectorSettings contact_detector;  ///< 10 N, 1 Nm; hard: 60 N, 3 Nm
+  /// Reaction thresholds of detectors that follow these estimators, in place of those of `contact_detector`.
+  std::map<std::string, WrenchThreshold> reaction_thresholds;
+  /// The settings of a contact detector that follows `estimator`. Hard contacts are at least as hard as those
+  /// that are reacted to.
+  ContactDetectorSettings detector_of(const std::string& estimator) const;
 
   // ---- what to do
   PlatformTrajectorySettings trajectory;  ///< stays where the robot is

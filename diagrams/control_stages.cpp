@@ -19,7 +19,9 @@ OutputPort<JointMotion> add_velocity_filter(const StageSite& site, const SensedP
 }
 
 OutputPort<ContactDetection> add_contact_detector(const StageSite& site, const EstimatePorts& given) {
-  auto& detector = site.builder.add<ContactDetector>(site.name, site.robot, site.settings.contact_detector);
+  const std::string estimator = followed_name(site.settings.stages.estimators);
+  auto& detector =
+      site.builder.add<ContactDetector>(site.name, site.robot, site.settings.detector_of(estimator));
   site.builder.connect(given.wrench, detector.wrench);
   site.builder.connect(given.reset, detector.reset);
   return detector.contact;

@@ -54,6 +54,13 @@ std::string followed_name(const Stages<S>& stages) {
   return stages.all.front().name;
 }
 
+template <class S>
+std::vector<std::string> names_of(const Stages<S>& stages) {
+  std::vector<std::string> names;
+  for (const S& stage : stages.all) names.push_back(stage.name);
+  return names;
+}
+
 /// An output of the stage called `name`.
 template <class Port>
 struct Named {

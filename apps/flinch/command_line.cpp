@@ -89,6 +89,7 @@ std::string number_of_station(std::string& text) {
 struct Verbs {
   RunOptions run;
   CampaignOptions campaign;
+  CalibrateThresholdsOptions thresholds;
   ServeOptions serve;
   LinkOptions link;
   KeysOptions keys;
@@ -199,6 +200,36 @@ void add_campaign_verb(CLI::App& app, Verbs& verbs) {
   verb.add_flag("--fresh", options.fresh, "Begin anew, whatever the folder holds already");
 }
 
+void add_calibrate_verb(CLI::App& app, Verbs& verbs) {
+  CLI::App& calibrate = *app.add_subcommand("calibrate", "Find parameters from recordings");
+  calibrate.require_subcommand(1);
+  calibrate.get_formatter()->label("SUBCOMMAND", "WHAT");
+  CalibrateThresholdsOptions& options = verbs.thresholds;
+  CLI::App& verb = verbs.add(
+      calibrate, "thresholds",
+      "Thresholds of contact detectors for a stated rate of false alarms, from motion without contact",
+      "flinch calibrate thresholds out/motion_1/run.h5 out/motion_2/run.h5 --rate 0.5 --out "
+      "thresholds.yaml",
+      options, &calibrate_thresholds);
+  verb.add_option("recordings", options.recordings,
+                  "Recordings (HDF5) of motion without contact, of one robot or several")
+      ->required()
+      ->type_name("RUN.h5...");
+  verb.add_option("--rate", options.rate, "False alarms an hour, of each estimator [0.5]")
+      ->check(CLI::Range(1e-6, 1e6).description(""))
+      ->type_name("N");
+  verb.add_option("--confidence", options.confidence, "With which the rate is kept, 0.5 to 0.9999 [0.95]")
+      ->check(CLI::Range(0.5, 0.9999).description(""))
+      ->type_name("P");
+  verb.add_option(
+          "--safety-factor", options.safety_factor,
+          "Of the papers' rule, a multiple of the largest value seen, which is told for comparison [2]")
+      ->check(CLI::Range(1.0, 100.0).description(""))
+      ->type_name("K");
+  verb.add_option("--out", options.out, "Write the thresholds as a section of scenario files")
+      ->type_name("FILE.yaml");
+}
+
 void add_bus_verbs(CLI::App& app, Verbs& verbs) {
   CLI::App& serve_verb = verbs.add(
       app, "serve", "Put the simulated robot of a scenario on the bus, in real time, as if it were there",
@@ -272,6 +303,7 @@ int run_command_line(int argc, const char* const* argv) {
   Verbs verbs;
   add_verbs(app, verbs);
   add_campaign_verb(app, verbs);
+  add_calibrate_verb(app, verbs);
   add_bus_verbs(app, verbs);
   add_keys_verb(app, verbs);
   try {

@@ -54,6 +54,15 @@ struct CampaignOptions {
   bool fresh = false;              ///< whatever the folder holds
 };
 
+struct CalibrateThresholdsOptions {
+  CommonOptions common;
+  std::vector<std::filesystem::path> recordings;
+  std::filesystem::path out;  ///< a YAML file; empty: none
+  double rate = 0.5;          ///< of false alarms [1/h]
+  double confidence = 0.95;
+  double safety_factor = 2.0;
+};
+
 struct ReportOptions {
   CommonOptions common;
   std::filesystem::path recording;
@@ -74,6 +83,7 @@ struct CheckOptions {
 /// The verbs. Each throws SetupError for bad input.
 ExitStatus run(const RunOptions& options);
 ExitStatus campaign(const CampaignOptions& options);
+ExitStatus calibrate_thresholds(const CalibrateThresholdsOptions& options);
 ExitStatus report(const ReportOptions& options);
 ExitStatus graph(const GraphOptions& options);
 ExitStatus check(const CheckOptions& options);

@@ -261,7 +261,8 @@ std::string thinning(const Recording& recording) {
 }
 
 std::vector<ReportBound> bounds(const Scenario& scenario, const Verdict& verdict) {
-  const ContactDetectorSettings& detector = scenario.control.contact_detector;
+  const ContactDetectorSettings detector =
+      scenario.control.detector_of(followed_name(scenario.control.stages.estimators));
   std::vector<ReportBound> lines;
   for (const double sign : {1.0, -1.0}) {
     lines.push_back({"force", "reaction threshold", sign * detector.reaction.force});

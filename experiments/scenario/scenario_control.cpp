@@ -1,5 +1,6 @@
 #include "experiments/scenario/scenario_control.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "experiments/scenario/scenario_pose.h"
 #include "experiments/scenario/scenario_stages.h"
 #include "systems/config/config_reader.h"
+#include "systems/foundation/nearest_name.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/parallel_robot.h"
 
@@ -44,12 +46,27 @@ void read_sensing(ConfigReader& control, const ParallelRobot& robot, ContactCont
   settings.drive_torque.low_pass = aligned ? std::optional(settings.velocity_filter.low_pass) : std::nullopt;
 }
 
-void read_detection(ConfigReader& control, ContactControlSettings& settings) {
+/// `estimators`: all that a file may name, whether they run or not.
+void read_detection(ConfigReader& control, const std::vector<std::string>& estimators,
+                    ContactControlSettings& settings) {
   ConfigReader detector = control.section("contact_detector");
   detector.number("reaction_force", unit::N, settings.contact_detector.reaction.force, positive);
   detector.number("reaction_moment", unit::Nm, settings.contact_detector.reaction.moment, positive);
   detector.number("hard_force", unit::N, settings.contact_detector.hard.force, positive);
   detector.number("hard_moment", unit::Nm, settings.contact_detector.hard.moment, positive);
+  for (ConfigReader& own : detector.sections("by_estimator")) {
+    std::string estimator;
+    WrenchThreshold threshold = settings.contact_detector.reaction;
+    own.required().text("estimator", estimator);
+    own.number("reaction_force", unit::N, threshold.force, positive);
+    own.number("reaction_moment", unit::Nm, threshold.moment, positive);
+    if (std::find(estimators.begin(), estimators.end(), estimator) == estimators.end()) {
+      own.problem("estimator",
+                  "is '" + estimator + "', which is no estimator" + did_you_mean(estimator, estimators));
+    } else if (!settings.reaction_thresholds.emplace(estimator, threshold).second) {
+      own.problem("estimator", "is '" + estimator + "', as that of an entry before it");
+    }
+  }
 }
 
 void read_laws(ConfigReader& control, const ParallelRobot& robot, ContactControlSettings& settings) {
@@ -129,10 +146,11 @@ enum class MotionKind { hold, through, passage, square };
 
 void read_control(ConfigReader control, const ParallelRobot& robot, ContactControlSettings& settings) {
   settings.impedance = complete(settings.impedance, robot.space());  // so that a file can change one entry
+  const std::vector<std::string> estimators = names_of(settings.stages.estimators);
   read_stages(control, settings.stages);
   read_sensing(control, robot, settings);
   read_estimators(control, robot, settings);
-  read_detection(control, settings);
+  read_detection(control, estimators, settings);
   read_laws(control, robot, settings);
 }
 

@@ -12,13 +12,6 @@
 namespace flinch {
 namespace {
 
-template <class S>
-std::vector<std::string> names_of(const Stages<S>& stages) {
-  std::vector<std::string> names;
-  for (const S& stage : stages.all) names.push_back(stage.name);
-  return names;
-}
-
 /// Keeps of `stages` those with these names, in their order.
 template <class S>
 void keep(Stages<S>& stages, const std::vector<std::string>& names) {

@@ -25,6 +25,7 @@ MAY_INCLUDE = {
     "plant": ["plant", *DIAGRAMS],
     "drivers": ["drivers", *DIAGRAMS],
     **{room: EXPERIMENTS for room in EXPERIMENT_ROOMS},
+    "calibration": ["calibration", *EXPERIMENTS],
     "experiments/simulated": ["experiments/simulated", "plant", *EXPERIMENTS],
     "experiments/bus": ["experiments/bus", "drivers", *EXPERIMENTS],
     "experiments/campaign": ["experiments/campaign", "experiments/simulated", "plant", *EXPERIMENTS],

@@ -1,0 +1,47 @@
+#include "calibration/gumbel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace flinch {
+namespace {
+
+/// Of the standard normal distribution: its cumulative probability is `probability`.
+double normal_quantile(double probability) {
+  double low = -40.0, high = 40.0;
+  for (int i = 0; i < 100; ++i) {
+    const double middle = 0.5 * (low + high);
+    (0.5 * std::erfc(-middle / std::numbers::sqrt2) < probability ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+/// y of x = location + scale y.
+double reduced(double probability) { return -std::log(-std::log1p(-probability)); }
+
+}  // namespace
+
+double Gumbel::quantile_above(double probability) const { return location + scale * reduced(probability); }
+
+Gumbel fit_gumbel(std::span<const double> maxima) {
+  std::vector<double> sorted(maxima.begin(), maxima.end());
+  std::sort(sorted.begin(), sorted.end());
+  const double n = static_cast<double>(sorted.size());
+  double mean = 0.0, weighted = 0.0;  // b_0, b_1
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    mean += sorted[i] / n;
+    weighted += sorted[i] * static_cast<double>(i) / (n * (n - 1.0));
+  }
+  const double scale = (2.0 * weighted - mean) / std::numbers::ln2;
+  return {.location = mean - std::numbers::egamma * scale, .scale = scale};
+}
+
+double upper_quantile_above(const Gumbel& fit, std::size_t maxima, double probability, double confidence) {
+  const double y = reduced(probability);
+  const double variance = (1.1128 + 2.0 * 0.2287 * y + 0.8046 * y * y) / static_cast<double>(maxima);
+  return fit.location + fit.scale * (y + normal_quantile(confidence) * std::sqrt(variance));
+}
+
+}  // namespace flinch

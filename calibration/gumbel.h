@@ -1,0 +1,24 @@
+#pragma once
+
+#include <span>
+
+namespace flinch {
+
+/// The distribution of the largest of many values whose tail falls exponentially: P(M <= x) = exp(-exp(-(x -
+/// location) / scale)).
+struct Gumbel {
+  double location = 0.0;
+  double scale = 0.0;
+
+  /// What the largest exceeds with this probability.
+  double quantile_above(double probability) const;
+};
+
+/// Fits it to block maxima by their first two L-moments (Hosking 1990). Needs two values or more.
+Gumbel fit_gumbel(std::span<const double> maxima);
+
+/// Upper confidence bound of `fit.quantile_above(probability)`, where `fit` was made from so many maxima: by
+/// the large-sample covariance of location and scale so fitted (Phien 1987).
+double upper_quantile_above(const Gumbel& fit, std::size_t maxima, double probability, double confidence);
+
+}  // namespace flinch

@@ -1,0 +1,74 @@
+#include "calibration/threshold_calibration.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "calibration/gumbel.h"
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+constexpr std::size_t fewest_stretches = 60;
+constexpr double furthest_extrapolation = 1000.0;
+
+CalibratedThreshold threshold(const std::vector<double>& peaks, double probability,
+                              const ThresholdGoal& goal) {
+  CalibratedThreshold result;
+  if (peaks.empty()) return result;
+  const Gumbel fit = fit_gumbel(peaks);
+  result.best_guess = fit.quantile_above(probability);
+  result.value = upper_quantile_above(fit, peaks.size(), probability, goal.confidence);
+  result.largest = *std::max_element(peaks.begin(), peaks.end());
+  result.papers_rule = goal.safety_factor * result.largest;
+  return result;
+}
+
+void check(const EstimatorPeaks& peaks, const ThresholdGoal& goal) {
+  const double recorded = static_cast<double>(peaks.force.size()) * to_seconds(goal.stretch);  // [s]
+  const double needed = std::max(static_cast<double>(fewest_stretches) * to_seconds(goal.stretch),
+                                 3600.0 / goal.false_alarms_per_hour / furthest_extrapolation);
+  if (recorded >= needed) return;
+  throw SetupError(
+      fmt::format("{}: {:.1f} s of motion with valid estimates are recorded; {:.1f} s are needed for {} "
+                  "false alarms an hour",
+                  peaks.estimator, recorded, needed, goal.false_alarms_per_hour));
+}
+
+}  // namespace
+
+std::vector<EstimatorThresholds> calibrate_thresholds(const std::vector<EstimatorPeaks>& peaks,
+                                                      const ThresholdGoal& goal) {
+  std::vector<EstimatorThresholds> all;
+  for (const EstimatorPeaks& of : peaks) {
+    check(of, goal);
+    const double alarms_a_stretch = goal.false_alarms_per_hour / 3600.0 * to_seconds(goal.stretch);
+    const double share = of.moment.empty() ? 1.0 : 0.5;  // force and moment have half of the alarms each
+    all.push_back({.estimator = of.estimator,
+                   .stretches = of.force.size(),
+                   .force = threshold(of.force, share * alarms_a_stretch, goal),
+                   .moment = threshold(of.moment, share * alarms_a_stretch, goal)});
+  }
+  return all;
+}
+
+std::vector<EstimatorPeaks> pooled(const std::vector<std::vector<EstimatorPeaks>>& recordings) {
+  std::vector<EstimatorPeaks> all;
+  for (const std::vector<EstimatorPeaks>& recording : recordings) {
+    if (&recording == &recordings.front()) {
+      all = recording;
+      continue;
+    }
+    bool same = recording.size() == all.size();
+    for (std::size_t i = 0; same && i < all.size(); ++i) {
+      same = recording[i].estimator == all[i].estimator;
+      all[i].force.insert(all[i].force.end(), recording[i].force.begin(), recording[i].force.end());
+      all[i].moment.insert(all[i].moment.end(), recording[i].moment.begin(), recording[i].moment.end());
+    }
+    if (!same) throw SetupError("the recordings have other estimators than the first one");
+  }
+  return all;
+}
+
+}  // namespace flinch

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calibration/contact_free_peaks.h"
+#include "systems/framework/time.h"
+
+namespace flinch {
+
+/// What is asked of thresholds.
+struct ThresholdGoal {
+  double false_alarms_per_hour = 0.5;  ///< of an estimator, by its force and its moment together
+  double confidence = 0.95;    ///< with which the rate is kept, as far as the peaks speak for all motion
+  double safety_factor = 2.0;  ///< of the papers' rule, which is told for comparison
+  Time stretch = 500ms;        ///< longer than a peak lasts, so that peaks are independent
+};
+
+/// The threshold of one quantity, and what it rests on.
+struct CalibratedThreshold {
+  double value = 0.0;        ///< [N or Nm]
+  double best_guess = 0.0;   ///< without the margin for few peaks
+  double largest = 0.0;      ///< that was seen
+  double papers_rule = 0.0;  ///< safety factor x largest, [RAL25] V-C
+};
+
+struct EstimatorThresholds {
+  std::string estimator;
+  std::size_t stretches = 0;
+  CalibratedThreshold force;   ///< of each component
+  CalibratedThreshold moment;  ///< likewise; zero for a robot that does not turn
+};
+
+/// Thresholds for a stated rate of false alarms, from the peaks of motion without contact: the largest of a
+/// stretch follows a Gumbel distribution, whose upper confidence bound is taken at the rate. Throws
+/// SetupError where there are fewer than 60 stretches, or the rate asked is more than 1000 times rarer than
+/// what was recorded can show.
+std::vector<EstimatorThresholds> calibrate_thresholds(const std::vector<EstimatorPeaks>& peaks,
+                                                      const ThresholdGoal& goal);
+
+/// All peaks of the same estimators together. Throws SetupError where one has other estimators.
+std::vector<EstimatorPeaks> pooled(const std::vector<std::vector<EstimatorPeaks>>& recordings);
+
+}  // namespace flinch

@@ -1,0 +1,17 @@
+#include "diagrams/contact_control_settings.h"
+
+#include <algorithm>
+
+namespace flinch {
+
+ContactDetectorSettings ContactControlSettings::detector_of(const std::string& estimator) const {
+  ContactDetectorSettings settings = contact_detector;
+  const auto own = reaction_thresholds.find(estimator);
+  if (own == reaction_thresholds.end()) return settings;
+  settings.reaction = own->second;
+  settings.hard.force = std::max(settings.hard.force, settings.reaction.force);
+  settings.hard.moment = std::max(settings.hard.moment, settings.reaction.moment);
+  return settings;
+}
+
+}  // namespace flinch

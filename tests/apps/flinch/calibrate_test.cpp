@@ -1,0 +1,89 @@
+// flinch calibrate, as typed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/apps/flinch/program.h"
+#include "tests/support/workplace.h"
+
+namespace flinch {
+namespace {
+
+using test::flinch;
+using test::Outcome;
+using ::testing::HasSubstr;
+
+constexpr const char* square = "scenarios/square.yaml";
+constexpr const char* collision = "scenarios/platform_collision.yaml";
+
+class CalibrateThresholds : public ::testing::Test {
+ protected:
+  /// Half a minute of contact-free motion with two estimators.
+  std::string contact_free_recording() const {
+    place.replace(square, "duration_s: 3.5", "duration_s: 33");
+    place.replace(square, "laps: 2", "laps: 24");
+    place.replace(square, "control:\n",
+                  "control:\n  estimators: [momentum_observer, momentum_kalman_filter]\n");
+    EXPECT_EQ(flinch({"run", place.at(square), "--out", place.at("free"), "--quiet"}).status, 0);
+    return place.at("free/run.h5");
+  }
+
+  test::Workplace place;
+};
+
+TEST_F(CalibrateThresholds, FindsThoseOfEachEstimatorAndAScenarioTakesThem) {
+  const std::string recording = contact_free_recording();
+  const Outcome outcome =
+      flinch({"calibrate", "thresholds", recording, "--json", "--out", place.at("thresholds.yaml")});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  ASSERT_EQ(json["thresholds"].size(), 2U);
+  for (const auto& of : json["thresholds"]) {
+    EXPECT_GT(of["force_N"]["value"], of["force_N"]["largest"]) << of;
+    EXPECT_LT(of["force_N"]["value"], 5.0) << "the plant is as modelled: " << of;
+  }
+  // The section goes into 'control', which is one level deeper.
+  std::string section = test::bytes_of(place / "thresholds.yaml");
+  section.erase(0, section.find("contact_detector:"));
+  for (std::size_t at = section.find('\n'); at + 1 < section.size(); at = section.find('\n', at + 1))
+    section.insert(at + 1, "  ");
+  place.replace(collision, "contact_detector: {reaction_force_N: 10, reaction_moment_Nm: 1}\n", section);
+  place.replace(collision, "aligned_with_velocity: false", "aligned_with_velocity: true");
+  const Outcome run = flinch({"run", place.at(collision), "--out", place.at("out"), "--json"});
+  const auto contact = nlohmann::json::parse(run.out)["contacts"][0];
+  EXPECT_LT(contact["detection_ms"], 11.0) << "its threshold is below the 10 N with which it takes 12 ms";
+}
+
+TEST_F(CalibrateThresholds, OfAnEstimatorDecideWhenItsDetectorNotices) {
+  place.replace(collision, "control:\n",
+                "control:\n  estimators: [momentum_observer, momentum_kalman_filter]\n");
+  place.replace(collision, "contact_detector: {reaction_force_N: 10, reaction_moment_Nm: 1}",
+                "contact_detector: {reaction_force_N: 10, reaction_moment_Nm: 1, by_estimator: [{estimator: "
+                "momentum_kalman_filter, reaction_force_N: 1000, reaction_moment_Nm: 1000}]}");
+  const Outcome outcome = flinch({"run", place.at(collision), "--out", place.at("out"), "--json"});
+  const auto by = nlohmann::json::parse(outcome.out)["contacts"][0]["detection_by_estimator_ms"];
+  EXPECT_TRUE(by["momentum_kalman_filter"].is_null());
+  EXPECT_FALSE(by["momentum_observer"].is_null());
+}
+
+TEST_F(CalibrateThresholds, TellsEveryRecordingThatWillNotDo) {
+  flinch({"run", place.at(collision), "--out", place.at("touched"), "--quiet"});
+  const Outcome outcome =
+      flinch({"calibrate", "thresholds", place.at("touched/run.h5"), place.at("none.h5")});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("touched/run.h5: something touched or pushed the robot at 0."));
+  EXPECT_THAT(outcome.err, HasSubstr("none.h5: there is no such file"));
+}
+
+TEST_F(CalibrateThresholds, TellsAnEstimatorThatNobodyKnows) {
+  place.replace(collision, "reaction_moment_Nm: 1}",
+                "reaction_moment_Nm: 1, by_estimator: [{estimator: momentum_obsever, reaction_force_N: 5}]}");
+  const Outcome outcome = flinch({"check", place.at(collision)});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("by_estimator[0].estimator: is 'momentum_obsever'"));
+  EXPECT_THAT(outcome.err, HasSubstr("did you mean 'momentum_observer'?"));
+}
+
+}  // namespace
+}  // namespace flinch

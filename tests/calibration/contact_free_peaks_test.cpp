@@ -1,0 +1,73 @@
+#include "calibration/contact_free_peaks.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "systems/foundation/setup_error.h"
+#include "tests/experiments/verdict/synthetic_run.h"
+
+namespace flinch {
+namespace {
+
+using test::SyntheticRun;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr ConfigurationSpace space = ConfigurationSpace::Kind::planar_pose;
+
+Recording named(Recording recording) {
+  recording.attributes["control.estimator"] = "observer";
+  return recording;
+}
+
+std::string complaint(const Recording& recording) {
+  try {
+    contact_free_peaks(recording, space, 10ms);
+  } catch (const SetupError& error) {
+    return error.problems().front();
+  }
+  return "";
+}
+
+TEST(Peaks, AreTheLargestComponentOfEachStretch) {
+  SyntheticRun run(35);
+  run.at(3).estimate.wrench_in_base = Eigen::Vector3d(-2.0, 1.0, 0.3);
+  run.at(9).estimate.wrench_in_base = Eigen::Vector3d(1.0, 1.5, -0.4);
+  run.at(10).estimate.wrench_in_base = Eigen::Vector3d(0.0, 5.0, 0.0);
+  const auto peaks = contact_free_peaks(named(run.recording()), space, 10ms);
+  ASSERT_EQ(peaks.size(), 1U);
+  EXPECT_EQ(peaks[0].estimator, "observer");
+  EXPECT_THAT(peaks[0].force, ElementsAre(2.0, 5.0, 0.0)) << "the last stretch is not whole";
+  EXPECT_THAT(peaks[0].moment, ElementsAre(0.4, 0.0, 0.0));
+}
+
+TEST(Peaks, LeaveOutStretchesWithoutAnEstimateOrOutsideTheNominalMotion) {
+  SyntheticRun run(40);
+  run.at(5).estimate.valid = false;
+  run.at(5).estimate.wrench_in_base = Eigen::Vector3d(100.0, 0.0, 0.0);
+  run.at(39).reaction.mode = ReactionMode::hold;
+  const auto peaks = contact_free_peaks(named(run.recording()), space, 10ms);
+  EXPECT_EQ(peaks[0].force.size(), 3U) << "6 to 15, 16 to 25, 26 to 35";
+}
+
+TEST(ARecordingWithContact, IsRefusedWithItsTime) {
+  EXPECT_THAT(complaint(named(SyntheticRun(40).touch(BodyId::platform(), 12, 14, 5.0).recording())),
+              HasSubstr("touched or pushed the robot at 0.012 s"));
+  EXPECT_THAT(complaint(named(SyntheticRun(40).push(20, 22, {0.0, 0.0, 0.5}).recording())),
+              HasSubstr("touched or pushed the robot at 0.020 s"));
+}
+
+TEST(ARecordingWithoutWitness, IsRefusedWhereTheRobotNoticedSomething) {
+  Recording recording = named(SyntheticRun(40).notice(8, 9).recording());
+  EXPECT_EQ(complaint(recording), "") << "the simulation knows that there was nothing";
+  std::erase_if(recording.signals,
+                [](const Signal& signal) { return signal.path == "truth" || signal.path == "contact"; });
+  EXPECT_NE(complaint(recording), "");
+}
+
+TEST(ARecordingWithoutNames, IsRefused) {
+  EXPECT_THAT(complaint(SyntheticRun(40).recording()), HasSubstr("no estimates of named estimators"));
+}
+
+}  // namespace
+}  // namespace flinch

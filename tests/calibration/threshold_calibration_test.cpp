@@ -1,0 +1,99 @@
+#include "calibration/threshold_calibration.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// The largest of 500 samples of noise, as often as `stretches`.
+std::vector<double> peaks_of_noise(std::mt19937_64& random, std::size_t stretches, double deviation) {
+  std::normal_distribution<double> noise(0.0, deviation);
+  std::vector<double> peaks(stretches);
+  for (double& peak : peaks) {
+    for (int i = 0; i < 500; ++i) peak = std::max(peak, std::abs(noise(random)));
+  }
+  return peaks;
+}
+
+EstimatorPeaks noise(std::mt19937_64& random, std::size_t stretches) {
+  return {"observer", peaks_of_noise(random, stretches, 1.0), peaks_of_noise(random, stretches, 0.1)};
+}
+
+std::string complaint(std::size_t stretches, const ThresholdGoal& goal) {
+  std::mt19937_64 random(1);
+  try {
+    calibrate_thresholds({noise(random, stretches)}, goal);
+  } catch (const SetupError& error) {
+    return error.problems().front();
+  }
+  return "";
+}
+
+TEST(Thresholds, KeepTheRateOfFalseAlarmsThatWasAsked) {
+  // Nine of ten calibrations of 90 s keep the rate in 50 hours of noise of the same kind.
+  std::mt19937_64 random(7);
+  const ThresholdGoal goal{.false_alarms_per_hour = 10.0};
+  constexpr std::size_t trials = 20, check_stretches = 5 * 7200;
+  int kept = 0;
+  const EstimatorPeaks later = noise(random, check_stretches);
+  for (std::size_t trial = 0; trial < trials; ++trial) {
+    const EstimatorThresholds thresholds = calibrate_thresholds({noise(random, 180)}, goal).front();
+    std::size_t alarms = 0;
+    for (std::size_t i = 0; i < check_stretches; ++i) {
+      alarms +=
+          later.force[i] >= thresholds.force.value || later.moment[i] >= thresholds.moment.value ? 1U : 0U;
+    }
+    kept += static_cast<double>(alarms) <= 10.0 * 5.0 ? 1 : 0;
+  }
+  EXPECT_GE(kept, 18);
+}
+
+TEST(Thresholds, AreHigherForFewerFalseAlarmsAndForMoreConfidence) {
+  std::mt19937_64 random(1);
+  const std::vector<EstimatorPeaks> peaks = {noise(random, 200)};
+  const auto force = [&](double rate, double confidence) {
+    return calibrate_thresholds(peaks, {.false_alarms_per_hour = rate, .confidence = confidence})
+        .front()
+        .force;
+  };
+  EXPECT_GT(force(0.5, 0.95).value, force(50.0, 0.95).value);
+  EXPECT_GT(force(0.5, 0.95).value, force(0.5, 0.6).value);
+  EXPECT_GT(force(0.5, 0.95).value, force(0.5, 0.95).best_guess);
+  EXPECT_EQ(force(0.5, 0.95).papers_rule, 2.0 * force(0.5, 0.95).largest);
+}
+
+TEST(Thresholds, OfARobotThatDoesNotTurnSpendAllAlarmsOnForce) {
+  std::mt19937_64 random(1);
+  EstimatorPeaks peaks = noise(random, 200);
+  const double beside_moment = calibrate_thresholds({peaks}, {}).front().force.value;
+  peaks.moment.clear();
+  const EstimatorThresholds alone = calibrate_thresholds({peaks}, {}).front();
+  EXPECT_LT(alone.force.value, beside_moment);
+  EXPECT_EQ(alone.moment.value, 0.0);
+}
+
+TEST(ARecordingThatIsTooShort, IsRefusedWithWhatIsNeeded) {
+  EXPECT_THAT(complaint(59, {}),
+              HasSubstr("observer: 29.5 s of motion with valid estimates are recorded; 30.0 s"));
+  EXPECT_EQ(complaint(60, {}), "");
+  EXPECT_THAT(complaint(200, {.false_alarms_per_hour = 0.01}), HasSubstr("360.0 s are needed for 0.01"));
+}
+
+TEST(PeaksOfSeveralRecordings, ArePooledByEstimator) {
+  const auto all =
+      pooled({{{"a", {1.0}, {0.1}}, {"b", {2.0}, {0.2}}}, {{"a", {3.0}, {0.3}}, {"b", {4.0}, {0.4}}}});
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_THAT(all[0].force, ::testing::ElementsAre(1.0, 3.0));
+  EXPECT_THAT(all[1].moment, ::testing::ElementsAre(0.2, 0.4));
+  EXPECT_THROW(pooled({{{"a", {1.0}, {}}}, {{"b", {1.0}, {}}}}), SetupError);
+}
+
+}  // namespace
+}  // namespace flinch
