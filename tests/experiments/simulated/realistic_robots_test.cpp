@@ -6,6 +6,12 @@
 
 #include <cstdio>
 
+#include "experiments/simulated/experiment.h"
+#include "experiments/verdict/verdict.h"
+#include "systems/framework/recording.h"
+#include "systems/robot/parallel_robot.h"
+#include "tests/support/workplace.h"
+
 namespace flinch {
 namespace {
 
@@ -33,6 +39,20 @@ TEST(RealisticRobots, AreSeenWorseThanTheirModel) {
   trial.realistic = false;
   const FreeMotionErrors ideal = test::try_robots(trial, 2, 1001);
   EXPECT_GT(realistic.largest_force, 1.5 * ideal.largest_force);
+}
+
+TEST(RealisticRobots, NoticeACollisionAsTheirModelDoes) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const auto file = test::shipped("scenarios/platform_collision_realistic.yaml");
+    const SimulatedScenario scenario = read_simulated_scenario(file, seed);
+    const Verdict verdict = judge(run_experiment(scenario), scenario.robot.robot->space(), scenario.expected,
+                                  scenario.force_limits);
+    ASSERT_EQ(verdict.contacts.size(), 1U) << "robot " << seed;
+    const ContactVerdict& contact = verdict.contacts.front();
+    ASSERT_TRUE(verdict.good()) << "robot " << seed << ": " << verdict.failures.front();
+    std::printf("  robot %2d: noticed after %4.1f ms, %3.0f N\n", static_cast<int>(seed),
+                1e3 * (*contact.detected - contact.onset), contact.peak_force);
+  }
 }
 
 }  // namespace
