@@ -1,19 +1,19 @@
 #include "plant/compliant_obstacle.h"
 
-#include "plant/setting_problems.h"
+#include "systems/foundation/findings.h"
 
 namespace flinch {
 
 std::vector<std::string> problems(const CompliantMount& mount, const std::string& owner) {
-  SettingProblems problems(owner);
-  problems.require_positive("mass", mount.mass);
-  problems.require_positive("mount_stiffness", mount.stiffness);
-  problems.require_not_negative("mount_damping", mount.damping);
-  return problems.found();
+  Findings found(owner);
+  found.positive("mass", mount.mass, "kg");
+  found.positive("mount_stiffness", mount.stiffness, "N/m");
+  found.not_negative("mount_damping", mount.damping, "N s/m");
+  return found.take();
 }
 
-void CompliantObstacle::find_problems(const std::string& owner, std::vector<std::string>& found) const {
-  for (std::string& problem : flinch::problems(mount_, owner)) found.push_back(std::move(problem));
+void CompliantObstacle::find_problems(const std::string& owner, Findings& found) const {
+  found.add_all(flinch::problems(mount_, owner));
 }
 
 Eigen::Vector3d CompliantObstacle::acceleration(double t, const ObstacleMotion& now,

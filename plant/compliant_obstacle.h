@@ -29,7 +29,7 @@ class CompliantObstacle final : public Obstacle {
                                  const Eigen::Vector3d& contact_force) const noexcept override;
 
  protected:
-  void find_problems(const std::string& owner, std::vector<std::string>& found) const override;
+  void find_problems(const std::string& owner, Findings& found) const override;
 
  private:
   CompliantMount mount_;

@@ -1,18 +1,16 @@
 #include "plant/hand.h"
 
-#include "plant/setting_problems.h"
+#include "systems/foundation/findings.h"
 
 namespace flinch {
 
-void Hand::find_problems(const std::string& owner, std::vector<std::string>& found) const {
-  for (std::string& problem : flinch::problems(arm_, owner)) found.push_back(std::move(problem));
-  for (std::string& problem : led_.problems(owner)) found.push_back(std::move(problem));
+void Hand::find_problems(const std::string& owner, Findings& found) const {
+  found.add_all(flinch::problems(arm_, owner));
+  found.add_all(led_.problems(owner));
   if (!grip_) return;
-  SettingProblems problems(owner + "hold.");
-  problems.require_positive("stiffness", grip_->stiffness);
-  problems.require_not_negative("damping", grip_->damping);
-  problems.append_to(found);
-  if (!(grip_->times.end > grip_->times.begin)) found.push_back(owner + "hold ends before it begins");
+  found.positive("grip.stiffness", grip_->stiffness, "N/m");
+  found.not_negative("grip.damping", grip_->damping, "N s/m");
+  found.require(grip_->times.end > grip_->times.begin, "grip ends before it begins");
 }
 
 Eigen::Vector3d Hand::acceleration(double t, const ObstacleMotion& now,

@@ -34,7 +34,7 @@ class Hand final : public Obstacle {
                              const Eigen::Vector3d& rate) const noexcept override;
 
  protected:
-  void find_problems(const std::string& owner, std::vector<std::string>& found) const override;
+  void find_problems(const std::string& owner, Findings& found) const override;
 
  private:
   CompliantMount arm_;

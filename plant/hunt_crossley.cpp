@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plant/setting_problems.h"
+#include "systems/foundation/findings.h"
 
 namespace flinch {
 namespace {
@@ -25,14 +25,14 @@ double bisect(Function f, double low, double high) {
 }  // namespace
 
 std::vector<std::string> problems(const ContactMaterial& material, const std::string& owner) {
-  SettingProblems problems(owner);
-  problems.require_positive("stiffness", material.stiffness);
-  problems.require_positive("restitution", material.restitution);
-  problems.require_at_most(1.0, "restitution", material.restitution);
-  problems.require_positive("restitution_speed", material.restitution_speed);
-  problems.require_not_negative("friction", material.friction);
-  problems.require_positive("friction_velocity", material.friction_velocity);
-  return problems.found();
+  Findings found(owner);
+  found.positive("stiffness", material.stiffness, "N/m");
+  found.positive("restitution", material.restitution);
+  found.at_most(1.0, "restitution", material.restitution);
+  found.positive("restitution_speed", material.restitution_speed, "m/s");
+  found.not_negative("friction", material.friction);
+  found.positive("friction_velocity", material.friction_velocity, "m/s");
+  return found.take();
 }
 
 HuntCrossley::HuntCrossley(const ContactMaterial& material)

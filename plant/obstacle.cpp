@@ -1,52 +1,36 @@
 #include "plant/obstacle.h"
 
-#include "plant/setting_problems.h"
+#include "systems/foundation/findings.h"
 
 namespace flinch {
 namespace {
 
-void check(const Sphere& sphere, const std::string& owner, std::vector<std::string>& found) {
-  SettingProblems problems(owner);
-  problems.require_positive("radius", sphere.radius);
-  problems.append_to(found);
+void check(const Sphere& sphere, Findings& found) { found.positive("radius", sphere.radius, "m"); }
+
+void check(const Capsule& capsule, Findings& found) { found.positive("radius", capsule.radius, "m"); }
+
+void check(const Box& box, Findings& found) {
+  found.positive("half_lengths", box.half_lengths.minCoeff(), "m");
 }
 
-void check(const Capsule& capsule, const std::string& owner, std::vector<std::string>& found) {
-  SettingProblems problems(owner);
-  problems.require_positive("radius", capsule.radius);
-  problems.append_to(found);
-}
-
-void check(const Box& box, const std::string& owner, std::vector<std::string>& found) {
-  SettingProblems problems(owner);
-  problems.require_positive("half_lengths", box.half_lengths.minCoeff());
-  problems.append_to(found);
-}
-
-void check(const ConvexHull& hull, const std::string& owner, std::vector<std::string>& found) {
-  SettingProblems problems(owner);
-  problems.require_not_negative("margin", hull.margin);
-  problems.append_to(found);
-  if (hull.points.size() < 4) {
-    found.push_back(owner + "points has " + std::to_string(hull.points.size()) +
-                    " entries; a hull needs at least 4");
-  }
+void check(const ConvexHull& hull, Findings& found) {
+  found.not_negative("margin", hull.margin, "m");
+  found.require(hull.points.size() >= 4,
+                "points has " + std::to_string(hull.points.size()) + " entries; a hull needs at least 4");
 }
 
 }  // namespace
 
 std::vector<std::string> Obstacle::problems(const std::string& owner) const {
-  std::vector<std::string> found;
-  std::visit([&](const auto& shape) { check(shape, owner, found); }, form_.shape);
-  if (!form_.position_in_base.allFinite()) found.push_back(owner + "position must be finite");
+  Findings found(owner);
+  std::visit([&](const auto& shape) { check(shape, found); }, form_.shape);
+  found.require(form_.position_in_base.allFinite(), "position must be finite");
   find_problems(owner, found);
-  for (std::string& problem : flinch::problems(form_.material, owner + "material.")) {
-    found.push_back(std::move(problem));
-  }
-  return found;
+  found.add_all(flinch::problems(form_.material, owner + "material."));
+  return found.take();
 }
 
-void Obstacle::find_problems(const std::string&, std::vector<std::string>&) const {}
+void Obstacle::find_problems(const std::string&, Findings&) const {}
 
 ObstacleMotion Obstacle::motion(double) const noexcept { return {}; }
 

@@ -10,6 +10,8 @@
 
 namespace flinch {
 
+class Findings;
+
 /// Largest number of obstacles in a scene.
 inline constexpr int max_obstacles = 8;
 
@@ -67,7 +69,7 @@ class Obstacle {
                                      const Eigen::Vector3d& rate) const noexcept;
 
  protected:
-  virtual void find_problems(const std::string& owner, std::vector<std::string>& found) const;
+  virtual void find_problems(const std::string& owner, Findings& found) const;
 
  private:
   ObstacleForm form_;

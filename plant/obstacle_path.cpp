@@ -3,21 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "systems/foundation/findings.h"
+
 namespace flinch {
 
 std::vector<std::string> ObstaclePath::problems(const std::string& owner) const {
-  std::vector<std::string> found;
-  if (points_.empty()) found.push_back(owner + "path has no places; it needs at least one");
+  Findings found(owner);
+  found.require(!points_.empty(), "path has no places; it needs at least one");
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    const std::string place = owner + "path[" + std::to_string(i) + "]";
+    const std::string place = "path[" + std::to_string(i) + "]";
     if (!std::isfinite(points_[i].time) || !points_[i].displacement.allFinite()) {
-      found.push_back(place + " must be finite");
+      found.add(place + " must be finite");
     } else if (i > 0 && !(points_[i].time > points_[i - 1].time)) {
-      found.push_back(place + ".time is " + std::to_string(points_[i].time) +
-                      " s; it must be later than that of the place before");
+      found.add(place + ".time", points_[i].time, "s", "must be later than that of the place before");
     }
   }
-  return found;
+  return found.take();
 }
 
 ObstacleMotion ObstaclePath::at(double t) const noexcept {
@@ -35,8 +36,8 @@ ObstacleMotion ObstaclePath::at(double t) const noexcept {
   return {from.displacement + share * way, rate * way};
 }
 
-void MovingObstacle::find_problems(const std::string& owner, std::vector<std::string>& found) const {
-  for (std::string& problem : path_.problems(owner)) found.push_back(std::move(problem));
+void MovingObstacle::find_problems(const std::string& owner, Findings& found) const {
+  found.add_all(path_.problems(owner));
 }
 
 }  // namespace flinch

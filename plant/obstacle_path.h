@@ -42,7 +42,7 @@ class MovingObstacle final : public Obstacle {
   ObstacleMotion motion(double t) const noexcept override { return path_.at(t); }
 
  protected:
-  void find_problems(const std::string& owner, std::vector<std::string>& found) const override;
+  void find_problems(const std::string& owner, Findings& found) const override;
 
  private:
   ObstaclePath path_;

@@ -2,17 +2,17 @@
 
 #include <cmath>
 
-#include "plant/setting_problems.h"
+#include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
 
 namespace {
 
-void check_count(const JointVector& values, const char* name, int drives, std::vector<std::string>& found) {
-  if (values.size() == 0 || values.size() == drives) return;
-  found.push_back(std::string("drives.") + name + " has " + std::to_string(values.size()) +
-                  " entries; the robot has " + std::to_string(drives) + " drives");
+void check_count(const JointVector& values, const std::string& name, int drives, Findings& found) {
+  found.require(values.size() == 0 || values.size() == drives,
+                name + " has " + std::to_string(values.size()) + " entries; the robot has " +
+                    std::to_string(drives) + " drives");
 }
 
 JointVector limits(const SimulatedDrivesSettings& settings, const Mechanism& robot) {
@@ -26,21 +26,19 @@ JointVector limits(const SimulatedDrivesSettings& settings, const Mechanism& rob
 }  // namespace
 
 std::vector<std::string> problems(const SimulatedDrivesSettings& settings, const Mechanism& robot) {
-  std::vector<std::string> found;
+  Findings found("drives.");
   check_count(settings.torque_constant, "torque_constant", robot.drives(), found);
   check_count(settings.driver_torque_constant, "driver_torque_constant", robot.drives(), found);
   check_count(settings.current_lag, "current_lag", robot.drives(), found);
-  SettingProblems problems("drives.");
-  for (const double constant : settings.torque_constant)
-    problems.require_positive("torque_constant", constant);
-  for (const double constant : settings.driver_torque_constant)
-    problems.require_positive("driver_torque_constant", constant);
-  for (const double lag : settings.current_lag) problems.require_not_negative("current_lag [s]", lag);
-  problems.require_positive("torque_limit", settings.torque_limit);
-  problems.require_positive("force_limit", settings.force_limit);
-  problems.require_not_negative("longest_silence [s]", to_seconds(settings.longest_silence));
-  problems.append_to(found);
-  return found;
+  for (const double constant : settings.torque_constant) found.positive("torque_constant", constant);
+  for (const double constant : settings.driver_torque_constant) {
+    found.positive("driver_torque_constant", constant);
+  }
+  for (const double lag : settings.current_lag) found.not_negative("current_lag", lag, "s");
+  found.positive("torque_limit", settings.torque_limit, "Nm");
+  found.positive("force_limit", settings.force_limit, "N");
+  found.not_negative("longest_silence", to_seconds(settings.longest_silence), "s");
+  return found.take();
 }
 
 SimulatedDrivesSettings complete(SimulatedDrivesSettings settings, const Mechanism& robot) {

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 
-#include "plant/setting_problems.h"
+#include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
@@ -22,15 +22,12 @@ Eigen::Vector3d moment_about(const Eigen::Vector3d& centre, int obstacle, const 
 }  // namespace
 
 std::vector<std::string> problems(const SimulatedForceTorqueSettings& settings) {
-  SettingProblems problems("force_torque.");
-  problems.require_positive("period [s]", to_seconds(settings.period));
-  problems.require_not_negative("delay [s]", to_seconds(settings.delay));
-  std::vector<std::string> found = problems.found();
-  if (!DelayLine<ForceTorqueReading>::can_delay(settings.delay, settings.period)) {
-    found.emplace_back(
-        "force_torque.delay is longer than the delay line; make it shorter or the period longer");
-  }
-  return found;
+  Findings found("force_torque.");
+  found.positive("period", to_seconds(settings.period), "s");
+  found.not_negative("delay", to_seconds(settings.delay), "s");
+  found.require(DelayLine<ForceTorqueReading>::can_delay(settings.delay, settings.period),
+                "delay is longer than the delay line; make it shorter or the period longer");
+  return found.take();
 }
 
 SimulatedForceTorqueSensor::SimulatedForceTorqueSensor(const SimulatedForceTorqueSettings& settings,

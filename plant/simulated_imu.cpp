@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 
 #include "plant/quantisation.h"
-#include "plant/setting_problems.h"
 #include "plant/spatial_motion.h"
+#include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
@@ -35,14 +35,12 @@ Eigen::Vector3d specific_force(const SpatialMotion& now, const Eigen::Vector3d& 
 }  // namespace
 
 std::vector<std::string> problems(const SimulatedImuSettings& settings) {
-  SettingProblems problems("imu.");
-  problems.require_positive("period [s]", to_seconds(settings.period));
-  problems.require_not_negative("delay [s]", to_seconds(settings.delay));
-  std::vector<std::string> found = problems.found();
-  if (!DelayLine<ImuReading>::can_delay(settings.delay, settings.period)) {
-    found.emplace_back("imu.delay is longer than the delay line; make it shorter or imu.period longer");
-  }
-  return found;
+  Findings found("imu.");
+  found.positive("period", to_seconds(settings.period), "s");
+  found.not_negative("delay", to_seconds(settings.delay), "s");
+  found.require(DelayLine<ImuReading>::can_delay(settings.delay, settings.period),
+                "delay is longer than the delay line; make it shorter or imu.period longer");
+  return found.take();
 }
 
 SimulatedImu::SimulatedImu(const SimulatedImuSettings& settings, const Mechanism& robot, std::uint64_t seed)

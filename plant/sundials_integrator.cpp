@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/runge_kutta.h"
 
@@ -67,15 +68,11 @@ ARKODE_ERKTableID table(SundialsOptions::Tableau tableau) {
 }
 
 std::vector<std::string> problems(const SundialsOptions& options) {
-  std::vector<std::string> found;
-  const auto require_positive = [&found](const char* name, double value) {
-    if (!(value > 0.0))
-      found.push_back(std::string(name) + " is " + std::to_string(value) + "; it must be positive");
-  };
-  require_positive("relative_tolerance", options.relative_tolerance);
-  require_positive("absolute_tolerance", options.absolute_tolerance);
-  require_positive("max_steps", options.max_steps);
-  return found;
+  Findings found;
+  found.positive("relative_tolerance", options.relative_tolerance);
+  found.positive("absolute_tolerance", options.absolute_tolerance);
+  found.positive("max_steps", options.max_steps);
+  return found.take();
 }
 
 }  // namespace

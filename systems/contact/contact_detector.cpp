@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
@@ -11,14 +12,12 @@ namespace {
 
 std::vector<std::string> problems(const ContactDetectorSettings& settings) {
   const auto& [reaction, hard, period] = settings;
-  std::vector<std::string> found;
-  if (!(reaction.force > 0.0 && reaction.moment > 0.0)) {
-    found.emplace_back("reaction has a threshold that is not positive [N, Nm]");
-  }
-  if (!(hard.force >= reaction.force && hard.moment >= reaction.moment)) {
-    found.emplace_back("hard has a threshold below that of reaction [N, Nm]");
-  }
-  return found;
+  Findings found;
+  found.require(reaction.force > 0.0 && reaction.moment > 0.0,
+                "reaction has a threshold that is not positive [N, Nm]");
+  found.require(hard.force >= reaction.force && hard.moment >= reaction.moment,
+                "hard has a threshold below that of reaction [N, Nm]");
+  return found.take();
 }
 
 // One threshold a component: forces first.

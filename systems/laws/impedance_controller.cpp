@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/laws/pose_guidance.h"
 #include "systems/robot/contact_jacobian.h"
@@ -13,17 +14,14 @@ namespace {
 
 std::vector<std::string> problems(const ImpedanceSettings& settings, int dof) {
   const std::string entries = "must have " + std::to_string(dof) + " entries";
-  std::vector<std::string> found;
-  const auto require = [&found](bool good, const std::string& what) {
-    if (!good) found.push_back("impedance: " + what);
-  };
-  require(settings.stiffness.size() == dof, "stiffness " + entries);
-  require(settings.stiffness.allFinite() && (settings.stiffness.array() >= 0).all(),
-          "stiffness must be finite and not negative");
-  require(settings.damping_ratio.size() == dof, "damping_ratio " + entries);
-  require(settings.damping_ratio.allFinite() && (settings.damping_ratio.array() > 0).all(),
-          "damping_ratio must be finite and positive");
-  return found;
+  Findings found("impedance: ");
+  found.require(settings.stiffness.size() == dof, "stiffness " + entries);
+  found.require(settings.stiffness.allFinite() && (settings.stiffness.array() >= 0).all(),
+                "stiffness must be finite and not negative");
+  found.require(settings.damping_ratio.size() == dof, "damping_ratio " + entries);
+  found.require(settings.damping_ratio.allFinite() && (settings.damping_ratio.array() > 0).all(),
+                "damping_ratio must be finite and positive");
+  return found.take();
 }
 
 }  // namespace

@@ -3,22 +3,19 @@
 #include <string>
 #include <vector>
 
+#include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
 namespace {
 
 std::vector<std::string> problems(const ForwardKinematicsSettings& settings, const ParallelRobot& robot) {
-  std::vector<std::string> found;
-  if (!(settings.largest_closure_error > 0.0)) {
-    found.push_back("largest_closure_error is " + std::to_string(settings.largest_closure_error) +
-                    " m; it must be positive");
-  }
-  if (settings.initial_pose &&
-      !robot.inverse_kinematics(*settings.initial_pose, robot.home_working_mode()).reachable) {
-    found.emplace_back("initial_pose is out of reach of the legs");
-  }
-  return found;
+  Findings found;
+  found.positive("largest_closure_error", settings.largest_closure_error, "m");
+  found.require(!settings.initial_pose ||
+                    robot.inverse_kinematics(*settings.initial_pose, robot.home_working_mode()).reachable,
+                "initial_pose is out of reach of the legs");
+  return found.take();
 }
 
 bool is_usable(const JointMotion& motion, int drives) {

@@ -4,22 +4,20 @@
 #include <utility>
 #include <vector>
 
+#include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
 namespace {
 
 std::vector<std::string> problems(const RetractionSettings& settings) {
-  std::vector<std::string> found;
-  const auto require = [&found](bool good, const char* what) {
-    if (!good) found.push_back(std::string("retraction: ") + what);
-  };
-  require(settings.distance > 0, "distance must be positive");
-  require(settings.angle > 0, "angle must be positive");
-  require(settings.force_to_go_by > 0, "force_to_go_by must be positive");
-  require(can_be_planned_with(settings.limits.translation), "limits of translation must be positive");
-  require(can_be_planned_with(settings.limits.rotation), "limits of rotation must be positive");
-  return found;
+  Findings found("retraction: ");
+  found.require(settings.distance > 0, "distance must be positive");
+  found.require(settings.angle > 0, "angle must be positive");
+  found.require(settings.force_to_go_by > 0, "force_to_go_by must be positive");
+  found.require(can_be_planned_with(settings.limits.translation), "limits of translation must be positive");
+  found.require(can_be_planned_with(settings.limits.rotation), "limits of rotation must be positive");
+  return found.take();
 }
 
 }  // namespace

@@ -49,4 +49,7 @@ struct BodyPair {
   int b = 0;
 };
 
+/// All pairs of bodies that belong to different legs.
+std::vector<BodyPair> pairs_of_different_legs(const std::vector<Body>& bodies);
+
 }  // namespace flinch

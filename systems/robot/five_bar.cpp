@@ -19,21 +19,6 @@ constexpr double largest_condition_number = 1e6;
 
 constexpr JointCounts joints{.active = 2, .passive = 2, .coupling = 0};
 
-std::vector<Body> bodies(const FiveBarParameters& parameters) {
-  std::vector<Body> bodies = {
-      {body_name(BodyId::platform()), -1, {Sphere{.radius = parameters.platform_radius}}}};
-  for (int leg = 0; leg < 2; ++leg) {
-    const FiveBarLeg& links = parameters.legs[static_cast<std::size_t>(leg)];
-    const auto link = [&](BodyId body, double length) {
-      const Capsule outline{.end = length * Eigen::Vector3d::UnitX(), .radius = parameters.link_radius};
-      bodies.push_back({body_name(body), leg, {outline}});
-    };
-    link(BodyId::link1(leg), links.link1_length);
-    link(BodyId::link2(leg), links.link2_length);
-  }
-  return bodies;
-}
-
 MechanismDescription describe(const FiveBarParameters& parameters) {
   throw_if_any(problems(parameters));
   const int first = BodyId::link1(0).index();
@@ -41,7 +26,7 @@ MechanismDescription describe(const FiveBarParameters& parameters) {
   return {.name = parameters.name,
           .space = ConfigurationSpace::Kind::plane,
           .drives = std::vector<DriveKind>(2, DriveKind::revolute),
-          .bodies = bodies(parameters),
+          .bodies = planar_bodies(parameters.platform_radius, parameters.legs, parameters.link_radius),
           // The second links always meet.
           .self_collision_pairs = {{first, other_first},
                                    {first, BodyId::link2(1).index()},

@@ -5,7 +5,7 @@
 namespace flinch {
 
 std::vector<std::string> problems(const FiveBarParameters& parameters) {
-  ParameterFindings findings;
+  Findings findings;
   if (parameters.name.empty()) findings.add("name is empty; a robot needs a name");
   for (std::size_t i = 0; i < parameters.legs.size(); ++i) {
     const std::string path = "legs[" + std::to_string(i) + "].";

@@ -50,17 +50,6 @@ std::vector<Body> bodies(const HexapodParameters& p) {
   return bodies;
 }
 
-// All links of different legs.
-std::vector<BodyPair> self_collision_pairs(const std::vector<Body>& bodies) {
-  std::vector<BodyPair> pairs;
-  for (int a = 1; a < static_cast<int>(bodies.size()); ++a) {
-    for (int b = a + 1; b < static_cast<int>(bodies.size()); ++b) {
-      if (BodyId::from_index(a).leg() != BodyId::from_index(b).leg()) pairs.push_back({a, b});
-    }
-  }
-  return pairs;
-}
-
 Configuration home_pose(const HexapodParameters& parameters) {
   Configuration pose(7);
   pose << parameters.home_position, quaternion_exp(parameters.home_rotation);
@@ -77,7 +66,7 @@ MechanismDescription describe(const HexapodParameters& parameters) {
                                    .gravity = parameters.gravity,
                                    .home_pose = home_pose(parameters),
                                    .characteristic_length = parameters.characteristic_length};
-  description.self_collision_pairs = self_collision_pairs(description.bodies);
+  description.self_collision_pairs = pairs_of_different_legs(description.bodies);
   return description;
 }
 

@@ -4,14 +4,14 @@
 #include <cstddef>
 #include <sstream>
 
-#include "systems/robot/parameter_findings.h"
+#include "systems/foundation/findings.h"
 #include "systems/robot/rotation.h"
 
 namespace flinch {
 namespace {
 
 // Inertia of a body is positive, symmetric, and each principal moment at most the sum of the others.
-void check_body(const std::string& field, const RigidBodyInertia& body, ParameterFindings& findings) {
+void check_body(const std::string& field, const RigidBodyInertia& body, Findings& findings) {
   findings.positive(field + ".mass", body.mass, "kg");
   findings.finite(field + ".centre_of_mass", body.centre_of_mass, "m");
   if (!body.inertia.allFinite() || !body.inertia.isApprox(body.inertia.transpose(), 1e-9)) {
@@ -26,18 +26,18 @@ void check_body(const std::string& field, const RigidBodyInertia& body, Paramete
   findings.add(sentence.str());
 }
 
-void check_leg(const std::string& path, const HexapodLeg& leg, ParameterFindings& findings) {
+void check_leg(const std::string& path, const HexapodLeg& leg, Findings& findings) {
   findings.finite(path + "base_joint", leg.base_joint, "m");
   findings.finite(path + "platform_joint", leg.platform_joint, "m");
   if (!(std::abs(leg.universal_axis.norm() - 1.0) < 1e-9)) {
-    findings.add(path + "universal_axis", leg.universal_axis.norm(), "long", "it must be a unit vector");
+    findings.add(path + "universal_axis", leg.universal_axis.norm(), "long", "must be a unit vector");
   }
-  findings.positive(path + "mass_scale", leg.mass_scale, "");
-  findings.sliding_friction(path + "drive_friction", leg.drive_friction);
-  findings.friction(path + "universal_friction", leg.universal_friction);
+  findings.positive(path + "mass_scale", leg.mass_scale);
+  find_sliding_friction_problems(path + "drive_friction", leg.drive_friction, findings);
+  find_friction_problems(path + "universal_friction", leg.universal_friction, findings);
 }
 
-void check_home(const HexapodParameters& robot, ParameterFindings& findings) {
+void check_home(const HexapodParameters& robot, Findings& findings) {
   const Eigen::Matrix3d R = rotation_matrix(quaternion_exp(robot.home_rotation));
   for (std::size_t i = 0; i < robot.legs.size(); ++i) {
     const HexapodLeg& leg = robot.legs[i];
@@ -60,7 +60,7 @@ void check_home(const HexapodParameters& robot, ParameterFindings& findings) {
 
 std::vector<std::string> problems(const HexapodParameters& parameters) {
   const HexapodParameters& p = parameters;
-  ParameterFindings findings;
+  Findings findings;
   if (p.name.empty()) findings.add("name is empty; a robot needs a name");
   for (std::size_t i = 0; i < p.legs.size(); ++i) {
     check_leg("legs[" + std::to_string(i) + "].", p.legs[i], findings);

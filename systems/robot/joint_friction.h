@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cmath>
+#include <string>
 
 namespace flinch {
+
+class Findings;
 
 /// Friction viscous * rate + coulomb * sign(rate): a torque at a turning joint, a force at a sliding one.
 struct JointFriction {
@@ -16,5 +19,12 @@ inline double friction_effort(const JointFriction& friction, double rate, double
   const double viscous = friction.viscous * rate;
   return friction.coulomb == 0.0 ? viscous : viscous + friction.coulomb * std::tanh(rate / friction_velocity);
 }
+
+/// Adds where a part of a turning joint's friction is negative.
+void find_friction_problems(const std::string& field, const JointFriction& friction, Findings& findings);
+
+/// The same for a sliding joint.
+void find_sliding_friction_problems(const std::string& field, const JointFriction& friction,
+                                    Findings& findings);
 
 }  // namespace flinch

@@ -1,10 +1,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cstddef>
 #include <string>
+#include <vector>
 
+#include "systems/foundation/findings.h"
+#include "systems/robot/body.h"
+#include "systems/robot/body_id.h"
 #include "systems/robot/joint_friction.h"
-#include "systems/robot/parameter_findings.h"
 
 namespace flinch {
 
@@ -40,14 +45,26 @@ struct PlanarLegParameters {
   JointFriction passive_friction;
 };
 
+/// Adds the outlines of the links of the next leg, capsules along their x axes.
+void add_links(const PlanarLegParameters& leg, double link_radius, std::vector<Body>& bodies);
+
+/// The platform, a disc about its origin, and the links of all legs.
+template <class Leg, std::size_t count>
+std::vector<Body> planar_bodies(double platform_radius, const std::array<Leg, count>& legs,
+                                double link_radius) {
+  std::vector<Body> bodies = {{body_name(BodyId::platform()), -1, {Sphere{.radius = platform_radius}}}};
+  for (const Leg& leg : legs) add_links(leg, link_radius, bodies);
+  return bodies;
+}
+
 /// Adds what is wrong with a leg, `path` before each field.
-void find_problems(const std::string& path, const PlanarLegParameters& leg, ParameterFindings& findings);
+void find_problems(const std::string& path, const PlanarLegParameters& leg, Findings& findings);
 
 /// Adds what is wrong with `gravity`: a robot that moves in the horizontal plane holds nothing against it.
-void find_gravity_problems(const Eigen::Vector3d& gravity, ParameterFindings& findings);
+void find_gravity_problems(const Eigen::Vector3d& gravity, Findings& findings);
 
 /// Adds that a leg cannot span `distance` [m] from base to coupling joint at home, where that is so.
 void find_reach_problem(std::size_t index, const PlanarLegParameters& leg, double distance,
-                        ParameterFindings& findings);
+                        Findings& findings);
 
 }  // namespace flinch

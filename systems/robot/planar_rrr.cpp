@@ -31,42 +31,17 @@ std::optional<std::array<double, 3>> elbow_signs(const WorkingMode& mode) {
   return std::array{1.0 - 2.0 * mode[0], 1.0 - 2.0 * mode[1], 1.0 - 2.0 * mode[2]};
 }
 
-std::vector<Body> bodies(const PlanarRrrParameters& parameters) {
-  std::vector<Body> bodies = {
-      {body_name(BodyId::platform()), -1, {Sphere{.radius = parameters.platform_hull_radius}}}};
-  for (int leg = 0; leg < 3; ++leg) {
-    const PlanarRrrLeg& links = parameters.legs[static_cast<std::size_t>(leg)];
-    const auto link = [&](BodyId body, double length) {
-      const Capsule outline{.end = length * Eigen::Vector3d::UnitX(), .radius = parameters.link_radius};
-      bodies.push_back({body_name(body), leg, {outline}});
-    };
-    link(BodyId::link1(leg), links.link1_length);
-    link(BodyId::link2(leg), links.link2_length);
-  }
-  return bodies;
-}
-
-// All links of different legs.
-std::vector<BodyPair> self_collision_pairs(const std::vector<Body>& bodies) {
-  std::vector<BodyPair> pairs;
-  for (int a = 1; a < static_cast<int>(bodies.size()); ++a) {
-    for (int b = a + 1; b < static_cast<int>(bodies.size()); ++b) {
-      if (BodyId::from_index(a).leg() != BodyId::from_index(b).leg()) pairs.push_back({a, b});
-    }
-  }
-  return pairs;
-}
-
 MechanismDescription describe(const PlanarRrrParameters& parameters) {
   throw_if_any(problems(parameters));
-  MechanismDescription description{.name = parameters.name,
-                                   .space = ConfigurationSpace::Kind::planar_pose,
-                                   .drives = std::vector<DriveKind>(3, DriveKind::revolute),
-                                   .bodies = bodies(parameters),
-                                   .self_collision_pairs = {},
-                                   .gravity = parameters.gravity,
-                                   .home_pose = parameters.home_pose};
-  description.self_collision_pairs = self_collision_pairs(description.bodies);
+  MechanismDescription description{
+      .name = parameters.name,
+      .space = ConfigurationSpace::Kind::planar_pose,
+      .drives = std::vector<DriveKind>(3, DriveKind::revolute),
+      .bodies = planar_bodies(parameters.platform_hull_radius, parameters.legs, parameters.link_radius),
+      .self_collision_pairs = {},
+      .gravity = parameters.gravity,
+      .home_pose = parameters.home_pose};
+  description.self_collision_pairs = pairs_of_different_legs(description.bodies);
   return description;
 }
 

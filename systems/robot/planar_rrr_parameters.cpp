@@ -7,13 +7,13 @@
 namespace flinch {
 namespace {
 
-void check_leg(const std::string& path, const PlanarRrrLeg& leg, ParameterFindings& findings) {
+void check_leg(const std::string& path, const PlanarRrrLeg& leg, Findings& findings) {
   find_problems(path, leg, findings);
   findings.positive(path + "base_radius", leg.base_radius, "m");
   findings.finite(path + "coupling_angle", leg.coupling_angle, "rad");
 }
 
-void check_platform(const PlanarRrrParameters& robot, ParameterFindings& findings) {
+void check_platform(const PlanarRrrParameters& robot, Findings& findings) {
   findings.positive("coupling_radius", robot.coupling_radius, "m");
   findings.positive("platform_mass", robot.platform_mass, "kg");
   findings.positive("platform_inertia", robot.platform_inertia, "kg m^2");
@@ -35,7 +35,7 @@ double distance_at_home(const PlanarRrrParameters& robot, const PlanarRrrLeg& le
 }  // namespace
 
 std::vector<std::string> problems(const PlanarRrrParameters& parameters) {
-  ParameterFindings findings;
+  Findings findings;
   if (parameters.name.empty()) findings.add("name is empty; a robot needs a name");
   for (std::size_t i = 0; i < parameters.legs.size(); ++i) {
     check_leg("legs[" + std::to_string(i) + "].", parameters.legs[i], findings);

@@ -3,31 +3,32 @@
 #include <cmath>
 #include <sstream>
 
+#include "systems/foundation/findings.h"
 #include "systems/robot/link_segments.h"
 #include "systems/robot/parallel_robot.h"
 
 namespace flinch {
 namespace {
 
-// Collects sentences about limits that do not allow what the robot does at home. NaN allows nothing.
-class Findings {
+// Limits that do not allow what the robot does at home. NaN allows nothing.
+class LimitsAtHome {
  public:
   void least(const char* field, double limit, double at_home, const char* unit) {
-    if (!(limit <= at_home)) add(field, limit, unit, "it must be at most that at the home pose, ", at_home);
+    if (!(limit <= at_home)) add(field, limit, unit, "must be at most", at_home);
   }
   void most(const char* field, double limit, double at_home, const char* unit) {
-    if (!(limit >= at_home)) add(field, limit, unit, "it must be at least that at the home pose, ", at_home);
+    if (!(limit >= at_home)) add(field, limit, unit, "must be at least", at_home);
   }
-  std::vector<std::string> take() { return std::move(sentences_); }
+  std::vector<std::string> take() { return findings_.take(); }
 
  private:
   void add(const char* field, double limit, const char* unit, const char* expectation, double at_home) {
-    std::ostringstream sentence;
-    sentence << field << " is " << limit << unit << "; " << expectation << at_home << unit;
-    sentences_.push_back(sentence.str());
+    std::ostringstream bound;
+    bound << expectation << " that at the home pose, " << at_home << (*unit == '\0' ? "" : " ") << unit;
+    findings_.add(field, limit, unit, bound.str());
   }
 
-  std::vector<std::string> sentences_;
+  Findings findings_;
 };
 
 }  // namespace
@@ -44,15 +45,15 @@ std::vector<std::string> problems(const WorkspaceLimits& limits, const ParallelR
   Kinematics home;
   robot.kinematics(pose, PlatformVector::Zero(robot.dof()), home);
 
-  Findings findings;
-  findings.most("max_distance", limits.max_distance, distance_from_centre(limits, robot, pose), " m");
-  findings.most("max_rotation", limits.max_rotation, robot.space().rotation_angle(pose), " rad");
+  LimitsAtHome findings;
+  findings.most("max_distance", limits.max_distance, distance_from_centre(limits, robot, pose), "m");
+  findings.most("max_rotation", limits.max_rotation, robot.space().rotation_angle(pose), "rad");
   findings.least("min_abs_det_A", limits.min_abs_det_A, std::abs(home.det_A), "");
   findings.least("min_abs_det_B", limits.min_abs_det_B, std::abs(home.det_B), "");
   findings.least("min_self_collision_distance", limits.min_self_collision_distance,
-                 self_collision_distance(robot, home), " m");
+                 self_collision_distance(robot, home), "m");
   const bool turns = robot.drive_kind(0) == DriveKind::revolute;
-  const char* const unit = turns ? " rad" : " m";
+  const char* const unit = turns ? "rad" : "m";
   findings.least(turns ? "min_active_angle" : "min_active_length", limits.min_active,
                  home.joints.active.minCoeff(), unit);
   findings.most(turns ? "max_active_angle" : "max_active_length", limits.max_active,

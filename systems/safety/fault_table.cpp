@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "systems/foundation/findings.h"
+
 namespace flinch {
 namespace {
 
@@ -204,25 +206,24 @@ static_assert(in_order(), "the table has one row for each fault, in their order"
 }  // namespace
 
 std::vector<std::string> problems(const FaultLimits& limits, const ParallelRobot& robot) {
-  std::vector<std::string> found = problems(limits.workspace, robot);
-  const auto require = [&found](bool good, const char* what) {
-    if (!good) found.emplace_back(what);
-  };
-  require(limits.max_lateness >= Time::zero(), "max_lateness must not be negative");
-  require(limits.max_encoder_rate > limits.max_joint_speed, "max_encoder_rate must exceed max_joint_speed");
-  require(limits.longest_repetition >= Time::zero(), "longest_repetition must not be negative");
-  require(limits.max_unseen_motion > 0, "max_unseen_motion must be positive");
-  require(limits.max_unseen_current > 0, "max_unseen_current must be positive");
-  require(limits.longest_gap >= Time::zero(), "longest_gap must not be negative");
-  require(limits.max_age >= Time::zero(), "max_age must not be negative");
-  require(limits.max_joint_speed > 0, "max_joint_speed must be positive");
-  require(limits.max_control_error > 0, "max_control_error must be positive");
-  require(limits.max_torque_jump > 0, "max_torque_jump must be positive");
-  require(limits.torque_range > 0, "torque_range must be positive");
-  require(limits.recovery_speed > 0 && limits.recovery_speed <= 1,
-          "recovery_speed must be above 0 and at most 1");
-  require(limits.recovery_margin >= 0, "recovery_margin must not be negative");
-  return found;
+  Findings found;
+  found.add_all(problems(limits.workspace, robot));
+  found.require(limits.max_lateness >= Time::zero(), "max_lateness must not be negative");
+  found.require(limits.max_encoder_rate > limits.max_joint_speed,
+                "max_encoder_rate must exceed max_joint_speed");
+  found.require(limits.longest_repetition >= Time::zero(), "longest_repetition must not be negative");
+  found.require(limits.max_unseen_motion > 0, "max_unseen_motion must be positive");
+  found.require(limits.max_unseen_current > 0, "max_unseen_current must be positive");
+  found.require(limits.longest_gap >= Time::zero(), "longest_gap must not be negative");
+  found.require(limits.max_age >= Time::zero(), "max_age must not be negative");
+  found.require(limits.max_joint_speed > 0, "max_joint_speed must be positive");
+  found.require(limits.max_control_error > 0, "max_control_error must be positive");
+  found.require(limits.max_torque_jump > 0, "max_torque_jump must be positive");
+  found.require(limits.torque_range > 0, "torque_range must be positive");
+  found.require(limits.recovery_speed > 0 && limits.recovery_speed <= 1,
+                "recovery_speed must be above 0 and at most 1");
+  found.require(limits.recovery_margin >= 0, "recovery_margin must not be negative");
+  return found.take();
 }
 
 std::span<const FaultRow> fault_table() noexcept { return rows; }

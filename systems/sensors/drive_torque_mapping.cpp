@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/drive_parameters.h"
 
@@ -11,18 +12,14 @@ namespace {
 
 std::vector<std::string> problems(const DriveTorqueSettings& settings, const JointVector& constants,
                                   int drives) {
-  std::vector<std::string> found;
-  if (constants.size() != drives) {
-    found.push_back("torque_constant has " + std::to_string(constants.size()) + " entries; the robot has " +
-                    std::to_string(drives) + " drives");
-  }
-  if (!constants.allFinite() || (constants.array() <= 0.0).any()) {
-    found.emplace_back("torque_constant has an entry that is not positive [Nm/A]");
-  }
-  if (settings.low_pass) {
-    for (std::string& problem : problems(*settings.low_pass)) found.push_back(std::move(problem));
-  }
-  return found;
+  Findings found;
+  found.require(constants.size() == drives, "torque_constant has " + std::to_string(constants.size()) +
+                                                " entries; the robot has " + std::to_string(drives) +
+                                                " drives");
+  found.require(constants.allFinite() && (constants.array() > 0.0).all(),
+                "torque_constant has an entry that is not positive [Nm/A]");
+  if (settings.low_pass) found.add_all(problems(*settings.low_pass));
+  return found.take();
 }
 
 }  // namespace

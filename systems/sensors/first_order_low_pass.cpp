@@ -1,14 +1,15 @@
 #include "systems/sensors/first_order_low_pass.h"
 
-#include <cmath>
 #include <numbers>
+
+#include "systems/foundation/findings.h"
 
 namespace flinch {
 
 std::vector<std::string> problems(const LowPassSettings& settings) {
-  const double frequency = settings.cutoff_frequency;
-  if (std::isfinite(frequency) && frequency > 0.0) return {};
-  return {"cutoff_frequency is " + std::to_string(frequency) + " Hz; it must be positive"};
+  Findings found;
+  found.positive("cutoff_frequency", settings.cutoff_frequency, "Hz");
+  return found.take();
 }
 
 FirstOrderLowPass::FirstOrderLowPass(const LowPassSettings& settings)

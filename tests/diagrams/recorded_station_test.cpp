@@ -5,13 +5,13 @@
 
 #include <cstring>
 
-#include "systems/foundation/setup_error.h"
 #include "systems/framework/random.h"
 #include "systems/framework/recorder.h"
 #include "systems/framework/simulator.h"
 #include "systems/robot/planar_rrr.h"
 #include "systems/robot/planar_rrr_presets.h"
 #include "systems/robot/quantity_units.h"
+#include "tests/support/problems_of.h"
 
 namespace flinch {
 namespace {
@@ -117,13 +117,10 @@ void expect_same_bits(const Recording& a, const Recording& b) {
 }
 
 std::vector<std::string> problems_of(const Recording& recording) {
-  try {
+  return test::problems_of([&] {
     DiagramBuilder builder("replay");
     add_recorded_station(builder, recording);
-  } catch (const SetupError& error) {
-    return error.problems();
-  }
-  return {};
+  });
 }
 
 TEST(RecordedStation, PlaysEveryReadingBitForBit) {

@@ -281,9 +281,9 @@ TEST(BenchDynamics, RefusesImpossibleSettingsNamingThemAll) {
     FAIL();
   } catch (const SetupError& error) {
     ASSERT_EQ(error.problems().size(), 5U);
-    EXPECT_EQ(error.problems()[0], "post.radius is -1.000000; it must be positive");
-    EXPECT_EQ(error.problems()[2], "post.material.restitution is 1.500000; it must be at most 1.000000");
-    EXPECT_EQ(error.problems()[4], "brake.velocity is nan; it must be positive");
+    EXPECT_EQ(error.problems()[0], "post.radius is -1 m; it must be positive");
+    EXPECT_EQ(error.problems()[2], "post.material.restitution is 1.5; it must be at most 1");
+    EXPECT_EQ(error.problems()[4], "brake.velocity is nan rad/s; it must be positive");
   }
   settings = bench();
   settings.initial_pose = Eigen::Vector3d(3.0, 0.0, 0.0);

@@ -45,7 +45,7 @@ TEST(ObstaclePath, RefusesTimesThatDoNotRiseAndNoPlaces) {
   const ObstaclePath path({{.time = 1.0}, {.time = 1.0}});
   ASSERT_EQ(path.problems("hand.").size(), 1U);
   EXPECT_EQ(path.problems("hand.")[0],
-            "hand.path[1].time is 1.000000 s; it must be later than that of the place before");
+            "hand.path[1].time is 1 s; it must be later than that of the place before");
 }
 
 // ---------------------------------------------------------------- hands

@@ -16,6 +16,7 @@
 #include "systems/foundation/setup_error.h"
 #include "tests/experiments/report/chromium.h"
 #include "tests/experiments/report/sample_report.h"
+#include "tests/support/problems_of.h"
 
 namespace flinch {
 namespace {
@@ -41,12 +42,7 @@ json data_in(const std::string& page) {
 }
 
 std::vector<std::string> problems_of(const Report& report) {
-  try {
-    check_report(report);
-  } catch (const SetupError& error) {
-    return error.problems();
-  }
-  return {};
+  return test::problems_of([&] { check_report(report); });
 }
 
 TEST(ReportPage, CarriesTheDataUnchangedThroughTheScriptElement) {

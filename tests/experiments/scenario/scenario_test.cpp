@@ -5,7 +5,7 @@
 
 #include "diagrams/robot_settings.h"
 #include "systems/config/config_reader.h"
-#include "systems/foundation/setup_error.h"
+#include "tests/support/problems_of.h"
 #include "tests/support/workplace.h"
 
 namespace flinch {
@@ -29,12 +29,7 @@ Scenario scenario_of(const test::Workplace& place, const std::string& text) {
 }
 
 std::vector<std::string> problems_with(const test::Workplace& place, const std::string& text) {
-  try {
-    scenario_of(place, text);
-  } catch (const SetupError& error) {
-    return error.problems();
-  }
-  return {};
+  return test::problems_of([&] { scenario_of(place, text); });
 }
 
 TEST(Scenario, NeedsNoMoreThanARobotAndADuration) {

@@ -8,8 +8,8 @@
 #include "experiments/verdict/verdict.h"
 #include "plant/compliant_obstacle.h"
 #include "plant/hand.h"
-#include "systems/foundation/setup_error.h"
 #include "systems/framework/recording.h"
+#include "tests/support/problems_of.h"
 #include "tests/support/workplace.h"
 
 namespace flinch {
@@ -27,12 +27,7 @@ SimulatedScenario scenario_with(const std::string& obstacles, const std::string&
 }
 
 std::vector<std::string> problems_with(const std::string& obstacles) {
-  try {
-    scenario_with(obstacles);
-  } catch (const SetupError& error) {
-    return error.problems();
-  }
-  return {};
+  return test::problems_of([&] { scenario_with(obstacles); });
 }
 
 Verdict verdict_on(const SimulatedScenario& scenario) {

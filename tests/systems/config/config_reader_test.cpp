@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 
+#include "tests/support/problems_of.h"
 #include "tests/systems/config/problems_of.h"
 
 namespace flinch {
@@ -122,12 +123,7 @@ TEST(ReadingWords, RefusesListsWithOthersAndRepetitions) {
     std::vector<std::string> chosen;
     ConfigReader reader = ConfigReader::parse(text, "own.yaml");
     reader.words("use", chosen, {"fast", "slow"});
-    try {
-      reader.finish();
-    } catch (const SetupError& error) {
-      return error.problems();
-    }
-    return std::vector<std::string>{};
+    return test::problems_of([&] { reader.finish(); });
   };
   EXPECT_THAT(problems_of("use: [slow, fasst, slow]"),
               ::testing::ElementsAre("own.yaml:1: use[1]: is 'fasst'; did you mean 'fast'?",

@@ -7,21 +7,13 @@
 #include <vector>
 
 #include "systems/config/config_reader.h"
-#include "systems/foundation/setup_error.h"
+#include "tests/support/problems_of.h"
 
 namespace flinch::testing {
 
 using Problems = std::vector<std::string>;
 
-/// What `load` throws as a SetupError; nothing if it does not.
-inline Problems problems_of(const std::function<void()>& load) {
-  try {
-    load();
-  } catch (const SetupError& error) {
-    return error.problems();
-  }
-  return {};
-}
+using test::problems_of;
 
 /// What is wrong with `text`, which comes from "a.yaml", for a reader that wants what `read` reads.
 inline Problems problems_of(const std::string& text, const std::function<void(ConfigReader&)>& read) {

@@ -12,6 +12,7 @@
 #include "systems/framework/simulator.h"
 #include "tests/support/allocations.h"
 #include "tests/support/blocks.h"
+#include "tests/support/problems_of.h"
 
 namespace flinch {
 namespace {
@@ -107,15 +108,6 @@ std::vector<double> run(const Loop& loop, Context context, int ticks) {
     sums.push_back(context.get(loop.sum));
   }
   return sums;
-}
-
-std::vector<std::string> problems_of(DiagramBuilder& builder) {
-  try {
-    builder.build();
-  } catch (const SetupError& error) {
-    return error.problems();
-  }
-  return {};
 }
 
 // ---------------------------------------------------------------- laws
@@ -262,7 +254,7 @@ TEST(DiagramBuilder, ReportsAllWiringErrorsAtOnceWithFullPaths) {
       "outputs read a state instead of an input",
       "the update of robot/fast/held has the period 1500000 ns, which is no multiple of the tick, 1000000 ns",
       "the update of robot/late/held has the offset 300000 ns, which is no multiple of the tick, 1000000 ns"};
-  EXPECT_EQ(problems_of(builder), expected);
+  EXPECT_EQ(test::problems_of([&] { builder.build(); }), expected);
 }
 
 TEST(DiagramBuilder, FeedsAnOptionalInputThatNobodyConnects) {
@@ -303,7 +295,7 @@ TEST(DiagramBuilder, ListsALoopThroughNestedDiagramsPortByPort) {
   builder.connect(counter.count, adder.b);
   builder.connect(adder.sum, in);
   builder.connect(adder.sum, after.in);
-  const std::vector<std::string> problems = problems_of(builder);
+  const std::vector<std::string> problems = test::problems_of([&] { builder.build(); });
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(
       problems[0],
@@ -319,7 +311,7 @@ TEST(DiagramBuilder, ReportsTwoSeparateLoopsOnce) {
     builder.connect(forth.out, back.in);
     builder.connect(back.out, forth.in);
   }
-  EXPECT_EQ(problems_of(builder).size(), 2U);
+  EXPECT_EQ(test::problems_of([&] { builder.build(); }).size(), 2U);
 }
 
 TEST(DiagramBuilder, RefusesToWireIntoANestedDiagram) {
@@ -330,7 +322,7 @@ TEST(DiagramBuilder, RefusesToWireIntoANestedDiagram) {
   builder.add(inner.build());
   auto& counter = builder.add<Counter>("counter");
   builder.connect(counter.count, gain.in);
-  const std::vector<std::string> problems = problems_of(builder);
+  const std::vector<std::string> problems = test::problems_of([&] { builder.build(); });
   ASSERT_EQ(problems.size(), 2U);
   EXPECT_NE(problems[0].find("which is not in 'outer'"), std::string::npos) << problems[0];
   EXPECT_EQ(problems[1], "outer/inner/in is not connected");

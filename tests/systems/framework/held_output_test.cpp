@@ -1,12 +1,12 @@
 // Outputs that are computed on an occasion, and occasions that the time skips.
 #include <gtest/gtest.h>
 
-#include "systems/foundation/setup_error.h"
 #include "systems/framework/diagram_builder.h"
 #include "systems/framework/random.h"
 #include "systems/framework/simulator.h"
 #include "tests/support/allocations.h"
 #include "tests/support/blocks.h"
+#include "tests/support/problems_of.h"
 
 namespace flinch {
 namespace {
@@ -268,20 +268,11 @@ TEST(Diagram, RunsWhatWasDueInASkippedPeriodAtTheNextTickAndOnce) {
 
 // ---------------------------------------------------------------- what build() finds
 
-std::vector<std::string> problems_of(DiagramBuilder& builder) {
-  try {
-    builder.build();
-  } catch (const SetupError& error) {
-    return error.problems();
-  }
-  return {};
-}
-
 TEST(DiagramBuilder, ReportsAPeriodOfAnOutputThatTicksDoNotMeet) {
   DiagramBuilder builder("robot");
   auto& sampled = builder.add<Sampled>("sampled", Every{1500us});
   builder.export_input("in", sampled.in);
-  EXPECT_EQ(problems_of(builder),
+  EXPECT_EQ(test::problems_of([&] { builder.build(); }),
             (std::vector<std::string>{"the output robot/sampled/out has the period 1500000 ns, which is no "
                                       "multiple of the tick, 1000000 ns"}));
 }
@@ -303,7 +294,7 @@ TEST(DiagramBuilder, ReportsALoopThroughACondition) {
   builder.connect(positive.out, triggered.wanted);
   builder.connect(triggered.out, positive.in);
   builder.export_input("in", triggered.in);
-  const std::vector<std::string> problems = problems_of(builder);
+  const std::vector<std::string> problems = test::problems_of([&] { builder.build(); });
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(
       problems[0],

@@ -1,0 +1,18 @@
+#include "systems/robot/joint_friction.h"
+
+#include "systems/foundation/findings.h"
+
+namespace flinch {
+
+void find_friction_problems(const std::string& field, const JointFriction& friction, Findings& findings) {
+  findings.not_negative(field + ".viscous", friction.viscous, "Nm s/rad");
+  findings.not_negative(field + ".coulomb", friction.coulomb, "Nm");
+}
+
+void find_sliding_friction_problems(const std::string& field, const JointFriction& friction,
+                                    Findings& findings) {
+  findings.not_negative(field + ".viscous", friction.viscous, "N s/m");
+  findings.not_negative(field + ".coulomb", friction.coulomb, "N");
+}
+
+}  // namespace flinch
