@@ -1,6 +1,6 @@
-// 50 robots that differ from their model, each drawn anew, in contact-free motion at 1.5 m/s and 12 m/s^2;
-// beside them the model itself with the same noise and motions. FLINCH_ROBOTS in the environment says how
-// many robots instead.
+// 50 robots that differ from their model, each drawn anew, in contact-free motion at 1.5 m/s and 12 or 17
+// m/s^2; beside them the model itself with the same noise and motions. FLINCH_ROBOTS in the environment says
+// how many robots instead.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ int wanted_robots() {
 
 TEST(RealisticRobots, MoveWithoutAFaultAndAlignedWithoutAContactThatIsNone) {
   std::printf("%s", test::table_head().c_str());
-  for (const FreeMotion motion : {FreeMotion::square, FreeMotion::point_to_point}) {
+  for (const FreeMotion motion : {FreeMotion::square, FreeMotion::point_to_point, FreeMotion::harsh}) {
     for (const bool realistic : {true, false}) {
       for (const bool aligned : {true, false}) {
         const RobotTrial trial{.motion = motion, .realistic = realistic, .aligned = aligned};

@@ -20,8 +20,24 @@ namespace {
 constexpr double force_threshold = 10.0;  // [N]
 constexpr double moment_threshold = 1.0;  // [Nm]
 
-const PoseLimits limits{.translation = {.velocity = 1.5, .acceleration = 12.0, .jerk = 600.0},
-                        .rotation = {.velocity = 4.0, .acceleration = 80.0, .jerk = 8000.0}};
+PoseLimits limits_of(FreeMotion motion) {
+  const bool harsh = motion == FreeMotion::harsh;
+  return {
+      .translation = {.velocity = 1.5, .acceleration = harsh ? 17.0 : 12.0, .jerk = harsh ? 2000.0 : 600.0},
+      .rotation = {.velocity = 4.0, .acceleration = 80.0, .jerk = 8000.0}};
+}
+
+const char* name_of(FreeMotion motion) {
+  switch (motion) {
+    case FreeMotion::square:
+      return "square";
+    case FreeMotion::point_to_point:
+      return "point to point";
+    case FreeMotion::harsh:
+      break;
+  }
+  return "harsh";
+}
 
 /// Whether a robot that follows the path stays within its limits, with a tenth of each to spare.
 bool is_feasible(const PlatformPath& path, const RobotFile& file) {
@@ -44,7 +60,7 @@ bool is_feasible(const PlatformPath& path, const RobotFile& file) {
 }
 
 /// Straight lines between random poses in the workspace, as many as fill the time.
-PlatformPath random_path(const RobotFile& file, std::uint64_t seed) {
+PlatformPath random_path(const RobotFile& file, const PoseLimits& limits, std::uint64_t seed) {
   constexpr double duration = 6.0;
   constexpr double radius = 0.25;    // [m]
   constexpr double rotation = 0.35;  // [rad]
@@ -121,8 +137,8 @@ SimulatedScenario scenario_of(const RobotTrial& trial, std::uint64_t seed, bool 
   SimulatedScenario scenario = read_simulated_scenario(shipped(file), seed);
   if (!trial.aligned) scenario.control.drive_torque.low_pass.reset();
   if (!reacts) scenario.control.contact_detector = {.reaction = {1e6, 1e6}, .hard = {1e6, 1e6}};
-  if (trial.motion == FreeMotion::point_to_point) {
-    scenario.control.trajectory.path = random_path(scenario.robot, seed);
+  if (trial.motion != FreeMotion::square) {
+    scenario.control.trajectory.path = random_path(scenario.robot, limits_of(trial.motion), seed);
     scenario.station.bench.initial_pose = scenario.control.trajectory.path->start();
     const double end = to_seconds(scenario.control.trajectory.start.value_or(Time::zero())) +
                        scenario.control.trajectory.path->duration();
@@ -170,8 +186,7 @@ std::string table_row(const RobotTrial& trial, const FreeMotionErrors& errors) {
   std::array<char, 256> row{};
   std::snprintf(row.data(), row.size(),
                 "  %-9s  %-14s  %-9s  %6d  %4.0f  %12.2f %5.2f  %15.3f %5.3f  %12.2f  %14d  %22d  %7zu\n",
-                trial.realistic ? "realistic" : "ideal",
-                trial.motion == FreeMotion::square ? "square" : "point to point",
+                trial.realistic ? "realistic" : "ideal", name_of(trial.motion),
                 trial.aligned ? "aligned" : "unaligned", errors.robots, errors.seconds, errors.largest_force,
                 errors.p99_force, errors.largest_moment, errors.p99_moment, 1e3 * errors.tracking,
                 errors.crossings, errors.alarmed_robots, errors.faults.size());
