@@ -46,11 +46,12 @@ class MovingBench {
     return Eigen::Map<const Eigen::VectorXd>(y.data(), bench->initial_state().size());
   }
 
-  void tick() {
+  void tick(double duration = 1e-3) {
     BenchStep next;
-    bench->next_step(state(), 1e-3 * ticks_++, now, equation.step, next);
+    bench->next_step(state(), time_, now, equation.step, next);
+    time_ += duration;
     equation.step = next;
-    ASSERT_TRUE(integrator_.advance(equation, 1e-3, y));
+    ASSERT_TRUE(integrator_.advance(equation, duration, y));
     look();
   }
 
@@ -71,7 +72,7 @@ class MovingBench {
   }
 
   SundialsIntegrator integrator_;
-  int ticks_ = 0;
+  double time_ = 0.0;
 };
 
 // ---------------------------------------------------------------- against the closed forms of the planar
@@ -236,6 +237,74 @@ TEST(HexapodAmongElasticObstacles, KeepsTheBalanceOfItsEnergy) {
             << in_contact << " ms in contact\n";
   EXPECT_LT(imbalance, 1e-6);
   EXPECT_GT(in_contact, 30);
+}
+
+/// What a contact with the ball loses: (k d - f_n) d' by its damper, -f_t . v_t by friction [W].
+double lost_power(const Mechanism& robot, const BenchSnapshot& now, const Touch& touch, double stiffness) {
+  Kinematics at;
+  robot.kinematics(now.pose, now.velocity, at);
+  const BodyId body = BodyId::from_index(touch.body);
+  const auto in_base = [&](const Eigen::Vector3d& point) -> Eigen::Vector3d {
+    return robot.point_on_body(at, body, point);
+  };
+  const Eigen::Vector3d origin = in_base(Eigen::Vector3d::Zero());
+  Eigen::Matrix3d axes;
+  for (int i = 0; i < 3; ++i) axes.col(i) = in_base(Eigen::Vector3d::Unit(i)) - origin;
+  const ContactJacobian there = robot.contact_jacobian(at, body, axes.transpose() * (touch.point - origin));
+  const Eigen::Vector3d velocity = there.translation * now.velocity;
+  const PlacedObstacle& ball = now.obstacles[static_cast<std::size_t>(touch.obstacle)];
+  const Eigen::Vector3d normal = (touch.point - ball.position).normalized();  // out of the ball
+  const double depth_rate = -normal.dot(velocity - ball.velocity);
+  const double normal_force = normal.dot(touch.force_on_robot);
+  const Eigen::Vector3d friction = touch.force_on_robot - normal_force * normal;
+  return (normal_force - stiffness * touch.depth) * depth_rate - friction.dot(velocity - ball.velocity);
+}
+
+// d/dt (T + sum k d^2/2) = drives + gravity - friction of joints - what contacts lose, each by its own law.
+TEST(HexapodAmongRoughBalls, LosesWhatDampersAndFrictionTake) {
+  const ContactMaterial rough{.stiffness = 2e4, .restitution = 0.5, .friction = 0.4};
+  BenchSettings settings;
+  settings.robot = hexapod(HexapodFriction::ball_screws);
+  settings.initial_velocity = PlatformVector{{0.6, 0.1, 0.0, 0.2, 0.3, 0.4}};
+  settings.link_material.reset();
+  const auto ball = [&](const char* name, const Eigen::Vector3d& at) {
+    ObstacleForm form{.name = name, .position_in_base = at, .material = rough};
+    form.shape = Sphere{.centre = {0.0, 0.0, 0.0}, .radius = 0.08};
+    return std::make_shared<const FixedObstacle>(form);
+  };
+  settings.obstacles = {ball("beside", {0.40, 0.02, 0.62}), ball("behind", {0.02, 0.40, 0.64})};
+  MovingBench moving(settings, {.relative_tolerance = 1e-10, .absolute_tolerance = 1e-11});
+  ASSERT_EQ(moving.now.contacts.touch_count, 0);
+  const auto loss_now = [&] {
+    double loss = 0.0;
+    for (int i = 0; i < moving.now.contacts.touch_count; ++i) {
+      loss += lost_power(*settings.robot, moving.now,
+                         moving.now.contacts.touches[static_cast<std::size_t>(i)], rough.stiffness);
+    }
+    return loss;
+  };
+  const double start = moving.now.kinetic_energy;
+  constexpr double tick = 5e-5;
+  double imbalance = 0.0, lost = 0.0, power = loss_now();
+  int in_contact = 0;
+  for (int k = 0; k < 5000; ++k) {
+    moving.equation.drives.torque << 30.0 * std::sin(0.001 * k), 35.0, 30.0, 35.0, 30.0, 40.0;
+    moving.tick(tick);
+    ASSERT_TRUE(moving.now.reachable) << k;
+    const double before = power;
+    power = loss_now();
+    EXPECT_GE(power, -1e-9) << "a contact gives energy";
+    lost += 0.5 * tick * (before + power);
+    const auto works = std::span(moving.y).last(test::BenchEquation::works);
+    const double of_others = works[0] + works[1] - works[3];  // drives, gravity, less friction of joints
+    const double stored = spring_energy(moving.now, rough.stiffness);
+    imbalance = std::max(imbalance, std::abs(moving.now.kinetic_energy + stored + lost - start - of_others));
+    in_contact += moving.now.contacts.touch_count > 0 ? 1 : 0;
+  }
+  std::cout << "imbalance of the energy: " << imbalance << " J, " << lost << " J lost in contacts of "
+            << tick * in_contact << " s\n";
+  EXPECT_LT(imbalance, 2e-5);
+  EXPECT_GT(lost, 0.1);
 }
 
 TEST(FiveBarBench, IsPushedByAPostInItsPlane) {
