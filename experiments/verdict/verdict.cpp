@@ -216,6 +216,8 @@ Verdict judge(const Recording& recording, const ConfigurationSpace& space, const
   expect_contact(verdict, expected, verdict.failures);
   judge_contacts(verdict, expected, verdict.failures);
   remark_contacts(verdict, verdict.remarks);
+  const auto partial = recording.attributes.find("recording.partial");
+  if (partial != recording.attributes.end()) verdict.remarks.push_back(partial->second);
   verdict.failures.insert(verdict.failures.end(), of_the_gate.begin(), of_the_gate.end());
   if (verdict.false_detections > 0) verdict.failures.push_back("a contact was detected where there was none");
   if (!verdict.fault.empty()) verdict.failures.push_back("the torque gate closed: " + verdict.fault);
