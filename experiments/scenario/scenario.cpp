@@ -78,7 +78,7 @@ void read_rest(ConfigReader& reader, std::optional<std::uint64_t> seed, const Se
   scenario.control = settings_for(robot, scenario.robot.drives, scenario.robot.limits);
   scenario.control.stages = std::move(stages);
   read_control(reader.section("control"), robot, scenario.control);
-  read_motion(reader.section("motion"), robot, scenario.control);
+  read_motion(reader.section("motion"), scenario.robot, scenario.seed, scenario.control);
   scenario.obstacles = read_obstacles(reader);
   others(reader, scenario);
   read_expectations(reader.section("expect"), robot, scenario.expected);

@@ -11,8 +11,10 @@
 #include "experiments/scenario/scenario_pose.h"
 #include "experiments/scenario/scenario_stages.h"
 #include "systems/config/config_reader.h"
+#include "systems/config/robot_file.h"
 #include "systems/foundation/nearest_name.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/motion/random_path.h"
 #include "systems/robot/parallel_robot.h"
 
 namespace flinch {
@@ -140,7 +142,21 @@ std::optional<PlatformPath> read_square(ConfigReader& motion, const ParallelRobo
   return PlatformPath::square(robot, centre, side, limits, laps);
 }
 
-enum class MotionKind { hold, through, passage, square };
+std::optional<PlatformPath> read_random(ConfigReader& motion, const RobotFile& file, std::uint64_t seed) {
+  const ParallelRobot& robot = *file.robot;
+  RandomPathSettings settings;
+  settings.centre = motion.has("centre") ? read_pose(motion.section("centre"), robot) : robot.home_pose();
+  motion.number("distance", unit::m, settings.distance, positive);
+  motion.number("rotation", unit::rad, settings.rotation, not_negative);
+  motion.number("duration", unit::s, settings.duration, between(1e-3, 3600.0));
+  read_limits(motion.section("limits"), settings.limits);
+  settings.workspace = file.limits;
+  settings.max_drive_speed = file.drives.max_speed;
+  if (!motion.good()) return std::nullopt;
+  return random_path(robot, settings, seed);
+}
+
+enum class MotionKind { hold, through, passage, square, random };
 
 }  // namespace
 
@@ -154,20 +170,24 @@ void read_control(ConfigReader control, const ParallelRobot& robot, ContactContr
   read_laws(control, robot, settings);
 }
 
-void read_motion(ConfigReader motion, const ParallelRobot& robot, ContactControlSettings& settings) {
+void read_motion(ConfigReader motion, const RobotFile& file, std::uint64_t seed,
+                 ContactControlSettings& settings) {
+  const ParallelRobot& robot = *file.robot;
   MotionKind kind = MotionKind::hold;
   Time start = Time::zero();
   motion.choice("kind", kind,
                 {{"hold", MotionKind::hold},
                  {"through", MotionKind::through},
                  {"passage", MotionKind::passage},
-                 {"square", MotionKind::square}});
+                 {"square", MotionKind::square},
+                 {"random", MotionKind::random}});
   motion.duration("start", start, not_negative);
   settings.trajectory.start = start;
   try {
     if (kind == MotionKind::through) settings.trajectory.path = read_through(motion, robot);
     if (kind == MotionKind::passage) settings.trajectory.path = read_passage(motion, robot);
     if (kind == MotionKind::square) settings.trajectory.path = read_square(motion, robot);
+    if (kind == MotionKind::random) settings.trajectory.path = read_random(motion, file, seed);
   } catch (const SetupError& error) {
     for (const std::string& problem : error.problems())
       motion.problem("", "the robot cannot move like this: " + problem);

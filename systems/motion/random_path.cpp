@@ -1,0 +1,86 @@
+#include "systems/motion/random_path.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "systems/foundation/setup_error.h"
+#include "systems/framework/random.h"
+#include "systems/robot/link_segments.h"
+
+namespace flinch {
+namespace {
+
+constexpr double spare = 0.1;
+constexpr int most_draws = 1000;  // for one pose
+constexpr double step = 2e-3;     // at which a way is looked at [s]
+
+/// Uniform in the ball of this radius, of as many dimensions as `part` has.
+template <class Part>
+void draw_in_ball(double radius, RandomGenerator& random, Part part) {
+  if (part.size() == 0) return;
+  do {
+    for (Eigen::Index i = 0; i < part.size(); ++i) part[i] = random.uniform(-1.0, 1.0);
+  } while (part.norm() > 1.0);
+  part *= radius;
+}
+
+Configuration draw_pose(const ConfigurationSpace& space, const Configuration& centre,
+                        const RandomPathSettings& settings, RandomGenerator& random) {
+  PlatformVector away = PlatformVector::Zero(space.dimension());
+  draw_in_ball(settings.distance, random, away.head(space.translations()));
+  draw_in_ball(settings.rotation, random, away.tail(space.rotations()));
+  return space.plus(centre, away);
+}
+
+bool is_inside(const ParallelRobot& robot, const Kinematics& k, const RandomPathSettings& settings) {
+  const WorkspaceLimits& limits = settings.workspace;
+  const double room = spare * (limits.max_active - limits.min_active) / 2.0;
+  const auto& drives = k.joints.active;
+  return k.valid && std::abs(k.det_A) >= (1.0 + spare) * limits.min_abs_det_A &&
+         std::abs(k.det_B) >= (1.0 + spare) * limits.min_abs_det_B &&
+         self_collision_distance(robot, k) >= (1.0 + spare) * limits.min_self_collision_distance &&
+         distance_from_centre(limits, robot, k.pose) <= (1.0 - spare) * limits.max_distance &&
+         robot.space().rotation_angle(k.pose) <= (1.0 - spare) * limits.max_rotation &&
+         (std::isinf(room) ||
+          (drives.minCoeff() >= limits.min_active + room && drives.maxCoeff() <= limits.max_active - room)) &&
+         k.rates.active.cwiseAbs().maxCoeff() <= (1.0 - spare) * settings.max_drive_speed;
+}
+
+bool is_inside(const ParallelRobot& robot, const PlatformPath& path, const RandomPathSettings& settings) {
+  Kinematics k;
+  for (double time = 0.0; time < path.duration() + step; time += step) {
+    const PlatformReference at = path.evaluate(time);
+    robot.kinematics(at.pose, at.velocity, k);
+    if (!is_inside(robot, k, settings)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+PlatformPath random_path(const ParallelRobot& robot, const RandomPathSettings& settings, std::uint64_t seed) {
+  RandomGenerator random(derive_seed(seed, "random path"));
+  const Configuration centre = settings.centre.size() == 0 ? robot.home_pose() : settings.centre;
+  std::vector<Configuration> poses = {centre};
+  double duration = 0.0;
+  for (int draws = 0; duration < settings.duration; ++draws) {
+    if (draws == most_draws) {
+      throw SetupError(
+          "of " + std::to_string(most_draws) +
+          " random poses none can be reached within the robot's limits; lower distance or speed");
+    }
+    const Configuration next = draw_pose(robot.space(), centre, settings, random);
+    try {
+      const PlatformPath way = PlatformPath::through(robot, {poses.back(), next}, settings.limits);
+      if (!is_inside(robot, way, settings)) continue;
+      duration += way.duration();
+    } catch (const SetupError&) {  // out of reach
+      continue;
+    }
+    poses.push_back(next);
+    draws = -1;
+  }
+  return PlatformPath::through(robot, poses, settings.limits);
+}
+
+}  // namespace flinch

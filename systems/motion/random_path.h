@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <numbers>
+
+#include "systems/motion/platform_path.h"
+#include "systems/robot/workspace_limits.h"
+
+namespace flinch {
+
+/// Motion that goes everywhere: for what must hold of any motion, such as thresholds without a contact.
+struct RandomPathSettings {
+  double duration = 6.0;                     ///< the motion lasts at least so long [s]
+  Configuration centre;                      ///< of the poses; empty: home
+  double distance = 0.2;                     ///< poses lie within it of the centre [m]
+  double rotation = std::numbers::pi / 9.0;  ///< and are turned by at most this against it [rad]
+  PoseLimits limits{.translation = {.velocity = 1.5, .acceleration = 12.0, .jerk = 600.0},
+                    .rotation = {.velocity = 4.0, .acceleration = 80.0, .jerk = 8000.0}};
+
+  /// Which the way between the poses keeps with a tenth of each to spare, so that a robot which follows it
+  /// with some error keeps them as well.
+  WorkspaceLimits workspace;
+  double max_drive_speed = 0.0;  ///< likewise [rad/s or m/s]
+};
+
+/// Straight lines from rest to rest between random poses, from the centre on, uniformly drawn: the position
+/// in a disc or ball, the orientation likewise. Poses to which the way is not within the limits are drawn again.
+/// Throws SetupError where hardly any is, or the path cannot be planned.
+PlatformPath random_path(const ParallelRobot& robot, const RandomPathSettings& settings, std::uint64_t seed);
+
+}  // namespace flinch

@@ -1,0 +1,72 @@
+#include "systems/motion/random_path.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "systems/config/robot_file.h"
+#include "systems/foundation/setup_error.h"
+#include "systems/robot/link_segments.h"
+
+namespace flinch {
+namespace {
+
+class RandomPath : public ::testing::TestWithParam<const char*> {
+ protected:
+  const RobotFile file = read_robot_file(std::string(FLINCH_SOURCE_DIR "/apps/robots/") + GetParam());
+  const ParallelRobot& robot = *file.robot;
+
+  RandomPathSettings settings() const {
+    RandomPathSettings settings;
+    settings.distance = 0.1;
+    settings.rotation = 0.2;
+    settings.limits.translation = {.velocity = 0.5, .acceleration = 5.0, .jerk = 200.0};
+    settings.limits.rotation = {.velocity = 2.0, .acceleration = 40.0, .jerk = 4000.0};
+    settings.workspace = file.limits;
+    settings.max_drive_speed = file.drives.max_speed;
+    return settings;
+  }
+};
+
+TEST_P(RandomPath, KeepsTheLimitsOfTheRobotEverywhere) {
+  const PlatformPath path = random_path(robot, settings(), 1);
+  EXPECT_GE(path.duration(), 6.0);
+  Kinematics k;
+  for (double time = 0.0; time < path.duration(); time += 1.7e-3) {
+    const PlatformReference at = path.evaluate(time);
+    robot.kinematics(at.pose, at.velocity, k);
+    ASSERT_TRUE(k.valid);
+    EXPECT_GT(std::abs(k.det_A), file.limits.min_abs_det_A);
+    EXPECT_GT(self_collision_distance(robot, k), file.limits.min_self_collision_distance);
+    EXPECT_LT(distance_from_centre(file.limits, robot, at.pose), file.limits.max_distance);
+    EXPECT_GT(k.joints.active.minCoeff(), file.limits.min_active);
+    EXPECT_LT(k.joints.active.maxCoeff(), file.limits.max_active);
+    EXPECT_LT(k.rates.active.cwiseAbs().maxCoeff(), file.drives.max_speed);
+    const PlatformVector away = robot.difference(at.pose, robot.home_pose());
+    EXPECT_LE(away.head(robot.space_dimension()).norm(), 0.1 + 1e-9);
+  }
+}
+
+TEST_P(RandomPath, FollowsFromItsSeed) {
+  const PlatformPath once = random_path(robot, settings(), 1), again = random_path(robot, settings(), 1);
+  const PlatformPath other = random_path(robot, settings(), 2);
+  EXPECT_EQ(once.duration(), again.duration());
+  EXPECT_EQ(once.evaluate(3.0).pose, again.evaluate(3.0).pose);
+  EXPECT_NE(once.duration(), other.duration());
+}
+
+TEST_P(RandomPath, SaysSoWhereNoPoseCanBeReached) {
+  RandomPathSettings too_fast = settings();
+  too_fast.max_drive_speed = 1e-6;
+  EXPECT_THROW(random_path(robot, too_fast, 1), SetupError);
+}
+
+INSTANTIATE_TEST_SUITE_P(Robots, RandomPath,
+                         ::testing::Values("planar_3rrr.yaml", "five_bar.yaml", "hexapod_6ups.yaml"),
+                         [](const ::testing::TestParamInfo<const char*>& robot) {
+                           const std::string name = robot.param;
+                           return name.substr(0, name.find('.'));
+                         });
+
+}  // namespace
+}  // namespace flinch
