@@ -23,9 +23,9 @@ struct RandomPathSettings {
   double max_drive_speed = 0.0;  ///< likewise [rad/s or m/s]
 };
 
-/// Straight lines from rest to rest between random poses, from the centre on, uniformly drawn: the position
-/// in a disc or ball, the orientation likewise. Poses to which the way is not within the limits are drawn again.
-/// Throws SetupError where hardly any is, or the path cannot be planned.
+/// Straight lines from rest to rest between random poses, from the centre on: the position uniform in a disc
+/// or ball, the orientation likewise. Poses to which the way is not within the limits are drawn again. Throws
+/// SetupError where hardly any is, or the path cannot be planned.
 PlatformPath random_path(const ParallelRobot& robot, const RandomPathSettings& settings, std::uint64_t seed);
 
 }  // namespace flinch
