@@ -7,6 +7,7 @@
 #include "systems/contact/contact_detector.h"
 #include "systems/estimators/momentum_kalman_filter.h"
 #include "systems/estimators/momentum_observer.h"
+#include "systems/estimators/sliding_mode_observer.h"
 #include "systems/laws/controlled_stop.h"
 #include "systems/laws/impedance_controller.h"
 #include "systems/laws/mode_selector.h"
@@ -36,6 +37,7 @@ struct ContactControlSettings {
   // ---- contacts
   MomentumObserverSettings momentum_observer;  ///< 20 1/s, [SafePR] V-A
   MomentumKalmanFilterSettings momentum_kalman_filter;
+  SlidingModeObserverSettings sliding_mode_observer;
   ContactDetectorSettings contact_detector;  ///< 10 N, 1 Nm; hard: 60 N, 3 Nm
   /// Reaction thresholds of detectors that follow these estimators, in place of those of `contact_detector`.
   std::map<std::string, WrenchThreshold> reaction_thresholds;

@@ -25,11 +25,16 @@ OutputPort<WrenchEstimate> add_momentum_kalman_filter(const StageSite& site, con
   return add<MomentumKalmanFilter>(site, given, site.settings.momentum_kalman_filter);
 }
 
+OutputPort<WrenchEstimate> add_sliding_mode_observer(const StageSite& site, const AcceleratedPorts& given) {
+  return add<SlidingModeObserver>(site, given, site.settings.sliding_mode_observer);
+}
+
 }  // namespace
 
 std::vector<WrenchEstimator> estimator_stages() {
   return {{"momentum_observer", add_momentum_observer},
-          {"momentum_kalman_filter", add_momentum_kalman_filter}};
+          {"momentum_kalman_filter", add_momentum_kalman_filter},
+          {"sliding_mode_observer", add_sliding_mode_observer}};
 }
 
 }  // namespace flinch

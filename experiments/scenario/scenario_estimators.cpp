@@ -23,11 +23,19 @@ void read(ConfigReader reader, MomentumKalmanFilterSettings& settings) {
   reader.number("moment_density", unit::N2m2_per_s, settings.rotation.force_density, positive);
 }
 
+void read(ConfigReader reader, SlidingModeObserverSettings& settings) {
+  reader.number("force_rate", unit::N_per_s, settings.force_rate, positive);
+  reader.number("moment_rate", unit::Nm_per_s, settings.moment_rate, positive);
+  reader.number("damping", unit::per_s, settings.damping, positive);
+  reader.integer("substeps", settings.substeps, 1, 100);
+}
+
 }  // namespace
 
 void read_estimators(ConfigReader& control, const ParallelRobot& robot, ContactControlSettings& settings) {
   read(control.section("momentum_observer"), robot, settings.momentum_observer);
   read(control.section("momentum_kalman_filter"), settings.momentum_kalman_filter);
+  read(control.section("sliding_mode_observer"), settings.sliding_mode_observer);
 }
 
 }  // namespace flinch

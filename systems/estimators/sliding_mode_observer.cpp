@@ -1,0 +1,63 @@
+#include "systems/estimators/sliding_mode_observer.h"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+const SlidingModeObserverSettings& checked(const SlidingModeObserverSettings& settings) {
+  std::vector<std::string> found;
+  const auto require_positive = [&found](double value, const std::string& name) {
+    if (!(value > 0.0 && std::isfinite(value))) found.push_back(name + " is not positive");
+  };
+  require_positive(settings.force_rate, "force_rate [N/s]");
+  require_positive(settings.moment_rate, "moment_rate [Nm/s]");
+  require_positive(settings.damping, "damping [1/s]");
+  require_positive(settings.substeps, "substeps");
+  throw_if_any(found);
+  return settings;
+}
+
+}  // namespace
+
+SlidingModeMethod::Gains::Gains(double L, double damping)
+    : T1(1.5 * std::sqrt(L)),
+      T2(damping),
+      S1(1.1 * L),
+      S2(1.1 * (8.0 * S1 + 9.0 * T1 * T1) * T2 * T2 / (4.0 * S1)),
+      layer(1e-4 / 3000.0 * L) {}
+
+SlidingModeMethod::SlidingModeMethod(int translations, const SlidingModeObserverSettings& settings)
+    : translations_(translations),
+      gains_{Gains(settings.force_rate, settings.damping), Gains(settings.moment_rate, settings.damping)},
+      substep_(to_seconds(settings.inputs.sampling.period) / settings.substeps),
+      settling_time_(settings.convergence_time) {}
+
+void SlidingModeMethod::advance(const Memory& memory, const MomentumStep& step, Memory& next) const {
+  next = memory;
+  const int steps = std::max(1, static_cast<int>(std::lround(step.T / substep_)));
+  const double h = step.T / steps;
+  for (int i = 0; i < static_cast<int>(step.end.size()); ++i) {
+    const Gains& g = gains_[i < translations_ ? 0 : 1];
+    const double rate = (step.end[i] - step.begin[i]) / step.T;
+    double& p = next.momentum[i];
+    double& F = next.wrench[i];
+    for (int k = 0; k < steps; ++k) {
+      const double e = p - (step.begin[i] + k * h * rate);
+      const double sgn = std::tanh(e / g.layer);
+      F -= h * (g.S1 * sgn + g.S2 * e);  // first, so that the new one acts on p: stable without damping too
+      p += h * (step.known[i] + F - g.T1 * std::sqrt(std::abs(e)) * sgn - g.T2 * e);
+    }
+  }
+}
+
+SlidingModeObserver::SlidingModeObserver(const std::shared_ptr<const ParallelRobot>& robot,
+                                         const SlidingModeObserverSettings& settings)
+    : MomentumEstimator(robot, SlidingModeMethod(robot->space().translations(), checked(settings)),
+                        settings.inputs) {}
+
+}  // namespace flinch
