@@ -214,7 +214,7 @@ ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
   const auto velocities = path.add(stages.velocities, sensed);
   const MotionPorts motion = add_motion(path, sensed, velocities.port());
   const auto accelerations = path.add(stages.accelerations, motion);
-  const AcceleratedPorts accelerated{motion, followed_acceleration(path, accelerations)};
+  const AcceleratedPorts accelerated{motion, followed_acceleration(path, accelerations), accelerations.all};
   const auto estimators = path.add(stages.estimators, accelerated);
   auto& buttons = builder.add<OperatorButtons>("operator_buttons");
   const EstimatePorts estimated{accelerated, estimators.port(), estimators.all, buttons.reset};

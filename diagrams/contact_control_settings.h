@@ -5,6 +5,9 @@
 
 #include "diagrams/control_stages.h"
 #include "systems/contact/contact_detector.h"
+#include "systems/estimators/disturbance_filter.h"
+#include "systems/estimators/imu_filter.h"
+#include "systems/estimators/imu_residual.h"
 #include "systems/estimators/momentum_kalman_filter.h"
 #include "systems/estimators/momentum_observer.h"
 #include "systems/estimators/sliding_mode_observer.h"
@@ -34,10 +37,16 @@ struct ContactControlSettings {
   /// 6.1 Nm/A until calibrated, [ICRA23] III-B; filtered as the velocity is.
   DriveTorqueSettings drive_torque{.torque_constant = {}, .low_pass = LowPassSettings{}, .sampling = {}};
 
+  ImuMount imu_mount;  ///< pose 1 of [RAL25] V-B; for all that reads the IMU
+  ImuFilterSettings imu_ekf = published_imu_filter();
+  ImuFilterSettings extended_imu_ekf = extended_imu_filter();
+
   // ---- contacts
   MomentumObserverSettings momentum_observer;  ///< 20 1/s, [SafePR] V-A
   MomentumKalmanFilterSettings momentum_kalman_filter;
   SlidingModeObserverSettings sliding_mode_observer;
+  DisturbanceFilterSettings disturbance_filter;
+  ImuResidualSettings imu_residual;          ///< with `imu_mount` in the place of its own
   ContactDetectorSettings contact_detector;  ///< 10 N, 1 Nm; hard: 60 N, 3 Nm
   /// Reaction thresholds of detectors that follow these estimators, in place of those of `contact_detector`.
   std::map<std::string, WrenchThreshold> reaction_thresholds;

@@ -4,6 +4,7 @@
 #include <set>
 #include <string>
 
+#include "diagrams/acceleration_stages.h"
 #include "diagrams/contact_control_settings.h"
 #include "diagrams/estimator_stages.h"
 #include "systems/foundation/nearest_name.h"
@@ -104,6 +105,7 @@ ControlStages standard_stages() {
 
 ControlStages known_stages() {
   ControlStages stages = standard_stages();
+  stages.accelerations.all = acceleration_stages();
   stages.estimators.all = estimator_stages();
   return stages;
 }

@@ -43,6 +43,7 @@ struct MotionPorts : SensedPorts {
 /// And how it accelerates.
 struct AcceleratedPorts : MotionPorts {
   OutputPort<PlatformAcceleration> acceleration;  ///< of the followed source; never valid where there is none
+  std::vector<Named<OutputPort<PlatformAcceleration>>> accelerations;  ///< of every one
 };
 
 /// What pushes it.

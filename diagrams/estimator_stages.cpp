@@ -1,9 +1,31 @@
 #include "diagrams/estimator_stages.h"
 
+#include <algorithm>
+#include <string>
+
+#include "diagrams/acceleration_stages.h"
 #include "diagrams/contact_control_settings.h"
+#include "systems/estimators/direct_method.h"
+#include "systems/estimators/estimate_fallback.h"
+#include "systems/foundation/setup_error.h"
 
 namespace flinch {
 namespace {
+
+/// Where a further block of a stage is added, called as the stage and `what` it is.
+StageSite part(const StageSite& site, const std::string& what) {
+  return {site.builder, site.name + "_" + what, site.robot, site.settings};
+}
+
+/// The drive torque of the present, without the filter that aligns it with the velocity.
+OutputPort<DriveTorque> add_torque_as_it_is(const StageSite& site, const SensedPorts& given) {
+  DriveTorqueSettings settings = site.settings.drive_torque;
+  settings.low_pass.reset();
+  auto& torque = site.builder.add<DriveTorqueMapping>(site.name, site.robot, settings);
+  site.builder.connect(given.drives, torque.drives);
+  site.builder.connect(given.status, torque.status);
+  return torque.torque;
+}
 
 /// An estimator of the momentum: one of its own inputs is all that each of them reads.
 template <class Estimator, class Settings>
@@ -29,12 +51,92 @@ OutputPort<WrenchEstimate> add_sliding_mode_observer(const StageSite& site, cons
   return add<SlidingModeObserver>(site, given, site.settings.sliding_mode_observer);
 }
 
+/// An estimate that needs the IMU, and beside it the momentum observer for where that fails.
+OutputPort<WrenchEstimate> add_fallback(const StageSite& site, const AcceleratedPorts& given,
+                                        OutputPort<WrenchEstimate> preferred) {
+  const auto observer =
+      add<MomentumObserver>(part(site, "momentum_observer"), given, site.settings.momentum_observer);
+  auto& fallback = site.builder.add<EstimateFallback>(site.name);
+  site.builder.connect(preferred, fallback.preferred);
+  site.builder.connect(observer, fallback.other);
+  return fallback.wrench;
+}
+
+OutputPort<WrenchEstimate> add_direct(const StageSite& site, const AcceleratedPorts& given,
+                                      OutputPort<PlatformAcceleration> acceleration) {
+  DiagramBuilder& builder = site.builder;
+  auto& direct = builder.add<DirectMethod>(site.name + "_method", site.robot);
+  builder.connect(given.platform, direct.platform);
+  builder.connect(given.kinematics, direct.kinematics);
+  builder.connect(given.dynamics, direct.dynamics);
+  builder.connect(add_torque_as_it_is(part(site, "torque"), given), direct.torque);
+  builder.connect(acceleration, direct.acceleration);
+  return add_fallback(site, given, direct.wrench);
+}
+
+OutputPort<WrenchEstimate> add_direct_method(const StageSite& site, const AcceleratedPorts& given) {
+  if (given.accelerations.empty()) {
+    throw SetupError("the estimator '" + site.name +
+                     "' needs an acceleration: let one of control.accelerations run");
+  }
+  return add_direct(site, given, given.acceleration);
+}
+
+/// The acceleration of the source of this name: that which runs, else one for this estimator alone.
+OutputPort<PlatformAcceleration> acceleration_of(const std::string& name, const StageSite& site,
+                                                 const AcceleratedPorts& given) {
+  for (const auto& running : given.accelerations) {
+    if (running.name == name) return running.port;
+  }
+  const std::vector<AccelerationSource> known = acceleration_stages();
+  const auto source = std::find_if(known.begin(), known.end(),
+                                   [&](const AccelerationSource& each) { return each.name == name; });
+  return source->add(part(site, name), given);
+}
+
+OutputPort<WrenchEstimate> add_direct_imu_ekf(const StageSite& site, const AcceleratedPorts& given) {
+  return add_direct(site, given, acceleration_of("imu_ekf", site, given));
+}
+
+OutputPort<WrenchEstimate> add_direct_extended_imu_ekf(const StageSite& site, const AcceleratedPorts& given) {
+  return add_direct(site, given, acceleration_of("extended_imu_ekf", site, given));
+}
+
+OutputPort<WrenchEstimate> add_disturbance_filter(const StageSite& site, const AcceleratedPorts& given) {
+  DiagramBuilder& builder = site.builder;
+  auto& filter = builder.add<DisturbanceFilter>(site.name, site.robot, site.settings.disturbance_filter);
+  builder.connect(given.joints, filter.joints);
+  builder.connect(given.platform, filter.platform);
+  builder.connect(given.kinematics, filter.kinematics);
+  builder.connect(given.dynamics, filter.dynamics);
+  builder.connect(add_torque_as_it_is(part(site, "torque"), given), filter.torque);
+  return filter.wrench;
+}
+
+OutputPort<WrenchEstimate> add_imu_residual(const StageSite& site, const AcceleratedPorts& given) {
+  DiagramBuilder& builder = site.builder;
+  ImuResidualSettings settings = site.settings.imu_residual;
+  settings.mount = site.settings.imu_mount;
+  auto& residual = builder.add<ImuResidual>(site.name + "_method", site.robot, settings);
+  builder.connect(given.platform, residual.platform);
+  builder.connect(given.kinematics, residual.kinematics);
+  builder.connect(given.dynamics, residual.dynamics);
+  builder.connect(add_torque_as_it_is(part(site, "torque"), given), residual.torque);
+  builder.connect(given.imu, residual.imu);
+  return add_fallback(site, given, residual.wrench);
+}
+
 }  // namespace
 
 std::vector<WrenchEstimator> estimator_stages() {
   return {{"momentum_observer", add_momentum_observer},
           {"momentum_kalman_filter", add_momentum_kalman_filter},
-          {"sliding_mode_observer", add_sliding_mode_observer}};
+          {"sliding_mode_observer", add_sliding_mode_observer},
+          {"direct_method", add_direct_method},
+          {"direct_imu_ekf", add_direct_imu_ekf},
+          {"direct_extended_imu_ekf", add_direct_extended_imu_ekf},
+          {"disturbance_filter", add_disturbance_filter},
+          {"imu_residual", add_imu_residual}};
 }
 
 }  // namespace flinch

@@ -1,35 +1,15 @@
 #include "plant/simulated_imu.h"
 
-#include <Eigen/Geometry>
-
 #include "plant/quantisation.h"
-#include "plant/spatial_motion.h"
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
 namespace {
 
-Eigen::Matrix3d platform_to_sensor(const Eigen::Vector3d& angles) {
-  const Eigen::Matrix3d R_ES = (Eigen::AngleAxisd(angles.x(), Eigen::Vector3d::UnitX()) *
-                                Eigen::AngleAxisd(angles.y(), Eigen::Vector3d::UnitY()) *
-                                Eigen::AngleAxisd(angles.z(), Eigen::Vector3d::UnitZ()))
-                                   .toRotationMatrix();
-  return R_ES.transpose();
-}
-
 Eigen::Vector3d draw_bias(double limit, std::uint64_t seed) {
   RandomGenerator generator(seed);
   return uniform_vector(generator, limit);
-}
-
-// Acceleration minus gravity of a point fixed to the platform, in platform axes. [RAL25] (8)
-Eigen::Vector3d specific_force(const SpatialMotion& now, const Eigen::Vector3d& point,
-                               const Eigen::Vector3d& gravity) {
-  const Eigen::Vector3d omega = now.axes.transpose() * now.angular_velocity;
-  const Eigen::Vector3d omega_rate = now.axes.transpose() * now.angular_acceleration;
-  return now.axes.transpose() * (now.acceleration - gravity) + omega_rate.cross(point) +
-         omega.cross(omega.cross(point));
 }
 
 }  // namespace
@@ -47,7 +27,7 @@ SimulatedImu::SimulatedImu(const SimulatedImuSettings& settings, const Mechanism
     : settings_(settings),
       space_(robot.space()),
       gravity_(robot.gravity()),
-      R_SE_(platform_to_sensor(settings.angles)),
+      R_SE_(platform_to_sensor(settings.mount())),
       accelerometer_bias_(draw_bias(settings.accelerometer_bias, derive_seed(seed, "accelerometer bias"))),
       gyroscope_bias_(draw_bias(settings.gyroscope_bias, derive_seed(seed, "gyroscope bias"))),
       noise_(state<NormalNumbers<6>>("noise", NormalNumbers<6>(6, derive_seed(seed, "noise")))) {

@@ -10,6 +10,7 @@
 #include "plant/plant_truth.h"
 #include "plant/sensor_noise.h"
 #include "systems/framework/system.h"
+#include "systems/robot/imu_mount.h"
 #include "systems/robot/mechanism.h"
 #include "systems/signals/imu_reading.h"
 
@@ -22,6 +23,7 @@ struct SimulatedImuSettings {
   Eigen::Vector3d position_in_platform{-0.005, 0.001, -0.097};  ///< p_S [m]
   /// Turns about x, then y, then z of the turned frames that take the platform's axes to the sensor's [rad].
   Eigen::Vector3d angles{2.8 * degree, -5.2 * degree, 2.3 * degree};
+  ImuMount mount() const { return {position_in_platform, angles}; }
 
   double accelerometer_density = 180e-6 * standard_gravity;  ///< Noise [m/s^2/sqrt(Hz)].
   double gyroscope_density = 0.007 * degree;                 ///< [rad/s/sqrt(Hz)]

@@ -1,5 +1,6 @@
 #include "experiments/scenario/scenario_estimators.h"
 
+#include <cmath>
 #include <span>
 
 #include "diagrams/contact_control_settings.h"
@@ -30,12 +31,54 @@ void read(ConfigReader reader, SlidingModeObserverSettings& settings) {
   reader.integer("substeps", settings.substeps, 1, 100);
 }
 
+void read(ConfigReader reader, ImuMount& mount) {
+  reader.numbers("position", unit::m, {mount.position_in_platform.data(), 3});
+  reader.numbers("angles", unit::rad, {mount.angles.data(), 3});
+}
+
+/// A variance, which a file gives by its root; untouched where that is not changed.
+void read_deviation(ConfigReader& reader, const char* name, const Unit& unit, double& variance) {
+  const double before = std::sqrt(variance);
+  double deviation = before;
+  reader.number(name, unit, deviation, positive);
+  if (deviation != before) variance = deviation * deviation;
+}
+
+void read(ConfigReader reader, ImuFilterSettings& settings) {
+  ImuFilterNoise& noise = settings.noise;
+  read_deviation(reader, "position_deviation", unit::m, noise.encoder_pose.translation);
+  read_deviation(reader, "orientation_deviation", unit::rad, noise.encoder_pose.rotation);
+  read_deviation(reader, "gyroscope_deviation", unit::rad_per_s, noise.gyroscope);
+  read_deviation(reader, "accelerometer_deviation", unit::m_per_s2, noise.accelerometer);
+  read_deviation(reader, "acceleration_change", unit::m_per_s2, noise.acceleration.translation);
+  read_deviation(reader, "angular_acceleration_change", unit::rad_per_s2, noise.acceleration.rotation);
+  reader.number("largest_innovation", unit::none, settings.largest_innovation, positive);
+}
+
+void read(ConfigReader reader, const ParallelRobot& robot, DisturbanceFilterSettings& settings) {
+  const bool turns = robot.drive_kind(0) == DriveKind::revolute;
+  reader.number("pole", unit::per_s, settings.pole, positive);
+  reader.number("encoder_deviation", turns ? unit::rad : unit::m, settings.encoder_deviation, positive);
+}
+
+void read(ConfigReader reader, ImuResidualSettings& settings) {
+  reader.number("gyroscope_gain", unit::per_s, settings.gyroscope_gain, positive);
+  reader.number("gyroscope_deviation", unit::rad_per_s, settings.gyroscope_deviation, positive);
+  reader.number("accelerometer_deviation", unit::m_per_s2, settings.accelerometer_deviation, positive);
+  reader.duration("jitter", settings.jitter, not_negative);
+}
+
 }  // namespace
 
 void read_estimators(ConfigReader& control, const ParallelRobot& robot, ContactControlSettings& settings) {
   read(control.section("momentum_observer"), robot, settings.momentum_observer);
   read(control.section("momentum_kalman_filter"), settings.momentum_kalman_filter);
   read(control.section("sliding_mode_observer"), settings.sliding_mode_observer);
+  read(control.section("disturbance_filter"), robot, settings.disturbance_filter);
+  read(control.section("imu_mount"), settings.imu_mount);
+  read(control.section("imu_ekf"), settings.imu_ekf);
+  read(control.section("extended_imu_ekf"), settings.extended_imu_ekf);
+  read(control.section("imu_residual"), settings.imu_residual);
 }
 
 }  // namespace flinch

@@ -66,9 +66,11 @@ double slowest_time_constant(const MomentumNoise& noise, const Eigen::Matrix2d& 
   return T / -std::log(radius);
 }
 
-/// Of [C; C A], with the force counted by the momentum that it gives in a period.
+/// Of [C; C A; C A^2], its columns scaled to length one: the period does not matter then.
 double observability_of_a_force() {
-  const Eigen::Matrix2d O = (Eigen::Matrix2d() << 1.0, 0.0, 1.0, 1.0).finished();
+  Eigen::Matrix<double, 3, 2> O;
+  O << 1.0, 0.0, 1.0, 1.0, 1.0, 2.0;
+  O.colwise().normalize();
   const Eigen::Vector2d squares =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(O.transpose() * O).eigenvalues();
   return std::sqrt(squares[0] / squares[1]);

@@ -19,9 +19,9 @@ struct SlidingModeObserverSettings {
 
 /// Second-order sliding-mode observer of the momentum, [ICRA23] (15), in each coordinate with e = p^ - p
 ///   dp^/dt = s + F - T1 |e|^(1/2) sgn(e) - T2 e,   dF/dt = -S1 sgn(e) - S2 e.
-/// e and F - F_ext reach zero in finite time as long as |dF_ext/dt| <= L. The paper prints no gains; these are
-/// those of the super-twisting algorithm, T1 = 1.5 L^(1/2), S1 = 1.1 L, and for the linear part the sufficient
-/// S2 > (8 S1 + 9 T1^2) T2^2 / (4 S1).
+/// e and F - F_ext reach zero in finite time as long as |dF_ext/dt| <= L. The paper prints no gains; these
+/// are those of the super-twisting algorithm, T1 = 1.5 L^(1/2), S1 = 1.1 L, and for the linear part the
+/// sufficient S2 > (8 S1 + 9 T1^2) T2^2 / (4 S1).
 ///
 /// Between samples the observer makes several steps, in which the momentum is interpolated: that takes away
 /// nearly all chatter. In a narrow layer sgn(e) passes smoothly through zero.

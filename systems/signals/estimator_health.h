@@ -10,8 +10,8 @@ struct EstimatorHealth {
   /// Mean of late of e^T S^-1 e / n, for an innovation e of n entries that should have the covariance S:
   /// about 1 where model and noise are as assumed. 0: the estimator has no innovation.
   double innovation = 0.0;
-  /// Reciprocal condition number of the observability matrix, each state counted by what it changes in one
-  /// sampling period: 0 where a state cannot be seen. 1: the estimator has no states to be seen.
+  /// Reciprocal condition number of the observability matrix over three samples, its columns scaled to length
+  /// one: 0 where a state cannot be seen. 1: the estimator has no states to be seen.
   double observability = 1.0;
 
   template <class Self, class Visit>

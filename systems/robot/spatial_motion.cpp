@@ -1,4 +1,4 @@
-#include "plant/spatial_motion.h"
+#include "systems/robot/spatial_motion.h"
 
 #include <cmath>
 

@@ -1,0 +1,44 @@
+#include "systems/estimators/direct_method.h"
+
+namespace flinch {
+
+DirectSample DirectMethod::sample(const PlatformMotion& motion, const Kinematics& at, const Dynamics& model,
+                                  const DriveTorque& drives) const {
+  if (!motion.valid() || !at.valid || !model.valid || !drives.valid) return {};
+  if (drives.torque.size() != drive_count(at)) return {};
+  const PlatformVector F_a = at.J_qa_x.transpose() * drives.torque;
+  DirectSample now;
+  now.acquired = motion.acquired;
+  now.braked = drives.braked;
+  now.M_x = model.M_x;
+  now.rest = model.C_x * at.velocity + model.g_x + model.F_fr_x - F_a;
+  now.valid = now.M_x.allFinite() && now.rest.allFinite();
+  return now;
+}
+
+void DirectMethod::remember(const DirectSample& fresh, History<DirectSample, 32>& past) const {
+  if (fresh.valid) past.push(fresh);
+}
+
+void DirectMethod::estimate(const PlatformAcceleration& measured, const Kinematics& at,
+                            const DirectSample& fresh, const History<DirectSample, 32>& past,
+                            WrenchEstimate& result) const {
+  result = WrenchEstimate();
+  result.acquired = measured.acquired;
+  result.wrench_in_base.setZero(robot_->dof());
+  result.drive_torque.setZero(robot_->drives());
+  result.health = measured.health;
+  const DirectSample* then = past.first_from(measured.acquired);
+  if (then == nullptr && fresh.acquired >= measured.acquired) then = &fresh;
+  if (!measured.valid || !fresh.valid || then == nullptr || !measured.acceleration.allFinite()) return;
+  if (measured.acceleration.size() != robot_->dof()) return;
+
+  result.valid = true;
+  if (fresh.braked || then->braked) return;
+  result.wrench_in_base = then->M_x * measured.acceleration + then->rest;
+  result.drive_torque = at.J_x_qa.transpose() * result.wrench_in_base;  // [SafePR] (6b)
+  if (measured.standard_deviation.size() != robot_->dof()) return;
+  result.standard_deviation = (then->M_x.cwiseAbs2() * measured.standard_deviation.cwiseAbs2()).cwiseSqrt();
+}
+
+}  // namespace flinch

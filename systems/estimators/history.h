@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "systems/framework/time.h"
+
+namespace flinch {
+
+/// The last samples of a signal, at most `size`, in the order of their acquisition.
+template <class Sample, std::size_t size>
+struct History {
+  std::array<Sample, size> samples;
+  std::size_t count = 0;
+  std::size_t next = 0;  ///< where the next one goes
+
+  /// Forgets the oldest where there is no room. One that is not newer than the newest is not taken.
+  void push(const Sample& sample) {
+    if (count > 0 && sample.acquired <= newest().acquired) return;
+    samples[next] = sample;
+    next = (next + 1) % size;
+    if (count < size) ++count;
+  }
+  const Sample& newest() const { return samples[(next + size - 1) % size]; }
+
+  /// The oldest sample that was acquired at `time` or later; none: null.
+  const Sample* first_from(Time time) const {
+    const Sample* found = nullptr;
+    for (std::size_t back = 1; back <= count; ++back) {
+      const Sample& sample = samples[(next + size - back) % size];
+      if (sample.acquired < time) break;
+      found = &sample;
+    }
+    return found;
+  }
+  /// The newest sample that was acquired before `time`; none: null.
+  const Sample* last_before(Time time) const {
+    for (std::size_t back = 1; back <= count; ++back) {
+      const Sample& sample = samples[(next + size - back) % size];
+      if (sample.acquired < time) return &sample;
+    }
+    return nullptr;
+  }
+};
+
+}  // namespace flinch

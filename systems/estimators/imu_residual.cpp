@@ -1,0 +1,155 @@
+#include "systems/estimators/imu_residual.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "systems/foundation/setup_error.h"
+#include "systems/robot/forward_dynamics.h"
+
+namespace flinch {
+namespace {
+
+std::vector<std::string> problems(const ImuResidualSettings& settings) {
+  std::vector<std::string> found;
+  const auto require_positive = [&found](double value, const char* name) {
+    if (!(value > 0.0 && std::isfinite(value))) found.push_back(std::string(name) + " is not positive");
+  };
+  require_positive(settings.gyroscope_gain, "gyroscope_gain [1/s]");
+  require_positive(settings.gyroscope_deviation, "gyroscope_deviation [rad/s]");
+  require_positive(settings.accelerometer_deviation, "accelerometer_deviation [m/s^2]");
+  require_positive(settings.rest_speed, "rest_speed [m/s]");
+  require_positive(settings.rest_rate, "rest_rate [rad/s]");
+  require_positive(settings.rest_samples, "rest_samples");
+  if (settings.jitter < Time::zero()) found.emplace_back("jitter is negative [s]");
+  return found;
+}
+
+}  // namespace
+
+ImuResidual::ImuResidual(std::shared_ptr<const ParallelRobot> robot, const ImuResidualSettings& settings)
+    : robot_(std::move(robot)), settings_(settings) {
+  throw_if_any(problems(settings));
+  keep(Every{settings_.sampling.period}, memory_, next_);
+}
+
+void ImuResidual::expect(const PlatformMotion& motion, const Kinematics& at, const Dynamics& model,
+                         const DriveTorque& drives, ExpectedMotion& result) const {
+  result = ExpectedMotion();
+  if (!motion.valid() || !drives.valid) return;
+  const auto acceleration = forward_dynamics(at, model, drives.torque, PlatformVector::Zero(robot_->dof()));
+  if (!acceleration) return;
+  const ConfigurationSpace space = robot_->space();
+  const PlatformVector none = PlatformVector::Zero(robot_->dof());
+  const ImuOutput moving =
+      imu_output(space, settings_.mount, robot_->gravity(), motion.pose, motion.velocity, *acceleration);
+  result.acquired = motion.acquired;
+  result.braked = drives.braked;
+  result.rests = motion.velocity.head(space.translations()).norm() < settings_.rest_speed &&
+                 motion.velocity.tail(space.rotations()).norm() < settings_.rest_rate;
+  result.force_at_rest =
+      imu_output(space, settings_.mount, robot_->gravity(), motion.pose, none, none).value.tail<3>();
+  result.force = moving.value.tail<3>();
+  result.by_acceleration.resize(6, robot_->dof());
+  result.by_acceleration << moving.by_velocity.topRows(3), moving.by_acceleration.bottomRows(3);
+  result.rotation = moving.by_velocity.topRows(3) * *acceleration;
+  result.M_x = model.M_x;
+  result.valid = result.force.allFinite() && result.M_x.allFinite();
+}
+
+void ImuResidual::remember(const ExpectedMotion& fresh, History<ExpectedMotion, 32>& past) const {
+  if (fresh.valid) past.push(fresh);
+}
+
+bool ImuResidual::is_usable(const ImuReading& reading) const {
+  return reading.valid && usable(reading.angular_velocity, 3) && usable(reading.specific_force, 3);
+}
+
+void ImuResidual::advance(const ImuReading& reading, const ExpectedMotion& fresh,
+                          const History<ExpectedMotion, 32>& past, const ImuResidualMemory& memory, Time now,
+                          ImuResidualMemory& next) const {
+  const Sampling& sampling = settings_.sampling;
+  const bool sees_imu = is_usable(reading);
+  const bool is_new = sees_imu && reading.acquired > memory.acquired;
+  const ExpectedMotion* then = is_new ? past.first_from(reading.acquired) : nullptr;
+  if (is_new && then == nullptr && fresh.valid && fresh.acquired >= reading.acquired) then = &fresh;
+  next = memory;
+  next.sees_imu = sees_imu;
+  if (then == nullptr) {
+    if (sampling.expired(memory.arrived, now)) next.started = false;  // its bias stays what it is
+    return;
+  }
+  const bool continued = memory.started && !sampling.interrupted(memory.acquired, reading.acquired);
+  const double T = continued ? to_seconds(reading.acquired - memory.acquired) : to_seconds(sampling.period);
+  if (!continued) {
+    next.rotation_residual.setZero();
+    next.angular_velocity = reading.angular_velocity;
+    next.expected_force = then->force;
+  }
+  learn_bias(reading, *then, next);
+  if (continued) turn(reading, *then, T, next);
+  estimate(reading, *then, T, next);
+  next.started = true;
+  next.braked = then->braked;
+  next.acquired = reading.acquired;
+  next.arrived = now;
+  next.angular_velocity = reading.angular_velocity;
+  next.expected_force = then->force;
+}
+
+/// The mean of the last samples at rest, of which none counts more than another at first.
+void ImuResidual::learn_bias(const ImuReading& reading, const ExpectedMotion& then,
+                             ImuResidualMemory& next) const {
+  if (!then.rests) return;
+  if (next.rested < 2 * settings_.rest_samples) ++next.rested;
+  const Eigen::Vector3d seen = reading.specific_force - then.force_at_rest;
+  next.accelerometer_bias += (seen - next.accelerometer_bias) / next.rested;
+}
+
+void ImuResidual::turn(const ImuReading& reading, const ExpectedMotion& then, double T,
+                       ImuResidualMemory& next) const {
+  const double a = std::exp(-settings_.gyroscope_gain * T);
+  const Eigen::Vector3d unexplained = (reading.angular_velocity - next.angular_velocity) / T - then.rotation;
+  next.rotation_residual = unexplained + a * (next.rotation_residual - unexplained);
+}
+
+/// Least squares for the acceleration that explains both residuals, and the wrench that causes it.
+void ImuResidual::estimate(const ImuReading& reading, const ExpectedMotion& then, double T,
+                           ImuResidualMemory& next) const {
+  Eigen::Matrix<double, 6, 1> residual, weight;
+  residual << next.rotation_residual, reading.specific_force - next.accelerometer_bias - then.force;
+  // The change of white noise through the observer has the variance 2 (1 - a)^2 / (1 + a) of it, over T^2.
+  const double a = std::exp(-settings_.gyroscope_gain * T);
+  const double turning = settings_.gyroscope_deviation * (1.0 - a) * std::sqrt(2.0 / (1.0 + a)) / T;
+  const double slope = (then.force - next.expected_force).norm() / T;
+  const double pushing = std::hypot(settings_.accelerometer_deviation, to_seconds(settings_.jitter) * slope);
+  weight << Eigen::Vector3d::Constant(1.0 / turning), Eigen::Vector3d::Constant(1.0 / pushing);
+
+  const ImuOutput::Jacobian weighted = weight.asDiagonal() * then.by_acceleration;
+  const PlatformMatrix information = weighted.transpose().lazyProduct(weighted);
+  const Eigen::LLT<PlatformMatrix> cholesky(information);
+  const PlatformMatrix covariance =
+      cholesky.solve(PlatformMatrix::Identity(robot_->dof(), robot_->dof()).eval());
+  const PlatformVector acceleration =
+      covariance * (weighted.transpose() * weight.cwiseProduct(residual)).eval();
+  next.wrench = then.M_x * acceleration;
+  const PlatformMatrix spread = then.M_x * covariance * then.M_x.transpose();
+  next.standard_deviation = spread.diagonal().cwiseMax(0.0).cwiseSqrt();
+}
+
+void ImuResidual::read(const ImuResidualMemory& next, const ExpectedMotion& fresh, const Kinematics& at,
+                       WrenchEstimate& result) const {
+  result = WrenchEstimate();
+  result.acquired = next.started ? next.acquired : Time::zero();
+  result.wrench_in_base.setZero(robot_->dof());
+  result.drive_torque.setZero(robot_->drives());
+  const bool knows = next.started && next.rested >= settings_.rest_samples && next.wrench.allFinite();
+  result.valid = knows && next.sees_imu && fresh.valid && at.valid;
+  if (!result.valid || next.braked || fresh.braked) return;
+  result.wrench_in_base = next.wrench;
+  result.drive_torque = at.J_x_qa.transpose() * next.wrench;  // [SafePR] (6b)
+  result.standard_deviation = next.standard_deviation;
+}
+
+}  // namespace flinch
