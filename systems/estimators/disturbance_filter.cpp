@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/forward_dynamics.h"
 
@@ -13,13 +14,10 @@ namespace {
 constexpr double settling_time_constants = 10.0;  // of a threefold pole: the rest is 0.3 %
 
 std::vector<std::string> problems(const DisturbanceFilterSettings& settings) {
-  std::vector<std::string> found;
-  if (!(settings.pole > 0.0 && std::isfinite(settings.pole)))
-    found.emplace_back("pole is not positive [1/s]");
-  if (!(settings.encoder_deviation > 0.0 && std::isfinite(settings.encoder_deviation))) {
-    found.emplace_back("encoder_deviation is not positive [rad, m]");
-  }
-  return found;
+  Findings found;
+  found.positive("pole", settings.pole, "1/s");
+  found.positive("encoder_deviation", settings.encoder_deviation);
+  return found.take();
 }
 
 /// Shares of an innovation that correct position, velocity T and acceleration T^2, with all poles at `theta`.

@@ -7,27 +7,25 @@
 #include <vector>
 
 #include "systems/estimators/innovation_mean.h"
+#include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
 namespace {
 
 std::vector<std::string> problems(const ImuFilterSettings& settings) {
-  std::vector<std::string> found;
-  const auto require_positive = [&found](double value, const char* name) {
-    if (!(value > 0.0 && std::isfinite(value))) found.push_back(std::string(name) + " is not positive");
-  };
   const ImuFilterNoise& noise = settings.noise;
-  require_positive(noise.encoder_pose.translation, "noise.encoder_pose.translation [m^2]");
-  require_positive(noise.encoder_pose.rotation, "noise.encoder_pose.rotation [rad^2]");
-  require_positive(noise.gyroscope, "noise.gyroscope [rad^2/s^2]");
-  require_positive(noise.accelerometer, "noise.accelerometer [m^2/s^4]");
-  require_positive(noise.acceleration.translation, "noise.acceleration.translation [m^2/s^4]");
-  require_positive(noise.acceleration.rotation, "noise.acceleration.rotation [rad^2/s^4]");
-  if (!settings.mount.position_in_platform.allFinite() || !settings.mount.angles.allFinite()) {
-    found.emplace_back("mount is not finite");
-  }
-  return found;
+  Findings found;
+  found.positive("noise.encoder_pose.translation", noise.encoder_pose.translation, "m^2");
+  found.positive("noise.encoder_pose.rotation", noise.encoder_pose.rotation, "rad^2");
+  found.positive("noise.gyroscope", noise.gyroscope, "rad^2/s^2");
+  found.positive("noise.accelerometer", noise.accelerometer, "m^2/s^4");
+  found.positive("noise.acceleration.translation", noise.acceleration.translation, "m^2/s^4");
+  found.positive("noise.acceleration.rotation", noise.acceleration.rotation, "rad^2/s^4");
+  found.positive("largest_innovation", settings.largest_innovation);
+  found.finite("mount.position_in_platform", settings.mount.position_in_platform, "m");
+  found.finite("mount.angles", settings.mount.angles, "rad");
+  return found.take();
 }
 
 }  // namespace

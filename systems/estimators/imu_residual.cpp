@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/forward_dynamics.h"
 
@@ -12,18 +13,17 @@ namespace flinch {
 namespace {
 
 std::vector<std::string> problems(const ImuResidualSettings& settings) {
-  std::vector<std::string> found;
-  const auto require_positive = [&found](double value, const char* name) {
-    if (!(value > 0.0 && std::isfinite(value))) found.push_back(std::string(name) + " is not positive");
-  };
-  require_positive(settings.gyroscope_gain, "gyroscope_gain [1/s]");
-  require_positive(settings.gyroscope_deviation, "gyroscope_deviation [rad/s]");
-  require_positive(settings.accelerometer_deviation, "accelerometer_deviation [m/s^2]");
-  require_positive(settings.rest_speed, "rest_speed [m/s]");
-  require_positive(settings.rest_rate, "rest_rate [rad/s]");
-  require_positive(settings.rest_samples, "rest_samples");
-  if (settings.jitter < Time::zero()) found.emplace_back("jitter is negative [s]");
-  return found;
+  Findings found;
+  found.positive("gyroscope_gain", settings.gyroscope_gain, "1/s");
+  found.positive("gyroscope_deviation", settings.gyroscope_deviation, "rad/s");
+  found.positive("accelerometer_deviation", settings.accelerometer_deviation, "m/s^2");
+  found.not_negative("jitter", to_seconds(settings.jitter), "s");
+  found.positive("rest_speed", settings.rest_speed, "m/s");
+  found.positive("rest_rate", settings.rest_rate, "rad/s");
+  found.positive("rest_samples", settings.rest_samples);
+  found.finite("mount.position_in_platform", settings.mount.position_in_platform, "m");
+  found.finite("mount.angles", settings.mount.angles, "rad");
+  return found.take();
 }
 
 }  // namespace

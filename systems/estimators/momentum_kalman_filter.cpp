@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "systems/estimators/innovation_mean.h"
+#include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
@@ -76,24 +77,19 @@ double observability_of_a_force() {
   return std::sqrt(squares[0] / squares[1]);
 }
 
-void find_problems(const MomentumNoise& noise, const std::string& of, std::vector<std::string>& found) {
-  const auto is_positive = [](double value) { return value > 0.0 && std::isfinite(value); };
-  if (!is_positive(noise.momentum_deviation)) {
-    found.push_back(of + ".momentum_deviation is not positive [Ns, Nms]");
-  }
-  if (!is_positive(noise.force_density)) {
-    found.push_back(of + ".force_density is not positive [N^2/s, N^2 m^2/s]");
-  }
-  if (!(noise.momentum_density >= 0.0 && std::isfinite(noise.momentum_density))) {
-    found.push_back(of + ".momentum_density is negative [N^2 s, N^2 m^2 s]");
-  }
+std::vector<std::string> problems(const MomentumNoise& noise, const std::string& of) {
+  Findings found(of);
+  found.positive("momentum_deviation", noise.momentum_deviation);
+  found.positive("force_density", noise.force_density);
+  found.not_negative("momentum_density", noise.momentum_density);
+  return found.take();
 }
 
 const MomentumKalmanFilterSettings& checked(const MomentumKalmanFilterSettings& settings) {
-  std::vector<std::string> found;
-  find_problems(settings.translation, "translation", found);
-  find_problems(settings.rotation, "rotation", found);
-  throw_if_any(found);
+  Findings found;
+  found.add_all(problems(settings.translation, "translation."));
+  found.add_all(problems(settings.rotation, "rotation."));
+  throw_if_any(found.take());
   return settings;
 }
 

@@ -1,24 +1,20 @@
 #include "systems/estimators/sliding_mode_observer.h"
 
 #include <cmath>
-#include <string>
-#include <vector>
 
+#include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
 namespace {
 
 const SlidingModeObserverSettings& checked(const SlidingModeObserverSettings& settings) {
-  std::vector<std::string> found;
-  const auto require_positive = [&found](double value, const std::string& name) {
-    if (!(value > 0.0 && std::isfinite(value))) found.push_back(name + " is not positive");
-  };
-  require_positive(settings.force_rate, "force_rate [N/s]");
-  require_positive(settings.moment_rate, "moment_rate [Nm/s]");
-  require_positive(settings.damping, "damping [1/s]");
-  require_positive(settings.substeps, "substeps");
-  throw_if_any(found);
+  Findings found;
+  found.positive("force_rate", settings.force_rate, "N/s");
+  found.positive("moment_rate", settings.moment_rate, "Nm/s");
+  found.positive("damping", settings.damping, "1/s");
+  found.positive("substeps", settings.substeps);
+  throw_if_any(found.take());
   return settings;
 }
 
