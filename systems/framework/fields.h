@@ -178,8 +178,10 @@ struct RowWriter {
         (next++)->integer = value.rows();
         (next++)->integer = value.cols();
       }
-      for (Eigen::Index i = 0; i < value.size(); ++i) next[i].real = value.data()[i];
-      for (Eigen::Index i = value.size(); i < T::MaxSizeAtCompileTime; ++i) next[i].real = 0.0;
+      const Eigen::Index size = value.size();
+      for (Eigen::Index i = 0; i < T::MaxSizeAtCompileTime; ++i) {
+        next[i].real = i < size ? value.data()[i] : 0.0;
+      }
       next += T::MaxSizeAtCompileTime;
     }
   }

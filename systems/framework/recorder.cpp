@@ -4,7 +4,7 @@
 
 #include "systems/foundation/nearest_name.h"
 #include "systems/foundation/setup_error.h"
-#include "systems/framework/diagram.h"
+#include "systems/framework/context.h"
 
 namespace flinch {
 namespace {
@@ -41,16 +41,24 @@ Recorder::Recorder(const Diagram& diagram, const std::vector<std::string>& paths
                            "' cannot be recorded: its type has no fields (see fields.h)");
         continue;
       }
-      Channel channel{tap.place, tap.type, {path, tap.type->layout(), {}}};
-      resolve_units(units, channel.signal, problems);
-      channel.signal.rows.resize(capacity * channel.signal.layout.numbers);
-      channels_.push_back(std::move(channel));
+      Signal signal{path, tap.type->layout(), {}};
+      resolve_units(units, signal, problems);
+      shown_.push_back({std::move(signal), channel_of(tap)});
     } catch (const SetupError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
   }
   throw_if_any(std::move(problems));
   time_ns_.resize(capacity);
+}
+
+std::size_t Recorder::channel_of(const Diagram::Tap& tap) {
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    if (channels_[i].place == tap.place) return i;
+  }
+  const std::size_t numbers = tap.type->layout().numbers;
+  channels_.push_back({tap.place, tap.type, numbers, std::vector<internal::Number>(capacity_ * numbers)});
+  return channels_.size() - 1;
 }
 
 void Recorder::record(const Context& context) {
@@ -63,7 +71,7 @@ void Recorder::record(const Context& context) {
   const std::size_t slot = pushed % capacity_;
   time_ns_[slot] = context.time().count();
   for (Channel& channel : channels_) {
-    internal::Number* row = channel.signal.rows.data() + slot * channel.signal.layout.numbers;
+    internal::Number* row = channel.rows.data() + slot * channel.numbers;
     channel.type->to_row(channel.place.in(context.memory()), row);
   }
   pushed_.store(pushed + 1, std::memory_order_release);
@@ -76,9 +84,9 @@ void Recorder::clear() {
 
 SampleBlock Recorder::block(std::size_t first, std::size_t samples) const {
   SampleBlock block{std::span(time_ns_).subspan(first, samples), {}};
-  for (const Channel& channel : channels_) {
-    const std::size_t numbers = channel.signal.layout.numbers;
-    block.rows.push_back(std::span(channel.signal.rows).subspan(first * numbers, samples * numbers));
+  for (const Shown& shown : shown_) {
+    const auto& [place, type, numbers, rows] = channels_[shown.channel];
+    block.rows.push_back(std::span(rows).subspan(first * numbers, samples * numbers));
   }
   return block;
 }
@@ -93,9 +101,7 @@ void Recorder::pop(std::size_t samples) { popped_.fetch_add(samples, std::memory
 
 Recording Recorder::description(std::map<std::string, std::string> attributes) const {
   Recording recording{every_.period, {}, std::move(attributes), {}, nullptr};
-  for (const Channel& channel : channels_) {
-    recording.signals.push_back({channel.signal.path, channel.signal.layout, {}});
-  }
+  for (const Shown& shown : shown_) recording.signals.push_back(shown.signal);
   return recording;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "systems/framework/diagram.h"
 #include "systems/framework/place.h"
 #include "systems/framework/recording.h"
 #include "systems/framework/sample_block.h"
@@ -16,9 +17,9 @@
 namespace flinch {
 
 class Context;
-class Diagram;
 
-/// Copies the values of chosen ports, tick by tick, into a ring of samples that it allocates beforehand.
+/// Copies the values of chosen ports, tick by tick, into a ring of samples that it allocates beforehand. Ports
+/// that show one value, as an exported output and that of the block behind it do, share its rows.
 ///
 /// One thread calls record(). Another may take samples away meanwhile (front() and pop(), as RecordingStream
 /// does, which writes them to a file); neither waits for the other. Where nobody does, the ring holds the
@@ -59,12 +60,20 @@ class Recorder {
   Recording recording(std::map<std::string, std::string> attributes = {}) const;
 
  private:
+  /// The ring of one value.
   struct Channel {
     Place place;
     const ValueType* type;
-    Signal signal;  ///< with the rows of the ring
+    std::size_t numbers;  ///< in a row
+    std::vector<internal::Number> rows;
+  };
+  /// One path under which a value is recorded.
+  struct Shown {
+    Signal signal;  ///< without rows
+    std::size_t channel;
   };
 
+  std::size_t channel_of(const Diagram::Tap& tap);
   SampleBlock block(std::size_t first, std::size_t samples) const;
 
   static constexpr std::size_t cache_line = 64;
@@ -74,6 +83,7 @@ class Recorder {
   Every every_;
   std::size_t capacity_;
   std::vector<Channel> channels_;
+  std::vector<Shown> shown_;
   std::vector<std::int64_t> time_ns_;
   alignas(cache_line) std::atomic<std::size_t> pushed_ = 0;  ///< since the start
   std::atomic<std::int64_t> dropped_ = 0;

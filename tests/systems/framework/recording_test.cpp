@@ -87,6 +87,26 @@ TEST_F(RecordingFile, ReplaysToIdenticalBitsDownstream) {
   EXPECT_EQ(recorder.recording().column("digest/sum", "value"), original.column("digest/sum", "value"));
 }
 
+TEST(Recorder, KeepsOneRowForPortsThatShowOneValue) {
+  DiagramBuilder inner("inner");
+  auto& source = inner.add<Source>("source");
+  inner.export_output("sample", source.sample);
+  DiagramBuilder builder("outer");
+  builder.add(inner.build());
+  const auto diagram = builder.build();
+  Recorder recorder(*diagram, {"inner/sample", "inner/source/sample"}, 10);
+  Simulator simulator(*diagram);
+  simulator.record(recorder);
+  Context context = diagram->make_context();
+  simulator.advance_to(context, 10ms);
+  const SampleBlock block = recorder.front();
+  ASSERT_EQ(block.rows.size(), 2U);
+  EXPECT_EQ(block.rows[0].data(), block.rows[1].data());
+  const Recording recording = recorder.recording();
+  EXPECT_EQ(recording.column("inner/sample", "real"), recording.column("inner/source/sample", "real"));
+  EXPECT_EQ(recording.column("inner/sample", "real").size(), 10U);
+}
+
 TEST_F(RecordingFile, HoldsEveryBitAndAttribute) {
   const Recording original = record_source(200);
   write_recording(original, file("a.h5"));
