@@ -10,32 +10,29 @@ FaultMonitor::FaultMonitor(std::shared_ptr<const ParallelRobot> robot, const Fau
   throw_if_any(problems(limits, *robot_));
 }
 
-FaultMonitorMemory FaultMonitor::advance(Time now, const FaultMonitorMemory& last,
-                                         const StationStatus& status, const JointReading& angles,
-                                         const DriveReading& currents, const JointMotion& rates,
-                                         const PlatformMotion& pose, const WorkspaceMeasures& workspace,
-                                         const TorqueCommand& asked, const ReactionState& state) const {
-  EncoderWatch watch = last.encoders;
-  flinch::advance(watch, {.robot = *robot_,
-                          .joints = angles,
-                          .platform = pose,
-                          .drives = currents,
-                          .braked = status.valid && status.braked});
-  RecoveryWatch recovery = last.recovery;
-  flinch::advance(recovery,
+void FaultMonitor::advance(Time now, const FaultMonitorMemory& last, const StationStatus& status,
+                           const JointReading& angles, const DriveReading& currents, const JointMotion& rates,
+                           const PlatformMotion& pose, const WorkspaceMeasures& workspace,
+                           const TorqueCommand& asked, const ReactionState& state,
+                           FaultMonitorMemory& next) const {
+  next = last;
+  if (status.valid) next.station = now;
+  if (is_usable(angles, *robot_)) next.joints = now;
+  if (is_usable(currents, *robot_)) next.drives = now;
+  next.last_command = last.command;
+  next.command = asked;
+  flinch::advance(next.encoders, {.robot = *robot_,
+                                  .joints = angles,
+                                  .platform = pose,
+                                  .drives = currents,
+                                  .braked = status.valid && status.braked});
+  flinch::advance(next.recovery,
                   {.robot = *robot_,
                    .limits = limits_.workspace,
                    .motion = rates,
                    .platform = pose,
                    .measures = workspace},
                   state.mode == ReactionMode::recover);
-  return {.station = status.valid ? now : last.station,
-          .joints = is_usable(angles, *robot_) ? now : last.joints,
-          .drives = is_usable(currents, *robot_) ? now : last.drives,
-          .last_command = last.command,
-          .command = asked,
-          .encoders = watch,
-          .recovery = recovery};
 }
 
 FaultReport FaultMonitor::judge(Time now, const FaultMonitorMemory& memory, const TickTiming& tick,

@@ -54,11 +54,10 @@ class FaultMonitor final : public System {
  private:
   Update remember_ = keep(last_, now_);
 
-  FaultMonitorMemory advance(Time now, const FaultMonitorMemory& last, const StationStatus& status,
-                             const JointReading& angles, const DriveReading& currents,
-                             const JointMotion& rates, const PlatformMotion& pose,
-                             const WorkspaceMeasures& workspace, const TorqueCommand& asked,
-                             const ReactionState& state) const;
+  void advance(Time now, const FaultMonitorMemory& last, const StationStatus& status,
+               const JointReading& angles, const DriveReading& currents, const JointMotion& rates,
+               const PlatformMotion& pose, const WorkspaceMeasures& workspace, const TorqueCommand& asked,
+               const ReactionState& state, FaultMonitorMemory& next) const;
   FaultReport judge(Time now, const FaultMonitorMemory& memory, const TickTiming& tick,
                     const StationStatus& status, const JointReading& angles, const DriveReading& currents,
                     const JointMotion& rates, const PlatformMotion& pose, const WorkspaceMeasures& workspace,
