@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <utility>
 
 #include "systems/robot/mechanism.h"
 
@@ -45,6 +44,13 @@ SegmentDistance closest_points(const Point& begin_a, const Point& end_a, const P
   return result;
 }
 
+/// The axis of a link and the sphere about its middle that holds it.
+struct Link {
+  Point begin, end;
+  Point middle;
+  double radius;
+};
+
 }  // namespace
 
 SegmentDistance segment_distance(const Segment& a, const Segment& b) noexcept {
@@ -57,18 +63,24 @@ Segment link_segment(const Kinematics& kinematics, BodyId link) noexcept {
   return {leg.passive_joint, leg.coupling_joint};
 }
 
+// A pair of links whose spheres about their middles are farther apart than the nearest pair so far is passed
+// over.
 double self_collision_distance(const Mechanism& mechanism, const Kinematics& kinematics) noexcept {
   if (!kinematics.reachable) return 0.0;
-  std::array<std::pair<Point, Point>, max_bodies> links;
+  std::array<Link, max_bodies> links;
   for (int i = 1; i < mechanism.body_count(); ++i) {
     const Segment link = link_segment(kinematics, BodyId::from_index(i));
-    links[static_cast<std::size_t>(i)] = {in_space(link.begin), in_space(link.end)};
+    const Point begin = in_space(link.begin);
+    const Point end = in_space(link.end);
+    links[static_cast<std::size_t>(i)] = {begin, end, 0.5 * (begin + end), 0.5 * (end - begin).norm()};
   }
   double smallest = std::numeric_limits<double>::infinity();
   for (const BodyPair& pair : mechanism.description().self_collision_pairs) {
-    const auto& [begin_a, end_a] = links[static_cast<std::size_t>(pair.a)];
-    const auto& [begin_b, end_b] = links[static_cast<std::size_t>(pair.b)];
-    smallest = std::min(smallest, closest_points(begin_a, end_a, begin_b, end_b).distance);
+    const Link& a = links[static_cast<std::size_t>(pair.a)];
+    const Link& b = links[static_cast<std::size_t>(pair.b)];
+    const double nearest = a.radius + b.radius + smallest;
+    if ((a.middle - b.middle).squaredNorm() > nearest * nearest) continue;
+    smallest = std::min(smallest, closest_points(a.begin, a.end, b.begin, b.end).distance);
   }
   return smallest;
 }

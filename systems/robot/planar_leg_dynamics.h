@@ -30,7 +30,7 @@ struct PlanarDynamics {
     }
     const double qa_rate = kinematics.rates.active[i];
     const double qp_rate = kinematics.rates.passive[i];
-    const Eigen::Vector2d qp = passive_direction(kinematics.legs[static_cast<std::size_t>(i)]);
+    const Eigen::Vector2d qp = passive_direction(leg, kinematics.legs[static_cast<std::size_t>(i)]);
     const double p1 = leg.inertia.p1 + leg.rotor_inertia;
     const double p2 = leg.inertia.p2;
     const double p3_c = leg.inertia.p3 * qp.x();
@@ -60,10 +60,10 @@ struct PlanarDynamics {
 
  private:
   // cos and sin of the passive angle, from the directions of the links.
-  static Eigen::Vector2d passive_direction(const LegPoints& leg) {
-    const Eigen::Vector2d link1 = (leg.passive_joint - leg.base_joint).head<2>();
-    const Eigen::Vector2d link2 = (leg.coupling_joint - leg.passive_joint).head<2>();
-    return Eigen::Vector2d(link1.dot(link2), cross(link1, link2)) / (link1.norm() * link2.norm());
+  static Eigen::Vector2d passive_direction(const PlanarLegParameters& leg, const LegPoints& points) {
+    const Eigen::Vector2d link1 = (points.passive_joint - points.base_joint).head<2>();
+    const Eigen::Vector2d link2 = (points.coupling_joint - points.passive_joint).head<2>();
+    return Eigen::Vector2d(link1.dot(link2), cross(link1, link2)) / (leg.link1_length * leg.link2_length);
   }
 };
 

@@ -95,15 +95,32 @@ Eigen::Vector3d PlanarRrr::active_error(const JointVector& active,
   return error;
 }
 
+// Nothing out of reach.
+std::optional<PlanarRrr::Legs> PlanarRrr::close_legs(const Eigen::Vector3d& pose,
+                                                     const ElbowSigns& signs) const noexcept {
+  const Eigen::Vector2d origin = pose.head<2>();
+  const Eigen::Vector2d axis = unit_vector(pose.z());
+  Legs legs;
+  for (std::size_t i = 0; i < 3; ++i) {
+    legs[i] = close_leg(geometry_[i], origin, axis, signs[i]);
+    if (!legs[i].reachable) return std::nullopt;
+  }
+  return legs;
+}
+
 JointAngles PlanarRrr::joint_angles(const PlanarMotion& motion) const noexcept {
+  return joint_angles(motion.pose.z(), {motion.legs[0].leg, motion.legs[1].leg, motion.legs[2].leg});
+}
+
+JointAngles PlanarRrr::joint_angles(double phi, const Legs& legs) const noexcept {
   JointAngles angles{JointVector(3), JointVector(3), JointVector(3)};
   for (int i = 0; i < 3; ++i) {
     const auto index = static_cast<std::size_t>(i);
-    const PlanarLeg& leg = motion.legs[index].leg;
+    const PlanarLeg& leg = legs[index];
     angles.active[i] = active_angle(geometry_[index], leg);
     angles.passive[i] = passive_angle(leg);
     const double theta2 = geometry_[index].base_angle + angles.active[i] + angles.passive[i];
-    angles.coupling[i] = wrap_angle(motion.pose.z() - theta2);
+    angles.coupling[i] = wrap_angle(phi - theta2);
   }
   return angles;
 }
@@ -116,10 +133,9 @@ InverseSolution PlanarRrr::inverse_kinematics(const Configuration& pose,
   InverseSolution solution{{zero, zero, zero}, false};
   const auto signs = elbow_signs(mode);
   if (!signs || !usable(pose, 3)) return solution;
-  const PlanarMotion closed = motion(pose, Eigen::Vector3d::Zero(), *signs);
-  solution.reachable = closed.reachable;
-  if (closed.reachable) solution.joints = joint_angles(closed);
-  return solution;
+  const auto legs = close_legs(pose, *signs);
+  if (!legs) return solution;
+  return {joint_angles(pose[2], *legs), true};
 }
 
 // From a start nearby, the lengths of the second links determine the pose without any inverse kinematics.
@@ -208,13 +224,12 @@ std::optional<PlatformVector> PlanarRrr::platform_velocity(const Configuration& 
                                                            const WorkingMode& mode) const noexcept {
   const auto signs = elbow_signs(mode);
   if (!signs || !usable(pose, 3) || !usable(drive_rates, 3)) return std::nullopt;
-  const Eigen::Vector2d axis = unit_vector(pose[2]);
-  const Eigen::Vector2d origin = pose.head<2>();
+  const auto legs = close_legs(pose, *signs);
+  if (!legs) return std::nullopt;
   Eigen::Matrix3d J_qa;
   for (int i = 0; i < 3; ++i) {
     const auto index = static_cast<std::size_t>(i);
-    const PlanarLeg leg = close_leg(geometry_[index], origin, axis, (*signs)[index]);
-    if (!leg.reachable) return std::nullopt;
+    const PlanarLeg& leg = (*legs)[index];
     const double lever = 1.0 / (geometry_[index].link1_length * leg.sin_qp);
     J_qa.row(i) << lever * leg.u2.x(), lever * leg.u2.y(), lever * cross(leg.arm, leg.u2);
   }

@@ -48,6 +48,9 @@ class PlanarRrr final : public ParallelRobot {
   /// Legs closed at a pose, their Jacobians and rates.
   PlanarMotion motion(const Eigen::Vector3d& pose, const Eigen::Vector3d& velocity) const noexcept;
 
+  /// All joint angles of a reachable motion.
+  JointAngles joint_angles(const PlanarMotion& motion) const noexcept;
+
   /// Forward dynamics [m/s^2, m/s^2, rad/s^2] of a reachable motion under `drive_torques` [Nm] and an
   /// external platform wrench [N, N, Nm]. Regular at type-II singularities too.
   Eigen::Vector3d acceleration(const PlanarMotion& motion, const Eigen::Vector3d& drive_torques,
@@ -66,6 +69,7 @@ class PlanarRrr final : public ParallelRobot {
 
  private:
   using ElbowSigns = std::array<double, 3>;
+  using Legs = std::array<PlanarLeg, 3>;
 
   PlanarMotion motion(const Eigen::Vector3d& pose, const Eigen::Vector3d& velocity,
                       const ElbowSigns& signs) const noexcept;
@@ -73,7 +77,8 @@ class PlanarRrr final : public ParallelRobot {
                                 const ElbowSigns& signs) const noexcept;
   ForwardSolution solve_angles(const Eigen::Vector3d& active, Eigen::Vector3d pose,
                                const ElbowSigns& signs) const noexcept;
-  JointAngles joint_angles(const PlanarMotion& motion) const noexcept;
+  std::optional<Legs> close_legs(const Eigen::Vector3d& pose, const ElbowSigns& signs) const noexcept;
+  JointAngles joint_angles(double phi, const Legs& legs) const noexcept;
   Eigen::Vector3d active_error(const JointVector& active, const PlanarMotion& motion) const noexcept;
 
   PlanarRrrParameters parameters_;
