@@ -124,19 +124,23 @@ std::string LiveRun::why_not_enabled() const {
 
 void LiveRun::enable() {
   wish_ = {.state = DriveWish::State::operation_enabled, .engage_brake = false};
-  station_.request(wish_);
   const auto faulty = [this] {
     const DdsLink link = station_.link();
     return link.commands_obeyed && link.drive_state == DriveState::fault;
   };
   const auto wait_for = [this](const std::function<bool()>& other) {
-    tick_until(settings_.patience, [&] { return stands_ready() || other() || is_interrupted(); });
+    const auto over = [&] { return stands_ready() || other() || is_interrupted(); };
+    const Time deadline = context_.time() + settings_.patience;
+    do {
+      station_.request(
+          wish_);  // a robot that heard nothing from us for some milliseconds forgets what it was asked
+      tick_until(100ms, over);
+    } while (!over() && context_.time() < deadline);
     throw_if_interrupted(settings_.interrupts);
   };
   wait_for(faulty);
   if (faulty() && settings_.reset_faults) {
     wish_.fault_resets = 1;
-    station_.request(wish_);
     wait_for([] { return false; });
   }
   if (!stands_ready()) throw SetupError(why_not_enabled());
