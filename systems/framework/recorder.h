@@ -18,8 +18,8 @@ namespace flinch {
 
 class Context;
 
-/// Copies the values of chosen ports, tick by tick, into a ring of samples that it allocates beforehand. Ports
-/// that show one value, as an exported output and that of the block behind it do, share its rows.
+/// Copies the values of chosen ports, tick by tick, into a ring of samples that it allocates beforehand.
+/// Ports that show one value, as an exported output and that of the block behind it do, share its rows.
 ///
 /// One thread calls record(). Another may take samples away meanwhile (front() and pop(), as RecordingStream
 /// does, which writes them to a file); neither waits for the other. Where nobody does, the ring holds the
