@@ -18,13 +18,17 @@ namespace {
 
 using test::Ticking;
 
-/// What all blocks see at one instant of the motion.
+/// What comes from outside at one instant of the motion, and what blocks hand on; without the model, so that
+/// reading it from memory takes no longer than the blocks.
 struct Instant {
   JointReading joints;
   JointMotion motion;
   DriveReading drives;
   DriveTorque torque;
   PlatformMotion platform;
+};
+
+struct Model {
   Kinematics kinematics;
   Dynamics dynamics;
 };
@@ -35,6 +39,13 @@ std::shared_ptr<const PlanarRrr> bench() {
   return robot;
 }
 
+Model model_at(const test::SmoothTrajectory& truth) {
+  Model model;
+  bench()->kinematics(truth.pose, truth.velocity, model.kinematics);
+  bench()->dynamics(model.kinematics, model.dynamics);
+  return model;
+}
+
 /// Ten seconds of the smooth trajectory, after which it repeats.
 const std::vector<Instant>& instants() {
   static const std::vector<Instant> all = [] {
@@ -42,14 +53,13 @@ const std::vector<Instant>& instants() {
     for (std::size_t k = 0; k < made.size(); ++k) {
       Instant& now = made[k];
       const test::SmoothTrajectory truth(1e-3 * static_cast<double>(k));
-      bench()->kinematics(truth.pose, truth.velocity, now.kinematics);
-      bench()->dynamics(now.kinematics, now.dynamics);
-      const auto& [active, passive, coupling] = now.kinematics.joints;
-      const PlatformVector F_a = now.dynamics.M_x * PlatformVector(truth.acceleration);
+      const auto [kinematics, dynamics] = model_at(truth);
+      const auto& [active, passive, coupling] = kinematics.joints;
+      const PlatformVector F_a = dynamics.M_x * PlatformVector(truth.acceleration);
       now.joints = {{}, true, true, active, passive};
-      now.motion = {{}, true, active, now.kinematics.rates.active};
+      now.motion = {{}, true, active, kinematics.rates.active};
       now.platform = {{}, PlatformMotion::Status::valid, truth.pose, truth.velocity};
-      now.torque = {{}, true, drive_torques(now.kinematics, F_a)};
+      now.torque = {{}, true, drive_torques(kinematics, F_a)};
       now.drives = {{}, true, now.torque.torque};
     }
     return made;
@@ -143,8 +153,9 @@ void MomentumObserverTick(benchmark::State& state) {
   const auto dynamics = builder.export_input("dynamics", block.dynamics);
   const auto torque = builder.export_input("torque", block.torque);
   Ticking ticking(builder);
-  ticking.set(kinematics, instants()[0].kinematics);  // large, and handed on by reference in a real diagram
-  ticking.set(dynamics, instants()[0].dynamics);
+  const Model first = model_at(test::SmoothTrajectory(0.0));
+  ticking.set(kinematics, first.kinematics);  // large, and handed on by reference in a real diagram
+  ticking.set(dynamics, first.dynamics);
   run(state, ticking, [&](const Instant& now) {
     show(ticking, platform, now.platform);
     show(ticking, torque, now.torque);
