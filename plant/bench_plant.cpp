@@ -71,6 +71,17 @@ void BenchPlant::tell_truth(Time now, const BenchSnapshot& bench, const DriveAct
   out.loop_closure_error = bench.loop_closure_error;
 }
 
+void BenchPlant::tell_obstacles(Time now, const BenchSnapshot& bench, ObstacleTruth& out) const {
+  out = ObstacleTruth();
+  out.acquired = now;
+  out.valid = bench.reachable;
+  if (!out.valid) return;
+  const Obstacles& scene = dynamics_->settings().obstacles;
+  for (std::size_t i = 0; i < scene.size(); ++i) {
+    out.displacement_in_base[i] = bench.obstacles[i].position - scene[i]->form().position_in_base;
+  }
+}
+
 void BenchPlant::tell_platform(const PlantTruth& robot, PlatformMotion& out) const {
   out.acquired = robot.acquired;
   out.status = robot.valid ? PlatformMotion::Status::valid : PlatformMotion::Status::no_data;

@@ -5,6 +5,7 @@
 #include "plant/contact_history.h"
 #include "plant/contact_truth.h"
 #include "plant/drive_action.h"
+#include "plant/obstacle_truth.h"
 #include "plant/plant_truth.h"
 #include "systems/framework/system.h"
 #include "systems/signals/platform_motion.h"
@@ -32,6 +33,7 @@ class BenchPlant final : public System {
 
   OutputPort<BenchSnapshot> snapshot = output<&BenchPlant::look>("snapshot", state_, step_, drives, applied);
   OutputPort<PlantTruth> truth = output<&BenchPlant::tell_truth>("truth", clock, snapshot, drives);
+  OutputPort<ObstacleTruth> obstacles = output<&BenchPlant::tell_obstacles>("obstacles", clock, snapshot);
   OutputPort<PlatformMotion> platform = output<&BenchPlant::tell_platform>("platform", truth);
 
  private:
@@ -52,6 +54,7 @@ class BenchPlant final : public System {
                   BenchStep& after) const;
 
   void tell_truth(Time now, const BenchSnapshot& bench, const DriveAction& acting, PlantTruth& out) const;
+  void tell_obstacles(Time now, const BenchSnapshot& bench, ObstacleTruth& out) const;
   void tell_platform(const PlantTruth& robot, PlatformMotion& out) const;
   void follow(Time now, const BenchSnapshot& bench, const ContactHistory& before,
               ContactHistory& after) const;

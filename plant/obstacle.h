@@ -52,6 +52,9 @@ class Obstacle {
   /// Whether its motion or its acceleration depends on time.
   virtual bool follows_time() const noexcept { return false; }
 
+  /// Whether it may be anywhere but at its position at rest.
+  bool moves() const noexcept { return moves_freely() || follows_time(); }
+
   /// At the time `t` [s]; of one that moves freely, its motion at the start.
   virtual ObstacleMotion motion(double t) const noexcept;
   /// Of one that moves freely, under the `contact_force` of the robot on it [N]: [m/s^2].

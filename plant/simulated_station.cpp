@@ -91,6 +91,7 @@ SimulatedStation add_simulated_station(DiagramBuilder& builder, const SimulatedS
   station.force_torque = add_force_torque_sensor(inside, settings, parts);
   station.plant_truth = inside.export_output("truth", parts.plant.truth);
   station.contact_truth = inside.export_output("contact_truth", parts.plant.contact);
+  station.obstacle_truth = inside.export_output("obstacle_truth", parts.plant.obstacles);
   station.platform_truth = inside.export_output("platform_truth", parts.plant.platform);
   builder.add(inside.build());
   return station;

@@ -8,6 +8,7 @@
 #include "plant/applied_wrench.h"
 #include "plant/bench_settings.h"
 #include "plant/contact_truth.h"
+#include "plant/obstacle_truth.h"
 #include "plant/plant_truth.h"
 #include "plant/simulated_current_sensors.h"
 #include "plant/simulated_drives.h"
@@ -46,6 +47,7 @@ SimulatedStationSettings with_ideal_sensors(SimulatedStationSettings settings);
 struct SimulatedStation : Station {
   OutputPort<PlantTruth> plant_truth;
   OutputPort<ContactTruth> contact_truth;
+  OutputPort<ObstacleTruth> obstacle_truth;
   /// Pose and velocity as sensors would tell them without errors.
   OutputPort<PlatformMotion> platform_truth;
 };

@@ -8,6 +8,7 @@
 #include "experiments/recorded/robot_as_drawn.h"
 #include "experiments/report/drawn_robot.h"
 #include "experiments/report/page_samples.h"
+#include "experiments/report/report_samples.h"
 #include "experiments/scenario/scenario.h"
 #include "experiments/verdict/recorded_run.h"
 #include "experiments/verdict/verdict.h"
@@ -16,8 +17,6 @@
 
 namespace flinch {
 namespace {
-
-using Column = std::vector<double>;
 
 /// "leg1_link2" as a reader says it.
 std::string spoken(const std::string& body) {
@@ -86,155 +85,6 @@ std::vector<ReportMeasure> measures(const Verdict& verdict, const Expectations& 
   return rows;
 }
 
-constexpr std::array axes{"x", "y", "z"};
-
-/// The components of a recorded vector.
-std::vector<Column> components(const Recording& recording, const std::string& path, const std::string& field,
-                               int count, int first = 0) {
-  std::vector<Column> columns;
-  for (int i = first; i < first + count; ++i) columns.push_back(recording.column(path, field, i));
-  return columns;
-}
-
-Column magnitude(const std::vector<Column>& vector) {
-  Column result(vector.empty() ? 0 : vector.front().size());
-  for (std::size_t k = 0; k < result.size(); ++k) {
-    for (const Column& component : vector) result[k] = std::hypot(result[k], component[k]);
-  }
-  return result;
-}
-
-/// `column` where `flag` is set, "no data" elsewhere.
-Column where(const Column& flag, Column column) {
-  for (std::size_t k = 0; k < column.size(); ++k) {
-    if (flag[k] == 0.0 || std::isnan(flag[k])) column[k] = std::nan("");
-  }
-  return column;
-}
-
-void add_vector(const std::string& prefix, std::vector<Column> components, Report& report) {
-  for (std::size_t i = 0; i < components.size(); ++i)
-    report.columns[prefix + axes[i]] = std::move(components[i]);
-}
-
-/// A contact point is only shown while its body is touched.
-void add_touch(const Recording& recording, const std::string& field, const std::string& name, int dimension,
-               Report& report) {
-  Column touched = recording.column("contact", field + ".body");
-  for (double& body : touched) body = body >= 0.0 ? 1.0 : 0.0;
-  const auto shown = [&](const std::string& part) {
-    std::vector<Column> columns = components(recording, "contact", field + part, dimension);
-    for (Column& column : columns) column = where(touched, std::move(column));
-    return columns;
-  };
-  add_vector(name + "_", shown(".point_in_base"), report);
-  add_vector(name + "_force_", shown(".force_in_base"), report);
-}
-
-/// The pose at a sample, out of the columns of a recorded one.
-Configuration pose_at(const std::vector<Column>& columns, std::size_t sample) {
-  Configuration pose(static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t i = 0; i < columns.size(); ++i) pose[static_cast<Eigen::Index>(i)] = columns[i][sample];
-  return pose;
-}
-
-void add_pose(const ConfigurationSpace& space, std::vector<Column> pose, Report& report) {
-  for (int i = 0; i < space.translations(); ++i) {
-    report.columns[std::string("pose_") + axes[static_cast<std::size_t>(i)]] =
-        std::move(pose[static_cast<std::size_t>(i)]);
-  }
-  constexpr std::array quaternion{"pose_qw", "pose_qx", "pose_qy", "pose_qz"};
-  for (std::size_t i = static_cast<std::size_t>(space.translations()); i < pose.size(); ++i) {
-    const std::size_t part = i - static_cast<std::size_t>(space.translations());
-    report.columns[space.rotations() == 1 ? "pose_phi" : quaternion[part]] = std::move(pose[i]);
-  }
-}
-
-/// As they truly were, or as the controller took them to be.
-void add_motion(const ParallelRobot& robot, const Recording& recording, Witness witness, Report& report) {
-  const bool simulated = witness == Witness::truth;
-  const std::string path = simulated ? "truth" : "motion";
-  const ConfigurationSpace& space = robot.space();
-  const std::vector<Column> pose = components(recording, path, "pose", space.stored());
-  const std::vector<Column> target = components(recording, "reference", "pose", space.stored());
-  Column distance(pose.front().size()), angle(distance.size());
-  for (std::size_t k = 0; k < distance.size(); ++k) {
-    const PlatformVector error = space.difference(pose_at(pose, k), pose_at(target, k));
-    distance[k] = error.head(space.translations()).norm();
-    angle[k] = error.tail(space.rotations()).norm();
-  }
-  const Column followed = recording.column("reference", "valid");
-  report.columns["position_error"] = where(followed, std::move(distance));
-  if (space.rotations() > 0) report.columns["orientation_error"] = where(followed, std::move(angle));
-  report.columns["speed"] = magnitude(components(recording, path, "velocity", space.translations()));
-  add_pose(space, pose, report);
-  add_elbows(robot, report);
-  for (int drive = 0; drive < robot.drives(); ++drive) {
-    const std::string number = std::to_string(drive + 1);
-    if (simulated)
-      report.columns["torque_applied_" + number] = recording.column("truth", "drive_torque", drive);
-    report.columns["torque_commanded_" + number] = where(recording.column("torque_command", "valid"),
-                                                         recording.column("torque_command", "torque", drive));
-  }
-  const Column measured = recording.column("measures", "valid");
-  report.columns["sigma_kappa"] = where(measured, recording.column("measures", "sigma_kappa"));
-  report.columns["sigma_sc"] = where(measured, recording.column("measures", "sigma_sc"));
-}
-
-void add_wrench(const ConfigurationSpace& space, const std::string& name, std::vector<Column> wrench,
-                Report& report) {
-  const auto moments = wrench.begin() + space.translations();
-  add_vector(name + "_force_", {wrench.begin(), moments}, report);
-  if (space.rotations() == 1) report.columns[name + "_moment"] = *moments;
-  if (space.rotations() == 3) add_vector(name + "_moment_", {moments, wrench.end()}, report);
-}
-
-void add_forces(const ParallelRobot& robot, const Recording& recording, Witness witness, Report& report) {
-  std::vector<Column> estimate = components(recording, "wrench", "wrench_in_base", robot.dof());
-  const Column estimated = recording.column("wrench", "valid");
-  for (Column& column : estimate) column = where(estimated, std::move(column));
-  add_wrench(robot.space(), "estimated", std::move(estimate), report);
-  if (witness != Witness::truth) return;
-  add_wrench(robot.space(), "external", components(recording, "truth", "wrench_in_base", robot.dof()),
-             report);
-  add_touch(recording, "strongest", "contact_1", robot.space_dimension(), report);
-  add_touch(recording, "second", "contact_2", robot.space_dimension(), report);
-}
-
-ReportLane lane(const Recording& recording, std::string name, const std::string& path,
-                const std::string& field, std::vector<std::string> states) {
-  ReportLane result{std::move(name), std::move(states), {}};
-  for (const double state : recording.column(path, field)) result.state.push_back(static_cast<int>(state));
-  return result;
-}
-
-std::vector<ReportLane> lanes(const Recording& recording) {
-  ReportLane mode = lane(recording, "mode", "reaction", "mode",
-                         {"nominal", "stopped", "react", "hold", "zero-g", "recover"});
-  for (int& state : mode.state) {  // the page's quiet state comes first: nominal before stopped
-    if (state < 2) state = 1 - state;
-  }
-  return {lane(recording, "detector", "detection", "level", {"quiet", "contact", "hard contact"}), mode,
-          lane(recording, "torque gate", "gate", "phase", {"waiting", "open", "closed", "recovering"})};
-}
-
-/// The force of the hardest contact, and whether it counts as one: as for the verdict, so that the lane ends
-/// when the verdict says that the contact was removed.
-void add_contact(const ParallelRobot& robot, const Recording& recording, Report& report) {
-  const RecordedRun run(recording, robot.space());
-  if (run.witness() == Witness::none) return;
-  Column force;
-  ReportLane touching{"contact", {"free", "touching"}, {}};
-  for (std::size_t k = 0; k < run.size(); ++k) {
-    const RunSample now = run[k];
-    const int counts = now.load() > 1.0 ? 1 : 0;
-    force.push_back(now.force());
-    touching.state.push_back(std::isnan(now.load()) ? -1 : counts);
-  }
-  report.columns["contact_force"] = std::move(force);
-  report.lanes.insert(report.lanes.begin(), std::move(touching));
-}
-
 std::string caveat(Witness witness) {
   const std::string common =
       " flinch is not a certified safety function; take force limits from the standard itself.";
@@ -253,10 +103,11 @@ std::string caveat(Witness witness) {
 
 /// Nothing where the page shows every sample.
 std::string thinning(const Recording& recording) {
-  const std::size_t together = samples_in_one(recording);
+  const std::size_t together = samples_in_one(recording.samples());
   if (together == 1) return "";
   return fmt::format(
-      " The recording is long: of {} samples each the page shows one, that with the hardest contact.",
+      " The recording is long: {} samples each are shown as one, every chart by its peak, the robot at the "
+      "hardest contact.",
       together);
 }
 
@@ -345,13 +196,7 @@ Report experiment_report(const Scenario& scenario, const Recording& recording, c
   for (const ScenarioObstacle& obstacle : scenario.obstacles) {
     report.obstacles.push_back(drawn_obstacle(obstacle.name, obstacle.shape, obstacle.position_in_base));
   }
-  const Recording shown = page_samples(recording);
-  report.period = to_seconds(shown.period);
-  if (!recording.time_ns.empty()) report.start = 1e-9 * static_cast<double>(recording.time_ns.front());
-  add_motion(robot, shown, verdict.witness, report);
-  add_forces(robot, shown, verdict.witness, report);
-  report.lanes = lanes(shown);
-  add_contact(robot, shown, report);
+  add_samples(robot, recording, report);
   report.bounds = bounds(scenario, verdict);
   report.parameters = scenario_parameters(scenario);
   for (ReportParameter& row : parameters("robot", scenario.robot.values))

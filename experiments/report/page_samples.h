@@ -1,20 +1,56 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
+#include <vector>
 
-#include "systems/framework/recording.h"
+#include "experiments/report/report.h"
 
 namespace flinch {
 
 /// A page with more samples takes long to open.
 inline constexpr std::size_t most_page_samples = 10'000;
 
-/// How many samples of the recording one of its page stands for.
-std::size_t samples_in_one(const Recording& recording);
+/// How many of `samples` one of a page stands for.
+std::size_t samples_in_one(std::size_t samples);
 
-/// The samples of `recording` that a page shows, in memory: all, or of so many together the one with the
-/// hardest contact, the first where there is none. `recording` may lie in a file; little of it is in memory
-/// at a time.
-Recording page_samples(const Recording& recording);
+/// The columns and lanes of a page, filled sample by sample. Of several samples that a page shows as one,
+/// each column has the value of the greatest weight, so that no peak is lost; what belongs together has one
+/// weight.
+class PageSamples {
+ public:
+  explicit PageSamples(std::size_t together) : together_(together) {}
+
+  /// Makes a column, or a lane, and says by which number it is filled.
+  std::size_t column(std::string name);
+  std::size_t lane(std::string name, std::vector<std::string> states);
+
+  /// Begins a sample; it fills all columns and lanes.
+  void begin();
+  void set(std::size_t column, double value, double weight);
+  /// The same of a scalar whose greatest magnitude counts.
+  void set(std::size_t column, double value);
+  void set_state(std::size_t lane, int state, double weight);
+
+  /// Moves all of it to the page.
+  void finish(Report& report);
+
+ private:
+  /// One value a page sample, and the weight of the last.
+  template <class Value>
+  struct Filled {
+    std::vector<Value> values;
+    double weight = 0.0;
+  };
+  template <class Value>
+  void fill(Filled<Value>& filled, Value value, double weight) const;
+
+  std::size_t together_;
+  std::size_t samples_ = 0;
+  std::vector<std::string> names_;
+  std::vector<Filled<double>> columns_;
+  std::vector<ReportLane> lanes_;
+  std::vector<Filled<int>> states_;
+};
 
 }  // namespace flinch

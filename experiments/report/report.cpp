@@ -30,6 +30,7 @@ Names column_names() {
     names.push_back(wrench + "moment");
   }
   add("isolated_");
+  for (int obstacle = 1; obstacle <= 8; ++obstacle) add("obstacle_" + std::to_string(obstacle) + "_");
   for (int leg = 1; leg <= 6; ++leg) {
     add("elbow_" + std::to_string(leg) + "_");
     for (const std::string torque : {"torque_commanded_", "torque_applied_"}) {

@@ -53,7 +53,7 @@ struct ReportRobot {
   double platform_radius = 0.0;       ///< grown by this [m].
 };
 
-/// What the robot may run into, as it stands at first.
+/// What the robot may run into, where it is at rest. The columns `obstacle_1_x`, ... move the first one.
 struct ReportObstacle {
   std::string name;
   std::vector<ReportPoint> points;  ///< Its outline is the hull of these points, base frame [m],

@@ -1,5 +1,7 @@
 #include "experiments/simulated/experiment.h"
 
+#include <algorithm>
+
 #include "diagrams/contact_control.h"
 #include "experiments/recorded/recorded_signals.h"
 #include "experiments/recorded/robot_as_drawn.h"
@@ -26,6 +28,10 @@ Experiment build_experiment(const SimulatedScenario& scenario) {
   builder.connect(builder.add<Constant<TickTiming>>("tick_timing", TickTiming()).value, control.tick_timing);
   builder.export_output("truth", station.plant_truth);
   builder.export_output("contact", station.contact_truth);
+  const Obstacles& obstacles = scenario.station.bench.obstacles;
+  if (std::any_of(obstacles.begin(), obstacles.end(), [](const auto& each) { return each->moves(); })) {
+    builder.export_output("obstacles", station.obstacle_truth);
+  }
   export_readings(builder, station);
   export_control(builder, control);
   return {builder.build(), operator_command, target};

@@ -1,11 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
 #include "systems/robot/vectors.h"
 
 /// What of a simulation's truth verdict and report look at. A recording is read without what made it: these
-/// are the fields of those names, read from its signals "truth" and "contact".
+/// are the fields of those names, read from its signals "truth", "contact" and "obstacles".
 namespace flinch {
 
 struct RecordedTruth {
@@ -56,6 +57,16 @@ struct RecordedContact {
     visit("strongest", "", self.strongest);
     visit("second", "", self.second);
     visit("wrench_in_base", "<wrench>", self.wrench_in_base, "base");
+  }
+};
+
+/// Read from the signal "obstacles", where any of them may move.
+struct RecordedObstacles {
+  std::array<Eigen::Vector3d, 8> displacement_in_base{};  ///< from their positions at rest [m]
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("displacement_in_base", "m", self.displacement_in_base, "base");
   }
 };
 

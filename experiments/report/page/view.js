@@ -75,6 +75,7 @@ class View {
     const pose = poseAt(sample);
     if (!pose) return;
     this.showLegs(pose, sample);
+    this.showObstacles(sample);
     this.showPlatform(pose);
     this.showPath(pose, sample);
     this.showForces(pose, sample);
@@ -186,16 +187,27 @@ class View {
 
   drawObstacles() {
     this.obstacles.replaceChildren();
-    for (const { name, points, radius } of report.obstacles) {
+    this.obstacleGroups = report.obstacles.map(({ name, points, radius }) => {
+      const group = shape(this.obstacles, "g", {});
       const outline = convexHull(points.map((point) => this.project(point)));
       const width = 2 * radius * this.scale;
       const d = polyline(outline) + "Z";
-      shape(this.obstacles, "path", { d, class: "obstacle-edge", "stroke-width": width + 3 });
-      shape(this.obstacles, "path", { d, class: "obstacle", "stroke-width": width });
+      shape(group, "path", { d, class: "obstacle-edge", "stroke-width": width + 3 });
+      shape(group, "path", { d, class: "obstacle", "stroke-width": width });
       const [x, y] = [0, 1].map((k) => outline.reduce((sum, point) => sum + point[k], 0) / outline.length);
       const top = Math.min(...outline.map((point) => point[1])) - width / 2;
-      shape(this.obstacles, "text", { x, y: Math.min(y, top) - 8, class: "obstacle-name" }).textContent = name;
-    }
+      shape(group, "text", { x, y: Math.min(y, top) - 8, class: "obstacle-name" }).textContent = name;
+      return group;
+    });
+  }
+
+  /** Each where it is at the sample; one without columns stays where it is drawn. */
+  showObstacles(sample) {
+    this.obstacleGroups.forEach((group, i) => {
+      if (!has(`obstacle_${i + 1}_x`)) return;
+      const [right, up] = this.flat(vectorAt(`obstacle_${i + 1}_`, sample) ?? [0, 0, 0]);
+      set(group, { transform: `translate(${(right * this.scale).toFixed(1)} ${(-up * this.scale).toFixed(1)})` });
+    });
   }
 
   /** The platform's way, at most 800 points of it. */

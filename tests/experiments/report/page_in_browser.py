@@ -99,6 +99,21 @@ def slider_moves_everything(page):
     page.expect_silence("moving the slider")
 
 
+def obstacles_are_where_they_are(page):
+    """An obstacle with columns is drawn as far from its place as they say, in pixels of the first view."""
+    wrong = page.value("""[0, 0.5, 1].flatMap((share) => {
+        clock.seek(Math.round(share * lastSample));
+        const group = document.querySelector('#scene .layer-obstacles'), view = scene.views[0];
+        return [...group.children].filter((drawn, i) => {
+            const found = new DOMMatrix(getComputedStyle(drawn).transform);
+            const moved = has(`obstacle_${i + 1}_x`) ? vectorAt(`obstacle_${i + 1}_`, clock.sample) : [0, 0, 0];
+            const [x, y] = view.flat(moved);
+            return Math.abs(found.e - x * view.scale) > 0.1 || Math.abs(found.f + y * view.scale) > 0.1;
+        }).map((drawn) => drawn.textContent);
+    })""")
+    page.expect(wrong == [], f"obstacles are drawn at the wrong place: {wrong}")
+
+
 def keys_step(page):
     page.browser.run("document.activeElement.blur(); clock.seek(20)")
     for keys, sample in ((["right"], 21), (["right", "right"], 23), (["left"], 22), (["shift+right"], 32), (["shift+left"], 22)):
@@ -231,6 +246,7 @@ def use(page, pictures):
     has_names_for_everything(page)
     if page.value("lastSample") > 100:
         slider_moves_everything(page)
+        obstacles_are_where_they_are(page)
         keys_step(page)
         charts_read_under_the_mouse(page)
         charts_zoom_together(page)

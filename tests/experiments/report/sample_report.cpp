@@ -254,7 +254,13 @@ Report sample_report() {
   report.note = "Test data: this motion was fabricated to test the page. It is not a result of flinch.";
   report.period = period;
   report.robot = drawn_robot();
-  report.obstacles = {{"pylon", {{pylon.x(), pylon.y(), 0.0}}, pylon_radius}};
+  report.obstacles = {{"pylon", {{pylon.x(), pylon.y(), 0.0}}, pylon_radius},
+                      {"cart", {{-0.45, 0.4, 0.0}}, 0.05}};
+  for (std::size_t k = 0; k < report.sample_count(); ++k) {
+    const double t = period * static_cast<double>(k);
+    report.columns["obstacle_2_x"].push_back(0.1 * t);
+    report.columns["obstacle_2_y"].push_back(-0.02 * t);
+  }
   add_verdict(experiment, report);
   add_background(report);
   return report;

@@ -9,6 +9,7 @@
 #include "experiments/simulated/experiment.h"
 #include "experiments/simulated/simulated_scenario.h"
 #include "experiments/verdict/verdict.h"
+#include "plant/obstacle_path.h"
 #include "systems/framework/recording.h"
 #include "tests/experiments/report/chromium.h"
 
@@ -21,6 +22,28 @@ Report report_of(const std::string& scenario_file) {
   return experiment_report(
       scenario, recording,
       judge(recording, scenario.robot.robot->space(), scenario.expected, scenario.force_limits));
+}
+
+TEST(ExperimentPage, TellsWhereObstaclesAreThatMove) {
+  SimulatedScenario scenario =
+      read_simulated_scenario(FLINCH_SOURCE_DIR "/apps/scenarios/platform_collision.yaml");
+  const auto columns = [&] {
+    const Recording recording = run_experiment(scenario);
+    const Verdict verdict =
+        judge(recording, scenario.robot.robot->space(), scenario.expected, scenario.force_limits);
+    return experiment_report(scenario, recording, verdict).columns;
+  };
+  EXPECT_EQ(columns().count("obstacle_1_x"), 0U) << "a fixed one";
+
+  scenario.station.bench.obstacles[0] = std::make_shared<const MovingObstacle>(
+      scenario.station.bench.obstacles[0]->form(),
+      ObstaclePath({{.time = 0.2}, {.time = 0.4, .displacement = {-0.05, 0.02, 0.0}}}));
+  const auto moving = columns();
+  EXPECT_NEAR(moving.at("obstacle_1_x").at(100), 0.0, 1e-12);
+  EXPECT_NEAR(moving.at("obstacle_1_x").at(300), -0.025, 1e-12);
+  EXPECT_NEAR(moving.at("obstacle_1_y").at(300), 0.01, 1e-12);
+  EXPECT_NEAR(moving.at("obstacle_1_x").back(), -0.05, 1e-12);
+  EXPECT_EQ(moving.count("obstacle_1_z"), 0U) << "in a plane";
 }
 
 TEST(ExperimentPage, WorksInChromium) {

@@ -1,0 +1,329 @@
+#include "experiments/report/report_samples.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "experiments/report/drawn_robot.h"
+#include "experiments/report/page_samples.h"
+#include "experiments/verdict/recorded_run.h"
+#include "experiments/verdict/recorded_truth.h"
+#include "systems/framework/recorded_values.h"
+#include "systems/robot/parallel_robot.h"
+#include "systems/signals/platform_motion.h"
+#include "systems/signals/platform_reference.h"
+#include "systems/signals/torque_command.h"
+#include "systems/signals/workspace_measures.h"
+#include "systems/signals/wrench_estimate.h"
+
+namespace flinch {
+namespace {
+
+const double no_data = std::nan("");
+constexpr std::array axes{"x", "y", "z"};
+
+/// A vector of the page: one column a component, all of the sample whose `weight` is greatest.
+class VectorColumns {
+ public:
+  VectorColumns(PageSamples& page, const std::vector<std::string>& names) : page_(page) {
+    for (const std::string& name : names) columns_.push_back(page.column(name));
+  }
+  void set(const auto& vector, double weight) {
+    const bool fits = vector.size() == static_cast<Eigen::Index>(columns_.size());
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      page_.set(columns_[i], fits ? vector[static_cast<Eigen::Index>(i)] : no_data, fits ? weight : no_data);
+    }
+  }
+  void set_no_data() { set(Eigen::Matrix<double, 0, 1>(), 0.0); }
+
+ private:
+  PageSamples& page_;
+  std::vector<std::size_t> columns_;
+};
+
+std::vector<std::string> named(const std::string& prefix, int count) {
+  std::vector<std::string> names;
+  for (int i = 0; i < count; ++i) names.push_back(prefix + axes[static_cast<std::size_t>(i)]);
+  return names;
+}
+
+std::vector<std::string> numbered(const std::string& prefix, int count) {
+  std::vector<std::string> names;
+  for (int i = 0; i < count; ++i) names.push_back(prefix + std::to_string(i + 1));
+  return names;
+}
+
+std::vector<std::string> pose_names(const ConfigurationSpace& space) {
+  std::vector<std::string> names = named("pose_", space.translations());
+  if (space.rotations() == 1) names.emplace_back("pose_phi");
+  if (space.rotations() == 3) names.insert(names.end(), {"pose_qw", "pose_qx", "pose_qy", "pose_qz"});
+  return names;
+}
+
+std::vector<std::string> wrench_names(const std::string& name, const ConfigurationSpace& space) {
+  std::vector<std::string> names = named(name + "_force_", space.translations());
+  if (space.rotations() == 1) names.push_back(name + "_moment");
+  if (space.rotations() == 3) {
+    for (const std::string& moment : named(name + "_moment_", 3)) names.push_back(moment);
+  }
+  return names;
+}
+
+/// What of a sample only a simulation knows.
+struct Truth {
+  RecordedTruth robot;
+  RecordedContact contact;
+};
+
+class RecordedTruths {
+ public:
+  explicit RecordedTruths(const Recording& recording)
+      : robot_(recording, "truth"), contact_(recording, "contact") {}
+  Truth operator[](std::size_t sample) const { return {robot_[sample], contact_[sample]}; }
+
+ private:
+  RecordedValues<RecordedTruth> robot_;
+  RecordedValues<RecordedContact> contact_;
+};
+
+/// The platform as it truly was, or as the controller took it to be.
+class Motion {
+ public:
+  Motion(const ParallelRobot& robot, const Recording& recording, bool simulated, PageSamples& page)
+      : space_(robot.space()),
+        reference_(recording, "reference"),
+        pose_(page, pose_names(space_)),
+        speed_(page.column("speed")),
+        position_error_(page.column("position_error")),
+        page_(page) {
+    if (space_.rotations() > 0) orientation_error_ = page.column("orientation_error");
+    if (!simulated) measured_.emplace(recording, "motion");
+  }
+
+  void show(std::size_t sample, const Truth* truth, double hardness) {
+    if (truth != nullptr) return show(truth->robot.pose, truth->robot.velocity, sample, hardness);
+    const PlatformMotion now = (*measured_)[sample];
+    show(now.pose, now.velocity, sample, hardness);
+  }
+
+ private:
+  void show(const Configuration& pose, const PlatformVector& velocity, std::size_t sample, double hardness) {
+    pose_.set(pose, hardness);
+    const bool moves = velocity.size() == space_.dimension();
+    page_.set(speed_, moves ? velocity.head(space_.translations()).norm() : no_data);
+    const PlatformReference wanted = reference_[sample];
+    const bool followed = wanted.valid && space_.contains(pose) && space_.contains(wanted.pose);
+    const PlatformVector error =
+        followed ? space_.difference(pose, wanted.pose) : PlatformVector::Zero(space_.dimension());
+    page_.set(position_error_, followed ? error.head(space_.translations()).norm() : no_data);
+    if (orientation_error_)
+      page_.set(*orientation_error_, followed ? error.tail(space_.rotations()).norm() : no_data);
+  }
+
+  ConfigurationSpace space_;
+  std::optional<RecordedValues<PlatformMotion>> measured_;
+  RecordedValues<PlatformReference> reference_;
+  VectorColumns pose_;
+  std::size_t speed_, position_error_;
+  std::optional<std::size_t> orientation_error_;
+  PageSamples& page_;
+};
+
+/// Forces on the platform, estimated and true, and where the two hardest contacts touch.
+class Forces {
+ public:
+  Forces(const ParallelRobot& robot, const Recording& recording, bool simulated, PageSamples& page)
+      : translations_(robot.space().translations()),
+        wrench_(recording, "wrench"),
+        estimate_(page, wrench_names("estimated", robot.space())) {
+    if (!simulated) return;
+    external_.emplace(page, wrench_names("external", robot.space()));
+    for (const std::string contact : {"contact_1_", "contact_2_"}) {
+      touches_.push_back({VectorColumns(page, named(contact, translations_)),
+                          VectorColumns(page, named(contact + "force_", translations_))});
+    }
+  }
+
+  void show(std::size_t sample, const Truth* truth, double hardness) {
+    const WrenchEstimate estimate = wrench_[sample];
+    if (estimate.valid) {
+      estimate_.set(estimate.wrench_in_base, strength(estimate.wrench_in_base));
+    } else {
+      estimate_.set_no_data();
+    }
+    if (truth == nullptr) return;
+    external_->set(truth->robot.wrench_in_base, strength(truth->robot.wrench_in_base));
+    show(truth->contact.strongest, hardness, touches_[0]);
+    show(truth->contact.second, hardness, touches_[1]);
+  }
+
+ private:
+  struct Touch {
+    VectorColumns point, force;
+  };
+
+  /// A contact point is only shown while its body is touched.
+  static void show(const RecordedTouch& touch, double hardness, Touch& columns) {
+    const CartesianVector nothing = CartesianVector::Constant(touch.point_in_base.size(), no_data);
+    columns.point.set(touch.body >= 0 ? touch.point_in_base : nothing, hardness);
+    columns.force.set(touch.body >= 0 ? touch.force_in_base : nothing, hardness);
+  }
+  double strength(const PlatformVector& wrench) const {
+    return wrench.size() < translations_ ? no_data : wrench.head(translations_).norm();
+  }
+
+  int translations_;
+  RecordedValues<WrenchEstimate> wrench_;
+  VectorColumns estimate_;
+  std::optional<VectorColumns> external_;
+  std::vector<Touch> touches_;
+};
+
+/// What the drives do, each for itself, and how far the robot is from where it must not be.
+class Drives {
+ public:
+  Drives(const ParallelRobot& robot, const Recording& recording, bool simulated, PageSamples& page)
+      : command_(recording, "torque_command"),
+        measures_(recording, "measures"),
+        sigma_kappa_(page.column("sigma_kappa")),
+        sigma_sc_(page.column("sigma_sc")),
+        page_(page) {
+    for (const std::string& name : numbered("torque_commanded_", robot.drives()))
+      commanded_.push_back(page.column(name));
+    if (!simulated) return;
+    for (const std::string& name : numbered("torque_applied_", robot.drives()))
+      applied_.push_back(page.column(name));
+  }
+
+  void show(std::size_t sample, const Truth* truth) {
+    const TorqueCommand command = command_[sample];
+    set(commanded_, command.valid ? command.torque : JointVector());
+    if (truth != nullptr) set(applied_, truth->robot.drive_torque);
+    const WorkspaceMeasures now = measures_[sample];
+    page_.set(sigma_kappa_, now.valid ? now.sigma_kappa : no_data);
+    page_.set(sigma_sc_, now.valid ? now.sigma_sc : no_data, now.valid ? 1.0 / now.sigma_sc : no_data);
+  }
+
+ private:
+  void set(const std::vector<std::size_t>& columns, const JointVector& torque) {
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const auto drive = static_cast<Eigen::Index>(i);
+      page_.set(columns[i], drive < torque.size() ? torque[drive] : no_data);
+    }
+  }
+
+  RecordedValues<TorqueCommand> command_;
+  RecordedValues<WorkspaceMeasures> measures_;
+  std::vector<std::size_t> commanded_, applied_;
+  std::size_t sigma_kappa_, sigma_sc_;
+  PageSamples& page_;
+};
+
+/// How far obstacles are from where they are drawn. Those that never move have no columns.
+class ObstacleMotion {
+ public:
+  ObstacleMotion(const Recording& recording, std::size_t obstacles, int translations, PageSamples& page)
+      : translations_(translations) {
+    if (recording.find("obstacles") == nullptr) return;
+    places_.emplace(recording, "obstacles");
+    for (std::size_t i = 0; i < std::min(obstacles, moves_.size()); ++i) {
+      columns_.emplace_back(page, named("obstacle_" + std::to_string(i + 1) + "_", translations));
+    }
+  }
+
+  void show(std::size_t sample, double hardness) {
+    if (!places_) return;
+    const RecordedObstacles now = (*places_)[sample];
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      moves_[i] |= !now.displacement_in_base[i].isZero(0.0);
+      columns_[i].set(now.displacement_in_base[i].head(translations_), hardness);
+    }
+  }
+
+  void drop_those_at_rest(Report& report) const {
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      if (moves_[i]) continue;
+      for (const std::string& name : named("obstacle_" + std::to_string(i + 1) + "_", translations_)) {
+        report.columns.erase(name);
+      }
+    }
+  }
+
+ private:
+  int translations_;
+  std::optional<RecordedValues<RecordedObstacles>> places_;
+  std::vector<VectorColumns> columns_;
+  std::array<bool, std::tuple_size_v<decltype(RecordedObstacles::displacement_in_base)>> moves_{};
+};
+
+/// Named states, and the force of the hardest contact. Whether it counts as one is told as for the verdict,
+/// so that the lane ends when the verdict says that the contact was removed.
+class States {
+ public:
+  States(bool contacts_are_known, PageSamples& page) : page_(page) {
+    if (contacts_are_known) {
+      force_ = page.column("contact_force");
+      touching_ = page.lane("contact", {"free", "touching"});
+    }
+    detector_ = page.lane("detector", {"quiet", "contact", "hard contact"});
+    mode_ = page.lane("mode", {"nominal", "stopped", "react", "hold", "zero-g", "recover"});
+    gate_ = page.lane("torque gate", {"waiting", "open", "closed", "recovering"});
+  }
+
+  void show(const RunSample& now, double hardness) {
+    if (force_) {
+      const bool known = !std::isnan(now.load());
+      page_.set(*force_, now.force());
+      page_.set_state(*touching_, known ? (now.load() > 1.0 ? 1 : 0) : -1, now.load());
+    }
+    const int level = static_cast<int>(now.detection.level);
+    page_.set_state(detector_, level, level);
+    const int mode = static_cast<int>(now.mode);
+    page_.set_state(mode_, mode < 2 ? 1 - mode : mode, hardness);  // the quiet state, nominal, comes first
+    page_.set_state(gate_, static_cast<int>(now.gate.phase), static_cast<int>(now.gate.phase));
+  }
+
+ private:
+  PageSamples& page_;
+  std::optional<std::size_t> force_, touching_;
+  std::size_t detector_ = 0, mode_ = 0, gate_ = 0;
+};
+
+}  // namespace
+
+void add_samples(const ParallelRobot& robot, const Recording& recording, Report& report) {
+  const RecordedRun run(recording, robot.space());
+  const bool simulated = run.witness() == Witness::truth;
+  const std::size_t together = samples_in_one(recording.samples());
+  report.period = run.period() * static_cast<double>(together);
+  if (!recording.time_ns.empty()) report.start = 1e-9 * static_cast<double>(recording.time_ns.front());
+  PageSamples page(together);
+  States states(run.witness() != Witness::none, page);
+  Motion motion(robot, recording, simulated, page);
+  Forces forces(robot, recording, simulated, page);
+  Drives drives(robot, recording, simulated, page);
+  ObstacleMotion obstacles(recording, report.obstacles.size(), robot.space().translations(), page);
+  std::optional<RecordedTruths> truths;
+  if (simulated) truths.emplace(recording);
+  for (std::size_t k = 0; k < run.size(); ++k) {
+    const RunSample now = run[k];
+    const std::optional<Truth> known = truths ? std::optional((*truths)[k]) : std::nullopt;
+    const Truth* const truth = known ? &*known : nullptr;
+    const double hardness = std::isnan(now.force()) ? 0.0 : now.force();
+    page.begin();
+    states.show(now, hardness);
+    motion.show(k, truth, hardness);
+    forces.show(k, truth, hardness);
+    drives.show(k, truth);
+    obstacles.show(k, hardness);
+  }
+  page.finish(report);
+  obstacles.drop_those_at_rest(report);
+  add_elbows(robot, report);
+}
+
+}  // namespace flinch

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "experiments/report/report.h"
+
+namespace flinch {
+
+class ParallelRobot;
+struct Recording;
+
+/// Adds to a page what was recorded of this robot: times, columns and lanes, in one pass over the samples.
+/// Where a page shows several samples as one, the robot is drawn at the hardest contact, and every chart has
+/// its own peak.
+void add_samples(const ParallelRobot& robot, const Recording& recording, Report& report);
+
+}  // namespace flinch
