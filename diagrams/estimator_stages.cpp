@@ -8,6 +8,7 @@
 #include "systems/estimators/direct_method.h"
 #include "systems/estimators/estimate_fallback.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/model/robot_model.h"
 
 namespace flinch {
 namespace {
@@ -51,6 +52,28 @@ OutputPort<WrenchEstimate> add_sliding_mode_observer(const StageSite& site, cons
   return add<SlidingModeObserver>(site, given, site.settings.sliding_mode_observer);
 }
 
+DisturbanceFilter& add_encoder_filter(const StageSite& site, const MotionPorts& given) {
+  DiagramBuilder& builder = site.builder;
+  auto& filter = builder.add<DisturbanceFilter>(site.name, site.robot, site.settings.disturbance_filter);
+  builder.connect(given.joints, filter.joints);
+  builder.connect(given.platform, filter.platform);
+  builder.connect(given.kinematics, filter.kinematics);
+  builder.connect(given.dynamics, filter.dynamics);
+  builder.connect(add_torque_as_it_is(part(site, "torque"), given), filter.torque);
+  return filter;
+}
+
+/// The same with a motion whose velocity hardly lags, the model there, and torques that do not.
+AcceleratedPorts without_lag(const StageSite& site, const AcceleratedPorts& given) {
+  AcceleratedPorts present = given;
+  present.platform = add_encoder_filter(part(site, "velocity"), given).followed;
+  auto& model = site.builder.add<RobotModel>(site.name + "_model", site.robot);
+  site.builder.connect(present.platform, model.platform);
+  present.kinematics = model.kinematics;
+  present.dynamics = model.dynamics;
+  return present;
+}
+
 /// An estimate that needs the IMU, and beside it the momentum observer for where that fails.
 OutputPort<WrenchEstimate> add_fallback(const StageSite& site, const AcceleratedPorts& given,
                                         OutputPort<WrenchEstimate> preferred) {
@@ -62,13 +85,15 @@ OutputPort<WrenchEstimate> add_fallback(const StageSite& site, const Accelerated
   return fallback.wrench;
 }
 
+/// The direct method at the motion and model of `present`.
 OutputPort<WrenchEstimate> add_direct(const StageSite& site, const AcceleratedPorts& given,
+                                      const AcceleratedPorts& present,
                                       OutputPort<PlatformAcceleration> acceleration) {
   DiagramBuilder& builder = site.builder;
   auto& direct = builder.add<DirectMethod>(site.name + "_method", site.robot);
-  builder.connect(given.platform, direct.platform);
-  builder.connect(given.kinematics, direct.kinematics);
-  builder.connect(given.dynamics, direct.dynamics);
+  builder.connect(present.platform, direct.platform);
+  builder.connect(present.kinematics, direct.kinematics);
+  builder.connect(present.dynamics, direct.dynamics);
   builder.connect(add_torque_as_it_is(part(site, "torque"), given), direct.torque);
   builder.connect(acceleration, direct.acceleration);
   return add_fallback(site, given, direct.wrench);
@@ -79,7 +104,7 @@ OutputPort<WrenchEstimate> add_direct_method(const StageSite& site, const Accele
     throw SetupError("the estimator '" + site.name +
                      "' needs an acceleration: let one of control.accelerations run");
   }
-  return add_direct(site, given, given.acceleration);
+  return add_direct(site, given, given, given.acceleration);
 }
 
 /// The acceleration of the source of this name: that which runs, else one for this estimator alone.
@@ -95,32 +120,26 @@ OutputPort<PlatformAcceleration> acceleration_of(const std::string& name, const 
 }
 
 OutputPort<WrenchEstimate> add_direct_imu_ekf(const StageSite& site, const AcceleratedPorts& given) {
-  return add_direct(site, given, acceleration_of("imu_ekf", site, given));
+  return add_direct(site, given, given, acceleration_of("imu_ekf", site, given));
 }
 
 OutputPort<WrenchEstimate> add_direct_extended_imu_ekf(const StageSite& site, const AcceleratedPorts& given) {
-  return add_direct(site, given, acceleration_of("extended_imu_ekf", site, given));
+  return add_direct(site, given, without_lag(site, given), acceleration_of("extended_imu_ekf", site, given));
 }
 
 OutputPort<WrenchEstimate> add_disturbance_filter(const StageSite& site, const AcceleratedPorts& given) {
-  DiagramBuilder& builder = site.builder;
-  auto& filter = builder.add<DisturbanceFilter>(site.name, site.robot, site.settings.disturbance_filter);
-  builder.connect(given.joints, filter.joints);
-  builder.connect(given.platform, filter.platform);
-  builder.connect(given.kinematics, filter.kinematics);
-  builder.connect(given.dynamics, filter.dynamics);
-  builder.connect(add_torque_as_it_is(part(site, "torque"), given), filter.torque);
-  return filter.wrench;
+  return add_encoder_filter(site, given).wrench;
 }
 
 OutputPort<WrenchEstimate> add_imu_residual(const StageSite& site, const AcceleratedPorts& given) {
   DiagramBuilder& builder = site.builder;
   ImuResidualSettings settings = site.settings.imu_residual;
+  const AcceleratedPorts present = without_lag(site, given);
   settings.mount = site.settings.imu_mount;
   auto& residual = builder.add<ImuResidual>(site.name + "_method", site.robot, settings);
-  builder.connect(given.platform, residual.platform);
-  builder.connect(given.kinematics, residual.kinematics);
-  builder.connect(given.dynamics, residual.dynamics);
+  builder.connect(present.platform, residual.platform);
+  builder.connect(present.kinematics, residual.kinematics);
+  builder.connect(present.dynamics, residual.dynamics);
   builder.connect(add_torque_as_it_is(part(site, "torque"), given), residual.torque);
   builder.connect(given.imu, residual.imu);
   return add_fallback(site, given, residual.wrench);

@@ -120,6 +120,14 @@ JointVector DisturbanceFilter::modelled_acceleration(const DisturbanceFilterMemo
   return middle.J_qa_x * *acceleration + middle.dJ_qa_x * velocity;
 }
 
+void DisturbanceFilter::follow(const DisturbanceFilterMemory& next, const PlatformMotion& measured,
+                               const Kinematics& at, PlatformMotion& result) const {
+  result = measured;
+  if (!measured.valid() || !at.valid) return;
+  const bool is_followed = next.started && next.acquired == measured.acquired && next.velocity.allFinite();
+  if (is_followed) result.velocity = at.J_x_qa * next.velocity;
+}
+
 void DisturbanceFilter::read(const DisturbanceFilterMemory& next, const Kinematics& at, const Dynamics& model,
                              Time now, WrenchEstimate& result) const {
   result = WrenchEstimate();

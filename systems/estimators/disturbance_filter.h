@@ -60,6 +60,9 @@ class DisturbanceFilter final : public System {
       intermediate<&DisturbanceFilter::advance>("next", joints, platform, kinematics, torque, memory_, clock);
 
  public:
+  /// The platform with the velocity that the filter follows, which lags less than one that is low-passed.
+  OutputPort<PlatformMotion> followed =
+      output<&DisturbanceFilter::follow>("followed", next_, platform, kinematics);
   OutputPort<WrenchEstimate> wrench =
       output<&DisturbanceFilter::read>("wrench", next_, kinematics, dynamics, clock);
 
@@ -67,6 +70,8 @@ class DisturbanceFilter final : public System {
   void advance(const JointReading& reading, const PlatformMotion& motion, const Kinematics& at,
                const DriveTorque& drives, const DisturbanceFilterMemory& memory, Time now,
                DisturbanceFilterMemory& next) const;
+  void follow(const DisturbanceFilterMemory& next, const PlatformMotion& measured, const Kinematics& at,
+              PlatformMotion& result) const;
   void read(const DisturbanceFilterMemory& next, const Kinematics& at, const Dynamics& model, Time now,
             WrenchEstimate& result) const;
   bool is_usable(const JointReading& reading, const PlatformMotion& motion, const Kinematics& at,

@@ -1,5 +1,5 @@
-// What each wrench estimator costs in a tick, with all blocks that it brings, and as a multiple of the momentum
-// observer.
+// What each wrench estimator costs in a tick, with all blocks that it brings, and as a multiple of the
+// momentum observer.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

@@ -231,6 +231,20 @@ TEST_P(Estimator, FallsBackFromAnImuThatRepeatsItselfOrIsNotANumber) {
   }
 }
 
+// A hard contact shakes IMU and encoders alike: no reason to disbelieve one of them.
+TEST_P(Estimator, KeepsTheImuThroughACollision) {
+  const SimulatedScenario struck = scenario(
+      "planar_3rrr", GetParam(),
+      never_reacts +
+          "duration_s: 0.9\nmotion: {kind: passage, start_ms: 300, pose: {x_mm: -40}, direction_deg: 180, "
+          "speed_m_per_s: 0.95, cruise_mm: 80}\npylon: {x_mm: -240, y_mm: -20}\n");
+  const Recording recording = run_experiment(struck);
+  const std::vector<double> touched = recording.column("contact", "in_contact");
+  ASSERT_GT(std::count(touched.begin(), touched.end(), 1.0), 30);
+  const auto estimates = read<WrenchEstimate>(recording, "wrench");
+  for (std::size_t k = 400; k < recording.samples(); ++k) ASSERT_FALSE(estimates[k].health.fallen_back) << k;
+}
+
 TEST_P(Estimator, DoesNotAllocate) {
   const SimulatedScenario free = scenario("planar_3rrr", GetParam(), "duration_s: 0.6\n");
   const std::vector<Readings> readings = test::readings_of(run_experiment(free));

@@ -1,0 +1,62 @@
+// What it costs where currents and encoders are not of one time: all filters and delays of the pipeline act
+// on both sides of the balance of momentum, and one millisecond that does not shows as a force.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "experiments/simulated/experiment.h"
+#include "experiments/simulated/simulated_scenario.h"
+#include "tests/experiments/simulated/fed_control.h"
+#include "tests/support/workplace.h"
+
+namespace flinch {
+namespace {
+
+/// A square at 1.5 m/s, 12 m/s^2 and 1000 m/s^3, exactly measured, watched by one estimator.
+SimulatedScenario square(const std::string& estimator) {
+  const test::Workplace place;
+  place.write("scenarios/square.yaml",
+              "robot: ../robots/planar_3rrr.yaml\nduration_s: 1.6\nsensors: {ideal: true}\n"
+              "motion:\n  kind: square\n  start_ms: 300\n"
+              "  limits: {velocity_m_per_s: 1.5, acceleration_m_per_s2: 12, jerk_m_per_s3: 1000}\n"
+              "control:\n  estimators: [" +
+                  estimator + "]\n" +
+                  "  momentum_observer: {gain_per_s: [135, 135, 135]}\n"
+                  "  contact_detector: {reaction_force_N: 500, reaction_moment_Nm: 100, hard_force_N: 600, "
+                  "hard_moment_Nm: 200}\n");
+  return read_simulated_scenario(place / "scenarios/square.yaml");
+}
+
+/// Largest force that is estimated where the currents come `skew` ticks late [N].
+double largest_force(const SimulatedScenario& scenario, const std::vector<test::Readings>& readings,
+                     std::size_t skew) {
+  test::FedControl control(scenario);
+  double largest = 0.0;
+  for (std::size_t k = skew; k < readings.size(); ++k) {
+    test::Readings now = readings[k];
+    now.drives.current = readings[k - skew].drives.current;
+    const WrenchEstimate& estimate = control.see(now);
+    if (k < 350 || !estimate.valid) continue;
+    largest = std::max(largest, estimate.wrench_in_base.head(2).lpNorm<Eigen::Infinity>());
+  }
+  return largest;
+}
+
+class SkewedReadings : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Of, SkewedReadings,
+                         testing::Values("momentum_observer", "disturbance_filter", "imu_residual"),
+                         [](const auto& tested) { return tested.param; });
+
+// 4.5 kg times 1000 m/s^3 times 1 ms are 4.5 N, less what the observer filters away.
+TEST_P(SkewedReadings, LookLikeAForceOfSomeNewtonsForAMillisecond) {
+  const SimulatedScenario scenario = square(GetParam());
+  const std::vector<test::Readings> readings = test::readings_of(run_experiment(scenario));
+  const double aligned = largest_force(scenario, readings, 0);
+  const double skewed = largest_force(scenario, readings, 1);
+  std::printf("%-20s aligned %5.2f N, currents 1 ms late %5.2f N\n", GetParam().c_str(), aligned, skewed);
+  EXPECT_GT(skewed, aligned + 1.5);
+  EXPECT_LT(skewed, aligned + 8.0);
+}
+
+}  // namespace
+}  // namespace flinch
