@@ -72,9 +72,16 @@ std::string milliseconds(std::optional<double> time) {
 Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 Json in_ms(std::optional<double> time) { return time ? Json(1e3 * *time) : Json(nullptr); }
 
-std::string text_of(const std::vector<std::pair<std::string, std::string>>& at) {
+/// Where a group stands in the grid, without the axes that have one value only.
+std::string place_of(const CampaignGroup& group, const Campaign& campaign) {
+  const auto has_one_value = [&](const std::string& key) {
+    return std::any_of(campaign.grid.begin(), campaign.grid.end(),
+                       [&](const CampaignAxis& axis) { return axis.key == key && axis.values.size() == 1; });
+  };
   std::string text;
-  for (const auto& [key, value] : at) text += (text.empty() ? "" : ", ") + key + " = " + value;
+  for (const auto& [key, value] : group.at) {
+    if (!has_one_value(key)) text += (text.empty() ? "" : ", ") + key + " = " + value;
+  }
   return text;
 }
 
@@ -110,7 +117,7 @@ std::string campaign_table(const Campaign& campaign, const std::vector<CampaignG
   text += "\n";
   std::string at = "?";
   for (const CampaignGroup& group : groups) {
-    if (const std::string here = text_of(group.at); here != at) {
+    if (const std::string here = place_of(group, campaign); here != at) {
       at = here;
       if (!at.empty()) text += "\n" + at + "\n";
       text += fmt::format("{:<10} {:<24} {:>6} {:>7} {:>9} {:>8} {:>8} {:>12} {:>12} {:>7}\n", "touched",
