@@ -178,7 +178,7 @@ void add_campaign_verb(CLI::App& app, Verbs& verbs) {
   CLI::App& verb =
       verbs.add(app, "campaign", "Run a scenario many times with other values: one table of what it shows",
                 "flinch campaign apps/campaigns/random_contacts.yaml --set "
-                "control.momentum_observer.gain_per_s=[20,20,20],[100,100,100]",
+                "'control.momentum_observer.gain_per_s=[20,20,20],[100,100,100]'",
                 options, &campaign);
   verb.add_option("campaign", options.file, "Campaign file (YAML)")->required()->type_name("CAMPAIGN.yaml");
   verb.add_option("--set", options.set,
@@ -203,6 +203,7 @@ void add_campaign_verb(CLI::App& app, Verbs& verbs) {
 void add_calibrate_verb(CLI::App& app, Verbs& verbs) {
   CLI::App& calibrate = *app.add_subcommand("calibrate", "Find parameters from recordings");
   calibrate.require_subcommand(1);
+  calibrate.formatter(std::make_shared<CLI::Formatter>());  // not the one that it shares with the program
   calibrate.get_formatter()->label("SUBCOMMAND", "WHAT");
   CalibrateThresholdsOptions& options = verbs.thresholds;
   CLI::App& verb = verbs.add(
@@ -275,15 +276,25 @@ void add_keys_verb(CLI::App& app, Verbs& verbs) {
   keys_verb.add_flag("--force", verbs.keys.force, "Replace the keys that are there");
 }
 
+/// Of a program its verbs, of a verb what it can be told to do.
+std::vector<std::string> subcommands_of(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(sub->get_name());
+  return names;
+}
+
 /// The error of the parser, with the way out.
 std::string usage_problem(const CLI::App& app, const CLI::ParseError& error, const std::string& first) {
   const auto chosen = app.get_subcommands();
   if (!chosen.empty()) {
-    return fmt::format("{}; 'flinch {} --help' shows how", error.what(), chosen.front()->get_name());
+    const CLI::App& verb = *chosen.front();
+    const bool is_not_told_what = verb.get_subcommands().empty() && !subcommands_of(verb).empty();
+    if (is_not_told_what)
+      return "'" + verb.get_name() + "' must be told what" + did_you_mean("", subcommands_of(verb));
+    return fmt::format("{}; 'flinch {} --help' shows how", error.what(), verb.get_name());
   }
-  std::vector<std::string> verbs;
-  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
-    verbs.push_back(verb->get_name());
+  const std::vector<std::string> verbs = subcommands_of(app);
   if (first.empty() || first.starts_with('-')) return "there is no verb" + did_you_mean(first, verbs);
   return "'" + first + "' is no verb" + did_you_mean(first, verbs);
 }

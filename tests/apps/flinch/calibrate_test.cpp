@@ -85,5 +85,16 @@ TEST_F(CalibrateThresholds, TellsAnEstimatorThatNobodyKnows) {
   EXPECT_THAT(outcome.err, HasSubstr("did you mean 'momentum_observer'?"));
 }
 
+TEST(Calibrate, SaysWhatItCanCalibrate) {
+  for (const std::vector<std::string>& typed :
+       {std::vector<std::string>{"calibrate"}, {"calibrate", "treshold"}}) {
+    const Outcome outcome = flinch(typed);
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("must be told what; known are: thresholds"));
+  }
+  EXPECT_THAT(flinch({"--help"}).out, HasSubstr("VERB"));
+  EXPECT_THAT(flinch({"calibrate", "--help"}).out, HasSubstr("WHAT"));
+}
+
 }  // namespace
 }  // namespace flinch

@@ -24,7 +24,7 @@ using ::testing::Not;
 using ::testing::StartsWith;
 
 constexpr const char* collision = "scenarios/platform_collision.yaml";
-const std::vector<std::string> verbs = {"run", "report", "graph", "check"};
+const std::vector<std::string> verbs = {"run", "report", "graph", "check", "campaign"};
 
 class CommandLine : public ::testing::Test {
  protected:
