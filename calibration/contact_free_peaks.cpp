@@ -4,24 +4,13 @@
 #include <cmath>
 #include <cstdio>
 
+#include "experiments/verdict/recorded_estimate.h"
 #include "experiments/verdict/recorded_run.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recorded_values.h"
-#include "systems/robot/vectors.h"
 
 namespace flinch {
 namespace {
-
-struct RecordedEstimate {
-  bool valid = false;
-  PlatformVector wrench_in_base;
-
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit&& visit) {
-    visit("valid", "", self.valid);
-    visit("wrench_in_base", "<wrench>", self.wrench_in_base, "base");
-  }
-};
 
 double largest(const auto& vector) {
   return vector.size() == 0 ? 0.0 : vector.template lpNorm<Eigen::Infinity>();

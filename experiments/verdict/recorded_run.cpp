@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "diagrams/link_status.h"
+#include "experiments/verdict/recorded_estimate.h"
 #include "experiments/verdict/recorded_truth.h"
 #include "systems/framework/recorded_values.h"
 #include "systems/framework/tick_timing.h"
@@ -31,18 +32,6 @@ std::vector<std::string> estimators_of(const Recording& recording) {
   }
   return names;
 }
-
-/// What a verdict looks at of an estimate.
-struct RecordedEstimate {
-  bool valid = false;
-  PlatformVector wrench_in_base;
-
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit&& visit) {
-    visit("valid", "", self.valid);
-    visit("wrench_in_base", "<wrench>", self.wrench_in_base, "base");
-  }
-};
 
 /// Force and moment of a wrench [N, Nm]; none where it has another size.
 struct Strength {
