@@ -8,9 +8,8 @@
 
 #include "experiments/simulated/experiment.h"
 #include "experiments/verdict/recorded_run.h"
-#include "systems/framework/random.h"
 #include "systems/framework/recording.h"
-#include "systems/robot/link_segments.h"
+#include "systems/motion/random_path.h"
 #include "systems/robot/parallel_robot.h"
 #include "tests/support/workplace.h"
 
@@ -39,43 +38,13 @@ const char* name_of(FreeMotion motion) {
   return "harsh";
 }
 
-/// Whether a robot that follows the path stays within its limits, with a tenth of each to spare.
-bool is_feasible(const PlatformPath& path, const RobotFile& file) {
-  const ParallelRobot& robot = *file.robot;
-  Kinematics k;
-  for (double time = 0.0; time <= path.duration(); time += 2e-3) {
-    const PlatformReference at = path.evaluate(time);
-    robot.kinematics(at.pose, at.velocity, k);
-    const double middle = 0.5 * (file.limits.min_active + file.limits.max_active);
-    const double reach = 0.45 * (file.limits.max_active - file.limits.min_active);
-    const bool inside = k.valid && std::abs(k.det_A) > 1.1 * file.limits.min_abs_det_A &&
-                        std::abs(k.det_B) > 1.1 * file.limits.min_abs_det_B &&
-                        self_collision_distance(robot, k) > 1.1 * file.limits.min_self_collision_distance &&
-                        distance_from_centre(file.limits, robot, at.pose) < 0.9 * file.limits.max_distance &&
-                        (k.joints.active.array() - middle).abs().maxCoeff() < reach &&
-                        k.rates.active.cwiseAbs().maxCoeff() < 0.9 * file.drives.max_speed;
-    if (!inside) return false;
-  }
-  return true;
-}
-
-/// Straight lines between random poses in the workspace, as many as fill the time.
-PlatformPath random_path(const RobotFile& file, const PoseLimits& limits, std::uint64_t seed) {
-  constexpr double duration = 6.0;
-  constexpr double radius = 0.25;    // [m]
-  constexpr double rotation = 0.35;  // [rad]
-  RandomGenerator random(derive_seed(seed, "targets"));
-  std::vector<Configuration> poses = {file.robot->home_pose()};
-  while (true) {
-    const double distance = radius * std::sqrt(random.uniform(0.0, 1.0));
-    const double bearing = random.uniform(-M_PI, M_PI);
-    const double turned = random.uniform(-rotation, rotation);
-    const Eigen::Vector3d next(distance * std::cos(bearing), distance * std::sin(bearing), turned);
-    if (!is_feasible(PlatformPath::through(*file.robot, {poses.back(), next}, limits), file)) continue;
-    poses.emplace_back(next);
-    PlatformPath path = PlatformPath::through(*file.robot, poses, limits);
-    if (path.duration() > duration) return path;
-  }
+PlatformPath random_motion(const RobotFile& file, FreeMotion motion, std::uint64_t seed) {
+  RandomPathSettings settings;
+  settings.distance = 0.25;
+  settings.limits = limits_of(motion);
+  settings.workspace = file.limits;
+  settings.max_drive_speed = file.drives.max_speed;
+  return random_path(*file.robot, settings, seed);
 }
 
 /// Errors of one robot.
@@ -138,7 +107,7 @@ SimulatedScenario scenario_of(const RobotTrial& trial, std::uint64_t seed, bool 
   if (!trial.aligned) scenario.control.drive_torque.low_pass.reset();
   if (!reacts) scenario.control.contact_detector = {.reaction = {1e6, 1e6}, .hard = {1e6, 1e6}};
   if (trial.motion != FreeMotion::square) {
-    scenario.control.trajectory.path = random_path(scenario.robot, limits_of(trial.motion), seed);
+    scenario.control.trajectory.path = random_motion(scenario.robot, trial.motion, seed);
     scenario.station.bench.initial_pose = scenario.control.trajectory.path->start();
     const double end = to_seconds(scenario.control.trajectory.start.value_or(Time::zero())) +
                        scenario.control.trajectory.path->duration();
