@@ -27,7 +27,7 @@ struct Touch {
   Eigen::Vector3d point;           ///< Midway between the surfaces, or the point that is held [m].
   Eigen::Vector3d force_on_robot;  ///< [N]
   double depth;                    ///< Of penetration [m].
-  bool held;                       ///< By the grip of a hand, which also pulls.
+  bool held = false;               ///< By the grip of a hand, which also pulls.
 };
 
 /// All contact forces at one instant, in the base frame. Wrenches are platform wrenches F.
