@@ -269,6 +269,7 @@ class JournalRows final : public RowSource {
   }
 
   void read(const std::string& path, std::size_t first, std::size_t count, Number* rows) const override {
+    if (count == 0) return;  // there may be no frame
     const Place& place = places_.at(path);
     auto frame = std::upper_bound(frames_.begin(), frames_.end(), first,
                                   [](std::size_t sample, const Frame& each) { return sample < each.first; });
