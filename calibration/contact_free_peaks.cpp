@@ -22,18 +22,13 @@ std::string at(double seconds) {
   return text;
 }
 
-bool is_touched(const RunSample& now) {
-  return now.load() > 1.0 || now.external_force > Verdict::contact_force ||
-         now.external_moment > Verdict::contact_moment;
-}
-
 /// Whether each sample belongs to the nominal motion. Throws SetupError for contact.
 std::vector<bool> nominal_samples(const Recording& recording, const ConfigurationSpace& space) {
   const RecordedRun run(recording, space);
   std::vector<bool> nominal(run.size());
   for (std::size_t k = 0; k < nominal.size(); ++k) {
     const RunSample now = run[k];
-    if (is_touched(now)) {
+    if (now.is_touched()) {
       throw SetupError("something touched or pushed the robot " + at(now.time) +
                        "; thresholds come from motion without contact");
     }

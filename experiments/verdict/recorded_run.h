@@ -47,6 +47,11 @@ struct RunSample {
   /// Of the hardest touch or push; not a number where nobody measured it, as the next.
   double force() const { return std::max(contact_force, push_force); }
   bool is_pushed() const { return is_true && push_force >= contact_force; }
+  /// Whether something touches or pushes the robot, as far as the witness knows.
+  bool is_touched() const {
+    return load() > 1.0 || external_force > Verdict::contact_force ||
+           external_moment > Verdict::contact_moment;
+  }
   /// How hard the robot is touched or pushed, as a multiple of what counts as a contact.
   double load() const {
     return std::max(force() / Verdict::contact_force, push_moment / Verdict::contact_moment);

@@ -18,8 +18,7 @@ namespace {
 /// Whether something touches the robot, as far as the witness knows: an obstacle or an applied wrench.
 bool is_touched(const RunSample& now, Witness witness) {
   if (witness == Witness::none) return now.detection.level != ContactLevel::none;
-  return now.load() > 1.0 || now.external_force > Verdict::contact_force ||
-         now.external_moment > Verdict::contact_moment;
+  return now.is_touched();
 }
 
 /// Collects when the detector rose, and which of these times were false.
