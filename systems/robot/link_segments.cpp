@@ -85,4 +85,19 @@ double self_collision_distance(const Mechanism& mechanism, const Kinematics& kin
   return smallest;
 }
 
+NearestLinksList nearest_links(const Mechanism& mechanism, const Kinematics& kinematics,
+                               double margin) noexcept {
+  NearestLinksList nearest;
+  const double limit = self_collision_distance(mechanism, kinematics) + margin;
+  if (!kinematics.reachable) return nearest;
+  for (const BodyPair& pair : mechanism.description().self_collision_pairs) {
+    const SegmentDistance between = segment_distance(link_segment(kinematics, BodyId::from_index(pair.a)),
+                                                     link_segment(kinematics, BodyId::from_index(pair.b)));
+    if (between.distance > limit || nearest.count == max_nearest_links) continue;
+    nearest.links[static_cast<std::size_t>(nearest.count)] = {pair, between};
+    ++nearest.count;
+  }
+  return nearest;
+}
+
 }  // namespace flinch
