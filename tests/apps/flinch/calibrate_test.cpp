@@ -49,7 +49,6 @@ TEST_F(CalibrateThresholds, FindsThoseOfEachEstimatorAndAScenarioTakesThem) {
   for (std::size_t at = section.find('\n'); at + 1 < section.size(); at = section.find('\n', at + 1))
     section.insert(at + 1, "  ");
   place.replace(collision, "contact_detector: {reaction_force_N: 10, reaction_moment_Nm: 1}\n", section);
-  place.replace(collision, "aligned_with_velocity: false", "aligned_with_velocity: true");
   const Outcome run = flinch({"run", place.at(collision), "--out", place.at("out"), "--json"});
   const auto contact = nlohmann::json::parse(run.out)["contacts"][0];
   EXPECT_LT(contact["detection_ms"], 11.0) << "its threshold is below the 10 N with which it takes 12 ms";

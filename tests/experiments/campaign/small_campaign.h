@@ -8,8 +8,6 @@ namespace flinch::test {
 /// A campaign of two gains, two bodies and `draws` draws over the shipped platform collision, cut short.
 inline Campaign small_campaign(const Workplace& place, int draws = 3) {
   place.replace("scenarios/platform_collision.yaml", "duration_s: 1.2", "duration_s: 0.7");
-  place.replace("scenarios/platform_collision.yaml", "aligned_with_velocity: false",
-                "aligned_with_velocity: true");
   place.write("campaigns/small.yaml",
               "scenario: ../scenarios/platform_collision.yaml\nruns: " + std::to_string(draws) +
                   "\n"

@@ -15,12 +15,10 @@ namespace {
 
 using testing::ElementsAre;
 
-/// The shipped collision with the platform, aligned, with these lines more in `control`.
+/// The shipped collision with the platform with these lines more in `control`.
 Verdict collision(const std::string& control) {
   const test::Workplace place;
   place.replace("scenarios/platform_collision.yaml", "control:\n", "control:\n" + control);
-  place.replace("scenarios/platform_collision.yaml", "aligned_with_velocity: false",
-                "aligned_with_velocity: true");
   const SimulatedScenario scenario = read_simulated_scenario(place / "scenarios/platform_collision.yaml");
   return judge(run_experiment(scenario), scenario.robot.robot->space(), scenario.expected, {});
 }

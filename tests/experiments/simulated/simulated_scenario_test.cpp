@@ -34,12 +34,12 @@ const PlanarRrrParameters& believed(const SimulatedScenario& scenario) {
   return dynamic_cast<const PlanarRrr&>(*scenario.robot.robot).parameters();
 }
 
-TEST(ShippedScenarios, AreThoseOfThePapersThreeOnRealisticRobotsAndOneOrTwoOfEveryOtherRobot) {
+TEST(ShippedScenarios, AreThoseOfThePapersThreeOnRealisticRobotsOneUnalignedAndOneOrTwoOfEveryOtherRobot) {
   EXPECT_THAT(
       test::shipped_scenarios(),
       ElementsAre("clamping", "first_link_collision", "five_bar_collision", "hexapod_collision",
                   "hexapod_push", "platform_collision", "platform_collision_realistic", "random_motion",
-                  "second_link_collision", "square", "square_realistic", "stiffness"));
+                  "second_link_collision", "square", "square_realistic", "square_unaligned", "stiffness"));
 }
 
 TEST(ShippedScenarios, AreAllGood) {
