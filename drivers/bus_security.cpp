@@ -108,6 +108,14 @@ std::vector<std::string> key_warnings(const BusSecurity& security) {
     found.push_back(key.string() +
                     ": others on this machine may read this private key; 'chmod 600' keeps them out");
   }
+  const fs::perms writers = fs::perms::group_write | fs::perms::others_write;
+  for (const fs::path& folder : {security.folder, key.parent_path()}) {
+    const fs::file_status folder_status = fs::status(folder, error);
+    if (!fs::exists(folder_status) || (folder_status.permissions() & writers) == fs::perms::none) continue;
+    found.push_back(folder.string() +
+                    ": others on this machine may put their keys into this folder; 'chmod go-w' keeps them "
+                    "out");
+  }
   if (const std::string end = end_of(security); is_near(end)) {
     found.push_back(security.folder.string() + ": these keys end at " + end +
                     ", and with them a running link; 'flinch keys' makes new ones");

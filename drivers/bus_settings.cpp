@@ -55,6 +55,12 @@ std::vector<std::string> problems(const BusSettings& settings) {
   if (settings.realtime_priority < 0 || settings.realtime_priority > 99) {
     found.push_back("the real-time priority of the bus must be 1 to 99, or 0 for none");
   }
+  if (!is_loopback(settings) && !settings.security && !settings.anyone_may_command) {
+    found.push_back(
+        "whoever reaches the interface '" + settings.interface +
+        "' could command the robot: give both ends keys ('flinch keys' makes them, --security uses "
+        "them), or allow it with --anyone-may-command");
+  }
   if (settings.security) {
     for (std::string& problem : key_problems(*settings.security)) found.push_back(std::move(problem));
   }

@@ -12,11 +12,13 @@ namespace flinch {
 /// Where the bus is.
 struct BusSettings {
   std::uint32_t domain = 0;  ///< who shares the number shares the bus, 0 to 230
-  /// Name or address of the network interface; "lo": nothing leaves the machine.
+  /// Name or address of the network interface. What arrives at another one is not heard; "lo": nothing leaves
+  /// the machine or comes from outside.
   std::string interface = "lo";
   std::vector<std::string> peers = {};  ///< addresses of the other ends where the network has no multicast
   int realtime_priority = 0;            ///< of the threads of the bus, SCHED_FIFO, 1 to 99; 0: as all threads
   std::optional<BusSecurity> security = {};  ///< without: whoever reaches the bus can read it and command
+  bool anyone_may_command = false;           ///< on a network without keys, where it is refused otherwise
 };
 
 /// All that is wrong with `settings`, one sentence each.

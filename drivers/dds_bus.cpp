@@ -4,6 +4,7 @@
 
 #include "drivers/bus_threads.h"
 #include "drivers/dds_qos.h"
+#include "drivers/device_binding.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
@@ -29,6 +30,7 @@ DdsBus::DdsBus(const BusSettings& settings) {
   const std::string name = "the bus " + std::to_string(settings.domain) + " on '" + settings.interface + "'";
   domain_ =
       DdsEntity(check_dds(dds_create_domain(settings.domain, cyclone_configuration(settings).c_str()), name));
+  bind_bus_to_device(settings.domain, network_device(settings.interface));
   const DdsQos qos(dds_create_qos());
   if (settings.security) {
     for (const auto& [property, value] : participant_properties(*settings.security)) {

@@ -9,7 +9,7 @@ namespace flinch {
 class DdsBus {
  public:
   /// Throws SetupError for settings that make no bus, an interface that is not there, keys that do not
-  /// fit, or a second bus of the same domain in one program.
+  /// fit, sockets that cannot be kept to the interface, or a second bus of the same domain in one program.
   explicit DdsBus(const BusSettings& settings = {});
 
   std::int32_t participant() const noexcept { return participant_.handle(); }

@@ -158,6 +158,7 @@ class DdsStation::Implementation {
   void time_echo() noexcept {
     const flinch_StatusSample& status = status_.last().sample;
     if (!obeys_us() || status.command_number == last_echo_) return;
+    if (!is_clock_time(status.command_sent_ns) || !is_clock_time(status.command_received_ns)) return;
     last_echo_ = status.command_number;
     times_.round_trip.add(round_trip(status_.last()));
   }

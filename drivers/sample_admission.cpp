@@ -34,6 +34,7 @@ void SampleAdmission::listen_to(std::uint32_t session) noexcept {
 Admission SampleAdmission::judge(const flinch_Header& header, Time now, bool neutral) noexcept {
   if (header.version != protocol_version) return Admission::other_version;
   if (header.robot != settings_.robot) return Admission::other_robot;
+  if (!is_clock_time(header.sent_ns) || !is_clock_time(header.acquired_ns)) return Admission::no_time;
   give_up_the_silent(now);
   if (header.session == 0 || (session_ != 0 && header.session != session_)) return Admission::other_session;
   if (is_over(header.session)) return Admission::other_session;

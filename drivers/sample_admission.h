@@ -18,8 +18,9 @@ enum class Admission : std::uint8_t {
   not_neutral,    ///< would begin a session with more than a neutral command
   not_newer,      ///< its number has been seen, or overtaken
   too_late,       ///< was on its way for too long
+  no_time,        ///< bears a stamp that no clock shows
 };
-inline constexpr int admission_count = 7;
+inline constexpr int admission_count = 8;
 
 struct AdmissionSettings {
   std::uint32_t robot = 0;

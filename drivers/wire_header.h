@@ -17,6 +17,12 @@ inline constexpr std::uint8_t flag_engage_brake = 2;   ///< of a torque sample
 inline constexpr std::uint8_t flag_timing_known = 2;   ///< of diagnostics
 inline constexpr std::uint8_t flag_links_known = 4;    ///< of diagnostics
 
+/// Whether a stamp can be the time of a clock; sums and differences of such stamps do not overflow.
+constexpr bool is_clock_time(std::int64_t ns) noexcept {
+  constexpr std::int64_t century = 3'155'760'000'000'000'000;
+  return -century / 2 < ns && ns < century / 2;
+}
+
 /// Who sends, as its samples say.
 struct SenderIdentity {
   std::uint32_t session = 0;  ///< never 0 for a sender; see draw_session()

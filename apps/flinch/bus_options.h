@@ -12,8 +12,9 @@ struct BusOptions {
   std::uint32_t domain = 0;
   std::string interface = "lo";
   std::vector<std::string> peers;
-  std::filesystem::path security;  ///< folder of keys; empty: without
-  int priority = 80;               ///< SCHED_FIFO of loop and bus, where permitted; 0: not wanted
+  std::filesystem::path security;   ///< folder of keys; empty: without
+  bool anyone_may_command = false;  ///< see BusSettings
+  int priority = 80;                ///< SCHED_FIFO of loop and bus, where permitted; 0: not wanted
 
   bool operator==(const BusOptions&) const = default;
 };

@@ -32,8 +32,9 @@ void add_bus(CLI::App& verb, BusOptions& bus) {
                   "Number of the bus; programs with the same number hear each other [0]")
       ->type_name("N")
       ->group("Bus");
-  verb.add_option("--interface", bus.interface,
-                  "Network interface, name or address; with lo nothing leaves this machine [lo]")
+  verb.add_option(
+          "--interface", bus.interface,
+          "Network interface, name or address; nothing else is heard, and with lo only this machine [lo]")
       ->type_name("NAME")
       ->group("Bus");
   verb.add_option("--peer", bus.peers,
@@ -42,6 +43,9 @@ void add_bus(CLI::App& verb, BusOptions& bus) {
       ->group("Bus");
   verb.add_option("--security", bus.security, "Folder that flinch keys made; both ends need it [none]")
       ->type_name("DIR")
+      ->group("Bus");
+  verb.add_flag("--anyone-may-command", bus.anyone_may_command,
+                "Go on a network without keys, where whoever reaches it can move the robot")
       ->group("Bus");
   verb.add_option("--priority", bus.priority,
                   "Real-time priority of loop and bus, 1 to 99, where permitted; 0 for none [80]")

@@ -49,13 +49,22 @@ TEST(BusSecurity, NamesEachFileThatIsMissingAndTheWayOut) {
 
 TEST(BusSecurity, EndsTheWarningOfABusThatOthersCanReachUnlessTheyCanReadTheKey) {
   const KeyFolder keys;
-  BusSettings settings{.interface = "eth0"};
+  BusSettings settings{.interface = "eth0", .anyone_may_command = true};
   EXPECT_THAT(warnings(settings), SizeIs(1));
   settings.security = keys.of(BusRole::controller);
   EXPECT_THAT(warnings(settings), IsEmpty());
   std::filesystem::permissions(keys.file(BusRole::controller, security_file::private_key),
                                std::filesystem::perms::group_read, std::filesystem::perm_options::add);
   EXPECT_THAT(warnings(settings), testing::ElementsAre(HasSubstr("chmod 600")));
+}
+
+TEST(BusSecurity, WarnsOfAFolderWhereOthersMayPutTheirKeys) {
+  const KeyFolder keys;
+  const BusSecurity security = keys.of(BusRole::robot);
+  EXPECT_THAT(key_warnings(security), IsEmpty());
+  std::filesystem::permissions(security.folder, std::filesystem::perms::others_write,
+                               std::filesystem::perm_options::add);
+  EXPECT_THAT(key_warnings(security), testing::ElementsAre(HasSubstr("chmod go-w")));
 }
 
 TEST(BusSecurity, WarnsOfKeysThatEndSoon) {

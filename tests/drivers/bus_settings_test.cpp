@@ -24,7 +24,7 @@ TEST(BusSettings, KeepTheBusOnThisMachineUnlessToldOtherwise) {
 }
 
 TEST(BusSettings, WarnOfABusThatOthersCanReach) {
-  const BusSettings settings{.interface = "eth0"};
+  const BusSettings settings{.interface = "eth0", .anyone_may_command = true};
   EXPECT_THAT(problems(settings), IsEmpty());
   EXPECT_THAT(warnings(settings), ElementsAre(HasSubstr("'eth0'")));
   EXPECT_THAT(cyclone_configuration(settings), Not(HasSubstr("Peer")));
@@ -37,15 +37,20 @@ TEST(BusSettings, NameAnInterfaceByItsAddressAndPeersWhereThereIsNoMulticast) {
   EXPECT_THAT(configuration, HasSubstr("<Peer address=\"192.168.1.8\"/>"));
 }
 
+TEST(BusSettings, RefuseANetworkWithoutKeysUnlessAnyoneMayCommand) {
+  EXPECT_THAT(problems({.interface = "eth0"}), ElementsAre(HasSubstr("--anyone-may-command")));
+  EXPECT_THAT(problems({.interface = "127.0.0.1"}), IsEmpty());
+}
+
 TEST(BusSettings, RefuseEverythingThatMakesNoBus) {
   EXPECT_THAT(problems({.domain = 231, .interface = "eth0\"/>", .peers = {"a b"}, .realtime_priority = 100}),
-              SizeIs(4));
+              SizeIs(5));
   EXPECT_THAT(problems({.peers = {"10.0.0.1"}}), SizeIs(1));
 }
 
 TEST(DdsBus, SaysWhatIsWrongWithItsInterface) {
   try {
-    const DdsBus bus({.domain = test::free_domain(), .interface = "nowhere7"});
+    const DdsBus bus({.domain = test::free_domain(), .interface = "nowhere7", .anyone_may_command = true});
     FAIL();
   } catch (const SetupError& error) {
     EXPECT_THAT(error.what(), HasSubstr("'nowhere7'"));

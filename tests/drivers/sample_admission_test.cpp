@@ -3,6 +3,8 @@
 #include <drivers/idl/flinch.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace flinch {
 namespace {
 
@@ -117,6 +119,19 @@ TEST(RobotHash, DiffersForAnyChangeOfTheDescription) {
   EXPECT_EQ(robot_hash(""), 0x811c9dc5u);   // FNV-1a, by its definition
   EXPECT_EQ(robot_hash("a"), 0xe40c292cu);  // published test vector
   EXPECT_NE(robot_hash("mass: 2.1"), robot_hash("mass: 2.2"));
+}
+
+TEST(SampleAdmission, RefusesStampsThatNoClockShows) {
+  SampleAdmission admission({.robot = robot});
+  constexpr std::int64_t least = std::numeric_limits<std::int64_t>::min();
+  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+  for (const std::int64_t stamp : {least, most, most / 2, -most / 2}) {
+    EXPECT_EQ(admission.judge(header(7, 1, Time(stamp)), 1ms), no_time) << stamp;
+    flinch_Header acquired_never = header(7, 1, 1ms);
+    acquired_never.acquired_ns = stamp;
+    EXPECT_EQ(admission.judge(acquired_never, 1ms), no_time) << stamp;
+  }
+  EXPECT_EQ(admission.judge(header(7, 1, 24h * 365 * 40), 1ms), admitted);
 }
 
 TEST(Session, IsNeverZeroAndNeverTheSame) {

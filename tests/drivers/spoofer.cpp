@@ -4,6 +4,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <array>
 #include <cstddef>
 #include <cstring>
 #include <deque>
@@ -20,7 +21,7 @@ namespace {
 // length.
 constexpr std::size_t rtps_header = 20;
 constexpr std::size_t submessage_header = 4;
-constexpr std::uint8_t data = 0x15, security_prefix = 0x31, security_postfix = 0x32;
+constexpr std::uint8_t destination = 0x0e, data = 0x15, security_prefix = 0x31, security_postfix = 0x32;
 constexpr std::size_t sequence_number = 4 + 12;  // its low word, within a data submessage
 
 using Bytes = std::vector<std::uint8_t>;
@@ -109,6 +110,17 @@ std::vector<std::uint8_t> renumbered(const Datagram& sent, std::uint32_t count) 
   Bytes bytes = bytes_of(sent);
   number_anew(bytes, count);
   return bytes;
+}
+
+std::vector<std::uint8_t> addressed_to_anybody(std::vector<std::uint8_t> packet) {
+  const std::array<std::uint8_t, 12> any_participant{};
+  constexpr std::uint32_t any_reader = 0;
+  for (const std::size_t start : submessages(packet)) {
+    if (start + submessage_header > packet.size()) continue;
+    if (packet[start] == destination) write(packet, start + submessage_header, any_participant);
+    if (packet[start] == data) write(packet, start + submessage_header + 4, any_reader);
+  }
+  return packet;
 }
 
 void spoof(int pipe, Spoofing& spoofing) {

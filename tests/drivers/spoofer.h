@@ -19,6 +19,9 @@ std::vector<std::uint8_t> forged(const Datagram& sent, std::uint32_t count, bool
 /// The same datagram with the same sample, that the bus takes for a new one.
 std::vector<std::uint8_t> renumbered(const Datagram& sent, std::uint32_t count);
 
+/// The packet for whoever gets it, not only for the participant and the reader that it names.
+std::vector<std::uint8_t> addressed_to_anybody(std::vector<std::uint8_t> packet);
+
 /// What was sent, each to where the original went.
 struct Spoofing {
   std::atomic<bool> go = false;

@@ -9,7 +9,8 @@ BusSettings bus_settings(const BusOptions& options, bool quiet, BusRole role) {
   BusSettings settings{.domain = options.domain,
                        .interface = options.interface,
                        .peers = options.peers,
-                       .realtime_priority = urgent ? options.priority : 0};
+                       .realtime_priority = urgent ? options.priority : 0,
+                       .anyone_may_command = options.anyone_may_command};
   if (!options.security.empty()) settings.security = BusSecurity{.folder = options.security, .role = role};
   for (const std::string& warning : warnings(settings)) {
     if (!quiet) fmt::print(stderr, "warning: {}\n", warning);

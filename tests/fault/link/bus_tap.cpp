@@ -4,7 +4,7 @@
 #include "drivers/topics.h"
 #include "systems/framework/monotonic_clock.h"
 #include "systems/framework/realtime_thread.h"
-#include "tests/fault/link/two_networks.h"
+#include "tests/support/two_networks.h"
 
 namespace flinch::test {
 namespace {

@@ -8,7 +8,7 @@
 #include <map>
 
 #include "systems/framework/monotonic_clock.h"
-#include "tests/fault/link/two_networks.h"
+#include "tests/support/two_networks.h"
 #include "tests/support/free_domain.h"
 
 namespace flinch::test {
@@ -29,7 +29,8 @@ BusSettings tapped_bus(std::uint32_t domain, const TwoNetworks* networks) {
   if (networks == nullptr) return {.domain = domain};
   return {.domain = domain,
           .interface = TwoNetworks::interface,
-          .peers = {TwoNetworks::first_address, TwoNetworks::second_address}};
+          .peers = {TwoNetworks::first_address, TwoNetworks::second_address},
+          .anyone_may_command = true};
 }
 
 }  // namespace
@@ -68,7 +69,7 @@ std::vector<std::string> LinkTrial::bus_arguments() const {
   std::vector<std::string> arguments = {"--domain", std::to_string(domain_)};
   if (networks_ == nullptr) return arguments;
   for (const char* word : {"--interface", TwoNetworks::interface, "--peer", TwoNetworks::first_address,
-                           "--peer", TwoNetworks::second_address}) {
+                           "--peer", TwoNetworks::second_address, "--anyone-may-command"}) {
     arguments.emplace_back(word);
   }
   return arguments;

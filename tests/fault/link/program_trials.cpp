@@ -4,7 +4,7 @@
 #include "systems/framework/monotonic_clock.h"
 #include "tests/fault/link/link_trial.h"
 #include "tests/fault/link/trials.h"
-#include "tests/fault/link/two_networks.h"
+#include "tests/support/two_networks.h"
 
 namespace flinch::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/fault/link/two_networks.h"
+#include "tests/support/two_networks.h"
 
 #include <fcntl.h>
 #include <sched.h>
