@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "systems/foundation/setup_error.h"
 #include "systems/framework/player.h"
 #include "systems/framework/system.h"
 
@@ -25,20 +26,27 @@ struct Playback {
   DiagramBuilder& station;
   const Recording& recording;
   const std::string& prefix;
+  const RequestedFaults& faults;
 
   template <class Reading>
   OutputPort<Reading> add(const std::string& name) const {
     auto& player = station.add<Player<Reading>>(name, recording, prefix + name);
-    return station.export_output(name, player.played);
+    return station.export_output(name, faults.add(station, name, player.played));
   }
 };
 
 }  // namespace
 
-Station add_recorded_station(DiagramBuilder& builder, const Recording& recording, const std::string& prefix) {
+Station add_recorded_station(DiagramBuilder& builder, const Recording& recording, const std::string& prefix,
+                             const RequestedFaults& faults) {
+  std::vector<std::string> impossible;
+  for (const RequestedFault& fault : faults.all) {
+    for (std::string& each : problems(fault, FaultPlace::recording)) impossible.push_back(std::move(each));
+  }
+  throw_if_any(std::move(impossible));
   DiagramBuilder inside("station");
   const auto& drives = inside.add<DeafDrives>("deaf_drives");
-  const Playback playback{inside, recording, prefix};
+  const Playback playback{inside, recording, prefix, faults};
   Station station{.torque_command = inside.export_input("torque_command", drives.torque_command),
                   .brake = inside.export_input("brake", drives.brake),
                   .joints = playback.add<JointReading>("joints"),

@@ -44,7 +44,7 @@ class BenchOf final : public BenchDynamics {
   HeldPoint next_held(std::size_t obstacle, const BenchState& state, double t, const BenchSnapshot& snapshot,
                       const BenchStep& before) const noexcept;
   JointVector drive_torque(const Instant& now, const DriveAction& drives) const noexcept;
-  PlatformVector acceleration(const Instant& now, JointVector torque, bool braked,
+  PlatformVector acceleration(const Instant& now, JointVector torque, const DriveAction& drives,
                               const PlatformVector& wrench) const noexcept;
 
   Robot robot_;
@@ -135,10 +135,13 @@ JointVector BenchOf<Robot>::drive_torque(const Instant& now, const DriveAction& 
 }
 
 template <class Robot>
-PlatformVector BenchOf<Robot>::acceleration(const Instant& now, JointVector torque, bool braked,
+PlatformVector BenchOf<Robot>::acceleration(const Instant& now, JointVector torque, const DriveAction& drives,
                                             const PlatformVector& wrench) const noexcept {
-  if (!braked) return robot_.acceleration(now, torque, wrench);
-  for (int i = 0; i < robot().drives(); ++i) torque[i] += brake_effort(i, robot_.drive_rate(now, i));
+  const bool each_its_own = drives.hold.size() > 0;
+  for (int i = 0; i < robot().drives(); ++i) {
+    const double share = each_its_own ? drives.hold[i] : (drives.braked ? 1.0 : 0.0);
+    if (share > 0.0) torque[i] += share * brake_effort(i, robot_.drive_rate(now, i));
+  }
   return robot_.acceleration(now, torque, wrench);
 }
 
@@ -157,7 +160,7 @@ void BenchOf<Robot>::rates(const BenchState& state, const DriveAction& drives,
   find_forces(now, obstacles, step, step.candidates, contacts);
   robot_.coordinate_rates(state, step.chart, rates);
   rates.segment(dof(), dof()) =
-      acceleration(now, drive_torque(now, drives), drives.braked,
+      acceleration(now, drive_torque(now, drives), drives,
                    applied_wrench + contacts.obstacle_wrench + contacts.self_wrench);
   add_obstacle_rates(state, contacts, rates);
 }
@@ -180,7 +183,7 @@ void BenchOf<Robot>::snapshot(const BenchState& state, const DriveAction& drives
   out.candidates = robot_.candidates(now, out.obstacles, duration);
   find_forces(now, out.obstacles, step, out.candidates, out.contacts);
   out.drive_torque = drive_torque(now, drives);
-  out.acceleration = acceleration(now, out.drive_torque, drives.braked,
+  out.acceleration = acceleration(now, out.drive_torque, drives,
                                   applied_wrench + out.contacts.obstacle_wrench + out.contacts.self_wrench);
   robot_.find_near_pairs(now, out.obstacles, out.near_pairs);
   for (std::size_t i = 0; i < settings().obstacles.size(); ++i) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "systems/framework/time.h"
 #include "systems/robot/vectors.h"
 
 namespace flinch {
@@ -9,7 +10,10 @@ struct DriveAction {
   JointVector torque;    ///< Acting on the drives, without the brakes'; empty: none.
   JointVector current;   ///< In the motors [A].
   bool enabled = false;  ///< A command is obeyed.
-  bool braked = true;
+  bool braked = true;    ///< The brakes have been told to close.
+  Time since = -24h;     ///< When they were; or told to open.
+  /// Share of its friction that the brake of each drive puts on it; empty: all where braked, else nothing.
+  JointVector hold{};
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
@@ -17,6 +21,8 @@ struct DriveAction {
     visit("current", "A", self.current);
     visit("enabled", "", self.enabled);
     visit("braked", "", self.braked);
+    visit("since", "ns", self.since);
+    visit("hold", "", self.hold);
   }
 };
 

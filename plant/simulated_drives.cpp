@@ -59,9 +59,11 @@ DriveAction SimulatedDrives::act(Time now, const DriveAction& before, const Torq
   const bool fresh = age >= Time::zero() && age <= settings_.longest_silence;
   const bool usable =
       command.valid && fresh && command.torque.size() == limit_.size() && command.torque.allFinite();
-  if (!usable || brakes.engage) return at_rest();
-
-  DriveAction action;
+  DriveAction action = at_rest();
+  if (!usable || brakes.engage) {
+    spoil(now, before, action);
+    return action;
+  }
   const JointVector wanted = command.torque.cwiseMax(-limit_).cwiseMin(limit_);
   action.current = wanted.cwiseQuotient(settings_.driver_torque_constant);
   JointVector mean = action.current;
@@ -76,7 +78,27 @@ DriveAction SimulatedDrives::act(Time now, const DriveAction& before, const Torq
   action.torque = settings_.torque_constant.cwiseProduct(mean);
   action.enabled = true;
   action.braked = false;
+  spoil(now, before, action);
   return action;
+}
+
+/// What is commanded and what is measured of a current is not touched.
+void SimulatedDrives::spoil(Time now, const DriveAction& before, DriveAction& action) const {
+  action.since = action.braked == before.braked ? before.since : now;
+  if (settings_.faults.empty()) return;
+  action.hold.setConstant(limit_.size(), action.braked ? 1.0 : 0.0);
+  for (const RequestedFault& fault : settings_.faults) {
+    for (int i = 0; i < limit_.size() && now >= fault.begin; ++i) {
+      if (fault.index && *fault.index != i) continue;
+      const double size = fault.size.value_or(0.0);
+      if (fault.signal == FaultSignal::drive && fault.kind == FaultKind::scaled) action.torque[i] *= size;
+      if (fault.signal != FaultSignal::brake) continue;
+      if (fault.kind == FaultKind::off) action.hold[i] = 0.0;
+      if (fault.kind == FaultKind::stuck) action.hold[i] = 1.0;
+      if (fault.kind == FaultKind::scaled) action.hold[i] *= size;
+      if (fault.kind == FaultKind::delayed && now - action.since < from_seconds(size)) action.hold[i] = 0.0;
+    }
+  }
 }
 
 DriveAction SimulatedDrives::at_rest() const {

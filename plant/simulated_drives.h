@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "diagrams/requested_fault.h"
 #include "plant/drive_action.h"
 #include "plant/plant_truth.h"
 #include "systems/framework/system.h"
@@ -24,6 +25,9 @@ struct SimulatedDrivesSettings {
   double torque_limit = 100.0;  ///< Commands are cut to this [Nm].
   double force_limit = 500.0;   ///< Those for drives that slide [N].
   Time longest_silence = 3ms;   ///< Age of a command from which on it is not obeyed.
+  /// Those of brakes, and of drives that make another torque of their current, act here; others are left to
+  /// whatever stands before the drives.
+  std::vector<RequestedFault> faults{};
 };
 
 /// All that is wrong with `settings` for the drives of `robot`.
@@ -64,6 +68,7 @@ class SimulatedDrives final : public System {
   void read(const DriveAction& now, DriveAction& out) const { out = now; }
   StationStatus report(Time now, const DriveAction& action, const PlantTruth& robot) const;
   DriveAction at_rest() const;
+  void spoil(Time now, const DriveAction& before, DriveAction& action) const;
 };
 
 }  // namespace flinch

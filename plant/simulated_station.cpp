@@ -15,7 +15,12 @@ struct Parts {
 };
 
 Parts add_robot(DiagramBuilder& inside, const SimulatedStationSettings& settings) {
-  auto& drives = inside.add<SimulatedDrives>("drives", settings.drives, *settings.bench.robot, settings.tick);
+  SimulatedDrivesSettings with_faults = settings.drives;
+  for (const RequestedFault& fault : settings.faults) {
+    const bool of_torque = fault.signal == FaultSignal::drive && fault.kind == FaultKind::scaled;
+    if (fault.signal == FaultSignal::brake || of_torque) with_faults.faults.push_back(fault);
+  }
+  auto& drives = inside.add<SimulatedDrives>("drives", with_faults, *settings.bench.robot, settings.tick);
   auto& script = inside.add<AppliedWrenchScript>("applied_wrench", settings.applied_wrench);
   auto& plant = inside.add<BenchPlant>("plant", settings.bench, settings.tick);
   inside.connect(drives.acting, plant.drives);
@@ -35,7 +40,7 @@ OutputPort<JointReading> add_encoders(DiagramBuilder& inside, const SimulatedSta
       inside.add<SimulatedEncoders>("encoders", settings.encoders, measured_joints(*settings.bench.robot),
                                     derive_seed(settings.seed, "encoders"));
   inside.connect(parts.plant.truth, encoders.truth);
-  return inside.export_output("joints", encoders.joints);
+  return encoders.joints;
 }
 
 OutputPort<DriveReading> add_current_sensors(DiagramBuilder& inside, const SimulatedStationSettings& settings,
@@ -44,7 +49,7 @@ OutputPort<DriveReading> add_current_sensors(DiagramBuilder& inside, const Simul
                                                       settings.bench.robot->drives(),
                                                       derive_seed(settings.seed, "currents"));
   inside.connect(parts.drives.acting, sensors.drives);
-  return inside.export_output("drives", sensors.currents);
+  return sensors.currents;
 }
 
 OutputPort<ImuReading> add_imu(DiagramBuilder& inside, const SimulatedStationSettings& settings,
@@ -52,7 +57,7 @@ OutputPort<ImuReading> add_imu(DiagramBuilder& inside, const SimulatedStationSet
   auto& imu =
       inside.add<SimulatedImu>("imu", settings.imu, *settings.bench.robot, derive_seed(settings.seed, "imu"));
   inside.connect(parts.plant.truth, imu.truth);
-  return inside.export_output("imu", imu.imu);
+  return imu.imu;
 }
 
 std::optional<OutputPort<ForceTorqueReading>> add_force_torque_sensor(
@@ -64,7 +69,7 @@ std::optional<OutputPort<ForceTorqueReading>> add_force_torque_sensor(
                                              settings.bench.obstacles[obstacle]->form().position_in_base,
                                              derive_seed(settings.seed, "force_torque"));
   inside.connect(parts.plant.snapshot, sensor.snapshot);
-  return inside.export_output("force_torque", sensor.force_torque);
+  return sensor.force_torque;
 }
 
 }  // namespace
@@ -80,15 +85,21 @@ SimulatedStationSettings with_ideal_sensors(SimulatedStationSettings settings) {
 SimulatedStation add_simulated_station(DiagramBuilder& builder, const SimulatedStationSettings& settings) {
   if (!settings.bench.robot) throw SetupError("a simulated station needs a robot");
   DiagramBuilder inside("station", settings.tick);
+  const RequestedFaults faults{settings.faults, settings.tick, settings.seed};
   const Parts parts = add_robot(inside, settings);
   SimulatedStation station;
-  station.torque_command = inside.export_input("torque_command", parts.drives.torque_command);
-  station.brake = inside.export_input("brake", parts.drives.brake);
-  station.joints = add_encoders(inside, settings, parts);
-  station.drives = add_current_sensors(inside, settings, parts);
-  station.imu = add_imu(inside, settings, parts);
-  station.status = inside.export_output("status", parts.drives.status);
-  station.force_torque = add_force_torque_sensor(inside, settings, parts);
+  station.torque_command = inside.export_input(
+      "torque_command", faults.add_before(inside, "torque_command", parts.drives.torque_command));
+  station.brake = inside.export_input("brake", faults.add_before(inside, "brake", parts.drives.brake));
+  station.joints =
+      inside.export_output("joints", faults.add(inside, "joints", add_encoders(inside, settings, parts)));
+  station.drives = inside.export_output(
+      "drives", faults.add(inside, "drives", add_current_sensors(inside, settings, parts)));
+  station.imu = inside.export_output("imu", faults.add(inside, "imu", add_imu(inside, settings, parts)));
+  station.status = inside.export_output("status", faults.add(inside, "status", parts.drives.status));
+  if (const auto sensor = add_force_torque_sensor(inside, settings, parts)) {
+    station.force_torque = inside.export_output("force_torque", faults.add(inside, "force_torque", *sensor));
+  }
   station.plant_truth = inside.export_output("truth", parts.plant.truth);
   station.contact_truth = inside.export_output("contact_truth", parts.plant.contact);
   station.obstacle_truth = inside.export_output("obstacle_truth", parts.plant.obstacles);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "diagrams/faulty_value.h"
 #include "diagrams/station.h"
 #include "plant/applied_wrench.h"
 #include "plant/bench_settings.h"
@@ -30,6 +31,8 @@ struct SimulatedStationSettings {
   /// Mounted where there is the obstacle that it names.
   std::optional<SimulatedForceTorqueSettings> force_torque = SimulatedForceTorqueSettings{};
   std::vector<WrenchRamp> applied_wrench;  ///< Pushes on the platform.
+
+  std::vector<RequestedFault> faults;  ///< Of sensors, drives, brakes and of the link to the control path.
 
   std::uint64_t seed = 0;  ///< Of the run; each sensor derives its own.
   Time tick = 1ms;         ///< The time between ticks of the diagram, or a multiple of it.

@@ -54,6 +54,18 @@ void add_bus(CLI::App& verb, BusOptions& bus) {
       ->group("Bus");
 }
 
+void add_fault(CLI::App& verb, std::vector<std::string>& faults) {
+  verb.add_option(
+          "--fault", faults,
+          "What shall be wrong with the robot from TIME [s] on: SIGNAL:KIND@TIME[:SIZE], such as "
+          "encoder2:drifting@0.5:-5. SIGNAL: encoder, passive_encoder, current, drive, brake, each with "
+          "its number or as encoders etc. for all; gyroscope, accelerometer, imu, force_torque, status, "
+          "link. KIND: off, stuck, noise, wrong, drifting, scaled, delayed, intermittent, reversed. Any "
+          "number of them")
+      ->allow_extra_args(false)
+      ->type_name("FAULT");
+}
+
 void add_common(CLI::App& verb, CommonOptions& common) {
   verb.add_flag("--json", common.json, "Print one JSON object on stdout; messages go to stderr");
   verb.add_flag("--quiet", common.quiet, "Print nothing but results and errors");
@@ -141,6 +153,7 @@ void add_verbs(CLI::App& app, Verbs& verbs) {
   run_verb.add_option("--seed", verbs.run.seed, "Seed of all noise, instead of the scenario's")
       ->check(problem_with_seed)
       ->type_name("N");
+  add_fault(run_verb, verbs.run.faults);
   add_bus(run_verb, verbs.run.bus);
   run_verb
       .add_option("--patience", verbs.run.patience,
@@ -248,6 +261,7 @@ void add_bus_verbs(CLI::App& app, Verbs& verbs) {
   serve_verb.add_option("--duration", verbs.serve.duration, "Seconds to serve [until Ctrl-C]")
       ->check(problem_with_seconds)
       ->type_name("S");
+  add_fault(serve_verb, verbs.serve.faults);
   add_bus(serve_verb, verbs.serve.bus);
 
   CLI::App& link_verb =

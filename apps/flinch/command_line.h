@@ -35,6 +35,7 @@ struct RunOptions {
   std::optional<std::uint64_t> seed;
   StationKind station = StationKind::simulated;
   std::filesystem::path control;  ///< a scenario whose control path replaces the recorded one's; empty: none
+  std::vector<std::string> faults;  ///< on request, SIGNAL:KIND@TIME[:SIZE]
 
   // A robot on the bus.
   BusOptions bus;

@@ -4,6 +4,7 @@
 #include "apps/flinch/bus/bus_verbs.h"
 #include "apps/flinch/command_line.h"
 #include "apps/flinch/conclusion.h"
+#include "apps/flinch/fault_options.h"
 #include "apps/flinch/progress.h"
 #include "apps/flinch/simulated/simulated_parts.h"
 #include "apps/flinch/stop_watch.h"
@@ -31,13 +32,16 @@ ExitStatus run_recorded(const RunOptions& options) {
   const Recording recorded = read_recording(options.input);
   tell_if_partial(recorded, options.common);
   const Scenario scenario = scenario_of(recorded, options.input, options.control);
+  std::vector<RequestedFault> faults;
+  add_faults(options.faults, *scenario.robot.robot, faults);
   const StopWatch watch;
   Replay replayed;
   {
     Progress progress("replaying " + scenario.name, options.common.quiet || options.common.json);
     replayed = out_of(options.input, [&] {
-      return replay(scenario, recorded, {{"command_line", options.common.command_line}},
-                    [&progress](double share) { progress.show(share); });
+      return replay(
+          scenario, recorded, {{"command_line", options.common.command_line}},
+          [&progress](double share) { progress.show(share); }, faults);
     });
   }
   const std::filesystem::path folder = folder_of(options, scenario.name + "_replayed");
@@ -59,6 +63,11 @@ void check(const RunOptions& options) {
   }
   if (options.seed && options.station != StationKind::simulated) {
     problems.push_back("--seed: only a simulated station has noise that could be drawn anew");
+  }
+  if (!options.faults.empty() && options.station == StationKind::dds) {
+    problems.push_back(
+        "--fault: a robot on the bus has its own faults; 'flinch serve' makes them for one that is "
+        "simulated");
   }
   const bool names_a_bus = options.bus != BusOptions() || options.reset_faults;
   if (names_a_bus && options.station != StationKind::dds) {

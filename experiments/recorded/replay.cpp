@@ -42,9 +42,11 @@ void replay_target(DiagramBuilder& builder, const Recording& recorded, const Con
   builder.export_output("target", target.played);
 }
 
-std::unique_ptr<Diagram> build_replay(const Scenario& scenario, const Recording& recorded) {
+std::unique_ptr<Diagram> build_replay(const Scenario& scenario, const Recording& recorded,
+                                      const std::vector<RequestedFault>& faults) {
   DiagramBuilder builder("replay", recorded.period);
-  const Station station = add_recorded_station(builder, recorded);
+  const Station station = add_recorded_station(
+      builder, recorded, "", {.all = faults, .tick = recorded.period, .seed = scenario.seed});
   const ContactControl control = add_contact_control(builder, scenario.robot.robot, scenario.control);
   const auto& buttons = builder.add<Player<OperatorCommand>>("operator", recorded, "operator");
   connect(builder, station, control);
@@ -73,8 +75,8 @@ void take_over_the_rest(const Recording& from, Recording& recording) {
 
 Replay replay(const Scenario& scenario, const Recording& recorded,
               const std::map<std::string, std::string>& provenance,
-              const std::function<void(double share)>& progress) {
-  const auto diagram = build_replay(scenario, recorded);
+              const std::function<void(double share)>& progress, const std::vector<RequestedFault>& faults) {
+  const auto diagram = build_replay(scenario, recorded, faults);
   Recorder recorder(*diagram, recorded_paths(*diagram), recorded.samples(),
                     quantity_units(*scenario.robot.robot));
   Simulator simulator(*diagram);

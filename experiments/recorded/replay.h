@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "diagrams/requested_fault.h"
 #include "systems/framework/recording.h"
 
 namespace flinch {
@@ -18,10 +19,12 @@ struct Replay {
 };
 
 /// Runs the control path of `scenario` on the readings, the operator's buttons and the timing of ticks of
-/// `recorded`, as fast as it can. The torques have no effect. Throws SetupError when readings are missing,
-/// and as add_contact_control().
+/// `recorded`, as fast as it can. The torques have no effect. `faults` are put on top of the readings. Throws
+/// SetupError when readings are missing, for faults that a recording cannot have, and as
+/// add_contact_control().
 Replay replay(const Scenario& scenario, const Recording& recorded,
               const std::map<std::string, std::string>& provenance = {},
-              const std::function<void(double share)>& progress = {});
+              const std::function<void(double share)>& progress = {},
+              const std::vector<RequestedFault>& faults = {});
 
 }  // namespace flinch

@@ -109,7 +109,8 @@ std::uint64_t recorded_seed(const Recording& recording, const std::filesystem::p
 }  // namespace
 
 void leave_simulation_unread(ConfigReader& file, const Scenario&) {
-  for (const char* const section : {"plant", "applied_wrench", "sensors"}) file.leave_unread(section);
+  for (const char* const section : {"plant", "applied_wrench", "sensors", "faults"})
+    file.leave_unread(section);
   if (file.has("pylon")) file.section("pylon").leave_rest_unread();
   for (ConfigReader& obstacle : file.sections("obstacles")) obstacle.leave_rest_unread();
 }

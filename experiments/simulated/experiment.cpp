@@ -48,6 +48,11 @@ std::map<std::string, std::string> attributes_of(const SimulatedScenario& scenar
                                                  const std::map<std::string, std::string>& provenance) {
   auto attributes = recorded_attributes(scenario, provenance);
   note_robot(specimen_values(scenario.specimen, *scenario.robot.robot), attributes);
+  std::string faults;
+  for (const RequestedFault& fault : scenario.station.faults) {
+    faults += (faults.empty() ? "" : " ") + text_of(fault);
+  }
+  if (!faults.empty()) attributes.emplace("faults", std::move(faults));
   return attributes;
 }
 

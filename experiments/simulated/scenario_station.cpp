@@ -7,6 +7,7 @@
 
 #include "experiments/scenario/scenario.h"
 #include "experiments/scenario/scenario_pose.h"
+#include "experiments/simulated/scenario_faults.h"
 #include "experiments/simulated/scenario_realism.h"
 #include "experiments/simulated/simulated_obstacles.h"
 #include "plant/contacts_at_start.h"
@@ -141,6 +142,7 @@ void read_station(ConfigReader& file, const Scenario& scenario, SimulatedStation
   for (ConfigReader& ramp : file.sections("applied_wrench"))
     station.applied_wrench.push_back(read_ramp(ramp, station.bench.robot->space()));
   read_sensors(file.section("sensors"), station);
+  station.faults = read_faults(file, *scenario.robot.robot);
   specimen = draw_specimen(realism, *scenario.robot.robot, scenario.robot.drives.max_torque, scenario.seed);
   station = with_specimen(std::move(station), specimen);
   if (file.good()) {

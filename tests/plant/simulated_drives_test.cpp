@@ -126,6 +126,44 @@ TEST(SimulatedDrives, WithoutLagObeyAtOnce) {
   EXPECT_TRUE(action.current.isApprox(Eigen::Vector3d(1.0, -2.0, 0.0)));
 }
 
+SimulatedDrivesSettings with_fault(RequestedFault fault) {
+  SimulatedDrivesSettings settings = bench_constants();
+  settings.faults = {fault};
+  return settings;
+}
+
+TEST(SimulatedDrives, CanMakeAnotherTorqueOfACurrentThatIsAsItShouldBe) {
+  Drives drives(
+      with_fault({.signal = FaultSignal::drive, .index = 1, .kind = FaultKind::scaled, .size = 0.0}));
+  const DriveAction action = drives.after(drives.fresh(6.021, 6.6116, 6.7315));
+  EXPECT_TRUE(action.current.isApprox(Eigen::Vector3d::Ones()));
+  EXPECT_TRUE(action.torque.isApprox(Eigen::Vector3d(6.021, 0.0, 6.7315)));
+}
+
+TEST(SimulatedDrives, HaveBrakesThatDoNotHoldOrDoNotOpen) {
+  Drives loose(with_fault({.signal = FaultSignal::brake, .index = 0, .kind = FaultKind::off}));
+  DriveAction action = loose.after(TorqueCommand());
+  EXPECT_TRUE(action.braked);
+  EXPECT_EQ(action.hold, Eigen::Vector3d(0.0, 1.0, 1.0));
+
+  Drives shut(with_fault({.signal = FaultSignal::brake, .index = 0, .kind = FaultKind::stuck}));
+  action = shut.after(shut.fresh(1.0, 1.0, 1.0));
+  EXPECT_FALSE(action.braked);
+  EXPECT_EQ(action.hold, Eigen::Vector3d(1.0, 0.0, 0.0));
+}
+
+TEST(SimulatedDrives, HaveBrakesThatTakeTheirTime) {
+  Drives drives(with_fault({.signal = FaultSignal::brake, .kind = FaultKind::delayed, .size = 0.003}));
+  for (int tick = 0; tick < 3; ++tick) drives.then(drives.fresh(1.0, 1.0, 1.0));
+  drives.brake(true);
+  drives.then(drives.fresh(1.0, 1.0, 1.0));
+  for (int tick = 0; tick < 5; ++tick) {
+    const DriveAction action = drives.then(drives.fresh(1.0, 1.0, 1.0));
+    EXPECT_TRUE(action.braked);
+    EXPECT_EQ(action.hold[0], tick < 3 ? 0.0 : 1.0) << tick;
+  }
+}
+
 TEST(SimulatedDrives, CutCommandsToTheirLimit) {
   Drives drives({.torque_limit = 50.0});
   const DriveAction action = drives.after(drives.fresh(80.0, -1e9, 20.0));

@@ -13,7 +13,8 @@ struct ServeOptions {
   std::filesystem::path scenario;
   std::optional<std::uint64_t> seed;
   BusOptions bus;
-  std::optional<double> duration;  ///< none: until interrupted [s]
+  std::optional<double> duration;   ///< none: until interrupted [s]
+  std::vector<std::string> faults;  ///< on request, SIGNAL:KIND@TIME[:SIZE]
 };
 
 struct LinkOptions {

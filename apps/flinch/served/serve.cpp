@@ -7,6 +7,7 @@
 #include "apps/flinch/bus/bus_verbs.h"
 #include "apps/flinch/bus/interrupts.h"
 #include "apps/flinch/bus/status_line.h"
+#include "apps/flinch/fault_options.h"
 #include "drivers/dds_server.h"
 #include "drivers/wire_header.h"
 #include "experiments/bus/names.h"
@@ -94,7 +95,8 @@ void tell_the_end(const DdsCommander& commander, const TickStatistics& ticks, co
 
 ExitStatus serve(const ServeOptions& options) {
   const bool silent = options.common.quiet || options.common.json;
-  const SimulatedScenario scenario = read_simulated_scenario(options.scenario, options.seed);
+  SimulatedScenario scenario = read_simulated_scenario(options.scenario, options.seed);
+  add_faults(options.faults, *scenario.robot.robot, scenario.station.faults);
   DdsServerSettings settings{.robot = robot_hash(scenario.robot_text)};
   const ServedBench bench =
       out_of(scenario.file, [&] { return build_served_bench(scenario, settings.longest_silence); });

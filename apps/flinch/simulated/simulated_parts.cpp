@@ -1,6 +1,7 @@
 #include "apps/flinch/simulated/simulated_parts.h"
 
 #include "apps/flinch/conclusion.h"
+#include "apps/flinch/fault_options.h"
 #include "apps/flinch/progress.h"
 #include "apps/flinch/stop_watch.h"
 #include "experiments/report/run_folder.h"
@@ -21,7 +22,8 @@ bool was_simulated(const Recording& recording) { return recording.find("truth") 
 }  // namespace
 
 ExitStatus run_simulated(const RunOptions& options) {
-  const SimulatedScenario scenario = read_simulated_scenario(options.input, options.seed);
+  SimulatedScenario scenario = read_simulated_scenario(options.input, options.seed);
+  add_faults(options.faults, *scenario.robot.robot, scenario.station.faults);
   built(scenario);  // before anything is written
   const std::filesystem::path folder = folder_of(options, scenario.name);
   const StopWatch watch;

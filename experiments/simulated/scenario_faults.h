@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include "diagrams/requested_fault.h"
+
+namespace flinch {
+
+class ConfigReader;
+
+/// Reads the list `faults` of a scenario: what shall be wrong with the robot from when on.
+std::vector<RequestedFault> read_faults(ConfigReader& file, const ParallelRobot& robot);
+
+}  // namespace flinch
