@@ -122,6 +122,16 @@ Operator add_operator(const Path& path, const EstimatePorts& given, OperatorButt
   return added;
 }
 
+/// What a hard contact is answered with.
+OutputPort<TorqueCommand> add_yielding(const Path& path, const ReactionPorts& given,
+                                       const ZeroGravity& zero_gravity) {
+  if (!path.settings.yielding) return zero_gravity.torque;
+  auto& law = path.builder.add<ControlledStop>("yielding", path.robot, *path.settings.yielding);
+  path.builder.connect(zero_gravity.torque, law.zero_gravity);
+  path.builder.connect(given.joint_motion, law.joints);
+  return law.torque;
+}
+
 Laws add_laws(const Path& path, const ReactionPorts& given) {
   DiagramBuilder& builder = path.builder;
   Laws laws{path.add(path.settings.stages.nominal_laws, given),
@@ -136,6 +146,7 @@ Laws add_laws(const Path& path, const ReactionPorts& given) {
   builder.connect(given.reaction, laws.selector.reaction);
   builder.connect(laws.nominal.port().torque, laws.selector.nominal);
   builder.connect(laws.reaction.port().torque, laws.selector.reacting);
+  builder.connect(add_yielding(path, given, laws.zero_gravity), laws.selector.yielding);
   builder.connect(laws.zero_gravity.torque, laws.selector.zero_gravity);
   builder.connect(laws.nominal.port().reference, laws.selector.nominal_reference);
   builder.connect(laws.reaction.port().reference, laws.selector.reaction_reference);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include "diagrams/control_stages.h"
@@ -61,6 +62,9 @@ struct ContactControlSettings {
   /// Share of the translational stiffness that is left while reacting, 0 to 1. [SafePR] IV-A
   double reaction_stiffness = 1.0;
   ReactionSequenceSettings sequence;
+  /// After a hard contact: zero gravity that takes energy out. None: zero gravity alone, [SafePR] IV-A, which
+  /// is no torque at all for a robot that moves horizontally: it coasts on.
+  std::optional<ControlledStopSettings> yielding = ControlledStopSettings{.share_at_rest = 0.25};
   ModeSelectorSettings modes;  ///< blends over 10 ms
 
   // ---- safety

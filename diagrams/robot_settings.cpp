@@ -33,6 +33,8 @@ ContactControlSettings settings_for(const ParallelRobot& robot, const DriveParam
   settings.torque_gate.max_torque_rate = drives.max_torque_rate;
   settings.sequence.rest_speed = drives.max_speed / 160.0;
   settings.controlled_stop.damping = least_inertia(robot) / stopping_time;
+  settings.yielding->damping = settings.controlled_stop.damping;
+  settings.yielding->whole_from = drives.max_speed / 4.0;
   return settings;
 }
 

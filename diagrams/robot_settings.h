@@ -12,7 +12,8 @@ namespace flinch {
 ///   torque constants, torque range and its rates; speeds and errors beyond which a drive is stopped;
 ///   what a motor current may change while the encoder of its drive stands still: 6 % of the largest torque;
 ///   below which speed a drive counts as at rest: 1/160 of the largest;
-///   damping of the controlled stop: the least inertia that a drive feels at home, in 29 ms. [PAR]
+///   damping of the controlled stop: the least inertia that a drive feels at home, in 29 ms, [PAR]; after a
+///   hard contact from a quarter of the largest speed on, less below.
 ContactControlSettings settings_for(const ParallelRobot& robot, const DriveParameters& drives,
                                     const WorkspaceLimits& limits);
 

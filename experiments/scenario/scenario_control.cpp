@@ -91,7 +91,11 @@ void read_laws(ConfigReader& control, const ParallelRobot& robot, ContactControl
   retraction.number("stiffness_share", unit::none, settings.reaction_stiffness, fraction);
   read_limits(retraction.section("limits"), settings.retraction.limits);
 
-  control.section("sequence").flag("zero_g_when_struck", settings.sequence.zero_g_when_struck);
+  ConfigReader sequence = control.section("sequence");
+  sequence.flag("zero_g_when_struck", settings.sequence.zero_g_when_struck);
+  bool damped = settings.yielding.has_value();
+  sequence.flag("zero_g_damped", damped);
+  if (!damped) settings.yielding.reset();
 }
 
 /// In a plane the angle `direction` from the x axis; in space a vector of any length.

@@ -18,6 +18,7 @@ Law law_of(ReactionMode mode) {
     case ReactionMode::hold:
       return Law::reacting;
     case ReactionMode::zero_g:
+      return Law::yielding;
     case ReactionMode::stopped:
       break;
   }
@@ -62,9 +63,20 @@ ModeSelector::Blend ModeSelector::advanced(Time now, const Blend& last, Law want
 
 void ModeSelector::blend(Time now, const Blend& last, const ReactionState& state,
                          const TorqueCommand& nominal_law, const TorqueCommand& reaction_law,
-                         const TorqueCommand& gravity_law, Blend& next) const {
+                         const TorqueCommand& yielding_law, const TorqueCommand& gravity_law,
+                         Blend& next) const {
   const auto torque_of = [&](Law law) -> const TorqueCommand& {
-    return law == Law::nominal ? nominal_law : law == Law::reacting ? reaction_law : gravity_law;
+    switch (law) {
+      case Law::nominal:
+        return nominal_law;
+      case Law::reacting:
+        return reaction_law;
+      case Law::yielding:
+        return yielding_law;
+      case Law::zero_gravity:
+        break;
+    }
+    return gravity_law;
   };
   next = advanced(now, last, law_of(state.mode));
   if (!next.frozen && !torque_of(next.from).valid) freeze(next, last.torque);
@@ -79,6 +91,7 @@ PlatformReference ModeSelector::select(const ReactionState& state, const Platfor
       return nominal_motion;
     case Law::reacting:
       return reaction_motion;
+    case Law::yielding:
     case Law::zero_gravity:
       break;
   }

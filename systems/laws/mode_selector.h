@@ -17,7 +17,8 @@ struct ModeSelectorSettings {
 ///
 ///   nominal, recover   those of the nominal law
 ///   react, hold        of the reaction law
-///   zero_g, stopped    of zero gravity
+///   zero_g             of yielding to a hard contact
+///   stopped            of zero gravity
 ///
 /// At a change of the law it blends, tau = (1 - w) tau_old + w tau_new, where w grows by tick / blend at
 /// every tick and is one such step at the first. The old law goes on being evaluated, unless it has no valid
@@ -25,7 +26,7 @@ struct ModeSelectorSettings {
 /// law is not.
 class ModeSelector final : public System {
  public:
-  enum class Law : std::uint8_t { zero_gravity, nominal, reacting };
+  enum class Law : std::uint8_t { zero_gravity, nominal, reacting, yielding };
 
   /// How far the change from one law to the next has come.
   struct Blend {
@@ -49,13 +50,14 @@ class ModeSelector final : public System {
   InputPort<ReactionState> reaction = input<ReactionState>("reaction");
   InputPort<TorqueCommand> nominal = input<TorqueCommand>("nominal");
   InputPort<TorqueCommand> reacting = input<TorqueCommand>("reacting");
+  InputPort<TorqueCommand> yielding = input<TorqueCommand>("yielding");
   InputPort<TorqueCommand> zero_gravity = input<TorqueCommand>("zero_gravity");
   InputPort<PlatformReference> nominal_reference = input<PlatformReference>("nominal_reference");
   InputPort<PlatformReference> reaction_reference = input<PlatformReference>("reaction_reference");
 
  private:
-  Intermediate<Blend> blend_ =
-      intermediate<&ModeSelector::blend>("blend", clock, last_, reaction, nominal, reacting, zero_gravity);
+  Intermediate<Blend> blend_ = intermediate<&ModeSelector::blend>("blend", clock, last_, reaction, nominal,
+                                                                  reacting, yielding, zero_gravity);
 
  public:
   OutputPort<TorqueCommand> torque = output<&ModeSelector::torque_of>("torque", blend_);
@@ -68,7 +70,8 @@ class ModeSelector final : public System {
 
   Blend advanced(Time now, const Blend& last, Law wanted) const;
   void blend(Time now, const Blend& last, const ReactionState& state, const TorqueCommand& nominal_law,
-             const TorqueCommand& reaction_law, const TorqueCommand& gravity_law, Blend& next) const;
+             const TorqueCommand& reaction_law, const TorqueCommand& yielding_law,
+             const TorqueCommand& gravity_law, Blend& next) const;
   TorqueCommand torque_of(const Blend& now) const { return now.torque; }
   PlatformReference select(const ReactionState& state, const PlatformReference& nominal_motion,
                            const PlatformReference& reaction_motion) const;

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <random>
+#include <string>
 
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/diagram_builder.h"
@@ -22,9 +26,8 @@ const JointMotion moving{.acquired = {},
                          .velocity = Eigen::Vector3d(0.5, -1.0, 2.0)};
 
 struct Law {
-  Law()
-      : block(builder.add<ControlledStop>("stop", test::planar_bench(),
-                                          ControlledStopSettings{.damping = 10.0})),
+  explicit Law(const ControlledStopSettings& settings = {.damping = 10.0})
+      : block(builder.add<ControlledStop>("stop", test::planar_bench(), settings)),
         zero_gravity(builder.export_input("zero_gravity", block.zero_gravity)),
         joints(builder.export_input("joints", block.joints)) {}
 
@@ -74,6 +77,49 @@ TEST(ControlledStop, IsNotValidWithoutRates) {
   EXPECT_FALSE(law.at(gravity, lost).valid);
 }
 
+TEST(ControlledStop, BrakesLessWhereTheRobotIsSlow) {
+  Law law({.damping = 10.0, .whole_from = 2.0, .share_at_rest = 0.25});
+  JointMotion slow = moving;
+  slow.velocity = Eigen::Vector3d(0.5, -1.0, 0.0);  // half of `whole_from`
+  EXPECT_EQ(law.at(gravity, slow).torque, Eigen::Vector3d(1.0 - 2.5, 2.0 + 5.0, -3.0));
+  slow.velocity *= 0.1;  // a quarter of the damping is left
+  EXPECT_TRUE(law.at(gravity, slow).torque.isApprox(Eigen::Vector3d(1.0 - 0.125, 2.0 + 0.25, -3.0)));
+}
+
+/// What a hand must press with on the middle of the platform to lead it with `velocity`, the platform free to
+/// turn meanwhile [N].
+double hand_force(const ParallelRobot& robot, const Eigen::Vector3d& pose, Eigen::Vector3d velocity,
+                  Law& law) {
+  test::Posture posture(robot, pose, velocity);
+  const Eigen::Matrix3d J = posture.kinematics.J_qa_x;
+  const Eigen::Matrix3d damping = J.transpose() * J;
+  velocity[2] = -damping.row(2).head<2>().dot(velocity.head<2>()) / damping(2, 2);
+  posture = test::Posture(robot, pose, velocity);
+  const TorqueCommand none{.computed = {}, .valid = true, .torque = JointVector::Zero(3)};
+  const PlatformVector braking = J.transpose() * law.at(none, posture.motion).torque;
+  return (posture.dynamics.F_fr_x - braking).head<2>().norm();
+}
+
+TEST(ControlledStop, LeavesARobotThatCanBePushedByHand) {
+  constexpr double speed = 0.1;  // [m/s]
+  const auto robot = test::planar_bench(BenchFriction::test_bench);
+  Law law({.share_at_rest = 0.25});
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  double largest = 0.0;
+  for (int i = 0; i < 5000;) {
+    const Eigen::Vector3d pose(0.3 * unit(random), 0.3 * unit(random), 0.45 * unit(random));
+    const double direction = 3.14 * unit(random);
+    const test::Posture posture(*robot, pose);
+    if (!posture.kinematics.valid || posture.kinematics.sigma_kappa > 15.0) continue;
+    ++i;
+    const Eigen::Vector3d velocity(speed * std::cos(direction), speed * std::sin(direction), 0.0);
+    largest = std::max(largest, hand_force(*robot, pose, velocity, law));
+  }
+  RecordProperty("largest_N", std::to_string(largest));
+  EXPECT_LE(largest, 15.0);
+}
+
 TEST(ControlledStop, NeverAllocates) {
   Law law;
   law.at(gravity, moving);
@@ -85,6 +131,8 @@ TEST(ControlledStop, NeverAllocates) {
 TEST(ControlledStop, RefusesADampingThatIsNotPositive) {
   EXPECT_THROW(ControlledStop(test::planar_bench(), {.damping = 0.0}), SetupError);
   EXPECT_THROW(ControlledStop(test::planar_bench(), {.damping = nan}), SetupError);
+  EXPECT_THROW(ControlledStop(test::planar_bench(), {.whole_from = 0.0}), SetupError);
+  EXPECT_THROW(ControlledStop(test::planar_bench(), {.share_at_rest = 0.0}), SetupError);
 }
 
 }  // namespace

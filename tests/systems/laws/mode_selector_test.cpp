@@ -28,18 +28,20 @@ PlatformReference reference(double x) {
           .acceleration = rest};
 }
 
-/// Nominal law 100 Nm, reacting -50 Nm, zero gravity 10 Nm.
+/// Nominal law 100 Nm, reacting -50 Nm, yielding 20 Nm, zero gravity 10 Nm.
 struct Selector {
   explicit Selector(const ModeSelectorSettings& settings = {})
       : block(builder.add<ModeSelector>("selector", settings)),
         reaction(builder.export_input("reaction", block.reaction)),
         nominal_law(builder.export_input("nominal", block.nominal)),
         reaction_law(builder.export_input("reacting", block.reacting)),
+        yielding_law(builder.export_input("yielding", block.yielding)),
         gravity_law(builder.export_input("zero_gravity", block.zero_gravity)),
         nominal_reference(builder.export_input("nominal_reference", block.nominal_reference)),
         reaction_reference(builder.export_input("reaction_reference", block.reaction_reference)) {
     ticking.set(nominal_law, torque(100.0));
     ticking.set(reaction_law, torque(-50.0));
+    ticking.set(yielding_law, torque(20.0));
     ticking.set(gravity_law, torque(10.0));
     ticking.set(nominal_reference, reference(1.0));
     ticking.set(reaction_reference, reference(2.0));
@@ -61,7 +63,7 @@ struct Selector {
   DiagramBuilder builder;
   ModeSelector& block;
   InputPort<ReactionState> reaction;
-  InputPort<TorqueCommand> nominal_law, reaction_law, gravity_law;
+  InputPort<TorqueCommand> nominal_law, reaction_law, yielding_law, gravity_law;
   InputPort<PlatformReference> nominal_reference, reaction_reference;
   test::Ticking ticking{builder};
 };
@@ -72,7 +74,7 @@ TEST(ModeSelector, HandsOnTheTorquesOfTheMode) {
   EXPECT_EQ(selector.settle(nominal).torque, torque(100.0).torque);
   EXPECT_EQ(selector.settle(react).torque, torque(-50.0).torque);
   EXPECT_EQ(selector.settle(hold).torque, torque(-50.0).torque);
-  EXPECT_EQ(selector.settle(zero_g).torque, torque(10.0).torque);
+  EXPECT_EQ(selector.settle(zero_g).torque, torque(20.0).torque);
 }
 
 TEST(ModeSelector, HandsOnTheReferenceThatIsBeingFollowed) {
@@ -112,7 +114,7 @@ TEST(ModeSelector, BlendsFromItsFrozenTorqueWhenSwitchedAgain) {
   const double frozen = 100.0 - 4 * 15.0;
   selector.ticking.set(selector.nominal_law, torque(1e6));
   for (int step = 1; step <= 10; ++step) {
-    EXPECT_NEAR(selector.tick(zero_g).torque[0], frozen + step * (10.0 - frozen) / 10, 1e-12) << step;
+    EXPECT_NEAR(selector.tick(zero_g).torque[0], frozen + step * (20.0 - frozen) / 10, 1e-12) << step;
   }
 }
 
