@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/scenario/robot_files.h"
 #include "experiments/scenario/scenario.h"
 #include "systems/config/config_node.h"
 #include "systems/config/config_reader.h"
@@ -133,9 +134,11 @@ Campaign read_campaign(const std::filesystem::path& file, const CampaignOverride
   throw_if_any(std::move(problems));
   if (overrides.draws) campaign.draws = *overrides.draws;
   if (overrides.seed) campaign.seed = *overrides.seed;
+  campaign.robots = std::make_shared<RobotFiles>();
   for (const std::filesystem::path& file_of_scenario : campaign.scenarios) {
     const Scenario scenario = read_scenario(file_of_scenario);
     campaign.scenario_texts.push_back(scenario.text);
+    campaign.scenario_nodes.push_back(parse_yaml(scenario.text, file_of_scenario.string()));
     campaign.robot_texts.push_back(scenario.robot_text);
   }
   return campaign;

@@ -10,6 +10,7 @@
 
 namespace flinch {
 
+class RobotFiles;
 struct ConfigNode;
 
 /// The values that a key of the scenario takes in turn: one axis of the grid.
@@ -48,10 +49,12 @@ struct Campaign {
 
   std::vector<std::filesystem::path> scenarios;
   std::vector<std::string> scenario_texts;
+  std::vector<std::shared_ptr<const ConfigNode>> scenario_nodes;  ///< of these texts
   std::vector<std::string> robot_texts;
   std::vector<CampaignAxis> grid;
   std::vector<CampaignDraw> drawn;
   std::optional<CampaignContact> contact;
+  std::shared_ptr<RobotFiles> robots;  ///< of all runs
 
   /// Everything that decides about the results, in words: two campaigns with one identity have one table.
   std::string identity() const;

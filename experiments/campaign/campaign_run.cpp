@@ -36,8 +36,7 @@ std::size_t next_digit(std::size_t& index, std::size_t count) {
 class Draft {
  public:
   Draft(const Campaign& campaign, std::size_t scenario)
-      : file_(campaign.scenarios[scenario]),
-        root_(parse_yaml(campaign.scenario_texts[scenario], file_.string())) {}
+      : file_(campaign.scenarios[scenario]), root_(campaign.scenario_nodes[scenario]) {}
 
   void set(const std::string& key, const Node& value) { root_ = with_value(*root_, key, value); }
   bool has(const std::string& key) const {
@@ -46,7 +45,7 @@ class Draft {
     }
     return false;
   }
-  std::string text() const { return yaml_text(*root_); }
+  const Node& root() const { return root_; }
   const std::filesystem::path& file() const { return file_; }
 
  private:
@@ -55,8 +54,9 @@ class Draft {
 };
 
 /// Stands the first obstacle where it is run into. False where this draw has no such place.
-bool place_obstacle(Draft& draft, const std::string& kind, RandomGenerator& random, CampaignRun& run) {
-  const Scenario scenario = parse_scenario(draft.text(), draft.file(), run.seed);
+bool place_obstacle(RobotFiles& robots, Draft& draft, const std::string& kind, RandomGenerator& random,
+                    CampaignRun& run) {
+  const Scenario scenario = parse_scenario(draft.root(), draft.file(), robots);
   if (scenario.obstacles.empty()) throw SetupError("there is no obstacle that 'contact' could move");
   const auto contact = draw_contact(scenario, kind, scenario.obstacles.front().shape, random);
   if (!contact) return false;
@@ -92,9 +92,10 @@ bool draw_once(const Campaign& campaign, RandomGenerator& random, CampaignRun& r
   draft.set("seed", scalar_node(std::to_string(run.seed)));
   if (campaign.contact) {
     const auto& bodies = campaign.contact->bodies;
-    if (!place_obstacle(draft, bodies[next_digit(digits, bodies.size())], random, run)) return false;
+    const std::string& kind = bodies[next_digit(digits, bodies.size())];
+    if (!place_obstacle(*campaign.robots, draft, kind, random, run)) return false;
   }
-  run.scenario = parse_simulated_scenario(draft.text(), draft.file());
+  run.scenario = parse_simulated_scenario(draft.root(), draft.file(), *campaign.robots);
   return true;
 }
 

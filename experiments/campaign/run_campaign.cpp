@@ -12,8 +12,6 @@
 #include "experiments/campaign/results_file.h"
 #include "experiments/simulated/experiment.h"
 #include "experiments/verdict/verdict.h"
-#include "systems/framework/recording.h"
-#include "systems/robot/parallel_robot.h"
 
 namespace flinch {
 namespace {
@@ -86,12 +84,7 @@ void work(const Campaign& campaign, WorkList& list) {
 
 }  // namespace
 
-RunResult simulate_run(const CampaignRun& run) {
-  const SimulatedScenario& scenario = run.scenario;
-  const Recording recording = run_for_verdict(scenario);
-  return result_of(run,
-                   judge(recording, scenario.robot.robot->space(), scenario.expected, scenario.force_limits));
-}
+RunResult simulate_run(const CampaignRun& run) { return result_of(run, judge_experiment(run.scenario)); }
 
 std::vector<RunResult> run_campaign(const Campaign& campaign, const std::filesystem::path& folder,
                                     std::size_t threads, const CampaignProgress& progress) {

@@ -4,9 +4,11 @@
 #include <charconv>
 
 #include "diagrams/robot_settings.h"
+#include "experiments/scenario/robot_files.h"
 #include "experiments/scenario/scenario_control.h"
 #include "systems/config/config_file.h"
 #include "systems/config/config_reader.h"
+#include "systems/config/yaml_text.h"
 #include "systems/foundation/nearest_name.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recording.h"
@@ -86,6 +88,24 @@ void read_rest(ConfigReader& reader, std::optional<std::uint64_t> seed, const Se
   scenario.values = reader.finish();
 }
 
+Scenario assemble(ConfigReader reader, const std::filesystem::path& file, RobotFiles& robots,
+                  std::optional<std::uint64_t> seed, const SectionReader& others,
+                  const ControlStages& known) {
+  Scenario scenario;
+  scenario.control.stages = known;
+  scenario.file = file;
+  scenario.name = file.stem().string();
+  reader.required().file("robot", scenario.robot_file);
+  scenario.robot = robot_or_stand_in(reader, [&] {
+    if (scenario.robot_file.empty()) throw SetupError(std::vector<std::string>{});
+    const auto entry = robots.read(scenario.robot_file);
+    scenario.robot_text = entry->text;
+    return entry->robot;
+  });
+  read_rest(reader, seed, others, scenario);
+  return scenario;
+}
+
 const std::string& attribute(const Recording& recording, const std::string& name,
                              const std::filesystem::path& file) {
   const auto found = recording.attributes.find(name);
@@ -123,19 +143,17 @@ Scenario read_scenario(const std::filesystem::path& file, std::optional<std::uin
 Scenario parse_scenario(std::string text, const std::filesystem::path& file,
                         std::optional<std::uint64_t> seed, const SectionReader& others,
                         const ControlStages& known) {
-  Scenario scenario;
-  scenario.control.stages = known;
-  scenario.file = file;
-  scenario.name = file.stem().string();
+  RobotFiles robots;
+  Scenario scenario = assemble(ConfigReader::parse(text, file.string()), file, robots, seed, others, known);
   scenario.text = std::move(text);
-  ConfigReader reader = ConfigReader::parse(scenario.text, file.string());
-  reader.required().file("robot", scenario.robot_file);
-  scenario.robot = robot_or_stand_in(reader, [&] {
-    if (scenario.robot_file.empty()) throw SetupError(std::vector<std::string>{});
-    return read_robot_file(scenario.robot_file);
-  });
-  read_rest(reader, seed, others, scenario);
-  scenario.robot_text = read_config_file(scenario.robot_file);
+  return scenario;
+}
+
+Scenario parse_scenario(const std::shared_ptr<const ConfigNode>& root, const std::filesystem::path& file,
+                        RobotFiles& robots, std::optional<std::uint64_t> seed, const SectionReader& others,
+                        const ControlStages& known) {
+  Scenario scenario = assemble(ConfigReader::over(root, file.string()), file, robots, seed, others, known);
+  scenario.text = yaml_text(*root);
   return scenario;
 }
 

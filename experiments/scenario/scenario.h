@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,8 @@
 namespace flinch {
 
 class ConfigReader;
+class RobotFiles;
+struct ConfigNode;
 struct Recording;
 
 /// One experiment, whatever stands for the robot: what a scenario file says of it. docs/files.md has the
@@ -57,6 +60,13 @@ Scenario read_scenario(const std::filesystem::path& file, std::optional<std::uin
 /// The same for text that came from `file`.
 Scenario parse_scenario(std::string text, const std::filesystem::path& file,
                         std::optional<std::uint64_t> seed = std::nullopt,
+                        const SectionReader& others = leave_simulation_unread,
+                        const ControlStages& known = known_stages());
+
+/// The same for nodes that came from `file`, or were put in their place; its text is made from them.
+/// `robots`: files that need not be read again.
+Scenario parse_scenario(const std::shared_ptr<const ConfigNode>& root, const std::filesystem::path& file,
+                        RobotFiles& robots, std::optional<std::uint64_t> seed = std::nullopt,
                         const SectionReader& others = leave_simulation_unread,
                         const ControlStages& known = known_stages());
 

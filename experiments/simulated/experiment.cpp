@@ -7,6 +7,8 @@
 #include "experiments/recorded/robot_as_drawn.h"
 #include "experiments/simulated/simulated_scenario.h"
 #include "experiments/verdict/recorded_run.h"
+#include "experiments/verdict/run_watch.h"
+#include "experiments/verdict/verdict.h"
 #include "plant/simulated_station.h"
 #include "plant/sundials_integrator.h"
 #include "systems/framework/constant.h"
@@ -38,6 +40,8 @@ Experiment build_experiment(const SimulatedScenario& scenario) {
 }
 
 namespace {
+
+constexpr std::size_t samples_at_once = 64;  // of a run that is judged while it goes on
 
 std::size_t ticks_of(const SimulatedScenario& scenario, const Diagram& diagram) {
   return static_cast<std::size_t>(scenario.duration / diagram.tick());
@@ -72,31 +76,42 @@ std::map<std::string, std::string> simulate(const SimulatedScenario& scenario, c
   return {{"simulation.inaccurate_steps", std::to_string(simulator.inaccurate_steps())}};
 }
 
-Recording run_in_memory(const SimulatedScenario& scenario, const Diagram& diagram,
-                        const std::vector<std::string>& paths,
-                        const std::map<std::string, std::string>& provenance,
-                        const std::function<void(double share)>& progress) {
-  Recorder recorder(diagram, paths, ticks_of(scenario, diagram), quantity_units(*scenario.robot.robot));
-  auto attributes = simulate(scenario, diagram, recorder, {}, progress);
-  attributes.merge(attributes_of(scenario, provenance));
-  return recorder.recording(std::move(attributes));
-}
-
 }  // namespace
 
 Recording run_experiment(const SimulatedScenario& scenario,
                          const std::map<std::string, std::string>& provenance,
                          const std::function<void(double share)>& progress) {
   const Experiment experiment = build_experiment(scenario);
-  return run_in_memory(scenario, *experiment.diagram, recorded_paths(*experiment.diagram), provenance,
-                       progress);
+  const Diagram& diagram = *experiment.diagram;
+  Recorder recorder(diagram, recorded_paths(diagram), ticks_of(scenario, diagram),
+                    quantity_units(*scenario.robot.robot));
+  auto attributes = simulate(scenario, diagram, recorder, {}, progress);
+  attributes.merge(attributes_of(scenario, provenance));
+  return recorder.recording(std::move(attributes));
 }
 
-Recording run_for_verdict(const SimulatedScenario& scenario) {
+Verdict judge_experiment(const SimulatedScenario& scenario) {
   const Experiment experiment = build_experiment(scenario);
-  std::vector<std::string> paths = recorded_paths(*experiment.diagram);
+  const Diagram& diagram = *experiment.diagram;
+  std::vector<std::string> paths = recorded_paths(diagram);
   std::erase_if(paths, [](const std::string& path) { return !is_judged(path); });
-  return run_in_memory(scenario, *experiment.diagram, paths, {}, {});
+  Recorder recorder(diagram, paths, samples_at_once, quantity_units(*scenario.robot.robot));
+  Recording latest = recorder.description(recorded_attributes(scenario, {}));
+  const RecordedRun run(latest, scenario.robot.robot->space());
+  RunWatch watch(run, scenario.force_limits);
+  const auto look = [&] {
+    latest.time_ns.clear();
+    for (Signal& signal : latest.signals) signal.rows.clear();
+    latest.append(recorder.front());
+    recorder.clear();
+    for (std::size_t k = 0; k < run.size(); ++k) watch.see(run[k]);
+  };
+  const auto look_when_full = [&] {
+    if (recorder.samples() == samples_at_once) look();
+  };
+  simulate(scenario, diagram, recorder, look_when_full, {});
+  look();
+  return judge(watch, scenario.expected);
 }
 
 Recording record_experiment(const SimulatedScenario& scenario, const std::filesystem::path& file,

@@ -14,6 +14,7 @@
 namespace flinch {
 
 struct SimulatedScenario;
+struct Verdict;
 
 /// The closed loop of a scenario: the simulated station and the control path. The outputs of the diagram are
 /// what is recorded; its inputs are what the operator does.
@@ -33,8 +34,9 @@ Recording run_experiment(const SimulatedScenario& scenario,
                          const std::map<std::string, std::string>& provenance = {},
                          const std::function<void(double share)>& progress = {});
 
-/// The same, recording only what a verdict rests on.
-Recording run_for_verdict(const SimulatedScenario& scenario);
+/// The same, judged while it runs: the verdict that its recording would have. Keeps no recording, so that a
+/// run's length takes no memory.
+Verdict judge_experiment(const SimulatedScenario& scenario);
 
 /// The same, recorded into `file` while it runs, so that its length takes no memory; what it returns reads
 /// from there. Throws SetupError also where the file cannot be written.

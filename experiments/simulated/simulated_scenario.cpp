@@ -28,6 +28,15 @@ SimulatedScenario parse_simulated_scenario(std::string text, const std::filesyst
   return {std::move(scenario), std::move(station), std::move(specimen)};
 }
 
+SimulatedScenario parse_simulated_scenario(const std::shared_ptr<const ConfigNode>& root,
+                                           const std::filesystem::path& file, RobotFiles& robots,
+                                           std::optional<std::uint64_t> seed, const ControlStages& known) {
+  SimulatedStationSettings station;
+  Specimen specimen;
+  Scenario scenario = parse_scenario(root, file, robots, seed, station_into(station, specimen), known);
+  return {std::move(scenario), std::move(station), std::move(specimen)};
+}
+
 SimulatedScenario recorded_simulated_scenario(const Recording& recording, const std::filesystem::path& file,
                                               const ControlStages& known) {
   SimulatedStationSettings station;

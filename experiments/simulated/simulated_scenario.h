@@ -24,6 +24,10 @@ SimulatedScenario read_simulated_scenario(const std::filesystem::path& file,
 SimulatedScenario parse_simulated_scenario(std::string text, const std::filesystem::path& file,
                                            std::optional<std::uint64_t> seed = std::nullopt,
                                            const ControlStages& known = known_stages());
+SimulatedScenario parse_simulated_scenario(const std::shared_ptr<const ConfigNode>& root,
+                                           const std::filesystem::path& file, RobotFiles& robots,
+                                           std::optional<std::uint64_t> seed = std::nullopt,
+                                           const ControlStages& known = known_stages());
 SimulatedScenario recorded_simulated_scenario(const Recording& recording, const std::filesystem::path& file,
                                               const ControlStages& known = known_stages());
 

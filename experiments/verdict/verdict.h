@@ -6,8 +6,9 @@
 
 namespace flinch {
 
-struct Recording;
 class ConfigurationSpace;
+class RunWatch;
+struct Recording;
 
 /// A force limit for contact with a person. These defaults are the values that [SafePR] quotes for the hand
 /// from ISO/TS 15066; whoever makes a claim takes them from the standard.
@@ -95,5 +96,8 @@ struct Verdict {
 /// recording holds. Throws SetupError when signals are missing.
 Verdict judge(const Recording& recording, const ConfigurationSpace& space, const Expectations& expected,
               const ForceLimits& limits);
+
+/// The same for a run that was watched, up to the sample seen last.
+Verdict judge(const RunWatch& watch, const Expectations& expected);
 
 }  // namespace flinch

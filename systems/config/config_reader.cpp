@@ -64,13 +64,16 @@ ConfigReader ConfigReader::open(const std::filesystem::path& file) {
 }
 
 ConfigReader ConfigReader::parse(std::string_view text, const std::string& file) {
-  const std::shared_ptr<const ConfigNode> root = parse_yaml(text, file);
+  return over(parse_yaml(text, file), file);
+}
+
+ConfigReader ConfigReader::over(std::shared_ptr<const ConfigNode> root, const std::string& file) {
   if (root->kind != Kind::mapping) {
     const std::string line = root->kind == Kind::empty ? "" : ":" + std::to_string(root->line);
     throw SetupError(file + line + ": " + description(*root) +
                      "; it must be a mapping, of lines such as 'key: value'");
   }
-  auto document = std::make_shared<ConfigDocument>(file, root);
+  auto document = std::make_shared<ConfigDocument>(file, std::move(root));
   ConfigSection& section = document->root();
   return {std::move(document), section};
 }

@@ -49,6 +49,8 @@ class ConfigReader {
   static ConfigReader open(const std::filesystem::path& file);
   /// The same for text that came from `file`.
   static ConfigReader parse(std::string_view text, const std::string& file);
+  /// The same for nodes that were read from `file`, or made of such.
+  static ConfigReader over(std::shared_ptr<const ConfigNode> root, const std::string& file);
 
   /// The same section, read by functions to which an absent key is a problem. Not handed on to sections.
   ConfigReader required() const;

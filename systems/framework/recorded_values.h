@@ -34,8 +34,7 @@ class RecordedValues {
 
   /// Throws SetupError where the sample cannot be read or has a matrix of impossible size.
   T operator[](std::size_t sample) const {
-    if (sample < first_ || sample >= first_ + count_) load(sample);
-    const internal::Number* const recorded = rows_.data() + (sample - first_) * signal_->layout.numbers;
+    const internal::Number* const recorded = recorded_row(sample);
     for (const Piece& piece : pieces_)
       std::copy_n(recorded + piece.from, piece.numbers, row_.data() + piece.to);
     T value{};
@@ -77,6 +76,13 @@ class RecordedValues {
     }
     throw SetupError("the signal '" + signal_->path + "' was recorded without the field '" + wanted.name +
                      "'" + did_you_mean(wanted.name, names));
+  }
+
+  /// Where it lies in memory; a block of those that lie in a file is fetched.
+  const internal::Number* recorded_row(std::size_t sample) const {
+    if (!signal_->rows.empty()) return signal_->rows.data() + sample * signal_->layout.numbers;
+    if (sample < first_ || sample >= first_ + count_) load(sample);
+    return rows_.data() + (sample - first_) * signal_->layout.numbers;
   }
 
   void load(std::size_t sample) const {

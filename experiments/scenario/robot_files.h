@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "systems/config/robot_file.h"
+
+namespace flinch {
+
+/// Robot files of many scenarios: each is read once, when it is first asked for, and then stays as it was.
+/// Threads may share it.
+class RobotFiles {
+ public:
+  struct Entry {
+    RobotFile robot;
+    std::string text;  ///< of the file
+  };
+
+  /// Throws SetupError with all that is wrong with the file.
+  std::shared_ptr<const Entry> read(const std::filesystem::path& file);
+
+ private:
+  std::mutex mutex_;
+  std::map<std::filesystem::path, std::shared_ptr<const Entry>> entries_;
+};
+
+}  // namespace flinch

@@ -1,0 +1,169 @@
+#include "experiments/verdict/run_watch.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "experiments/verdict/contact_watch.h"
+#include "systems/safety/fault_table.h"
+#include "systems/signals/gate_status.h"
+#include "systems/signals/reaction_state.h"
+
+namespace flinch {
+namespace {
+
+/// Whether something touches the robot, as far as the witness knows: an obstacle or an applied wrench.
+bool is_touched(const RunSample& now, Witness witness) {
+  if (witness == Witness::none) return now.detection.level != ContactLevel::none;
+  return now.is_touched();
+}
+
+/// Collects when the detector rose, and which of these times were false.
+class DetectionWatch {
+ public:
+  void see(const RunSample& now, bool touched, Verdict& verdict) {
+    const ContactLevel before = level_.value_or(now.detection.level);
+    if (level_ && touched) last_touched_ = now.time;
+    if (now.detection.level != ContactLevel::none && before == ContactLevel::none) {
+      verdict.detections.push_back(now.time);
+      if (now.time - last_touched_ >= Verdict::same_contact) ++verdict.false_detections;
+    }
+    level_ = now.detection.level;
+  }
+
+ private:
+  std::optional<ContactLevel> level_;  ///< of the sample before
+  double last_touched_ = -Verdict::same_contact;
+};
+
+void note_first(const RunSample& now, Verdict& verdict) {
+  for (std::size_t i = 0; i < verdict.first_noticed.size() && i < now.noticed_by.size(); ++i) {
+    std::optional<double>& first = verdict.first_noticed[i].detected;
+    if (now.noticed_by[i] && !first) first = now.time;
+  }
+}
+
+/// The largest errors, as long as nothing has touched the robot.
+void measure_errors(const RunSample& now, Verdict& verdict) {
+  const auto keep_largest = [](double error, double& largest) { largest = std::max(largest, error); };
+  if (now.estimate_valid) {
+    keep_largest(now.observer_error_force, verdict.max_observer_error_force);
+    keep_largest(now.observer_error_moment, verdict.max_observer_error_moment);
+  }
+  if (now.mode != ReactionMode::nominal || !now.reference_valid) return;
+  keep_largest(now.position_error, verdict.max_tracking_error);
+  keep_largest(now.orientation_error, verdict.max_orientation_error);
+}
+
+std::string description_of(GateFault fault) {
+  for (const FaultRow& row : fault_table()) {
+    if (row.fault == fault) return row.description;
+  }
+  return "the run was too short";
+}
+
+/// Counts what was lost within a few milliseconds: what the gate notices after that has other causes.
+class LossWatch {
+ public:
+  void see(double time, int lost) {
+    if (lost <= 0) return;
+    if (!is_recent(time)) count_ = 0;
+    count_ += lost;
+    last_ = time;
+  }
+  int recent(double time) const { return is_recent(time) ? count_ : 0; }
+
+ private:
+  static constexpr double window = 0.01;  // [s]
+  bool is_recent(double time) const { return last_ && time - *last_ <= window; }
+
+  int count_ = 0;
+  std::optional<double> last_;  ///< [s]
+};
+
+/// Says why the gate closed: the fault, and what had been lost just before, where that explains it.
+class FaultWatch {
+ public:
+  void see(const RunSample& now, Verdict& verdict) {
+    ticks_.see(now.time, now.lost_ticks);
+    readings_.see(now.time, now.unread_readings - unread_.value_or(now.unread_readings));
+    unread_ = now.unread_readings;
+    if (verdict.fault.empty() && now.gate.fault != GateFault::none) {
+      verdict.fault = description_of(now.gate.fault) + cause(now);
+    }
+  }
+
+ private:
+  /// Ticks that were missed explain readings that nobody saw.
+  std::string cause(const RunSample& now) const {
+    if (now.gate.fault > GateFault::drives_stale) return "";  // not of what comes in
+    const int ticks = ticks_.recent(now.time), readings = readings_.recent(now.time);
+    if (ticks > 0)
+      return fmt::format("; {} {} missed just before", ticks, ticks == 1 ? "tick was" : "ticks were");
+    if (readings == 0) return "";
+    return fmt::format("; {} of the joints {} lost just before",
+                       readings == 1 ? "a reading" : fmt::format("{} readings", readings),
+                       readings == 1 ? "was" : "were");
+  }
+
+  LossWatch ticks_, readings_;
+  std::optional<int> unread_;
+};
+
+}  // namespace
+
+struct RunWatch::Parts {
+  Parts(const RecordedRun& run, const ForceLimits& limits)
+      : period(run.period()), contacts(limits, run.estimators()) {
+    verdict.witness = run.witness();
+    for (const std::string& estimator : run.estimators())
+      verdict.first_noticed.push_back({estimator, std::nullopt});
+  }
+
+  double period;  ///< [s]
+  Verdict verdict;
+  ContactWatch contacts;
+  DetectionWatch detections;
+  FaultWatch faults;
+  bool was_touched = false, gate_opens = false;
+  GateStatus gate;
+  std::optional<double> first;  ///< sample [s]
+  double last = 0.0;            ///< likewise
+};
+
+RunWatch::RunWatch(const RecordedRun& run, const ForceLimits& limits)
+    : parts_(std::make_unique<Parts>(run, limits)) {}
+
+RunWatch::~RunWatch() = default;
+
+void RunWatch::see(const RunSample& now) {
+  Parts& so_far = *parts_;
+  Verdict& verdict = so_far.verdict;
+  const bool touched = is_touched(now, verdict.witness);
+  so_far.contacts.see(now, so_far.period);
+  so_far.detections.see(now, touched, verdict);
+  note_first(now, verdict);
+  so_far.was_touched |= touched;
+  if (!so_far.was_touched) measure_errors(now, verdict);
+  if (now.is_true) verdict.loop_closure = std::max(verdict.loop_closure.value_or(0.0), now.loop_closure);
+  so_far.gate = now.gate;
+  so_far.gate_opens |= now.gate.phase == GatePhase::open;
+  so_far.faults.see(now, verdict);
+  if (!so_far.first) so_far.first = now.time;
+  so_far.last = now.time;
+}
+
+Verdict RunWatch::seen() const {
+  Verdict verdict = parts_->verdict;
+  verdict.contacts = parts_->contacts.contacts();
+  if (!parts_->first) return verdict;
+  verdict.simulated = parts_->last - *parts_->first + parts_->period;
+  if (!parts_->gate_opens) {
+    verdict.failures.push_back("the torque gate never opened: " +
+                               description_of(first_fault(parts_->gate.faults)));
+  }
+  return verdict;
+}
+
+}  // namespace flinch
