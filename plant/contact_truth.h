@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -70,11 +71,14 @@ struct ContactTruth {
     }
   }
 
-  /// Takes one more contact into the list, which is in the order of their forces.
+  /// Takes one more contact into the list, which is in the order of their forces. Of forces that differ by
+  /// rounding alone, as of bodies with one surface, the one taken first stays in front.
   void add(TouchTruth touch) {
+    constexpr double rounding = 1e-9;
     ++touch_count;
     for (TouchTruth* place : listed()) {
-      if (touch.strength() > place->strength()) std::swap(touch, *place);
+      const double there = place->strength();
+      if (touch.strength() > there + rounding * std::abs(there)) std::swap(touch, *place);
     }
   }
 
