@@ -23,8 +23,10 @@ void read_scenarios(ConfigReader& reader, Campaign& campaign) {
   }
 }
 
-CampaignDraw read_draw(ConfigReader& reader) {
+CampaignDraw read_draw(ConfigReader& reader, const std::shared_ptr<const std::string>& file) {
   CampaignDraw draw;
+  draw.file = file;
+  draw.line = reader.line();
   reader.required().text("key", draw.key);
   const std::string_view given = reader.one_of({"of", "from"});
   if (given == "of") reader.required().nodes("of", draw.of);
@@ -47,6 +49,18 @@ CampaignAxis read_axis(ConfigReader& reader) {
   return axis;
 }
 
+/// A value of the command line, which has no lines.
+std::shared_ptr<const ConfigNode> without_lines(const ConfigNode& node) {
+  auto copy = std::make_shared<ConfigNode>(node);
+  copy->line = 0;
+  for (auto& item : copy->items) item = without_lines(*item);
+  for (ConfigNode::Entry& entry : copy->entries) {
+    entry.line = 0;
+    entry.value = without_lines(*entry.value);
+  }
+  return copy;
+}
+
 /// "a.b=1,2" as an axis of the grid.
 CampaignAxis parsed_axis(const std::string& text) {
   const std::size_t equals = text.find('=');
@@ -55,7 +69,9 @@ CampaignAxis parsed_axis(const std::string& text) {
     throw SetupError(place + ": is not of the form KEY=VALUE,VALUE,...");
   }
   const std::shared_ptr<const ConfigNode> list = parse_yaml("[" + text.substr(equals + 1) + "]", place);
-  return {text.substr(0, equals), list->items};
+  CampaignAxis axis{text.substr(0, equals), {}};
+  for (const auto& value : list->items) axis.values.push_back(without_lines(*value));
+  return axis;
 }
 
 /// The axis takes the place of whatever the file says of its key.
@@ -115,7 +131,8 @@ Campaign read_campaign(const std::filesystem::path& file, const CampaignOverride
   reader.seed("seed", campaign.seed);
   reader.number("missed_after", unit::s, campaign.missed_after, positive);
   for (ConfigReader& axis : reader.sections("grid")) campaign.grid.push_back(read_axis(axis));
-  for (ConfigReader& draw : reader.sections("draw")) campaign.drawn.push_back(read_draw(draw));
+  const auto name = std::make_shared<const std::string>(file.string());
+  for (ConfigReader& draw : reader.sections("draw")) campaign.drawn.push_back(read_draw(draw, name));
   if (reader.has("contact")) {
     campaign.contact.emplace();
     reader.section("contact").required().words("body", campaign.contact->bodies,

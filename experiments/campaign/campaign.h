@@ -28,6 +28,8 @@ struct CampaignDraw {
   double from = 0.0;
   double to = 0.0;
   Scale scale = Scale::linear;
+  std::shared_ptr<const std::string> file = {};  ///< that asks for it; null: none
+  int line = 0;                                  ///< likewise
 };
 
 /// Contacts that are drawn anew for each run: where the first obstacle of the scenario stands, so that the

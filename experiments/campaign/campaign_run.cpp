@@ -19,10 +19,17 @@ using Node = std::shared_ptr<const ConfigNode>;
 
 Node number_node(double value) { return scalar_node(exact_text(value)); }
 
+double drawn_number(const CampaignDraw& draw, RandomGenerator& random) {
+  if (draw.scale == CampaignDraw::Scale::linear) return random.uniform(draw.from, draw.to);
+  return std::exp(random.uniform(std::log(draw.from), std::log(draw.to)));
+}
+
 Node drawn_value(const CampaignDraw& draw, RandomGenerator& random) {
   if (!draw.of.empty()) return draw.of[random() % draw.of.size()];
-  if (draw.scale == CampaignDraw::Scale::linear) return number_node(random.uniform(draw.from, draw.to));
-  return number_node(std::exp(random.uniform(std::log(draw.from), std::log(draw.to))));
+  ConfigNode number = *number_node(drawn_number(draw, random));
+  number.file = draw.file;
+  number.line = draw.line;
+  return std::make_shared<const ConfigNode>(std::move(number));
 }
 
 /// Picks one of `count` by the next digit of `index`, and takes the digit off.

@@ -90,18 +90,18 @@ std::string ConfigSection::path_of(std::string_view key) const {
 
 ConfigDocument::ConfigDocument(std::string file, std::shared_ptr<const ConfigNode> root)
     : file_(std::move(file)), root_(std::move(root)) {
-  add_section(root_.get(), "", root_->line);
+  add_section(root_.get(), "", {&file_, root_->line});
 }
 
-ConfigSection& ConfigDocument::add_section(const ConfigNode* node, std::string path, int line) {
+ConfigSection& ConfigDocument::add_section(const ConfigNode* node, std::string path, ConfigPlace place) {
   for (ConfigSection& section : sections_) {
     if (section.path == path) return section;
   }
-  places_.push_back({path, path, line});
+  places_.push_back({path, path, place});
   ConfigSection& section = sections_.emplace_back();
   section.node = node;
   section.path = std::move(path);
-  section.line = line;
+  section.place = place;
   if (node != nullptr) section.taken.resize(node->entries.size());
   report_repeated(section);
   return section;
@@ -112,7 +112,7 @@ FoundValue ConfigDocument::find(ConfigSection& section, std::string_view name, c
   FoundValue found;
   found.key = section.path_of(name);
   found.written = found.key;
-  found.line = section.line;
+  found.place = section.place;
   if (section.node == nullptr) return found;
 
   const auto& entries = section.node->entries;
@@ -124,10 +124,10 @@ FoundValue ConfigDocument::find(ConfigSection& section, std::string_view name, c
     const bool is_new =
         !std::exchange(section.taken[static_cast<std::size_t>(entry - entries.begin())], true);
     if (found.node == nullptr) {
-      found = {entry->value.get(), &written, found.key, section.path_of(key), entry->line};
+      found = {entry->value.get(), &written, found.key, section.path_of(key), place_of(section, *entry)};
     } else if (is_new) {
-      add(entry->line, found.key, section.path_of(key),
-          "means the same as " + found.written + " on line " + std::to_string(found.line) +
+      add(place_of(section, *entry), found.key, section.path_of(key),
+          "means the same as " + found.written + " on line " + std::to_string(found.place.line) +
               "; keep one of them");
     }
   }
@@ -146,17 +146,17 @@ bool ConfigDocument::has(ConfigSection& section, std::string_view name) {
 }
 
 void ConfigDocument::add_value(const FoundValue& found, std::string value, const Unit& unit) {
-  places_.push_back({found.key, found.written, found.line});
+  places_.push_back({found.key, found.written, found.place});
   values_.push_back({found.key, std::move(value), std::string(unit.symbol), found.node != nullptr});
 }
 
 void ConfigDocument::add_problem(const FoundValue& found, const std::string& complaint) {
-  add(found.line, found.key, found.written, complaint);
+  add(found.place, found.key, found.written, complaint);
 }
 
 void ConfigDocument::add_consequence(const std::string& key, const std::string& complaint) {
   const Place place = place_of(key);
-  add(place.line, key, place.written, complaint, true);
+  add(place.at, key, place.written, complaint, true);
 }
 
 void ConfigDocument::add_foreign(const std::vector<std::string>& problems) {
@@ -174,7 +174,7 @@ std::vector<ReadValue> ConfigDocument::finish() {
     if (!problem.consequence || !is_explained(problem)) told.push_back(problem);
   }
   std::stable_sort(told.begin(), told.end(),
-                   [](const Problem& a, const Problem& b) { return a.line < b.line; });
+                   [](const Problem& a, const Problem& b) { return a.place.line < b.place.line; });
   std::vector<std::string> sentences;
   for (Problem& problem : told) sentences.push_back(std::move(problem.text));
   sentences.insert(sentences.end(), foreign_.begin(), foreign_.end());
@@ -184,11 +184,11 @@ std::vector<ReadValue> ConfigDocument::finish() {
 
 // ---------------------------------------------------------------- problems
 
-void ConfigDocument::add(int line, std::string key, const std::string& written, const std::string& complaint,
-                         bool consequence) {
-  std::string text = file_ + ":" + std::to_string(line) + ": ";
+void ConfigDocument::add(ConfigPlace place, std::string key, const std::string& written,
+                         const std::string& complaint, bool consequence) {
+  std::string text = place.text() + ": ";
   if (!written.empty()) text += written + ": ";
-  problems_.push_back({line, std::move(key), text + complaint, consequence});
+  problems_.push_back({place, std::move(key), text + complaint, consequence});
 }
 
 void ConfigDocument::report_repeated(ConfigSection& section) {
@@ -201,7 +201,7 @@ void ConfigDocument::report_repeated(ConfigSection& section) {
     if (first == entries.begin() + static_cast<std::ptrdiff_t>(i)) continue;
     section.taken[i] = true;
     const std::string path = section.path_of(entries[i].key);
-    add(entries[i].line, path, path,
+    add(place_of(section, entries[i]), path, path,
         "is given already on line " + std::to_string(first->line) + "; keep one of them");
   }
 }
@@ -214,20 +214,29 @@ void ConfigDocument::report_left_over(ConfigSection& section) {
     WantedKey* meant = meant_by(entry.key, section.wanted);
     if (meant != nullptr) {
       meant->found = true;
-      add(entry.line, section.path_of(meant->name), written, complaint_about_unit(entry.key, *meant));
+      add(place_of(section, entry), section.path_of(meant->name), written,
+          complaint_about_unit(entry.key, *meant));
       continue;
     }
     const std::string complaint = complaint_about_key(entry.key, section.wanted);
-    add(entry.line, section.path_of(mistaken_for(entry.key, section.wanted)), written, complaint);
+    add(place_of(section, entry), section.path_of(mistaken_for(entry.key, section.wanted)), written,
+        complaint);
   }
 }
 
 void ConfigDocument::report_missing(const ConfigSection& section) {
   for (const WantedKey& wanted : section.wanted) {
     if (!wanted.required || wanted.found) continue;
-    add(section.line, section.path_of(wanted.name), section.path_of(wanted.with_si_unit()),
+    add(section.place, section.path_of(wanted.name), section.path_of(wanted.with_si_unit()),
         "is missing; it must be given");
   }
+}
+
+// A value that another file gave stands there; its key, in this file.
+ConfigPlace ConfigDocument::place_of(const ConfigSection& section, const ConfigNode::Entry& entry) const {
+  const auto& given = entry.value->file;
+  if (given && *given != *section.place.file) return {given.get(), entry.value->line};
+  return {section.place.file, entry.line};
 }
 
 // Where a value or section stands, or the nearest section around it that was read.

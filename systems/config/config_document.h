@@ -23,11 +23,19 @@ struct WantedKey {
   std::string with_si_unit() const { return key_with_unit(name, unit.key); }
 };
 
+/// Where something stands: a file, or what else gave it, and a line; 0: none.
+struct ConfigPlace {
+  const std::string* file = nullptr;  ///< Lives as long as the document.
+  int line = 0;
+
+  std::string text() const { return line > 0 ? *file + ":" + std::to_string(line) : *file; }
+};
+
 /// A mapping while it is read: what was asked for, and which entries that took.
 struct ConfigSection {
   const ConfigNode* node = nullptr;  ///< Null: the file does not have it, and nothing in it is required.
   std::string path;                  ///< "legs[1]"; empty for the whole file.
-  int line = 1;
+  ConfigPlace place;
   std::vector<WantedKey> wanted;
   std::vector<char> taken;  ///< One for each entry: 1 once it was asked for.
 
@@ -40,7 +48,7 @@ struct FoundValue {
   const KeyUnit* unit = nullptr;     ///< In which it was written.
   std::string key;                   ///< Path without unit.
   std::string written;               ///< Path as in the file.
-  int line = 0;
+  ConfigPlace place;
 };
 
 /// A file while it is read: its sections, the values that were read, and all problems so far. The engine
@@ -52,7 +60,7 @@ class ConfigDocument {
   const std::string& file() const { return file_; }
   ConfigSection& root() { return sections_.front(); }
   /// The mapping at a path, null for one that is not in the file. Its address stays the same.
-  ConfigSection& add_section(const ConfigNode* node, std::string path, int line);
+  ConfigSection& add_section(const ConfigNode* node, std::string path, ConfigPlace place);
 
   /// Finds and takes the value called `name`, in any unit of that quantity. Absent and required is a problem.
   FoundValue find(ConfigSection& section, std::string_view name, const Unit& unit, bool required);
@@ -72,23 +80,24 @@ class ConfigDocument {
 
  private:
   struct Problem {
-    int line = 0;
+    ConfigPlace place;
     std::string key;   ///< Without unit.
-    std::string text;  ///< With file, line and key.
+    std::string text;  ///< With place and key.
     bool consequence = false;
   };
   struct Place {
     std::string key;
     std::string written;
-    int line = 0;
+    ConfigPlace at;
   };
 
-  void add(int line, std::string key, const std::string& written, const std::string& complaint,
+  void add(ConfigPlace place, std::string key, const std::string& written, const std::string& complaint,
            bool consequence = false);
   void report_repeated(ConfigSection& section);
   void report_left_over(ConfigSection& section);
   void report_missing(const ConfigSection& section);
   Place place_of(std::string key) const;
+  ConfigPlace place_of(const ConfigSection& section, const ConfigNode::Entry& entry) const;
   bool is_explained(const Problem& consequence) const;
 
   std::string file_;

@@ -21,6 +21,8 @@ constexpr std::size_t deepest = 50;  // lists and mappings within one another
 /// Builds the nodes of one document from what the parser tells.
 class NodeBuilder final : public YAML::EventHandler {
  public:
+  explicit NodeBuilder(std::shared_ptr<const std::string> file) : file_(std::move(file)) {}
+
   std::shared_ptr<const ConfigNode> root() const { return root_; }
 
   void OnDocumentStart(const YAML::Mark&) override {}
@@ -64,6 +66,7 @@ class NodeBuilder final : public YAML::EventHandler {
   std::shared_ptr<ConfigNode> make(Kind kind, const YAML::Mark& mark, YAML::anchor_t anchor) {
     auto node = std::make_shared<ConfigNode>();
     node->kind = kind;
+    node->file = file_;
     node->line = mark.line + 1;
     if (anchor != YAML::NullAnchor) anchored_[anchor] = node;
     return node;
@@ -93,6 +96,7 @@ class NodeBuilder final : public YAML::EventHandler {
     }
   }
 
+  std::shared_ptr<const std::string> file_;
   std::shared_ptr<ConfigNode> root_ = std::make_shared<ConfigNode>();
   std::vector<Open> open_;
   std::map<YAML::anchor_t, std::shared_ptr<ConfigNode>> anchored_;
@@ -107,11 +111,12 @@ std::string position(const YAML::Mark& mark) {
 
 std::shared_ptr<const ConfigNode> parse_yaml(std::string_view text, const std::string& file) {
   std::istringstream stream{std::string(text)};
+  const auto name = std::make_shared<const std::string>(file);
   try {
     YAML::Parser parser(stream);
-    NodeBuilder first;
+    NodeBuilder first(name);
     if (!parser.HandleNextDocument(first)) return first.root();
-    NodeBuilder second;
+    NodeBuilder second(name);
     if (!parser.HandleNextDocument(second)) return first.root();
     throw SetupError(file + ":" + std::to_string(second.root()->line) +
                      ": a second YAML document begins; a file must hold only one, without '---' inside");

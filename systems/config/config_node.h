@@ -18,7 +18,8 @@ struct ConfigNode {
   };
 
   Kind kind = Kind::empty;
-  int line = 1;  ///< On which it begins, counted from 1.
+  std::shared_ptr<const std::string> file;  ///< In which it stands; null: in none.
+  int line = 1;  ///< On which it begins, counted from 1; 0: what `file` names has no lines.
 
   std::string scalar;
   bool quoted = false;  ///< The scalar stood in quotes, so that it is text whatever it looks like.

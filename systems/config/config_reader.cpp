@@ -36,7 +36,7 @@ bool contains(const std::vector<std::string>& words, const std::string& word) {
 FoundValue entry_of(const FoundValue& list, std::size_t i) {
   const std::string index = "[" + std::to_string(i) + "]";
   const ConfigNode& node = *list.node->items[i];
-  return {&node, list.unit, list.key + index, list.written + index, node.line};
+  return {&node, list.unit, list.key + index, list.written + index, {list.place.file, node.line}};
 }
 
 // What is wrong with a list apart from its entries; without a count it must only not be empty.
@@ -262,10 +262,10 @@ std::string_view ConfigReader::one_of(std::initializer_list<std::string_view> na
   }
   if (section_->node == nullptr) return first;
   FoundValue place = {
-      .key = section_->path_of(*names.begin()), .written = section_->path, .line = section_->line};
+      .key = section_->path_of(*names.begin()), .written = section_->path, .place = section_->place};
   if (given.empty()) document_->add_problem(place, "has none of " + list + "; it must have one of them");
   if (given.size() > 1) {
-    place.line = given[1].line;
+    place.place = given[1].place;
     document_->add_problem(place, "has more than one of " + list + "; it must have only one of them");
   }
   return first;
@@ -277,7 +277,7 @@ ConfigReader ConfigReader::section(std::string_view name) {
   if (found.node != nullptr && !is_mapping) {
     document_->add_problem(found, description(*found.node) + "; it must be a mapping");
   }
-  return {document_, document_->add_section(is_mapping ? found.node : nullptr, found.key, found.line)};
+  return {document_, document_->add_section(is_mapping ? found.node : nullptr, found.key, found.place)};
 }
 
 std::vector<ConfigReader> ConfigReader::sections(std::string_view name) {
@@ -300,7 +300,8 @@ std::vector<ConfigReader> ConfigReader::read_sections(std::string_view name, Cou
     const FoundValue entry = entry_of(found, i);
     const bool is_mapping = entry.node->kind == Kind::mapping;
     if (!is_mapping) document_->add_problem(entry, description(*entry.node) + "; it must be a mapping");
-    ConfigSection& section = document_->add_section(is_mapping ? entry.node : nullptr, entry.key, entry.line);
+    ConfigSection& section =
+        document_->add_section(is_mapping ? entry.node : nullptr, entry.key, entry.place);
     readers.push_back({document_, section});
   }
   return readers;
@@ -313,6 +314,8 @@ void ConfigReader::leave_unread(std::string_view name) {
 void ConfigReader::leave_rest_unread() { std::fill(section_->taken.begin(), section_->taken.end(), char{1}); }
 
 // ---------------------------------------------------------------- the end
+
+int ConfigReader::line() const { return section_->place.line; }
 
 void ConfigReader::problem(std::string_view name, const std::string& complaint) {
   document_->add_consequence(section_->path_of(name), complaint);

@@ -113,6 +113,8 @@ class ConfigReader {
   /// Adds problems of another file, told as they are.
   void add_problems(const std::vector<std::string>& problems);
 
+  /// Line on which this section begins.
+  int line() const;
   /// No problem so far; keys that nobody asked for only show in `finish`.
   bool good() const;
 

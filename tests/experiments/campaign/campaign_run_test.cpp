@@ -85,18 +85,51 @@ TEST(ADrawThatIsImpossible, IsDrawnAgain) {
   EXPECT_GT(attempts, 20) << "the legs do not reach all of these poses";
 }
 
+std::string problem_of(const Campaign& campaign, std::size_t number) {
+  try {
+    draw_run(campaign, number);
+  } catch (const SetupError& error) {
+    return error.problems().front();
+  }
+  return "";
+}
+
 TEST(ARunThatCannotBeMade, NamesItselfAndWhatWasDrawn) {
   const test::Workplace place;
   Campaign campaign = test::small_campaign(place);
   campaign.drawn.push_back({.key = "motion.sped_m_per_s", .from = 1.0, .to = 1.0});
-  try {
-    draw_run(campaign, 2);
-    FAIL() << "the key is misspelt";
-  } catch (const SetupError& error) {
-    EXPECT_THAT(error.problems().front(),
-                HasSubstr("run 2 (control.momentum_observer.gain_per_s = [20, 20, 20]"));
-    EXPECT_THAT(error.problems().front(), HasSubstr("is not a known key"));
-  }
+  const std::string problem = problem_of(campaign, 2);
+  EXPECT_THAT(problem, HasSubstr("run 2 (control.momentum_observer.gain_per_s = [20, 20, 20]"));
+  EXPECT_THAT(problem, HasSubstr("is not a known key"));
+}
+
+TEST(ARunThatCannotBeMade, NamesTheLineOfTheCampaignThatAsksForIt) {
+  const test::Workplace place;
+  test::small_campaign(place);
+  place.replace("campaigns/small.yaml", "motion.speed_m_per_s, from: 0.5, to: 1.2",
+                "motion.sped_m_per_s, from: 0.5, to: 1.2");
+  const int line = place.line_of("campaigns/small.yaml", "sped");
+  EXPECT_THAT(problem_of(read_campaign(place / "campaigns/small.yaml"), 2),
+              HasSubstr("): " + place.at("campaigns/small.yaml") + ":" + std::to_string(line) +
+                        ": motion.sped_m_per_s: is not a known key; did you mean"));
+}
+
+TEST(ARunThatCannotBeMade, NamesTheLineOfAValueOfTheGrid) {
+  const test::Workplace place;
+  test::small_campaign(place);
+  place.replace("campaigns/small.yaml", "[20, 20, 20]", "[20, -20, 20]");
+  const int line = place.line_of("campaigns/small.yaml", "-20");
+  EXPECT_THAT(
+      problem_of(read_campaign(place / "campaigns/small.yaml"), 0),
+      HasSubstr("small.yaml:" + std::to_string(line) + ": control.momentum_observer.gain_per_s[1]: is -20"));
+}
+
+TEST(ARunThatCannotBeMade, NamesTheOptionThatAsksForIt) {
+  const test::Workplace place;
+  test::small_campaign(place);
+  const std::string option = "control.contact_detector.reaction_force_N=-3";
+  EXPECT_THAT(problem_of(read_campaign(place / "campaigns/small.yaml", {.set = {option}}), 0),
+              HasSubstr("): --set " + option + ": control.contact_detector.reaction_force_N: is -3"));
 }
 
 }  // namespace
