@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "experiments/campaign/campaign.h"
 #include "systems/foundation/setup_error.h"
 
@@ -34,36 +36,51 @@ std::string first_line(const Campaign& campaign) {
 }  // namespace
 
 CampaignJournal::CampaignJournal(const std::filesystem::path& folder, const Campaign& campaign)
-    : file_(folder / "results.part") {
-  if (std::filesystem::exists(file_)) read(campaign);
+    : file_(folder / "results.part"), first_line_(first_line(campaign)), is_done_(campaign.runs()) {
+  std::ifstream before = rows();
   // Written anew, so that what follows does not stand behind half a row.
-  std::string text = first_line(campaign) + "\n";
-  for (const auto& [number, result] : results_) text += lines_of(result);
-  replace_file(file_, text);
-  stream_.open(file_, std::ios::binary | std::ios::app);
-  if (!stream_) throw SetupError(file_.string() + ": the file cannot be written");
+  const std::filesystem::path anew = file_.string() + ".new";
+  stream_.open(anew, std::ios::binary);
+  stream_ << first_line_ << "\n";
+  read(std::move(before), [&](RunResult&& result) { add(result); });
+  std::error_code error;
+  std::filesystem::rename(anew, file_, error);
+  if (!stream_.flush() || error) throw SetupError(file_.string() + ": the file cannot be written");
 }
 
-void CampaignJournal::read(const Campaign& campaign) {
+std::ifstream CampaignJournal::rows() const {
   std::ifstream stream(file_, std::ios::binary);
   std::string line;
-  if (!stream || !std::getline(stream, line)) return;
-  if (line != first_line(campaign)) {
+  if (stream && std::getline(stream, line) && line != first_line_) {
     throw SetupError(
         file_.string() +
         ": holds the results of another campaign, or of other scenarios, seeds or versions; choose "
         "another folder with --out, or begin anew with --fresh");
   }
-  std::string header;
-  while (std::getline(stream, line)) {
+  return stream;
+}
+
+void CampaignJournal::read(std::ifstream rows, const std::function<void(RunResult&&)>& take) const {
+  std::string header, line;
+  while (std::getline(rows, line)) {
     const std::string row = unsealed(line);
     if (row.starts_with(first_column)) {
       header = row;
       continue;
     }
-    const auto result = parse_csv_row(header, row);
-    if (result && result->run < campaign.runs()) results_.insert_or_assign(result->run, *result);
+    auto result = parse_csv_row(header, row);
+    if (result && result->run < is_done_.size()) take(std::move(*result));
   }
+}
+
+std::vector<RunResult> CampaignJournal::results() const {
+  std::vector<RunResult> results;
+  results.reserve(done_);
+  read(rows(), [&](RunResult&& result) { results.push_back(std::move(result)); });
+  if (results.size() != done_) throw SetupError(file_.string() + ": what was written there cannot be read");
+  std::sort(results.begin(), results.end(),
+            [](const RunResult& a, const RunResult& b) { return a.run < b.run; });
+  return results;
 }
 
 std::string CampaignJournal::lines_of(const RunResult& result) {
@@ -74,12 +91,14 @@ std::string CampaignJournal::lines_of(const RunResult& result) {
 }
 
 void CampaignJournal::add(const RunResult& result) {
+  if (is_done_[result.run]) return;
   stream_ << lines_of(result);
   if (!stream_.flush()) {
     throw SetupError(file_.string() +
                      ": the disk takes no more; what is done is kept, go on with the same call");
   }
-  results_.insert_or_assign(result.run, result);
+  is_done_[result.run] = true;
+  ++done_;
 }
 
 void replace_file(const std::filesystem::path& file, const std::string& text) {

@@ -2,8 +2,9 @@
 
 #include <filesystem>
 #include <fstream>
-#include <map>
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "experiments/campaign/run_result.h"
 
@@ -20,21 +21,31 @@ class CampaignJournal {
   /// where it is that of another campaign.
   CampaignJournal(const std::filesystem::path& folder, const Campaign& campaign);
 
-  /// What is done, by number of the run.
-  const std::map<std::size_t, RunResult>& results() const { return results_; }
+  /// How many runs are done, and whether one of them is.
+  std::size_t done() const { return done_; }
+  bool has(std::size_t run) const { return is_done_[run]; }
 
-  /// Throws SetupError where the disk does not take it.
+  /// Throws SetupError where the disk does not take it. A run that is done already is left as it is.
   void add(const RunResult& result);
 
+  /// All that is done, in the order of the numbers, from the file: while runs are added nothing of them stays
+  /// in memory. Throws SetupError where the file cannot be read.
+  std::vector<RunResult> results() const;
+
  private:
-  void read(const Campaign& campaign);
+  /// The file's rows; at their end where there is no file. Throws SetupError for that of another campaign.
+  std::ifstream rows() const;
+  /// Calls `take` with each of them that is whole.
+  void read(std::ifstream rows, const std::function<void(RunResult&&)>& take) const;
   /// The result's row, after its header where that is another than the last one's.
   std::string lines_of(const RunResult& result);
 
   std::filesystem::path file_;
   std::ofstream stream_;
+  std::string first_line_;
   std::string header_;  ///< of the last row in the file
-  std::map<std::size_t, RunResult> results_;
+  std::vector<bool> is_done_;
+  std::size_t done_ = 0;
 };
 
 /// Writes `text` to `file`, first under another name. Throws SetupError when that fails.

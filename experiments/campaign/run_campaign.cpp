@@ -48,12 +48,12 @@ class WorkList {
   std::size_t wait_for_change() {
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, std::chrono::milliseconds(100));
-    return journal_.results().size();
+    return journal_.done();
   }
 
   bool ended() {
     const std::lock_guard lock(mutex_);
-    return ended_ || journal_.results().size() >= runs_;
+    return ended_ || journal_.done() >= runs_;
   }
 
   void rethrow_problem() const {
@@ -62,7 +62,7 @@ class WorkList {
 
  private:
   void skip_done() {
-    while (next_ < runs_ && journal_.results().contains(next_)) ++next_;
+    while (next_ < runs_ && journal_.has(next_)) ++next_;
   }
 
   CampaignJournal& journal_;
@@ -89,7 +89,7 @@ RunResult simulate_run(const CampaignRun& run) { return result_of(run, judge_exp
 std::vector<RunResult> run_campaign(const Campaign& campaign, const std::filesystem::path& folder,
                                     std::size_t threads, const CampaignProgress& progress) {
   CampaignJournal journal(folder, campaign);
-  const std::size_t done_before = journal.results().size();
+  const std::size_t done_before = journal.done();
   WorkList list(journal, campaign.runs());
   if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
   {
@@ -101,8 +101,7 @@ std::vector<RunResult> run_campaign(const Campaign& campaign, const std::filesys
     }
   }
   list.rethrow_problem();
-  std::vector<RunResult> results;
-  for (const auto& [number, result] : journal.results()) results.push_back(result);
+  std::vector<RunResult> results = journal.results();
   if (results.size() == campaign.runs()) write_results(results, folder);
   return results;
 }

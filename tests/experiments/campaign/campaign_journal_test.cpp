@@ -46,8 +46,8 @@ TEST_F(AJournal, KeepsWholeRowsWhereverItIsCut) {
     if (length > 0 && whole.substr(0, length).find('\n') == std::string::npos) continue;  // not even its name
     const CampaignJournal journal(folder(), campaign);
     EXPECT_LE(journal.results().size(), 4U);
-    for (const auto& [number, result] : journal.results())
-      EXPECT_EQ(csv_row(result), csv_row(result_number(number)));
+    for (const RunResult& result : journal.results())
+      EXPECT_EQ(csv_row(result), csv_row(result_number(result.run)));
   }
   EXPECT_EQ(CampaignJournal(folder(), campaign).results().size(), 4U);
 }
@@ -57,8 +57,9 @@ TEST_F(AJournal, GoesOnBehindATornRow) {
   std::ofstream(folder() / "results.part", std::ios::app) << "1,0,0,5,1,\"val";
   { CampaignJournal(folder(), campaign).add(result_number(2)); }
   const CampaignJournal journal(folder(), campaign);
-  EXPECT_EQ(journal.results().size(), 2U);
-  EXPECT_TRUE(journal.results().contains(2));
+  EXPECT_EQ(journal.done(), 2U);
+  EXPECT_TRUE(journal.has(2));
+  EXPECT_FALSE(journal.has(1));
 }
 
 TEST_F(AJournal, LeavesOutARowThatWasChanged) {
@@ -67,14 +68,24 @@ TEST_F(AJournal, LeavesOutARowThatWasChanged) {
   EXPECT_TRUE(CampaignJournal(folder(), campaign).results().empty());
 }
 
+TEST_F(AJournal, TellsItsResultsInTheOrderOfTheirNumbersAndOnceEach) {
+  CampaignJournal journal(folder(), campaign);
+  for (const std::size_t number : {7U, 2U, 5U, 2U}) journal.add(result_number(number));
+  std::vector<std::size_t> numbers;
+  for (const RunResult& result : journal.results()) numbers.push_back(result.run);
+  EXPECT_THAT(numbers, ::testing::ElementsAre(2U, 5U, 7U));
+}
+
 TEST_F(AJournal, OfAnotherCampaignIsRefused) {
   { CampaignJournal(folder(), campaign).add(result_number(0)); }
   campaign.seed = 2;
+  const auto before = place.contents();
   try {
     CampaignJournal(folder(), campaign);
     FAIL() << "the seed is another";
   } catch (const SetupError& error) {
     EXPECT_THAT(error.problems().front(), HasSubstr("--fresh"));
+    EXPECT_TRUE(place.contents() == before);
   }
 }
 
