@@ -12,10 +12,6 @@
 namespace flinch {
 namespace {
 
-double largest(const auto& vector) {
-  return vector.size() == 0 ? 0.0 : vector.template lpNorm<Eigen::Infinity>();
-}
-
 std::string at(double seconds) {
   char text[32];
   std::snprintf(text, sizeof text, "at %.3f s", seconds);
@@ -78,8 +74,8 @@ std::vector<EstimatorPeaks> contact_free_peaks(const Recording& recording, const
         continue;
       }
       if (samples == 0) force = moment = 0.0;
-      force = std::max(force, largest(estimate.wrench_in_base.head(space.translations())));
-      moment = std::max(moment, largest(estimate.wrench_in_base.tail(space.rotations())));
+      force = std::max(force, largest_component(estimate.wrench_in_base.head(space.translations())));
+      moment = std::max(moment, largest_component(estimate.wrench_in_base.tail(space.rotations())));
       if (++samples < length) continue;
       peaks.force.push_back(force);
       if (space.rotations() > 0) peaks.moment.push_back(moment);

@@ -33,8 +33,9 @@ void tell_if_partial(const Recording& recording, const CommonOptions& common) {
 
 ExitStatus conclude(const Scenario& scenario, double wall, const std::filesystem::path& folder,
                     const CommonOptions& common) {
-  const Verdict verdict = conclude_run(scenario, folder);
-  const RunFacts facts{wall, scenario.seed, robot_as_drawn(open_recording(recording_in(folder)))};
+  const Recording recording = open_recording(recording_in(folder));
+  const Verdict verdict = report_run(scenario, recording, folder);
+  const RunFacts facts{wall, scenario.seed, robot_as_drawn(recording)};
   fmt::print("{}", common.json ? verdict_json(verdict, facts) + "\n" : verdict_table(verdict, facts));
   if (!common.quiet) {
     fmt::print(stderr, "recording: {}\nreport:    {}\n", recording_in(folder).string(),

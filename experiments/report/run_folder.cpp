@@ -16,17 +16,17 @@ void make_run_folder(const std::filesystem::path& folder) {
 
 std::filesystem::path recording_in(const std::filesystem::path& folder) { return folder / "run.h5"; }
 
-Verdict conclude_run(const Scenario& scenario, const Recording& recording,
-                     const std::filesystem::path& folder) {
-  write_recording(recording, recording_in(folder));
-  return conclude_run(scenario, folder);
-}
-
-Verdict conclude_run(const Scenario& scenario, const std::filesystem::path& folder) {
-  const Recording recording = open_recording(recording_in(folder));
+Verdict report_run(const Scenario& scenario, const Recording& recording,
+                   const std::filesystem::path& folder) {
   Verdict verdict = judge(recording, scenario.robot.robot->space(), scenario.expected, scenario.force_limits);
   write_report_page(experiment_report(scenario, recording, verdict), folder / "report.html");
   return verdict;
+}
+
+Verdict conclude_run(const Scenario& scenario, const Recording& recording,
+                     const std::filesystem::path& folder) {
+  write_recording(recording, recording_in(folder));
+  return report_run(scenario, open_recording(recording_in(folder)), folder);
 }
 
 }  // namespace flinch

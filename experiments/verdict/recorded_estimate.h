@@ -16,4 +16,9 @@ struct RecordedEstimate {
   }
 };
 
+/// The largest component of a force or moment in size; 0 where it has none.
+inline double largest_component(const auto& vector) {
+  return vector.size() == 0 ? 0.0 : vector.template lpNorm<Eigen::Infinity>();
+}
+
 }  // namespace flinch

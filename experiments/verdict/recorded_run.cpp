@@ -45,16 +45,12 @@ struct Strength {
   double moment = 0.0;
 };
 
-double largest(const auto& vector) {
-  return vector.size() == 0 ? 0.0 : vector.template lpNorm<Eigen::Infinity>();
-}
-
 void compare_estimate(const PlatformVector& estimate, const PlatformVector& external,
                       ConfigurationSpace space, RunSample& now) {
   if (estimate.size() != space.dimension() || external.size() != space.dimension()) return;
   const PlatformVector error = estimate - external;
-  now.observer_error_force = largest(error.head(space.translations()));
-  now.observer_error_moment = largest(error.tail(space.rotations()));
+  now.observer_error_force = largest_component(error.head(space.translations()));
+  now.observer_error_moment = largest_component(error.tail(space.rotations()));
 }
 
 void add_truth(const RecordedTruth& truth, const RecordedContact& contact, ConfigurationSpace space,
