@@ -56,8 +56,11 @@ struct Collected {
 
   CampaignGroup finished() {
     if (group.contacts > 0) group.missed_at_most = upper_share(group.missed, group.contacts);
-    group.median = quantile(times, group.contacts, 0.5);
-    group.p90 = quantile(times, group.contacts, 0.9);
+    static constexpr std::array shares = {0.1, 0.25, 0.5, 0.75, 0.9};
+    for (std::size_t i = 0; i < shares.size(); ++i)
+      group.quantiles[i] = quantile(times, group.contacts, shares[i]);
+    group.median = group.quantiles[2];
+    group.p90 = group.quantiles[4];
     const double hours = group.contact_free / 3600.0;
     group.false_alarms_per_hour = hours > 0.0 ? static_cast<double>(group.false_alarms) / hours : 0.0;
     group.false_alarms_per_hour_at_most = upper_rate(group.false_alarms, hours);
@@ -72,16 +75,9 @@ std::string milliseconds(std::optional<double> time) {
 Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 Json in_ms(std::optional<double> time) { return time ? Json(1e3 * *time) : Json(nullptr); }
 
-/// Where a group stands in the grid, without the axes that have one value only.
-std::string place_of(const CampaignGroup& group, const Campaign& campaign) {
-  const auto has_one_value = [&](const std::string& key) {
-    return std::any_of(campaign.grid.begin(), campaign.grid.end(),
-                       [&](const CampaignAxis& axis) { return axis.key == key && axis.values.size() == 1; });
-  };
+std::string line_of(const std::vector<std::pair<std::string, std::string>>& place) {
   std::string text;
-  for (const auto& [key, value] : group.at) {
-    if (!has_one_value(key)) text += (text.empty() ? "" : ", ") + key + " = " + value;
-  }
+  for (const auto& [key, value] : place) text += (text.empty() ? "" : ", ") + key + " = " + value;
   return text;
 }
 
@@ -96,6 +92,7 @@ std::vector<CampaignGroup> groups_of(const Campaign& campaign, const std::vector
     const std::size_t point = result.point % (campaign.grid_points() / bodies);
     for (std::size_t i = 0; i < result.estimators.size(); ++i) {
       Collected& group = collected[{point, result.body, i}];
+      group.group.place = point;
       group.group.at = axes_of(campaign, result);
       group.group.body = result.body;
       group.group.estimator = result.estimators[i].name;
@@ -105,6 +102,17 @@ std::vector<CampaignGroup> groups_of(const Campaign& campaign, const std::vector
   std::vector<CampaignGroup> groups;
   for (auto& [key, group] : collected) groups.push_back(group.finished());
   return groups;
+}
+
+std::vector<std::pair<std::string, std::string>> place_of(const CampaignGroup& group,
+                                                          const Campaign& campaign) {
+  auto place = group.at;
+  std::erase_if(place, [&](const auto& entry) {
+    return std::any_of(campaign.grid.begin(), campaign.grid.end(), [&](const CampaignAxis& axis) {
+      return axis.key == entry.first && axis.values.size() == 1;
+    });
+  });
+  return place;
 }
 
 std::string campaign_table(const Campaign& campaign, const std::vector<CampaignGroup>& groups,
@@ -117,7 +125,7 @@ std::string campaign_table(const Campaign& campaign, const std::vector<CampaignG
   text += "\n";
   std::string at = "?";
   for (const CampaignGroup& group : groups) {
-    if (const std::string here = place_of(group, campaign); here != at) {
+    if (const std::string here = line_of(place_of(group, campaign)); here != at) {
       at = here;
       if (!at.empty()) text += "\n" + at + "\n";
       text += fmt::format("{:<10} {:<24} {:>6} {:>7} {:>9} {:>8} {:>8} {:>12} {:>12} {:>7}\n", "touched",

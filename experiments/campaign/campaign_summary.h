@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -14,6 +15,7 @@ struct Campaign;
 
 /// The runs of one point of the grid that touched the same sort of body.
 struct CampaignGroup {
+  std::size_t place = 0;                                ///< in the grid, whatever body was drawn
   std::vector<std::pair<std::string, std::string>> at;  ///< the grid's axes
   std::string estimator;                                ///< whose detections count
   std::string body;                                     ///< as RunResult::body
@@ -26,6 +28,8 @@ struct CampaignGroup {
   std::optional<double> missed_at_most;  ///< share, 95 % exact bound; none without contacts
   /// Half and nine tenths of the contacts were noticed so soon; none where too many were missed [s].
   std::optional<double> median, p90;
+  /// So soon a tenth, a quarter, half, three quarters and nine tenths were noticed, likewise [s].
+  std::array<std::optional<double>, 5> quantiles;
 
   std::size_t false_alarms = 0;
   double contact_free = 0.0;  ///< [s]
@@ -38,6 +42,10 @@ struct CampaignGroup {
 
 /// By point of the grid, then by body.
 std::vector<CampaignGroup> groups_of(const Campaign& campaign, const std::vector<RunResult>& results);
+
+/// Where a group stands in the grid, without the axes that have one value only.
+std::vector<std::pair<std::string, std::string>> place_of(const CampaignGroup& group,
+                                                          const Campaign& campaign);
 
 /// How fast a campaign went, for who looks on; not part of its results.
 struct CampaignPace {

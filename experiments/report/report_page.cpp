@@ -4,26 +4,10 @@
 
 #include "experiments/report/page/page_template.h"
 #include "experiments/report/report_json.h"
+#include "experiments/report/script_data.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
-namespace {
-
-/// JSON that can stand inside a script element: without a "<" that could end the element or open a comment.
-std::string inside_script(const std::string& data) {
-  std::string text;
-  for (const char c : data) {
-    if (c == '<') {
-      text += "\\u003c";
-    } else {
-      text += c;
-    }
-  }
-  return text;
-}
-
-}  // namespace
-
 std::string report_page(const Report& report) {
   check_report(report);
   std::string page(page_template_before_data);

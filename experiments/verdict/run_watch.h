@@ -7,8 +7,8 @@
 
 namespace flinch {
 
-/// Measures all that a run shows, sample by sample: afterwards from a recording, or while it goes on. It keeps
-/// no samples.
+/// Measures all that a run shows, sample by sample: afterwards from a recording, or while it goes on. It
+/// keeps no samples.
 class RunWatch {
  public:
   /// Of samples as those of `run`.

@@ -8,6 +8,7 @@
 #include "apps/flinch/progress.h"
 #include "apps/flinch/stop_watch.h"
 #include "experiments/campaign/campaign.h"
+#include "experiments/campaign/campaign_page.h"
 #include "experiments/campaign/campaign_run.h"
 #include "experiments/campaign/campaign_summary.h"
 #include "experiments/campaign/run_campaign.h"
@@ -75,7 +76,11 @@ ExitStatus campaign(const CampaignOptions& options) {
   const std::vector<CampaignGroup> groups = groups_of(campaign, results);
   fmt::print("{}", options.common.json ? campaign_json(campaign, groups, pace) + "\n"
                                        : campaign_table(campaign, groups, pace));
-  if (!options.common.quiet) fmt::print(stderr, "results:   {}\n", (folder / "results.csv").string());
+  const std::filesystem::path page = folder / "campaign.html";
+  write_campaign_page(campaign, results, groups, options.common.command_line, page);
+  if (!options.common.quiet) {
+    fmt::print(stderr, "results:   {}\nreport:    {}\n", (folder / "results.csv").string(), page.string());
+  }
   return ExitStatus::done;
 }
 

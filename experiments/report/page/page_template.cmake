@@ -1,8 +1,11 @@
-# Puts page.html together with its style, scripts and dygraphs and writes the C++ file that holds it:
-#   cmake -D DYGRAPHS_DIR=<folder of dygraph.min.js> -D OUTPUT=<file.cpp> -P page_template.cmake
-# In page.html, {{ file }} is where that file goes and {{ data }} where the report's data goes.
+# Puts page.html together with its style and scripts and writes the C++ file that holds it:
+#   cmake -D FOLDERS=<folder>,... -D HEADER=<header> -D OUTPUT=<file.cpp> -P page_template.cmake
+# page.html is in the first folder. In it, {{ file }} is where that file goes, from the first folder that has it, and
+# {{ data }} where the page's data go. The header declares NAME_before_data and NAME_after_data, NAME its own name.
 
-set(page_folder ${CMAKE_CURRENT_LIST_DIR})
+string(REPLACE "," ";" folders "${FOLDERS}")
+list(GET folders 0 page_folder)
+cmake_path(GET HEADER STEM symbol)
 file(READ ${page_folder}/page.html page)
 string(REGEX MATCHALL "{{ [^ ]+ }}" places "${page}")
 foreach(place IN LISTS places)
@@ -10,10 +13,12 @@ foreach(place IN LISTS places)
   if(name STREQUAL "data")
     continue()
   endif()
-  set(file ${page_folder}/${name})
-  if(NOT EXISTS ${file})
-    set(file ${DYGRAPHS_DIR}/${name})
-  endif()
+  unset(file)
+  foreach(folder IN LISTS folders)
+    if(NOT DEFINED file AND EXISTS ${folder}/${name})
+      set(file ${folder}/${name})
+    endif()
+  endforeach()
   file(READ ${file} text)
   string(REGEX REPLACE "//# sourceMappingURL=[^\n]*|/\\*# sourceMappingURL=[^\n]*" "" text "${text}")
   if(text MATCHES "</script|</style|\\)flinch\"|{{ ")
@@ -23,12 +28,12 @@ foreach(place IN LISTS places)
 endforeach()
 
 string(REPLACE "{{ data }}" ")flinch\";
-const std::string_view page_template_after_data = R\"flinch(" page "${page}")
-file(WRITE ${OUTPUT} "#include \"experiments/report/page/page_template.h\"
+const std::string_view ${symbol}_after_data = R\"flinch(" page "${page}")
+file(WRITE ${OUTPUT} "#include \"${HEADER}\"
 
 namespace flinch {
 
-const std::string_view page_template_before_data = R\"flinch(${page})flinch\";
+const std::string_view ${symbol}_before_data = R\"flinch(${page})flinch\";
 
 }  // namespace flinch
 ")

@@ -1,5 +1,6 @@
-# Adds the report page, made from the files in this folder and dygraphs, to the sources of a target:
-#   add_report_page(<target>)
+# Adds an HTML page to the sources of a target, made from the page.html of a folder, the style and scripts beside it or
+# beside this file, and dygraphs:
+#   add_page(<target> <header in that folder, which declares the page>)
 
 find_path(DYGRAPHS_DIR dygraph.min.js
   PATHS /usr/share/javascript/dygraphs /usr/share/javascript/dygraphs/dist
@@ -8,16 +9,22 @@ find_path(DYGRAPHS_DIR dygraph.min.js
 
 set(report_page_folder ${CMAKE_CURRENT_LIST_DIR})
 
-function(add_report_page target)
-  file(GLOB parts CONFIGURE_DEPENDS ${report_page_folder}/*.html ${report_page_folder}/*.css
-                                    ${report_page_folder}/*.js)
-  set(output ${CMAKE_CURRENT_BINARY_DIR}/page_template.cpp)
+function(add_page target header)
+  cmake_path(GET header PARENT_PATH folder)
+  cmake_path(GET header STEM name)
+  set(folders ${PROJECT_SOURCE_DIR}/${folder} ${report_page_folder})
+  set(parts "")
+  foreach(each IN LISTS folders)
+    file(GLOB more CONFIGURE_DEPENDS ${each}/*.html ${each}/*.css ${each}/*.js)
+    list(APPEND parts ${more})
+  endforeach()
+  set(output ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
   add_custom_command(OUTPUT ${output}
-    COMMAND ${CMAKE_COMMAND} -D DYGRAPHS_DIR=${DYGRAPHS_DIR} -D OUTPUT=${output}
-            -P ${report_page_folder}/page_template.cmake
+    COMMAND ${CMAKE_COMMAND} -D "FOLDERS=${PROJECT_SOURCE_DIR}/${folder},${report_page_folder},${DYGRAPHS_DIR}"
+            -D HEADER=${header} -D OUTPUT=${output} -P ${report_page_folder}/page_template.cmake
     DEPENDS ${parts} ${report_page_folder}/page_template.cmake
             ${DYGRAPHS_DIR}/dygraph.min.js ${DYGRAPHS_DIR}/dygraph.css
-    COMMENT "Putting the report page together"
+    COMMENT "Putting ${folder} together"
     VERBATIM)
   target_sources(${target} PRIVATE ${output})
 endfunction()

@@ -1,0 +1,51 @@
+"use strict";
+// All groups with their bounds, and the runs that were slow or missed something.
+
+function head(titles) {
+  return element("thead", {}, element("tr", {}, ...titles.map(([title, style]) =>
+    element("th", { scope: "col", class: style ?? "" }, title))));
+}
+
+function cell(text, style = "n") {
+  return element("td", { class: style }, text);
+}
+
+function share(value) {
+  return value === null ? none : `${number(100 * value, 2)} %`;
+}
+
+function showGroups() {
+  const rows = campaign.groups.map((group) => element("tr", {},
+    element("th", { scope: "row" }, nameOf(group)),
+    cell(group.body, ""),
+    cell(String(group.n)),
+    cell(inMs(group.quantiles[2])),
+    cell(inMs(group.quantiles[4])),
+    cell(group.contacts > 0 ? String(group.missed) : none, group.missed > 0 ? "n bad" : "n"),
+    cell(share(group.missed_at_most), "n soft"),
+    cell(String(group.false_alarms), group.false_alarms > 0 ? "n bad" : "n"),
+    cell(number(group.contact_free_h, 3)),
+    cell(number(group.rate, 2)),
+    cell(number(group.rate_at_most, 2), "n soft"),
+    cell(String(group.faults), group.faults > 0 ? "n bad" : "n")));
+  byId("group-table").replaceChildren(
+    head([["Noticed by"], ["Touched"], ["Runs", "n"], ["Median, ms", "n"], ["Nine tenths, ms", "n"], ["Missed", "n"],
+      ["at most", "n"], ["False alarms", "n"], ["in hours", "n"], ["per hour", "n"], ["at most", "n"], ["Faults", "n"]]),
+    element("tbody", {}, ...rows));
+}
+
+function showRuns() {
+  byId("look").hidden = campaign.look.length === 0;
+  byId("call").textContent = campaign.call && `${campaign.call} --run N`;
+  const rows = campaign.look.map((run) => element("tr", {},
+    element("th", { scope: "row", class: "number" }, `--run ${run.run}`),
+    cell(run.why, ""),
+    cell(listOf(campaign.points[run.point]), "soft"),
+    cell(run.body, ""),
+    cell(inMs(run.time)),
+    cell(run.speed === null ? none : `${fixed(run.speed, 2)} m/s`),
+    cell(listOf(run.drawn), "soft drawn")));
+  byId("run-table").replaceChildren(
+    head([["Run"], ["Why"], ["Place in the grid"], ["Touched"], ["Noticed, ms", "n"], ["Speed", "n"], ["Drawn"]]),
+    element("tbody", {}, ...rows));
+}

@@ -1,0 +1,92 @@
+#include "experiments/campaign/campaign_page.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "experiments/campaign/campaign.h"
+#include "experiments/campaign/run_result.h"
+
+namespace flinch {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+Campaign some_campaign(std::size_t draws) {
+  Campaign campaign;
+  campaign.file = "campaigns/some.yaml";
+  campaign.title = "Some </script> contacts";
+  campaign.draws = draws;
+  campaign.scenarios = {"a.yaml"};
+  campaign.scenario_texts = {"duration_s: 1"};
+  return campaign;
+}
+
+/// Ten contacts with the platform, one of them missed; two runs that were stopped or alarmed before.
+std::vector<RunResult> some_results() {
+  std::vector<RunResult> results(12);
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    RunResult& result = results[i];
+    result.run = i;
+    result.body = "platform";
+    result.simulated = 1.2;
+    result.estimators = {
+        {.name = "observer", .detection_time = 1e-3 * static_cast<double>(i + 1), .contact_free = 360.0}};
+  }
+  results[4].estimators[0].detection_time.reset();
+  results[7].fault = "the encoders are silent";
+  results[9].estimators[0].false_alarm = true;
+  return results;
+}
+
+json data_of(const std::string& page) {
+  const std::string begin = "<script type=\"application/json\" id=\"data\">";
+  const std::size_t first = page.find(begin) + begin.size();
+  return json::parse(page.substr(first, page.find("</script>", first) - first));
+}
+
+class TheCampaignPage : public ::testing::Test {
+ protected:
+  Campaign campaign = some_campaign(12);
+  std::vector<RunResult> results = some_results();
+  std::vector<CampaignGroup> groups = groups_of(campaign, results);
+  std::string page = campaign_page(campaign, results, groups, "flinch campaign some.yaml");
+};
+
+TEST_F(TheCampaignPage, NeedsNothingElse) {
+  EXPECT_THAT(page, HasSubstr("default-src 'none'"));
+  EXPECT_EQ(page.find("{{ "), std::string::npos);
+  EXPECT_EQ(page.find(" src="), std::string::npos);
+  EXPECT_EQ(page.find("<link rel=\"stylesheet\""), std::string::npos);
+}
+
+TEST_F(TheCampaignPage, TellsTheGroupsWithTheirBounds) {
+  const json data = data_of(page);
+  EXPECT_EQ(data["title"], "Some </script> contacts");
+  EXPECT_EQ(data["faults"], 1);
+  ASSERT_EQ(data["groups"].size(), 1U);
+  const json& group = data["groups"][0];
+  EXPECT_EQ(group["contacts"], 11) << "the alarm came before the contact";
+  EXPECT_EQ(group["missed"], 1);
+  EXPECT_NEAR(group["missed_at_most"], *groups[0].missed_at_most, 1e-12);
+  EXPECT_NEAR(group["quantiles"][2], *groups[0].median, 1e-12);
+  EXPECT_EQ(group["false_alarms"], 1);
+  EXPECT_NEAR(group["alarm_rate_at_most"], groups[0].false_alarms_per_hour_at_most, 1e-9);
+}
+
+TEST_F(TheCampaignPage, NamesTheRunsToLookAtTheWorstFirst) {
+  const json look = data_of(page)["look"];
+  ASSERT_GE(look.size(), 4U);
+  EXPECT_EQ(look[0]["run"], 7);
+  EXPECT_EQ(look[0]["why"], "fault: the encoders are silent");
+  EXPECT_EQ(look[1]["run"], 9);
+  EXPECT_EQ(look[1]["why"], "false alarm");
+  EXPECT_EQ(look[2]["run"], 4);
+  EXPECT_EQ(look[2]["why"], "missed");
+  EXPECT_EQ(look[3]["run"], 11) << "the slowest";
+}
+
+}  // namespace
+}  // namespace flinch
