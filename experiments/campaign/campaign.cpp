@@ -86,6 +86,28 @@ void replace(const CampaignAxis& axis, Campaign& campaign) {
   }
 }
 
+CampaignContact read_contact(ConfigReader& reader) {
+  using By = CampaignContact::By;
+  CampaignContact contact;
+  reader.required().words("body", contact.bodies, {"platform", "link1", "link2", "clamping"});
+  reader.choice("by", contact.by,
+                {{"standing", By::standing}, {"moving", By::moving}, {"pushing", By::pushing}});
+  if (contact.by == By::moving) reader.number("speed", unit::m_per_s, contact.speed, not_negative);
+  if (contact.by == By::pushing) {
+    contact.force = {20.0, 60.0};
+    reader.numbers("force", unit::N, contact.force, positive);
+    reader.number("angle", unit::rad, contact.angle, not_negative);
+    reader.number("rise", unit::s, contact.rise, positive);
+    reader.number("hold", unit::s, contact.hold, not_negative);
+  }
+  const bool is_clamped =
+      std::find(contact.bodies.begin(), contact.bodies.end(), "clamping") != contact.bodies.end();
+  if (contact.by != By::standing && is_clamped) {
+    reader.problem("body", "has 'clamping', which only an obstacle that is 'standing' can be drawn for");
+  }
+  return contact;
+}
+
 std::string line_of(const std::vector<std::shared_ptr<const ConfigNode>>& values) {
   std::string line;
   for (const auto& value : values) line += (line.empty() ? "" : ", ") + yaml_line(*value);
@@ -104,6 +126,10 @@ std::string Campaign::identity() const {
   }
   if (contact) {
     for (const std::string& body : contact->bodies) text += "contact " + body + "\n";
+    text += "by " + std::to_string(static_cast<int>(contact->by)) + " " + exact_text(contact->speed) + " " +
+            exact_text(contact->angle) + " " + exact_text(contact->rise) + " " + exact_text(contact->hold);
+    for (const double force : contact->force) text += " " + exact_text(force);
+    text += "\n";
   }
   for (const std::string& scenario : scenario_texts) text += scenario;
   for (const std::string& robot : robot_texts) text += robot;
@@ -134,9 +160,8 @@ Campaign read_campaign(const std::filesystem::path& file, const CampaignOverride
   const auto name = std::make_shared<const std::string>(file.string());
   for (ConfigReader& draw : reader.sections("draw")) campaign.drawn.push_back(read_draw(draw, name));
   if (reader.has("contact")) {
-    campaign.contact.emplace();
-    reader.section("contact").required().words("body", campaign.contact->bodies,
-                                               {"platform", "link1", "link2", "clamping"});
+    ConfigReader contact = reader.section("contact");
+    campaign.contact = read_contact(contact);
   }
   reader.finish();
 

@@ -33,10 +33,20 @@ struct CampaignDraw {
 };
 
 /// Contacts that are drawn anew for each run: where the first obstacle of the scenario stands, so that the
-/// motion runs a body into it.
+/// motion runs a body into it, or how it moves, so that it runs into a body.
 struct CampaignContact {
+  enum class By {
+    standing,  ///< it stands where the motion leads a body
+    moving,    ///< it moves itself when it meets a body, half-way through the motion
+    pushing,   ///< it is led against a body of a robot that holds still, and drawn back
+  };
   /// "platform", "link1", "link2": of a leg that is drawn; "clamping": between the links of a leg.
   std::vector<std::string> bodies;
+  By by = By::standing;
+  double speed = 1.0;         ///< of a moving one, up to that [m/s]
+  std::vector<double> force;  ///< of a pushing one: between the first and the last [N]
+  double angle = 0.0;         ///< of a push against the normal of the surface, up to that either way [rad]
+  double rise = 1.0, hold = 0.0;  ///< of a push; it falls as it rises [s]
 };
 
 /// Many runs of scenarios that differ in some of their keys. docs/files.md has the keys of the file.

@@ -6,11 +6,13 @@
 
 #include "experiments/campaign/campaign.h"
 #include "experiments/campaign/drawn_contact.h"
+#include "experiments/campaign/drawn_move.h"
 #include "systems/config/config_node.h"
 #include "systems/config/parsed.h"
 #include "systems/config/yaml_text.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/random.h"
+#include "systems/robot/parallel_robot.h"
 
 namespace flinch {
 namespace {
@@ -60,6 +62,78 @@ class Draft {
   Node root_;
 };
 
+constexpr std::array axis_keys = {"x_m", "y_m", "z_m"};
+constexpr double push_begin = 0.4;  // the torque gate is open by then [s]
+
+/// Puts an obstacle at `position`, and tells it in the columns of the table.
+void place(Draft& draft, const std::string& obstacle, const Eigen::Vector3d& position, int directions,
+           CampaignRun& run) {
+  for (int i = 0; i < 3; ++i) {
+    const char* const axis = axis_keys[static_cast<std::size_t>(i)];
+    const Node coordinate = number_node(position[i]);
+    if (i < directions) draft.set(obstacle + axis, coordinate);
+    run.values.emplace_back(axis, coordinate->scalar);
+  }
+}
+
+std::string path_text(const std::vector<PathPoint>& path, int directions) {
+  std::string text = "[";
+  for (const PathPoint& point : path) {
+    text += "{time_s: " + exact_text(point.time);
+    for (int i = 0; i < directions; ++i) {
+      text += std::string(", ") + axis_keys[static_cast<std::size_t>(i)] + ": " +
+              exact_text(point.displacement[i]);
+    }
+    text += "}, ";
+  }
+  return text + "]";
+}
+
+void move(Draft& draft, const DrawnMove& drawn, int directions, CampaignRun& run) {
+  place(draft, "obstacles[0].", drawn.position_in_base, directions, run);
+  draft.set("obstacles[0].path", parse_yaml(path_text(drawn.path, directions), "drawn path"));
+}
+
+/// The robot when a moving obstacle meets it: half-way through its motion, or where it holds still.
+HalfWay meeting_of(const CampaignContact& settings, RobotFiles& robots, const Draft& draft) {
+  if (settings.by == CampaignContact::By::pushing) {
+    const SimulatedScenario scenario = parse_simulated_scenario(draft.root(), draft.file(), robots);
+    const ParallelRobot& robot = *scenario.robot.robot;
+    HalfWay at{{}, push_begin};
+    robot.kinematics(scenario.station.bench.initial_pose.value_or(robot.home_pose()),
+                     PlatformVector::Zero(robot.dof()), at.now);
+    return at;
+  }
+  const Scenario scenario = parse_scenario(draft.root(), draft.file(), robots);
+  HalfWay at = half_way_through(scenario);
+  if (const std::optional<Time> start = scenario.control.trajectory.start) at.time += to_seconds(*start);
+  return at;
+}
+
+/// The first obstacle runs into a body of `kind`, or presses on it. False where this draw has no such place.
+bool move_obstacle(const CampaignContact& settings, RobotFiles& robots, Draft& draft, const std::string& kind,
+                   RandomGenerator& random, CampaignRun& run) {
+  const Scenario scenario = parse_scenario(draft.root(), draft.file(), robots);
+  if (scenario.obstacles.empty() || draft.has("pylon")) {
+    throw SetupError("there is no entry in 'obstacles', or a 'pylon' before it, so 'contact' can move none");
+  }
+  const ParallelRobot& robot = *scenario.robot.robot;
+  const HalfWay at = meeting_of(settings, robots, draft);
+  const auto contact = draw_touch(robot, at.now, kind, scenario.obstacles.front().shape, random);
+  if (!contact) return false;
+  run.values.emplace_back("contact", contact->body);
+  const int directions = robot.space_dimension();
+  if (settings.by == CampaignContact::By::pushing) {
+    draft.set("obstacles[0].kind", scalar_node("hand"));
+    draft.set("obstacles[0].mount_stiffness_N_per_m", number_node(pushing_stiffness));
+    move(draft, draw_push(settings, *contact, at.time, directions, random), directions, run);
+    return true;
+  }
+  const auto meeting = draw_meeting(settings, *contact, at.time, directions, random);
+  if (meeting) move(draft, *meeting, directions, run);
+  return meeting.has_value();
+}
+
 /// Stands the first obstacle where it is run into. False where this draw has no such place.
 bool place_obstacle(RobotFiles& robots, Draft& draft, const std::string& kind, RandomGenerator& random,
                     CampaignRun& run) {
@@ -67,16 +141,9 @@ bool place_obstacle(RobotFiles& robots, Draft& draft, const std::string& kind, R
   if (scenario.obstacles.empty()) throw SetupError("there is no obstacle that 'contact' could move");
   const auto contact = draw_contact(scenario, kind, scenario.obstacles.front().shape, random);
   if (!contact) return false;
-  const std::string obstacle = draft.has("pylon") ? "pylon." : "obstacles[0].";
-  static constexpr std::array axes = {"x_m", "y_m", "z_m"};
-  const int directions = scenario.robot.robot->space_dimension();
   run.values.emplace_back("contact", contact->body);
-  for (int i = 0; i < 3; ++i) {
-    const char* const axis = axes[static_cast<std::size_t>(i)];
-    const Node place = number_node(contact->position_in_base[i]);
-    if (i < directions) draft.set(obstacle + axis, place);
-    run.values.emplace_back(axis, place->scalar);
-  }
+  place(draft, draft.has("pylon") ? "pylon." : "obstacles[0].", contact->position_in_base,
+        scenario.robot.robot->space_dimension(), run);
   return true;
 }
 
@@ -100,7 +167,11 @@ bool draw_once(const Campaign& campaign, RandomGenerator& random, CampaignRun& r
   if (campaign.contact) {
     const auto& bodies = campaign.contact->bodies;
     const std::string& kind = bodies[next_digit(digits, bodies.size())];
-    if (!place_obstacle(*campaign.robots, draft, kind, random, run)) return false;
+    RobotFiles& robots = *campaign.robots;
+    const bool is_placed = campaign.contact->by == CampaignContact::By::standing
+                               ? place_obstacle(robots, draft, kind, random, run)
+                               : move_obstacle(*campaign.contact, robots, draft, kind, random, run);
+    if (!is_placed) return false;
   }
   run.scenario = parse_simulated_scenario(draft.root(), draft.file(), *campaign.robots);
   return true;

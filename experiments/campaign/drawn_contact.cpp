@@ -90,21 +90,46 @@ bool stands_free(const Mechanism& robot, const Kinematics& now, const Shape& sha
   return true;
 }
 
+const PlatformPath& path_of(const Scenario& scenario) {
+  const std::optional<PlatformPath>& path = scenario.control.trajectory.path;
+  if (!path) throw SetupError("the scenario has no motion, so nothing runs into an obstacle");
+  return *path;
+}
+
+Kinematics kinematics_at(const Scenario& scenario, double time) {
+  const PlatformReference reference = path_of(scenario).evaluate(time);
+  Kinematics now;
+  scenario.robot.robot->kinematics(reference.pose, reference.velocity, now);
+  return now;
+}
+
 /// The robot half-way through the motion of a scenario, and a millisecond later.
 struct Instant {
   Kinematics now, later;
 };
 
 Instant half_way(const Scenario& scenario) {
-  const ParallelRobot& robot = *scenario.robot.robot;
-  const std::optional<PlatformPath>& path = scenario.control.trajectory.path;
-  if (!path) throw SetupError("the scenario has no motion, so nothing runs into an obstacle");
-  Instant instant;
-  const double time = 0.5 * path->duration();
-  const PlatformReference reference = path->evaluate(time), next = path->evaluate(time + 1e-3);
-  robot.kinematics(reference.pose, reference.velocity, instant.now);
-  robot.kinematics(next.pose, next.velocity, instant.later);
-  return instant;
+  const double time = 0.5 * path_of(scenario).duration();
+  return {kinematics_at(scenario, time), kinematics_at(scenario, time + 1e-3)};
+}
+
+/// Along a link, from its proximal to its distal joint.
+Eigen::Vector3d along(const Mechanism& robot, const Kinematics& now, BodyId link) {
+  return in_space(robot.point_on_body(now, link, robot.axis_point(link, 1.0)) -
+                  robot.point_on_body(now, link, robot.axis_point(link, 0.0)))
+      .normalized();
+}
+
+/// The obstacle against `in_body`, in the direction of `normal`.
+std::optional<DrawnContact> contact_at(const Mechanism& robot, const Kinematics& now, BodyId body,
+                                       const CartesianVector& in_body, const Eigen::Vector3d& normal,
+                                       const Shape& shape) {
+  const Eigen::Vector3d start = in_space(robot.point_on_body(now, body, in_body));
+  const Eigen::Vector3d velocity =
+      in_space(robot.contact_jacobian(now, body, in_body).translation * now.velocity);
+  const DrawnContact contact{body_name(body), touching(robot, now, body, shape, start, normal), normal,
+                             velocity};
+  return stands_free(robot, now, shape, contact, {body}) ? std::optional(contact) : std::nullopt;
 }
 
 std::optional<DrawnContact> touch_body(const Mechanism& robot, const Kinematics& now, BodyId body,
@@ -117,16 +142,11 @@ std::optional<DrawnContact> touch_body(const Mechanism& robot, const Kinematics&
     if (velocity.norm() < slowest) return std::nullopt;
     normal = velocity.normalized() + 0.7 * random_direction(robot, random);
   } else {
-    const Eigen::Vector3d along = in_space(robot.point_on_body(now, body, robot.axis_point(body, 1.0)) -
-                                           robot.point_on_body(now, body, robot.axis_point(body, 0.0)))
-                                      .normalized();
-    normal = velocity - velocity.dot(along) * along;
+    const Eigen::Vector3d axis = along(robot, now, body);
+    normal = velocity - velocity.dot(axis) * axis;
     if (normal.norm() < slowest) return std::nullopt;
   }
-  normal.normalize();
-  const Eigen::Vector3d start = in_space(robot.point_on_body(now, body, in_body));
-  const DrawnContact contact{body_name(body), touching(robot, now, body, shape, start, normal)};
-  return stands_free(robot, now, shape, contact, {body}) ? std::optional(contact) : std::nullopt;
+  return contact_at(robot, now, body, in_body, normal.normalized(), shape);
 }
 
 /// The half-plane angle between the links of a leg at the elbow, and the direction half-way between them.
@@ -151,7 +171,8 @@ std::optional<DrawnContact> clamp(const Mechanism& robot, const Instant& instant
   const Eigen::Vector3d at1 = touching(robot, instant.now, link1, shape, now.joint, now.bisector);
   const Eigen::Vector3d at2 = touching(robot, instant.now, link2, shape, now.joint, now.bisector);
   const bool at1_is_further = (at1 - now.joint).norm() > (at2 - now.joint).norm();
-  const DrawnContact contact{"leg" + std::to_string(leg + 1) + "_clamping", at1_is_further ? at1 : at2};
+  const DrawnContact contact{
+      "leg" + std::to_string(leg + 1) + "_clamping", at1_is_further ? at1 : at2, {}, {}};
   const bool is_free = stands_free(robot, instant.now, shape, contact, {link1, link2});
   return is_free ? std::optional(contact) : std::nullopt;
 }
@@ -173,6 +194,28 @@ std::optional<DrawnContact> draw_contact(const Scenario& scenario, const std::st
   }
   return touch_body(robot, instant.now, kind == "link1" ? BodyId::link1(leg) : BodyId::link2(leg), shape,
                     random);
+}
+
+std::optional<DrawnContact> draw_touch(const ParallelRobot& robot, const Kinematics& now,
+                                       const std::string& kind, const Shape& shape, RandomGenerator& random) {
+  if (!now.reachable) return std::nullopt;
+  Eigen::Vector3d normal = random_direction(robot, random);
+  if (kind == "platform") {
+    return contact_at(robot, now, BodyId::platform(), robot.axis_point(BodyId::platform(), 0.0), normal,
+                      shape);
+  }
+  const int leg = static_cast<int>(random() % static_cast<std::uint64_t>(robot.legs()));
+  const BodyId link = kind == "link1" ? BodyId::link1(leg) : BodyId::link2(leg);
+  const Eigen::Vector3d axis = along(robot, now, link);
+  normal -= normal.dot(axis) * axis;
+  if (normal.norm() < 0.01) return std::nullopt;
+  return contact_at(robot, now, link, robot.axis_point(link, random.uniform(0.1, 0.9)), normal.normalized(),
+                    shape);
+}
+
+HalfWay half_way_through(const Scenario& scenario) {
+  const double time = 0.5 * path_of(scenario).duration();
+  return {kinematics_at(scenario, time), time};
 }
 
 }  // namespace flinch

@@ -5,9 +5,11 @@
 #include <string>
 
 #include "systems/robot/body.h"
+#include "systems/robot/kinematics.h"
 
 namespace flinch {
 
+class ParallelRobot;
 class RandomGenerator;
 struct Scenario;
 
@@ -15,6 +17,14 @@ struct Scenario;
 struct DrawnContact {
   std::string body;                                 ///< "platform", "leg2_link1", "leg3_clamping"
   Eigen::Vector3d position_in_base{0.0, 0.0, 0.0};  ///< of the obstacle [m]
+  Eigen::Vector3d normal{0.0, 0.0, 0.0};    ///< of the body's surface, towards the obstacle; 0 of a clamping
+  Eigen::Vector3d velocity{0.0, 0.0, 0.0};  ///< of the body there [m/s]
+};
+
+/// The robot of a scenario half-way through its motion, and when that is [s].
+struct HalfWay {
+  Kinematics now;
+  double time = 0.0;
 };
 
 /// Draws a place for an obstacle of `shape` so that it touches a body half-way through the motion of
@@ -25,5 +35,14 @@ struct DrawnContact {
 /// Throws SetupError where the robot has no such body.
 std::optional<DrawnContact> draw_contact(const Scenario& scenario, const std::string& kind,
                                          const Shape& shape, RandomGenerator& random);
+
+/// Draws a place for an obstacle of `shape` so that it touches a body from any side, wherever that moves: the
+/// platform from a direction that is drawn, a link on either side between 10 and 90 % of its length. None
+/// where another body is in the way. `kind` is that of a body, no clamping.
+std::optional<DrawnContact> draw_touch(const ParallelRobot& robot, const Kinematics& now,
+                                       const std::string& kind, const Shape& shape, RandomGenerator& random);
+
+/// Throws SetupError where the scenario has no motion.
+HalfWay half_way_through(const Scenario& scenario);
 
 }  // namespace flinch
