@@ -114,6 +114,18 @@ Verdict judge_experiment(const SimulatedScenario& scenario) {
   return judge(watch, scenario.expected);
 }
 
+Recording run_for_signals(const SimulatedScenario& scenario, const std::vector<std::string>& names) {
+  const Experiment experiment = build_experiment(scenario);
+  const Diagram& diagram = *experiment.diagram;
+  std::vector<std::string> paths = recorded_paths(diagram);
+  std::erase_if(paths, [&names](const std::string& path) {
+    return std::find(names.begin(), names.end(), path) == names.end();
+  });
+  Recorder recorder(diagram, paths, ticks_of(scenario, diagram), quantity_units(*scenario.robot.robot));
+  simulate(scenario, diagram, recorder, {}, {});
+  return recorder.recording();
+}
+
 Recording record_experiment(const SimulatedScenario& scenario, const std::filesystem::path& file,
                             const std::map<std::string, std::string>& provenance,
                             const std::function<void(double share)>& progress) {

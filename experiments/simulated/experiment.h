@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "systems/framework/diagram.h"
 #include "systems/framework/recording.h"
@@ -37,6 +38,10 @@ Recording run_experiment(const SimulatedScenario& scenario,
 /// The same, judged while it runs: the verdict that its recording would have. Keeps no recording, so that a
 /// run's length takes no memory.
 Verdict judge_experiment(const SimulatedScenario& scenario);
+
+/// As run_experiment(), recording only the signals of these names: those that the run has. Nothing says what
+/// made it.
+Recording run_for_signals(const SimulatedScenario& scenario, const std::vector<std::string>& names);
 
 /// The same, recorded into `file` while it runs, so that its length takes no memory; what it returns reads
 /// from there. Throws SetupError also where the file cannot be written.

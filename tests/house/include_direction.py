@@ -26,9 +26,12 @@ MAY_INCLUDE = {
     "drivers": ["drivers", *DIAGRAMS],
     **{room: EXPERIMENTS for room in EXPERIMENT_ROOMS},
     "calibration": ["calibration", *EXPERIMENTS],
+    "learning": ["learning", *EXPERIMENTS],
     "experiments/simulated": ["experiments/simulated", "plant", *EXPERIMENTS],
     "experiments/bus": ["experiments/bus", "drivers", *EXPERIMENTS],
     "experiments/campaign": ["experiments/campaign", "experiments/simulated", "plant", *EXPERIMENTS],
+    "experiments/dataset": ["experiments/dataset", "learning", "experiments/campaign", "experiments/simulated", "plant",
+                            *EXPERIMENTS],
     "experiments/served": ["experiments/served", "experiments/simulated", "plant", "drivers", *EXPERIMENTS],
 }
 # Parts of the program that a build without the bus, or without the plant, leaves out: only they may include these.
@@ -36,6 +39,8 @@ PARTS = {
     ("drivers", "experiments/bus"): ["apps/flinch/bus", "apps/flinch/served"],
     ("plant", "experiments/simulated", "experiments/campaign"): ["apps/flinch/simulated", "apps/flinch/served"],
     ("experiments/served",): ["apps/flinch/served"],
+    ("learning",): ["apps/flinch/learning", "apps/flinch/datasets"],
+    ("experiments/dataset",): ["apps/flinch/datasets"],
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"')
 

@@ -1,0 +1,56 @@
+// flinch dataset: labelled contacts from simulated runs and recordings.
+#include <fmt/core.h>
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "apps/flinch/conclusion.h"
+#include "apps/flinch/learning_verbs.h"
+#include "apps/flinch/progress.h"
+#include "apps/flinch/stop_watch.h"
+#include "experiments/dataset/data_spec.h"
+#include "experiments/dataset/make_data_set.h"
+#include "experiments/report/run_folder.h"
+
+namespace flinch {
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+
+}  // namespace
+
+ExitStatus dataset(const DatasetOptions& options) {
+  const DataSpec spec = read_data_spec(options.spec, {.runs = options.runs, .seed = options.seed});
+  const std::filesystem::path file =
+      options.out.empty() ? std::filesystem::path("out") / (options.spec.stem().string() + ".h5")
+                          : options.out;
+  if (!file.parent_path().empty()) make_run_folder(file.parent_path());
+  if (options.fresh) std::filesystem::remove(file.string() + ".part");
+  const StopWatch watch;
+  DataSet data;
+  std::signal(SIGINT, [](int) { interrupted = 1; });
+  {
+    Progress progress("data set " + spec.file.stem().string(), options.common.quiet || options.common.json);
+    data = make_data_set(spec, file, options.threads.value_or(0), [&](std::size_t done) {
+      progress.show(static_cast<double>(done) / static_cast<double>(spec.runs));
+      return interrupted == 0;
+    });
+  }
+  std::signal(SIGINT, SIG_DFL);
+  if (options.common.json) {
+    const nlohmann::ordered_json summary = {{"data", file.string()},
+                                            {"runs", spec.runs},
+                                            {"samples", data.samples.size()},
+                                            {"seed", spec.seed},
+                                            {"wall_s", watch.seconds()}};
+    fmt::print("{}\n", summary.dump());
+    return ExitStatus::done;
+  }
+  fmt::print("{}: {} runs, {} samples, {:.1f} s\n\n{}", spec.title, spec.runs, data.samples.size(),
+             watch.seconds(), counts_table(data));
+  if (!data.card["left_out"].empty()) fmt::print("\nruns that were left out\n{}", data.card["left_out"]);
+  if (!options.common.quiet) fmt::print(stderr, "data:      {}\n", file.string());
+  return ExitStatus::done;
+}
+
+}  // namespace flinch

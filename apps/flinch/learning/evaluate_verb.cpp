@@ -1,0 +1,77 @@
+// flinch evaluate: how well a classifier tells what was touched.
+#include <fmt/core.h>
+
+#include <fstream>
+
+#include "apps/flinch/learning_verbs.h"
+#include "apps/flinch/progress.h"
+#include "learning/evaluation_output.h"
+#include "learning/evaluation_page.h"
+#include "learning/model_questions.h"
+#include "learning/onnx_file.h"
+#include "systems/foundation/nearest_name.h"
+#include "systems/foundation/problems_of_place.h"
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+struct NamedMoment {
+  std::string name;
+  int moments;
+};
+const std::vector<NamedMoment> known_moments = {
+    {"early", Moment::early}, {"detected", Moment::detected}, {"later", Moment::later}, {"all", 0}};
+
+/// Data that keep all ticks of a contact are meant to be judged by all of them.
+std::string standard_moment(const DataSet& data) {
+  const auto found = data.card.find("samples");
+  return found != data.card.end() && found->second == "all" ? "all" : "later";
+}
+
+void check_moment(const std::string& name) {
+  std::vector<std::string> names;
+  for (const NamedMoment& each : known_moments) names.push_back(each.name);
+  if (std::find(names.begin(), names.end(), name) == names.end())
+    throw SetupError("--at " + name + ": there is no such moment" + did_you_mean(name, names));
+}
+
+}  // namespace
+
+ExitStatus evaluate(const EvaluateOptions& options) {
+  const ClassifierModel model = read_onnx(options.model);
+  const DataSet data = read_data_set(options.data);
+  const FeatureSet features = out_of(options.model.string(), [&] { return features_for(model, data); });
+  const NeuralNetwork network(model.network);
+  const std::string moment = options.at.empty() ? standard_moment(data) : options.at;
+  check_moment(moment);
+  std::vector<Evaluation> all;
+  const Evaluation* chosen = nullptr;
+  {
+    Progress progress("evaluating", options.common.quiet || options.common.json);
+    for (const NamedMoment& each : known_moments) {
+      progress.show(static_cast<double>(all.size()) / static_cast<double>(known_moments.size()));
+      const Questions questions = questions_of(data, features, {each.moments, options.configurations}, false,
+                                               options.threads.value_or(0));
+      all.push_back(evaluate(answers_of(network, questions, data), features, model.accepted_from, each.name));
+    }
+  }
+  for (const Evaluation& each : all)
+    if (each.moment == moment) chosen = &each;
+  if (chosen->samples == 0) {
+    throw SetupError(options.data.string() + ": holds no sample that '" + name_of(features.question()) +
+                     "' can be asked about; choose others with --at or --configurations");
+  }
+  fmt::print("{}",
+             options.common.json ? evaluation_json(*chosen, all) + "\n" : evaluation_table(*chosen, all));
+  const std::filesystem::path page = options.out.empty()
+                                         ? std::filesystem::path(options.data)
+                                               .replace_extension()
+                                               .concat("_" + options.model.stem().string() + ".html")
+                                         : options.out;
+  write_evaluation_page({.model = model, .data = data, .chosen = *chosen, .all = all}, page);
+  if (!options.common.quiet) fmt::print(stderr, "report:    {}\n", page.string());
+  return ExitStatus::done;
+}
+
+}  // namespace flinch

@@ -1,0 +1,99 @@
+// flinch train: a classifier from labelled contacts.
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "apps/flinch/learning_verbs.h"
+#include "apps/flinch/progress.h"
+#include "apps/flinch/stop_watch.h"
+#include "learning/onnx_file.h"
+#include "learning/train_classifier.h"
+#include "systems/foundation/problems_of_place.h"
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+
+ClassifierTraining training_of(const TrainOptions& options) {
+  ClassifierTraining training;
+  training.question = question_named(options.question);
+  TrainingSettings settings = standard_settings(training.question);
+  if (!options.hidden.empty()) settings.hidden = options.hidden;
+  settings.l2 = options.l2.value_or(settings.l2);
+  settings.learning_rate = options.learning_rate.value_or(settings.learning_rate);
+  settings.epochs = options.epochs.value_or(settings.epochs);
+  settings.seed = options.seed.value_or(settings.seed);
+  training.candidates = options.grid ? paper_grid(settings) : std::vector{settings};
+  training.folds = options.folds;
+  training.filter.configurations = options.configurations;
+  training.threads = options.threads.value_or(0);
+  throw_if_any(problems_with(settings));
+  return training;
+}
+
+void print_table(const TrainedClassifier& trained, const ClassifierTraining& training) {
+  if (training.candidates.size() > 1) {
+    fmt::print("{:>7} {:>6} {:>8} {:>10}\n", "layers", "width", "l2", "accuracy");
+    for (std::size_t i = 0; i < training.candidates.size(); ++i) {
+      const TrainingSettings& each = training.candidates[i];
+      fmt::print("{:>7} {:>6} {:>8} {:>8.2f} %\n", each.hidden.size(), each.hidden.front(), each.l2,
+                 100.0 * trained.accuracies[i]);
+    }
+  }
+  const Evaluation& expected = trained.expected;
+  fmt::print("question:           {}\nhidden layers:      {}\nsamples:            {}\n",
+             name_of(training.question), fmt::join(trained.settings.hidden, ", "), expected.samples);
+  fmt::print("accuracy:           {:.2f} %, balanced over classes, in {} folds that keep runs together\n",
+             100.0 * expected.confusion.balanced_accuracy().value_or(0.0), training.folds);
+  fmt::print("calibration error:  {:.4f} at temperature {:.3f}\n", expected.calibration_error,
+             trained.temperature);
+  fmt::print("accepted from:      {:.3f}; below are {:.1f} %, of the others {:.2f} % are wrong\n",
+             expected.accepted.accepted_from, 100.0 * expected.accepted.rejected,
+             100.0 * expected.accepted.wrong_of_accepted);
+}
+
+}  // namespace
+
+ExitStatus train(const TrainOptions& options) {
+  const ClassifierTraining training = training_of(options);
+  const DataSet data = read_data_set(options.data);
+  const StopWatch watch;
+  TrainedClassifier trained;
+  std::signal(SIGINT, [](int) { interrupted = 1; });
+  {
+    Progress progress("training", options.common.quiet || options.common.json);
+    trained = out_of(options.data.string(), [&] {
+      return train_classifier(data, training, [&progress](double share) {
+        progress.show(share);
+        return interrupted == 0;
+      });
+    });
+  }
+  std::signal(SIGINT, SIG_DFL);
+  write_onnx(trained.model, options.out);
+  if (options.common.json) {
+    const Evaluation& expected = trained.expected;
+    const nlohmann::ordered_json summary = {
+        {"model", options.out.string()},
+        {"question", name_of(training.question)},
+        {"samples", expected.samples},
+        {"hidden_layers", trained.settings.hidden},
+        {"l2", trained.settings.l2},
+        {"accuracy", expected.confusion.balanced_accuracy().value_or(0.0)},
+        {"expected_calibration_error", expected.calibration_error},
+        {"accepted_from", trained.model.accepted_from},
+        {"wall_s", watch.seconds()}};
+    fmt::print("{}\n", summary.dump());
+    return ExitStatus::done;
+  }
+  print_table(trained, training);
+  if (!options.common.quiet) fmt::print(stderr, "model:     {}\n", options.out.string());
+  return ExitStatus::done;
+}
+
+}  // namespace flinch

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/flinch/command_line.h"
+
+namespace flinch {
+
+struct DatasetOptions {
+  CommonOptions common;
+  std::filesystem::path spec;
+  std::filesystem::path out;  ///< empty: out/NAME.h5
+  std::optional<std::size_t> runs;
+  std::optional<std::uint64_t> seed;
+  std::optional<std::size_t> threads;
+  bool fresh = false;  ///< whatever is there of it already
+};
+
+struct TrainOptions {
+  CommonOptions common;
+  std::filesystem::path data;
+  std::filesystem::path out;
+  std::string question = "body";
+  std::vector<int> hidden;
+  std::optional<double> l2;
+  std::optional<double> learning_rate;
+  std::optional<int> epochs;
+  std::optional<std::uint64_t> seed;
+  std::optional<std::size_t> threads;
+  std::vector<int> configurations;
+  int folds = 5;
+  bool grid = false;
+};
+
+struct EvaluateOptions {
+  CommonOptions common;
+  std::filesystem::path model;
+  std::filesystem::path data;
+  std::filesystem::path out;  ///< of the page; empty: beside the data
+  std::string at;             ///< which samples; empty: as the data set is meant
+  std::vector<int> configurations;
+  std::optional<std::size_t> threads;
+};
+
+ExitStatus dataset(const DatasetOptions& options);
+ExitStatus train(const TrainOptions& options);
+ExitStatus evaluate(const EvaluateOptions& options);
+
+}  // namespace flinch

@@ -1,0 +1,19 @@
+// What stands in for the verbs that learn in a program that was built without dlib or ONNX.
+#include "apps/flinch/learning_verbs.h"
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+[[noreturn]] ExitStatus refuse(const std::string& verb) {
+  throw SetupError("flinch " + verb +
+                   ": this flinch was built without dlib or ONNX; install libdlib-dev, libonnx-dev and "
+                   "libprotobuf-dev, and build it anew");
+}
+
+}  // namespace
+
+ExitStatus train(const TrainOptions&) { refuse("train"); }
+ExitStatus evaluate(const EvaluateOptions&) { refuse("evaluate"); }
+
+}  // namespace flinch

@@ -1,0 +1,167 @@
+#include "experiments/dataset/contact_samples.h"
+
+#include <algorithm>
+
+#include "experiments/dataset/data_spec.h"
+#include "experiments/verdict/recorded_estimate.h"
+#include "systems/framework/recorded_values.h"
+#include "systems/signals/contact_detection.h"
+#include "systems/signals/platform_motion.h"
+
+namespace flinch {
+namespace {
+
+constexpr double clamped_for = 5e-3;      // [s]
+constexpr double later_after = 10e-3;     // after the detection [s]
+constexpr double given_up_after = 60e-3;  // after the early tick, where the other detector sees nothing [s]
+
+/// What of the simulation's contact is looked at.
+struct TrueContact {
+  struct Touch {
+    int body = -1;
+    int obstacle = -1;
+    CartesianVector force_in_base;
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit&& visit) {
+      visit("body", "", self.body);
+      visit("obstacle", "", self.obstacle);
+      visit("force_in_base", "N", self.force_in_base, "base");
+    }
+  };
+  bool in_contact = false;
+  bool clamping = false;
+  Touch strongest, second;
+  std::int64_t contacts = 0;
+  Time onset{};
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("in_contact", "", self.in_contact);
+    visit("clamping", "", self.clamping);
+    visit("strongest", "", self.strongest);
+    visit("second", "", self.second);
+    visit("contacts", "", self.contacts);
+    visit("onset", "ns", self.onset);
+  }
+};
+
+const std::string truth = "contact";
+
+/// What is touched, tick by tick.
+class Label {
+ public:
+  Label(const Recording& recording, const ParallelRobot& robot, std::optional<int> given)
+      : classes_(classes_of(robot)), given_(given) {
+    if (!given) contacts_.emplace(recording, truth);
+  }
+
+  /// To be called for every tick, in order.
+  void see(std::size_t tick, double time) {
+    if (given_) return;
+    const TrueContact now = (*contacts_)[tick];
+    begun_ = now.contacts > 0;
+    onset_ = to_seconds(now.onset);
+    if (!now.in_contact) return;  // what was touched last is what the estimate still tells of
+    force_ = now.strongest.force_in_base.norm();
+    if (now.clamping) {
+      clamped_at_ = time;
+      clamped_leg_ = BodyId::from_index(now.strongest.body).leg();
+    }
+    const bool is_clamped = clamped_leg_ >= 0 && time - clamped_at_ <= clamped_for;
+    touched_ = is_clamped ? classes_.clamping(clamped_leg_) : now.strongest.body;
+    const bool is_several = now.second.body >= 0 && now.second.body != now.strongest.body;
+    if (is_several && !now.clamping) touched_ = -1;
+  }
+
+  bool begun() const { return given_ || begun_; }
+  int touched() const { return given_.value_or(touched_); }  ///< -1: no one class
+  double onset(double early) const { return given_ ? early : onset_; }
+  double force() const { return force_; }
+
+ private:
+  ContactClasses classes_;
+  std::optional<int> given_;
+  std::optional<RecordedValues<TrueContact>> contacts_;
+  bool begun_ = false;
+  int touched_ = -1, clamped_leg_ = -1;
+  double onset_ = 0.0, force_ = 0.0, clamped_at_ = 0.0;
+};
+
+/// First tick at which a detector has noticed something; none where it never does.
+std::optional<std::size_t> first_detection(const Recording& recording, const std::string& path) {
+  const auto detections = read<ContactDetection>(recording, path);
+  for (std::size_t tick = 0; tick < detections.size(); ++tick)
+    if (detections[tick].level != ContactLevel::none) return tick;
+  return std::nullopt;
+}
+
+std::string wrench_of(const std::string& estimator) {
+  return estimator.empty() ? "wrench" : "wrench_" + estimator;
+}
+std::string detection_of(const std::string& estimator) {
+  return estimator.empty() ? "detection" : "detection_by_" + estimator;
+}
+
+/// Ticks of the moments, as far as they come about.
+struct Moments {
+  Moments(const Recording& recording, const SampleChoice& choice)
+      : early(first_detection(recording, detection_of(choice.estimator))),
+        detected(first_detection(recording, detection_of(""))) {
+    if (!early || (detected && *detected < *early)) early = detected;
+    if (!early) return;
+    const auto ticks = [&](double time) {
+      return static_cast<std::size_t>(time / to_seconds(recording.period) + 0.5);
+    };
+    if (detected) later = *detected + ticks(later_after);
+    end = later.value_or(*early + ticks(given_up_after));
+  }
+
+  int at(std::size_t tick) const {
+    return (tick == early ? Moment::early : 0) | (tick == detected ? Moment::detected : 0) |
+           (tick == later ? Moment::later : 0);
+  }
+
+  std::optional<std::size_t> early, detected, later;
+  std::size_t end = 0;
+};
+
+}  // namespace
+
+std::vector<std::string> sampled_signals(const std::string& estimator) {
+  std::vector<std::string> signals = {truth, "motion", wrench_of(""), detection_of("")};
+  if (!estimator.empty()) signals.insert(signals.end(), {wrench_of(estimator), detection_of(estimator)});
+  return signals;
+}
+
+ContactSamples contact_samples(const Recording& recording, const ParallelRobot& robot,
+                               const SampleChoice& choice, std::optional<int> touched) {
+  const Moments moments(recording, choice);
+  Label label(recording, robot, touched);
+  const auto motions = read<PlatformMotion>(recording, "motion");
+  const auto estimates = read<RecordedEstimate>(recording, wrench_of(choice.estimator));
+  const double period = to_seconds(recording.period);
+  ContactSamples result;
+  for (std::size_t tick = 0; tick < recording.samples(); ++tick) {
+    const double time = static_cast<double>(tick) * period;
+    label.see(tick, time);
+    if (moments.early && tick == *moments.early && !label.begun())
+      return {{}, "noticed before anything touched"};
+    if (!moments.early || tick < *moments.early) continue;
+    const RecordedEstimate estimate = estimates[tick];
+    const PlatformMotion motion = motions[tick];
+    if (!estimate.valid || !motion.valid() || label.touched() < 0) continue;
+    const int moment = moments.at(tick);
+    const bool is_due = (tick - *moments.early) % static_cast<std::size_t>(choice.every) == 0;
+    const double force = estimate.wrench_in_base.head(robot.space().translations()).norm();
+    const bool is_chosen = choice.from_force ? force >= *choice.from_force && is_due
+                                             : tick <= moments.end && (moment != 0 || is_due);
+    if (!is_chosen) continue;
+    const double early = static_cast<double>(*moments.early) * period;
+    result.samples.push_back({0, 0, moment, label.touched(), time - label.onset(early), time - early,
+                              label.force(), motion.pose, motion.velocity, estimate.wrench_in_base});
+  }
+  if (result.samples.empty()) result.left_out = label.begun() ? "not noticed" : "nothing touched";
+  return result;
+}
+
+}  // namespace flinch

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "learning/data_set.h"
+
+namespace flinch {
+
+struct Recording;
+struct SampleChoice;
+
+/// The samples of one run, and why there are none where there are none.
+struct ContactSamples {
+  std::vector<DataSample> samples;
+  /// "": there are some. "not noticed", "nothing touched", "noticed before anything touched".
+  std::string left_out;
+};
+
+/// The signals of a recording that samples are made of, where its estimate in use is that of `estimator`
+/// ("": the one that is followed).
+std::vector<std::string> sampled_signals(const std::string& estimator);
+
+/// The first contact of a recording as samples, `run` and `configuration` still 0. `touched`: what was
+/// touched, where the recording does not hold the truth or it is to be overruled. Ticks at which several
+/// bodies are touched without being clamped are left out: they have no label. A leg counts as clamped as
+/// long as both its links were touched within the last 5 ms. Throws SetupError where signals are missing.
+ContactSamples contact_samples(const Recording& recording, const ParallelRobot& robot,
+                               const SampleChoice& choice, std::optional<int> touched = std::nullopt);
+
+}  // namespace flinch

@@ -1,0 +1,146 @@
+#include "experiments/dataset/data_journal.h"
+
+#include <fmt/core.h>
+
+#include <cstring>
+#include <utility>
+
+#include "experiments/dataset/data_spec.h"
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+/// FNV-1a.
+std::uint64_t hash_of(const std::string& bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  return hash;
+}
+
+template <class Number>
+void put(std::string& bytes, Number number) {
+  bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+}
+
+template <class Vector>
+void put_all(std::string& bytes, const Vector& numbers) {
+  for (const double number : numbers) put(bytes, number);
+}
+
+/// Numbers of a frame, one after the other; 0 behind its end.
+class Frame {
+ public:
+  explicit Frame(const std::string& bytes) : bytes_(bytes) {}
+  template <class Number>
+  Number take() {
+    Number number{};
+    if (at_ + sizeof number <= bytes_.size()) std::memcpy(&number, bytes_.data() + at_, sizeof number);
+    at_ += sizeof number;
+    return number;
+  }
+  template <class Vector>
+  void take_all(Eigen::Index size, Vector& into) {
+    into.resize(size);
+    for (double& number : into) number = take<double>();
+  }
+  bool ended() const { return at_ == bytes_.size(); }
+
+ private:
+  const std::string& bytes_;
+  std::size_t at_ = 0;
+};
+
+std::string frame_of(std::size_t run, const ContactSamples& samples) {
+  std::string bytes;
+  put(bytes, static_cast<std::uint64_t>(run));
+  put(bytes, static_cast<std::uint64_t>(samples.left_out.size()));
+  bytes += samples.left_out;
+  put(bytes, static_cast<std::uint64_t>(samples.samples.size()));
+  for (const DataSample& sample : samples.samples) {
+    for (const int number : {sample.configuration, sample.moment, sample.touched}) put(bytes, number);
+    for (const double number : {sample.since_onset, sample.since_early, sample.force}) put(bytes, number);
+    put_all(bytes, sample.pose);
+    put_all(bytes, sample.velocity);
+    put_all(bytes, sample.wrench_in_base);
+  }
+  return bytes;
+}
+
+std::pair<std::size_t, ContactSamples> run_of(const std::string& bytes, const ParallelRobot& robot) {
+  Frame frame(bytes);
+  const auto run = static_cast<std::size_t>(frame.take<std::uint64_t>());
+  ContactSamples samples;
+  for (auto letters = frame.take<std::uint64_t>(); letters > 0 && letters <= bytes.size(); --letters)
+    samples.left_out += frame.take<char>();
+  const auto count = frame.take<std::uint64_t>();
+  for (std::uint64_t i = 0; i < count && i < bytes.size(); ++i) {
+    DataSample& sample = samples.samples.emplace_back();
+    sample.run = static_cast<int>(run);
+    for (int* const number : {&sample.configuration, &sample.moment, &sample.touched})
+      *number = frame.take<int>();
+    for (double* const number : {&sample.since_onset, &sample.since_early, &sample.force})
+      *number = frame.take<double>();
+    frame.take_all(robot.home_pose().size(), sample.pose);
+    frame.take_all(robot.dof(), sample.velocity);
+    frame.take_all(robot.dof(), sample.wrench_in_base);
+  }
+  if (!frame.ended()) throw SetupError("a run has another length than its samples");
+  return {run, std::move(samples)};
+}
+
+std::string sealed(const std::string& frame) {
+  std::string bytes;
+  put(bytes, static_cast<std::uint64_t>(frame.size()));
+  put(bytes, hash_of(frame));
+  return bytes + frame;
+}
+
+}  // namespace
+
+DataJournal::DataJournal(std::filesystem::path file, const DataSpec& spec, const ParallelRobot& robot)
+    : file_(std::move(file)) {
+  const std::string header = fmt::format("flinch data set {:016x}\n", hash_of(spec.identity()));
+  if (std::filesystem::exists(file_)) read(header, robot);
+  // Written anew, so that what follows does not stand behind half a frame.
+  stream_.open(file_, std::ios::binary | std::ios::trunc);
+  stream_ << header;
+  for (const auto& [run, samples] : runs_) stream_ << sealed(frame_of(run, samples));
+  if (!stream_.flush()) throw SetupError(file_.string() + ": the file cannot be written");
+}
+
+void DataJournal::read(const std::string& header, const ParallelRobot& robot) {
+  constexpr std::uint64_t longest = 1U << 30U;
+  std::ifstream stream(file_, std::ios::binary);
+  std::string line;
+  if (!std::getline(stream, line)) return;
+  if (line + "\n" != header) {
+    throw SetupError(file_.string() +
+                     ": holds the samples of another specification, seed or version; choose "
+                     "another file with --out, or begin anew with --fresh");
+  }
+  std::uint64_t start[2] = {0, 0};  // length and checksum
+  while (stream.read(reinterpret_cast<char*>(start), sizeof start) && start[0] < longest) {
+    std::string frame(start[0], '\0');
+    if (!stream.read(frame.data(), static_cast<std::streamsize>(frame.size())) || hash_of(frame) != start[1])
+      return;
+    runs_.insert(run_of(frame, robot));
+  }
+}
+
+void DataJournal::add(std::size_t run, const ContactSamples& samples) {
+  stream_ << sealed(frame_of(run, samples));
+  if (!stream_.flush()) {
+    throw SetupError(file_.string() +
+                     ": the disk takes no more; what is done is kept, go on with the same call");
+  }
+  runs_.insert_or_assign(run, samples);
+}
+
+void DataJournal::remove() {
+  stream_.close();
+  std::error_code ignored;
+  std::filesystem::remove(file_, ignored);
+}
+
+}  // namespace flinch

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include "experiments/dataset/contact_samples.h"
+
+namespace flinch {
+
+struct DataSpec;
+
+/// The samples of a data set while it is made: a file to which each run adds its own as soon as it is done,
+/// with a checksum. A program that is killed leaves whole runs and at most one torn one, which is left out;
+/// the next call goes on where it stopped.
+class DataJournal {
+ public:
+  /// Opens the journal, or begins one. Throws SetupError where it cannot be read or written, and where it is
+  /// that of another data set.
+  DataJournal(std::filesystem::path file, const DataSpec& spec, const ParallelRobot& robot);
+
+  /// What is done, by number of the run.
+  const std::map<std::size_t, ContactSamples>& runs() const { return runs_; }
+
+  /// Throws SetupError where the disk does not take it.
+  void add(std::size_t run, const ContactSamples& samples);
+
+  void remove();
+
+ private:
+  void read(const std::string& header, const ParallelRobot& robot);
+
+  std::filesystem::path file_;
+  std::ofstream stream_;
+  std::map<std::size_t, ContactSamples> runs_;
+};
+
+}  // namespace flinch

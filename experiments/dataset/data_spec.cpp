@@ -1,0 +1,90 @@
+#include "experiments/dataset/data_spec.h"
+
+#include <algorithm>
+
+#include "systems/config/config_reader.h"
+#include "systems/config/parsed.h"
+#include "systems/foundation/setup_error.h"
+#include "systems/framework/random.h"
+
+namespace flinch {
+namespace {
+
+DataPart read_part(ConfigReader& reader) {
+  DataPart part;
+  std::filesystem::path campaign;
+  reader.required().file("campaign", campaign);
+  reader.integer("share", part.share, 1, 1000);
+  reader.text("configuration", part.configuration);
+  if (campaign.empty()) return part;
+  try {
+    part.campaign = read_campaign(campaign);
+  } catch (const SetupError& error) {
+    reader.add_problems(error.problems());
+    return part;
+  }
+  const auto& grid = part.campaign.grid;
+  const bool is_axis = std::any_of(grid.begin(), grid.end(),
+                                   [&](const CampaignAxis& axis) { return axis.key == part.configuration; });
+  if (!part.configuration.empty() && !is_axis) {
+    reader.problem("configuration",
+                   "is '" + part.configuration + "', which is no axis of the campaign's grid");
+  }
+  return part;
+}
+
+DataRecording read_recording_entry(ConfigReader& reader) {
+  DataRecording recording;
+  reader.required().file("file", recording.file);
+  reader.text("touched", recording.touched);
+  reader.integer("configuration", recording.configuration, 0, 1'000'000);
+  return recording;
+}
+
+void read_samples(ConfigReader reader, SampleChoice& samples) {
+  reader.text("estimator", samples.estimator);
+  reader.integer("every", samples.every, 1, 1000);
+  reader.number("from_force", unit::N, samples.from_force, positive);
+}
+
+}  // namespace
+
+std::string DataSpec::identity() const {
+  std::string text = "flinch " FLINCH_VERSION "\nseed " + std::to_string(seed) + "\nestimator " +
+                     samples.estimator + "\nevery " + std::to_string(samples.every) + "\n";
+  if (samples.from_force) text += "from " + exact_text(*samples.from_force) + "\n";
+  for (const DataPart& part : parts) {
+    text += "part " + std::to_string(part.share) + " " + part.configuration + "\n" + part.campaign.identity();
+  }
+  return text;
+}
+
+DataSpec read_data_spec(const std::filesystem::path& file, const DataSpecOverrides& overrides) {
+  DataSpec spec;
+  spec.file = file;
+  spec.title = file.stem().string();
+  ConfigReader reader = ConfigReader::open(file);
+  reader.text("title", spec.title);
+  reader.text("description", spec.description);
+  reader.seed("seed", spec.seed);
+  int runs = static_cast<int>(spec.runs);
+  reader.integer("runs", runs, 1, 10'000'000);
+  spec.runs = overrides.runs.value_or(static_cast<std::size_t>(runs));
+  spec.seed = overrides.seed.value_or(spec.seed);
+  read_samples(reader.section("samples"), spec.samples);
+  for (ConfigReader& part : reader.sections("contacts")) spec.parts.push_back(read_part(part));
+  for (ConfigReader& entry : reader.sections("recordings"))
+    spec.recordings.push_back(read_recording_entry(entry));
+  if (reader.good() && spec.parts.empty() && spec.recordings.empty()) {
+    reader.problem("", "names neither 'contacts' nor 'recordings'; there is nothing to make data of");
+  }
+  reader.finish();
+  for (std::size_t i = 0; i < spec.parts.size(); ++i) {
+    Campaign& campaign = spec.parts[i].campaign;
+    campaign.seed = derive_seed(spec.seed, "part " + std::to_string(i));
+    campaign.draws = 1'000'000;  // as many as are asked for are made
+  }
+  return spec;
+}
+
+}  // namespace flinch

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/campaign/campaign.h"
+
+namespace flinch {
+
+/// Which ticks of a run become samples.
+struct SampleChoice {
+  /// Whose estimate is kept, and whose detections tell the early tick; "": of the estimator that is followed.
+  std::string estimator;
+  int every = 5;  ///< of the ticks between the first moment and the last, one in so many; moments always
+  /// Instead of those: all ticks of a contact at which a force is estimated that reaches this [N].
+  std::optional<double> from_force;
+};
+
+/// Contacts from a campaign.
+struct DataPart {
+  Campaign campaign;
+  int share = 1;              ///< of the runs, against that of the others
+  std::string configuration;  ///< axis of the grid whose values are configurations; "": each run is one
+};
+
+/// Contacts from a recording of a robot, real or simulated.
+struct DataRecording {
+  std::filesystem::path file;
+  std::string touched;  ///< name of the class; "": the truth that the recording holds
+  int configuration = 0;
+};
+
+/// What a data set is made of. docs/files.md has the keys of the file.
+struct DataSpec {
+  std::filesystem::path file;
+  std::string title, description;
+  std::uint64_t seed = 1;
+  std::size_t runs = 1000;  ///< of all parts together
+  SampleChoice samples;
+  std::vector<DataPart> parts;
+  std::vector<DataRecording> recordings;
+
+  /// Everything that decides about the data but the number of runs, in words.
+  std::string identity() const;
+};
+
+struct DataSpecOverrides {
+  std::optional<std::size_t> runs = std::nullopt;
+  std::optional<std::uint64_t> seed = std::nullopt;
+};
+
+/// Throws SetupError with all that is wrong with the file and with the campaigns that it names.
+DataSpec read_data_spec(const std::filesystem::path& file, const DataSpecOverrides& overrides = {});
+
+}  // namespace flinch

@@ -1,0 +1,203 @@
+#include "learning/data_set.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <set>
+
+#include "systems/config/robot_file.h"
+#include "systems/foundation/problems_of_place.h"
+#include "systems/foundation/setup_error.h"
+#include "systems/framework/hdf5_object.h"
+
+namespace flinch {
+namespace {
+
+constexpr const char* format = "flinch contacts 1";
+constexpr std::size_t first_columns = 7;
+
+std::size_t columns_of(const ParallelRobot& robot) {
+  return first_columns + static_cast<std::size_t>(robot.home_pose().size() + 2 * robot.dof());
+}
+
+std::string column_names(const ParallelRobot& robot) {
+  std::string names = "run configuration moment touched since_onset_s since_early_s force_N";
+  const auto add = [&names](const char* name, Eigen::Index count) {
+    for (Eigen::Index i = 0; i < count; ++i) names += fmt::format(" {}_{}", name, i + 1);
+  };
+  add("pose", robot.home_pose().size());
+  add("velocity", robot.dof());
+  add("wrench", robot.dof());
+  return names;
+}
+
+template <class Vector>
+void append(const Vector& vector, std::vector<internal::Number>& row) {
+  for (const double value : vector) row.push_back({.real = value});
+}
+
+void append(const DataSample& sample, std::vector<internal::Number>& row) {
+  for (const int value : {sample.run, sample.configuration, sample.moment, sample.touched})
+    row.push_back({.real = static_cast<double>(value)});
+  for (const double value : {sample.since_onset, sample.since_early, sample.force})
+    row.push_back({.real = value});
+  append(sample.pose, row);
+  append(sample.velocity, row);
+  append(sample.wrench_in_base, row);
+}
+
+/// Takes the numbers of a row one after the other.
+class RowReader {
+ public:
+  RowReader(const internal::Number* row, std::size_t number) : next_(row), number_(number) {}
+
+  double real() {
+    const double value = (next_++)->real;
+    if (!std::isfinite(value)) fail("has a number that is not finite");
+    return value;
+  }
+  int whole(int least, int end) {
+    const double value = real();
+    if (value < least || value >= end || value != std::floor(value)) {
+      fail(fmt::format("has {} where a whole number from {} to {} belongs", value, least, end - 1));
+    }
+    return static_cast<int>(value);
+  }
+  template <class Vector>
+  void vector(Eigen::Index size, Vector& into) {
+    into.resize(size);
+    for (double& value : into) value = real();
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& complaint) const {
+    throw SetupError(fmt::format("sample {} {}", number_, complaint));
+  }
+  const internal::Number* next_;
+  std::size_t number_;
+};
+
+DataSample sample_of(const internal::Number* row, std::size_t number, const ParallelRobot& robot) {
+  RowReader reader(row, number);
+  DataSample sample;
+  sample.run = reader.whole(0, 1'000'000'000);
+  sample.configuration = reader.whole(0, 1'000'000'000);
+  sample.moment = reader.whole(0, 8);
+  sample.touched = reader.whole(0, classes_of(robot).count());
+  sample.since_onset = reader.real();
+  sample.since_early = reader.real();
+  sample.force = reader.real();
+  reader.vector(robot.home_pose().size(), sample.pose);
+  reader.vector(robot.dof(), sample.velocity);
+  reader.vector(robot.dof(), sample.wrench_in_base);
+  return sample;
+}
+
+void write_samples(const DataSet& data, internal::Hdf5Object::Id file) {
+  constexpr std::size_t chunk = 4096;
+  const std::size_t columns = columns_of(*data.robot);
+  const internal::Hdf5Object table = internal::make_table(file, "samples", Field::Kind::real, columns, chunk);
+  std::vector<internal::Number> rows;
+  for (std::size_t first = 0; first < data.samples.size(); first += chunk) {
+    const std::size_t end = std::min(first + chunk, data.samples.size());
+    rows.clear();
+    for (std::size_t i = first; i < end; ++i) append(data.samples[i], rows);
+    internal::append_rows(table, Field::Kind::real, first, end - first, columns, rows.data());
+  }
+}
+
+void read_samples(internal::Hdf5Object::Id file, DataSet& data) {
+  constexpr std::size_t block = 4096;
+  const std::size_t columns = columns_of(*data.robot);
+  const internal::Hdf5Object table = internal::open_table(file, "samples");
+  const std::size_t count = internal::table_rows(table, "samples", columns);
+  std::vector<internal::Number> rows(block * columns);
+  for (std::size_t first = 0; first < count; first += block) {
+    const std::size_t read = std::min(block, count - first);
+    internal::read_rows(table, Field::Kind::real, first, read, columns, rows.data());
+    for (std::size_t i = 0; i < read; ++i)
+      data.samples.push_back(sample_of(rows.data() + i * columns, first + i, *data.robot));
+  }
+}
+
+DataSet read(const std::filesystem::path& file) {
+  const std::lock_guard lock(internal::hdf5_mutex());
+  const internal::Hdf5Object hdf5 = internal::open_hdf5_file(file);
+  DataSet data;
+  for (const std::string& name : internal::attribute_names(hdf5))
+    data.card[name] = internal::read_text(hdf5, name);
+  if (data.card["format"] != format) {
+    throw SetupError("this is no data set of contacts; `flinch dataset` makes one");
+  }
+  data.robot_file = data.card["robot.file"];
+  data.robot_text = data.card["robot.text"];
+  data.robot = parse_robot_file(data.robot_text, data.robot_file).robot;
+  if (data.card["columns"] != column_names(*data.robot)) {
+    throw SetupError("its columns are '" + data.card["columns"] + "'; they must be '" +
+                     column_names(*data.robot) + "'");
+  }
+  read_samples(hdf5, data);
+  for (const char* own : {"format", "robot.file", "robot.text", "columns"}) data.card.erase(own);
+  return data;
+}
+
+}  // namespace
+
+ContactClasses classes_of(const ParallelRobot& robot) { return {robot.body_count(), robot.legs()}; }
+
+std::string fingerprint(const std::string& robot_text, const std::string& robot_file) {
+  std::uint64_t hash = 0xcbf29ce484222325U;  // FNV-1a
+  for (const ReadValue& value : parse_robot_file(robot_text, robot_file).values) {
+    for (const char letter : value.key + "=" + value.value + "\n")
+      hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3U;
+  }
+  return fmt::format("{:016x}", hash);
+}
+
+std::string counts_table(const DataSet& data) {
+  const ContactClasses classes = classes_of(*data.robot);
+  std::map<std::pair<int, int>, std::pair<std::size_t, std::set<int>>> counts;
+  std::set<int> configurations;
+  for (const DataSample& sample : data.samples) configurations.insert(sample.configuration);
+  const bool is_each = configurations.size() <= 10;
+  for (const DataSample& sample : data.samples) {
+    auto& [samples, runs] = counts[{is_each ? sample.configuration : -1, sample.touched}];
+    ++samples;
+    runs.insert(sample.run);
+  }
+  std::string text =
+      fmt::format("{:<16} {:<16} {:>8} {:>10}\n", "configuration", "touched", "runs", "samples");
+  for (const auto& [place, count] : counts) {
+    const std::string where =
+        is_each ? std::to_string(place.first) : fmt::format("any of {}", configurations.size());
+    text += fmt::format("{:<16} {:<16} {:>8} {:>10}\n", where, classes.name(place.second),
+                        count.second.size(), count.first);
+  }
+  return text;
+}
+
+void write_data_set(const DataSet& data, const std::filesystem::path& file) {
+  const std::filesystem::path other = file.string() + ".new";
+  out_of(file.string(), [&] {
+    const std::lock_guard lock(internal::hdf5_mutex());
+    const internal::Hdf5Object hdf5 = internal::create_hdf5_file(other);
+    internal::write_text(hdf5, "format", format);
+    internal::write_text(hdf5, "columns", column_names(*data.robot));
+    internal::write_text(hdf5, "robot.file", data.robot_file);
+    internal::write_text(hdf5, "robot.text", data.robot_text);
+    for (const auto& [name, text] : data.card) internal::write_text(hdf5, name, text);
+    write_samples(data, hdf5);
+    internal::flush_hdf5_file(hdf5);
+    return 0;
+  });
+  std::error_code error;
+  std::filesystem::rename(other, file, error);
+  if (error) throw SetupError(file.string() + ": the file cannot be written: " + error.message());
+}
+
+DataSet read_data_set(const std::filesystem::path& file) {
+  if (!std::filesystem::is_regular_file(file)) throw SetupError(file.string() + ": there is no such file");
+  return out_of(file.string(), [&file] { return read(file); });
+}
+
+}  // namespace flinch

@@ -1,0 +1,229 @@
+#include "learning/evaluation_page.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "learning/page/style.h"
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+/// Text that means nothing in HTML.
+std::string plain(const std::string& text) {
+  std::string safe;
+  for (const char c : text) {
+    switch (c) {
+      case '<':
+        safe += "&lt;";
+        break;
+      case '>':
+        safe += "&gt;";
+        break;
+      case '&':
+        safe += "&amp;";
+        break;
+      case '"':
+        safe += "&quot;";
+        break;
+      default:
+        safe += c;
+    }
+  }
+  return safe;
+}
+
+std::string percent(const std::optional<double>& share, int digits = 1) {
+  return share ? fmt::format("{:.{}f} %", 100.0 * *share, digits) : "–";
+}
+
+std::string figure(const std::string& value, const std::string& what) {
+  return fmt::format("<div class=\"figure\"><strong>{}</strong><span class=\"soft\">{}</span></div>", value,
+                     what);
+}
+
+std::string figures_of(const Evaluation& chosen) {
+  std::string html = "<div class=\"figures\">";
+  if (chosen.body) html += figure(percent(chosen.body), "of collisions: the right body");
+  if (chosen.collision) html += figure(percent(chosen.collision), "of collisions told from clampings");
+  if (chosen.clamping) html += figure(percent(chosen.clamping), "of clampings told as such");
+  if (chosen.chain) html += figure(percent(chosen.chain), "of clampings: the right leg");
+  html += figure(fmt::format("{:.4f}", chosen.calibration_error), "expected calibration error");
+  html += figure(percent(chosen.accepted.rejected), "rejected");
+  html += figure(percent(chosen.accepted.wrong_of_accepted, 2), "wrong of what is acted upon");
+  return html + "</div>\n";
+}
+
+std::string moments_table(const std::vector<Evaluation>& all) {
+  std::string html =
+      "<table><thead><tr><th></th><th>samples</th><th>body</th><th>collision</th><th>clamping</th><th>leg</"
+      "th>"
+      "<th>all classes</th><th>calibration error</th><th>rejected</th><th>wrong of "
+      "accepted</th></tr></thead><tbody>\n";
+  for (const Evaluation& each : all) {
+    html += fmt::format("<tr><th>{}</th><td>{}</td>", each.moment, each.samples);
+    for (const auto& share :
+         {each.body, each.collision, each.clamping, each.chain, each.confusion.balanced_accuracy()})
+      html += fmt::format("<td>{}</td>", percent(share));
+    html += fmt::format("<td>{:.4f}</td><td>{}</td><td>{}</td></tr>\n", each.calibration_error,
+                        percent(each.accepted.rejected), percent(each.accepted.wrong_of_accepted, 2));
+  }
+  return html + "</tbody></table>\n";
+}
+
+std::string confusion_html(const Confusion& confusion) {
+  std::string html = "<div class=\"scroll\"><table><thead><tr><th>touched \\ told as</th>";
+  for (const std::string& name : confusion.classes) html += "<th>" + plain(name) + "</th>";
+  html += "<th>samples</th></tr></thead><tbody>\n";
+  const Eigen::MatrixXd shares = confusion.row_normalised();
+  for (Eigen::Index row = 0; row < shares.rows(); ++row) {
+    html += "<tr><th>" + plain(confusion.classes[static_cast<std::size_t>(row)]) + "</th>";
+    for (Eigen::Index column = 0; column < shares.cols(); ++column) {
+      const double share = shares(row, column);
+      const char* const colour = row == column ? "--estimate" : "--true";
+      html += fmt::format(
+          "<td class=\"cell{}\" style=\"background: color-mix(in srgb, var({}) {:.0f}%, "
+          "transparent)\">{}</td>",
+          share == 0.0 ? " none" : "", colour, 70.0 * std::sqrt(share),
+          share == 0.0 ? "·" : fmt::format("{:.1f} %", 100.0 * share));
+    }
+    html += fmt::format("<td>{:.0f}</td></tr>\n", confusion.counts.row(row).sum());
+  }
+  return html + "</tbody></table></div>\n";
+}
+
+/// A square chart of shares with axes from 0 to the largest values.
+class Chart {
+ public:
+  Chart(double width, double height, const std::string& label) : width_(width), height_(height) {
+    svg_ = fmt::format("<svg viewBox=\"0 0 460 380\" role=\"img\" aria-label=\"{}\">\n", label);
+    svg_ += "<path class=\"axis\" d=\"M60 20V330H440\"/>\n";
+    for (int i = 0; i <= 4; ++i) {
+      text(x(width_ * i / 4), 350, "middle", fmt::format("{:.3g} %", 100.0 * width_ * i / 4));
+      text(52, y(height_ * i / 4) + 4, "end", fmt::format("{:.3g} %", 100.0 * height_ * i / 4));
+    }
+  }
+  double x(double share) const { return 60.0 + 380.0 * std::min(share / width_, 1.0); }
+  double y(double share) const { return 330.0 - 310.0 * std::min(share / height_, 1.0); }
+  void text(double at_x, double at_y, const char* anchor, const std::string& words) {
+    svg_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", at_x, at_y, anchor,
+                        words);
+  }
+  void add(const std::string& element) { svg_ += element + "\n"; }
+  std::string finish(const std::string& along) {
+    text(250, 374, "middle", along);
+    return svg_ + "</svg>\n";
+  }
+
+ private:
+  double width_, height_;
+  std::string svg_;
+};
+
+std::string reliability_chart(const Evaluation& chosen) {
+  Chart chart(1.0, 1.0, "Reliability diagram");
+  for (const ReliabilityBin& bin : chosen.reliability) {
+    if (bin.count == 0) continue;
+    chart.add(fmt::format(
+        "<rect class=\"bar\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"><title>{} answers "
+        "of "
+        "{:.1f} % confidence, {:.1f} % right</title></rect>",
+        chart.x(bin.from) + 2, chart.y(bin.accuracy), chart.x(bin.to) - chart.x(bin.from) - 4,
+        chart.y(0.0) - chart.y(bin.accuracy), bin.count, 100.0 * bin.confidence, 100.0 * bin.accuracy));
+    chart.add(fmt::format("<circle class=\"point\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\"/>",
+                          chart.x(bin.confidence), chart.y(bin.accuracy)));
+  }
+  chart.add(fmt::format("<path class=\"ideal\" d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\"/>", chart.x(0), chart.y(0),
+                        chart.x(1), chart.y(1)));
+  return chart.finish("probability that it gives; how often it was right");
+}
+
+std::string reject_chart(const Evaluation& chosen) {
+  double highest = 0.01;
+  for (const RejectPoint& point : chosen.rejects) highest = std::max(highest, point.wrong_of_accepted);
+  Chart chart(1.0, highest, "Reject curve");
+  std::string path;
+  for (const RejectPoint& point : chosen.rejects) {
+    if (point.rejected >= 1.0) break;
+    path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? 'M' : 'L', chart.x(point.rejected),
+                        chart.y(point.wrong_of_accepted));
+  }
+  chart.add("<path class=\"curve\" d=\"" + path + "\"/>");
+  chart.add(
+      fmt::format("<circle class=\"point\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\"><title>accepted from "
+                  "{:.3f}</title></circle>",
+                  chart.x(chosen.accepted.rejected), chart.y(chosen.accepted.wrong_of_accepted),
+                  chosen.accepted.accepted_from));
+  return chart.finish("rejected; wrong of what is accepted");
+}
+
+std::string card_of(const std::map<std::string, std::string>& values) {
+  std::string html = "<dl class=\"made\">";
+  for (const auto& [key, value] : values) {
+    if (key == "counts" || value.empty()) continue;
+    html += "<dt>" + plain(key) + "</dt><dd>" + plain(value) + "</dd>\n";
+  }
+  return html + "</dl>\n";
+}
+
+std::string confusions(const Evaluation& chosen) {
+  std::string html =
+      "<section><h2>What was touched, and what it was told as</h2>\n" + confusion_html(chosen.confusion);
+  if (chosen.by_configuration.size() > 1) {
+    for (const auto& [configuration, confusion] : chosen.by_configuration) {
+      html += fmt::format("<h2>Configuration {}: {}</h2>\n", configuration,
+                          percent(confusion.balanced_accuracy()));
+      html += confusion_html(confusion);
+    }
+  }
+  return html + "</section>\n";
+}
+
+}  // namespace
+
+std::string evaluation_page(const EvaluationPage& page) {
+  const auto title = page.data.card.find("title");
+  const std::string name = title == page.data.card.end() ? page.data.robot_file : title->second;
+  std::string html =
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
+      "img-src "
+      "data:\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<meta name=\"color-scheme\" content=\"light dark\"><link rel=\"icon\" href=\"data:,\">\n"
+      "<title>flinch evaluation</title>\n<style>\n";
+  html += evaluation_page_style;
+  html +=
+      "</style></head><body>\n<header><div class=\"headline\"><p class=\"overline\">flinch · evaluation of a "
+      "classifier</p><h1>";
+  html += plain(name) + "</h1><p class=\"soft\">" +
+          plain(fmt::format("{} samples of {}; decided {}", page.chosen.samples, page.data.robot->name(),
+                            page.chosen.moment == "all" ? "at every sample" : page.chosen.moment)) +
+          "</p></div></header>\n<main>\n<section>" + figures_of(page.chosen) + "<div class=\"scroll\">" +
+          moments_table(page.all) +
+          "</div><p class=\"soft\">Accuracies are means over the classes. Early: when a detector notices the "
+          "contact that follows the "
+          "estimate in use; detected: when the robot's does; later: 10 ms after that; all: every "
+          "sample.</p></section>\n";
+  html += confusions(page.chosen);
+  html +=
+      "<section class=\"pair\"><figure><figcaption>Reliability: right answers by the probability that they "
+      "were "
+      "given</figcaption>" +
+      reliability_chart(page.chosen) +
+      "</figure><figure><figcaption>Rejecting: the less is accepted, the less of it is wrong</figcaption>" +
+      reject_chart(page.chosen) + "</figure></section>\n";
+  html += "<section class=\"pair\"><div><h2>The model</h2>" + card_of(page.model.provenance) +
+          "</div><div><h2>The data</h2>" + card_of(page.data.card) + "</div></section>\n";
+  return html + "</main></body></html>\n";
+}
+
+void write_evaluation_page(const EvaluationPage& page, const std::filesystem::path& file) {
+  std::ofstream stream(file, std::ios::binary);
+  stream << evaluation_page(page);
+  stream.close();
+  if (!stream) throw SetupError(file.string() + ": the page cannot be written");
+}
+
+}  // namespace flinch

@@ -1,0 +1,53 @@
+#include "learning/model_questions.h"
+
+#include <fmt/core.h>
+
+#include "systems/foundation/findings.h"
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+std::string value_of(const ClassifierModel& model, const std::string& key) {
+  const auto found = model.provenance.find(key);
+  return found == model.provenance.end() ? "" : found->second;
+}
+
+/// Says at which place two lists of names part; the first that differs tells the most.
+void compare(const std::vector<std::string>& of_model, const std::vector<std::string>& wanted,
+             const char* what, Findings& found) {
+  for (std::size_t i = 0; i < std::max(of_model.size(), wanted.size()); ++i) {
+    const std::string mine = i < of_model.size() ? "'" + of_model[i] + "'" : "missing";
+    const std::string right = i < wanted.size() ? "'" + wanted[i] + "'" : "none";
+    if (mine == right) continue;
+    found.add(fmt::format("{} {} of the model is {} and must be {}; a network is told numbers by their place",
+                          what, i + 1, mine, right));
+    return;
+  }
+}
+
+}  // namespace
+
+FeatureSet features_for(const ClassifierModel& model, const DataSet& data) {
+  const std::string question = value_of(model, "question");
+  if (question.empty()) {
+    throw SetupError(
+        "the metadata of the model do not say which question it answers; 'flinch.question' must be touched, "
+        "body, clamping or chain");
+  }
+  FeatureSet features(question_named(question), data.robot);
+  Findings found;
+  const std::string fitted = value_of(model, "robot.fingerprint");
+  if (!fitted.empty() && fitted != fingerprint(data.robot_text, data.robot_file)) {
+    found.add(fmt::format(
+        "the model was trained for the robot '{}', the data are of '{}', or of one with other parameters; "
+        "train it anew with data of this robot",
+        value_of(model, "robot.name"), data.robot->name()));
+  }
+  compare(model.features, features.names(), "feature", found);
+  compare(model.classes, features.classes(), "class", found);
+  throw_if_any(found.take());
+  return features;
+}
+
+}  // namespace flinch

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "learning/classifier_model.h"
+#include "learning/feature_set.h"
+
+namespace flinch {
+
+/// How the questions of a model are asked about a data set. Throws SetupError with all that speaks against
+/// it: another robot, features in another order, other classes.
+FeatureSet features_for(const ClassifierModel& model, const DataSet& data);
+
+}  // namespace flinch

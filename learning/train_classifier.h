@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "learning/classifier_model.h"
+#include "learning/evaluation.h"
+
+namespace flinch {
+
+/// How a classifier is made from a data set.
+struct ClassifierTraining {
+  Question question = Question::body;
+  std::vector<TrainingSettings> candidates;  ///< the best in cross-validation is taken; one: no search
+  int folds = 5;                             ///< of the cross-validation, by runs
+  SampleFilter filter;
+  /// Largest share of wrong answers among those that are believed; from which confidence on that holds is
+  /// found in the cross-validation.
+  double wrong_of_accepted = 0.005;
+  std::size_t threads = 0;  ///< 0: one a processor
+};
+
+/// The settings of [SafePR] V-F1: 5 x 30 for clamping, 5 x 25 for the chain; for the body 4 x 30, whose
+/// widths are not printed.
+TrainingSettings standard_settings(Question question);
+
+/// The grid of [SafePR] V-F: 2 to 5 hidden layers of 10 to 30, L2 from 1e-4 to 1e-1.
+std::vector<TrainingSettings> paper_grid(const TrainingSettings& base);
+
+/// What came out of a training.
+struct TrainedClassifier {
+  ClassifierModel model;
+  TrainingSettings settings;       ///< that were best
+  std::vector<double> accuracies;  ///< balanced, of each candidate in cross-validation
+  double temperature = 1.0;        ///< that the scores were divided by
+  Evaluation expected;             ///< by the cross-validation
+};
+
+/// Trains in folds that keep runs together: each candidate on all folds but one, asked about that one. From
+/// the answers of the best come temperature (Guo et al., ICML 2017) and acceptance; then it is trained on
+/// all. The same bits for any number of threads. Throws SetupError for data that cannot be learned from.
+TrainedClassifier train_classifier(const DataSet& data, const ClassifierTraining& training,
+                                   const TrainingProgress& progress = {});
+
+}  // namespace flinch

@@ -1,0 +1,89 @@
+// flinch dataset, train and evaluate, as typed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "tests/apps/flinch/program.h"
+#include "tests/support/workplace.h"
+
+#if FLINCH_HAS_LEARNING
+
+namespace flinch {
+namespace {
+
+using test::flinch;
+using test::Outcome;
+using ::testing::HasSubstr;
+
+/// A small data set and its model.
+class LearningVerbs : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    made = flinch({"dataset", FLINCH_SOURCE_DIR "/apps/models/bodies.yaml", "--runs", "40", "--seed", "5",
+                   "--out", data(), "--threads", "2", "--quiet"});
+    trained = flinch(
+        {"train", data(), "-o", model(), "--epochs", "40", "--threads", "2", "--folds", "3", "--json"});
+  }
+
+  std::string data() const { return place.at("data.h5"); }
+  std::string model() const { return place.at("model.onnx"); }
+  Outcome evaluate(std::vector<std::string> more) const {
+    more.insert(more.begin(), {"evaluate", model(), data(), "--threads", "2"});
+    return flinch(more);
+  }
+
+  test::Workplace place;
+  Outcome made, trained;
+};
+
+TEST_F(LearningVerbs, SayWhatTheyHaveMade) {
+  EXPECT_EQ(made.status, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("40 runs"));
+  EXPECT_THAT(made.out, HasSubstr("platform"));
+  ASSERT_EQ(trained.status, 0) << trained.err;
+  const auto json = nlohmann::json::parse(trained.out);
+  EXPECT_GT(json["samples"], 200);
+  EXPECT_GT(json["accuracy"], 1.0 / 7.0) << "chance";
+  EXPECT_EQ(json["question"], "body");
+  EXPECT_TRUE(std::filesystem::exists(model()));
+}
+
+TEST_F(LearningVerbs, EvaluateWithTheKeysOfTheDocument) {
+  const Outcome outcome = evaluate({"--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  for (const char* key :
+       {"samples", "accuracy", "confusion", "expected_calibration_error", "rejected", "wrong_of_accepted"})
+    EXPECT_TRUE(json.contains(key)) << key;
+  for (const char* key : {"body", "collision_clamping", "chain"})
+    EXPECT_TRUE(json["accuracy"].contains(key)) << key;
+  EXPECT_EQ(json["at"], "later");
+  EXPECT_GT(json["moments"]["all"]["samples"], json["samples"]);
+  EXPECT_THAT(test::bytes_of(place.at("data_model.html")), HasSubstr("Reliability"));
+  EXPECT_EQ(nlohmann::json::parse(evaluate({"--json", "--at", "early"}).out)["at"], "early");
+  const Outcome misspelt = evaluate({"--at", "erly"});
+  EXPECT_EQ(misspelt.status, 2);
+  EXPECT_THAT(misspelt.err, HasSubstr("did you mean 'early'?"));
+}
+
+TEST_F(LearningVerbs, SayOnceWhatIsWrongWithAFile) {
+  const std::string whole = test::bytes_of(model());
+  place.write("short.onnx", whole.substr(0, whole.size() / 2));
+  const Outcome torn = flinch({"evaluate", place.at("short.onnx"), data()});
+  EXPECT_EQ(torn.status, 2);
+  EXPECT_THAT(torn.err, HasSubstr("short.onnx: this is no ONNX file, or only a part of one"));
+  const Outcome absent = flinch({"train", place.at("none.h5"), "-o", place.at("x.onnx")});
+  EXPECT_EQ(absent.status, 2);
+  EXPECT_THAT(absent.err, HasSubstr("none.h5: there is no such file"));
+  const Outcome other = flinch({"train", data(), "-o", place.at("x.onnx"), "--question", "chian"});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.err, HasSubstr("did you mean 'chain'?"));
+  EXPECT_FALSE(std::filesystem::exists(place.at("x.onnx")));
+}
+
+}  // namespace
+}  // namespace flinch
+
+#endif

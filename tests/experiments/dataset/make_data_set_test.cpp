@@ -1,0 +1,137 @@
+#include "experiments/dataset/make_data_set.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "experiments/dataset/contact_samples.h"
+#include "experiments/dataset/data_journal.h"
+#include "experiments/dataset/data_spec.h"
+#include "experiments/simulated/experiment.h"
+#include "experiments/simulated/simulated_scenario.h"
+#include "systems/framework/recording.h"
+#include "tests/support/problems_of.h"
+#include "tests/support/workplace.h"
+
+namespace flinch {
+namespace {
+
+DataSpec few(std::size_t runs, std::uint64_t seed = 1) {
+  return read_data_spec(FLINCH_SOURCE_DIR "/apps/models/bodies.yaml", {.runs = runs, .seed = seed});
+}
+
+class MakeDataSet : public ::testing::Test {
+ protected:
+  std::string made(const std::string& name, const DataSpec& spec, std::size_t threads) {
+    make_data_set(spec, place / name, threads);
+    return test::bytes_of(place / name);
+  }
+  test::Workplace place;
+};
+
+TEST_F(MakeDataSet, FindsTheSameBitsOnAnyNumberOfThreads) {
+  const std::string one = made("one.h5", few(8), 1);
+  EXPECT_FALSE(one.empty());
+  EXPECT_EQ(made("three.h5", few(8), 3), one);
+  EXPECT_NE(made("other.h5", few(8, 2), 3), one);
+}
+
+TEST_F(MakeDataSet, GoesOnWhereItWasStopped) {
+  const std::string whole = made("whole.h5", few(8), 2);
+  EXPECT_THAT(test::problems_of([&] {
+                make_data_set(few(8), place / "part.h5", 1, [](std::size_t done) { return done < 3; });
+              }),
+              testing::ElementsAre(testing::HasSubstr("the same call goes on from there")));
+  const std::string left = test::bytes_of(place / "part.h5.part");
+  EXPECT_FALSE(left.empty());
+  place.write("part.h5.part", left.substr(0, left.size() - 5));  // torn
+  EXPECT_EQ(made("part.h5", few(8), 2), whole);
+  EXPECT_FALSE(std::filesystem::exists(place / "part.h5.part"));
+  place.write("part.h5.part", left);
+  EXPECT_THAT(test::problems_of([&] { make_data_set(few(8, 3), place / "part.h5", 1); }),
+              testing::ElementsAre(testing::HasSubstr("holds the samples of another specification")));
+}
+
+TEST_F(MakeDataSet, MakesTheSameRunsHoweverManyFollow) {
+  const DataSet few_runs = make_data_set(few(4), place / "few.h5", 2);
+  const DataSet more_runs = make_data_set(few(8), place / "more.h5", 2);
+  ASSERT_FALSE(few_runs.samples.empty());
+  ASSERT_GT(more_runs.samples.size(), few_runs.samples.size());
+  for (std::size_t i = 0; i < few_runs.samples.size(); ++i) {
+    EXPECT_EQ(few_runs.samples[i].wrench_in_base, more_runs.samples[i].wrench_in_base);
+    EXPECT_EQ(few_runs.samples[i].run, more_runs.samples[i].run);
+  }
+}
+
+TEST_F(MakeDataSet, LabelsTheMomentsOfEveryContact) {
+  const DataSet data = make_data_set(few(16), place / "data.h5", 2);
+  const ContactClasses classes = classes_of(*data.robot);
+  std::map<int, std::array<double, 3>> moments;
+  int right_force = 0;
+  for (const DataSample& sample : data.samples) {
+    EXPECT_TRUE(classes.contains(sample.touched));
+    EXPECT_GE(sample.since_onset, 0.0);
+    for (int i = 0; i < 3; ++i) {
+      if ((sample.moment >> i & 1) != 0)
+        moments[sample.run][static_cast<std::size_t>(i)] = sample.since_early;
+    }
+    if (sample.wrench_in_base.head<2>().norm() > 2.0) ++right_force;
+  }
+  EXPECT_GT(moments.size(), 10U);
+  int complete = 0;
+  for (const auto& [run, times] : moments) {
+    EXPECT_EQ(times[0], 0.0);
+    if (times[2] == 0.0) continue;  // the slower detector saw nothing
+    ++complete;
+    EXPECT_GE(times[1], 0.0);
+    EXPECT_NEAR(times[2] - times[1], 0.010, 1e-9);
+  }
+  EXPECT_GT(complete, 8);
+  EXPECT_GT(right_force, static_cast<int>(data.samples.size()) * 9 / 10);
+}
+
+TEST_F(MakeDataSet, TakesLabelledRecordings) {
+  const SimulatedScenario scenario =
+      read_simulated_scenario(test::shipped("scenarios/platform_collision.yaml"));
+  record_experiment(scenario, place / "run.h5");
+  place.write("spec.yaml",
+              "recordings: [{file: run.h5, touched: leg2_link2, configuration: 4}, {file: run.h5}]\n");
+  const DataSet data = make_data_set(read_data_spec(place / "spec.yaml"), place / "data.h5", 1);
+  ASSERT_FALSE(data.samples.empty());
+  for (const DataSample& sample : data.samples) {
+    EXPECT_EQ(sample.touched, sample.run == 0 ? BodyId::link2(1).index() : 0)
+        << "the label, or else the truth";
+    EXPECT_EQ(sample.configuration, sample.run == 0 ? 4 : 0);
+  }
+  place.write("spec.yaml", "recordings: [{file: run.h5, touched: leg2_link3}]\n");
+  EXPECT_THAT(
+      test::problems_of([&] { make_data_set(read_data_spec(place / "spec.yaml"), place / "data.h5", 1); }),
+      testing::ElementsAre(
+          testing::HasSubstr("'leg2_link3' is nothing that can be touched; there are platform")));
+}
+
+TEST_F(MakeDataSet, RefusesPartsOfAnotherRobot) {
+  record_experiment(read_simulated_scenario(test::shipped("scenarios/platform_collision.yaml")),
+                    place / "a.h5");
+  record_experiment(read_simulated_scenario(test::shipped("scenarios/five_bar_collision.yaml")),
+                    place / "b.h5");
+  place.write("spec.yaml", "recordings: [{file: a.h5}, {file: b.h5}]\n");
+  EXPECT_THAT(
+      test::problems_of([&] { make_data_set(read_data_spec(place / "spec.yaml"), place / "data.h5", 1); }),
+      testing::ElementsAre(testing::HasSubstr("b.h5: is of another robot than what stands before it")));
+}
+
+TEST(DataSpec, NamesAllThatIsWrong) {
+  const test::Workplace place;
+  place.write("spec.yaml", "title: nothing\n");
+  EXPECT_THAT(test::problems_of([&] { read_data_spec(place / "spec.yaml"); }),
+              testing::ElementsAre(testing::HasSubstr("names neither 'contacts' nor 'recordings'")));
+  place.write("campaign.yaml", "scenario: scenarios/platform_collision.yaml\nruns: 2\nspeed: 3\n");
+  place.write(
+      "spec.yaml",
+      "contacts: [{campaign: campaign.yaml, share: 0}]\nsamples: {every: 0, from_force_N: -1}\nepochs: 3\n");
+  EXPECT_EQ(test::problems_of([&] { read_data_spec(place / "spec.yaml"); }).size(), 5U);
+}
+
+}  // namespace
+}  // namespace flinch

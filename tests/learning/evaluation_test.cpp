@@ -1,0 +1,90 @@
+#include "learning/evaluation.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "learning/evaluation_output.h"
+#include "learning/evaluation_page.h"
+#include "systems/framework/random.h"
+#include "tests/learning/contact_examples.h"
+
+namespace flinch {
+namespace {
+
+Answered answered(int right, const std::vector<double>& probability) {
+  return {
+      0, 0, right,
+      Eigen::Map<const Eigen::VectorXd>(probability.data(), static_cast<Eigen::Index>(probability.size()))};
+}
+
+TEST(Confusion, CountsRowsOfWhatIsTrueAndColumnsOfWhatIsSaid) {
+  const std::vector<Answered> answers = {answered(0, {0.9, 0.1}), answered(0, {0.4, 0.6}),
+                                         answered(0, {0.7, 0.3}), answered(0, {0.8, 0.2}),
+                                         answered(1, {0.3, 0.7}), answered(1, {})};
+  const Confusion confusion = confusion_of(answers, {"a", "b"}, {0, 1});
+  EXPECT_EQ(confusion.counts, (Eigen::Matrix2d() << 3, 1, 0, 1).finished());
+  EXPECT_EQ(confusion.unanswered, 1U);
+  EXPECT_EQ(confusion.row_normalised(), (Eigen::Matrix2d() << 0.75, 0.25, 0, 1).finished());
+  EXPECT_EQ(confusion.balanced_accuracy(), 0.875);  // and not 4 of 5
+  EXPECT_EQ(confusion_of({}, {"a", "b"}, {0, 1}).balanced_accuracy(), std::nullopt);
+}
+
+TEST(Confusion, AddsUpClassesThatCountAsOneAndLeavesOthersOut) {
+  // Classes 0 and 1 are collisions, class 2 is a clamping, class 3 is asked about nowhere.
+  const std::vector<Answered> answers = {answered(0, {0.3, 0.3, 0.35, 0.05}),
+                                         answered(2, {0.2, 0.1, 0.1, 0.6}),
+                                         answered(3, {0.0, 0.0, 0.0, 1.0})};
+  const Confusion confusion = confusion_of(answers, {"collision", "clamping"}, {0, 0, 1, -1});
+  EXPECT_EQ(confusion.counts, (Eigen::Matrix2d() << 1, 0, 1, 0).finished());
+}
+
+TEST(Reliability, ComparesConfidenceWithHowOftenItWasRight) {
+  const std::vector<Answered> answers = {answered(0, {0.95, 0.05}), answered(0, {0.95, 0.05}),
+                                         answered(1, {0.95, 0.05}), answered(0, {0.65, 0.35})};
+  const std::vector<ReliabilityBin> bins = reliability_of(answers, 10);
+  EXPECT_EQ(bins[9].count, 3U);
+  EXPECT_NEAR(bins[9].confidence, 0.95, 1e-12);
+  EXPECT_NEAR(bins[9].accuracy, 2.0 / 3.0, 1e-12);
+  EXPECT_EQ(bins[6].count, 1U);
+  // (3 |2/3 - 0.95| + 1 |1 - 0.65|) / 4
+  EXPECT_NEAR(expected_calibration_error(bins), (3 * (0.95 - 2.0 / 3.0) + 0.35) / 4.0, 1e-12);
+}
+
+TEST(Reliability, FindsNoErrorWhereProbabilitiesAreTrue) {
+  RandomGenerator random(1);
+  std::vector<Answered> answers;
+  for (int i = 0; i < 50'000; ++i) {
+    const double p = random.uniform(0.5, 1.0);
+    answers.push_back(answered(random.uniform(0.0, 1.0) < p ? 0 : 1, {p, 1.0 - p}));
+  }
+  EXPECT_LT(expected_calibration_error(reliability_of(answers)), 0.01);
+}
+
+TEST(Rejection, LeavesOutWhatIsNotSure) {
+  const std::vector<Answered> answers = {answered(0, {0.9, 0.1}), answered(0, {0.8, 0.2}),
+                                         answered(1, {0.7, 0.3}), answered(0, {0.6, 0.4})};
+  EXPECT_EQ(reject_at(answers, 0.0).wrong_of_accepted, 0.25);
+  EXPECT_EQ(reject_at(answers, 0.75).rejected, 0.5);
+  EXPECT_EQ(reject_at(answers, 0.75).wrong_of_accepted, 0.0);
+  EXPECT_EQ(reject_at(answers, 0.95).rejected, 1.0);
+  EXPECT_EQ(acceptance_for(answers, 0.0), 0.8);
+  EXPECT_EQ(acceptance_for(answers, 0.25), 0.6);
+}
+
+TEST(EvaluationPage, KeepsNamesFromBecomingMarkup) {
+  DataSet data = test::contact_examples(1, 1);
+  data.card["title"] = "<script>alert(1)</script>";
+  ClassifierModel model;
+  model.provenance["robot.name"] = "\"><b>";
+  const FeatureSet features(Question::clamping, data.robot);
+  const Evaluation evaluation = evaluate({answered(0, {0.9, 0.1})}, features, 0.5, "later");
+  const std::string page = evaluation_page({model, data, evaluation, {evaluation}});
+  EXPECT_EQ(page.find("<script"), std::string::npos);
+  EXPECT_EQ(page.find("<b>"), std::string::npos);
+  EXPECT_NE(page.find("&lt;script&gt;"), std::string::npos);
+  EXPECT_NE(page.find("100.0 %"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace flinch

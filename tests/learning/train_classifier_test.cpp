@@ -1,0 +1,111 @@
+#include "learning/train_classifier.h"
+
+#include <gtest/gtest.h>
+
+#include "learning/model_questions.h"
+#include "learning/onnx_file.h"
+#include "tests/learning/contact_examples.h"
+#include "tests/support/problems_of.h"
+
+namespace flinch {
+namespace {
+
+ClassifierTraining quick(Question question) {
+  ClassifierTraining training;
+  training.question = question;
+  TrainingSettings settings = standard_settings(question);
+  settings.epochs = 40;
+  training.candidates = {settings};
+  training.folds = 3;
+  training.threads = 2;
+  return training;
+}
+
+Evaluation asked(const ClassifierModel& model, const DataSet& data) {
+  const FeatureSet features = features_for(model, data);
+  const Questions questions = questions_of(data, features, {}, false, 2);
+  return evaluate(answers_of(NeuralNetwork(model.network), questions, data), features, model.accepted_from,
+                  "all");
+}
+
+TEST(TrainClassifier, AnswersThePapersThreeQuestions) {
+  const DataSet data = test::contact_examples(3000, 1), other = test::contact_examples(600, 2);
+  const auto asked_about = [&](Question question) {
+    return asked(train_classifier(data, quick(question)).model, other);
+  };
+  EXPECT_GT(*asked_about(Question::body).body, 0.8);
+  EXPECT_GT(*asked_about(Question::clamping).collision_clamping, 0.7);
+  EXPECT_GT(*asked_about(Question::chain).chain, 0.9);
+}
+
+TEST(TrainClassifier, FindsTheSameBitsOnAnyNumberOfThreads) {
+  const DataSet data = test::contact_examples(200, 1);
+  ClassifierTraining training = quick(Question::body);
+  training.candidates.front().epochs = 2;
+  training.threads = 1;
+  const std::string one = onnx_bytes(train_classifier(data, training).model);
+  training.threads = 3;
+  EXPECT_EQ(onnx_bytes(train_classifier(data, training).model), one);
+}
+
+TEST(TrainClassifier, TakesTheBestOfItsCandidates) {
+  const DataSet data = test::contact_examples(400, 1);
+  ClassifierTraining training = quick(Question::chain);
+  TrainingSettings bad = training.candidates.front();
+  bad.learning_rate = 1e-7;
+  training.candidates = {bad, training.candidates.front(), bad};
+  const TrainedClassifier trained = train_classifier(data, training);
+  EXPECT_EQ(trained.settings.learning_rate, training.candidates[1].learning_rate);
+  EXPECT_EQ(trained.accuracies.size(), 3U);
+  EXPECT_GT(trained.accuracies[1], trained.accuracies[0]);
+}
+
+TEST(TrainClassifier, HasTheGridOfThePapers) {
+  const auto grid = paper_grid(standard_settings(Question::body));
+  EXPECT_EQ(grid.size(), 80U);
+  EXPECT_EQ(grid.front().hidden, (std::vector<int>{10, 10}));
+  EXPECT_EQ(grid.back().hidden, (std::vector<int>{30, 30, 30, 30, 30}));
+  EXPECT_EQ(grid.back().l2, 0.1);
+}
+
+TEST(TrainClassifier, SaysWhyItCannotLearn) {
+  DataSet data = test::contact_examples(40, 1);
+  std::erase_if(data.samples, [](const DataSample& sample) { return sample.touched >= 7; });
+  EXPECT_THAT(test::problems_of([&] { train_classifier(data, quick(Question::chain)); }),
+              testing::ElementsAre("the data hold fewer than two of the classes that 'chain' is about"));
+  data.samples.resize(2);
+  EXPECT_THAT(test::problems_of([&] { train_classifier(data, quick(Question::body)); }),
+              testing::ElementsAre("there are 2 runs to learn from; 3 folds need at least as many"));
+}
+
+TEST(FeaturesFor, RefusesOtherRobotsAndFeaturesInAnotherOrder) {
+  const DataSet data = test::contact_examples(100, 1);
+  ClassifierTraining training = quick(Question::body);
+  training.candidates.front().epochs = 1;
+  const ClassifierModel model = train_classifier(data, training).model;
+  EXPECT_EQ(features_for(model, data).names(), model.features);
+
+  DataSet other = data;
+  const std::size_t mass = other.robot_text.find("  mass_kg: ");
+  other.robot_text.insert(mass + 11, "1");
+  EXPECT_THAT(test::problems_of([&] { features_for(model, other); }),
+              testing::ElementsAre(testing::HasSubstr("train it anew with data of this robot")));
+
+  ClassifierModel swapped = model;
+  std::swap(swapped.features[0], swapped.features[1]);
+  EXPECT_THAT(
+      test::problems_of([&] { features_for(swapped, data); }),
+      testing::ElementsAre("feature 1 of the model is 'force_y' and must be 'force_x'; a network is told "
+                           "numbers by their place"));
+  swapped = model;
+  swapped.classes.pop_back();
+  EXPECT_THAT(
+      test::problems_of([&] { features_for(swapped, data); }),
+      testing::ElementsAre(testing::StartsWith("class 7 of the model is missing and must be 'leg3_link2'")));
+  swapped.provenance.erase("question");
+  EXPECT_THAT(test::problems_of([&] { features_for(swapped, data); }),
+              testing::ElementsAre(testing::HasSubstr("do not say which question it answers")));
+}
+
+}  // namespace
+}  // namespace flinch
