@@ -1,12 +1,14 @@
 #include "experiments/campaign/run_campaign.h"
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
 #include <thread>
 
 #include "experiments/campaign/campaign.h"
+#include "experiments/campaign/campaign_helpers.h"
 #include "experiments/campaign/campaign_journal.h"
 #include "experiments/campaign/campaign_run.h"
 #include "experiments/campaign/results_file.h"
@@ -44,10 +46,10 @@ class WorkList {
     changed_.notify_one();
   }
 
-  /// Runs that are done, once that changed or a tenth of a second has passed.
-  std::size_t wait_for_change() {
+  /// Runs that are done, once that changed or `patience` has passed.
+  std::size_t wait_for_change(std::chrono::milliseconds patience) {
     std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, std::chrono::milliseconds(100));
+    changed_.wait_for(lock, patience);
     return journal_.done();
   }
 
@@ -87,7 +89,8 @@ void work(const Campaign& campaign, WorkList& list) {
 RunResult simulate_run(const CampaignRun& run) { return result_of(run, judge_experiment(run.scenario)); }
 
 std::vector<RunResult> run_campaign(const Campaign& campaign, const std::filesystem::path& folder,
-                                    std::size_t threads, const CampaignProgress& progress) {
+                                    std::size_t threads, const CampaignProgress& progress,
+                                    CampaignHelpers* helpers) {
   CampaignJournal journal(folder, campaign);
   const std::size_t done_before = journal.done();
   WorkList list(journal, campaign.runs());
@@ -95,8 +98,12 @@ std::vector<RunResult> run_campaign(const Campaign& campaign, const std::filesys
   {
     std::vector<std::jthread> workers;
     for (std::size_t i = 0; i < threads; ++i) workers.emplace_back([&] { work(campaign, list); });
+    // Helpers that ask have another run in hand, and so can wait for a millisecond.
+    const std::chrono::milliseconds patience(helpers != nullptr ? 1 : 100);
     while (!list.ended()) {
-      const std::size_t done = list.wait_for_change();
+      const std::size_t done = list.wait_for_change(patience);
+      if (helpers != nullptr)
+        helpers->serve([&] { return list.next(); }, [&](const RunResult& result) { list.add(result); });
       if (progress && !progress(done, done_before)) list.end();
     }
   }

@@ -9,6 +9,7 @@
 
 namespace flinch {
 
+class CampaignHelpers;
 struct Campaign;
 struct CampaignRun;
 
@@ -22,9 +23,10 @@ RunResult simulate_run(const CampaignRun& run);
 /// Does all runs that `folder` does not hold yet, on `threads` threads (0: one a processor), and returns the
 /// results of all in the order of their numbers, the same for any number of threads. Whole tables,
 /// results.csv and results.h5, are written once all are done; until then `folder` holds results.part, from
-/// which the same call goes on. Throws SetupError for a run that cannot be made, with its number and what was
-/// drawn for it.
+/// which the same call goes on. `helpers` do runs as well; null: there are none. Throws SetupError for a run
+/// that cannot be made, with its number and what was drawn for it.
 std::vector<RunResult> run_campaign(const Campaign& campaign, const std::filesystem::path& folder,
-                                    std::size_t threads = 0, const CampaignProgress& progress = {});
+                                    std::size_t threads = 0, const CampaignProgress& progress = {},
+                                    CampaignHelpers* helpers = nullptr);
 
 }  // namespace flinch

@@ -32,6 +32,7 @@ MAY_INCLUDE = {
     "experiments/campaign": ["experiments/campaign", "experiments/simulated", "plant", *EXPERIMENTS],
     "experiments/dataset": ["experiments/dataset", "learning", "experiments/campaign", "experiments/simulated", "plant",
                             *EXPERIMENTS],
+    "experiments/ranks": ["experiments/ranks", "experiments/campaign", "experiments/simulated", "plant", *EXPERIMENTS],
     "experiments/served": ["experiments/served", "experiments/simulated", "plant", "drivers", *EXPERIMENTS],
 }
 # Parts of the program that a build without the bus, or without the plant, leaves out: only they may include these.
@@ -41,6 +42,7 @@ PARTS = {
     ("experiments/served",): ["apps/flinch/served"],
     ("learning",): ["apps/flinch/learning", "apps/flinch/datasets"],
     ("experiments/dataset",): ["apps/flinch/datasets"],
+    ("experiments/ranks",): ["apps/flinch/simulated"],
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"')
 

@@ -2,12 +2,14 @@
 #include <fmt/core.h>
 
 #include <csignal>
+#include <cstdlib>
 
 #include "apps/flinch/command_line.h"
 #include "apps/flinch/conclusion.h"
 #include "apps/flinch/progress.h"
 #include "apps/flinch/stop_watch.h"
 #include "experiments/campaign/campaign.h"
+#include "experiments/campaign/campaign_helpers.h"
 #include "experiments/campaign/campaign_page.h"
 #include "experiments/campaign/campaign_run.h"
 #include "experiments/campaign/campaign_summary.h"
@@ -16,6 +18,9 @@
 #include "experiments/simulated/experiment.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recording.h"
+#if FLINCH_HAS_MPI
+#include "experiments/ranks/campaign_ranks.h"
+#endif
 
 namespace flinch {
 namespace {
@@ -38,6 +43,29 @@ ExitStatus repeat_run(const CampaignOptions& options, const Campaign& campaign) 
   return conclude(run.scenario, watch.seconds(), folder, options.common);
 }
 
+bool is_above_one(const char* variable) {
+  const char* const value = std::getenv(variable);
+  return value != nullptr && std::atoi(value) > 1;
+}
+
+/// Whether mpirun or srun has started this program together with others.
+bool started_with_others() {
+  const bool by_srun = std::getenv("PMIX_RANK") != nullptr && is_above_one("SLURM_STEP_NUM_TASKS");
+  return by_srun || is_above_one("OMPI_COMM_WORLD_SIZE") || is_above_one("PMI_SIZE");
+}
+
+/// The other programs that work on the campaign; null where this one was started alone.
+std::unique_ptr<CampaignHelpers> helpers_of([[maybe_unused]] const Campaign& campaign) {
+  if (!started_with_others()) return nullptr;
+#if FLINCH_HAS_MPI
+  return std::make_unique<CampaignRanks>(campaign);
+#else
+  throw SetupError(
+      "this flinch was built without MPI, so several of them cannot work on one campaign; start it alone, or "
+      "build it with -DFLINCH_BUILD_MPI=ON where MPI is installed");
+#endif
+}
+
 std::filesystem::path campaign_folder(const CampaignOptions& options, const Campaign& campaign) {
   const std::filesystem::path folder =
       options.out.empty() ? std::filesystem::path("out") / campaign.name : options.out;
@@ -52,6 +80,11 @@ ExitStatus campaign(const CampaignOptions& options) {
   const Campaign campaign =
       read_campaign(options.file, {.set = options.set, .draws = options.runs, .seed = options.seed});
   if (options.run) return repeat_run(options, campaign);
+  const std::unique_ptr<CampaignHelpers> helpers = helpers_of(campaign);
+  if (helpers && !helpers->leads()) {
+    helpers->work(campaign);
+    return ExitStatus::done;
+  }
   draw_run(campaign, 0);  // before anything is written
   const std::filesystem::path folder = campaign_folder(options, campaign);
   const StopWatch watch;
@@ -60,12 +93,12 @@ ExitStatus campaign(const CampaignOptions& options) {
   std::signal(SIGINT, [](int) { interrupted = 1; });
   {
     Progress progress("campaign " + campaign.name, options.common.quiet || options.common.json);
-    results = run_campaign(campaign, folder, options.threads.value_or(0),
-                           [&](std::size_t done, std::size_t done_before) {
-                             before = done_before;
-                             progress.show(static_cast<double>(done) / static_cast<double>(campaign.runs()));
-                             return interrupted == 0;
-                           });
+    const auto show = [&](std::size_t done, std::size_t done_before) {
+      before = done_before;
+      progress.show(static_cast<double>(done) / static_cast<double>(campaign.runs()));
+      return interrupted == 0;
+    };
+    results = run_campaign(campaign, folder, options.threads.value_or(helpers ? 1 : 0), show, helpers.get());
   }
   std::signal(SIGINT, SIG_DFL);
   if (results.size() < campaign.runs()) {
