@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "diagrams/isolation_stages.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/constant.h"
 #include "systems/laws/operator_buttons.h"
@@ -86,6 +87,11 @@ struct Safety {
   FaultMonitor& monitor;
   TorqueGate& gate;
 };
+
+SensedPorts add_inputs(DiagramBuilder& builder) {
+  return {builder.input<JointReading>("joints"), builder.input<DriveReading>("drives"),
+          builder.optional_input<ImuReading>("imu"), builder.input<StationStatus>("status")};
+}
 
 MotionPorts add_motion(const Path& path, const SensedPorts& sensed, OutputPort<JointMotion> joint_motion) {
   auto& pose =
@@ -174,6 +180,13 @@ Safety add_safety(const Path& path, const ReactionPorts& given, const Laws& laws
   return safety;
 }
 
+/// What the reaction sequence learns one tick later.
+void connect_back(DiagramBuilder& builder, const Laws& laws, const Safety& safety,
+                  ReactionSequence& sequence) {
+  builder.connect(laws.reaction.port().reference, sequence.reaction);
+  builder.connect(safety.gate.status, sequence.gate);
+}
+
 /// Lets a contact detector follow each estimator that the others do not follow, for comparison.
 std::vector<Named<OutputPort<ContactDetection>>> show_detections_by(
     const Path& path, const Added<OutputPort<WrenchEstimate>>& estimators, OutputPort<ResetCommand> reset) {
@@ -211,6 +224,49 @@ std::vector<Named<OutputPort<TorqueCommand>>> show_torques(const Path& path, con
   return shown;
 }
 
+/// What classifiers and locators say.
+struct Isolation {
+  ContactPorts contact;
+  Added<OutputPort<ContactClassification>> classifiers;
+  Added<LocatorPorts> locators;
+
+  ClassifiedPorts classified() const { return {contact, classifiers.port()}; }
+};
+
+Isolation add_isolation(const Path& path, const EstimatePorts& given,
+                        OutputPort<ContactDetection> detection) {
+  const StageSite site{path.builder, "isolation", path.robot, path.settings};
+  Isolation isolation{flinch::add_isolation(site, given, detection), {}, {}};
+  isolation.classifiers = path.add(path.settings.stages.classifiers, isolation.contact);
+  isolation.locators = path.add(path.settings.stages.locators, isolation.classified());
+  return isolation;
+}
+
+OtherStages show_others(const Path& path, const Added<OutputPort<JointMotion>>& velocities,
+                        const Added<OutputPort<PlatformAcceleration>>& accelerations,
+                        const Added<OutputPort<WrenchEstimate>>& estimators, OutputPort<ResetCommand> reset) {
+  OtherStages shown;
+  shown.joint_motions = path.show_others("joint_motion", velocities);
+  shown.accelerations = show_accelerations(path, accelerations);
+  shown.wrenches = path.show_others("wrench", estimators);
+  shown.detections_by_estimator = show_detections_by(path, estimators, reset);
+  return shown;
+}
+
+/// What classifiers and locators say that are not followed, and the particles of all.
+void show_isolation(const Path& path, const Isolation& isolation, OtherStages& shown) {
+  shown.classifications = path.show_others("classification", isolation.classifiers);
+  for (const Named<LocatorPorts>& locator : isolation.locators.others()) {
+    const std::string name = "location_" + locator.name;
+    shown.locations.push_back({name, path.builder.export_output(name, locator.port.location)});
+  }
+  for (const Named<LocatorPorts>& locator : isolation.locators.all) {
+    if (!locator.port.cloud) continue;
+    const std::string name = "particles_" + locator.name;
+    shown.clouds.push_back({name, path.builder.export_output(name, *locator.port.cloud)});
+  }
+}
+
 }  // namespace
 
 ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
@@ -219,9 +275,7 @@ ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
   DiagramBuilder builder("control");
   const Path path{builder, robot, settings};
   const ControlStages& stages = settings.stages;
-
-  const SensedPorts sensed{builder.input<JointReading>("joints"), builder.input<DriveReading>("drives"),
-                           builder.optional_input<ImuReading>("imu"), builder.input<StationStatus>("status")};
+  const SensedPorts sensed = add_inputs(builder);
   const auto velocities = path.add(stages.velocities, sensed);
   const MotionPorts motion = add_motion(path, sensed, velocities.port());
   const auto accelerations = path.add(stages.accelerations, motion);
@@ -230,18 +284,21 @@ ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
   auto& buttons = builder.add<OperatorButtons>("operator_buttons");
   const EstimatePorts estimated{accelerated, estimators.port(), estimators.all, buttons.reset};
   const auto detectors = path.add(stages.detectors, estimated);
+  const Isolation isolation = add_isolation(path, estimated, detectors.port());
   const auto target = builder.optional_input<TargetCommand>("target");
   const Operator wanted = add_operator(path, estimated, buttons, detectors.port(), target);
-  const ReactionPorts reaction{estimated, detectors.port(), wanted.sequence.reaction_state,
-                               wanted.trajectory.reference};
+  const ReactionPorts reaction{isolation.classified(), isolation.locators.port().location,
+                               wanted.sequence.reaction_state, wanted.trajectory.reference};
   const Laws laws = add_laws(path, reaction);
   const Safety safety = add_safety(path, reaction, laws);
-  builder.connect(laws.reaction.port().reference, wanted.sequence.reaction);
-  builder.connect(safety.gate.status, wanted.sequence.gate);
-
+  connect_back(builder, laws, safety, wanted.sequence);
   const auto pressed = builder.export_input("operator_command", buttons.buttons);
   builder.connect(pressed, safety.monitor.buttons);
   builder.connect(sensed.status, safety.monitor.station);
+  OtherStages others = show_others(path, velocities, accelerations, estimators, buttons.reset);
+  others.detections = path.show_others("detection", detectors);
+  others.torques = show_torques(path, laws);
+  show_isolation(path, isolation, others);
   const ContactControl control{
       .joints = sensed.joints,
       .drives = sensed.drives,
@@ -258,17 +315,18 @@ ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
       .drive_torque = builder.export_output("drive_torque", motion.drive_torque),
       .wrench_estimate = builder.export_output("wrench_estimate", estimated.wrench),
       .detection = builder.export_output("detection", reaction.detection),
+      .contact = builder.export_output("contact_phase", reaction.contact),
+      .isolation_wrench = builder.export_output("isolation_wrench", reaction.isolation_wrench),
+      .features = builder.export_output("features", reaction.features),
+      .evidence = builder.export_output("evidence", reaction.evidence),
+      .classification = builder.export_output("classification", reaction.classification),
+      .location = builder.export_output("location", reaction.location),
       .reaction_state = builder.export_output("reaction_state", reaction.reaction),
       .reference = builder.export_output("reference", laws.selector.reference),
       .requested_torque = builder.export_output("requested_torque", laws.selector.torque),
       .faults = builder.export_output("faults", safety.monitor.faults),
       .gate = builder.export_output("gate", safety.gate.status),
-      .others = {.joint_motions = path.show_others("joint_motion", velocities),
-                 .accelerations = show_accelerations(path, accelerations),
-                 .wrenches = path.show_others("wrench", estimators),
-                 .detections = path.show_others("detection", detectors),
-                 .detections_by_estimator = show_detections_by(path, estimators, buttons.reset),
-                 .torques = show_torques(path, laws)}};
+      .others = others};
   outer.add(builder.build());
   return control;
 }

@@ -23,6 +23,10 @@ struct OtherStages {
   /// name.
   std::vector<Named<OutputPort<ContactDetection>>> detections_by_estimator;
   std::vector<Named<OutputPort<TorqueCommand>>> torques;
+  std::vector<Named<OutputPort<ContactClassification>>> classifications;
+  std::vector<Named<OutputPort<ContactLocation>>> locations;
+  /// "particles_" + the name of each locator that has some, whether it is followed or not.
+  std::vector<Named<OutputPort<ParticleCloud>>> clouds;
 };
 
 /// The ports of the contact-control pipeline.
@@ -45,6 +49,12 @@ struct ContactControl {
   OutputPort<DriveTorque> drive_torque;
   OutputPort<WrenchEstimate> wrench_estimate;
   OutputPort<ContactDetection> detection;
+  OutputPort<ContactPhase> contact;
+  OutputPort<WrenchEstimate> isolation_wrench;
+  OutputPort<ContactFeatures> features;
+  OutputPort<ContactEvidence> evidence;
+  OutputPort<ContactClassification> classification;
+  OutputPort<ContactLocation> location;
   OutputPort<ReactionState> reaction_state;
   OutputPort<PlatformReference> reference;     ///< that is being followed
   OutputPort<TorqueCommand> requested_torque;  ///< what the laws ask for, before the gate
@@ -55,11 +65,13 @@ struct ContactControl {
 
 /// Adds the whole pipeline to `builder`, as one nested diagram named "control" that runs at ticks of 1 ms:
 ///
-///   joints -> velocity source -> forward kinematics -> model -> wrench estimator -> detector
-///          -> reaction sequence -> trajectory -> nominal law | reaction law -> mode selector -> torque gate
+///   joints -> velocity source -> forward kinematics -> model -> wrench estimator -> detector -> classifier
+///          -> locator -> reaction sequence -> trajectory -> nominal law | reaction law -> mode selector
+///          -> torque gate
 ///
-/// Which sources, estimators, detectors and laws, `settings.stages` says. It is the same whatever stands for
-/// the robot. Throws SetupError for settings that do not fit the robot, and as the stages do.
+/// Which sources, estimators, detectors, classifiers, locators and laws, `settings.stages` says. It is the
+/// same whatever stands for the robot. Throws SetupError for settings that do not fit the robot, and as the
+/// stages do.
 ContactControl add_contact_control(DiagramBuilder& builder, const std::shared_ptr<const ParallelRobot>& robot,
                                    const ContactControlSettings& settings);
 

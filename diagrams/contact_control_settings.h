@@ -5,6 +5,7 @@
 #include <string>
 
 #include "diagrams/control_stages.h"
+#include "diagrams/isolation_settings.h"
 #include "systems/contact/contact_detector.h"
 #include "systems/estimators/disturbance_filter.h"
 #include "systems/estimators/imu_filter.h"
@@ -54,6 +55,8 @@ struct ContactControlSettings {
   /// The settings of a contact detector that follows `estimator`. Hard contacts are at least as hard as those
   /// that are reacted to.
   ContactDetectorSettings detector_of(const std::string& estimator) const;
+
+  IsolationSettings isolation;  ///< what is touched, where and how hard
 
   // ---- what to do
   PlatformTrajectorySettings trajectory;  ///< stays where the robot is

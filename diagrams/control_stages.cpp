@@ -7,6 +7,7 @@
 #include "diagrams/acceleration_stages.h"
 #include "diagrams/contact_control_settings.h"
 #include "diagrams/estimator_stages.h"
+#include "diagrams/isolation_stages.h"
 #include "systems/foundation/nearest_name.h"
 #include "systems/foundation/setup_error.h"
 
@@ -99,6 +100,8 @@ ControlStages standard_stages() {
           .accelerations = {},
           .estimators = {.all = {estimator_stages().front()}, .followed = ""},
           .detectors = {.all = {{"contact_detector", add_contact_detector}}, .followed = ""},
+          .classifiers = {.all = {classifier_stages().front()}, .followed = ""},
+          .locators = {.all = {locator_stages().front()}, .followed = ""},
           .nominal_laws = {.all = {{"nominal_impedance", add_nominal_impedance}}, .followed = ""},
           .reaction_laws = {.all = {{"retraction", add_retraction}}, .followed = ""}};
 }
@@ -107,6 +110,8 @@ ControlStages known_stages() {
   ControlStages stages = standard_stages();
   stages.accelerations.all = acceleration_stages();
   stages.estimators.all = estimator_stages();
+  stages.classifiers.all = classifier_stages();
+  stages.locators.all = locator_stages();
   return stages;
 }
 
@@ -115,12 +120,16 @@ std::vector<std::string> problems(const ControlStages& stages) {
   require(stages.velocities, "velocity source", found);
   require(stages.estimators, "wrench estimator", found);
   require(stages.detectors, "detector", found);
+  require(stages.classifiers, "classifier", found);
+  require(stages.locators, "locator", found);
   require(stages.nominal_laws, "nominal law", found);
   require(stages.reaction_laws, "reaction law", found);
   find_problems(stages.velocities, "velocity source", found);
   find_problems(stages.accelerations, "acceleration source", found);
   find_problems(stages.estimators, "wrench estimator", found);
   find_problems(stages.detectors, "detector", found);
+  find_problems(stages.classifiers, "classifier", found);
+  find_problems(stages.locators, "locator", found);
   find_problems(stages.nominal_laws, "nominal law", found);
   find_problems(stages.reaction_laws, "reaction law", found);
   return found;

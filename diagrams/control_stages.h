@@ -1,15 +1,21 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "diagrams/stage.h"
 #include "systems/robot/parallel_robot.h"
+#include "systems/signals/contact_classes.h"
 #include "systems/signals/contact_detection.h"
+#include "systems/signals/contact_features.h"
+#include "systems/signals/contact_location.h"
+#include "systems/signals/contact_phase.h"
 #include "systems/signals/drive_reading.h"
 #include "systems/signals/drive_torque.h"
 #include "systems/signals/imu_reading.h"
 #include "systems/signals/joint_motion.h"
 #include "systems/signals/joint_reading.h"
+#include "systems/signals/particle_cloud.h"
 #include "systems/signals/platform_acceleration.h"
 #include "systems/signals/platform_motion.h"
 #include "systems/signals/platform_reference.h"
@@ -53,9 +59,29 @@ struct EstimatePorts : AcceleratedPorts {
   OutputPort<ResetCommand> reset;  ///< the operator wants what has latched to let go
 };
 
+/// Whether anything touches it, and what tells what.
+struct ContactPorts : EstimatePorts {
+  OutputPort<ContactDetection> detection;       ///< of the followed detector
+  OutputPort<ContactPhase> contact;             ///< one contact after the other
+  OutputPort<WrenchEstimate> isolation_wrench;  ///< of an observer that is faster than the one that detects
+  OutputPort<ContactFeatures> features;         ///< of that wrench, as the next
+  OutputPort<ContactEvidence> evidence;         ///< weighed while a contact lasts
+};
+
+/// What touches it.
+struct ClassifiedPorts : ContactPorts {
+  OutputPort<ContactClassification> classification;  ///< of the followed classifier
+};
+
+/// Where and how hard, as a locator says.
+struct LocatorPorts {
+  OutputPort<ContactLocation> location;
+  std::optional<OutputPort<ParticleCloud>> cloud{};  ///< of a locator that has particles
+};
+
 /// What it shall do about that.
-struct ReactionPorts : EstimatePorts {
-  OutputPort<ContactDetection> detection;  ///< of the followed detector
+struct ReactionPorts : ClassifiedPorts {
+  OutputPort<ContactLocation> location;  ///< of the followed locator
   OutputPort<ReactionState> reaction;
   OutputPort<PlatformReference> nominal;  ///< the nominal motion
 };
@@ -72,6 +98,8 @@ using VelocitySource = Stage<SensedPorts, OutputPort<JointMotion>>;
 using AccelerationSource = Stage<MotionPorts, OutputPort<PlatformAcceleration>>;
 using WrenchEstimator = Stage<AcceleratedPorts, OutputPort<WrenchEstimate>>;
 using DetectionStage = Stage<EstimatePorts, OutputPort<ContactDetection>>;
+using ContactClassifier = Stage<ContactPorts, OutputPort<ContactClassification>>;
+using ContactLocatorStage = Stage<ClassifiedPorts, LocatorPorts>;
 using ControlLaw = Stage<ReactionPorts, LawPorts>;
 
 /// The stages of a control path. Those that are not followed run for comparison alone: they are recorded and
@@ -81,12 +109,15 @@ struct ControlStages {
   Stages<AccelerationSource> accelerations;  ///< may be none
   Stages<WrenchEstimator> estimators;
   Stages<DetectionStage> detectors;
+  Stages<ContactClassifier> classifiers;
+  Stages<ContactLocatorStage> locators;
   Stages<ControlLaw> nominal_laws;   ///< in the mode `nominal`
   Stages<ControlLaw> reaction_laws;  ///< in the modes `react` and `hold`
 };
 
 /// One stage of each kind, as their settings say: "velocity_filter", "momentum_observer", "contact_detector",
-/// "nominal_impedance" and "retraction", an impedance that follows a retreat; no acceleration.
+/// "model_classifier", "closed_form", "nominal_impedance" and "retraction", an impedance that follows a
+/// retreat; no acceleration.
 ControlStages standard_stages();
 
 /// All stages that flinch has, of which a scenario file names those that run: the standard ones first.

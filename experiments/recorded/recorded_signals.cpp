@@ -8,6 +8,18 @@
 
 namespace flinch {
 
+namespace {
+
+/// What can be touched of a robot, by numbers, separated by blanks.
+std::string class_names(const ParallelRobot& robot) {
+  const ContactClasses classes(robot.body_count(), robot.legs());
+  std::string names;
+  for (int i = 0; i < classes.count(); ++i) names += (i > 0 ? " " : "") + classes.name(i);
+  return names;
+}
+
+}  // namespace
+
 void export_readings(DiagramBuilder& builder, const Station& station) {
   builder.export_output("joints", station.joints);
   builder.export_output("drives", station.drives);
@@ -21,6 +33,12 @@ void export_control(DiagramBuilder& builder, const ContactControl& control) {
   builder.export_output("measures", control.measures);
   builder.export_output("wrench", control.wrench_estimate);
   builder.export_output("detection", control.detection);
+  builder.export_output("contact_phase", control.contact);
+  builder.export_output("isolation_wrench", control.isolation_wrench);
+  builder.export_output("features", control.features);
+  builder.export_output("evidence", control.evidence);
+  builder.export_output("classification", control.classification);
+  builder.export_output("location", control.location);
   builder.export_output("reaction", control.reaction_state);
   builder.export_output("reference", control.reference);
   builder.export_output("requested_torque", control.requested_torque);
@@ -36,6 +54,9 @@ void export_control(DiagramBuilder& builder, const ContactControl& control) {
   show(control.others.detections);
   show(control.others.detections_by_estimator);
   show(control.others.torques);
+  show(control.others.classifications);
+  show(control.others.locations);
+  show(control.others.clouds);
 }
 
 std::vector<std::string> recorded_paths(const Diagram& diagram) {
@@ -51,6 +72,7 @@ std::map<std::string, std::string> recorded_attributes(const Scenario& scenario,
   attributes["flinch.version"] = FLINCH_VERSION;
   attributes["seed"] = std::to_string(scenario.seed);
   attributes["control.estimator"] = followed_name(scenario.control.stages.estimators);
+  attributes["contact.classes"] = class_names(*scenario.robot.robot);
   attributes["scenario.name"] = scenario.name;
   attributes["scenario.file"] = scenario.file.filename().string();
   attributes["scenario.text"] = scenario.text;

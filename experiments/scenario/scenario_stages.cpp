@@ -59,6 +59,8 @@ void read_stages(ConfigReader& control, ControlStages& stages) {
     read_kind(control, follow, {"accelerations", "acceleration"}, {}, stages.accelerations);
   read_kind(control, follow, {"estimators", "estimator"}, stages.estimators);
   read_kind(control, follow, {"detectors", "detector"}, stages.detectors);
+  read_kind(control, follow, {"classifiers", "classifier"}, names_of(stages.classifiers), stages.classifiers);
+  read_kind(control, follow, {"locators", "locator"}, names_of(stages.locators), stages.locators);
   read_kind(control, follow, {"nominal_laws", "nominal_law"}, stages.nominal_laws);
   read_kind(control, follow, {"reaction_laws", "reaction_law"}, stages.reaction_laws);
 }

@@ -16,6 +16,7 @@ void ContactWatch::see(const RunSample& now, double period) {
     }
     if (touches) extend(now, period);
     if (now.time < last_ + Verdict::same_contact) note_detections(now);
+    if (now.time < last_ + Verdict::same_contact) note_classification(now);
   }
   before_ = now;
 }
@@ -28,6 +29,19 @@ void ContactWatch::note_detections(const RunSample& now) {
     if (now.noticed_by[i] && !detected) detected = now.time;
   }
   if (now.detection.present_level != ContactLevel::none && !contact.detected) contact.detected = now.time;
+}
+
+void ContactWatch::note_classification(const RunSample& now) {
+  ContactVerdict& contact = contacts_.back();
+  if (now.classified.empty() || contact.classified_at || !contact.detected) return;
+  contact.classified = now.classified;
+  contact.classified_at = now.time;
+  contact.probability = now.probability;
+  const ContactLocation& found = now.location;
+  if (!now.is_true || now.is_pushed() || !found.valid || !found.located) return;
+  if (found.point_in_base.size() != now.touched_point.size() || now.touched_point.size() == 0) return;
+  contact.location_error = (found.point_in_base - now.touched_point).norm();
+  contact.force_error = (found.force_in_base - now.touched_force).norm();
 }
 
 std::vector<ContactVerdict> ContactWatch::contacts() const {

@@ -26,6 +26,7 @@ class ContactWatch {
  private:
   void begin(const RunSample& now);
   void note_detections(const RunSample& now);
+  void note_classification(const RunSample& now);
   double onset_share(const RunSample& now) const;
   void extend(const RunSample& now, double period);
   void name_body(const RunSample& now, ContactVerdict& contact);

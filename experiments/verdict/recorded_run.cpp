@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <optional>
+#include <sstream>
 
 #include "diagrams/link_status.h"
 #include "experiments/verdict/recorded_estimate.h"
 #include "experiments/verdict/recorded_truth.h"
 #include "systems/framework/recorded_values.h"
 #include "systems/framework/tick_timing.h"
+#include "systems/signals/contact_classes.h"
 #include "systems/signals/force_torque_reading.h"
 #include "systems/signals/platform_motion.h"
 #include "systems/signals/platform_reference.h"
@@ -31,6 +34,13 @@ std::vector<std::string> estimators_of(const Recording& recording) {
     if (signal.path.starts_with(detection_by)) names.push_back(signal.path.substr(detection_by.size()));
   }
   return names;
+}
+
+std::vector<std::string> class_names_of(const Recording& recording) {
+  const auto attribute = recording.attributes.find("contact.classes");
+  if (attribute == recording.attributes.end()) return {};
+  std::istringstream text(attribute->second);
+  return {std::istream_iterator<std::string>(text), {}};
 }
 
 /// Force and moment of a wrench [N, Nm]; none where it has another size.
@@ -60,6 +70,8 @@ void add_truth(const RecordedTruth& truth, const RecordedContact& contact, Confi
   now.obstacle = contact.strongest.obstacle;
   now.clamping = contact.clamping;
   now.contact_force = contact.strongest.force_in_base.norm();
+  now.touched_point = contact.strongest.point_in_base;
+  now.touched_force = contact.strongest.force_in_base;
   now.loop_closure = truth.loop_closure_error;
   const Strength external(truth.wrench_in_base, space);
   now.external_force = external.force;
@@ -82,8 +94,8 @@ void compare_motion(const Configuration& pose, const PlatformVector& velocity, c
 }  // namespace
 
 bool is_judged(const std::string& path) {
-  static constexpr std::array judged = {"detection", "reaction", "wrench", "reference",
-                                        "gate",      "truth",    "contact"};
+  static constexpr std::array judged = {"detection", "reaction", "wrench",   "reference",     "gate",
+                                        "truth",     "contact",  "location", "classification"};
   return path.starts_with(detection_by) || std::find(judged.begin(), judged.end(), path) != judged.end();
 }
 
@@ -98,6 +110,9 @@ struct RecordedRun::Signals {
     for (std::size_t i = 1; i < estimators.size(); ++i) {
       detections_by.emplace_back(recording, detection_by + estimators[i]);
     }
+    class_names = class_names_of(recording);
+    if (recording.find("classification") != nullptr) classification.emplace(recording, "classification");
+    if (recording.find("location") != nullptr) location.emplace(recording, "location");
     if (recording.find("tick_timing") != nullptr) timing.emplace(recording, "tick_timing");
     if (recording.find("joints_link") != nullptr) joints_link.emplace(recording, "joints_link");
     if (witness == Witness::truth) {
@@ -115,6 +130,9 @@ struct RecordedRun::Signals {
   RecordedValues<RecordedEstimate> wrench;
   RecordedValues<PlatformReference> reference;
   RecordedValues<GateStatus> gate;
+  std::vector<std::string> class_names;  // of what can be touched
+  std::optional<RecordedValues<ContactClassification>> classification;
+  std::optional<RecordedValues<ContactLocation>> location;
   std::optional<RecordedValues<RecordedContact>> contact;
   std::optional<RecordedValues<RecordedTruth>> truth;
   std::optional<RecordedValues<ForceTorqueReading>> force_torque;
@@ -155,6 +173,15 @@ RunSample RecordedRun::operator[](std::size_t sample) const {
   now.gate = signals.gate[sample];
   if (signals.timing) now.lost_ticks = static_cast<int>((*signals.timing)[sample].lost_periods);
   if (signals.joints_link) now.unread_readings = static_cast<int>((*signals.joints_link)[sample].skipped);
+  if (signals.classification) {
+    const ContactClassification said = (*signals.classification)[sample];
+    const auto number = static_cast<std::size_t>(said.most_likely);
+    if (said.valid && said.accepted && number < signals.class_names.size()) {
+      now.classified = signals.class_names[number];
+      now.probability = said.confidence();
+    }
+  }
+  if (signals.location) now.location = (*signals.location)[sample];
   const RecordedEstimate estimate = signals.wrench[sample];
   now.estimate_valid = estimate.valid;
   const PlatformReference reference = signals.reference[sample];

@@ -9,6 +9,7 @@
 #include "experiments/verdict/verdict.h"
 #include "systems/robot/configuration_space.h"
 #include "systems/signals/contact_detection.h"
+#include "systems/signals/contact_location.h"
 #include "systems/signals/gate_status.h"
 #include "systems/signals/reaction_state.h"
 
@@ -35,6 +36,12 @@ struct RunSample {
   bool reference_valid = false;
   double position_error = 0.0;     ///< [m]
   double orientation_error = 0.0;  ///< [rad]
+  CartesianVector touched_point;   ///< where it is touched hardest [m]; empty where nobody measured it
+  CartesianVector touched_force;   ///< and that force [N], likewise
+  /// What the followed classifier takes for touched, by name; "" while it has accepted nothing.
+  std::string classified;
+  double probability = 0.0;  ///< of that
+  ContactLocation location;  ///< of the followed locator
   ContactDetection detection;
   /// Whether a detector notices something that follows the estimator of this name in
   /// `RecordedRun::estimators`.

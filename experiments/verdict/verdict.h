@@ -47,10 +47,16 @@ struct ContactVerdict {
   /// The same for every estimator that ran, as by a contact detector that followed it; first that which the
   /// robot followed.
   std::vector<DetectionBy> detected_by;
-  std::optional<double> removed;        ///< t_rem; none: still touching at the end [s]
-  double speed = 0.0;                   ///< of the platform at the onset [m/s]
-  double peak_force = 0.0;              ///< of one touching body [N]
-  double peak_time = 0.0;               ///< [s]
+  /// What the robot first took for touched, and acted upon; "" where it was never sure enough.
+  std::string classified;
+  std::optional<double> classified_at;   ///< when [s]
+  double probability = 0.0;              ///< that it gave to this
+  std::optional<double> location_error;  ///< of where it placed the contact then [m]; none: it did not know
+  std::optional<double> force_error;     ///< of the force there [N], likewise
+  std::optional<double> removed;         ///< t_rem; none: still touching at the end [s]
+  double speed = 0.0;                    ///< of the platform at the onset [m/s]
+  double peak_force = 0.0;               ///< of one touching body [N]
+  double peak_time = 0.0;                ///< [s]
   std::optional<double> lasting_force;  ///< the largest after the transient duration, if it lasts so long [N]
   /// Of the peak force: transient, or quasi-static where only the lasting force fails [N].
   double limit = 0.0;

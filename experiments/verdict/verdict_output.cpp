@@ -34,6 +34,11 @@ Json contact_json(const ContactVerdict& contact) {
           {"detected", contact.detected.has_value()},
           {"detection_ms", milliseconds(contact.onset, contact.detected)},
           {"detection_by_estimator_ms", by_estimator(contact)},
+          {"classified", contact.classified.empty() ? Json(nullptr) : Json(contact.classified)},
+          {"classified_ms", milliseconds(contact.onset, contact.classified_at)},
+          {"probability", contact.classified_at ? Json(contact.probability) : Json(nullptr)},
+          {"location_error_mm", contact.location_error ? Json(1e3 * *contact.location_error) : Json(nullptr)},
+          {"force_error_N", contact.force_error ? Json(*contact.force_error) : Json(nullptr)},
           {"removal_ms", milliseconds(contact.onset, contact.removed)},
           {"peak_force_N", contact.peak_force},
           {"limit_N", contact.limit},
@@ -64,6 +69,19 @@ std::string by_estimator_lines(const ContactVerdict& contact) {
     lines += fmt::format("  by {:<37} {:>10}\n", by.estimator, milliseconds_text(contact.onset, by.detected));
   }
   return lines;
+}
+
+/// What the robot took for touched, and how far off.
+std::string classified_line(const ContactVerdict& contact) {
+  if (!contact.detected) return "";
+  if (!contact.classified_at) return "  taken for: nothing that is sure enough to act upon\n";
+  std::string line = fmt::format("  taken for {} after {:.1f} ms, sure by {:.1f} %", contact.classified,
+                                 1e3 * (*contact.classified_at - contact.onset), 100.0 * contact.probability);
+  if (contact.location_error) {
+    line += fmt::format("; placed {:.0f} mm off, force {:.0f} N off", 1e3 * *contact.location_error,
+                        contact.force_error.value_or(0.0));
+  }
+  return line + "\n";
 }
 
 std::string no_contact_line(const Verdict& verdict) {
@@ -99,7 +117,7 @@ std::string verdict_table(const Verdict& verdict, const RunFacts& facts) {
   std::string text = fmt::format("{:<15} {:>8} {:>6} {:>10} {:>10} {:>8} {:>8}  {}\n", "contact with", "at s",
                                  "m/s", "noticed ms", "removed ms", "peak N", "limit N", "within");
   for (const ContactVerdict& contact : verdict.contacts) {
-    text += contact_line(contact) + by_estimator_lines(contact);
+    text += contact_line(contact) + by_estimator_lines(contact) + classified_line(contact);
   }
   text += no_contact_line(verdict);
   text += fmt::format(

@@ -53,6 +53,8 @@ struct ContactClassification {
   bool accepted = false;  ///< Sure enough to act upon; otherwise rejected: the reaction is the safe one.
   int most_likely = -1;   ///< number in the robot's ContactClasses
   ClassVector probability;
+  /// No single contact explains the wrench: several things touch the robot, or it is not as its model says.
+  bool several_contacts = false;
 
   /// Of the most likely class; 0 where there is none.
   double confidence() const {
@@ -66,6 +68,7 @@ struct ContactClassification {
     visit("accepted", "", self.accepted);
     visit("most_likely", "", self.most_likely);
     visit("probability", "1", self.probability);
+    visit("several_contacts", "", self.several_contacts);
   }
 };
 

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "diagrams/control_stages.h"
+
+namespace flinch {
+
+/// Every classifier of flinch, as its settings say, the standard one first.
+std::vector<ContactClassifier> classifier_stages();
+
+/// Every locator of flinch, likewise.
+std::vector<ContactLocatorStage> locator_stages();
+
+/// Adds what all classifiers and locators read: the contact that lasts, the fast observer, features and
+/// evidence.
+ContactPorts add_isolation(const StageSite& site, const EstimatePorts& given,
+                           OutputPort<ContactDetection> detection);
+
+}  // namespace flinch

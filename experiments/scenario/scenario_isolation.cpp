@@ -1,0 +1,21 @@
+#include "experiments/scenario/scenario_isolation.h"
+
+#include "diagrams/isolation_settings.h"
+#include "systems/config/config_reader.h"
+
+namespace flinch {
+
+void read_isolation(ConfigReader isolation, IsolationSettings& settings) {
+  isolation.number("observer_gain", unit::per_s, settings.observer_gain, positive);
+  isolation.number("force_deviation", unit::N, settings.uncertainty.force, positive);
+  isolation.number("moment_deviation", unit::Nm, settings.uncertainty.moment, positive);
+  isolation.number("force_scale", unit::N, settings.hypotheses.force_scale, positive);
+  isolation.number("object_speed", unit::m_per_s, settings.hypotheses.object_speed, positive);
+  isolation.number("friction", unit::none, settings.hypotheses.friction, not_negative);
+  isolation.number("accept", unit::none, settings.model_classifier.accept, fraction);
+  isolation.duration("window", settings.model_classifier.window, not_negative);
+  isolation.number("leaning", unit::none, settings.closed_form.leaning, not_negative);
+  isolation.integer("particles", settings.particle_filter.particles, 1, max_particles);
+}
+
+}  // namespace flinch

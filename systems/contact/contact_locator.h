@@ -1,0 +1,65 @@
+#pragma once
+
+#include <memory>
+
+#include "systems/contact/wrench_uncertainty.h"
+#include "systems/framework/system.h"
+#include "systems/robot/link_contact.h"
+#include "systems/robot/outline.h"
+#include "systems/robot/parallel_robot.h"
+#include "systems/signals/contact_classes.h"
+#include "systems/signals/contact_location.h"
+#include "systems/signals/contact_phase.h"
+#include "systems/signals/wrench_estimate.h"
+
+namespace flinch {
+
+struct ContactLocatorSettings {
+  double least_force = 1.0;  ///< below it nothing is located [N]
+  /// Largest standard deviation of the fraction at which a place on a link counts as known.
+  double largest_deviation = 0.1;
+  /// Standard deviation of f_x / f_y: how far friction lets a force on a link lean. 0: pushes are orthogonal.
+  double leaning = 0.0;
+};
+
+/// Where the line of action of `wrench` enters the platform: the point of a push, [SafePR] III-A, with its
+/// deviation across the line. Where it misses the platform, the nearest point of the outline, not located.
+ContactLocation locate_on_platform(const ParallelRobot& robot, const Kinematics& kinematics,
+                                   const Outline& platform, const PlatformVector& wrench,
+                                   const PlatformMatrix& covariance, double least_force) noexcept;
+
+/// Where `link` is pushed, by `link_push`. Forces that lean by friction widen the covariance.
+ContactLocation locate_on_link(const LinkContactMap& map, BodyId link, const PlatformVector& wrench,
+                               const PlatformMatrix& covariance,
+                               const ContactLocatorSettings& settings) noexcept;
+
+/// The point at `fraction` of a link on the side from which a force pushes it [m].
+CartesianVector pushed_point(const LinkContactMap& link, double fraction,
+                             const CartesianVector& force) noexcept;
+
+/// Says in closed form where the classified body is touched, anew at every tick of the contact. Of a
+/// clamping, and of contacts that are not classified, it knows no place.
+class ContactLocator final : public System {
+ public:
+  ContactLocator(std::shared_ptr<const ParallelRobot> robot, const ContactLocatorSettings& settings,
+                 const WrenchUncertainty& uncertainty);
+
+  InputPort<ContactPhase> phase = input<ContactPhase>("phase");
+  InputPort<ContactClassification> classification = input<ContactClassification>("classification");
+  InputPort<Kinematics> kinematics = input<Kinematics>("kinematics");
+  InputPort<WrenchEstimate> wrench = input<WrenchEstimate>("wrench");
+  OutputPort<ContactLocation> location =
+      output<&ContactLocator::locate>("location", phase, classification, kinematics, wrench);
+
+ private:
+  ContactLocation locate(const ContactPhase& contact, const ContactClassification& touched,
+                         const Kinematics& now, const WrenchEstimate& estimate) const;
+
+  std::shared_ptr<const ParallelRobot> robot_;
+  ContactClasses classes_;
+  Outline platform_;
+  ContactLocatorSettings settings_;
+  WrenchUncertainty uncertainty_;
+};
+
+}  // namespace flinch

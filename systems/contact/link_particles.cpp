@@ -1,0 +1,139 @@
+#include "systems/contact/link_particles.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace flinch {
+namespace {
+
+using Weights = std::array<double, max_particles>;
+/// From the force of a particle, in the axes of its link, to the torques of the drives.
+using TorqueMap = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_dof, 3>;
+
+struct TorqueMaps {
+  TorqueMap at_joint, along;
+
+  TorqueMaps(const LinkContactMap& link, const Kinematics& kinematics)
+      : at_joint(kinematics.J_x_qa.transpose() * link.at_joint),
+        along(kinematics.J_x_qa.transpose() * link.along) {}
+
+  JointVector torque(const LinkParticle& particle) const {  // [SafePR] (22)
+    return (at_joint + particle.fraction * along) * particle.force.head(at_joint.cols());
+  }
+};
+
+bool can_be_used(const LinkContactMap& link, const Kinematics& kinematics, const JointVector& torque) {
+  return link.valid && kinematics.valid && usable(torque, drive_count(kinematics));
+}
+
+/// A fraction that has left the link comes back by as much.
+double reflected(double fraction) {
+  if (!std::isfinite(fraction)) return 0.5;
+  const double folded = std::abs(std::remainder(fraction, 2.0));
+  return std::min(folded, 1.0);
+}
+
+}  // namespace
+
+LinkParticle LinkParticles::drawn_about(const LinkPush& push) noexcept {
+  const Eigen::Matrix2d root = push.covariance.llt().matrixL();
+  const Eigen::Vector2d spread = root * Eigen::Vector2d(random_.normal(), random_.normal());
+  return {.fraction = reflected(push.fraction + spread[0]), .force = {0.0, push.force + spread[1], 0.0}};
+}
+
+void LinkParticles::begin(const LinkContactMap& link, const Kinematics& kinematics, const LinkPush& start,
+                          const JointVector& drive_torque, const LinkParticleSettings& settings) noexcept {
+  constexpr double least_fraction = 0.2;  // nearer to the elbow the force would be a large guess
+  constexpr double jitter = 0.2;
+  count_ = 0;
+  if (!can_be_used(link, kinematics, drive_torque)) return;
+  const TorqueMaps maps(link, kinematics);
+  count_ = std::clamp(settings.particles, 1, max_particles);
+  for (int i = 0; i < count_; ++i) {
+    LinkParticle particle;
+    if (start.identifiable) {
+      particle = drawn_about(start);
+    } else {
+      particle.fraction = random_.uniform(0.0, 1.0);
+      const double lever = std::max(particle.fraction, least_fraction);
+      const auto across = (maps.at_joint + lever * maps.along).rightCols(maps.along.cols() - 1).eval();
+      const auto fit = (across.transpose() * across).ldlt().solve(across.transpose() * drive_torque).eval();
+      for (int axis = 0; axis < fit.size(); ++axis) {
+        particle.force[axis + 1] =
+            std::isfinite(fit[axis]) ? fit[axis] * (1.0 + jitter * random_.normal()) : 0.0;
+      }
+    }
+    if (settings.angled)
+      particle.force[0] = settings.leaning * random_.normal() * particle.force.tail<2>().norm();
+    particles_[static_cast<std::size_t>(i)] = particle;
+  }
+}
+
+void LinkParticles::take(const LinkParticles& other) noexcept {
+  random_ = other.random_;
+  count_ = other.count_;
+  std::copy_n(other.particles_.begin(), count_, particles_.begin());
+}
+
+void LinkParticles::move(const LinkParticleSettings& settings, int directions) noexcept {
+  const double along = settings.angled ? std::sqrt(settings.along_variance) : 0.0;
+  const double across = std::sqrt(settings.across_variance);
+  const double fraction = std::sqrt(settings.fraction_variance);
+  for (int i = 0; i < count_; ++i) {  // [SafePR] (20)
+    LinkParticle& particle = particles_[static_cast<std::size_t>(i)];
+    particle.fraction = reflected(particle.fraction + fraction * random_.normal());
+    if (settings.angled) particle.force[0] += along * random_.normal();
+    for (int axis = 1; axis < directions; ++axis) particle.force[axis] += across * random_.normal();
+  }
+}
+
+void LinkParticles::resample(const Weights& weights, double sum) noexcept {
+  const double step = sum / count_;
+  double place = random_.uniform(0.0, step);
+  double passed = weights[0];
+  int from = 0;
+  std::array<LinkParticle, max_particles> drawn;
+  for (int i = 0; i < count_; ++i, place += step) {
+    while (passed < place && from + 1 < count_) passed += weights[static_cast<std::size_t>(++from)];
+    drawn[static_cast<std::size_t>(i)] = particles_[static_cast<std::size_t>(from)];
+  }
+  std::copy_n(drawn.begin(), count_, particles_.begin());
+}
+
+LinkParticleEstimate LinkParticles::step(const LinkContactMap& link, const Kinematics& kinematics,
+                                         const JointVector& drive_torque,
+                                         const LinkParticleSettings& settings) noexcept {
+  if (count_ == 0 || !can_be_used(link, kinematics, drive_torque)) return {};
+  const TorqueMaps maps(link, kinematics);
+  move(settings, static_cast<int>(maps.along.cols()));
+  Weights weights;
+  double sum = 0.0;
+  for (int i = 0; i < count_; ++i) {  // [SafePR] (21)
+    const double missed = (drive_torque - maps.torque((*this)[i])).squaredNorm() / settings.torque_variance;
+    sum += weights[static_cast<std::size_t>(i)] = std::exp(-0.5 * missed);
+  }
+  if (!(sum > 1e-300)) {
+    std::fill_n(weights.begin(), count_, 1.0);
+    sum = count_;
+  }
+  LinkParticleEstimate estimate{.valid = true, .fraction = 0.0};
+  for (int i = 0; i < count_; ++i) {
+    const double share = weights[static_cast<std::size_t>(i)] / sum;
+    estimate.fraction += share * (*this)[i].fraction;
+    estimate.force += share * (*this)[i].force;
+  }
+  const Eigen::Vector3d across(0.0, estimate.force[1], estimate.force[2]);
+  const Eigen::Vector3d direction =
+      across.isZero() ? Eigen::Vector3d(Eigen::Vector3d::UnitY()) : across.normalized();
+  for (int i = 0; i < count_; ++i) {
+    const double share = weights[static_cast<std::size_t>(i)] / sum;
+    const Eigen::Vector2d off((*this)[i].fraction - estimate.fraction,
+                              direction.dot((*this)[i].force - estimate.force));
+    estimate.covariance += share * off * off.transpose();
+  }
+  resample(weights, sum);
+  return estimate;
+}
+
+}  // namespace flinch

@@ -1,0 +1,57 @@
+#include "systems/contact/model_classifier.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "systems/foundation/findings.h"
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+
+ModelClassifier::ModelClassifier(const std::shared_ptr<const ParallelRobot>& robot,
+                                 const ModelClassifierSettings& settings)
+    : classes_(robot->body_count(), robot->legs()), settings_(settings) {
+  Findings found("model classifier: ");
+  found.require(settings.accept > 0.0 && settings.accept <= 1.0, "accept must be above 0 and at most 1");
+  found.require(settings.window >= Time{}, "window must not be negative");
+  found.positive("independent_ticks", settings.independent_ticks);
+  found.positive("largest_residual", settings.largest_residual);
+  throw_if_any(found.take());
+}
+
+void ModelClassifier::conclude(const ContactEvidence& seen, Memory& next) const {
+  ContactClassification& result = next.last;
+  const ClassVector mean = next.log_evidence / next.weight * settings_.independent_ticks;
+  Eigen::Index most_likely = 0;
+  const double largest = mean.maxCoeff(&most_likely);
+  result.acquired = seen.acquired;
+  result.valid = true;
+  result.most_likely = static_cast<int>(most_likely);
+  result.probability = (mean.array() - largest).max(-700.0).exp();
+  result.probability /= result.probability.sum();
+  result.several_contacts = next.residual / next.weight > settings_.largest_residual;
+  result.accepted = result.confidence() >= settings_.accept && !result.several_contacts;
+}
+
+void ModelClassifier::advance(Time now, const ContactPhase& contact, const ContactEvidence& seen,
+                              const Memory& memory, Memory& next) const {
+  if (!contact.active || contact.begins(now)) {
+    next = Memory();
+    next.log_evidence.setZero(classes_.count());
+  } else {
+    next = memory;
+  }
+  const bool adds = contact.active && now - contact.since <= settings_.window && seen.valid &&
+                    seen.log_evidence.size() == classes_.count() &&
+                    next.log_evidence.size() == classes_.count();
+  if (!adds) return;
+  Eigen::Index strongest = 0;
+  seen.log_evidence.maxCoeff(&strongest);
+  const double weight = std::max(seen.force[strongest] * seen.force[strongest], 1.0);
+  next.log_evidence += weight * seen.log_evidence;
+  next.residual += weight * seen.residual.minCoeff();
+  next.weight += weight;
+  conclude(seen, next);
+}
+
+}  // namespace flinch

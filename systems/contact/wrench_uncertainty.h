@@ -1,0 +1,34 @@
+#pragma once
+
+#include "systems/foundation/findings.h"
+#include "systems/robot/configuration_space.h"
+
+namespace flinch {
+
+/// How far an estimated wrench is from the true one: standard deviations of each of its components, which
+/// grow with the force. docs/theory.md says how the defaults were measured.
+struct WrenchUncertainty {
+  double force = 2.0;             ///< [N]
+  double moment = 0.2;            ///< [Nm]
+  double share_of_force = 0.05;   ///< of the size of the force, on each component of it
+  double share_of_lever = 0.004;  ///< of the size of the force, on each component of the moment [m]
+
+  /// The covariance of `wrench`: no correlations.
+  PlatformMatrix covariance(const ConfigurationSpace& space, const PlatformVector& wrench) const {
+    const int translations = space.translations();
+    const double size = wrench.head(translations).squaredNorm();
+    PlatformVector variance =
+        PlatformVector::Constant(space.dimension(), force * force + share_of_force * share_of_force * size);
+    variance.tail(space.rotations()).setConstant(moment * moment + share_of_lever * share_of_lever * size);
+    return variance.asDiagonal();
+  }
+
+  void find_problems(Findings& found) const {
+    found.positive("force", force, "N");
+    found.positive("moment", moment, "Nm");
+    found.not_negative("share_of_force", share_of_force);
+    found.not_negative("share_of_lever", share_of_lever, "m");
+  }
+};
+
+}  // namespace flinch

@@ -1,0 +1,151 @@
+#include "systems/robot/link_contact.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace flinch {
+namespace {
+
+/// Unit vectors: `axis` and what is across it.
+CartesianJacobian axes_along(const CartesianVector& axis) {
+  CartesianJacobian axes(axis.size(), axis.size());
+  if (axis.size() == 2) {
+    axes << axis[0], -axis[1], axis[1], axis[0];
+    return axes;
+  }
+  const Eigen::Vector3d along = axis;
+  const Eigen::Vector3d across = along.unitOrthogonal();
+  axes << along, across, along.cross(across);
+  return axes;
+}
+
+/// Variance of a number that may be anything between 0 and 1.
+constexpr double uniform_variance = 1.0 / 12.0;
+
+/// What fits best where the place cannot be known: a push on the middle.
+LinkPush in_the_middle(const PlatformVector& g, const PlatformVector& wrench,
+                       const Eigen::LLT<PlatformMatrix>& S) {
+  LinkPush push;
+  const PlatformVector weighted = S.solve(g);
+  const double information = weighted.dot(g);
+  if (!(information > 0.0)) return push;
+  push.valid = true;
+  push.force = weighted.dot(wrench) / information;
+  // The force times the fraction is what is known.
+  const double spread = push.force / push.fraction;
+  push.covariance(0, 0) = uniform_variance;
+  push.covariance(1, 1) = 1.0 / information + spread * spread * uniform_variance;
+  push.covariance(0, 1) = push.covariance(1, 0) = -spread * uniform_variance;
+  const PlatformVector missed = wrench - g * push.force;
+  push.residual = missed.dot(S.solve(missed));
+  return push;
+}
+
+/// Both numbers of a push as they follow from the wrench; not valid where they do not.
+LinkPush unconfined_push(const PlatformVector& g0, const PlatformVector& g1, const PlatformVector& wrench,
+                         const Eigen::LLT<PlatformMatrix>& S) {
+  constexpr double least_share_apart = 1e-9;  // of g0 that g1 does not explain: what rounding leaves is less
+  const PlatformVector h0 = S.solve(g0);
+  const PlatformVector h1 = S.solve(g1);
+  Eigen::Matrix2d information;
+  information << h0.dot(g0), h0.dot(g1), h1.dot(g0), h1.dot(g1);
+  const double determinant = information.determinant();
+  if (!(determinant > least_share_apart * information(0, 0) * information(1, 1))) return {};
+  const Eigen::Matrix2d C = information.inverse();
+  const Eigen::Vector2d best = C * Eigen::Vector2d(h0.dot(wrench), h1.dot(wrench));
+  const double force = best[0];
+  if (std::abs(force) <= std::sqrt(C(0, 0))) return {};  // its sign is not known: the ratio means nothing
+  LinkPush push{.valid = true, .identifiable = true, .fraction = best[1] / force, .force = force};
+  Eigen::Matrix2d change;  // of (l, f_y) with (f_y, l f_y)
+  change << -push.fraction / force, 1.0 / force, 1.0, 0.0;
+  push.covariance = change * C * change.transpose();
+  const PlatformVector missed = wrench - g0 * best[0] - g1 * best[1];
+  push.residual = missed.dot(S.solve(missed));
+  return push;
+}
+
+bool can_be_a_link(const LinkContactMap& link, const PlatformVector& wrench) {
+  return link.valid && link.axes.cols() == 2 && usable(wrench, static_cast<int>(link.along.rows()));
+}
+
+/// Where it is known, and on the link as far as that goes.
+bool is_identified(const LinkPush& push, double largest_deviation) {
+  constexpr double outside = 3.0;
+  const double deviation = std::sqrt(push.covariance(0, 0));
+  const bool inside = push.fraction >= -outside * deviation && push.fraction <= 1.0 + outside * deviation;
+  return push.valid && deviation <= largest_deviation && inside;
+}
+
+}  // namespace
+
+LinkContactMap link_contact_map(const Mechanism& robot, const Kinematics& kinematics, BodyId link) noexcept {
+  LinkContactMap map;
+  if (link.is_platform() || link.index() < 0 || link.index() >= robot.body_count()) return map;
+  const CartesianVector begin = robot.axis_point(link, 0.0);
+  const CartesianVector end = robot.axis_point(link, 1.0);
+  const ContactJacobian at_begin = robot.contact_jacobian(kinematics, link, begin);
+  const ContactJacobian at_end = robot.contact_jacobian(kinematics, link, end);
+  map.length = (end - begin).norm();
+  if (!at_begin.valid || !at_end.valid || map.length <= 0.0) return map;
+  map.valid = true;
+  for (const Shape& shape : robot.body(link).shapes) {
+    if (const auto* capsule = std::get_if<Capsule>(&shape)) map.radius = capsule->radius;
+  }
+  map.proximal_joint = robot.point_on_body(kinematics, link, begin);
+  map.axes = axes_along((robot.point_on_body(kinematics, link, end) - map.proximal_joint) / map.length);
+  map.at_joint = at_begin.translation.transpose() * map.axes;
+  map.along = at_end.translation.transpose() * map.axes - map.at_joint;
+  return map;
+}
+
+LinkPush link_push(const LinkContactMap& link, const PlatformVector& wrench, const PlatformMatrix& covariance,
+                   double largest_deviation) noexcept {
+  if (!can_be_a_link(link, wrench)) return {};
+  const Eigen::LLT<PlatformMatrix> S(covariance);
+  if (S.info() != Eigen::Success) return {};
+  const PlatformVector g0 = link.at_joint.col(1);
+  const PlatformVector g1 = link.along.col(1);
+  const LinkPush push = unconfined_push(g0, g1, wrench, S);
+  return is_identified(push, largest_deviation) ? push : in_the_middle(g0 + 0.5 * g1, wrench, S);
+}
+
+LinkPush leaning_link_push(const LinkContactMap& link, const PlatformVector& wrench,
+                           const PlatformMatrix& covariance, double largest_deviation,
+                           double leaning) noexcept {
+  constexpr int leans = 21;
+  constexpr double widest = 2.5;  // standard deviations
+  if (!can_be_a_link(link, wrench)) return {};
+  const Eigen::LLT<PlatformMatrix> S(covariance);
+  if (S.info() != Eigen::Success) return {};
+  LinkPush mean{.valid = true, .identifiable = true, .fraction = 0.0, .force = 0.0};
+  Eigen::Matrix2d second_moment = Eigen::Matrix2d::Zero();
+  double sum = 0.0;
+  for (int i = 0; i < leans; ++i) {
+    const double x = widest * (2.0 * i / (leans - 1) - 1.0);
+    const CartesianVector direction = Eigen::Vector2d(leaning * x, 1.0);
+    const LinkPush push = unconfined_push(link.at_joint * direction, link.along * direction, wrench, S);
+    if (!push.valid) continue;
+    const double deviation = std::sqrt(push.covariance(0, 0));
+    const double on_link = 0.5 * (std::erfc(-push.fraction / deviation / std::sqrt(2.0)) -
+                                  std::erfc((1.0 - push.fraction) / deviation / std::sqrt(2.0)));
+    const double weight = std::exp(-0.5 * (x * x + push.residual)) * on_link;
+    const Eigen::Vector2d found(push.fraction, push.force);
+    sum += weight;
+    mean.fraction += weight * push.fraction;
+    mean.force += weight * push.force;
+    mean.residual += weight * push.residual;
+    second_moment += weight * (push.covariance + found * found.transpose());
+  }
+  if (sum > 0.0) {
+    mean.fraction /= sum;
+    mean.force /= sum;
+    mean.residual /= sum;
+    const Eigen::Vector2d middle(mean.fraction, mean.force);
+    mean.covariance = second_moment / sum - middle * middle.transpose();
+    if (is_identified(mean, largest_deviation)) return mean;
+  }
+  return in_the_middle((link.at_joint + 0.5 * link.along).col(1), wrench, S);
+}
+
+}  // namespace flinch

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "systems/robot/mechanism.h"
+
+namespace flinch {
+
+/// What the platform feels of a force f on the axis of a link, l of its length from the proximal joint:
+///   F = (at_joint + l along) f.
+/// Forces count along the axis, which is the first column of `axes`, and across it.
+struct LinkContactMap {
+  bool valid = false;              ///< The body is a link, with an axis, of a robot that reaches its pose.
+  double length = 0.0;             ///< of the axis [m]
+  double radius = 0.0;             ///< of the link about its axis [m]
+  CartesianVector proximal_joint;  ///< in the base frame [m]
+  CartesianJacobian axes;          ///< columns: the axes in which forces count, in the base frame
+  PlatformMatrix at_joint;         ///< n x directions
+  PlatformMatrix along;            ///< n x directions
+
+  /// The point at a fraction of the axis, in the base frame [m].
+  CartesianVector point(double fraction) const { return proximal_joint + fraction * length * axes.col(0); }
+};
+
+/// The map of `link`, whose first capsule is its outline, in this pose. [SafePR] (6a), (22)
+LinkContactMap link_contact_map(const Mechanism& robot, const Kinematics& kinematics, BodyId link) noexcept;
+
+/// A push across a link, found from a platform wrench.
+struct LinkPush {
+  bool valid = false;  ///< The wrench could be read so at all. Otherwise nothing below means anything.
+  /// Where and how hard follow from the wrench. Otherwise fraction is the middle, as uncertain as a uniform
+  /// distribution, and force is what fits best there.
+  bool identifiable = false;
+  double fraction = 0.5;  ///< l, 0 at the proximal and 1 at the distal joint; not confined to these
+  double force = 0.0;     ///< f_y, across the link [N]
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of (fraction, force), from that of the wrench
+  double residual = 0.0;                                 ///< e^T S^-1 e of what it leaves of the wrench
+};
+
+/// The push f_y across a planar link that explains `wrench` best, in closed form: F = g0 f_y + g1 (l f_y) is
+/// linear in f_y and l f_y, so that these are a weighted mean and l is their ratio. Of a 3-RRR this is
+///   f_y = F_n + F_e tan qp,  l = F_n / f_y
+/// with F_n across and F_e along the second link, where the wrench acts through the coupling joint as that of
+/// a leg does. Not identifiable where the wrench does not tell g0 from g1 (a first link, an elbow at 90
+/// degrees), where the fraction's standard deviation exceeds `largest_deviation`, or where it lies outside of
+/// the link by more than three of them. `covariance`: of the wrench.
+LinkPush link_push(const LinkContactMap& link, const PlatformVector& wrench, const PlatformMatrix& covariance,
+                   double largest_deviation) noexcept;
+
+/// The same for a force (lean, 1) f_y that leans along the link by an unknown share of its size, normally
+/// distributed with standard deviation `leaning`, as far as friction lets it: the mean and covariance of what
+/// each lean gives, weighted by how likely it is and by whether it lies on the link.
+LinkPush leaning_link_push(const LinkContactMap& link, const PlatformVector& wrench,
+                           const PlatformMatrix& covariance, double largest_deviation,
+                           double leaning) noexcept;
+
+}  // namespace flinch

@@ -1,0 +1,81 @@
+#include "diagrams/isolation_stages.h"
+
+#include <gmock/gmock.h>
+
+#include "systems/foundation/setup_error.h"
+#include "tests/diagrams/contact_bench.h"
+#include "tests/support/allocations.h"
+
+namespace flinch {
+namespace {
+
+using test::Bench;
+using test::Experiment;
+using testing::ElementsAre;
+
+/// A bench with every classifier and locator that flinch has.
+Experiment all_stages() {
+  Experiment experiment;
+  experiment.control.stages.classifiers.all = classifier_stages();
+  experiment.control.stages.locators.all = locator_stages();
+  experiment.control.sequence.zero_g_when_struck = false;
+  return experiment;
+}
+
+ContactClassification said(const Bench& bench) { return bench.context.get(bench.control.classification); }
+
+TEST(IsolationStages, ClassifyAndLocateAPushOnThePlatform) {
+  Bench bench(all_stages());
+  bench.run(500ms);
+  EXPECT_FALSE(said(bench).valid);
+  bench.push(PlatformVector{{-45.0, 0.0, 2.0}});
+  bench.run(60ms);
+  ASSERT_TRUE(bench.context.get(bench.control.contact).active);
+  const ContactClassification classified = said(bench);
+  ASSERT_TRUE(classified.valid);
+  EXPECT_EQ(classified.most_likely, 0);
+  const ContactLocation location = bench.context.get(bench.control.location);
+  ASSERT_TRUE(location.valid && location.located);
+  EXPECT_NEAR((location.point_in_base - CartesianVector(bench.pose().head<2>())).norm(), 0.137, 1e-9);
+  EXPECT_NEAR(location.force_in_base[0], -45.0, 5.0);
+}
+
+TEST(IsolationStages, RunSideBySideAndNeverAllocate) {
+  Bench bench(all_stages());
+  ASSERT_EQ(bench.control.others.classifications.size(), 1U);
+  EXPECT_EQ(bench.control.others.classifications[0].name, "classification_decision_tree");
+  ASSERT_EQ(bench.control.others.locations.size(), 1U);
+  EXPECT_EQ(bench.control.others.locations[0].name, "location_particle_filter");
+  ASSERT_EQ(bench.control.others.clouds.size(), 1U);
+  EXPECT_EQ(bench.control.others.clouds[0].name, "particles_particle_filter");
+  bench.run(500ms);
+  // As of 50 N across the second link of leg 1.
+  const LinkContactMap link = [&] {
+    Kinematics k;
+    bench.robot->kinematics(bench.pose(), PlatformVector::Zero(3), k);
+    return link_contact_map(*bench.robot, k, BodyId::link2(0));
+  }();
+  bench.push((link.at_joint + 0.7 * link.along) * CartesianVector(Eigen::Vector2d(0.0, 50.0)));
+  bench.tick();  // a first contact
+  const test::AllocationCounter allocations;
+  bench.run(60ms);
+  EXPECT_EQ(allocations.count(), 0);
+  const auto& tree = bench.context.get(bench.control.others.classifications[0].port);
+  ASSERT_TRUE(tree.valid);
+  EXPECT_EQ(ContactClasses(7, 3).leg(tree.most_likely), 0);
+}
+
+TEST(IsolationStages, AreKnownByTheirNames) {
+  const ControlStages known = known_stages();
+  EXPECT_THAT(names_of(known.classifiers), ElementsAre("model_classifier", "decision_tree"));
+  EXPECT_THAT(names_of(known.locators), ElementsAre("closed_form", "particle_filter"));
+}
+
+TEST(IsolationStages, NeedAnObserverWithAPositiveGain) {
+  Experiment experiment;
+  experiment.control.isolation.observer_gain = 0.0;
+  EXPECT_THROW(Bench{experiment}, SetupError);
+}
+
+}  // namespace
+}  // namespace flinch

@@ -1,0 +1,47 @@
+#include "experiments/scenario/scenario_isolation.h"
+
+#include <gmock/gmock.h>
+
+#include "diagrams/isolation_settings.h"
+#include "systems/config/config_reader.h"
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+using testing::HasSubstr;
+
+IsolationSettings read(const std::string& text) {
+  IsolationSettings settings;
+  ConfigReader reader = ConfigReader::parse(text, "scenario.yaml");
+  read_isolation(reader.section("isolation"), settings);
+  reader.finish();
+  return settings;
+}
+
+TEST(ReadIsolation, TakesWhatTheFileSaysAndLeavesTheRest) {
+  const IsolationSettings settings = read(
+      "isolation: {observer_gain_per_s: 200, force_deviation_N: 1.5, accept: 0.8, window_ms: 5, leaning: "
+      "0.2, "
+      "particles: 200, object_speed_m_per_s: 0.1}");
+  EXPECT_EQ(settings.observer_gain, 200.0);
+  EXPECT_EQ(settings.uncertainty.force, 1.5);
+  EXPECT_EQ(settings.uncertainty.moment, IsolationSettings().uncertainty.moment);
+  EXPECT_EQ(settings.model_classifier.accept, 0.8);
+  EXPECT_EQ(settings.model_classifier.window, 5ms);
+  EXPECT_EQ(settings.closed_form.leaning, 0.2);
+  EXPECT_EQ(settings.particle_filter.particles, 200);
+  EXPECT_EQ(settings.hypotheses.object_speed, 0.1);
+}
+
+TEST(ReadIsolation, RefusesWhatCannotBe) {
+  try {
+    read("isolation: {accept: 1.5, particles: 100000, observer_gain_per_s: 0}");
+    FAIL() << "was taken";
+  } catch (const SetupError& error) {
+    EXPECT_EQ(error.problems().size(), 3u);
+  }
+}
+
+}  // namespace
+}  // namespace flinch

@@ -1,0 +1,188 @@
+#include "systems/contact/contact_locator.h"
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "systems/foundation/setup_error.h"
+#include "systems/robot/five_bar.h"
+#include "systems/robot/five_bar_presets.h"
+#include "systems/robot/hexapod.h"
+#include "systems/robot/hexapod_presets.h"
+#include "tests/support/allocations.h"
+#include "tests/support/ticking.h"
+#include "tests/systems/contact/touched_robot.h"
+
+namespace flinch {
+namespace {
+
+PlatformMatrix noise(const ParallelRobot& robot) {
+  return WrenchUncertainty().covariance(robot.space(), PlatformVector::Zero(robot.dof()));
+}
+
+ContactLocation on_platform(const ParallelRobot& robot, const Kinematics& k, const PlatformVector& wrench) {
+  const Outline outline(robot.body(BodyId::platform()).shapes);
+  return locate_on_platform(robot, k, outline, wrench, noise(robot), 1.0);
+}
+
+TEST(LocateOnPlatform, FindsThePointOfAPushAnywhereAroundIt) {
+  const auto robot = test::touched_bench();
+  for (const Kinematics& k : test::random_kinematics(*robot, 50)) {
+    for (double around = 0.0; around < 6.2; around += 0.3) {
+      for (const double lean : {-0.5, 0.0, 0.5}) {
+        const Eigen::Vector2d out = unit_vector(around);
+        const CartesianVector point = Eigen::Vector2d(k.pose.head<2>()) + 0.137 * out;
+        const CartesianVector force = -25.0 * rotate(out, unit_vector(lean));
+        const Eigen::Vector2d arm = 0.137 * out;
+        const PlatformVector wrench{{force[0], force[1], arm.x() * force[1] - arm.y() * force[0]}};
+        const ContactLocation found = on_platform(*robot, k, wrench);
+        ASSERT_TRUE(found.valid && found.located);
+        EXPECT_LT((found.point_in_base - point).norm(), 1e-12);
+        EXPECT_EQ(found.force_in_base, force);
+      }
+    }
+  }
+}
+
+TEST(LocateOnPlatform, GivesTheNearestPointWhereTheLineMisses) {
+  const auto robot = test::touched_bench();
+  const Kinematics k = test::at_home(*robot);
+  const ContactLocation found = on_platform(*robot, k, PlatformVector{{-20.0, 0.0, 6.0}});  // 0.3 m above
+  EXPECT_TRUE(found.valid);
+  EXPECT_FALSE(found.located);
+  EXPECT_LT((found.point_in_base - CartesianVector(Eigen::Vector2d(0.0, 0.137))).norm(), 1e-12);
+}
+
+TEST(LocateOnPlatform, IsNotValidForAPureMoment) {
+  const auto robot = test::touched_bench();
+  EXPECT_FALSE(on_platform(*robot, test::at_home(*robot), PlatformVector{{0.3, 0.0, 6.0}}).valid);
+}
+
+TEST(LocateOnPlatform, KnowsNoPointOfAPlatformThatCannotTurnAndFindsThoseOfAPrism) {
+  const FiveBar five_bar(five_bar_robot());
+  const ContactLocation unknown = on_platform(five_bar, test::at_home(five_bar), PlatformVector{{10.0, 0.0}});
+  EXPECT_TRUE(unknown.valid);
+  EXPECT_FALSE(unknown.located);
+  EXPECT_TRUE(unknown.point_in_base.allFinite());
+  const Hexapod hexapod(hexapod_robot());
+  const Kinematics k = test::at_home(hexapod);
+  const PlatformVector push{{-30.0, 0.0, 0.0, 0.0, 0.0, 0.0}};  // through the origin of E, along -x
+  const ContactLocation found = on_platform(hexapod, k, push);
+  ASSERT_TRUE(found.located);
+  const double radius = hexapod_robot().platform_radius;
+  EXPECT_NEAR((found.point_in_base - k.pose.head<3>())[0], radius,
+              0.05 * radius);  // a corner or a face of twelve
+}
+
+TEST(LocateOnLink, FindsThePointOnTheSurfaceThatIsPushed) {
+  const auto robot = test::touched_bench();
+  const Kinematics k = test::at_home(*robot);
+  const BodyId link = BodyId::link2(1);
+  const LinkContactMap map = link_contact_map(*robot, k, link);
+  const PlatformVector wrench = test::wrench_on_link(*robot, k, link, 0.6, {0.0, 50.0});
+  const ContactLocation found = locate_on_link(map, link, wrench, 1e-4 * noise(*robot), {});
+  ASSERT_TRUE(found.located);
+  EXPECT_NEAR(found.fraction, 0.6, 1e-9);
+  const CartesianVector expected =
+      robot->point_on_body(k, link, Eigen::Vector2d(0.6 * map.length, -map.radius));
+  EXPECT_LT((found.point_in_base - expected).norm(), 1e-9);
+  EXPECT_NEAR(found.force_in_base.norm(), 50.0, 1e-9);
+}
+
+// Forces that lean by friction are not what the closed form assumes; with their lean as noise its covariance
+// covers them.
+TEST(LocateOnLink, CoversForcesThatLeanWhereItIsToldOfThem) {
+  const auto robot = test::touched_bench();
+  std::mt19937 generator(4);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform(0.1, 0.9);
+  const auto states = test::random_kinematics(*robot, 500);
+  const ContactLocatorSettings told{.least_force = 1.0, .largest_deviation = 0.1, .leaning = 0.2};
+  int covered = 0;
+  int count = 0;
+  for (const Kinematics& k : states) {
+    for (int leg = 0; leg < 3; ++leg) {
+      const BodyId link = BodyId::link2(leg);
+      const LinkContactMap map = link_contact_map(*robot, k, link);
+      const double l = uniform(generator);
+      PlatformVector wrench =
+          test::wrench_on_link(*robot, k, link, l, {50.0 * 0.2 * normal(generator), 50.0});
+      wrench += PlatformVector{{0.5 * normal(generator), 0.5 * normal(generator), 0.05 * normal(generator)}};
+      const PlatformMatrix S = PlatformVector{{0.25, 0.25, 0.0025}}.asDiagonal();
+      const ContactLocation found = locate_on_link(map, link, wrench, S, told);
+      if (!found.located) continue;
+      ++count;
+      const Eigen::Vector2d error(found.fraction - l, found.force_in_base.dot(map.axes.col(1)) - 50.0);
+      covered +=
+          error.dot(found.covariance.inverse() * error) < 5.991;  // 95 % of chi-square with two degrees
+    }
+  }
+  ASSERT_GT(count, 300);
+  std::printf("  leaning pushes covered: %d of %d\n", covered, count);
+  EXPECT_GT(covered, 0.9 * count);
+}
+
+struct Block {
+  explicit Block(std::shared_ptr<const ParallelRobot> touched)
+      : robot(std::move(touched)),
+        block(builder.add<ContactLocator>("locator", robot, ContactLocatorSettings{}, WrenchUncertainty{})),
+        phase(builder.export_input("phase", block.phase)),
+        classification(builder.export_input("classification", block.classification)),
+        kinematics(builder.export_input("kinematics", block.kinematics)),
+        wrench(builder.export_input("wrench", block.wrench)),
+        ticking(builder) {}
+
+  ContactLocation see(int number, const PlatformVector& seen, bool active = true, bool valid = true) {
+    const Kinematics k = test::at_home(*robot);
+    ticking.set(phase, ContactPhase{active, {}});
+    ContactClassification said;
+    said.valid = valid;
+    said.most_likely = number;
+    ticking.set(classification, said);
+    ticking.set(kinematics, k);
+    ticking.set(wrench, test::estimate_of(k, seen));
+    ticking.tick();
+    return ticking.get(block.location);
+  }
+
+  DiagramBuilder builder;
+  std::shared_ptr<const ParallelRobot> robot;
+  ContactLocator& block;
+  InputPort<ContactPhase> phase;
+  InputPort<ContactClassification> classification;
+  InputPort<Kinematics> kinematics;
+  InputPort<WrenchEstimate> wrench;
+  test::Ticking ticking;
+};
+
+TEST(ContactLocator, LocatesTheClassifiedBody) {
+  Block locator(test::touched_bench());
+  const PlatformVector push{{-40.0, 0.0, 1.0}};
+  EXPECT_EQ(locator.see(0, push).body, 0);
+  EXPECT_TRUE(locator.see(0, push).located);
+  const ContactLocation first = locator.see(1, push);
+  EXPECT_TRUE(first.valid);
+  EXPECT_FALSE(first.located);  // a first link tells no place
+}
+
+TEST(ContactLocator, SaysNothingOfWhatIsNotClassifiedClampedOrGone) {
+  Block locator(test::touched_bench());
+  const PlatformVector push{{-40.0, 0.0, 1.0}};
+  const test::AllocationCounter allocations;
+  EXPECT_FALSE(locator.see(0, push, false).valid);
+  EXPECT_FALSE(locator.see(0, push, true, false).valid);
+  EXPECT_FALSE(locator.see(-1, push).valid);
+  EXPECT_FALSE(locator.see(99, push).valid);
+  EXPECT_FALSE(locator.see(7, push).valid);
+  EXPECT_FALSE(locator.see(0, PlatformVector::Constant(3, std::numeric_limits<double>::quiet_NaN())).valid);
+  EXPECT_FALSE(locator.see(2, PlatformVector{{0.0, 0.0, 4.0}}).valid);
+  EXPECT_EQ(allocations.count(), 0);
+}
+
+TEST(ContactLocator, AsksForPositiveSettings) {
+  EXPECT_THROW(ContactLocator(test::touched_bench(), {.least_force = 0.0}, {}), SetupError);
+  EXPECT_THROW(ContactLocator(test::touched_bench(), {}, {.force = -1.0}), SetupError);
+}
+
+}  // namespace
+}  // namespace flinch

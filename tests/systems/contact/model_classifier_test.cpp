@@ -1,0 +1,114 @@
+#include "systems/contact/model_classifier.h"
+
+#include <cmath>
+
+#include "systems/foundation/setup_error.h"
+#include "tests/support/allocations.h"
+#include "tests/support/ticking.h"
+#include "tests/systems/contact/touched_robot.h"
+
+namespace flinch {
+namespace {
+
+struct Classifier {
+  explicit Classifier(const ModelClassifierSettings& settings = {})
+      : block(builder.add<ModelClassifier>("classifier", test::touched_bench(), settings)),
+        phase(builder.export_input("phase", block.phase)),
+        evidence(builder.export_input("evidence", block.evidence)),
+        ticking(builder) {}
+
+  /// Evidence e^`strength` times that of the others for one class, from a force.
+  ContactClassification see(int number, double strength, double force, double residual = 1.0,
+                            bool active = true) {
+    ContactEvidence seen;
+    seen.valid = true;
+    seen.acquired = ticking.now();
+    seen.log_evidence = ClassVector::Constant(10, -50.0);
+    seen.log_evidence[number] += strength;
+    seen.residual = ClassVector::Constant(10, residual);
+    seen.force = ClassVector::Constant(10, force);
+    ticking.set(evidence, seen);
+    if (active && !active_) since_ = ticking.now();
+    active_ = active;
+    ticking.set(phase, ContactPhase{active, since_});
+    ticking.tick();
+    return ticking.get(block.classification);
+  }
+
+  DiagramBuilder builder;
+  ModelClassifier& block;
+  InputPort<ContactPhase> phase;
+  InputPort<ContactEvidence> evidence;
+  test::Ticking ticking;
+
+ private:
+  bool active_ = false;
+  Time since_{};
+};
+
+TEST(ModelClassifier, GivesEveryClassItsShareOfTheEvidence) {
+  Classifier classifier;
+  const ContactClassification said = classifier.see(4, std::log(81.0), 20.0);
+  ASSERT_TRUE(said.valid);
+  EXPECT_EQ(said.most_likely, 4);
+  EXPECT_NEAR(said.probability[4], 81.0 / 90.0, 1e-12);
+  EXPECT_NEAR(said.probability[0], 1.0 / 90.0, 1e-12);
+  EXPECT_NEAR(said.probability.sum(), 1.0, 1e-12);
+}
+
+TEST(ModelClassifier, AcceptsWhatIsSureEnoughAndRejectsTheRest) {
+  EXPECT_TRUE(Classifier().see(4, std::log(81.1), 20.0).accepted);
+  EXPECT_FALSE(Classifier().see(4, std::log(80.9), 20.0).accepted);
+}
+
+TEST(ModelClassifier, RejectsWhatNoSingleContactExplains) {
+  const ContactClassification said = Classifier().see(4, 20.0, 20.0, 16.0);
+  EXPECT_TRUE(said.valid && said.several_contacts);
+  EXPECT_FALSE(said.accepted);
+  EXPECT_FALSE(Classifier().see(4, 20.0, 20.0, 14.0).several_contacts);
+}
+
+TEST(ModelClassifier, ListensMoreToGreaterForces) {
+  Classifier classifier;
+  EXPECT_EQ(classifier.see(2, 4.0, 10.0).most_likely, 2);
+  const ContactClassification said = classifier.see(5, 4.0, 30.0);
+  EXPECT_EQ(said.most_likely, 5);
+  // Weights 1 : 9, so that both are 0.4 and 3.6 above the others.
+  EXPECT_NEAR(said.probability[5] / said.probability[0], std::exp(3.6), 1e-9);
+  EXPECT_NEAR(said.probability[2] / said.probability[0], std::exp(0.4), 1e-9);
+}
+
+TEST(ModelClassifier, StandsByWhatItHasFoundInItsWindowUntilTheContactEnds) {
+  Classifier classifier({.window = 2ms});
+  for (int i = 0; i < 3; ++i) classifier.see(2, 10.0, 20.0);
+  EXPECT_EQ(classifier.see(5, 30.0, 90.0).most_likely, 2);
+  EXPECT_FALSE(classifier.see(5, 30.0, 90.0, 1.0, false).valid);
+  EXPECT_EQ(classifier.see(5, 30.0, 90.0).most_likely, 5);
+}
+
+TEST(ModelClassifier, SaysNothingWithoutEvidenceAndNeverAllocates) {
+  Classifier classifier;
+  const test::AllocationCounter allocations;
+  classifier.ticking.set(classifier.phase, ContactPhase{true, {}});
+  classifier.ticking.tick();
+  EXPECT_FALSE(classifier.ticking.get(classifier.block.classification).valid);
+  EXPECT_TRUE(classifier.see(1, 10.0, 20.0).valid);
+  EXPECT_EQ(allocations.count(), 0);
+}
+
+TEST(ModelClassifier, ServesEvidenceThatCannotBeTrue) {
+  Classifier classifier;
+  const ContactClassification said = classifier.see(3, -1e6, 0.0);
+  EXPECT_TRUE(said.valid);
+  EXPECT_NEAR(said.probability.sum(), 1.0, 1e-12);
+  EXPECT_FALSE(said.accepted);
+}
+
+TEST(ModelClassifier, AsksForSettingsInTheirRange) {
+  const auto robot = test::touched_bench();
+  EXPECT_THROW(ModelClassifier(robot, {.accept = 1.1}), SetupError);
+  EXPECT_THROW(ModelClassifier(robot, {.window = -1ms}), SetupError);
+}
+
+}  // namespace
+}  // namespace flinch

@@ -1,0 +1,105 @@
+#include "systems/contact/particle_locator.h"
+
+#include <cmath>
+
+#include "systems/foundation/setup_error.h"
+#include "tests/support/allocations.h"
+#include "tests/support/ticking.h"
+#include "tests/systems/contact/touched_robot.h"
+
+namespace flinch {
+namespace {
+
+struct Block {
+  explicit Block(std::uint64_t seed = 1)
+      : block(builder.add<ParticleLocator>("locator", robot, LinkParticleSettings{}, WrenchUncertainty{},
+                                           seed)),
+        phase(builder.export_input("phase", block.phase)),
+        classification(builder.export_input("classification", block.classification)),
+        kinematics(builder.export_input("kinematics", block.kinematics)),
+        wrench(builder.export_input("wrench", block.wrench)),
+        ticking(builder) {
+    ticking.set(kinematics, k);
+  }
+
+  const ContactLocation& see(int number, const PlatformVector& seen) {
+    if (number >= 0 && !active_) since_ = ticking.now();
+    active_ = number >= 0;
+    ContactClassification said;
+    said.valid = active_;
+    said.most_likely = number;
+    ticking.set(phase, ContactPhase{active_, since_});
+    ticking.set(classification, said);
+    ticking.set(wrench, test::estimate_of(k, seen));
+    ticking.tick();
+    return ticking.get(block.location);
+  }
+  PlatformVector push(int leg, double fraction) const {
+    return test::wrench_on_link(*robot, k, BodyId::link2(leg), fraction, {0.0, 50.0});
+  }
+
+  std::shared_ptr<const PlanarRrr> robot = test::touched_bench();
+  Kinematics k = test::at_home(*robot);
+  DiagramBuilder builder;
+  ParticleLocator& block;
+  InputPort<ContactPhase> phase;
+  InputPort<ContactClassification> classification;
+  InputPort<Kinematics> kinematics;
+  InputPort<WrenchEstimate> wrench;
+  test::Ticking ticking;
+
+ private:
+  bool active_ = false;
+  Time since_{};
+};
+
+constexpr int link2_of_leg2 = ContactClasses::collision(BodyId::link2(1));
+
+TEST(ParticleLocator, FindsThePushOnTheClassifiedSecondLink) {
+  Block locator;
+  const test::AllocationCounter allocations;
+  ContactLocation found;
+  for (int i = 0; i < 50; ++i) found = locator.see(link2_of_leg2, locator.push(1, 0.7));
+  EXPECT_EQ(allocations.count(), 0);
+  ASSERT_TRUE(found.valid && found.located);
+  EXPECT_EQ(found.body, link2_of_leg2);
+  EXPECT_NEAR(found.fraction, 0.7, 0.04);
+  EXPECT_NEAR(found.force_in_base.norm(), 50.0, 4.0);
+  const ParticleCloud& cloud = locator.ticking.get(locator.block.cloud);
+  EXPECT_EQ(cloud.count, 50);
+  EXPECT_NEAR(cloud.fraction.head(50).mean(), found.fraction, 0.05);
+}
+
+TEST(ParticleLocator, BeginsAnewWithAnotherLinkAndWithAnotherContact) {
+  Block locator;
+  for (int i = 0; i < 20; ++i) locator.see(link2_of_leg2, locator.push(1, 0.8));
+  EXPECT_NEAR(locator.see(ContactClasses::collision(BodyId::link2(2)), locator.push(2, 0.4)).fraction, 0.4,
+              0.1);
+  EXPECT_FALSE(locator.see(-1, locator.push(2, 0.4)).valid);
+  EXPECT_EQ(locator.ticking.get(locator.block.cloud).count, 0);
+  EXPECT_NEAR(locator.see(link2_of_leg2, locator.push(1, 0.9)).fraction, 0.9, 0.1);
+}
+
+TEST(ParticleLocator, SaysNothingOfOtherBodies) {
+  Block locator;
+  for (const int number : {0, 1, 7}) EXPECT_FALSE(locator.see(number, locator.push(0, 0.5)).valid);
+}
+
+TEST(ParticleLocator, IsTheSameForTheSameSeed) {
+  Block a(5), b(5), c(6);
+  for (int i = 0; i < 10; ++i) {
+    const double of_a = a.see(link2_of_leg2, a.push(1, 0.7)).fraction;
+    EXPECT_EQ(of_a, b.see(link2_of_leg2, b.push(1, 0.7)).fraction);
+    EXPECT_NE(of_a, c.see(link2_of_leg2, c.push(1, 0.7)).fraction);
+  }
+}
+
+TEST(ParticleLocator, AsksForAsManyParticlesAsThereIsRoomFor) {
+  const auto robot = test::touched_bench();
+  EXPECT_THROW(ParticleLocator(robot, {.particles = 0}, {}, 1), SetupError);
+  EXPECT_THROW(ParticleLocator(robot, {.particles = max_particles + 1}, {}, 1), SetupError);
+  EXPECT_THROW(ParticleLocator(robot, {.torque_variance = 0.0}, {}, 1), SetupError);
+}
+
+}  // namespace
+}  // namespace flinch

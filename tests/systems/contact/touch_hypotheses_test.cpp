@@ -1,0 +1,212 @@
+#include "systems/contact/touch_hypotheses.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "systems/contact/wrench_uncertainty.h"
+#include "systems/foundation/setup_error.h"
+#include "systems/robot/five_bar.h"
+#include "systems/robot/five_bar_presets.h"
+#include "systems/robot/hexapod.h"
+#include "systems/robot/hexapod_presets.h"
+#include "tests/support/allocations.h"
+#include "tests/systems/contact/touched_robot.h"
+
+namespace flinch {
+namespace {
+
+using ::testing::AnyOf;
+using ::testing::Eq;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+PlatformMatrix noise(const ParallelRobot& robot) {
+  return WrenchUncertainty{.force = 0.5, .moment = 0.05}.covariance(robot.space(),
+                                                                    PlatformVector::Zero(robot.dof()));
+}
+
+/// Of the first `classes` classes, or all.
+int likeliest(const ContactEvidence& evidence, Eigen::Index classes = 0) {
+  Eigen::Index best = 0;
+  evidence.log_evidence.head(classes > 0 ? classes : evidence.log_evidence.size()).maxCoeff(&best);
+  return static_cast<int>(best);
+}
+
+// A half-normal force times a Gaussian wrench, integrated over the force by the trapezoidal rule, for a
+// platform that is touched at one point without friction: the closed form, but for how likely that point is.
+TEST(TouchHypotheses, MarginaliseTheForceAsAnIntegralDoes) {
+  const auto robot = test::touched_bench();
+  const Kinematics k = test::at_home(*robot);
+  const TouchHypotheses hypotheses(robot, {.friction = 0.0, .points_along = 1, .points_around = 1});
+  const PlatformMatrix inverse = noise(*robot).inverse();
+  const auto integral = [&](const PlatformVector& wrench) {
+    constexpr double scale = 50.0, step = 1e-3;
+    double sum = 0.0;
+    for (int i = 0; i <= 200000; ++i) {
+      const double a = i * step;
+      const Eigen::Vector3d missed = wrench + a * Eigen::Vector3d::UnitX();  // pushed at (R, 0) along -x
+      const double likelihood = std::exp(-0.5 * missed.dot(inverse * missed));
+      sum += (i == 0 ? 0.5 : 1.0) * likelihood * std::exp(-0.5 * a * a / (scale * scale)) * step;
+    }
+    return std::log(2.0 * sum / (scale * std::sqrt(2.0 * std::numbers::pi)));
+  };
+  const auto difference = [&](double force) {
+    const PlatformVector wrench{{-force, 0.4, 0.03}};
+    ContactEvidence evidence;
+    hypotheses.weigh(k, wrench, noise(*robot), evidence);
+    return evidence.log_evidence[0] - integral(wrench);
+  };
+  const double of_the_point = difference(20.0);
+  for (const double force : {-3.0, 0.5, 60.0}) EXPECT_NEAR(difference(force), of_the_point, 1e-4) << force;
+}
+
+/// Of exact contacts of 40 N in random states, the share whose class has the greatest evidence of all bodies.
+template <class Touch>
+double recognised(const std::vector<Kinematics>& states, const Touch& touch) {
+  const auto robot = test::touched_bench();
+  const TouchHypotheses hypotheses(robot, {});
+  int right = 0;
+  int count = 0;
+  for (const Kinematics& k : states) {
+    for (int leg = 0; leg < 3; ++leg) {
+      const auto [wrench, expected] = touch(*robot, k, leg);
+      ContactEvidence evidence;
+      hypotheses.weigh(k, wrench, noise(*robot), evidence);
+      EXPECT_TRUE(evidence.valid);
+      EXPECT_LT(evidence.residual[expected], 3.0);  // an exact contact between two points of the grid
+      right += likeliest(evidence, 7) == expected;
+      ++count;
+    }
+  }
+  return static_cast<double>(right) / count;
+}
+
+TEST(TouchHypotheses, RecogniseFirstLinksThatMoveTowardsWhatTheyTouch) {
+  const auto states = test::random_kinematics(*test::touched_bench(), 100);
+  const double share = recognised(states, [](const PlanarRrr& robot, const Kinematics& k, int leg) {
+    const double side = k.rates.active[leg] > 0.0 ? -1.0 : 1.0;  // against the motion
+    return std::pair(test::wrench_on_link(robot, k, BodyId::link1(leg), 0.7, {0.0, 40.0 * side}),
+                     ContactClasses::collision(BodyId::link1(leg)));
+  });
+  EXPECT_GT(share, 0.9);
+}
+
+TEST(TouchHypotheses, RecogniseSecondLinksThatMoveTowardsWhatTheyTouch) {
+  const auto states = test::random_kinematics(*test::touched_bench(), 100);
+  const double share = recognised(states, [](const PlanarRrr& robot, const Kinematics& k, int leg) {
+    const BodyId link = BodyId::link2(leg);
+    const LegPoints& points = k.legs[static_cast<std::size_t>(leg)];
+    const Eigen::Vector2d across =
+        normal(Eigen::Vector2d(points.coupling_joint - points.passive_joint).normalized());
+    const CartesianVector velocity =
+        robot.contact_jacobian(k, link, robot.axis_point(link, 0.6)).translation * k.velocity;
+    const double side = across.dot(Eigen::Vector2d(velocity)) > 0.0 ? -1.0 : 1.0;
+    return std::pair(test::wrench_on_link(robot, k, link, 0.6, {0.0, 40.0 * side}),
+                     ContactClasses::collision(link));
+  });
+  EXPECT_GT(share, 0.9);
+}
+
+TEST(TouchHypotheses, PlaceAPushOnASecondLinkWhereItIs) {
+  const auto robot = test::touched_bench();
+  const TouchHypotheses hypotheses(robot, {.friction = 0.0});
+  const Kinematics k = test::at_home(*robot);
+  for (const double fraction : {0.35, 0.6, 0.85}) {
+    ContactEvidence evidence;
+    hypotheses.weigh(k, test::wrench_on_link(*robot, k, BodyId::link2(1), fraction, {0.0, -40.0}),
+                     noise(*robot), evidence);
+    const int number = ContactClasses::collision(BodyId::link2(1));
+    EXPECT_NEAR(evidence.location[number], fraction, 0.03);
+    EXPECT_NEAR(evidence.force[number], 40.0, 2.0);
+  }
+}
+
+TEST(TouchHypotheses, FindClampingWhereBothLinksCloseOnSomething) {
+  const auto robot = test::touched_bench();
+  const TouchHypotheses hypotheses(robot, {});
+  int right = 0;
+  int count = 0;
+  for (const Kinematics& k : test::random_kinematics(*robot, 300)) {
+    if (k.rates.passive[0] < 1.0) continue;  // the leg folds
+    const PlatformVector wrench = test::wrench_on_link(*robot, k, BodyId::link1(0), 0.7, {0.0, -40.0}) +
+                                  test::wrench_on_link(*robot, k, BodyId::link2(0), 0.28, {0.0, -40.0});
+    ContactEvidence evidence;
+    hypotheses.weigh(k, wrench, noise(*robot), evidence);
+    right += likeliest(evidence) == hypotheses.classes().clamping(0);
+    ++count;
+  }
+  ASSERT_GT(count, 30);
+  std::printf("  clamped: %d of %d\n", right, count);
+  EXPECT_GT(right, 0.8 * count);
+}
+
+TEST(TouchHypotheses, TellByTheResidualThatNoSingleContactMakesAWrench) {
+  const auto robot = test::touched_bench();
+  const TouchHypotheses hypotheses(robot, {});
+  const Kinematics k = test::at_home(*robot);
+  ContactEvidence evidence;
+  hypotheses.weigh(k, PlatformVector{{5.0, 0.0, 10.0}}, noise(*robot), evidence);  // 2 m off the platform
+  EXPECT_GT(evidence.residual.minCoeff(), 100.0);
+}
+
+TEST(TouchHypotheses, ServeOtherMechanisms) {
+  const std::shared_ptr<const ParallelRobot> robots[] = {std::make_shared<FiveBar>(five_bar_robot()),
+                                                         std::make_shared<Hexapod>(hexapod_robot())};
+  for (const auto& robot : robots) {
+    const TouchHypotheses hypotheses(robot, {});
+    const Kinematics k = test::at_home(*robot);
+    for (const BodyId link : {BodyId::link1(0), BodyId::link2(1)}) {
+      const LinkContactMap map = link_contact_map(*robot, k, link);
+      const PlatformVector wrench =
+          (map.at_joint + 0.8 * map.along) * (60.0 * CartesianVector::Unit(map.axes.cols(), 1));
+      ContactEvidence evidence;
+      hypotheses.weigh(k, wrench, noise(*robot), evidence);
+      ASSERT_TRUE(evidence.valid);
+      EXPECT_EQ(evidence.log_evidence.size(), robot->body_count() + robot->legs());
+      EXPECT_EQ(hypotheses.classes().leg(likeliest(evidence)), link.leg()) << robot->name();
+    }
+  }
+}
+
+TEST(TouchHypotheses, AreNotValidForUnusableInput) {
+  const auto robot = test::touched_bench();
+  const TouchHypotheses hypotheses(robot, {});
+  const Kinematics k = test::at_home(*robot);
+  const PlatformVector good{{20.0, 0.0, 0.0}};
+  const PlatformMatrix S = noise(*robot);
+  const auto weigh = [&](const Kinematics& at, const PlatformVector& wrench,
+                         const PlatformMatrix& covariance) {
+    ContactEvidence evidence;
+    hypotheses.weigh(at, wrench, covariance, evidence);
+    EXPECT_TRUE(evidence.log_evidence.allFinite());
+    EXPECT_EQ(evidence.location.size(), 10);
+    return evidence.valid;
+  };
+  EXPECT_TRUE(weigh(k, good, S));
+  EXPECT_TRUE(weigh(k, PlatformVector::Zero(3), S));
+  EXPECT_FALSE(weigh(Kinematics(), good, S));
+  EXPECT_FALSE(weigh(k, PlatformVector::Constant(3, nan), S));
+  EXPECT_FALSE(weigh(k, PlatformVector::Zero(2), S));
+  EXPECT_FALSE(weigh(k, good, PlatformMatrix::Zero(3, 3)));
+}
+
+TEST(TouchHypotheses, NeverAllocate) {
+  const auto robot = test::touched_bench();
+  const TouchHypotheses hypotheses(robot, {});
+  const Kinematics k = test::at_home(*robot);
+  ContactEvidence evidence;
+  const test::AllocationCounter allocations;
+  hypotheses.weigh(k, PlatformVector{{20.0, 3.0, 0.5}}, noise(*robot), evidence);
+  EXPECT_EQ(allocations.count(), 0);
+}
+
+TEST(TouchHypotheses, AskForPositiveSettings) {
+  EXPECT_THROW(TouchHypotheses(test::touched_bench(), {.force_scale = 0.0}), SetupError);
+  EXPECT_THROW(TouchHypotheses(test::touched_bench(), {.points_around = 0}), SetupError);
+}
+
+}  // namespace
+}  // namespace flinch
