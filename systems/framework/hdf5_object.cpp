@@ -25,8 +25,17 @@ Hdf5Object text_type(std::size_t size) {
   return type;
 }
 
+/// An attribute of one value: what it would read into has room for one.
 Hdf5Object open_attribute(hid_t object, const std::string& name) {
-  return {H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, "opening the attribute '" + name + "'"};
+  Hdf5Object attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose,
+                       "opening the attribute '" + name + "'");
+  const Hdf5Object space(H5Aget_space(attribute), H5Sclose,
+                         "reading the size of the attribute '" + name + "'");
+  const hssize_t values = H5Sget_simple_extent_npoints(space);
+  if (values != 1) {
+    throw SetupError("the attribute '" + name + "' has " + std::to_string(values) + " values instead of one");
+  }
+  return attribute;
 }
 
 /// Properties of groups or files without time stamps; `kind` is H5P_GROUP_CREATE or H5P_FILE_CREATE.
@@ -94,6 +103,13 @@ Hdf5Object open_hdf5_file(const std::filesystem::path& file) {
   silence_hdf5();
   return {H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose,
           "opening the file: it is no HDF5 file, or its end is missing"};
+}
+
+std::size_t file_size(Hdf5Object::Id object) {
+  const Hdf5Object file(H5Iget_file_id(object), H5Fclose, "finding the file");
+  hsize_t size = 0;
+  check(H5Fget_filesize(file, &size), "reading the size of the file");
+  return size;
 }
 
 void flush_hdf5_file(Hdf5Object::Id file) { check(H5Fflush(file, H5F_SCOPE_GLOBAL), "writing the file"); }
@@ -167,7 +183,12 @@ std::string read_text(Hdf5Object::Id object, const std::string& name) {
   if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0) {
     throw SetupError("the attribute '" + name + "' is no text of fixed length");
   }
-  std::string text(H5Tget_size(type), '\0');
+  const std::size_t size = H5Tget_size(type);
+  if (size > file_size(object)) {
+    throw SetupError("the attribute '" + name + "' has " + std::to_string(size) +
+                     " letters, more than the file");
+  }
+  std::string text(size, '\0');
   check(H5Aread(attribute, type, text.data()), "reading the attribute '" + name + "'");
   while (!text.empty() && text.back() == '\0') text.pop_back();
   return text;
@@ -175,6 +196,10 @@ std::string read_text(Hdf5Object::Id object, const std::string& name) {
 
 std::int64_t read_integer(Hdf5Object::Id object, const std::string& name) {
   const Hdf5Object attribute = open_attribute(object, name);
+  const Hdf5Object type(H5Aget_type(attribute), H5Tclose, "reading the type of '" + name + "'");
+  if (H5Tget_class(type) != H5T_INTEGER || H5Tget_size(type) > sizeof(std::int64_t)) {
+    throw SetupError("the attribute '" + name + "' is no integer");
+  }
   std::int64_t value = 0;
   check(H5Aread(attribute, H5T_NATIVE_INT64, &value), "reading the attribute '" + name + "'");
   return value;
@@ -204,20 +229,82 @@ Hdf5Object make_table(Hdf5Object::Id parent, const std::string& name, Field::Kin
           "making the data set '" + name + "'"};
 }
 
-Hdf5Object open_table(Hdf5Object::Id parent, const std::string& name) {
+Hdf5Object open_data_set(Hdf5Object::Id parent, const std::string& name) {
   const Hdf5Object access = without_cache();
   return {H5Dopen2(parent, name.c_str(), access), H5Dclose, "opening the data set '" + name + "'"};
 }
 
-std::size_t table_rows(Hdf5Object::Id table, const std::string& name, std::size_t columns) {
+std::uint64_t address(Hdf5Object::Id object) {
+  H5O_info_t info{};
+  check(H5Oget_info2(object, &info, H5O_INFO_BASIC), "finding a data set");
+  return info.addr;
+}
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& name, const std::string& why) {
+  throw SetupError("the data set '" + name + "' " + why);
+}
+
+/// Throws unless the numbers of a table convert to those of `kind`.
+void check_type(hid_t table, const std::string& name, Field::Kind kind) {
+  const Hdf5Object type(H5Dget_type(table), H5Tclose, "reading the type of '" + name + "'");
+  const H5T_class_t wanted = kind == Field::Kind::real ? H5T_FLOAT : H5T_INTEGER;
+  if (H5Tget_class(type) != wanted || H5Tget_size(type) > sizeof(Number)) {
+    refuse(name, kind == Field::Kind::real ? "has no real numbers" : "has no integers");
+  }
+}
+
+/// Throws unless a table lies in this file, in pieces of bounded size that only ordinary filters have packed.
+void check_layout(hid_t table, const std::string& name) {
+  const Hdf5Object creation(H5Dget_create_plist(table), H5Pclose, "reading the layout of '" + name + "'");
+  const H5D_layout_t layout = H5Pget_layout(creation);
+  if (layout == H5D_VIRTUAL || H5Pget_external_count(creation) != 0) refuse(name, "lies in other files");
+  for (int i = 0; i < H5Pget_nfilters(creation); ++i) {
+    unsigned flags = 0;
+    std::size_t values = 0;
+    const H5Z_filter_t filter =
+        H5Pget_filter2(creation, static_cast<unsigned>(i), &flags, &values, nullptr, 0, nullptr, nullptr);
+    if (filter != H5Z_FILTER_SHUFFLE && filter != H5Z_FILTER_DEFLATE && filter != H5Z_FILTER_FLETCHER32) {
+      refuse(name, "is packed by the filter " + std::to_string(filter) + ", which flinch does not use");
+    }
+  }
+  if (layout != H5D_CHUNKED) return;
+  hsize_t chunk[2] = {0, 0};
+  constexpr hsize_t largest = 1 << 23;  // numbers: 4096 rows of 2048
+  if (H5Pget_chunk(creation, 2, chunk) != 2 || chunk[0] > largest || chunk[1] > largest ||
+      chunk[0] * chunk[1] > largest) {
+    refuse(name, "has chunks of more than " + std::to_string(largest) + " numbers");
+  }
+}
+
+/// Throws where a table claims to hold more than its bytes can be unpacked to.
+void check_storage(hid_t table, const std::string& name, std::size_t rows, std::size_t columns) {
+  constexpr std::size_t most_packed = 1100;  // deflate packs at most 1032 bytes into one
+  constexpr std::size_t slack = 1 << 16;
+  const std::size_t stored = std::min<std::size_t>(H5Dget_storage_size(table), file_size(table));
+  if (rows > (slack + most_packed * stored) / sizeof(Number) / std::max<std::size_t>(columns, 1)) {
+    refuse(name, "claims " + std::to_string(rows) + " samples, more than its " + std::to_string(stored) +
+                     " bytes can hold");
+  }
+}
+
+}  // namespace
+
+Table open_table(Hdf5Object::Id parent, const std::string& name, Field::Kind kind, std::size_t columns) {
+  Hdf5Object table = open_data_set(parent, name);
+  check_type(table, name, kind);
   const Hdf5Object space(H5Dget_space(table), H5Sclose, "reading the size of '" + name + "'");
   hsize_t size[2] = {0, 0};
-  if (H5Sget_simple_extent_ndims(space) != 2 || H5Sget_simple_extent_dims(space, size, nullptr) != 2 ||
-      size[1] != columns) {
-    throw SetupError("the data set '" + name + "' has " + std::to_string(size[1]) + " columns instead of " +
-                     std::to_string(columns));
+  if (H5Sget_simple_extent_ndims(space) != 2 || H5Sget_simple_extent_dims(space, size, nullptr) != 2) {
+    refuse(name, "is no table of rows and columns");
   }
-  return size[0];
+  if (size[1] != columns) {
+    refuse(name, "has " + std::to_string(size[1]) + " columns instead of " + std::to_string(columns));
+  }
+  check_layout(table, name);
+  check_storage(table, name, size[0], columns);
+  return {std::move(table), size[0]};
 }
 
 void append_rows(Hdf5Object::Id table, Field::Kind kind, std::size_t at, std::size_t rows,

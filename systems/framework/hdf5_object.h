@@ -40,6 +40,8 @@ class Hdf5Object {
 /// Files and groups without time stamps, so that equal contents make equal files.
 Hdf5Object create_hdf5_file(const std::filesystem::path& file);
 Hdf5Object open_hdf5_file(const std::filesystem::path& file);
+/// Bytes of the file that an object lies in.
+std::size_t file_size(Hdf5Object::Id object);
 /// Hands all that was written to the operating system.
 void flush_hdf5_file(Hdf5Object::Id file);
 /// Opens the group `path`; it and those around it are made where they are missing.
@@ -48,6 +50,7 @@ Hdf5Object open_group(Hdf5Object::Id file, const std::string& path);
 
 void write_text(Hdf5Object::Id object, const std::string& name, const std::string& text);
 void write_integer(Hdf5Object::Id object, const std::string& name, std::int64_t value);
+/// Attributes of one value each, of the type that is read.
 std::string read_text(Hdf5Object::Id object, const std::string& name);
 std::int64_t read_integer(Hdf5Object::Id object, const std::string& name);
 std::vector<std::string> attribute_names(Hdf5Object::Id object);
@@ -59,9 +62,18 @@ void write_texts(Hdf5Object::Id parent, const std::string& name, const std::vect
 /// Makes a table of numbers that rows can be appended to, compressed in chunks of `chunk_rows`.
 Hdf5Object make_table(Hdf5Object::Id parent, const std::string& name, Field::Kind kind, std::size_t columns,
                       std::size_t chunk_rows);
-Hdf5Object open_table(Hdf5Object::Id parent, const std::string& name);
-/// Rows of a table, which must have so many columns.
-std::size_t table_rows(Hdf5Object::Id table, const std::string& name, std::size_t columns);
+/// A data set of whatever type and size, for its attributes.
+Hdf5Object open_data_set(Hdf5Object::Id parent, const std::string& name);
+/// Where an object lies in its file: two names of one object have one address.
+std::uint64_t address(Hdf5Object::Id object);
+/// A table of numbers that was opened.
+struct Table {
+  Hdf5Object set;
+  std::size_t rows;
+};
+/// Trusts nothing that the file says of the table: numbers of `kind` in so many columns, in this file, no more of
+/// them than its bytes can hold.
+Table open_table(Hdf5Object::Id parent, const std::string& name, Field::Kind kind, std::size_t columns);
 /// Appends `rows` rows after the first `at`.
 void append_rows(Hdf5Object::Id table, Field::Kind kind, std::size_t at, std::size_t rows,
                  std::size_t columns, const Number* numbers);

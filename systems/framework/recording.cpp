@@ -5,6 +5,7 @@
 
 #include "systems/foundation/nearest_name.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/framework/recording_check.h"
 
 namespace flinch {
 namespace {
@@ -30,9 +31,11 @@ Place place_of(const Signal& signal, const std::string& name) {
 /// One number of a row as a real number; NaN where the field is shorter.
 double number_at(const internal::Number* row, const Place& place, int element) {
   const internal::Number* const numbers = row + place.first;
-  const std::int64_t size =
-      place.field.resizable ? numbers[0].integer * numbers[1].integer : place.field.capacity;
-  if (element >= size) return std::numeric_limits<double>::quiet_NaN();
+  const std::int64_t size = place.field.resizable
+                                ? internal::checked_size(numbers[0].integer, numbers[1].integer,
+                                                         place.field.capacity, place.field.name)
+                                : place.field.capacity;
+  if (element < 0 || element >= size) return std::numeric_limits<double>::quiet_NaN();
   const internal::Number number = numbers[(place.field.resizable ? 2 : 0) + element];
   return place.field.kind == Field::Kind::real ? number.real : static_cast<double>(number.integer);
 }

@@ -1,10 +1,12 @@
 #include "systems/framework/recording_file.h"
 
 #include <algorithm>
+#include <set>
 #include <system_error>
 
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/hdf5_object.h"
+#include "systems/framework/recording_check.h"
 #include "systems/framework/recording_journal.h"
 
 namespace flinch {
@@ -16,6 +18,9 @@ using internal::Number;
 constexpr const char* signals_attribute = "flinch.signals";
 constexpr const char* period_attribute = "flinch.period_ns";
 constexpr const char* time_table = "time_ns";
+
+constexpr std::size_t most_tables = 20'000;
+constexpr std::size_t most_samples = 1 << 24;  ///< of the smallest file; larger ones may have more
 
 std::string joined(const std::string& lines, const std::string& line) {
   return lines.empty() ? line : lines + "\n" + line;
@@ -84,35 +89,25 @@ Table make_tables(Hdf5Object::Id root, const Signal& signal, Time period, std::s
 }
 
 Field read_field(Hdf5Object::Id group, const std::string& name) {
-  const Hdf5Object set = internal::open_table(group, name);
-  Field field{name,
-              internal::read_text(set, "unit"),
-              internal::read_text(set, "frame"),
-              {},
-              0,
-              internal::read_integer(set, "resizable") != 0};
-  field.kind = static_cast<Field::Kind>(std::clamp<std::int64_t>(internal::read_integer(set, "kind"), 0, 2));
-  field.capacity =
-      static_cast<int>(std::clamp<std::int64_t>(internal::read_integer(set, "capacity"), 1, 1 << 20));
-  return field;
+  const Hdf5Object set = internal::open_data_set(group, name);
+  return internal::checked_field(name, internal::read_text(set, "unit"), internal::read_text(set, "frame"),
+                                 internal::read_integer(set, "kind"), internal::read_integer(set, "capacity"),
+                                 internal::read_integer(set, "resizable"));
 }
 
 Table open_tables(Hdf5Object::Id root, std::size_t samples, Signal& signal) {
   const Hdf5Object group = internal::open_group(root, signal.path);
   for (const std::string& name : lines_of(internal::read_text(group, "fields"))) {
-    signal.layout.fields.push_back(read_field(group, name));
-    const Field& field = signal.layout.fields.back();
-    signal.layout.numbers += static_cast<std::size_t>(field.capacity) + (field.resizable ? 2U : 0U);
+    internal::add_field(read_field(group, name), signal.layout);
   }
   Table table{signal.layout.numbers, columns_of(signal.layout), {}};
   for (const Column& column : table.columns) {
-    table.sets.push_back(internal::open_table(group, column.name));
-    if (samples == 0) continue;
-    const std::size_t rows = internal::table_rows(table.sets.back(), column.name, column.columns);
-    if (rows != samples) {
+    internal::Table opened = internal::open_table(group, column.name, column.kind, column.columns);
+    if (opened.rows != samples) {
       throw SetupError("the data set '" + column.name + "' of '" + signal.path + "' has " +
-                       std::to_string(rows) + " samples instead of " + std::to_string(samples));
+                       std::to_string(opened.rows) + " samples instead of " + std::to_string(samples));
     }
+    table.sets.push_back(std::move(opened.set));
   }
   return table;
 }
@@ -125,12 +120,20 @@ class RecordingFile final : public RowSource {
     const std::lock_guard lock(internal::hdf5_mutex());
     Hdf5Object hdf = internal::open_hdf5_file(file);
     Hdf5Object root = internal::open_group(hdf, "/");
-    recording.period = Time(internal::read_integer(root, period_attribute));
+    recording.period = internal::checked_period(internal::read_integer(root, period_attribute));
     recording.time_ns = read_times(root);
     Open open{std::move(hdf), std::move(root), {}};
+    std::set<std::uint64_t>
+        opened;  // many names of one data set would cost memory that the file does not have
     for (const std::string& path : lines_of(internal::read_text(open.root, signals_attribute))) {
       Signal signal{path, {}, {}};
-      open.tables.emplace(path, open_tables(open.root, recording.samples(), signal));
+      Table tables = open_tables(open.root, recording.samples(), signal);
+      for (const Hdf5Object& set : tables.sets) {
+        if (!opened.insert(internal::address(set)).second || opened.size() > most_tables) {
+          throw SetupError("the signal '" + path + "' has a data set of another, or is one of too many");
+        }
+      }
+      open.tables.emplace(path, std::move(tables));
       recording.signals.push_back(std::move(signal));
     }
     for (const std::string& name : internal::attribute_names(open.root)) {
@@ -169,13 +172,18 @@ class RecordingFile final : public RowSource {
   };
 
   static std::vector<std::int64_t> read_times(Hdf5Object::Id root) {
-    const Hdf5Object table = internal::open_table(root, time_table);
-    std::vector<Number> numbers(internal::table_rows(table, time_table, 1));
-    if (!numbers.empty()) {
-      internal::read_rows(table, Field::Kind::integer, 0, numbers.size(), 1, numbers.data());
+    const internal::Table table = internal::open_table(root, time_table, Field::Kind::integer, 1);
+    if (table.rows > most_samples + internal::file_size(root) / 2) {
+      throw SetupError("there are " + std::to_string(table.rows) + " samples in so small a file");
     }
-    std::vector<std::int64_t> times;
-    for (const Number& number : numbers) times.push_back(number.integer);
+    std::vector<std::int64_t> times(table.rows);
+    std::vector<Number> numbers(std::min(table.rows, Recording::block));
+    for (std::size_t first = 0; first < table.rows; first += numbers.size()) {
+      const std::size_t count = std::min(numbers.size(), table.rows - first);
+      internal::read_rows(table.set, Field::Kind::integer, first, count, 1, numbers.data());
+      for (std::size_t k = 0; k < count; ++k) times[first + k] = numbers[k].integer;
+    }
+    internal::check_times(times);
     return times;
   }
 

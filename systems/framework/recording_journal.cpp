@@ -17,6 +17,7 @@
 #include <system_error>
 
 #include "systems/foundation/setup_error.h"
+#include "systems/framework/recording_check.h"
 
 namespace flinch {
 namespace {
@@ -120,18 +121,15 @@ std::string bytes_of(const Recording& description) {
 }
 
 Field read_field(BytesReader& bytes) {
-  Field field;
-  for (std::string* const text : {&field.name, &field.unit, &field.frame}) *text = bytes.text();
-  field.kind = static_cast<Field::Kind>(std::clamp<std::int64_t>(bytes.number(), 0, 2));
-  field.capacity = static_cast<int>(std::clamp<std::int64_t>(bytes.number(), 1, 1 << 20));
-  field.resizable = bytes.number() != 0;
-  return field;
+  const std::string name = bytes.text(), unit = bytes.text(), frame = bytes.text();
+  const std::int64_t kind = bytes.number(), capacity = bytes.number(), resizable = bytes.number();
+  return internal::checked_field(name, unit, frame, kind, capacity, resizable);
 }
 
 Recording description_of(const std::string& payload) {
   BytesReader bytes(payload);
   Recording description;
-  description.period = Time(bytes.number());
+  description.period = internal::checked_period(bytes.number());
   for (std::int64_t left = bytes.number(); left > 0; --left) {
     const std::string name = bytes.text();
     description.attributes[name] = bytes.text();
@@ -139,9 +137,7 @@ Recording description_of(const std::string& payload) {
   for (std::int64_t left = bytes.number(); left > 0; --left) {
     Signal signal{bytes.text(), {}, {}};
     for (std::int64_t fields = bytes.number(); fields > 0; --fields) {
-      signal.layout.fields.push_back(read_field(bytes));
-      const Field& field = signal.layout.fields.back();
-      signal.layout.numbers += static_cast<std::size_t>(field.capacity) + (field.resizable ? 2U : 0U);
+      internal::add_field(read_field(bytes), signal.layout);
     }
     description.signals.push_back(std::move(signal));
   }
@@ -252,7 +248,8 @@ class JournalRows final : public RowSource {
     recording = description_of(std::string(payload.begin(), payload.end()));
     std::size_t numbers = 1;  // the time
     for (const Signal& signal : recording.signals) {
-      places_[signal.path] = {numbers, signal.layout.numbers};
+      const bool is_new = places_.emplace(signal.path, Place{numbers, signal.layout.numbers}).second;
+      if (!is_new) throw SetupError("there are two signals '" + signal.path + "'");
       numbers += signal.layout.numbers;
     }
     for (std::uint64_t offset = sizeof(FrameHead) + head->length;;
@@ -261,7 +258,7 @@ class JournalRows final : public RowSource {
       if (!head || head->mark != samples_mark || head->length < 8) return;
       std::uint64_t samples = 0;
       std::memcpy(&samples, payload.data(), 8);
-      if (samples > head->length || head->length != 8 + 8 * samples * numbers) return;
+      if (samples != (head->length - 8) / 8 / numbers || head->length != 8 + 8 * samples * numbers) return;
       frames_.push_back({recording.samples(), samples, offset + sizeof(FrameHead) + 8});
       recording.time_ns.resize(recording.samples() + samples);
       std::memcpy(recording.time_ns.data() + frames_.back().first, payload.data() + 8, 8 * samples);
@@ -356,6 +353,7 @@ Recording open_journal(const std::filesystem::path& part) {
     const auto rows = std::make_shared<JournalRows>(part);
     Recording recording;
     rows->read_frames(recording);
+    internal::check_times(recording.time_ns);
     recording.attributes["recording.partial"] = how_far(recording, rows->is_being_written());
     recording.source = rows;
     return recording;

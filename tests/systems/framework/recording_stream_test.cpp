@@ -107,7 +107,10 @@ TEST_F(Stream, CountsWhatTheFullRingDropsAndSaysSo) {
   Recorder recorder(*diagram_, recordable_paths(*diagram_), 5);
   Context context = diagram_->make_context();
   diagram_->evaluate(context);
-  for (int tick = 0; tick < 12; ++tick) recorder.record(context);  // nobody takes anything away yet
+  for (int tick = 0; tick < 12; ++tick) {  // nobody takes anything away yet
+    context.set_time(tick * 1ms);
+    recorder.record(context);
+  }
   EXPECT_EQ(recorder.samples(), 5U);
   EXPECT_EQ(recorder.dropped(), 7);
   RecordingStream stream(recorder, file("a.h5"));
