@@ -80,7 +80,13 @@ std::string typed(int argc, const char* const* argv) {
 
 int complain(const std::vector<std::string>& problems, bool json) {
   if (json) fmt::print("{}\n", nlohmann::ordered_json{{"error", problems}}.dump());
-  for (const std::string& problem : problems) fmt::print(stderr, "error: {}\n", problem);
+  constexpr std::size_t most_shown = 50;
+  for (std::size_t i = 0; i < std::min(problems.size(), most_shown); ++i) {
+    fmt::print(stderr, "error: {}\n", problems[i]);
+  }
+  if (problems.size() > most_shown) {
+    fmt::print(stderr, "error: {} more problems are not shown\n", problems.size() - most_shown);
+  }
   return static_cast<int>(ExitStatus::bad_input);
 }
 

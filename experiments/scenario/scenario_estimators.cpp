@@ -14,7 +14,7 @@ namespace {
 void read(ConfigReader reader, const ParallelRobot& robot, MomentumObserverSettings& settings) {
   if (settings.gain.size() == 0) settings.gain.setConstant(robot.dof(), 20.0);
   const std::span<double> gain(settings.gain.data(), static_cast<std::size_t>(settings.gain.size()));
-  reader.numbers("gain", unit::per_s, gain, positive);
+  reader.numbers("gain", unit::per_s, gain, between(1e-3, 1e4));
 }
 
 void read(ConfigReader reader, MomentumKalmanFilterSettings& settings) {

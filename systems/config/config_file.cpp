@@ -1,9 +1,14 @@
 #include "systems/config/config_file.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
-#include <cstdint>
+#include <array>
+#include <cerrno>
+#include <cstddef>
 #include <fstream>
-#include <iterator>
+#include <system_error>
 #include <vector>
 
 #include "systems/foundation/nearest_name.h"
@@ -14,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t most_bytes = 1'000'000;
+constexpr std::size_t most_bytes = 1'000'000;
 
 std::vector<std::string> yaml_files_in(const fs::path& folder) {
   std::error_code error;
@@ -64,14 +69,24 @@ std::string problem_with_file(const fs::path& file) {
 std::string read_config_file(const fs::path& file) {
   const std::string problem = problem_with_file(file);
   if (!problem.empty()) throw SetupError(file.string() + ": " + problem);
-  std::error_code error;
-  const std::uintmax_t bytes = fs::file_size(file, error);
-  if (error || bytes > most_bytes) {
-    throw SetupError(file.string() + ": has " + std::to_string(bytes) +
-                     " bytes; a file of settings has at most " + std::to_string(most_bytes));
+  // Some files of the system have no size, no end, or keep who reads them waiting.
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  std::string text;
+  std::array<char, 1 << 15> piece{};
+  ssize_t got = descriptor < 0 ? -1 : 1;
+  while (got > 0 && text.size() <= most_bytes) {
+    got = ::read(descriptor, piece.data(), piece.size());
+    text.append(piece.data(), static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
   }
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  const int reason = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  if (got < 0)
+    throw SetupError(file.string() + ": cannot be read: " + std::generic_category().message(reason));
+  if (text.size() > most_bytes) {
+    throw SetupError(file.string() + ": has more than " + std::to_string(most_bytes) +
+                     " bytes; a file of settings has fewer");
+  }
+  return text;
 }
 
 }  // namespace flinch

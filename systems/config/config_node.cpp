@@ -16,7 +16,9 @@ namespace {
 
 using Kind = ConfigNode::Kind;
 
-constexpr std::size_t deepest = 50;  // lists and mappings within one another
+constexpr std::size_t deepest = 50;         // lists and mappings within one another
+constexpr std::size_t most_keys = 1000;     // of one mapping
+constexpr std::size_t most_nodes = 50'000;  // aliases counted as what they stand for
 
 /// Builds the nodes of one document from what the parser tells.
 class NodeBuilder final : public YAML::EventHandler {
@@ -43,6 +45,7 @@ class NodeBuilder final : public YAML::EventHandler {
     for (const Open& open : open_) {
       if (open.node == node) throw YAML::ParserException(mark, "an alias inside its own anchor");
     }
+    count(mark, *node);
     add(mark, node);
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
@@ -68,8 +71,16 @@ class NodeBuilder final : public YAML::EventHandler {
     node->kind = kind;
     node->file = file_;
     node->line = mark.line + 1;
+    count(mark, *node);
     if (anchor != YAML::NullAnchor) anchored_[anchor] = node;
     return node;
+  }
+
+  /// Counts a node and all that is in it; what few lines of aliases stand for could fill any memory.
+  void count(const YAML::Mark& mark, const ConfigNode& node) {
+    if (++nodes_ > most_nodes) throw YAML::ParserException(mark, "too many values for a file of settings");
+    for (const auto& item : node.items) count(mark, *item);
+    for (const ConfigNode::Entry& entry : node.entries) count(mark, *entry.value);
   }
 
   void begin(const YAML::Mark& mark, const std::shared_ptr<ConfigNode>& node) {
@@ -89,6 +100,9 @@ class NodeBuilder final : public YAML::EventHandler {
     } else if (open.entry) {
       open.entry->value = node;
       open.node->entries.push_back(*std::exchange(open.entry, std::nullopt));
+      if (open.node->entries.size() > most_keys) {
+        throw YAML::ParserException(mark, "more than " + std::to_string(most_keys) + " keys in one mapping");
+      }
     } else if (node->kind == Kind::scalar) {
       open.entry = ConfigNode::Entry{node->scalar, mark.line + 1, nullptr};
     } else {
@@ -99,6 +113,7 @@ class NodeBuilder final : public YAML::EventHandler {
   std::shared_ptr<const std::string> file_;
   std::shared_ptr<ConfigNode> root_ = std::make_shared<ConfigNode>();
   std::vector<Open> open_;
+  std::size_t nodes_ = 0;
   std::map<YAML::anchor_t, std::shared_ptr<ConfigNode>> anchored_;
 };
 

@@ -1,7 +1,9 @@
 #include "systems/config/config_file.h"
 
 #include <gmock/gmock.h>
+
 #include <gtest/gtest.h>
+#include <chrono>
 
 #include "tests/systems/config/problems_of.h"
 
@@ -57,11 +59,21 @@ TEST(UnreadableFile, IsRefused) {
               ElementsAre(EndsWith("the name is empty; it must be the name of a file")));
 }
 
+TEST(UnreadableFile, MayKeepItsReaderWaiting) {
+  if (!std::ifstream("/proc/kmsg")) GTEST_SKIP() << "only root may read the messages of the kernel";
+  const auto begin = std::chrono::steady_clock::now();
+  try {
+    read_config_file("/proc/kmsg");  // all there is, or that there is nothing now
+  } catch (const SetupError&) {
+  }
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+}
+
 TEST(UnreadableFile, MayBeTooLarge) {
   const TemporaryFolder folder("config_file_large");
   EXPECT_TRUE(problems_of_file(folder.write("a.yaml", std::string(1'000'000, '#'))).empty());
   EXPECT_THAT(problems_of_file(folder.write("a.yaml", std::string(1'000'001, '#'))),
-              ElementsAre(EndsWith("has 1000001 bytes; a file of settings has at most 1000000")));
+              ElementsAre(EndsWith("has more than 1000000 bytes; a file of settings has fewer")));
 }
 
 }  // namespace

@@ -51,6 +51,22 @@ TEST(ParsingYaml, FollowsAnAliasToItsAnchor) {
   EXPECT_EQ(root->entries[0].value, root->entries[1].value);
 }
 
+TEST(ParsingYaml, RefusesMappingsWithoutEnd) {
+  std::string text;
+  for (int i = 0; i <= 1000; ++i) text += "key" + std::to_string(i) + ": 1\n";
+  EXPECT_THAT(problems_of_yaml(text),
+              ElementsAre(HasSubstr("more than 1000 keys in one mapping")));
+}
+
+TEST(ParsingYaml, CountsAliasesAsWhatTheyStandFor) {
+  std::string text = "a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
+  for (int i = 1; i < 40; ++i) {
+    const std::string last = "*a" + std::to_string(i - 1), name = "a" + std::to_string(i);
+    text += name + ": &" + name + " [" + last + ", " + last + ", " + last + "]\n";
+  }
+  EXPECT_THAT(problems_of_yaml(text), ElementsAre(HasSubstr("too many values")));
+}
+
 TEST(ParsingYaml, GivesAnEmptyNodeForNoDocument) {
   EXPECT_EQ(parse_yaml("", "a.yaml")->kind, Kind::empty);
   EXPECT_EQ(parse_yaml("# only a remark\n", "a.yaml")->kind, Kind::empty);
