@@ -1,8 +1,6 @@
 // flinch calibrate: parameters from recordings.
 #include <fmt/core.h>
 
-#include <fstream>
-
 #include "apps/flinch/command_line.h"
 #include "apps/flinch/conclusion.h"
 #include "apps/flinch/simulated/simulated_parts.h"
@@ -10,6 +8,7 @@
 #include "calibration/threshold_calibration.h"
 #include "calibration/thresholds_output.h"
 #include "systems/foundation/problems_of_place.h"
+#include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recording.h"
 
@@ -39,9 +38,7 @@ ExitStatus calibrate_thresholds(const CalibrateThresholdsOptions& options) {
   fmt::print("{}", options.common.json ? thresholds_json(thresholds, goal) + "\n"
                                        : thresholds_table(thresholds, goal));
   if (options.out.empty()) return ExitStatus::done;
-  std::ofstream stream(options.out, std::ios::binary);
-  stream << thresholds_yaml(thresholds, goal, names);
-  if (!stream.flush()) throw SetupError(options.out.string() + ": the file cannot be written");
+  write_result(options.out, thresholds_yaml(thresholds, goal, names));
   if (!options.common.quiet) fmt::print(stderr, "thresholds: {}\n", options.out.string());
   return ExitStatus::done;
 }

@@ -18,11 +18,8 @@ ExitStatus status_of(const Verdict& verdict) {
 
 }  // namespace
 
-std::filesystem::path folder_of(const RunOptions& options, const std::string& name) {
-  const std::filesystem::path folder =
-      options.out.empty() ? std::filesystem::path("out") / name : options.out;
-  make_run_folder(folder);
-  return folder;
+RunFolder folder_of(const RunOptions& options, const std::string& name) {
+  return make_run_folder(options.out.empty() ? default_folder(name) : options.out);
 }
 
 void tell_if_partial(const Recording& recording, const CommonOptions& common) {

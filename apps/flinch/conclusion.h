@@ -4,6 +4,7 @@
 #include <string>
 
 #include "apps/flinch/command_line.h"
+#include "experiments/report/run_folder.h"
 
 namespace flinch {
 
@@ -11,7 +12,7 @@ struct Recording;
 struct Scenario;
 
 /// Makes the folder where a run leaves its results: `--out`, or out/`name`. Throws SetupError.
-std::filesystem::path folder_of(const RunOptions& options, const std::string& name);
+RunFolder folder_of(const RunOptions& options, const std::string& name);
 
 /// Judges the recording in `folder`, leaves a report beside it, prints the verdict and returns the exit
 /// status. `wall`: how long the run took [s]. Throws SetupError where a file cannot be read or written.

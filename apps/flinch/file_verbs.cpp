@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 
 #include <cstdlib>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "apps/flinch/command_line.h"
@@ -16,6 +15,7 @@
 #include "systems/config/config_reader.h"
 #include "systems/config/robot_file.h"
 #include "systems/foundation/problems_of_place.h"
+#include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/diagram.h"
 #include "systems/framework/recording_journal.h"
@@ -36,12 +36,6 @@ Report recorded_report(const std::filesystem::path& file, const CommonOptions& c
   });
 }
 
-void write_text(const std::string& text, const std::filesystem::path& file) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << text;
-  if (!stream.flush()) throw SetupError(file.string() + ": the file cannot be written");
-}
-
 std::string quoted_for_shell(const std::filesystem::path& path) {
   std::string text = "'";
   for (const char c : path.string()) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -50,14 +44,12 @@ std::string quoted_for_shell(const std::filesystem::path& path) {
 
 /// Lets Graphviz draw `dot` into `file`, which is replaced only by a whole picture.
 void draw_svg(const std::string& dot, const std::filesystem::path& file) {
-  const std::filesystem::path source = file.string() + ".dot.part", picture = file.string() + ".svg.part";
-  write_text(dot, source);
-  const std::string command = "dot -Tsvg -o " + quoted_for_shell(picture) + " " + quoted_for_shell(source);
-  const bool drawn = std::system(command.c_str()) == 0;
-  std::error_code error;
-  std::filesystem::remove(source, error);
-  if (drawn) std::filesystem::rename(picture, file, error);
-  if (drawn && !error) return;
+  const ResultFile source(file.string() + ".dot");  // never finished
+  source.write(dot);
+  ResultFile picture(file);
+  const std::string command = "dot -Tsvg -o " + quoted_for_shell(picture.unfinished_name()) + " " +
+                              quoted_for_shell(source.unfinished_name());
+  if (std::system(command.c_str()) == 0) return picture.finish();
   throw SetupError(file.string() +
                    ": Graphviz could not draw it; is the program 'dot' installed (package graphviz)?");
 }
@@ -101,7 +93,7 @@ ExitStatus graph(const GraphOptions& options) {
   if (extension == ".svg") {
     draw_svg(dot, options.out);
   } else {
-    write_text(dot, options.out);
+    write_result(options.out, dot);
   }
   if (options.common.json) {
     fmt::print("{}\n", Json{{"graph", options.out.string()}}.dump());

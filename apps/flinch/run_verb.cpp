@@ -44,7 +44,7 @@ ExitStatus run_recorded(const RunOptions& options) {
           [&progress](double share) { progress.show(share); }, faults);
     });
   }
-  const std::filesystem::path folder = folder_of(options, scenario.name + "_replayed");
+  const RunFolder folder = folder_of(options, scenario.name + "_replayed");
   std::error_code no_such_file;
   if (std::filesystem::equivalent(recording_in(folder), options.input, no_such_file)) {
     throw SetupError(options.input.string() +

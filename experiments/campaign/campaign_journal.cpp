@@ -101,14 +101,4 @@ void CampaignJournal::add(const RunResult& result) {
   ++done_;
 }
 
-void replace_file(const std::filesystem::path& file, const std::string& text) {
-  const std::filesystem::path other = file.string() + ".new";
-  std::ofstream stream(other, std::ios::binary);
-  stream << text;
-  stream.close();
-  std::error_code error;
-  if (stream) std::filesystem::rename(other, file, error);
-  if (!stream || error) throw SetupError(file.string() + ": the file cannot be written");
-}
-
 }  // namespace flinch

@@ -48,7 +48,4 @@ class CampaignJournal {
   std::size_t done_ = 0;
 };
 
-/// Writes `text` to `file`, first under another name. Throws SetupError when that fails.
-void replace_file(const std::filesystem::path& file, const std::string& text);
-
 }  // namespace flinch

@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/campaign/campaign.h"
-#include "experiments/campaign/campaign_journal.h"
 #include "experiments/campaign/exact_bounds.h"
 #include "experiments/campaign/page/campaign_page_template.h"
 #include "experiments/campaign/run_result.h"
 #include "experiments/report/script_data.h"
+#include "systems/foundation/result_file.h"
 
 namespace flinch {
 namespace {
@@ -185,7 +185,7 @@ std::string campaign_page(const Campaign& campaign, const std::vector<RunResult>
 void write_campaign_page(const Campaign& campaign, const std::vector<RunResult>& results,
                          const std::vector<CampaignGroup>& groups, const std::string& call,
                          const std::filesystem::path& file) {
-  replace_file(file, campaign_page(campaign, results, groups, call));
+  write_result(file, campaign_page(campaign, results, groups, call));
 }
 
 }  // namespace flinch

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "experiments/campaign/campaign_journal.h"
 #include "experiments/campaign/run_result.h"
+#include "systems/foundation/result_file.h"
 #include "systems/framework/table_file.h"
 
 namespace flinch {
@@ -77,7 +77,7 @@ void write_results(const std::vector<RunResult>& results, const std::filesystem:
   for (const std::string& name : cells.names) text += (text.empty() ? "" : ",") + csv_cell(name);
   text += "\n";
   for (std::size_t row = 0; row < results.size(); ++row) text += cells.line(row) + "\n";
-  replace_file(folder / "results.csv", text);
+  write_result(folder / "results.csv", text);
   std::vector<TableColumn> columns;
   for (std::size_t i = 0; i < cells.names.size(); ++i)
     columns.push_back(column_of(cells.names[i], cells.columns[i]));

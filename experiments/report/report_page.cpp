@@ -1,10 +1,9 @@
 #include "experiments/report/report_page.h"
 
-#include <fstream>
-
 #include "experiments/report/page/page_template.h"
 #include "experiments/report/report_json.h"
 #include "experiments/report/script_data.h"
+#include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
@@ -17,11 +16,7 @@ std::string report_page(const Report& report) {
 }
 
 void write_report_page(const Report& report, const std::filesystem::path& path) {
-  const std::string page = report_page(report);
-  std::ofstream file(path, std::ios::binary);
-  file << page;
-  file.close();
-  if (!file) throw SetupError("report: cannot write " + path.string());
+  write_result(path, report_page(report));
 }
 
 }  // namespace flinch

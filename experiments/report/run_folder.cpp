@@ -8,10 +8,17 @@
 
 namespace flinch {
 
-void make_run_folder(const std::filesystem::path& folder) {
+std::filesystem::path default_folder(const std::string& name) {
+  const std::filesystem::path folder = std::filesystem::path("out") / name;
+  if (!name.empty() && name != "." && name != ".." && folder.filename() == name) return folder;
+  throw SetupError("'" + name + "' cannot be the name of a folder for results; choose one with --out");
+}
+
+RunFolder make_run_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw SetupError(folder.string() + ": the folder cannot be made: " + error.message());
+  return {folder, FolderLock(folder)};
 }
 
 std::filesystem::path recording_in(const std::filesystem::path& folder) { return folder / "run.h5"; }

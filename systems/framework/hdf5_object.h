@@ -30,6 +30,8 @@ class Hdf5Object {
     return *this;
   }
   ~Hdf5Object();
+  /// Closes it now; returns whether that went well.
+  bool close_now();
   operator Id() const { return id_; }  // NOLINT(google-explicit-constructor): it stands for the identifier
 
  private:
@@ -42,8 +44,10 @@ Hdf5Object create_hdf5_file(const std::filesystem::path& file);
 Hdf5Object open_hdf5_file(const std::filesystem::path& file);
 /// Bytes of the file that an object lies in.
 std::size_t file_size(Hdf5Object::Id object);
-/// Hands all that was written to the operating system.
-void flush_hdf5_file(Hdf5Object::Id file);
+/// Hands all that was written to the operating system. What was opened of the file must be closed before.
+void close_hdf5_file(Hdf5Object file);
+/// Lets a file that cannot be written be closed all the same: what HDF5 still keeps of it goes nowhere.
+void abandon_hdf5_file(Hdf5Object::Id file) noexcept;
 /// Opens the group `path`; it and those around it are made where they are missing.
 Hdf5Object make_group(Hdf5Object::Id file, const std::string& path);
 Hdf5Object open_group(Hdf5Object::Id file, const std::string& path);
@@ -71,8 +75,8 @@ struct Table {
   Hdf5Object set;
   std::size_t rows;
 };
-/// Trusts nothing that the file says of the table: numbers of `kind` in so many columns, in this file, no more of
-/// them than its bytes can hold.
+/// Trusts nothing that the file says of the table: numbers of `kind` in so many columns, in this file, no more
+/// of them than its bytes can hold.
 Table open_table(Hdf5Object::Id parent, const std::string& name, Field::Kind kind, std::size_t columns);
 /// Appends `rows` rows after the first `at`.
 void append_rows(Hdf5Object::Id table, Field::Kind kind, std::size_t at, std::size_t rows,

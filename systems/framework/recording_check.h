@@ -8,8 +8,8 @@
 #include "systems/framework/fields.h"
 #include "systems/framework/time.h"
 
-/// What must hold of a recording whoever has written it, so that nothing that reads it needs to trust a number
-/// of the file. All throw SetupError saying what does not hold.
+/// What must hold of a recording whoever has written it, so that nothing that reads it needs to trust a
+/// number of the file. All throw SetupError saying what does not hold.
 namespace flinch::internal {
 
 /// Numbers of a row of one signal at most: a block of samples then takes 64 MiB.

@@ -123,8 +123,8 @@ class RecordingFile final : public RowSource {
     recording.period = internal::checked_period(internal::read_integer(root, period_attribute));
     recording.time_ns = read_times(root);
     Open open{std::move(hdf), std::move(root), {}};
-    std::set<std::uint64_t>
-        opened;  // many names of one data set would cost memory that the file does not have
+    // Many names of one data set would cost memory that the file does not have.
+    std::set<std::uint64_t> opened;
     for (const std::string& path : lines_of(internal::read_text(open.root, signals_attribute))) {
       Signal signal{path, {}, {}};
       Table tables = open_tables(open.root, recording.samples(), signal);
@@ -190,6 +190,22 @@ class RecordingFile final : public RowSource {
   std::unique_ptr<Open> open_;
 };
 
+/// What a block of samples, or the attributes, take at most in the file.
+std::size_t most_bytes_of(const Recording& block) {
+  constexpr std::size_t index = 1 << 14;  // of the chunks of one data set, and its description
+  std::size_t bytes = std::size_t{1} << 20;
+  for (const Signal& signal : block.signals) {
+    bytes += signal.rows.size() * sizeof(Number) + (2 * signal.layout.fields.size() + 1) * index;
+  }
+  return bytes + block.time_ns.size() * sizeof(Number);
+}
+
+std::size_t most_bytes_of(const std::map<std::string, std::string>& attributes) {
+  std::size_t bytes = std::size_t{1} << 20;
+  for (const auto& [name, text] : attributes) bytes += name.size() + text.size() + 1024;
+  return bytes;
+}
+
 }  // namespace
 
 /// The HDF5 side of a RecordingFileWriter. Its datasets are made when the first samples are written, for only
@@ -215,8 +231,13 @@ class RecordingFileWriter::Tables {
     internal::write_text(root_, signals_attribute, paths);
     internal::write_integer(root_, period_attribute, description.period.count());
     for (const auto& [name, text] : attributes) internal::write_text(root_, name, text);
-    internal::flush_hdf5_file(hdf_);
+    signals_.clear();
+    times_.clear();
+    root_.close_now();
+    internal::close_hdf5_file(std::move(hdf_));
   }
+
+  void abandon() const noexcept { internal::abandon_hdf5_file(hdf_); }
 
  private:
   void make(const Recording& block) {
@@ -247,23 +268,17 @@ class RecordingFileWriter::Tables {
   std::size_t written_ = 0;
 };
 
-std::filesystem::path RecordingFileWriter::unfinished_name(const std::filesystem::path& file) {
-  return file.string() + ".new";
-}
-
 RecordingFileWriter::RecordingFileWriter(const Recording& description, const std::filesystem::path& file)
-    : file_(file), block_{description.period, {}, {}, {}, nullptr} {
+    : file_(file), result_(file), block_{description.period, {}, {}, {}, nullptr} {
   for (const Signal& signal : description.signals) block_.signals.push_back({signal.path, signal.layout, {}});
   const std::lock_guard lock(internal::hdf5_mutex());
-  telling_file([&] { tables_ = std::make_unique<Tables>(unfinished_name(file)); });
+  telling_file([&] { tables_ = std::make_unique<Tables>(result_.unfinished_name()); });
 }
 
 RecordingFileWriter::~RecordingFileWriter() {
   const std::lock_guard lock(internal::hdf5_mutex());
-  if (tables_ == nullptr) return;
+  if (tables_ != nullptr) tables_->abandon();
   tables_.reset();
-  std::error_code ignored;
-  std::filesystem::remove(unfinished_name(file_), ignored);
 }
 
 void RecordingFileWriter::append(const SampleBlock& samples) {
@@ -282,7 +297,10 @@ void RecordingFileWriter::append(const SampleBlock& samples) {
 
 void RecordingFileWriter::write_block() {
   const std::lock_guard lock(internal::hdf5_mutex());
-  telling_file([&] { tables_->append(block_); });
+  telling_file([&] {
+    result_.reserve(most_bytes_of(block_));
+    tables_->append(block_);
+  });
   block_.time_ns.clear();
   for (Signal& signal : block_.signals) signal.rows.clear();
   is_empty_ = false;
@@ -292,14 +310,11 @@ void RecordingFileWriter::finish(const std::map<std::string, std::string>& attri
   if (is_empty_ || block_.samples() > 0) write_block();
   telling_file([&] {
     const std::lock_guard lock(internal::hdf5_mutex());
+    result_.reserve(most_bytes_of(attributes));
     tables_->finish(block_, attributes);
     tables_.reset();
   });
-  std::error_code error, ignored;
-  std::filesystem::rename(unfinished_name(file_), file_, error);
-  if (!error) return;
-  std::filesystem::remove(unfinished_name(file_), ignored);
-  throw SetupError(file_.string() + ": the recording cannot be written: " + error.message());
+  result_.finish();
 }
 
 template <class Work>

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "systems/foundation/result_file.h"
 #include "systems/framework/recording.h"
 
 namespace flinch {
@@ -15,8 +16,7 @@ namespace flinch {
 /// attributes of the root are those of the recording.
 ///
 /// Equal recordings make equal files, byte for byte, however many samples came at a time: nothing in a file
-/// depends on when or where it was written. Until finish() the file has another name, unfinished_name(), and
-/// cannot be read.
+/// depends on when or where it was written. Until finish() an older file keeps the name (see ResultFile).
 class RecordingFileWriter {
  public:
   /// Of `description` only period and signals are used. Throws SetupError naming the file, as all do here.
@@ -29,9 +29,6 @@ class RecordingFileWriter {
   /// Writes what is left, and lets the file replace an older one.
   void finish(const std::map<std::string, std::string>& attributes);
 
-  /// "run.h5.new" for "run.h5".
-  static std::filesystem::path unfinished_name(const std::filesystem::path& file);
-
  private:
   class Tables;
 
@@ -41,6 +38,7 @@ class RecordingFileWriter {
   void telling_file(const Work& work) const;
 
   std::filesystem::path file_;
+  ResultFile result_;
   Recording block_;  ///< samples that wait until there are enough for a chunk
   std::unique_ptr<Tables> tables_;
   bool is_empty_ = true;

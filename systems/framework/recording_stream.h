@@ -24,8 +24,8 @@ class Recorder;
 ///
 /// Every `longest_wait`, and when the ring is half full, the thread takes what is there and writes it, in
 /// this order: to the journal (RecordingJournal, "run.h5.part"), from which a killed run can be read; then
-/// to the HDF5 file ("run.h5.new"), which is readable only when it is whole; then it gives the place in the
-/// ring free. finish() writes the rest, completes the HDF5 file, gives it its name ("run.h5"), by which it
+/// to the HDF5 file, which has another name and cannot be read until it is whole; then it gives the place in
+/// the ring free. finish() writes the rest, completes the HDF5 file, gives it its name ("run.h5"), by which it
 /// replaces an older one, and last removes the journal.
 ///
 ///   Recorder recorder(diagram, paths, RecordingStream::ring);

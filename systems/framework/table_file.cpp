@@ -1,5 +1,8 @@
 #include "systems/framework/table_file.h"
 
+#include <algorithm>
+
+#include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/hdf5_object.h"
 
@@ -15,21 +18,41 @@ void write_column(internal::Hdf5Object::Id file, const TableColumn& column) {
   internal::write_reals(file, column.name, numbers);
 }
 
+std::size_t bytes_of(const std::vector<TableColumn>& columns) {
+  std::size_t bytes = 0;
+  for (const TableColumn& column : columns) {
+    if (const auto* const texts = std::get_if<std::vector<std::string>>(&column.values)) {
+      std::size_t width = 1;
+      for (const std::string& text : *texts) width = std::max(width, text.size());
+      bytes += width * texts->size();
+    } else {
+      bytes += std::get<std::vector<double>>(column.values).size() * sizeof(double);
+    }
+  }
+  return bytes;
+}
+
 }  // namespace
 
 void write_table(const std::vector<TableColumn>& columns,
                  const std::map<std::string, std::string>& attributes, const std::filesystem::path& file) {
-  const std::filesystem::path other = file.string() + ".new";
-  {
+  ResultFile result(file);
+  try {
     const std::lock_guard lock(internal::hdf5_mutex());
-    const internal::Hdf5Object table = internal::create_hdf5_file(other);
-    for (const auto& [name, text] : attributes) internal::write_text(table, name, text);
-    for (const TableColumn& column : columns) write_column(table, column);
-    internal::flush_hdf5_file(table);
+    internal::Hdf5Object table = internal::create_hdf5_file(result.unfinished_name());
+    try {
+      result.reserve(bytes_of(columns) + (std::size_t{1} << 20));
+      for (const auto& [name, text] : attributes) internal::write_text(table, name, text);
+      for (const TableColumn& column : columns) write_column(table, column);
+    } catch (...) {
+      internal::abandon_hdf5_file(table);
+      throw;
+    }
+    internal::close_hdf5_file(std::move(table));
+  } catch (const SetupError& error) {
+    throw SetupError(file.string() + ": the file cannot be written: " + error.what());
   }
-  std::error_code error;
-  std::filesystem::rename(other, file, error);
-  if (error) throw SetupError(file.string() + ": the file cannot be written: " + error.message());
+  result.finish();
 }
 
 }  // namespace flinch

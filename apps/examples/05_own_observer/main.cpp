@@ -15,7 +15,7 @@ int main() {
   scenario.control.stages.estimators.follow(my_observer(40.0));  // twice as fast as flinch's of this scenario
 
   const Recording recording = run_experiment(scenario);
-  make_run_folder("out/example_05");
+  const RunFolder own = make_run_folder("out/example_05");
   const Verdict verdict = conclude_run(scenario, recording, "out/example_05");  // run.h5, report.html
   std::printf("%s", verdict_table(verdict, {.wall = 0.0, .seed = scenario.seed}).c_str());
 

@@ -69,7 +69,7 @@ int main() {
   Context context = experiment.diagram->make_context();
   runner.run(context, scenario.duration);
 
-  make_run_folder("out/example_06");
+  const RunFolder own = make_run_folder("out/example_06");
   const Verdict verdict =
       conclude_run(scenario, recorder.recording(recorded_attributes(scenario, {})), "out/example_06");
   const double touched = to_seconds(robot.touched().value_or(0s));

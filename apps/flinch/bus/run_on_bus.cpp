@@ -43,7 +43,7 @@ ExitStatus run_on_bus(const RunOptions& options) {
                .interrupts = Interrupts::count});
   if (!silent) fmt::print(stderr, "waiting for the robot, {}\n", name_of(options.bus));
   out_of(name_of(options.bus), [&] { run.connect(); });
-  const std::filesystem::path folder = folder_of(options, scenario.name);
+  const RunFolder folder = folder_of(options, scenario.name);
   run.prepare(recording_in(folder),
               {{"command_line", options.common.command_line}, {"station", "dds, " + name_of(options.bus)}});
   tell_what_is_missing(run.granted(), silent);

@@ -34,10 +34,8 @@ ExitStatus repeat_run(const CampaignOptions& options, const Campaign& campaign) 
         fmt::format("--run {}: the campaign has the runs 0 to {}", *options.run, campaign.runs() - 1));
   }
   const CampaignRun run = draw_run(campaign, *options.run);
-  const std::filesystem::path folder =
-      options.out.empty() ? std::filesystem::path("out") / campaign.name / fmt::format("run_{}", run.number)
-                          : options.out;
-  make_run_folder(folder);
+  const RunFolder folder = make_run_folder(
+      options.out.empty() ? default_folder(campaign.name) / fmt::format("run_{}", run.number) : options.out);
   const StopWatch watch;
   record_experiment(run.scenario, recording_in(folder), {{"command_line", options.common.command_line}});
   return conclude(run.scenario, watch.seconds(), folder, options.common);
@@ -66,11 +64,9 @@ std::unique_ptr<CampaignHelpers> helpers_of([[maybe_unused]] const Campaign& cam
 #endif
 }
 
-std::filesystem::path campaign_folder(const CampaignOptions& options, const Campaign& campaign) {
-  const std::filesystem::path folder =
-      options.out.empty() ? std::filesystem::path("out") / campaign.name : options.out;
-  make_run_folder(folder);
-  if (options.fresh) std::filesystem::remove(folder / "results.part");
+RunFolder campaign_folder(const CampaignOptions& options, const Campaign& campaign) {
+  RunFolder folder = make_run_folder(options.out.empty() ? default_folder(campaign.name) : options.out);
+  if (options.fresh) std::filesystem::remove(folder.path / "results.part");
   return folder;
 }
 
@@ -86,7 +82,7 @@ ExitStatus campaign(const CampaignOptions& options) {
     return ExitStatus::done;
   }
   draw_run(campaign, 0);  // before anything is written
-  const std::filesystem::path folder = campaign_folder(options, campaign);
+  const RunFolder folder = campaign_folder(options, campaign);
   const StopWatch watch;
   std::vector<RunResult> results;
   std::size_t before = campaign.runs();
@@ -109,10 +105,10 @@ ExitStatus campaign(const CampaignOptions& options) {
   const std::vector<CampaignGroup> groups = groups_of(campaign, results);
   fmt::print("{}", options.common.json ? campaign_json(campaign, groups, pace) + "\n"
                                        : campaign_table(campaign, groups, pace));
-  const std::filesystem::path page = folder / "campaign.html";
+  const std::filesystem::path page = folder.path / "campaign.html";
   write_campaign_page(campaign, results, groups, options.common.command_line, page);
   if (!options.common.quiet) {
-    fmt::print(stderr, "results:   {}\nreport:    {}\n", (folder / "results.csv").string(), page.string());
+    fmt::print(stderr, "results:   {}\nreport:    {}\n", (folder.path / "results.csv").string(), page.string());
   }
   return ExitStatus::done;
 }

@@ -25,7 +25,7 @@ ExitStatus run_simulated(const RunOptions& options) {
   SimulatedScenario scenario = read_simulated_scenario(options.input, options.seed);
   add_faults(options.faults, *scenario.robot.robot, scenario.station.faults);
   built(scenario);  // before anything is written
-  const std::filesystem::path folder = folder_of(options, scenario.name);
+  const RunFolder folder = folder_of(options, scenario.name);
   const StopWatch watch;
   {
     Progress progress("simulating " + scenario.name, options.common.quiet || options.common.json);

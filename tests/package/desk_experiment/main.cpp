@@ -12,7 +12,7 @@ int main(int argc, char** argv) try {
   using namespace flinch;
   if (argc != 3) throw SetupError("usage: desk_experiment SCENARIO.yaml FOLDER");
   const SimulatedScenario scenario = read_simulated_scenario(argv[1]);
-  make_run_folder(argv[2]);
+  const RunFolder own = make_run_folder(argv[2]);
   const Verdict verdict = conclude_run(scenario, run_experiment(scenario), argv[2]);
   std::printf("%s", verdict_table(verdict, {.wall = 0.0, .seed = scenario.seed}).c_str());
   return verdict.good() && verdict.contacts.size() == 1 ? 0 : 1;

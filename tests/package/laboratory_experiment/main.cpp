@@ -17,7 +17,7 @@ bool is_replayed(const std::string& file, const std::string& folder) {
   const Recording recorded = read_recording(file);
   const Scenario scenario = recorded_scenario(recorded, file);
   const Replay replayed = replay(scenario, recorded);
-  make_run_folder(folder);
+  const RunFolder own = make_run_folder(folder);
   const Verdict verdict = conclude_run(scenario, replayed.recording, folder);
   std::printf("replayed: %zu signals differ, the verdict is %s\n", replayed.differing.size(),
               verdict.good() ? "good" : "bad");

@@ -54,8 +54,7 @@ TEST(ParsingYaml, FollowsAnAliasToItsAnchor) {
 TEST(ParsingYaml, RefusesMappingsWithoutEnd) {
   std::string text;
   for (int i = 0; i <= 1000; ++i) text += "key" + std::to_string(i) + ": 1\n";
-  EXPECT_THAT(problems_of_yaml(text),
-              ElementsAre(HasSubstr("more than 1000 keys in one mapping")));
+  EXPECT_THAT(problems_of_yaml(text), ElementsAre(HasSubstr("more than 1000 keys in one mapping")));
 }
 
 TEST(ParsingYaml, CountsAliasesAsWhatTheyStandFor) {

@@ -16,58 +16,20 @@
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recording.h"
 #include "systems/framework/recording_journal.h"
+#include "tests/systems/framework/honest_recording.h"
 
 namespace flinch {
 namespace {
 
 namespace fs = std::filesystem;
 using internal::Number;
+using test::bytes_of;
+using test::TemporaryFile;
 using testing::HasSubstr;
 
 constexpr std::int64_t least = std::numeric_limits<std::int64_t>::min();
 constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
-constexpr std::size_t samples = 50;
-
-/// A signal with a field of each kind.
-Recording honest() {
-  Recording recording{Time(1'000'000), {}, {{"seed", "1"}}, {}, nullptr};
-  Signal signal{"bench/state", {}, {}};
-  const std::vector<Field> fields = {{"position", "m", "base", Field::Kind::real, 3, false},
-                                     {"count", "", "", Field::Kind::integer, 1, false},
-                                     {"valid", "", "", Field::Kind::boolean, 1, false},
-                                     {"joints", "rad", "", Field::Kind::real, 6, true}};
-  for (const Field& field : fields) internal::add_field(field, signal.layout);
-  for (std::size_t k = 0; k < samples; ++k) {
-    recording.time_ns.push_back(static_cast<std::int64_t>(k) * 1'000'000);
-    std::array<Number, 13> row{};
-    row[0].real = 0.1 * static_cast<double>(k);
-    row[3].integer = static_cast<std::int64_t>(k);
-    row[4].integer = 1;
-    row[5].integer = 3;
-    row[6].integer = 1;
-    signal.rows.insert(signal.rows.end(), row.begin(), row.end());
-  }
-  recording.signals.push_back(std::move(signal));
-  return recording;
-}
-
-/// A file that is there while this object is.
-class TemporaryFile {
- public:
-  TemporaryFile() {
-    const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
-    path_ = fs::temp_directory_path() / (std::string("flinch_check_") + test->name() + ".h5");
-    fs::remove(path_);
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  ~TemporaryFile() { fs::remove(path_); }
-
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
+constexpr std::size_t samples = test::honest_samples;
 
 /// Reads all that there is, in each way that there is. What is wrong with it; empty if it could be read.
 std::string refusal(const fs::path& file) {
@@ -338,7 +300,7 @@ void expect_no_harm(const std::vector<Case>& cases) {
   const TemporaryFile file;
   int refused = 0;
   for (const Case& each : cases) {
-    write_recording(honest(), file.path());
+    write_recording(test::honest_recording(), file.path());
     const hid_t open = H5Fopen(file.path().c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
     ASSERT_GE(open, 0);
     bool made = true;
@@ -363,14 +325,14 @@ TEST(HostileRecording, MayHaveTimesThatDoNotGrow) { expect_no_harm(time_cases())
 
 TEST(HostileRecording, IsReadWhereItIsHonest) {
   const TemporaryFile file;
-  write_recording(honest(), file.path());
+  write_recording(test::honest_recording(), file.path());
   EXPECT_EQ(refusal(file.path()), "");
   EXPECT_EQ(open_recording(file.path()).column("bench/state", "count").back(), 49.0);
 }
 
 TEST(HostileRecording, MayNotNameOneDataSetManyTimes) {
   const TemporaryFile file;
-  write_recording(honest(), file.path());
+  write_recording(test::honest_recording(), file.path());
   const hid_t open = H5Fopen(file.path().c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
   H5Lcreate_hard(open, "bench/state", open, "bench/twin", H5P_DEFAULT, H5P_DEFAULT);
   const hid_t root = H5Oopen(open, "/", H5P_DEFAULT);
@@ -388,11 +350,6 @@ TEST(HostileRecording, MayNotNameOneDataSetManyTimes) {
   EXPECT_THAT(refusal(file.path()), HasSubstr("bench/twin"));
 }
 
-std::string bytes_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 void write_bytes(const fs::path& file, const std::string& bytes) {
   std::ofstream(file, std::ios::binary | std::ios::trunc)
       .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
@@ -400,7 +357,7 @@ void write_bytes(const fs::path& file, const std::string& bytes) {
 
 TEST(HostileJournal, MayHaveAnyBytesAndIsReadAsFarAsItIsWhole) {
   const TemporaryFile file;
-  const Recording recording = honest();
+  const Recording recording = test::honest_recording();
   {
     RecordingJournal journal(recording, file.path());
     for (std::size_t first = 0; first < samples; first += 10) {
@@ -429,7 +386,7 @@ TEST(HostileJournal, MayHaveAnyBytesAndIsReadAsFarAsItIsWhole) {
 
 TEST(HostileRecording, MayHaveAnyBytes) {
   const TemporaryFile file;
-  write_recording(honest(), file.path());
+  write_recording(test::honest_recording(), file.path());
   const std::string whole = bytes_of(file.path());
   std::mt19937 random(11);
   int refused = 0;
