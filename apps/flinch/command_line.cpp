@@ -166,8 +166,9 @@ void add_verbs(CLI::App& app, Verbs& verbs) {
   add_fault(run_verb, verbs.run.faults);
   add_bus(run_verb, verbs.run.bus);
   run_verb
-      .add_option("--patience", verbs.run.patience,
-                  "Seconds to wait until the robot answers, and as long again for its drives [10]")
+      .add_option(
+          "--patience", verbs.run.patience,
+          "Seconds to wait until the robot answers, again for its drives, and when it falls silent [10]")
       ->check(problem_with_seconds)
       ->type_name("S")
       ->group("Bus");

@@ -165,15 +165,19 @@ bool LiveRun::is_stopped() const {
 }
 
 void LiveRun::run() {
-  const std::function<bool()> interrupted = [this] {
-    return settings_.interrupts() > 1 || (is_interrupted() && is_stopped());
+  std::uint32_t received = 0;
+  Time heard{};
+  const std::function<bool()> over = [&, this] {
+    if (std::exchange(received, station_.link().received) != received) heard = context_.time();
+    was_left_ = context_.time() - heard > settings_.patience;
+    return was_left_ || settings_.interrupts() > 1 || (is_interrupted() && is_stopped());
   };
   fall_into_step(station_, ticks_);
   station_.forget_times();
   station_.request(wish_);  // again, in case that the way here took so long that the robot has given us up
   panel_.release_stop();
   context_ = *start_;
-  recorded_->run(context_, end_, interrupted);
+  recorded_->run(context_, end_, over);
 }
 
 void LiveRun::end() {
@@ -197,6 +201,10 @@ void LiveRun::finish_recording() {
   attributes["loop.lost_periods"] = std::to_string(loop.lost_periods);
   attributes["loop.lateness"] = attribute(loop.lateness);
   attributes["loop.tick"] = attribute(loop.whole);
+  if (was_left_) {
+    attributes["run.ended"] =
+        fmt::format("the robot has sent nothing for {:.0f} s", to_seconds(settings_.patience));
+  }
   attributes["link.lost"] = std::to_string(link.lost);
   attributes["link.refused"] = std::to_string(link.refused);
   attributes["link.round_trip"] = attribute(times.round_trip);

@@ -25,7 +25,7 @@ namespace flinch {
 struct Scenario;
 
 struct LiveRunSettings {
-  Time patience = 10s;         ///< with a robot that does not answer, or is not enabled
+  Time patience = 10s;         ///< with a robot that does not answer, is not enabled, or falls silent
   bool reset_faults = false;   ///< of the drives, before the run
   int bus_priority = 0;        ///< SCHED_FIFO of the thread that receives, where permitted; 0: ordinary
   RealtimeSettings loop = {};  ///< what the loop's thread asks the machine for
@@ -56,6 +56,9 @@ class LiveRun {
   /// Switches the drives on, and if wanted resets their faults first. The brakes stay closed: the stop button
   /// is down until run().
   void enable();
+
+  /// Whether the run ended because the robot had been silent for longer than the patience.
+  bool was_left() const { return was_left_; }
 
   /// The scenario from its start, recorded; ends when it is over or, after an interrupt has stopped the
   /// robot, when that rests; at the second interrupt at once.
@@ -98,6 +101,7 @@ class LiveRun {
   std::unique_ptr<RealtimeRunner> recorded_;
   std::unique_ptr<Context> start_;
   DriveWish wish_;
+  bool was_left_ = false;
   std::unique_ptr<RealtimeThread> thread_;
   RealtimeReport granted_;
   Time end_{};

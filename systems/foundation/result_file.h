@@ -27,8 +27,8 @@ class ResultFile {
 
   void write(std::string_view text) const;
 
-  /// Has the file system set aside `bytes` beyond what is written so far, where it can: what does not fit fails
-  /// here, and not in the middle of a library.
+  /// Has the file system set aside `bytes` beyond what is written so far, where it can: what does not fit
+  /// fails here, and not in the middle of a library.
   void reserve(std::size_t bytes) const;
 
   /// Sees to it that all is on the disk, and gives the file its name.

@@ -75,8 +75,8 @@ struct Table {
   Hdf5Object set;
   std::size_t rows;
 };
-/// Trusts nothing that the file says of the table: numbers of `kind` in so many columns, in this file, no more
-/// of them than its bytes can hold.
+/// Trusts nothing that the file says of the table: numbers of `kind` in so many columns, in this file, no
+/// more of them than its bytes can hold.
 Table open_table(Hdf5Object::Id parent, const std::string& name, Field::Kind kind, std::size_t columns);
 /// Appends `rows` rows after the first `at`.
 void append_rows(Hdf5Object::Id table, Field::Kind kind, std::size_t at, std::size_t rows,

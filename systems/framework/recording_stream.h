@@ -24,9 +24,9 @@ class Recorder;
 ///
 /// Every `longest_wait`, and when the ring is half full, the thread takes what is there and writes it, in
 /// this order: to the journal (RecordingJournal, "run.h5.part"), from which a killed run can be read; then
-/// to the HDF5 file, which has another name and cannot be read until it is whole; then it gives the place in
-/// the ring free. finish() writes the rest, completes the HDF5 file, gives it its name ("run.h5"), by which it
-/// replaces an older one, and last removes the journal.
+/// to the HDF5 file, which has another name and cannot be read until it is whole; then it gives the place
+/// in the ring free. finish() writes the rest, completes the HDF5 file, gives it its name ("run.h5"), by
+/// which it replaces an older one, and last removes the journal.
 ///
 ///   Recorder recorder(diagram, paths, RecordingStream::ring);
 ///   RecordingStream stream(recorder, "run.h5", attributes);

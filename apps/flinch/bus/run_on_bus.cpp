@@ -58,6 +58,9 @@ ExitStatus run_on_bus(const RunOptions& options) {
   }
 
   run.finish_recording();
+  if (run.was_left() && !silent) {
+    fmt::print(stderr, "ended:     the robot has sent nothing for {:.0f} s\n", options.patience);
+  }
   if (!silent) tell_of_loop_and_link(run);
   return conclude(scenario, wall, folder, options.common);
 }

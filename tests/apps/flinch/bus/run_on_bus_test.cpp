@@ -100,6 +100,20 @@ TEST(RunOnBus, ComesToRestInOrderOnCtrlC) {
   EXPECT_LT(fault.size() - stopped, 1000U);
 }
 
+TEST(RunOnBus, EndsWhereTheRobotIsGone) {
+  BenchOnTheBus bench("square");
+  std::vector<std::string> arguments = bench.run_arguments();
+  arguments.insert(arguments.end(), {"--patience", "1"});
+  test::OtherProgram run(test::flinch_program(arguments));
+  ASSERT_TRUE(run.writes("gate open", 20s)) << run.output();
+  bench.server.kill();
+  EXPECT_TRUE(run.writes("ended:     the robot has sent nothing for 1 s", 20s)) << run.output();
+  EXPECT_EQ(run.wait(20s), stopped_by_fault) << run.output();
+  const Recording recording = read_recording(bench.place / "live/run.h5");
+  EXPECT_EQ(recording.attributes.at("run.ended"), "the robot has sent nothing for 1 s");
+  EXPECT_LT(to_seconds(Time(recording.time_ns.back())), 3.4) << "the scenario takes 3.5 s";
+}
+
 TEST(RunOnBus, ServesUntilCtrlC) {
   BenchOnTheBus bench;
   ASSERT_EQ(bench.run(bench.run_arguments()).status, 0);
