@@ -108,7 +108,8 @@ ExitStatus campaign(const CampaignOptions& options) {
   const std::filesystem::path page = folder.path / "campaign.html";
   write_campaign_page(campaign, results, groups, options.common.command_line, page);
   if (!options.common.quiet) {
-    fmt::print(stderr, "results:   {}\nreport:    {}\n", (folder.path / "results.csv").string(), page.string());
+    fmt::print(stderr, "results:   {}\nreport:    {}\n", (folder.path / "results.csv").string(),
+               page.string());
   }
   return ExitStatus::done;
 }
