@@ -126,7 +126,8 @@ std::vector<Case> attribute_cases() {
       {"opaque", 0, 1},          {"array", 0, 1},         {"list", 0, 1},         {"double", 0, 1},
       {"long double", 3, 1}};
   std::vector<Case> cases;
-  for (const auto& [object, name] : attributes) {
+  for (const auto& each : attributes) {
+    const std::string object = each.first, name = each.second;
     for (const Lie& lie : lies) {
       const bool harmless = (name == "seed" && std::string(lie.type) == "missing") ||
                             (name == "flinch.period_ns" && std::string(lie.type) == "integer" &&
@@ -194,8 +195,10 @@ std::vector<Case> set_cases() {
       {"time_ns", 1},           {"bench/state/position", 3}, {"bench/state/count", 1},
       {"bench/state/valid", 1}, {"bench/state/joints", 6},   {"bench/state/joints.size", 2}};
   std::vector<Case> cases;
-  for (const auto& [path, columns] : sets) {
-    const auto add = [&cases, path = path](const std::string& what, const Shape& shape) {
+  for (const auto& each : sets) {
+    const std::string path = each.first;
+    const hsize_t columns = each.second;
+    const auto add = [&cases, path](const std::string& what, const Shape& shape) {
       cases.push_back({path + ": " + what, [=](hid_t file) { replace_set(file, path, shape); }});
     };
     for (const char* const type :
