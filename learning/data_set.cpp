@@ -109,12 +109,12 @@ void write_samples(const DataSet& data, internal::Hdf5Object::Id file) {
 void read_samples(internal::Hdf5Object::Id file, DataSet& data) {
   constexpr std::size_t block = 4096;
   const std::size_t columns = columns_of(*data.robot);
-  const internal::Hdf5Object table = internal::open_table(file, "samples");
-  const std::size_t count = internal::table_rows(table, "samples", columns);
+  const internal::Table table = internal::open_table(file, "samples", Field::Kind::real, columns);
+  const std::size_t count = table.rows;
   std::vector<internal::Number> rows(block * columns);
   for (std::size_t first = 0; first < count; first += block) {
     const std::size_t read = std::min(block, count - first);
-    internal::read_rows(table, Field::Kind::real, first, read, columns, rows.data());
+    internal::read_rows(table.set, Field::Kind::real, first, read, columns, rows.data());
     for (std::size_t i = 0; i < read; ++i)
       data.samples.push_back(sample_of(rows.data() + i * columns, first + i, *data.robot));
   }
@@ -177,22 +177,15 @@ std::string counts_table(const DataSet& data) {
 }
 
 void write_data_set(const DataSet& data, const std::filesystem::path& file) {
-  const std::filesystem::path other = file.string() + ".new";
-  out_of(file.string(), [&] {
-    const std::lock_guard lock(internal::hdf5_mutex());
-    const internal::Hdf5Object hdf5 = internal::create_hdf5_file(other);
+  const std::size_t numbers = data.samples.size() * columns_of(*data.robot);
+  internal::write_hdf5_result(file, numbers * sizeof(internal::Number), [&](internal::Hdf5Object::Id hdf5) {
     internal::write_text(hdf5, "format", format);
     internal::write_text(hdf5, "columns", column_names(*data.robot));
     internal::write_text(hdf5, "robot.file", data.robot_file);
     internal::write_text(hdf5, "robot.text", data.robot_text);
     for (const auto& [name, text] : data.card) internal::write_text(hdf5, name, text);
     write_samples(data, hdf5);
-    internal::flush_hdf5_file(hdf5);
-    return 0;
   });
-  std::error_code error;
-  std::filesystem::rename(other, file, error);
-  if (error) throw SetupError(file.string() + ": the file cannot be written: " + error.message());
 }
 
 DataSet read_data_set(const std::filesystem::path& file) {

@@ -3,10 +3,9 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <fstream>
 
 #include "learning/page/style.h"
-#include "systems/foundation/setup_error.h"
+#include "systems/foundation/result_file.h"
 
 namespace flinch {
 namespace {
@@ -220,10 +219,7 @@ std::string evaluation_page(const EvaluationPage& page) {
 }
 
 void write_evaluation_page(const EvaluationPage& page, const std::filesystem::path& file) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << evaluation_page(page);
-  stream.close();
-  if (!stream) throw SetupError(file.string() + ": the page cannot be written");
+  write_result(file, evaluation_page(page));
 }
 
 }  // namespace flinch

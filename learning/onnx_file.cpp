@@ -11,6 +11,7 @@
 
 #include "learning/onnx_graph.h"
 #include "systems/foundation/problems_of_place.h"
+#include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
@@ -315,14 +316,7 @@ std::string onnx_bytes(const ClassifierModel& model) {
 }
 
 void write_onnx(const ClassifierModel& model, const std::filesystem::path& file) {
-  const std::string bytes = onnx_bytes(model);
-  const std::filesystem::path other = file.string() + ".new";
-  std::ofstream stream(other, std::ios::binary);
-  stream << bytes;
-  stream.close();
-  std::error_code error;
-  if (stream) std::filesystem::rename(other, file, error);
-  if (!stream || error) throw SetupError(file.string() + ": the file cannot be written");
+  write_result(file, onnx_bytes(model));
 }
 
 ClassifierModel read_onnx(const std::filesystem::path& file) {

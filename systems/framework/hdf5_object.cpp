@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch::internal {
@@ -131,6 +132,27 @@ void abandon_hdf5_file(Hdf5Object::Id file) noexcept {
     ::dup2(nowhere, *static_cast<const int*>(handle));
   }
   if (nowhere >= 0) ::close(nowhere);
+}
+
+void write_hdf5_result(const std::filesystem::path& file, std::size_t most_bytes,
+                       const std::function<void(Hdf5Object::Id file)>& fill) {
+  constexpr std::size_t descriptions = 1 << 20;
+  ResultFile result(file);
+  try {
+    const std::lock_guard lock(hdf5_mutex());
+    Hdf5Object hdf = create_hdf5_file(result.unfinished_name());
+    try {
+      result.reserve(most_bytes + descriptions);
+      fill(hdf);
+    } catch (...) {
+      abandon_hdf5_file(hdf);
+      throw;
+    }
+    close_hdf5_file(std::move(hdf));
+  } catch (const SetupError& error) {
+    throw SetupError(file.string() + ": the file cannot be written: " + error.what());
+  }
+  result.finish();
 }
 
 Hdf5Object make_group(Hdf5Object::Id file, const std::string& path) {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -48,6 +49,10 @@ std::size_t file_size(Hdf5Object::Id object);
 void close_hdf5_file(Hdf5Object file);
 /// Lets a file that cannot be written be closed all the same: what HDF5 still keeps of it goes nowhere.
 void abandon_hdf5_file(Hdf5Object::Id file) noexcept;
+/// Writes a file of at most `most_bytes` of data beside its descriptions, as a ResultFile. `fill` closes what
+/// it opens.
+void write_hdf5_result(const std::filesystem::path& file, std::size_t most_bytes,
+                       const std::function<void(Hdf5Object::Id file)>& fill);
 /// Opens the group `path`; it and those around it are made where they are missing.
 Hdf5Object make_group(Hdf5Object::Id file, const std::string& path);
 Hdf5Object open_group(Hdf5Object::Id file, const std::string& path);

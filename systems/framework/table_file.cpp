@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "systems/foundation/result_file.h"
-#include "systems/foundation/setup_error.h"
 #include "systems/framework/hdf5_object.h"
 
 namespace flinch {
@@ -36,23 +34,10 @@ std::size_t bytes_of(const std::vector<TableColumn>& columns) {
 
 void write_table(const std::vector<TableColumn>& columns,
                  const std::map<std::string, std::string>& attributes, const std::filesystem::path& file) {
-  ResultFile result(file);
-  try {
-    const std::lock_guard lock(internal::hdf5_mutex());
-    internal::Hdf5Object table = internal::create_hdf5_file(result.unfinished_name());
-    try {
-      result.reserve(bytes_of(columns) + (std::size_t{1} << 20));
-      for (const auto& [name, text] : attributes) internal::write_text(table, name, text);
-      for (const TableColumn& column : columns) write_column(table, column);
-    } catch (...) {
-      internal::abandon_hdf5_file(table);
-      throw;
-    }
-    internal::close_hdf5_file(std::move(table));
-  } catch (const SetupError& error) {
-    throw SetupError(file.string() + ": the file cannot be written: " + error.what());
-  }
-  result.finish();
+  internal::write_hdf5_result(file, bytes_of(columns), [&](internal::Hdf5Object::Id table) {
+    for (const auto& [name, text] : attributes) internal::write_text(table, name, text);
+    for (const TableColumn& column : columns) write_column(table, column);
+  });
 }
 
 }  // namespace flinch

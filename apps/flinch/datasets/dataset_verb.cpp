@@ -24,7 +24,7 @@ ExitStatus dataset(const DatasetOptions& options) {
   const std::filesystem::path file =
       options.out.empty() ? std::filesystem::path("out") / (options.spec.stem().string() + ".h5")
                           : options.out;
-  if (!file.parent_path().empty()) make_run_folder(file.parent_path());
+  const RunFolder folder = make_run_folder(file.has_parent_path() ? file.parent_path() : ".");
   if (options.fresh) std::filesystem::remove(file.string() + ".part");
   const StopWatch watch;
   DataSet data;
