@@ -1,6 +1,6 @@
 # What can be switched, and the flags that every target of the project is compiled with.
 
-option(FLINCH_BUILD_PLANT "Simulated robot (needs Bullet)" ON)
+option(FLINCH_BUILD_PLANT "Simulated robot (needs SUNDIALS and Bullet)" ON)
 option(FLINCH_BUILD_MPI "Campaigns of many programs under mpirun (needs MPI)" ON)
 option(FLINCH_BUILD_DRIVERS "Robots on the bus (left out where Cyclone DDS is not found)" ON)
 option(FLINCH_BUILD_APPS "The flinch program and the examples" ${PROJECT_IS_TOP_LEVEL})

@@ -56,7 +56,7 @@ struct SimulatedStation : Station {
 };
 
 /// Adds the simulated bench as one nested diagram, "station". Its continuous state wants an adaptive
-/// integrator: CashKarp. Throws SetupError for settings that describe no bench.
+/// integrator: SundialsIntegrator. Throws SetupError for settings that describe no bench.
 SimulatedStation add_simulated_station(DiagramBuilder& builder, const SimulatedStationSettings& settings);
 
 }  // namespace flinch

@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "plant/cash_karp.h"
 #include "plant/simulated_station.h"
+#include "plant/sundials_integrator.h"
 #include "systems/framework/recorder.h"
 #include "systems/framework/simulator.h"
 #include "systems/model/forward_kinematics.h"
@@ -42,7 +42,7 @@ int main() {
   constexpr int ticks = 400;
   Recorder recorder(*diagram, {"forward_kinematics/platform", "station/platform_truth"}, ticks,
                     quantity_units(*robot));
-  Simulator simulator(*diagram, std::make_unique<CashKarp>());
+  Simulator simulator(*diagram, std::make_unique<SundialsIntegrator>());
   simulator.record(recorder);
   Context context = diagram->make_context();
   context.set(brake, {.engage = false});

@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <memory>
 
-#include "plant/cash_karp.h"
 #include "plant/simulated_station.h"
+#include "plant/sundials_integrator.h"
 #include "systems/framework/simulator.h"
 #include "systems/model/forward_kinematics.h"
 #include "systems/model/robot_model.h"
@@ -51,7 +51,7 @@ int main() {
   builder.connect(spring.torque, station.torque_command);
   const auto brake = builder.export_input("brake", station.brake);
   const auto diagram = builder.build();
-  Simulator simulator(*diagram, std::make_unique<CashKarp>());
+  Simulator simulator(*diagram, std::make_unique<SundialsIntegrator>());
   Context context = diagram->make_context();
   context.set(brake, {.engage = false});
   simulator.advance_to(context, 990ms);

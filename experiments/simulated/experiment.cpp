@@ -9,8 +9,8 @@
 #include "experiments/verdict/recorded_run.h"
 #include "experiments/verdict/run_watch.h"
 #include "experiments/verdict/verdict.h"
-#include "plant/cash_karp.h"
 #include "plant/simulated_station.h"
+#include "plant/sundials_integrator.h"
 #include "systems/framework/constant.h"
 #include "systems/framework/diagram_builder.h"
 #include "systems/framework/recorder.h"
@@ -64,7 +64,7 @@ std::map<std::string, std::string> attributes_of(const SimulatedScenario& scenar
 std::map<std::string, std::string> simulate(const SimulatedScenario& scenario, const Diagram& diagram,
                                             Recorder& recorder, const std::function<void()>& before_tick,
                                             const std::function<void(double share)>& progress) {
-  Simulator simulator(diagram, std::make_unique<CashKarp>());
+  Simulator simulator(diagram, std::make_unique<SundialsIntegrator>());
   simulator.record(recorder);
   Context context = diagram.make_context();
   const std::size_t ticks = ticks_of(scenario, diagram);

@@ -8,7 +8,7 @@
 
 #include "experiments/simulated/experiment.h"
 #include "experiments/simulated/simulated_scenario.h"
-#include "plant/cash_karp.h"
+#include "plant/sundials_integrator.h"
 #include "systems/framework/recorder.h"
 #include "systems/framework/simulator.h"
 #include "systems/robot/planar_rrr.h"
@@ -37,7 +37,7 @@ class ClosedLoop {
         experiment_(build_experiment(scenario_)),
         recorder_(*experiment_.diagram, recordable_paths(*experiment_.diagram), samples(),
                   quantity_units(*scenario_.robot.robot)),
-        simulator_(*experiment_.diagram, std::make_unique<CashKarp>()),
+        simulator_(*experiment_.diagram, std::make_unique<SundialsIntegrator>()),
         start_(experiment_.diagram->make_context()),
         context_(start_) {
     simulator_.record(recorder_);

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "plant/bench_dynamics.h"
-#include "plant/cash_karp.h"
+#include "plant/sundials_integrator.h"
 #include "systems/framework/runge_kutta.h"
 #include "systems/robot/planar_rrr_presets.h"
 #include "tests/plant/bench_scene.h"
@@ -107,7 +107,7 @@ double largest_error(const Run& of, const Run& reference) {
 
 /// Runs along all paths that are right to the last few digits.
 std::vector<Run> references(const BenchDynamics& dynamics) {
-  CashKarp tight({.relative_tolerance = 1e-13, .absolute_tolerance = 1e-14});
+  SundialsIntegrator tight({.relative_tolerance = 1e-13, .absolute_tolerance = 1e-14});
   std::vector<Run> runs;
   for (const Eigen::Vector3d& frequency : path_frequencies) runs.push_back(run(dynamics, frequency, tight));
   return runs;
@@ -162,7 +162,7 @@ Seconds time_integrator(Tick& tick, const std::vector<Run>& runs, Integrator& in
 
 /// How many right-hand sides each tick takes.
 std::vector<std::int64_t> evaluations_of_ticks(Tick& tick, const std::vector<Run>& runs,
-                                               CashKarp& integrator) {
+                                               SundialsIntegrator& integrator) {
   std::vector<std::int64_t> counts;
   time_ticks(tick, runs, [&](State& y) {
     const std::int64_t before = integrator.evaluations();
@@ -199,7 +199,7 @@ void PlantMillisecond(benchmark::State& state, double pylon_stiffness) {
   const auto shared = BenchDynamics::make(bench(pylon_stiffness));
   const BenchDynamics& dynamics = *shared;
   const std::vector<Run> runs = references(dynamics);
-  CashKarp integrator;
+  SundialsIntegrator integrator;
   const double error = accuracy(dynamics, runs, integrator);
   const int equal_steps = steps_of_equal_accuracy(dynamics, runs, error);
   RungeKutta one_step(1);

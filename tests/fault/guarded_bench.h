@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "diagrams/contact_control.h"
-#include "plant/cash_karp.h"
 #include "plant/simulated_station.h"
+#include "plant/sundials_integrator.h"
 #include "systems/framework/simulator.h"
 #include "systems/robot/planar_rrr.h"
 #include "systems/robot/planar_rrr_presets.h"
@@ -91,7 +91,7 @@ class GuardedBench {
         operator_(builder_.export_input("operator", control_.operator_command)),
         diagram_(build()),
         context_(diagram_->make_context()),
-        simulator_(*diagram_, std::make_unique<CashKarp>()) {}
+        simulator_(*diagram_, std::make_unique<SundialsIntegrator>()) {}
 
   void damage(const EncoderDamage& wrong) { context_.set(damage_, wrong); }
   void tick() { simulator_.step(context_); }

@@ -22,7 +22,7 @@ struct LateTick {
       if (context.time() == 500ms) then = bench.gate();
       if (context.time() == 500ms) torque = bench.torque().valid;
     };
-    RealtimeRunner runner(bench.diagram(), clock, exchange, std::make_unique<CashKarp>());
+    RealtimeRunner runner(bench.diagram(), clock, exchange, std::make_unique<SundialsIntegrator>());
     runner.feed_timing(bench.timing());
     runner.run(bench.context(), 700ms);
     later = bench.gate();

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "plant/cash_karp.h"
+#include "plant/sundials_integrator.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/runge_kutta.h"
 #include "tests/plant/bench_scene.h"
@@ -44,7 +44,7 @@ class MovingBench {
         dynamics(*dynamics_),
         equation(dynamics),
         y(equation.size(), 0.0),
-        integrator_(method ? std::move(method) : std::make_unique<CashKarp>()) {
+        integrator_(method ? std::move(method) : std::make_unique<SundialsIntegrator>()) {
     equation.drives = coasting;
     const BenchState start = dynamics.initial_state();
     std::copy_n(start.data(), start.size(), y.begin());
@@ -106,8 +106,8 @@ TEST(DrivenMotion, GainsTheWorkOfDrivesWrenchAndContactsLessFriction) {
   BenchSettings settings = moving_bench(BenchFriction::test_bench);
   settings.obstacles = {test::fixed_post(0.32, 0.20)};
   settings.link_material = ContactMaterial{.stiffness = 5e4};
-  const CashKarpOptions tight{.relative_tolerance = 1e-11, .absolute_tolerance = 1e-12};
-  MovingBench bench(settings, std::make_unique<CashKarp>(tight));
+  const SundialsOptions tight{.relative_tolerance = 1e-11, .absolute_tolerance = 1e-12};
+  MovingBench bench(settings, std::make_unique<SundialsIntegrator>(tight));
   const double start = bench.kinetic_energy();
   double imbalance = 0.0;
   int in_contact = 0;

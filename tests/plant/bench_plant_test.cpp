@@ -231,7 +231,7 @@ TEST(ContactTruth, WithoutAPylonIsValidAndEmpty) {
 // ---------------------------------------------------------------- set-up
 
 TEST(BenchPlant, RefusesADiagramThatTicksMoreSlowlyThanItLooksAhead) {
-  EXPECT_THROW(test::ServoedStation(test::bench_station(), {}, std::make_unique<CashKarp>(), 2ms),
+  EXPECT_THROW(test::ServoedStation(test::bench_station(), {}, std::make_unique<SundialsIntegrator>(), 2ms),
                SetupError);
 }
 
@@ -249,7 +249,7 @@ TEST(BenchPlant, MovesAlikeInFinerTicksUnderTheSameTorque) {
     builder.connect(brake.value, station.brake);
     const auto diagram = builder.build();
     Context context = diagram->make_context();
-    Simulator simulator(*diagram, std::make_unique<CashKarp>());
+    Simulator simulator(*diagram, std::make_unique<SundialsIntegrator>());
     simulator.advance_to(context, 500ms);
     return Eigen::Vector3d(context.get(station.plant_truth).pose);
   };

@@ -7,8 +7,8 @@
 #include <memory>
 
 #include "plant/bench_of.h"
-#include "plant/cash_karp.h"
 #include "plant/planar_bench.h"
+#include "plant/sundials_integrator.h"
 #include "systems/framework/runge_kutta.h"
 #include "systems/robot/five_bar.h"
 #include "systems/robot/five_bar_presets.h"
@@ -31,7 +31,7 @@ std::shared_ptr<const FiveBar> five_bar() { return std::make_shared<const FiveBa
 /// start.
 class MovingBench {
  public:
-  explicit MovingBench(const BenchSettings& settings, const CashKarpOptions& options = {})
+  explicit MovingBench(const BenchSettings& settings, const SundialsOptions& options = {})
       : bench(BenchDynamics::make(settings)), equation(*bench), integrator_(options) {
     y.assign(equation.size(), 0.0);
     const BenchState start = bench->initial_state();
@@ -71,7 +71,7 @@ class MovingBench {
     bench->snapshot(state(), equation.drives, equation.applied_wrench, equation.step, 1e-3, now);
   }
 
-  CashKarp integrator_;
+  SundialsIntegrator integrator_;
   double time_ = 0.0;
 };
 
@@ -212,7 +212,7 @@ TEST(HexapodAmongElasticObstacles, KeepsTheBalanceOfItsEnergy) {
   bar.shape = Capsule{.begin = {-0.3, 0.0, 0.0}, .end = {0.3, 0.0, 0.0}, .radius = 0.03};
   settings.obstacles = {std::make_shared<const FixedObstacle>(ball),
                         std::make_shared<const CompliantObstacle>(bar, CompliantMount{.damping = 0.0})};
-  const CashKarpOptions tight{.relative_tolerance = 1e-10, .absolute_tolerance = 1e-11};
+  const SundialsOptions tight{.relative_tolerance = 1e-10, .absolute_tolerance = 1e-11};
   MovingBench moving(settings, tight);
   ASSERT_EQ(moving.now.contacts.touch_count, 0);
   const double start = moving.now.kinetic_energy;

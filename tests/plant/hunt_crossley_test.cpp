@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "plant/cash_karp.h"
+#include "plant/sundials_integrator.h"
 
 namespace flinch {
 namespace {
@@ -28,7 +28,7 @@ class Impact final : public DifferentialEquation {
 // Speed after an impact over speed before, by integration until the mass has left.
 double measured_restitution(const HuntCrossley& law, double mass, double speed) {
   Impact impact(law, mass);
-  CashKarp integrator({.relative_tolerance = 1e-12, .absolute_tolerance = 1e-14});
+  SundialsIntegrator integrator({.relative_tolerance = 1e-12, .absolute_tolerance = 1e-14});
   integrator.prepare(2);
   std::array<double, 2> y = {0.0, speed};
   for (int i = 0; i < 2000 && (y[0] > 0.0 || y[1] > 0.0); ++i) integrator.advance(impact, 1e-3, y);

@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "plant/cash_karp.h"
 #include "plant/simulated_station.h"
+#include "plant/sundials_integrator.h"
 #include "systems/framework/constant.h"
 #include "systems/framework/context.h"
 #include "systems/framework/diagram_builder.h"
@@ -26,7 +26,7 @@ inline SimulatedStationSettings bench_station() {
 class ServoedStation {
  public:
   explicit ServoedStation(const SimulatedStationSettings& settings, const Path& path = {},
-                          std::unique_ptr<Integrator> integrator = std::make_unique<CashKarp>(),
+                          std::unique_ptr<Integrator> integrator = std::make_unique<SundialsIntegrator>(),
                           Time tick = 1ms)
       : ServoedStation(DiagramBuilder("test", tick), settings, path, std::move(integrator)) {}
 

@@ -34,7 +34,7 @@ class CommandedStation {
         brake_(builder_.export_input("brake", station.brake)),
         diagram_(builder_.build()),
         context_(diagram_->make_context()),
-        simulator_(*diagram_, std::make_unique<CashKarp>()) {
+        simulator_(*diagram_, std::make_unique<SundialsIntegrator>()) {
     context_.set(brake_, {.engage = false});
   }
 
@@ -160,7 +160,7 @@ TEST(SimulatedStation, GoesOnFromACopiedContextAsTheOriginalDoes) {
   station.advance_to(1200ms);
   const PlantTruth original = station.truth();
   const ImuReading original_imu = station.get(station.station.imu);
-  Simulator fresh(station.diagram(), std::make_unique<CashKarp>());
+  Simulator fresh(station.diagram(), std::make_unique<SundialsIntegrator>());
   fresh.advance_to(copy, 1200ms);
   EXPECT_EQ(copy.get(station.station.plant_truth).pose, original.pose);
   EXPECT_EQ(copy.get(station.station.plant_truth).velocity, original.velocity);

@@ -7,7 +7,7 @@
 #include "diagrams/recorded_station.h"
 #include "drivers/dds_server.h"
 #include "drivers/dds_station.h"
-#include "plant/cash_karp.h"
+#include "plant/sundials_integrator.h"
 #include "systems/framework/monotonic_clock.h"
 #include "systems/framework/recorder.h"
 #include "systems/framework/simulator.h"
@@ -26,7 +26,7 @@ class Stepped {
   explicit Stepped(DiagramBuilder& builder)
       : diagram(builder.build()),
         context(diagram->make_context()),
-        simulator(*diagram, std::make_unique<CashKarp>()) {}
+        simulator(*diagram, std::make_unique<SundialsIntegrator>()) {}
 
   std::unique_ptr<Diagram> diagram;
   Context context;

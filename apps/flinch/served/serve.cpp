@@ -13,7 +13,7 @@
 #include "experiments/bus/names.h"
 #include "experiments/served/served_bench.h"
 #include "experiments/simulated/simulated_scenario.h"
-#include "plant/cash_karp.h"
+#include "plant/sundials_integrator.h"
 #include "systems/foundation/problems_of_place.h"
 #include "systems/framework/exchange_list.h"
 #include "systems/framework/realtime_runner.h"
@@ -110,7 +110,7 @@ ExitStatus serve(const ServeOptions& options) {
   ServedWatch watch(bench, server);
   ExchangeList exchange({server, watch});
   ClockTicks ticks;
-  RealtimeRunner runner(*bench.diagram, ticks, exchange, std::make_unique<CashKarp>());
+  RealtimeRunner runner(*bench.diagram, ticks, exchange, std::make_unique<SundialsIntegrator>());
   if (!silent) {
     fmt::print(stderr, "serving {} on {}; Ctrl-C ends it\n", scenario.name, name_of(options.bus));
   }

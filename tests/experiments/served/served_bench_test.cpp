@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "experiments/simulated/simulated_scenario.h"
-#include "plant/cash_karp.h"
+#include "plant/sundials_integrator.h"
 #include "systems/framework/simulator.h"
 #include "tests/support/workplace.h"
 
@@ -19,7 +19,7 @@ class ServedSquare {
 
   StationStatus after(Time duration, const DriveWish& wish) {
     context_.set(bench_.station.wish, wish);
-    Simulator simulator(*bench_.diagram, std::make_unique<CashKarp>());
+    Simulator simulator(*bench_.diagram, std::make_unique<SundialsIntegrator>());
     for (const Time end = context_.time() + duration; context_.time() < end;) {
       context_.set(bench_.station.torque_command,
                    {.computed = context_.time(), .valid = true, .torque = JointVector::Zero(3)});

@@ -10,7 +10,7 @@
 #include "experiments/simulated/experiment.h"
 #include "experiments/simulated/simulated_scenario.h"
 #include "experiments/verdict/verdict.h"
-#include "plant/cash_karp.h"
+#include "plant/sundials_integrator.h"
 #include "systems/framework/recorder.h"
 #include "systems/framework/simulator.h"
 #include "systems/robot/quantity_units.h"
@@ -48,7 +48,7 @@ TEST_P(ClosedLoop, TakesNoMemoryThroughContactAndReaction) {
   const auto ticks = static_cast<std::size_t>(scenario.duration / 1ms);
   Recorder recorder(*experiment.diagram, recordable_paths(*experiment.diagram), ticks,
                     quantity_units(*scenario.robot.robot));
-  Simulator simulator(*experiment.diagram, std::make_unique<CashKarp>());
+  Simulator simulator(*experiment.diagram, std::make_unique<SundialsIntegrator>());
   simulator.record(recorder);
   Context context = experiment.diagram->make_context();
   for (int tick = 0; tick < 3; ++tick) simulator.step(context);

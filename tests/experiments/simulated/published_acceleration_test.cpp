@@ -8,8 +8,8 @@
 
 #include "experiments/simulated/experiment.h"
 #include "experiments/simulated/simulated_scenario.h"
-#include "plant/cash_karp.h"
 #include "plant/plant_truth.h"
+#include "plant/sundials_integrator.h"
 #include "systems/framework/recorded_values.h"
 #include "systems/framework/recorder.h"
 #include "systems/framework/simulator.h"
@@ -45,7 +45,7 @@ Recording run(const SimulatedScenario& scenario) {
                     {"truth", "imu", "motion", "acceleration", "acceleration_extended_imu_ekf",
                      "control/extended_imu_ekf/bias"},
                     ticks, quantity_units(*scenario.robot.robot));
-  Simulator simulator(*experiment.diagram, std::make_unique<CashKarp>());
+  Simulator simulator(*experiment.diagram, std::make_unique<SundialsIntegrator>());
   simulator.record(recorder);
   Context context = experiment.diagram->make_context();
   for (std::size_t tick = 0; tick < ticks; ++tick) simulator.step(context);

@@ -6,7 +6,7 @@
 #include "drivers/dds_server.h"
 #include "drivers/wire_header.h"
 #include "experiments/simulated/simulated_scenario.h"
-#include "plant/cash_karp.h"
+#include "plant/sundials_integrator.h"
 #include "systems/framework/diagram_builder.h"
 #include "systems/framework/realtime_runner.h"
 #include "tests/fault/link/link_trial.h"
@@ -77,7 +77,7 @@ void serve_spoilt_bench(std::uint32_t domain, const Spoilt& spoilt) {
   const DdsBus bus(bus_is);
   DdsServer server(bus, *diagram, station, settings);
   ClockTicks ticks;
-  RealtimeRunner runner(*diagram, ticks, server, std::make_unique<CashKarp>());
+  RealtimeRunner runner(*diagram, ticks, server, std::make_unique<SundialsIntegrator>());
   Context context = diagram->make_context();
   const RealtimeThread thread(loop_settings(options));
   runner.run(context);

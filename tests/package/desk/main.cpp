@@ -1,8 +1,8 @@
 #include <cstdio>
 #include <memory>
 
-#include "plant/cash_karp.h"
 #include "plant/simulated_station.h"
+#include "plant/sundials_integrator.h"
 #include "systems/framework/diagram_builder.h"
 #include "systems/framework/simulator.h"
 #include "systems/robot/planar_rrr.h"
@@ -25,7 +25,7 @@ int main() {
   Context context = diagram->make_context();
   context.set(torque, TorqueCommand{});
   context.set(brake, BrakeCommand{.engage = true});
-  Simulator(*diagram, std::make_unique<CashKarp>()).advance_to(context, 50ms);
+  Simulator(*diagram, std::make_unique<SundialsIntegrator>()).advance_to(context, 50ms);
 
   const PlatformMotion& found = context.get(station.platform_truth);
   const double way = robot->difference(found.pose, robot->home_pose()).norm();

@@ -23,6 +23,6 @@ expect(2 "${needs_plant}" serve ${scenario})
 expect(2 "nobody sends joint readings" run ${scenario} --station dds --domain 97 --patience 0.2)
 
 execute_process(COMMAND ldd ${FLINCH} OUTPUT_VARIABLE libraries COMMAND_ERROR_IS_FATAL ANY)
-if(libraries MATCHES "Bullet|LinearMath")
+if(libraries MATCHES "sundials|Bullet|LinearMath")
   message(FATAL_ERROR "${FLINCH} needs ${CMAKE_MATCH_0}")
 endif()

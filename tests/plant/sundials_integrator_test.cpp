@@ -1,4 +1,4 @@
-#include "plant/cash_karp.h"
+#include "plant/sundials_integrator.h"
 
 #include <gtest/gtest.h>
 
@@ -56,47 +56,19 @@ class Noise final : public DifferentialEquation {
   std::mt19937_64 random_{1};
 };
 
-/// y' = y, and t^power beside it: what a method of fifth order integrates exactly up to t^4.
-class Powers final : public DifferentialEquation {
- public:
-  explicit Powers(int power) : power_(power) {}
-  void rates(double t, std::span<const double> y, std::span<double> rates) override {
-    rates[0] = y[0];
-    rates[1] = std::pow(t, power_);
-  }
-
- private:
-  int power_;
+class EachTableau : public testing::TestWithParam<SundialsOptions::Tableau> {
+ protected:
+  SundialsOptions options() const { return {.tableau = GetParam()}; }
 };
 
-/// In one step, whatever its error.
-constexpr CashKarpOptions loose{.relative_tolerance = 1e6, .absolute_tolerance = 1e6};
+INSTANTIATE_TEST_SUITE_P(SundialsIntegrator, EachTableau,
+                         testing::Values(SundialsOptions::Tableau::cash_karp,
+                                         SundialsOptions::Tableau::dormand_prince));
 
-TEST(CashKarp, IsOfFifthOrder) {
-  for (int power = 0; power <= 4; ++power) {
-    Powers equation(power);
-    CashKarp integrator(loose);
-    integrator.prepare(2);
-    std::array<double, 2> y = {1.0, 0.0};
-    ASSERT_TRUE(integrator.advance(equation, 1.0, y));
-    EXPECT_EQ(integrator.evaluations(), 6);
-    EXPECT_NEAR(y[1], 1.0 / (power + 1), 1e-15) << "t^" << power;
-  }
-  const auto error = [](double step) {
-    Powers equation(0);
-    CashKarp integrator(loose);
-    integrator.prepare(2);
-    std::array<double, 2> y = {1.0, 0.0};
-    integrator.advance(equation, step, y);
-    return std::abs(y[0] - std::exp(step));
-  };
-  EXPECT_NEAR(std::log2(error(0.08) / error(0.04)), 6.0, 0.1) << "of one step";
-}
-
-TEST(CashKarp, FollowsAHarmonicOscillator) {
+TEST_P(EachTableau, FollowsAHarmonicOscillator) {
   const double omega = 2.0 * M_PI * 20.0;
   Oscillator oscillator(omega);
-  CashKarp integrator;
+  SundialsIntegrator integrator(options());
   integrator.prepare(2);
   std::array<double, 2> y = {1.0, 0.0};
   for (int k = 1; k <= 1000; ++k) {
@@ -107,13 +79,13 @@ TEST(CashKarp, FollowsAHarmonicOscillator) {
   }
 }
 
-TEST(CashKarp, TightensWithItsTolerance) {
+TEST_P(EachTableau, TightensWithItsTolerance) {
   const auto error = [&](double tolerance) {
     Oscillator oscillator(300.0);
-    CashKarpOptions tight;
+    SundialsOptions tight = options();
     tight.relative_tolerance = tolerance;
     tight.absolute_tolerance = tolerance;
-    CashKarp integrator(tight);
+    SundialsIntegrator integrator(tight);
     integrator.prepare(2);
     std::array<double, 2> y = {1.0, 0.0};
     for (int k = 0; k < 200; ++k) integrator.advance(oscillator, 1e-3, y);
@@ -124,9 +96,9 @@ TEST(CashKarp, TightensWithItsTolerance) {
   EXPECT_LT(error(1e-11), 1e-8);
 }
 
-TEST(CashKarp, FollowsABouncingBallAsTinyFixedStepsDo) {
+TEST_P(EachTableau, FollowsABouncingBallAsTinyFixedStepsDo) {
   BouncingBall ball;
-  CashKarp integrator;
+  SundialsIntegrator integrator(options());
   RungeKutta tiny(1000);
   integrator.prepare(2);
   tiny.prepare(2);
@@ -140,25 +112,25 @@ TEST(CashKarp, FollowsABouncingBallAsTinyFixedStepsDo) {
   }
 }
 
-TEST(CashKarp, TellsTheEquationTheTimeWithinTheStep) {
+TEST(SundialsIntegrator, TellsTheEquationTheTimeWithinTheStep) {
   Ramp ramp;
-  CashKarp integrator;
+  SundialsIntegrator integrator;
   integrator.prepare(1);
   std::array<double, 1> y = {0.0};
   for (int k = 0; k < 3; ++k) integrator.advance(ramp, 0.5, y);
   EXPECT_NEAR(y[0], 3.0 * 0.125, 1e-12);
 }
 
-TEST(CashKarp, RemembersNothingOfEarlierSteps) {
+TEST(SundialsIntegrator, RemembersNothingOfEarlierSteps) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> height(-0.01, 0.01);
   std::uniform_real_distribution<double> speed(-2.0, 2.0);
   BouncingBall ball;
-  CashKarp experienced;
+  SundialsIntegrator experienced;
   experienced.prepare(2);
   for (int trial = 0; trial < 300; ++trial) {
     const std::array<double, 2> start = {height(random), speed(random)};
-    CashKarp fresh;
+    SundialsIntegrator fresh;
     fresh.prepare(2);
     std::array<double, 2> a = start;
     std::array<double, 2> b = start;
@@ -168,9 +140,9 @@ TEST(CashKarp, RemembersNothingOfEarlierSteps) {
   }
 }
 
-TEST(CashKarp, DoesNotAllocateOnceStarted) {
+TEST(SundialsIntegrator, DoesNotAllocateOnceStarted) {
   BouncingBall ball;
-  CashKarp integrator;
+  SundialsIntegrator integrator;
   integrator.prepare(2);
   std::array<double, 2> y = {0.001, -1.0};
   integrator.advance(ball, 1e-3, y);
@@ -179,12 +151,14 @@ TEST(CashKarp, DoesNotAllocateOnceStarted) {
   EXPECT_EQ(counter.count(), 0);
 }
 
-TEST(CashKarp, SaysWhenItMissesItsToleranceAndStillArrives) {
+TEST(SundialsIntegrator, SaysWhenItMissesItsToleranceAndStillArrives) {
   Noise noise;
-  CashKarp integrator({.max_steps = 50});
+  SundialsIntegrator integrator({.max_steps = 50});
   integrator.prepare(1);
   std::array<double, 1> y = {0.0};
+  testing::internal::CaptureStderr();
   EXPECT_FALSE(integrator.advance(noise, 1e-3, y));
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   EXPECT_TRUE(std::isfinite(y[0]));
   EXPECT_NE(y[0], 0.0);
 
@@ -194,26 +168,27 @@ TEST(CashKarp, SaysWhenItMissesItsToleranceAndStillArrives) {
   EXPECT_NEAR(y[0], 0.5, 1e-12);
 }
 
-TEST(CashKarp, CountsRightHandSides) {
+TEST(SundialsIntegrator, CountsRightHandSides) {
   Ramp ramp;
-  CashKarp integrator;
+  SundialsIntegrator integrator;
   integrator.prepare(1);
   EXPECT_EQ(integrator.evaluations(), 0);
   std::array<double, 1> y = {0.0};
   integrator.advance(ramp, 1e-3, y);
-  EXPECT_EQ(integrator.evaluations(), 6);
+  EXPECT_GE(integrator.evaluations(), 6);
+  EXPECT_LE(integrator.evaluations(), 8);
 }
 
-TEST(CashKarp, NeedsNoStates) {
+TEST(SundialsIntegrator, NeedsNoStates) {
   Ramp ramp;
-  CashKarp integrator;
+  SundialsIntegrator integrator;
   integrator.prepare(0);
   EXPECT_TRUE(integrator.advance(ramp, 1e-3, {}));
 }
 
-TEST(CashKarp, RefusesTolerancesThatAreNotPositive) {
+TEST(SundialsIntegrator, RefusesTolerancesThatAreNotPositive) {
   try {
-    CashKarp integrator({.relative_tolerance = 0.0, .absolute_tolerance = -1.0, .max_steps = 0});
+    SundialsIntegrator integrator({.relative_tolerance = 0.0, .absolute_tolerance = -1.0, .max_steps = 0});
     FAIL();
   } catch (const SetupError& error) {
     EXPECT_EQ(error.problems().size(), 3U);

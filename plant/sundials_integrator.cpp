@@ -1,0 +1,181 @@
+#include "plant/sundials_integrator.h"
+
+#include <arkode/arkode_erkstep.h>
+#include <nvector/nvector_serial.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <sundials/sundials_context.hpp>
+#include <type_traits>
+#include <vector>
+
+#include "systems/foundation/findings.h"
+#include "systems/foundation/setup_error.h"
+#include "systems/framework/runge_kutta.h"
+
+namespace flinch {
+namespace {
+
+constexpr int fallback_steps = 200;
+constexpr int first_order_controller = 2;  // ARKODE's number of the controller that remembers no earlier step
+constexpr int max_rejected_steps = 100;
+
+// ---------------------------------------------------------------- vector operations
+// For a handful of states, SUNDIALS' own cost as much as the mathematics.
+
+double* data(N_Vector v) { return NV_CONTENT_S(v)->data; }
+std::size_t size(N_Vector v) { return static_cast<std::size_t>(NV_CONTENT_S(v)->length); }
+std::span<double> numbers(N_Vector v) { return {data(v), size(v)}; }
+
+void linear_sum(double a, N_Vector x, double b, N_Vector y, N_Vector sum) {
+  for (std::size_t i = 0; i < size(sum); ++i) data(sum)[i] = a * data(x)[i] + b * data(y)[i];
+}
+
+void scale(double factor, N_Vector x, N_Vector scaled) {
+  for (std::size_t i = 0; i < size(scaled); ++i) data(scaled)[i] = factor * data(x)[i];
+}
+
+double weighted_rms(N_Vector x, N_Vector weight) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < size(x); ++i)
+    sum += (data(x)[i] * data(weight)[i]) * (data(x)[i] * data(weight)[i]);
+  return std::sqrt(sum / static_cast<double>(size(x)));
+}
+
+// combination = sum over k of factors[k] terms[k]; one of the terms may be `combination` itself.
+int linear_combination(int count, double* factors, N_Vector* terms, N_Vector combination) {
+  for (std::size_t i = 0; i < size(combination); ++i) {
+    double sum = 0.0;
+    for (int k = 0; k < count; ++k) sum += factors[k] * data(terms[k])[i];
+    data(combination)[i] = sum;
+  }
+  return 0;
+}
+
+void use_own_operations(N_Vector v) {
+  v->ops->nvlinearsum = linear_sum;
+  v->ops->nvscale = scale;
+  v->ops->nvwrmsnorm = weighted_rms;
+  v->ops->nvlinearcombination = linear_combination;
+}
+
+void ignore_message(int, const char*, const char*, char*, void*) {}
+
+ARKODE_ERKTableID table(SundialsOptions::Tableau tableau) {
+  return tableau == SundialsOptions::Tableau::cash_karp ? ARKODE_CASH_KARP_6_4_5
+                                                        : ARKODE_DORMAND_PRINCE_7_4_5;
+}
+
+std::vector<std::string> problems(const SundialsOptions& options) {
+  Findings found;
+  found.positive("relative_tolerance", options.relative_tolerance);
+  found.positive("absolute_tolerance", options.absolute_tolerance);
+  found.positive("max_steps", options.max_steps);
+  return found.take();
+}
+
+}  // namespace
+
+/// One ARKODE solver with its vectors, for a fixed number of states.
+class SundialsIntegrator::Solver {
+ public:
+  Solver(const SundialsOptions& options, std::size_t size);
+
+  bool advance(DifferentialEquation& equation, double duration, std::span<double> y);
+  std::int64_t evaluations() const { return evaluations_; }
+
+ private:
+  static int rates(double t, N_Vector y, N_Vector rates, void* solver);
+  static int error_weights(N_Vector y, N_Vector weights, void* solver);
+  static void require(int flag);
+
+  struct Destroy {
+    void operator()(N_Vector v) const { N_VDestroy(v); }
+  };
+  struct Free {
+    void operator()(void* memory) const { ERKStepFree(&memory); }
+  };
+
+  SundialsOptions options_;
+  sundials::Context context_;  // outlives what is made with it
+  std::unique_ptr<std::remove_pointer_t<N_Vector>, Destroy> y_;
+  std::unique_ptr<void, Free> memory_;
+  DifferentialEquation* equation_ = nullptr;
+  std::int64_t evaluations_ = 0;
+  RungeKutta fallback_{fallback_steps};
+};
+
+SundialsIntegrator::Solver::Solver(const SundialsOptions& options, std::size_t size)
+    : options_(options), y_(N_VNew_Serial(static_cast<sunindextype>(size), context_)) {
+  use_own_operations(y_.get());
+  N_VConst(0.0, y_.get());
+  memory_.reset(ERKStepCreate(rates, 0.0, y_.get(), context_));
+  if (memory_ == nullptr) throw SetupError("SUNDIALS could not create an integrator");
+  void* const memory = memory_.get();
+  require(ERKStepSetErrHandlerFn(memory, ignore_message, nullptr));
+  require(ERKStepSetUserData(memory, this));
+  require(ERKStepWFtolerances(memory, error_weights));
+  require(ERKStepSetTableNum(memory, table(options.tableau)));
+  require(ERKStepSetInterpolantDegree(memory, 1));
+  require(ERKStepSetAdaptivityMethod(memory, first_order_controller, 1, 0, nullptr));
+  require(ERKStepSetMaxErrTestFails(memory, max_rejected_steps));
+  require(ERKStepSetMaxNumSteps(memory, options.max_steps));
+  fallback_.prepare(size);
+}
+
+void SundialsIntegrator::Solver::require(int flag) {
+  if (flag != ARK_SUCCESS) throw SetupError("SUNDIALS refused an option with code " + std::to_string(flag));
+}
+
+bool SundialsIntegrator::Solver::advance(DifferentialEquation& equation, double duration,
+                                         std::span<double> y) {
+  equation_ = &equation;
+  std::copy(y.begin(), y.end(), data(y_.get()));
+  double reached = 0.0;
+  void* const memory = memory_.get();
+  const bool ready = ERKStepReset(memory, 0.0, y_.get()) == ARK_SUCCESS &&
+                     ERKStepSetInitStep(memory, duration) == ARK_SUCCESS &&
+                     ERKStepSetStopTime(memory, duration) == ARK_SUCCESS;
+  if (!ready || ERKStepEvolve(memory, duration, y_.get(), &reached, ARK_NORMAL) < 0) {
+    fallback_.advance(equation, duration, y);
+    return false;
+  }
+  std::copy_n(data(y_.get()), y.size(), y.begin());
+  return true;
+}
+
+int SundialsIntegrator::Solver::rates(double t, N_Vector y, N_Vector rates, void* solver) {
+  auto& self = *static_cast<Solver*>(solver);
+  ++self.evaluations_;
+  self.equation_->rates(t, numbers(y), numbers(rates));
+  return 0;
+}
+
+int SundialsIntegrator::Solver::error_weights(N_Vector y, N_Vector weights, void* solver) {
+  const SundialsOptions& options = static_cast<Solver*>(solver)->options_;
+  for (std::size_t i = 0; i < size(y); ++i) {
+    data(weights)[i] = 1.0 / (options.relative_tolerance * std::abs(data(y)[i]) + options.absolute_tolerance);
+  }
+  return 0;
+}
+
+// ---------------------------------------------------------------- SundialsIntegrator
+
+SundialsIntegrator::SundialsIntegrator(const SundialsOptions& options) : options_(options) {
+  throw_if_any(problems(options));
+}
+
+SundialsIntegrator::~SundialsIntegrator() = default;
+
+void SundialsIntegrator::prepare(std::size_t size) {
+  solver_ = size > 0 ? std::make_unique<Solver>(options_, size) : nullptr;
+}
+
+bool SundialsIntegrator::advance(DifferentialEquation& equation, double duration, std::span<double> y) {
+  return solver_ == nullptr || solver_->advance(equation, duration, y);
+}
+
+std::int64_t SundialsIntegrator::evaluations() const { return solver_ ? solver_->evaluations() : 0; }
+
+}  // namespace flinch
