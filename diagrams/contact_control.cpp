@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "diagrams/isolation_stages.h"
+#include "diagrams/limit_keeping.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/constant.h"
 #include "systems/laws/operator_buttons.h"
@@ -80,6 +81,7 @@ struct Laws {
   ZeroGravity& zero_gravity;
   ControlledStop& stop;
   ModeSelector& selector;
+  KeptTorques kept;  ///< of the selector's torques
 };
 
 /// And whether they may leave.
@@ -141,9 +143,11 @@ OutputPort<TorqueCommand> add_yielding(const Path& path, const ReactionPorts& gi
 Laws add_laws(const Path& path, const ReactionPorts& given) {
   DiagramBuilder& builder = path.builder;
   Laws laws{path.add(path.settings.stages.nominal_laws, given),
-            path.add(path.settings.stages.reaction_laws, given), builder.add<ZeroGravity>("zero_gravity"),
+            path.add(path.settings.stages.reaction_laws, given),
+            builder.add<ZeroGravity>("zero_gravity"),
             builder.add<ControlledStop>("controlled_stop", path.robot, path.settings.controlled_stop),
-            builder.add<ModeSelector>("mode_selector", path.settings.modes)};
+            builder.add<ModeSelector>("mode_selector", path.settings.modes),
+            {}};
   builder.connect(given.kinematics, laws.zero_gravity.kinematics);
   builder.connect(given.dynamics, laws.zero_gravity.dynamics);
   builder.connect(laws.zero_gravity.torque, laws.stop.zero_gravity);
@@ -156,6 +160,7 @@ Laws add_laws(const Path& path, const ReactionPorts& given) {
   builder.connect(laws.zero_gravity.torque, laws.selector.zero_gravity);
   builder.connect(laws.nominal.port().reference, laws.selector.nominal_reference);
   builder.connect(laws.reaction.port().reference, laws.selector.reaction_reference);
+  laws.kept = add_limit_keeper({builder, "limits", path.robot, path.settings}, given, laws.selector.torque);
   return laws;
 }
 
@@ -171,10 +176,10 @@ Safety add_safety(const Path& path, const ReactionPorts& given, const Laws& laws
   builder.connect(given.detection, safety.monitor.detection);
   builder.connect(given.reaction, safety.monitor.reaction);
   builder.connect(laws.selector.reference, safety.monitor.reference);
-  builder.connect(laws.selector.torque, safety.monitor.command);
+  builder.connect(laws.kept.torque, safety.monitor.command);
 
   builder.connect(safety.monitor.faults, safety.gate.faults);
-  builder.connect(laws.selector.torque, safety.gate.command);
+  builder.connect(laws.kept.torque, safety.gate.command);
   builder.connect(laws.stop.torque, safety.gate.stop);
   builder.connect(given.reset, safety.gate.reset);
   return safety;
@@ -324,6 +329,7 @@ ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
       .reaction_state = builder.export_output("reaction_state", reaction.reaction),
       .reference = builder.export_output("reference", laws.selector.reference),
       .requested_torque = builder.export_output("requested_torque", laws.selector.torque),
+      .limits = builder.export_output("limits", laws.kept.status),
       .faults = builder.export_output("faults", safety.monitor.faults),
       .gate = builder.export_output("gate", safety.gate.status),
       .others = others};

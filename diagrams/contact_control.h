@@ -7,6 +7,7 @@
 #include "diagrams/station.h"
 #include "systems/framework/diagram_builder.h"
 #include "systems/framework/tick_timing.h"
+#include "systems/signals/limit_status.h"
 #include "systems/signals/operator_command.h"
 #include "systems/signals/target_command.h"
 
@@ -57,7 +58,8 @@ struct ContactControl {
   OutputPort<ContactLocation> location;
   OutputPort<ReactionState> reaction_state;
   OutputPort<PlatformReference> reference;     ///< that is being followed
-  OutputPort<TorqueCommand> requested_torque;  ///< what the laws ask for, before the gate
+  OutputPort<TorqueCommand> requested_torque;  ///< what the laws ask for, before limits and gate
+  OutputPort<LimitStatus> limits;
   OutputPort<FaultReport> faults;
   OutputPort<GateStatus> gate;
   OtherStages others;

@@ -42,6 +42,7 @@ void export_control(DiagramBuilder& builder, const ContactControl& control) {
   builder.export_output("reaction", control.reaction_state);
   builder.export_output("reference", control.reference);
   builder.export_output("requested_torque", control.requested_torque);
+  builder.export_output("limits", control.limits);
   builder.export_output("torque_command", control.torque_command);
   builder.export_output("brake", control.brake);
   builder.export_output("gate", control.gate);

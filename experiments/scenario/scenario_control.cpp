@@ -92,6 +92,15 @@ void read_laws(ConfigReader& control, const ParallelRobot& robot, ContactControl
   retraction.number("stiffness_share", unit::none, settings.reaction_stiffness, fraction);
   read_limits(retraction.section("limits"), settings.retraction.limits);
 
+  ConfigReader limits = control.section("limits");
+  using Use = LimitKeeperSettings::Use;
+  limits.choice("keep", settings.limits.use,
+                {{"never", Use::never}, {"after_contact", Use::after_contact}, {"always", Use::always}});
+  limits.number("max_condition_number", unit::none, settings.limits.limits.max_condition_number, positive);
+  limits.number("min_self_collision_distance", unit::m,
+                settings.limits.limits.workspace.min_self_collision_distance, not_negative);
+  limits.number("max_platform_speed", unit::m_per_s, settings.limits.max_platform_speed, positive);
+
   ConfigReader sequence = control.section("sequence");
   sequence.flag("zero_g_when_struck", settings.sequence.zero_g_when_struck);
   bool damped = settings.yielding.has_value();

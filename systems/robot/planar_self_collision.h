@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "systems/robot/planar_rrr.h"
 #include "systems/robot/task.h"
 
@@ -19,5 +21,16 @@ Task coupling_angle_task(const PlanarRrr& robot, const Kinematics& kinematics, i
 /// omega_max: the largest omega_j at which sigma_sc is `distance` [rad]; 60 degrees where it never is as
 /// large. `distance` must not be negative [m].
 double largest_coupling_angle(const PlanarRrr& robot, double distance) noexcept;
+
+/// What keeps links apart where sigma_sc follows from the coupling angles: all omega_j and the largest one at
+/// which sigma_sc is `distance` [m]. None for mechanisms without this closed form, or where it is not exact:
+/// below 0.1 m.
+struct CouplingAngles {
+  std::array<Task, max_dof> tasks;
+  int count = 0;
+  double largest = 0.0;  ///< [rad]
+};
+CouplingAngles coupling_angles(const Mechanism& mechanism, const Kinematics& kinematics,
+                               double distance) noexcept;
 
 }  // namespace flinch

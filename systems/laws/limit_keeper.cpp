@@ -1,0 +1,279 @@
+#include "systems/laws/limit_keeper.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "systems/foundation/findings.h"
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+constexpr double slack_price = 1e4;  // above every multiplier: the slack is used where nothing else is left
+constexpr double slowest_direction = 0.1;  // share of a speed limit below which it cannot bind
+constexpr std::uint32_t platform_speed_bit = 1U << 16U;
+constexpr std::uint32_t drive_speed_bit = 1U << 17U;
+
+/// How the platform accelerates under torques: dv = G tau + dv_0.
+struct Motion {
+  PlatformMatrix G;
+  PlatformVector dv_0;
+  bool valid = false;
+};
+
+Motion motion_of(const Kinematics& at, const Dynamics& model, const WrenchEstimate& pushed) {
+  Motion motion;
+  if (!at.valid || !model.valid) return motion;
+  const Eigen::LLT<PlatformMatrix> cholesky(model.M_x);
+  if (cholesky.info() != Eigen::Success) return motion;
+  motion.G = cholesky.solve(at.J_qa_x.transpose());
+  PlatformVector wrench = -(model.C_x * at.velocity + model.g_x + model.F_fr_x);
+  if (pushed.valid && pushed.wrench_in_base.size() == wrench.size()) wrench += pushed.wrench_in_base;
+  motion.dv_0 = cholesky.solve(wrench);
+  motion.valid = motion.G.allFinite() && motion.dv_0.allFinite();
+  return motion;
+}
+
+/// The programme in z = (tau / largest torque, slack), row by row.
+class Programme {
+ public:
+  Programme(const LimitKeeperSettings& settings, const Kinematics& at, const Motion& motion)
+      : settings_(settings), at_(at), motion_(motion), drives_(static_cast<int>(motion.G.cols())) {
+    programme_.C.resize(max_constraints, drives_ + 1);
+    programme_.d.resize(max_constraints);
+  }
+
+  /// gradient^T dv >= least, softened by the slack; `scale`: an acceleration by which both are counted.
+  /// Positive where the drives can do anything about it.
+  void accelerate(const PlatformVector& gradient, double least, std::uint32_t name) {
+    const JointVector by_torque = gradient.transpose() * motion_.G;
+    const double reach = settings_.max_torque * by_torque.lpNorm<1>();
+    if (!(reach > 0.0)) return;
+    auto row = programme_.C.row(rows_);
+    row.head(drives_) = settings_.max_torque / reach * by_torque.transpose();
+    row[drives_] = 1.0;
+    programme_.d[rows_] = (least - gradient.dot(motion_.dv_0)) / reach;
+    names_[static_cast<std::size_t>(rows_++)] = name;
+  }
+
+  void add_barrier(const Barrier& barrier, double excess) {
+    const double h = barrier.room + excess;
+    const double dh = barrier.gradient.dot(at_.velocity);
+    const double a = settings_.braking.of(barrier.kind) * settings_.max_torque *
+                     (barrier.gradient.transpose() * motion_.G).lpNorm<1>();
+    if (!(a > 0.0)) return;
+    const double c = a / settings_.approach;
+    const double root = std::sqrt(c * c + 2.0 * a * std::max(h, 0.0));
+    const double alpha = h > 0.0 ? root - c : settings_.approach * h;
+    const double slope = h > 0.0 ? a / root : settings_.approach;
+    accelerate(barrier.gradient, -slope * dh - settings_.correction * (dh + alpha) - barrier.drift,
+               1U << static_cast<unsigned>(barrier.kind));
+  }
+
+  void add_speeds() {
+    if (std::isfinite(settings_.max_platform_speed)) {
+      PlatformVector direction = at_.velocity;
+      direction.tail(direction.size() - at_.legs[0].base_joint.size()).setZero();
+      const double speed = direction.norm();
+      if (speed > slowest_direction * settings_.max_platform_speed) {
+        accelerate(-direction / speed, -settings_.speed_rate * (settings_.max_platform_speed - speed),
+                   platform_speed_bit);
+      }
+    }
+    if (!std::isfinite(settings_.max_drive_speed)) return;
+    const PlatformVector drift = at_.dJ_qa_x * at_.velocity;
+    for (int i = 0; i < drives_; ++i) {
+      const double rate = at_.rates.active[i];
+      if (std::abs(rate) < slowest_direction * settings_.max_drive_speed) continue;
+      const double sign = rate > 0.0 ? 1.0 : -1.0;
+      const double room = settings_.max_drive_speed - std::abs(rate);
+      accelerate(-sign * at_.J_qa_x.row(i).transpose(), sign * drift[i] - settings_.speed_rate * room,
+                 drive_speed_bit);
+    }
+  }
+
+  /// Torques between two bounds, which leave no slack, and a slack that is not negative.
+  void add_bounds(const JointVector& least, const JointVector& most) {
+    for (int i = 0; i < drives_; ++i) {
+      bound(i, 1.0, least[i] / settings_.max_torque);
+      bound(i, -1.0, -most[i] / settings_.max_torque);
+    }
+    bound(drives_, 1.0, 0.0);
+  }
+
+  /// H = J_qa,x M^-1 J_qa,x^T of the torques, counted by its mean.
+  ProgrammeSolution solve_near(const JointVector& wanted, ProgrammeVector& z_r) {
+    programme_.C.conservativeResize(rows_, drives_ + 1);
+    programme_.d.conservativeResize(rows_);
+    z_r.resize(drives_ + 1);
+    z_r << wanted / settings_.max_torque, 0.0;
+    if ((programme_.C * z_r - programme_.d).minCoeff() >= 0.0)
+      return {.status = ProgrammeSolution::Status::solved, .z = z_r, .multipliers = {}, .steps = 0};
+    const PlatformMatrix H = at_.J_qa_x * motion_.G;
+    const double mean = H.trace() / drives_;
+    programme_.H.setZero(drives_ + 1, drives_ + 1);
+    programme_.H.topLeftCorner(drives_, drives_) = 0.5 / mean * (H + H.transpose());
+    programme_.H.diagonal().array() += 1e-6;
+    programme_.H(drives_, drives_) = 1.0;
+    programme_.f = -programme_.H * z_r;
+    programme_.f[drives_] = slack_price;
+    return solve(programme_);
+  }
+
+  std::uint32_t binding(const ProgrammeSolution& solution) const {
+    std::uint32_t mask = 0;
+    for (int i = 0; i < solution.multipliers.size(); ++i) {
+      if (solution.multipliers[i] > 0.0) mask |= names_[static_cast<std::size_t>(i)];
+    }
+    return mask;
+  }
+
+ private:
+  void bound(int variable, double sign, double least) {
+    programme_.C.row(rows_).setZero();
+    programme_.C(rows_, variable) = sign;
+    programme_.d[rows_] = least;
+    names_[static_cast<std::size_t>(rows_++)] = 0;
+  }
+
+  const LimitKeeperSettings& settings_;
+  const Kinematics& at_;
+  const Motion& motion_;
+  int drives_;
+  int rows_ = 0;
+  std::array<std::uint32_t, max_constraints> names_{};
+  QuadraticProgramme programme_;
+};
+
+std::vector<std::string> problems(const LimitKeeperSettings& settings, const ParallelRobot& robot) {
+  Findings found("limits: ");
+  found.add_all(problems(settings.limits.workspace, robot));
+  found.require(settings.max_platform_speed > 0, "max_platform_speed must be positive");
+  found.require(settings.max_drive_speed > 0, "max_drive_speed must be positive");
+  found.require(settings.max_torque > 0, "max_torque must be positive");
+  found.require(settings.max_torque_rate > 0, "max_torque_rate must be positive");
+  for (int kind = 0; kind <= static_cast<int>(BarrierKind::drive_range); ++kind) {
+    const double share = settings.braking.of(static_cast<BarrierKind>(kind));
+    found.require(share > 0 && share <= 1, "braking shares must be above 0 and at most 1");
+  }
+  found.require(settings.approach > 0 && settings.correction > 0 && settings.speed_rate > 0,
+                "approach, correction and speed_rate must be positive");
+  Kinematics home;
+  robot.kinematics(robot.home_pose(), PlatformVector::Zero(robot.dof()), home);
+  BarrierList barriers;
+  evaluate_barriers(robot, home, settings.limits, settings.margins, barriers);
+  bool inside = barriers.valid;
+  for (int i = 0; i < barriers.count; ++i) inside = inside && barriers[i].room > 0.0;
+  found.require(inside, "the home pose is not within them, by their margins");
+  return found.take();
+}
+
+/// Limits are opened as far as the robot stood beyond them when keeping began, and close behind it.
+void follow_excess(const BarrierList& barriers, bool begins, std::array<double, BarrierList::most>& excess) {
+  for (int i = 0; i < barriers.count; ++i) {
+    double& open = excess[static_cast<std::size_t>(i)];
+    const double beyond = std::max(0.0, -barriers[i].room);
+    open = begins ? beyond : std::min(open, beyond);
+  }
+}
+
+/// What torques may be after those of the tick before.
+struct TorqueRange {
+  JointVector least, most;
+};
+
+TorqueRange range_after(const TorqueCommand& before, Time now, int drives,
+                        const LimitKeeperSettings& settings) {
+  const JointVector whole = JointVector::Constant(drives, settings.max_torque);
+  TorqueRange range{-whole, whole};
+  if (!before.valid || before.torque.size() != drives || !before.torque.allFinite()) return range;
+  const JointVector from = before.torque.cwiseMin(whole).cwiseMax(-whole);
+  const double change = settings.max_torque_rate * to_seconds(now - before.computed);
+  range.least = (from.array() - change).matrix().cwiseMax(-whole);
+  range.most = (from.array() + change).matrix().cwiseMin(whole);
+  return range;
+}
+
+}  // namespace
+
+double BrakingShares::of(BarrierKind kind) const {
+  switch (kind) {
+    case BarrierKind::condition_number:
+      return condition_number;
+    case BarrierKind::type_1_singularity:
+    case BarrierKind::type_2_singularity:
+      return singularity;
+    case BarrierKind::self_collision:
+      return self_collision;
+    case BarrierKind::distance:
+      return distance;
+    case BarrierKind::rotation:
+      return rotation;
+    case BarrierKind::drive_range:
+      break;
+  }
+  return drive_range;
+}
+
+LimitKeeper::LimitKeeper(std::shared_ptr<const ParallelRobot> robot, const LimitKeeperSettings& settings)
+    : robot_(std::move(robot)), settings_(settings) {
+  throw_if_any(problems(settings, *robot_));
+}
+
+bool LimitKeeper::keeps_in(ReactionMode mode) const {
+  switch (mode) {
+    case ReactionMode::nominal:
+      return settings_.use == LimitKeeperSettings::Use::always;
+    case ReactionMode::react:
+    case ReactionMode::hold:
+    case ReactionMode::zero_g:
+      return settings_.use != LimitKeeperSettings::Use::never;
+    case ReactionMode::stopped:
+    case ReactionMode::recover:
+      break;
+  }
+  return false;
+}
+
+void LimitKeeper::keep_within(Time now, const Result& last, const TorqueCommand& wanted,
+                              const ReactionState& state, const Kinematics& at, const Dynamics& model,
+                              const WrenchEstimate& pushed, Result& result) const {
+  result.memory = last.memory;
+  result.memory.torque = wanted;
+  result.memory.keeping = false;
+  result.status = {.keeping = keeps_in(state.mode)};
+  const bool is_usable =
+      wanted.valid && wanted.torque.size() == robot_->drives() && wanted.torque.allFinite();
+  if (!result.status.keeping || !is_usable) return;
+  const Motion motion = motion_of(at, model, pushed);
+  BarrierList barriers;
+  if (motion.valid) evaluate_barriers(*robot_, at, settings_.limits, settings_.margins, barriers);
+  if (!barriers.valid) return;
+  result.memory.keeping = true;
+  follow_excess(barriers, !last.memory.keeping, result.memory.excess);
+
+  Programme programme(settings_, at, motion);
+  for (int i = 0; i < barriers.count; ++i)
+    programme.add_barrier(barriers[i], result.memory.excess[static_cast<std::size_t>(i)]);
+  programme.add_speeds();
+  const TorqueRange range = range_after(last.memory.torque, now, robot_->drives(), settings_);
+  programme.add_bounds(range.least, range.most);
+
+  ProgrammeVector z_r;
+  const ProgrammeSolution solution = programme.solve_near(wanted.torque, z_r);
+  result.status.steps = solution.steps;
+  result.status.valid = solution.solved();
+  if (solution.steps == 0) return;
+  const JointVector found = settings_.max_torque * solution.z.head(robot_->drives());
+  if (!found.allFinite()) return;
+  result.memory.torque.torque = found.cwiseMin(range.most).cwiseMax(range.least);
+  result.status.binding = programme.binding(solution);
+  result.status.slack = std::max(0.0, solution.z[robot_->drives()]);
+  result.status.correction = (found - wanted.torque).lpNorm<Eigen::Infinity>();
+}
+
+}  // namespace flinch

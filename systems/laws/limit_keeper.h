@@ -1,0 +1,118 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <memory>
+
+#include "systems/framework/system.h"
+#include "systems/robot/motion_barriers.h"
+#include "systems/robot/parallel_robot.h"
+#include "systems/robot/quadratic_programme.h"
+#include "systems/signals/limit_status.h"
+#include "systems/signals/reaction_state.h"
+#include "systems/signals/torque_command.h"
+#include "systems/signals/wrench_estimate.h"
+
+namespace flinch {
+
+/// Shares of the largest acceleration of which all drives together are capable here, by which the robot
+/// counts on braking before a limit. Rotation and coupling angles get small ones: the platform's own inertia
+/// is so small that the drives could turn it at speeds at which nothing but braking is left. (Found by trial.)
+struct BrakingShares {
+  double condition_number = 0.5;
+  double singularity = 0.4;
+  double self_collision = 0.25;
+  double distance = 0.4;
+  double rotation = 0.06;
+  double drive_range = 0.5;
+
+  double of(BarrierKind kind) const;
+};
+
+struct LimitKeeperSettings {
+  enum class Use : std::uint8_t {
+    never,
+    after_contact,  ///< in the modes react, hold and zero_g
+    always,         ///< in the mode nominal too
+  };
+  Use use = Use::after_contact;
+
+  PlaceLimits limits;  ///< where the robot is kept
+  LimitMargins margins;
+  double max_platform_speed = std::numeric_limits<double>::infinity();  ///< of its origin [m/s]
+  double max_drive_speed = std::numeric_limits<double>::infinity();     ///< [rad/s or m/s]
+  double max_torque = 100.0;                                            ///< of a drive [Nm or N]
+  double max_torque_rate = 20e3;                                        ///< [Nm/s or N/s]
+
+  BrakingShares braking;
+  double approach = 100.0;    ///< gamma: how fast a limit may be approached, for each unit of room [1/s]
+  double correction = 300.0;  ///< a_2: how fast a speed towards a limit comes down to that [1/s]
+  double speed_rate = 100.0;  ///< how fast a speed comes down to its limit [1/s]
+};
+
+/// Keeps torques within the robot's limits: those torques that change the motion least, by Gauss's measure of
+/// constraint,
+///
+///   minimise (dv - dv_r)^T M_x (dv - dv_r)   of   dv = M_x^-1 (J_qa,x^T tau - b + F_ext),
+///
+/// where dv_r follows from the torques that a law requests, so that each barrier h of the limits (see
+/// motion_barriers.h) stays positive, by
+///
+///   ddh + alpha'(h) dh + a_2 (dh + alpha(h)) >= 0,   alpha(h) = sqrt(c^2 + 2 a h) - c,   c = a / gamma,
+///
+/// with the acceleration a towards which the drives can brake: whatever h, no more than that is asked for.
+/// Speeds and torques have limits too. Where the limits ask for more than the drives have, they are exceeded
+/// as little as possible. Where nothing binds, the requested torques are handed on as they are. (Derived.)
+///
+/// Who stands outside of a limit when keeping begins is not driven back inside, but gets no further out.
+/// Without a model the request is handed on and the status is not valid.
+class LimitKeeper final : public System {
+ public:
+  /// What is kept from tick to tick.
+  struct Memory {
+    bool keeping = false;
+    TorqueCommand torque;                            ///< handed on
+    std::array<double, BarrierList::most> excess{};  ///< by how much each limit is opened
+  };
+  /// All that is found at a tick.
+  struct Result {
+    Memory memory;
+    LimitStatus status;
+  };
+
+ private:
+  State<Result> last_ = state<Result>("last");
+
+ public:
+  /// Throws SetupError for settings that are not positive, and for limits that the home pose exceeds.
+  LimitKeeper(std::shared_ptr<const ParallelRobot> robot, const LimitKeeperSettings& settings);
+
+  InputPort<TorqueCommand> request = input<TorqueCommand>("request");
+  InputPort<ReactionState> reaction = input<ReactionState>("reaction");
+  InputPort<Kinematics> kinematics = input<Kinematics>("kinematics");  ///< with a velocity that hardly lags
+  InputPort<Dynamics> dynamics = input<Dynamics>("dynamics");
+  InputPort<WrenchEstimate> disturbance = input<WrenchEstimate>("disturbance");  ///< that hardly lags either
+
+ private:
+  Intermediate<Result> result_ = intermediate<&LimitKeeper::keep_within>(
+      "result", clock, last_, request, reaction, kinematics, dynamics, disturbance);
+
+ public:
+  OutputPort<TorqueCommand> torque = output<&LimitKeeper::torque_of>("torque", result_);
+  OutputPort<LimitStatus> status = output<&LimitKeeper::status_of>("status", result_);
+
+ private:
+  Update remember_ = keep(last_, result_);
+
+  void keep_within(Time now, const Result& last, const TorqueCommand& wanted, const ReactionState& state,
+                   const Kinematics& at, const Dynamics& model, const WrenchEstimate& pushed,
+                   Result& result) const;
+  bool keeps_in(ReactionMode mode) const;
+  TorqueCommand torque_of(const Result& result) const { return result.memory.torque; }
+  LimitStatus status_of(const Result& result) const { return result.status; }
+
+  std::shared_ptr<const ParallelRobot> robot_;
+  LimitKeeperSettings settings_;
+};
+
+}  // namespace flinch

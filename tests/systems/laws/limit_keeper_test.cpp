@@ -1,0 +1,282 @@
+#include "systems/laws/limit_keeper.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "systems/foundation/setup_error.h"
+#include "systems/framework/diagram_builder.h"
+#include "systems/robot/forward_dynamics.h"
+#include "systems/robot/link_segments.h"
+#include "tests/support/allocations.h"
+#include "tests/support/planar_bench.h"
+#include "tests/support/ticking.h"
+
+namespace flinch {
+namespace {
+
+using enum ReactionMode;
+using Use = LimitKeeperSettings::Use;
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+LimitKeeperSettings always() {
+  LimitKeeperSettings settings;
+  settings.use = Use::always;
+  return settings;
+}
+
+/// Those of [SafePR] and of the bench.
+LimitKeeperSettings strict_settings() {
+  LimitKeeperSettings settings = always();
+  settings.limits.workspace = {.centre = {},
+                               .max_distance = 0.3,
+                               .max_rotation = 25.0 * degree,
+                               .min_abs_det_A = 0.2,
+                               .min_abs_det_B = 0.15,
+                               .min_self_collision_distance = 0.12,
+                               .min_active = -35.0 * degree,
+                               .max_active = 150.0 * degree};
+  settings.limits.max_condition_number = 15.0;
+  settings.max_platform_speed = 2.1;
+  settings.max_drive_speed = 7.6;
+  settings.max_torque_rate = 100e3;  // a limit that asks for more than the rate lets through needs slack
+  return settings;
+}
+
+/// A keeper before a robot that does what its model says.
+struct Kept {
+  explicit Kept(const LimitKeeperSettings& settings)
+      : block(builder.add<LimitKeeper>("limits", robot, settings)),
+        request(builder.export_input("request", block.request)),
+        reaction(builder.export_input("reaction", block.reaction)),
+        kinematics(builder.export_input("kinematics", block.kinematics)),
+        dynamics(builder.export_input("dynamics", block.dynamics)),
+        disturbance(builder.export_input("disturbance", block.disturbance)) {
+    ticking.set(reaction, ReactionState{nominal, stopped, {}});
+  }
+
+  void stand_at(const PlatformVector& where, const PlatformVector& moving) {
+    pose = where, velocity = moving;
+  }
+
+  const TorqueCommand& ask(const JointVector& torque) {
+    Kinematics k;
+    Dynamics d;
+    robot->kinematics(pose, velocity, k);
+    robot->dynamics(k, d);
+    ticking.set(kinematics, k);
+    ticking.set(dynamics, d);
+    WrenchEstimate pushed;
+    pushed.valid = true;
+    pushed.wrench_in_base = push;
+    ticking.set(disturbance, pushed);
+    ticking.set(request, TorqueCommand{.computed = ticking.now(), .valid = true, .torque = torque});
+    ticking.tick();
+    return ticking.get(block.torque);
+  }
+
+  /// A millisecond under the torques that are handed on, by the rule of Runge and Kutta.
+  void move(const JointVector& torque) {
+    const JointVector held = ask(torque).torque;
+    constexpr double T = 1e-3;
+    const auto slope = [&](const Eigen::Matrix<double, 6, 1>& x) {
+      Kinematics k;
+      Dynamics d;
+      robot->kinematics(x.head<3>(), x.tail<3>(), k);
+      robot->dynamics(k, d);
+      Eigen::Matrix<double, 6, 1> dx;
+      dx << x.tail<3>(), *forward_dynamics(k, d, held, push);
+      return dx;
+    };
+    Eigen::Matrix<double, 6, 1> x;
+    x << pose, velocity;
+    const auto k1 = slope(x);
+    const auto k2 = slope(x + 0.5 * T * k1);
+    const auto k3 = slope(x + 0.5 * T * k2);
+    const auto k4 = slope(x + T * k3);
+    x += T / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+    pose = x.head<3>();
+    velocity = x.tail<3>();
+  }
+
+  Kinematics now() const {
+    Kinematics k;
+    robot->kinematics(pose, velocity, k);
+    return k;
+  }
+
+  std::shared_ptr<const PlanarRrr> robot = test::planar_bench();
+  DiagramBuilder builder;
+  LimitKeeper& block;
+  InputPort<TorqueCommand> request;
+  InputPort<ReactionState> reaction;
+  InputPort<Kinematics> kinematics;
+  InputPort<Dynamics> dynamics;
+  InputPort<WrenchEstimate> disturbance;
+  test::Ticking ticking{builder};
+  PlatformVector pose = PlatformVector::Zero(3);
+  PlatformVector velocity = PlatformVector::Zero(3);
+  PlatformVector push = PlatformVector::Zero(3);
+};
+
+bool equal(const JointVector& a, const JointVector& b) { return a == b; }
+
+TEST(LimitKeeper, HandsOnARequestThatBreaksNoLimitBitForBit) {
+  Kept kept(strict_settings());
+  const Eigen::Vector3d torque(1.0 / 3.0, -2.0, 0.7);
+  EXPECT_TRUE(equal(kept.ask(torque).torque, torque));
+  const LimitStatus& status = kept.ticking.get(kept.block.status);
+  EXPECT_TRUE(status.keeping && status.valid);
+  EXPECT_EQ(status.steps, 0);
+}
+
+TEST(LimitKeeper, KeepsEveryLimitWhateverIsAsked) {
+  const LimitKeeperSettings settings = strict_settings();
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  double sigma_kappa = 0.0, sigma_sc = 1.0, distance = 0.0, rotation = 0.0, speed = 0.0, slack = 0.0;
+  int most_steps = 0, bound = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    Kept kept(settings);
+    kept.stand_at(Eigen::Vector3d(0.08 * unit(random), 0.08 * unit(random), 0.1 * unit(random)),
+                  Eigen::Vector3d(unit(random), unit(random), unit(random)));
+    Eigen::Vector3d torque;
+    for (int tick = 0; tick < 600; ++tick) {
+      if (tick % 150 == 0) torque = 100.0 * Eigen::Vector3d(unit(random), unit(random), unit(random));
+      kept.move(torque);
+      const Kinematics k = kept.now();
+      ASSERT_TRUE(k.valid);
+      const LimitStatus& status = kept.ticking.get(kept.block.status);
+      ASSERT_TRUE(status.valid);
+      sigma_kappa = std::max(sigma_kappa, k.sigma_kappa);
+      sigma_sc = std::min(sigma_sc, self_collision_distance(*kept.robot, k));
+      distance = std::max(distance, kept.pose.head<2>().norm());
+      rotation = std::max(rotation, std::abs(kept.pose[2]));
+      speed = std::max(speed, kept.velocity.head<2>().norm());
+      slack = std::max(slack, status.slack);
+      most_steps = std::max(most_steps, status.steps);
+      bound += status.binding != 0 ? 1 : 0;
+    }
+  }
+  RecordProperty("most_steps", most_steps);
+  EXPECT_GT(bound, 1000) << "the limits were reached";
+  EXPECT_LT(sigma_kappa, 15.0);
+  EXPECT_GT(sigma_sc, 0.12);
+  EXPECT_LT(distance, 0.3);
+  EXPECT_LT(rotation, 25.0 * degree);
+  EXPECT_LT(speed, 1.01 * 2.1) << "the torque is held for a tick";
+  EXPECT_LT(slack, 1e-9);
+  EXPECT_LE(most_steps, 20);
+}
+
+TEST(LimitKeeper, ChangesTheMotionAsAFrictionlessWallDoes) {
+  // At the border, pressed outwards: the force of the limit has no share along it.
+  LimitKeeperSettings settings = always();
+  settings.limits.workspace.max_distance = 0.2;
+  Kept kept(settings);
+  kept.stand_at(Eigen::Vector3d(0.2 - settings.margins.distance, 0.0, 0.0), Eigen::Vector3d::Zero());
+  const Eigen::Matrix3d J_T = kept.now().J_qa_x.transpose();
+  const Eigen::Vector3d outwards(20.0, 10.0, 0.3);
+  const JointVector wanted = J_T.inverse() * outwards;
+  const Eigen::Vector3d force = J_T * kept.ask(wanted).torque - outwards;
+  EXPECT_LT(force[0], -1.0);
+  EXPECT_NEAR(force[1], 0.0, 1e-4 * std::abs(force[0]));
+  EXPECT_NEAR(force[2], 0.0, 1e-4 * std::abs(force[0]));
+}
+
+TEST(LimitKeeper, HoldsAgainstWhatPushesTheRobotOut) {
+  LimitKeeperSettings settings = always();
+  settings.limits.workspace.max_distance = 0.2;
+  Kept kept(settings);
+  kept.push = Eigen::Vector3d(40.0, 0.0, 0.0);
+  for (int tick = 0; tick < 1000; ++tick) kept.move(-20.0 * kept.now().rates.active);
+  EXPECT_LT(kept.pose.head<2>().norm(), 0.2);
+  EXPECT_GT(kept.pose.head<2>().norm(), 0.19);
+  EXPECT_LT(std::abs(kept.velocity[0]), 5e-3);
+}
+
+TEST(LimitKeeper, LetsARobotThatStandsOutsideStayWhereItIsAndGetNoFurther) {
+  LimitKeeperSettings settings = always();
+  settings.limits.workspace.max_distance = 0.2;
+  Kept kept(settings);
+  kept.stand_at(Eigen::Vector3d(0.25, 0.0, 0.0), Eigen::Vector3d::Zero());
+  for (int tick = 0; tick < 300; ++tick) kept.move(Eigen::Vector3d::Zero());
+  EXPECT_NEAR(kept.pose[0], 0.25, 1e-9);
+  kept.push = Eigen::Vector3d(40.0, 0.0, 0.0);
+  for (int tick = 0; tick < 300; ++tick) kept.move(-20.0 * kept.now().rates.active);
+  EXPECT_LT(kept.pose[0], 0.2505);
+  kept.push = Eigen::Vector3d(-40.0, 0.0, 0.0);
+  for (int tick = 0; tick < 100; ++tick) kept.move(-20.0 * kept.now().rates.active);
+  const double further_in = kept.pose[0];
+  EXPECT_LT(further_in, 0.245);
+  kept.push = Eigen::Vector3d(40.0, 0.0, 0.0);
+  for (int tick = 0; tick < 300; ++tick) kept.move(-20.0 * kept.now().rates.active);
+  EXPECT_LT(kept.pose[0], std::max(further_in, 0.2) + 1e-3) << "the limit has closed behind it";
+}
+
+TEST(LimitKeeper, BoundsTorquesAndTheirRates) {
+  LimitKeeperSettings settings = always();
+  settings.max_torque = 50.0;
+  settings.max_torque_rate = 10e3;
+  Kept kept(settings);
+  kept.ask(Eigen::Vector3d::Zero());
+  EXPECT_TRUE(
+      kept.ask(Eigen::Vector3d(80.0, -80.0, 5.0)).torque.isApprox(Eigen::Vector3d(10.0, -10.0, 5.0), 1e-6));
+  for (int tick = 0; tick < 10; ++tick) kept.ask(Eigen::Vector3d(80.0, -80.0, 5.0));
+  EXPECT_LE(kept.ticking.get(kept.block.torque).torque.lpNorm<Eigen::Infinity>(), 50.0);
+}
+
+TEST(LimitKeeper, KeepsLimitsInTheModesThatItIsAskedTo) {
+  const auto keeps = [](Use use, ReactionMode mode) {
+    LimitKeeperSettings settings = strict_settings();
+    settings.use = use;
+    Kept kept(settings);
+    kept.ticking.set(kept.reaction, ReactionState{mode, stopped, {}});
+    kept.ask(Eigen::Vector3d::Zero());
+    return kept.ticking.get(kept.block.status).keeping;
+  };
+  for (const ReactionMode mode : {react, hold, zero_g}) {
+    EXPECT_FALSE(keeps(Use::never, mode));
+    EXPECT_TRUE(keeps(Use::after_contact, mode));
+    EXPECT_TRUE(keeps(Use::always, mode));
+  }
+  EXPECT_FALSE(keeps(Use::after_contact, nominal));
+  EXPECT_TRUE(keeps(Use::always, nominal));
+  EXPECT_FALSE(keeps(Use::always, recover));
+  EXPECT_FALSE(keeps(Use::always, stopped));
+}
+
+TEST(LimitKeeper, HandsOnTheRequestWithoutAModel) {
+  Kept kept(strict_settings());
+  const Eigen::Vector3d torque(90.0, -90.0, 90.0);
+  kept.stand_at(Eigen::Vector3d(5.0, 0.0, 0.0), Eigen::Vector3d::Zero());
+  EXPECT_TRUE(equal(kept.ask(torque).torque, torque));
+  EXPECT_TRUE(kept.ticking.get(kept.block.status).keeping);
+  EXPECT_FALSE(kept.ticking.get(kept.block.status).valid);
+}
+
+TEST(LimitKeeper, NeverAllocates) {
+  Kept kept(strict_settings());
+  kept.stand_at(Eigen::Vector3d(0.28, 0.0, 0.0), Eigen::Vector3d(1.5, 0.0, 0.0));
+  kept.ask(Eigen::Vector3d(90.0, -90.0, 90.0));
+  const test::AllocationCounter counter;
+  kept.ticking.tick();
+  EXPECT_EQ(counter.count(), 0);
+  EXPECT_GT(kept.ticking.get(kept.block.status).steps, 0);
+}
+
+TEST(LimitKeeper, RefusesLimitsThatTheHomePoseExceeds) {
+  LimitKeeperSettings settings = strict_settings();
+  settings.limits.max_condition_number = 2.0;
+  EXPECT_THROW(LimitKeeper(test::planar_bench(), settings), SetupError);
+  settings = strict_settings();
+  settings.braking.distance = 0.0;
+  EXPECT_THROW(LimitKeeper(test::planar_bench(), settings), SetupError);
+}
+
+}  // namespace
+}  // namespace flinch
