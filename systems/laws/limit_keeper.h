@@ -16,8 +16,8 @@
 namespace flinch {
 
 /// Shares of the largest acceleration of which all drives together are capable here, by which the robot
-/// counts on braking before a limit. Rotation and coupling angles get small ones: the platform's own inertia
-/// is so small that the drives could turn it at speeds at which nothing but braking is left. (Found by trial.)
+/// counts on braking before a limit. Rotation and coupling angles get small ones: a platform has so little
+/// inertia that the drives could turn it at speeds at which nothing but braking is left. (Found by trial.)
 struct BrakingShares {
   double condition_number = 0.5;
   double singularity = 0.4;

@@ -1,0 +1,88 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "tests/diagrams/contact_bench.h"
+
+namespace flinch {
+namespace {
+
+using enum ReactionMode;
+using test::Bench;
+using test::encoder_noise;
+using test::Experiment;
+
+/// The robot passes by anywhere, is struck, and ends up somewhere.
+class Struck : public testing::TestWithParam<LimitKeeperSettings::Use> {
+ protected:
+  static Experiment experiment(std::mt19937& random) {
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    Experiment experiment;
+    experiment.friction = BenchFriction::test_bench;
+    experiment.station.encoder_noise = encoder_noise;
+    const double direction = std::numbers::pi * unit(random);
+    const PlanarRrr robot(bench_robot(BenchGeometry::individual, experiment.friction));
+    const Passage passing =
+        passage(robot, {.pose = Eigen::Vector3d(0.12 * unit(random), 0.12 * unit(random), 0.2 * unit(random)),
+                        .direction = Eigen::Vector2d(std::cos(direction), std::sin(direction)),
+                        .speed = 0.8 + 0.6 * unit(random),
+                        .cruise = 0.05});
+    experiment.station.pose = passing.path.start();
+    experiment.control.trajectory.path = passing.path;
+    experiment.control.trajectory.start = 300ms;
+    experiment.control.limits.use = GetParam();
+    experiment.control.limits.limits.workspace = experiment.control.faults.workspace;
+    return experiment;
+  }
+
+  /// A push of up to 250 N for 40 ms, which begins on the way.
+  static void strike(Bench& bench, std::mt19937& random) {
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    bench.run(350ms + Time(static_cast<std::int64_t>(1e8 * std::abs(unit(random)))));
+    bench.push(Eigen::Vector3d(250.0 * unit(random), 250.0 * unit(random), 10.0 * unit(random)));
+    bench.run(40ms);
+    bench.push(PlatformVector());
+    bench.run(800ms);
+  }
+
+  /// What the operator does, whatever has happened: reset; where the gate then is recovering, a target
+  /// inside, which it reaches slowly; and home. Docs: faults.md, "After a reaction".
+  static void bring_home(Bench& bench) {
+    const Eigen::Vector3d home = Eigen::Vector3d::Zero();
+    bench.reset();
+    bench.tick();
+    if (bench.state().mode == recover) {
+      bench.go_to(home);
+      for (int k = 0; k < 12'000 && bench.state().mode == recover; ++k) bench.tick();
+    }
+    bench.run(10ms);
+    bench.go_to(home);
+    bench.run(8s);
+  }
+};
+INSTANTIATE_TEST_SUITE_P(OperatorRecovery, Struck,
+                         testing::Values(LimitKeeperSettings::Use::never,
+                                         LimitKeeperSettings::Use::after_contact));
+
+TEST_P(Struck, IsBroughtHomeByOneSequenceFromWhereverItEnds) {
+  std::mt19937 random(11);
+  int floated = 0, held = 0, closed = 0;
+  for (int trial = 0; trial < 25; ++trial) {
+    Bench bench(experiment(random));
+    strike(bench, random);
+    floated += bench.state().mode == zero_g ? 1 : 0;
+    held += bench.state().mode == hold ? 1 : 0;
+    closed += bench.gate().phase == GatePhase::closed ? 1 : 0;
+    bring_home(bench);
+    EXPECT_EQ(bench.gate().phase, GatePhase::open) << trial;
+    EXPECT_EQ(bench.state().mode, nominal) << trial;
+    EXPECT_LT(bench.pose().norm(), 2e-3) << trial;
+  }
+  std::printf("  %d in zero gravity, %d held, %d stopped by the gate\n", floated, held, closed);
+  EXPECT_GT(floated, 5);
+}
+
+}  // namespace
+}  // namespace flinch
