@@ -41,6 +41,9 @@ ReportContact report_contact(const ContactVerdict& contact, const std::vector<Sc
   row.object = object_of(contact, obstacles);
   row.start = contact.onset;
   row.detected = contact.detected;
+  if (contact.detected_by.size() > 1) {
+    for (const DetectionBy& by : contact.detected_by) row.detected_by.emplace_back(by.estimator, by.detected);
+  }
   row.removed = contact.removed;
   row.speed = contact.speed;
   row.peak_force = contact.peak_force;

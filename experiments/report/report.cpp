@@ -10,8 +10,18 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-const Names charts{"contact_force",     "force",  "moment",      "speed",   "position_error",
-                   "orientation_error", "torque", "sigma_kappa", "sigma_sc"};
+const Names charts{"contact_force",
+                   "force",
+                   "moment",
+                   "force_by_estimator",
+                   "moment_by_estimator",
+                   "speed",
+                   "position_error",
+                   "orientation_error",
+                   "torque",
+                   "sigma_kappa",
+                   "sigma_sc"};
+constexpr int most_estimators = 16;
 
 Names column_names() {
   Names names{"pose_x",   "pose_y",       "pose_z", "pose_phi",       "pose_qw",           "pose_qx",
@@ -30,6 +40,10 @@ Names column_names() {
     names.push_back(wrench + "moment");
   }
   add("isolated_");
+  for (int i = 1; i <= most_estimators; ++i) {
+    for (const std::string part : {"_force", "_moment"})
+      names.push_back("estimator_" + std::to_string(i) + part);
+  }
   for (int obstacle = 1; obstacle <= 8; ++obstacle) add("obstacle_" + std::to_string(obstacle) + "_");
   for (int leg = 1; leg <= 6; ++leg) {
     add("elbow_" + std::to_string(leg) + "_");

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace flinch {
@@ -15,15 +16,17 @@ using ReportPoint = std::array<double, 3>;
 /// One contact of an experiment, from the plant's ground truth and the robot's own detector.
 /// What did not happen or was not measured has no value: a contact that was never noticed has no `detected`.
 struct ReportContact {
-  std::string body;                 ///< Touched body as a reader says it: "platform", "second link of leg 1".
-  std::string isolated_body;        ///< Body that the robot took it for; empty: it did not say.
-  std::string object;               ///< What it touched: "pylon"; "push": it was pushed without a touch.
-  double start = 0.0;               ///< t_c: true contact force leaves zero [s].
-  std::optional<double> detected;   ///< t_det: first tick with the detector's flag [s].
-  std::optional<double> removed;    ///< t_rem: the contact is over [s].
-  std::optional<double> speed;      ///< Of the platform when it touched [m/s].
-  double peak_force = 0.0;          ///< f_c,max: largest true contact force [N].
-  std::optional<double> peak_time;  ///< When [s].
+  std::string body;                ///< Touched body as a reader says it: "platform", "second link of leg 1".
+  std::string isolated_body;       ///< Body that the robot took it for; empty: it did not say.
+  std::string object;              ///< What it touched: "pylon"; "push": it was pushed without a touch.
+  double start = 0.0;              ///< t_c: true contact force leaves zero [s].
+  std::optional<double> detected;  ///< t_det: first tick with the detector's flag [s].
+  /// When the detector of each estimator noticed it [s]; empty: only one ran.
+  std::vector<std::pair<std::string, std::optional<double>>> detected_by;
+  std::optional<double> removed;      ///< t_rem: the contact is over [s].
+  std::optional<double> speed;        ///< Of the platform when it touched [m/s].
+  double peak_force = 0.0;            ///< f_c,max: largest true contact force [N].
+  std::optional<double> peak_time;    ///< When [s].
   std::optional<double> force_limit;  ///< That the peak is judged against [N].
   std::string limit_name;             ///< Where the limit comes from: "ISO/TS 15066, transient, hand".
   bool within_limit = false;          ///< The verdict on `peak_force`.
@@ -112,6 +115,9 @@ struct Report {
   /// Signals by name, one value per sample, SI; NaN is "no data". The names that the page knows are listed
   /// in report/README.md.
   std::map<std::string, std::vector<double>> columns;
+  /// The names behind the columns `estimator_1_force`, ..., first that which the robot followed; empty: only
+  /// one ran.
+  std::vector<std::string> estimators;
   std::vector<ReportLane> lanes;
   std::vector<ReportBound> bounds;
 

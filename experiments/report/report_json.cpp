@@ -39,6 +39,10 @@ json encode(const ReportContact& contact) {
           {"object", contact.object},
           {"start", rounded(contact.start)},
           {"detected", rounded(contact.detected)},
+          {"detected_by", list(contact.detected_by,
+                               [](const auto& by) {
+                                 return json::array({by.first, rounded(by.second)});
+                               })},
           {"removed", rounded(contact.removed)},
           {"speed", rounded(contact.speed)},
           {"peak_force", rounded(contact.peak_force)},
@@ -127,6 +131,7 @@ std::string report_json(const Report& report) {
                      {"period", report.period},
                      {"count", report.sample_count()},
                      {"columns", columns},
+                     {"estimators", report.estimators},
                      {"lanes", encode_all(report.lanes)},
                      {"bounds", encode_all(report.bounds)},
                      {"parameters", encode_all(report.parameters)},

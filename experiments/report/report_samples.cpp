@@ -10,6 +10,7 @@
 
 #include "experiments/report/drawn_robot.h"
 #include "experiments/report/page_samples.h"
+#include "experiments/verdict/recorded_estimate.h"
 #include "experiments/verdict/recorded_run.h"
 #include "experiments/verdict/recorded_truth.h"
 #include "systems/framework/recorded_values.h"
@@ -183,6 +184,49 @@ class Forces {
   std::vector<Touch> touches_;
 };
 
+/// What each estimator says acts on the platform, where several run: magnitudes.
+class EstimatesSideBySide {
+ public:
+  EstimatesSideBySide(ConfigurationSpace space, const Recording& recording, PageSamples& page, Report& report)
+      : space_(space), page_(page) {
+    const std::string prefix = "wrench_";
+    std::vector<std::string> paths = {"wrench"};
+    const auto followed = recording.attributes.find("control.estimator");
+    std::vector<std::string> names = {followed == recording.attributes.end() ? "followed" : followed->second};
+    for (const Signal& signal : recording.signals) {
+      if (!signal.path.starts_with(prefix)) continue;
+      paths.push_back(signal.path);
+      names.push_back(signal.path.substr(prefix.size()));
+    }
+    if (paths.size() < 2) return;
+    report.estimators = names;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      const std::string column = "estimator_" + std::to_string(i + 1);
+      estimates_.push_back({RecordedValues<RecordedEstimate>(recording, paths[i]),
+                            page.column(column + "_force"), page.column(column + "_moment")});
+    }
+  }
+
+  void show(std::size_t sample) {
+    for (const Estimate& each : estimates_) {
+      const RecordedEstimate now = each.values[sample];
+      const bool fits = now.valid && now.wrench_in_base.size() == space_.dimension();
+      page_.set(each.force, fits ? now.wrench_in_base.head(space_.translations()).norm() : no_data);
+      page_.set(each.moment, fits ? now.wrench_in_base.tail(space_.rotations()).norm() : no_data);
+    }
+  }
+
+ private:
+  struct Estimate {
+    RecordedValues<RecordedEstimate> values;
+    std::size_t force, moment;  ///< columns
+  };
+
+  ConfigurationSpace space_;
+  PageSamples& page_;
+  std::vector<Estimate> estimates_;
+};
+
 /// What the drives do, each for itself, and how far the robot is from where it must not be.
 class Drives {
  public:
@@ -305,6 +349,7 @@ void add_samples(const ParallelRobot& robot, const Recording& recording, Report&
   States states(run.witness() != Witness::none, page);
   Motion motion(robot, recording, simulated, page);
   Forces forces(robot, recording, simulated, page);
+  EstimatesSideBySide estimates(robot.space(), recording, page, report);
   Drives drives(robot, recording, simulated, page);
   ObstacleMotion obstacles(recording, report.obstacles.size(), robot.space().translations(), page);
   std::optional<RecordedTruths> truths;
@@ -318,6 +363,7 @@ void add_samples(const ParallelRobot& robot, const Recording& recording, Report&
     states.show(now, hardness);
     motion.show(k, truth, hardness);
     forces.show(k, truth, hardness);
+    estimates.show(k);
     drives.show(k, truth);
     obstacles.show(k, hardness);
   }

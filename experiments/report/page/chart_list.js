@@ -24,6 +24,15 @@ function torques() {
   ]);
 }
 
+const estimatorColours = ["--estimate", "--leg-2", "--leg-3", "--leg-4", "--leg-5", "--leg-1", "--leg-6", "--plain"];
+
+/** What each estimator says, thin, over what is true; nothing where only one ran. */
+function byEstimator(part, truth) {
+  if (report.estimators.length === 0) return [];
+  return [...derived(truth, "true", "--true", true), ...report.estimators.flatMap((name, i) =>
+    one(`estimator_${i + 1}_${part}`, name.replaceAll("_", " "), estimatorColours[i % estimatorColours.length]))];
+}
+
 /** Decimals that show three significant digits of the largest value, but at least one. */
 function decimalsFor(values) {
   const largest = values.reduce((size, value) => Math.max(size, Math.abs(value ?? 0)), 0);
@@ -44,6 +53,10 @@ function chartList() {
       ...["x", "y", "z"].flatMap((axis, i) => [
         ...one(`external_moment_${axis}`, `${axis} true`, `--leg-${[2, 1, 3][i]}`, true),
         ...one(`estimated_moment_${axis}`, `${axis} estimated`, `--leg-${[2, 1, 3][i]}`)])] },
+    { id: "force_by_estimator", title: "External force, by estimator", unit: "N", least: 24, fromZero: true,
+      series: byEstimator("force", magnitudeOf("external_force")) },
+    { id: "moment_by_estimator", title: "External moment, by estimator", unit: "Nm", least: 2.4, fromZero: true,
+      series: byEstimator("moment", magnitudeOf("external_moment") ?? report.columns.external_moment?.map((m) => m && Math.abs(m))) },
     { id: "speed", title: "Speed of the platform", unit: "m/s", least: 0.05, fromZero: true, series: [
       ...one("speed", "speed", "--plain")] },
     { id: "position_error", title: "Tracking error, position", unit: "mm", scale: 1000, least: 0.1, fromZero: true,

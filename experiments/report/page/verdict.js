@@ -100,11 +100,17 @@ function contactRow(contact) {
     element("td", { class: "n" }, go),
     element("td", { class: "n" }, contact.speed === null ? none : `${fixed(contact.speed, 2)} m/s`),
     element("td", { class: contact.detected === null ? "n bad" : "n" },
-      contact.detected === null ? "not detected" : since(contact.detected)),
+      contact.detected === null ? "not detected" : since(contact.detected), ...timesByEstimator(contact)),
     element("td", { class: contact.removed === null ? "n bad" : "n" },
       contact.removed === null ? "not removed" : since(contact.removed)),
     element("td", {}, forceBar(contact)),
     judgement(contact.force_limit === null ? null : contact.within_limit));
+}
+
+/** When each estimator's detector noticed the contact, where several ran. */
+function timesByEstimator(contact) {
+  return contact.detected_by.map(([name, time]) => element("small", { class: time === null ? "by bad" : "by" },
+    `${name.replaceAll("_", " ")} ${time === null ? "never" : `${fixed(1000 * (time - contact.start), 1)} ms`}`));
 }
 
 /** What the robot took the body for, where it said so. */

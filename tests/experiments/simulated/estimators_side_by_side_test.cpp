@@ -1,8 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "experiments/report/experiment_report.h"
+#include "experiments/report/report.h"
 #include "experiments/simulated/experiment.h"
 #include "experiments/simulated/simulated_scenario.h"
 #include "experiments/verdict/verdict.h"
@@ -61,6 +64,27 @@ TEST(EstimatorsSideBySide, ThatNeverNoticeAreToldAsNever) {
       "  momentum_kalman_filter: {force_density_N2_per_s: 1.0e-6, moment_density_N2m2_per_s: 1.0e-8}\n");
   const nlohmann::json told = nlohmann::json::parse(verdict_json(verdict, {}));
   EXPECT_TRUE(told["contacts"][0]["detection_by_estimator_ms"]["momentum_kalman_filter"].is_null());
+}
+
+TEST(EstimatorsSideBySide, StandOnThePageOverTheTruth) {
+  const test::Workplace place;
+  place.replace("scenarios/platform_collision.yaml", "control:\n",
+                "control:\n  estimators: [momentum_observer, momentum_kalman_filter]\n");
+  const SimulatedScenario scenario = read_simulated_scenario(place / "scenarios/platform_collision.yaml");
+  const Recording recording = run_experiment(scenario);
+  const Verdict verdict = judge(recording, scenario.robot.robot->space(), scenario.expected, {});
+  const Report report = experiment_report(scenario, recording, verdict);
+  EXPECT_NO_THROW(check_report(report));
+  EXPECT_THAT(report.estimators, ElementsAre("momentum_observer", "momentum_kalman_filter"));
+  const auto x = recording.column("wrench_momentum_kalman_filter", "wrench_in_base", 0);
+  const auto y = recording.column("wrench_momentum_kalman_filter", "wrench_in_base", 1);
+  const auto force = report.columns.at("estimator_2_force");
+  const auto sample = static_cast<std::size_t>(1e3 * *verdict.contacts.at(0).detected) + 10;
+  EXPECT_GT(force.at(sample), 5.0);
+  EXPECT_NEAR(force.at(sample), std::hypot(x.at(sample), y.at(sample)), 1e-12);
+  ASSERT_EQ(report.contacts.at(0).detected_by.size(), 2U);
+  EXPECT_EQ(report.contacts[0].detected_by[1].first, "momentum_kalman_filter");
+  EXPECT_EQ(report.contacts[0].detected_by[1].second, verdict.contacts[0].detected_by[1].detected);
 }
 
 }  // namespace
