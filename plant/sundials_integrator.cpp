@@ -88,6 +88,7 @@ class SundialsIntegrator::Solver {
  private:
   static int rates(double t, N_Vector y, N_Vector rates, void* solver);
   static int error_weights(N_Vector y, N_Vector weights, void* solver);
+  static int end_step(double t, N_Vector y, void* solver);
   static void require(int flag);
 
   struct Destroy {
@@ -102,6 +103,8 @@ class SundialsIntegrator::Solver {
   std::unique_ptr<std::remove_pointer_t<N_Vector>, Destroy> y_;
   std::unique_ptr<void, Free> memory_;
   DifferentialEquation* equation_ = nullptr;
+  double duration_ = 0.0;
+  bool is_done_ = false;  ///< the end of the tick is reached
   std::int64_t evaluations_ = 0;
   RungeKutta fallback_{fallback_steps};
 };
@@ -116,6 +119,7 @@ SundialsIntegrator::Solver::Solver(const SundialsOptions& options, std::size_t s
   require(ERKStepSetErrHandlerFn(memory, ignore_message, nullptr));
   require(ERKStepSetUserData(memory, this));
   require(ERKStepWFtolerances(memory, error_weights));
+  require(ERKStepSetPostprocessStepFn(memory, end_step));
   require(ERKStepSetTableNum(memory, table(options.tableau)));
   require(ERKStepSetInterpolantDegree(memory, 1));
   require(ERKStepSetAdaptivityMethod(memory, first_order_controller, 1, 0, nullptr));
@@ -131,6 +135,8 @@ void SundialsIntegrator::Solver::require(int flag) {
 bool SundialsIntegrator::Solver::advance(DifferentialEquation& equation, double duration,
                                          std::span<double> y) {
   equation_ = &equation;
+  duration_ = duration;
+  is_done_ = false;
   std::copy(y.begin(), y.end(), data(y_.get()));
   double reached = 0.0;
   void* const memory = memory_.get();
@@ -147,8 +153,16 @@ bool SundialsIntegrator::Solver::advance(DifferentialEquation& equation, double 
 
 int SundialsIntegrator::Solver::rates(double t, N_Vector y, N_Vector rates, void* solver) {
   auto& self = *static_cast<Solver*>(solver);
+  if (self.is_done_) return 0;  // asked for a step that never follows: every tick starts afresh
   ++self.evaluations_;
   self.equation_->rates(t, numbers(y), numbers(rates));
+  return 0;
+}
+
+/// Called after each step that is accepted, before the rates at its end are asked for.
+int SundialsIntegrator::Solver::end_step(double t, N_Vector, void* solver) {
+  auto& self = *static_cast<Solver*>(solver);
+  self.is_done_ = t >= self.duration_;
   return 0;
 }
 
