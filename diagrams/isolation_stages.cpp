@@ -1,5 +1,7 @@
 #include "diagrams/isolation_stages.h"
 
+#include <utility>
+
 #include "diagrams/contact_control_settings.h"
 #include "systems/contact/contact_period.h"
 #include "systems/contact/evidence_estimator.h"
@@ -69,6 +71,17 @@ MomentumObserver& add_observer(const StageSite& site, const EstimatePorts& given
 
 std::vector<ContactClassifier> classifier_stages() {
   return {{"model_classifier", add_model_classifier}, {"decision_tree", add_decision_tree}};
+}
+
+ContactClassifier learned_classifier_stage(LearnedClassifierSettings settings) {
+  return {"learned_classifier",
+          [settings = std::move(settings)](const StageSite& site, const ContactPorts& given) {
+            auto& classifier = site.builder.add<LearnedClassifier>(site.name, site.robot, settings);
+            site.builder.connect(given.contact, classifier.phase);
+            site.builder.connect(given.evidence, classifier.evidence);
+            site.builder.connect(given.isolation_wrench, classifier.wrench);
+            return classifier.classification;
+          }};
 }
 
 std::vector<ContactLocatorStage> locator_stages() {

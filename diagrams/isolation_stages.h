@@ -3,11 +3,15 @@
 #include <vector>
 
 #include "diagrams/control_stages.h"
+#include "systems/contact/learned_classifier.h"
 
 namespace flinch {
 
 /// Every classifier of flinch, as its settings say, the standard one first.
 std::vector<ContactClassifier> classifier_stages();
+
+/// The classifier "learned_classifier", which needs a network and so is none of those.
+ContactClassifier learned_classifier_stage(LearnedClassifierSettings settings);
 
 /// Every locator of flinch, likewise.
 std::vector<ContactLocatorStage> locator_stages();

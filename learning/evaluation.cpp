@@ -11,19 +11,42 @@ namespace {
 
 bool is_right(const Answered& answer) { return answer.given() == answer.right; }
 
+/// Which part of the classes each class is in: 0, 1, ... ; -1: none.
+std::vector<int> part_of(const std::vector<std::string>& classes, const std::string& ending) {
+  std::vector<int> part;
+  int next = 0;
+  for (const std::string& name : classes) part.push_back(name.ends_with(ending) ? next++ : -1);
+  return part;
+}
+
 std::optional<double> share_right(const Confusion& confusion, Eigen::Index row) {
   const double all = confusion.counts.row(row).sum();
   return all > 0.0 ? std::optional(confusion.counts(row, row) / all) : std::nullopt;
 }
 
-void add_tasks(const FeatureSet& features, Evaluation& result) {
+void add_tasks(const std::vector<Answered>& answers, const FeatureSet& features, Evaluation& result) {
   const Question question = features.question();
+  const std::vector<std::string>& classes = features.classes();
+  const bool is_touched = question == Question::touched;
   if (question == Question::body) result.body = result.confusion.balanced_accuracy();
   if (question == Question::chain) result.chain = result.confusion.balanced_accuracy();
-  if (question != Question::clamping) return;
-  result.collision_clamping = result.confusion.balanced_accuracy();
-  result.collision = share_right(result.confusion, 0);
-  result.clamping = share_right(result.confusion, 1);
+  Confusion two = result.confusion;
+  if (is_touched) {
+    std::vector<int> body, chain = part_of(classes, "_clamping"), clamping;
+    std::vector<std::string> bodies, chains;
+    for (std::size_t i = 0; i < classes.size(); ++i) {
+      body.push_back(chain[i] < 0 ? static_cast<int>(bodies.size()) : -1);
+      clamping.push_back(chain[i] < 0 ? 0 : 1);
+      (chain[i] < 0 ? bodies : chains).push_back(classes[i]);
+    }
+    result.body = confusion_of(answers, bodies, body).balanced_accuracy();
+    result.chain = confusion_of(answers, chains, chain).balanced_accuracy();
+    two = confusion_of(answers, {"collision", "clamping"}, clamping);
+  }
+  if (!is_touched && question != Question::clamping) return;
+  result.collision_clamping = two.balanced_accuracy();
+  result.collision = share_right(two, 0);
+  result.clamping = share_right(two, 1);
 }
 
 std::vector<int> themselves(std::size_t count) {
@@ -179,7 +202,7 @@ Evaluation evaluate(const std::vector<Answered>& answers, const FeatureSet& feat
     for (const auto& [configuration, of_it] : by_configuration)
       result.by_configuration.emplace_back(configuration, confusion_of(of_it, features.classes(), own));
   }
-  add_tasks(features, result);
+  add_tasks(answers, features, result);
   result.reliability = reliability_of(answers);
   result.calibration_error = expected_calibration_error(result.reliability);
   result.rejects = reject_curve(answers);

@@ -1,10 +1,13 @@
 #include "learning/feature_set.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <map>
 #include <thread>
 
+#include "systems/contact/evidence_features.h"
 #include "systems/contact/feature_extraction.h"
 #include "systems/foundation/nearest_name.h"
 #include "systems/foundation/setup_error.h"
@@ -12,7 +15,7 @@
 namespace flinch {
 namespace {
 
-const std::vector<std::string> question_names = {"body", "clamping", "chain"};
+const std::vector<std::string> question_names = {"touched", "body", "clamping", "chain"};
 
 /// [SafePR] III: wrench and distances for clampings; for bodies drive torques and angles besides.
 bool is_told(Question question, const std::string& feature) {
@@ -31,9 +34,13 @@ Question question_named(const std::string& name) {
 }
 
 FeatureSet::FeatureSet(Question question, std::shared_ptr<const ParallelRobot> robot)
-    : question_(question), robot_(std::move(robot)), touchable_(classes_of(*robot_)) {
-  for (const FeatureName& feature : feature_names(*robot_)) {
-    if (!is_told(question, feature.name)) continue;
+    : question_(question),
+      robot_(std::move(robot)),
+      touchable_(classes_of(*robot_)),
+      hypotheses_(robot_, TouchHypothesesSettings()) {
+  const bool is_all = question == Question::touched;
+  for (const FeatureName& feature : is_all ? evidence_feature_names() : feature_names(*robot_)) {
+    if (!is_all && !is_told(question, feature.name)) continue;
     names_.push_back(feature.name);
     units_.push_back(feature.unit);
   }
@@ -42,7 +49,7 @@ FeatureSet::FeatureSet(Question question, std::shared_ptr<const ParallelRobot> r
     return;
   }
   for (int number = 0; number < touchable_.count(); ++number) {
-    if (touchable_.is_clamping(number) == (question == Question::chain))
+    if (is_all || touchable_.is_clamping(number) == (question == Question::chain))
       classes_.push_back(touchable_.name(number));
   }
 }
@@ -50,6 +57,8 @@ FeatureSet::FeatureSet(Question question, std::shared_ptr<const ParallelRobot> r
 std::optional<int> FeatureSet::answer(int touched) const {
   const bool is_clamping = touchable_.is_clamping(touched);
   switch (question_) {
+    case Question::touched:
+      return touched;
     case Question::clamping:
       return is_clamping ? 1 : 0;
     case Question::body:
@@ -67,6 +76,14 @@ bool FeatureSet::inputs(const DataSample& sample, NeuralNetwork::Values& columns
   estimate.valid = true;
   estimate.wrench_in_base = sample.wrench_in_base;
   estimate.drive_torque = drive_torques(now, sample.wrench_in_base);
+  if (question_ == Question::touched) {
+    const ConfigurationSpace& space = robot_->space();
+    ContactEvidence evidence;
+    hypotheses_.weigh(now, sample.wrench_in_base, uncertainty_.covariance(space, sample.wrench_in_base),
+                      evidence);
+    evidence_features(touchable_, evidence, sample.wrench_in_base.head(space.translations()).norm(), columns);
+    return evidence.valid;
+  }
   const ContactFeatures features = contact_features(*robot_, now, estimate, FeatureSettings());
   const FeatureVector all = feature_vector(features);
   const std::vector<FeatureName> every = feature_names(*robot_);
@@ -76,6 +93,18 @@ bool FeatureSet::inputs(const DataSample& sample, NeuralNetwork::Values& columns
     if (is_told(question_, every[i].name)) columns(row++, 0) = all[static_cast<Eigen::Index>(i)];
   }
   return features.valid;
+}
+
+std::string FeatureSet::check() const {
+  DataSample sample;
+  sample.pose = robot_->home_pose();
+  sample.velocity = PlatformVector::Constant(robot_->dof(), 0.1);
+  sample.wrench_in_base = PlatformVector::LinSpaced(robot_->dof(), 30.0, 2.0);
+  NeuralNetwork::Values columns;
+  const bool is_told = inputs(sample, columns);
+  double sum = 0.0, weight = 1.0;
+  for (const double number : columns.reshaped()) sum += (weight += 0.1) * number;
+  return is_told ? fmt::format("{:.6g}", sum) : "nothing";
 }
 
 bool SampleFilter::chooses(const DataSample& sample) const {

@@ -7,18 +7,20 @@
 
 #include "learning/data_set.h"
 #include "learning/train_network.h"
-#include "systems/contact/neural_network.h"
+#include "systems/contact/touch_hypotheses.h"
+#include "systems/contact/wrench_uncertainty.h"
 
 namespace flinch {
 
 /// What a classifier is asked.
 enum class Question {
+  touched,   ///< which body, or which gap: all classes at once, by evidence of the model
   body,      ///< which body a collision is with, [SafePR] III-C
   clamping,  ///< whether a leg is clamped, [SafePR] III-E1
   chain,     ///< which leg is clamped, [SafePR] III-E2
 };
 
-/// "body", "clamping", "chain".
+/// "touched", "body", "clamping", "chain".
 std::string name_of(Question question);
 /// Throws SetupError with the names that there are.
 Question question_named(const std::string& name);
@@ -32,11 +34,15 @@ class FeatureSet {
   const std::vector<std::string>& classes() const { return classes_; }
   const std::vector<std::string>& names() const { return names_; }
   const std::vector<std::string>& units() const { return units_; }
-  int rows() const { return 1; }
-  int outputs() const { return static_cast<int>(classes_.size()); }
+  int rows() const { return question_ == Question::touched ? static_cast<int>(classes_.size()) : 1; }
+  int outputs() const { return question_ == Question::touched ? 1 : static_cast<int>(classes_.size()); }
 
   /// The right answer for what was touched; none where it is not asked about that.
   std::optional<int> answer(int touched) const;
+
+  /// A short text that changes where the same contact is told by other numbers: by another robot, or by
+  /// another version of what the features are made of.
+  std::string check() const;
 
   /// A column for each row of the question. False where the sample tells nothing.
   bool inputs(const DataSample& sample, NeuralNetwork::Values& columns) const;
@@ -45,6 +51,8 @@ class FeatureSet {
   Question question_;
   std::shared_ptr<const ParallelRobot> robot_;
   ContactClasses touchable_;
+  TouchHypotheses hypotheses_;
+  WrenchUncertainty uncertainty_;
   std::vector<std::string> classes_, names_, units_;
 };
 

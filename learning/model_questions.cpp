@@ -44,6 +44,12 @@ FeatureSet features_for(const ClassifierModel& model, const DataSet& data) {
         "train it anew with data of this robot",
         value_of(model, "robot.name"), data.robot->name()));
   }
+  const std::string told = value_of(model, "features.check");
+  if (fitted == fingerprint(data.robot_text, data.robot_file) && !told.empty() && told != features.check()) {
+    found.add(
+        "the features that the model was trained with were made otherwise, by another version of flinch; "
+        "train it anew");
+  }
   compare(model.features, features.names(), "feature", found);
   compare(model.classes, features.classes(), "class", found);
   throw_if_any(found.take());

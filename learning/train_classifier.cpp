@@ -140,10 +140,11 @@ void describe(const DataSet& data, const ClassifierTraining& training, const Fea
   model.provenance = {{"question", name_of(training.question)},
                       {"robot.name", data.robot->name()},
                       {"robot.fingerprint", fingerprint(data.robot_text, data.robot_file)},
+                      {"features.check", features.check()},
                       {"data.title", card("title")},
                       {"data.seed", card("seed")},
                       {"data.runs", card("runs")},
-                      {"data.estimator", card("estimator")},
+                      {"data.wrench", card("wrench")},
                       {"flinch.version", FLINCH_VERSION},
                       {"hidden_layers", fmt::format("{}", fmt::join(settings.hidden, ", "))},
                       {"l2", fmt::format("{}", settings.l2)},
@@ -159,6 +160,8 @@ void describe(const DataSet& data, const ClassifierTraining& training, const Fea
 TrainingSettings standard_settings(Question question) {
   TrainingSettings settings;
   switch (question) {
+    case Question::touched:
+      return settings;
     case Question::body:
       settings.hidden = {30, 30, 30, 30};
       break;
@@ -195,7 +198,7 @@ TrainedClassifier train_classifier(const DataSet& data, const ClassifierTraining
   const std::size_t threads =
       training.threads != 0 ? training.threads : std::max(1U, std::thread::hardware_concurrency());
   const FeatureSet features(training.question, data.robot);
-  const bool balanced = true;
+  const bool balanced = training.question != Question::touched;
   const Questions questions = questions_of(data, features, training.filter, balanced, threads);
   if (std::set<int>(questions.set.answers.begin(), questions.set.answers.end()).size() < 2) {
     throw SetupError("the data hold fewer than two of the classes that '" + name_of(training.question) +

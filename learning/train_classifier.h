@@ -11,7 +11,7 @@ namespace flinch {
 
 /// How a classifier is made from a data set.
 struct ClassifierTraining {
-  Question question = Question::body;
+  Question question = Question::touched;
   std::vector<TrainingSettings> candidates;  ///< the best in cross-validation is taken; one: no search
   int folds = 5;                             ///< of the cross-validation, by runs
   SampleFilter filter;
@@ -22,7 +22,7 @@ struct ClassifierTraining {
 };
 
 /// The settings of [SafePR] V-F1: 5 x 30 for clamping, 5 x 25 for the chain; for the body 4 x 30, whose
-/// widths are not printed.
+/// widths are not printed. Ours for `touched`.
 TrainingSettings standard_settings(Question question);
 
 /// The grid of [SafePR] V-F: 2 to 5 hidden layers of 10 to 30, L2 from 1e-4 to 1e-1.

@@ -72,6 +72,10 @@ void add_common(CLI::App& verb, CommonOptions& common) {
   verb.add_flag("--quiet", common.quiet, "Print nothing but results and errors");
 }
 
+void add_threads(CLI::App& verb, std::optional<std::size_t>& threads, const char* help) {
+  verb.add_option("--threads", threads, help)->check(between(1, 1024))->type_name("N");
+}
+
 std::string typed(int argc, const char* const* argv) {
   std::string text = "flinch";
   for (int i = 1; i < argc; ++i) text += std::string(" ") + argv[i];
@@ -158,6 +162,10 @@ void add_verbs(CLI::App& app, Verbs& verbs) {
           "--control", verbs.run.control,
           "With --station recorded: the scenario whose control path shall run [that of the recording]")
       ->type_name("SCENARIO.yaml");
+  run_verb
+      .add_option("--classifier", verbs.run.classifier,
+                  "Model (ONNX) of flinch train that tells what is touched [as the scenario says]")
+      ->type_name("MODEL.onnx");
   run_verb.add_option("--out", verbs.run.out, "Folder for run.h5 and report.html [out/NAME]")
       ->type_name("DIR");
   run_verb.add_option("--seed", verbs.run.seed, "Seed of all noise, instead of the scenario's")
@@ -222,9 +230,7 @@ void add_campaign_verb(CLI::App& app, Verbs& verbs) {
   verb.add_option("--run", options.run, "Do only this run of the table again, with recording and report")
       ->type_name("NUMBER");
   verb.add_option("--out", options.out, "Folder for results.csv and results.h5 [out/NAME]")->type_name("DIR");
-  verb.add_option("--threads", options.threads, "Runs at once [one a processor]")
-      ->check(between(1, 1024))
-      ->type_name("N");
+  add_threads(verb, options.threads, "Runs at once [one a processor]");
   verb.add_flag("--fresh", options.fresh, "Begin anew, whatever the folder holds already");
 }
 
@@ -243,9 +249,7 @@ void add_dataset_verb(CLI::App& app, Verbs& verbs) {
       ->check(problem_with_seed)
       ->type_name("N");
   verb.add_option("--out", options.out, "The data set [out/NAME.h5]")->type_name("DATA.h5");
-  verb.add_option("--threads", options.threads, "Runs at once [one a processor]")
-      ->check(between(1, 1024))
-      ->type_name("N");
+  add_threads(verb, options.threads, "Runs at once [one a processor]");
   verb.add_flag("--fresh", options.fresh, "Begin anew, whatever an earlier call has left");
 }
 
@@ -259,7 +263,7 @@ void add_train_verb(CLI::App& app, Verbs& verbs) {
   verb.add_option("-o,--out", options.out, "The model")->required()->type_name("MODEL.onnx");
   verb.add_option(
           "--question", options.question,
-          "What it tells, as in the papers: body, clamping, chain [body]")
+          "What it tells: touched (which body or gap), or as in the papers body, clamping, chain [touched]")
       ->type_name("NAME");
   verb.add_option("--hidden", options.hidden, "Widths of the tanh layers, such as 30,30 [of the question]")
       ->delimiter(',')
@@ -278,9 +282,7 @@ void add_train_verb(CLI::App& app, Verbs& verbs) {
   verb.add_option("--seed", options.seed, "Of weights and folds [1]")
       ->check(problem_with_seed)
       ->type_name("N");
-  verb.add_option("--threads", options.threads, "Networks at once [one a processor]")
-      ->check(between(1, 1024))
-      ->type_name("N");
+  add_threads(verb, options.threads, "Networks at once [one a processor]");
 }
 
 void add_evaluate_verb(CLI::App& app, Verbs& verbs) {
@@ -302,9 +304,7 @@ void add_evaluate_verb(CLI::App& app, Verbs& verbs) {
       ->delimiter(',')
       ->type_name("N,N...");
   verb.add_option("--out", options.out, "The page [DATA_MODEL.html beside the data]")->type_name("PAGE.html");
-  verb.add_option("--threads", options.threads, "At once [one a processor]")
-      ->check(between(1, 1024))
-      ->type_name("N");
+  add_threads(verb, options.threads, "At once [one a processor]");
 }
 
 void add_calibrate_verb(CLI::App& app, Verbs& verbs) {

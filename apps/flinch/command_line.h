@@ -34,6 +34,7 @@ struct RunOptions {
   std::filesystem::path out;    ///< empty: out/NAME
   std::optional<std::uint64_t> seed;
   StationKind station = StationKind::simulated;
+  std::filesystem::path classifier;  ///< a model to follow; empty: as the scenario says
   std::filesystem::path control;  ///< a scenario whose control path replaces the recorded one's; empty: none
   std::vector<std::string> faults;  ///< on request, SIGNAL:KIND@TIME[:SIZE]
 

@@ -10,6 +10,8 @@
 
 namespace flinch {
 
+struct Scenario;
+
 struct DatasetOptions {
   CommonOptions common;
   std::filesystem::path spec;
@@ -24,7 +26,7 @@ struct TrainOptions {
   CommonOptions common;
   std::filesystem::path data;
   std::filesystem::path out;
-  std::string question = "body";
+  std::string question = "touched";
   std::vector<int> hidden;
   std::optional<double> l2;
   std::optional<double> learning_rate;
@@ -49,5 +51,9 @@ struct EvaluateOptions {
 ExitStatus dataset(const DatasetOptions& options);
 ExitStatus train(const TrainOptions& options);
 ExitStatus evaluate(const EvaluateOptions& options);
+
+/// Lets a scenario's control path follow the classifier of a model. Throws SetupError where it cannot be
+/// read, or is not for that robot.
+void follow_classifier(const std::filesystem::path& model, Scenario& scenario);
 
 }  // namespace flinch

@@ -5,6 +5,7 @@
 #include "apps/flinch/command_line.h"
 #include "apps/flinch/conclusion.h"
 #include "apps/flinch/fault_options.h"
+#include "apps/flinch/learning_verbs.h"
 #include "apps/flinch/progress.h"
 #include "apps/flinch/simulated/simulated_parts.h"
 #include "apps/flinch/stop_watch.h"
@@ -31,7 +32,8 @@ void tell_what_differs(const Replay& replayed, const CommonOptions& common) {
 ExitStatus run_recorded(const RunOptions& options) {
   const Recording recorded = read_recording(options.input);
   tell_if_partial(recorded, options.common);
-  const Scenario scenario = scenario_of(recorded, options.input, options.control);
+  Scenario scenario = scenario_of(recorded, options.input, options.control);
+  if (!options.classifier.empty()) follow_classifier(options.classifier, scenario);
   std::vector<RequestedFault> faults;
   add_faults(options.faults, *scenario.robot.robot, faults);
   const StopWatch watch;

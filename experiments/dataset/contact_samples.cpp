@@ -95,8 +95,11 @@ std::optional<std::size_t> first_detection(const Recording& recording, const std
   return std::nullopt;
 }
 
-std::string wrench_of(const std::string& estimator) {
-  return estimator.empty() ? "wrench" : "wrench_" + estimator;
+/// Where the estimate lies; the followed estimator's is called "wrench".
+std::string wrench_of(const SampleChoice& choice, const Recording& recording) {
+  if (choice.wrench == "isolation") return "isolation_wrench";
+  const std::string own = "wrench_" + choice.wrench;
+  return recording.find(own) != nullptr ? own : "wrench";
 }
 std::string detection_of(const std::string& estimator) {
   return estimator.empty() ? "detection" : "detection_by_" + estimator;
@@ -105,7 +108,7 @@ std::string detection_of(const std::string& estimator) {
 /// Ticks of the moments, as far as they come about.
 struct Moments {
   Moments(const Recording& recording, const SampleChoice& choice)
-      : early(first_detection(recording, detection_of(choice.estimator))),
+      : early(first_detection(recording, detection_of(choice.early_by))),
         detected(first_detection(recording, detection_of(""))) {
     if (!early || (detected && *detected < *early)) early = detected;
     if (!early) return;
@@ -127,9 +130,10 @@ struct Moments {
 
 }  // namespace
 
-std::vector<std::string> sampled_signals(const std::string& estimator) {
-  std::vector<std::string> signals = {truth, "motion", wrench_of(""), detection_of("")};
-  if (!estimator.empty()) signals.insert(signals.end(), {wrench_of(estimator), detection_of(estimator)});
+std::vector<std::string> sampled_signals(const SampleChoice& choice) {
+  std::vector<std::string> signals = {
+      truth, "motion", "wrench", "isolation_wrench", "wrench_" + choice.wrench, detection_of("")};
+  if (!choice.early_by.empty()) signals.push_back(detection_of(choice.early_by));
   return signals;
 }
 
@@ -138,7 +142,7 @@ ContactSamples contact_samples(const Recording& recording, const ParallelRobot& 
   const Moments moments(recording, choice);
   Label label(recording, robot, touched);
   const auto motions = read<PlatformMotion>(recording, "motion");
-  const auto estimates = read<RecordedEstimate>(recording, wrench_of(choice.estimator));
+  const auto estimates = read<RecordedEstimate>(recording, wrench_of(choice, recording));
   const double period = to_seconds(recording.period);
   ContactSamples result;
   for (std::size_t tick = 0; tick < recording.samples(); ++tick) {

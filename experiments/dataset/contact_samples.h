@@ -18,9 +18,8 @@ struct ContactSamples {
   std::string left_out;
 };
 
-/// The signals of a recording that samples are made of, where its estimate in use is that of `estimator`
-/// ("": the one that is followed).
-std::vector<std::string> sampled_signals(const std::string& estimator);
+/// The signals of a recording that samples are made of.
+std::vector<std::string> sampled_signals(const SampleChoice& choice);
 
 /// The first contact of a recording as samples, `run` and `configuration` still 0. `touched`: what was
 /// touched, where the recording does not hold the truth or it is to be overruled. Ticks at which several

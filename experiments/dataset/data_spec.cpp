@@ -42,7 +42,8 @@ DataRecording read_recording_entry(ConfigReader& reader) {
 }
 
 void read_samples(ConfigReader reader, SampleChoice& samples) {
-  reader.text("estimator", samples.estimator);
+  reader.text("wrench", samples.wrench);
+  reader.text("early_by", samples.early_by);
   reader.integer("every", samples.every, 1, 1000);
   reader.number("from_force", unit::N, samples.from_force, positive);
 }
@@ -50,8 +51,9 @@ void read_samples(ConfigReader reader, SampleChoice& samples) {
 }  // namespace
 
 std::string DataSpec::identity() const {
-  std::string text = "flinch " FLINCH_VERSION "\nseed " + std::to_string(seed) + "\nestimator " +
-                     samples.estimator + "\nevery " + std::to_string(samples.every) + "\n";
+  std::string text = "flinch " FLINCH_VERSION "\nseed " + std::to_string(seed) + "\nwrench " +
+                     samples.wrench + "\nearly by " + samples.early_by + "\nevery " +
+                     std::to_string(samples.every) + "\n";
   if (samples.from_force) text += "from " + exact_text(*samples.from_force) + "\n";
   for (const DataPart& part : parts) {
     text += "part " + std::to_string(part.share) + " " + part.configuration + "\n" + part.campaign.identity();

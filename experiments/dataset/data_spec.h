@@ -12,8 +12,10 @@ namespace flinch {
 
 /// Which ticks of a run become samples.
 struct SampleChoice {
-  /// Whose estimate is kept, and whose detections tell the early tick; "": of the estimator that is followed.
-  std::string estimator;
+  /// Whose estimate is kept: "isolation", which classifiers read, or the name of an estimator.
+  std::string wrench = "isolation";
+  /// Whose detector tells the early tick: the name of an estimator that is not followed; "": none does.
+  std::string early_by;
   int every = 5;  ///< of the ticks between the first moment and the last, one in so many; moments always
   /// Instead of those: all ticks of a contact at which a force is estimated that reaches this [N].
   std::optional<double> from_force;

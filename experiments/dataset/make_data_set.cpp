@@ -170,7 +170,7 @@ void add_card(const DataSpec& spec, const std::map<std::string, std::size_t>& le
   data.card["seed"] = std::to_string(spec.seed);
   data.card["runs"] = std::to_string(spec.runs);
   data.card["flinch.version"] = FLINCH_VERSION;
-  data.card["estimator"] = spec.samples.estimator;
+  data.card["wrench"] = spec.samples.wrench;
   data.card["counts"] = counts_table(data);
   data.card["samples"] = spec.samples.from_force ? "all" : "decisions";
   std::string reasons;
@@ -186,7 +186,7 @@ ContactSamples simulate_contact(const DataSpec& spec, std::size_t number) {
   const std::size_t points = part.campaign.grid_points();
   const CampaignRun run =
       draw_run(part.campaign, turn.run % points * part.campaign.draws + turn.run / points);
-  const Recording recording = run_for_signals(run.scenario, sampled_signals(spec.samples.estimator));
+  const Recording recording = run_for_signals(run.scenario, sampled_signals(spec.samples));
   ContactSamples samples = out_of(run.scenario.file.string(), [&] {
     return contact_samples(recording, *run.scenario.robot.robot, spec.samples);
   });

@@ -72,6 +72,34 @@ TEST(Rejection, LeavesOutWhatIsNotSure) {
   EXPECT_EQ(acceptance_for(answers, 0.25), 0.6);
 }
 
+TEST(Evaluation, TellsBodiesClampingsAndLegsApart) {
+  const FeatureSet features(Question::touched, test::contact_examples(1, 1).robot);
+  const auto sure = [](int right, int given) {
+    std::vector<double> probability(10, 0.01);
+    probability[static_cast<std::size_t>(given)] = 0.91;
+    return answered(right, probability);
+  };
+  // Platform right; leg1_link1 taken for its link2; leg1_clamping for leg1_link1; leg2_clamping right.
+  const Evaluation evaluation =
+      evaluate({sure(0, 0), sure(1, 2), sure(7, 1), sure(8, 8)}, features, 0.5, "later");
+  EXPECT_EQ(evaluation.samples, 4U);
+  EXPECT_EQ(evaluation.body, 0.5);
+  EXPECT_EQ(evaluation.collision, 1.0);
+  EXPECT_EQ(evaluation.clamping, 0.5);
+  EXPECT_EQ(evaluation.collision_clamping, 0.75);
+  EXPECT_EQ(evaluation.chain, 1.0);
+  const auto json = nlohmann::json::parse(evaluation_json(evaluation, {evaluation}));
+  EXPECT_EQ(json["accuracy"]["body"], 0.5);
+  EXPECT_EQ(json["accuracy"]["collision_clamping"], 0.75);
+  EXPECT_EQ(json["accuracy"]["chain"], 1.0);
+  EXPECT_EQ(json["samples"], 4);
+  EXPECT_EQ(json["rejected"], 0.0);
+  EXPECT_EQ(json["wrong_of_accepted"], 0.5);
+  EXPECT_NEAR(json["expected_calibration_error"].get<double>(), 0.41, 1e-12);
+  EXPECT_EQ(json["confusion"]["classes"][7], "leg1_clamping");
+  EXPECT_EQ(json["confusion"]["rows"][7][1], 1.0);
+}
+
 TEST(EvaluationPage, KeepsNamesFromBecomingMarkup) {
   DataSet data = test::contact_examples(1, 1);
   data.card["title"] = "<script>alert(1)</script>";

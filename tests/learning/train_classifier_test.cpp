@@ -28,6 +28,18 @@ Evaluation asked(const ClassifierModel& model, const DataSet& data) {
                   "all");
 }
 
+TEST(TrainClassifier, FindsWhatWasTouchedAsWellAsItSays) {
+  const TrainedClassifier trained =
+      train_classifier(test::contact_examples(3000, 1), quick(Question::touched));
+  const Evaluation evaluation =
+      asked(parse_onnx(onnx_bytes(trained.model), "model.onnx"), test::contact_examples(1000, 2));
+  EXPECT_GT(*evaluation.confusion.balanced_accuracy(), 0.9);
+  EXPECT_NEAR(*evaluation.confusion.balanced_accuracy(), *trained.expected.confusion.balanced_accuracy(),
+              0.03);
+  EXPECT_LT(evaluation.calibration_error, 0.03);
+  EXPECT_LT(evaluation.accepted.wrong_of_accepted, 0.02);
+}
+
 TEST(TrainClassifier, AnswersThePapersThreeQuestions) {
   const DataSet data = test::contact_examples(3000, 1), other = test::contact_examples(600, 2);
   const auto asked_about = [&](Question question) {

@@ -6,6 +6,7 @@
 #include "apps/flinch/bus/interrupts.h"
 #include "apps/flinch/bus/status_line.h"
 #include "apps/flinch/conclusion.h"
+#include "apps/flinch/learning_verbs.h"
 #include "apps/flinch/stop_watch.h"
 #include "experiments/bus/live_run.h"
 #include "experiments/report/run_folder.h"
@@ -31,7 +32,8 @@ void tell_of_loop_and_link(const LiveRun& run) {
 
 ExitStatus run_on_bus(const RunOptions& options) {
   const bool silent = options.common.quiet || options.common.json;
-  const Scenario scenario = read_scenario(options.input);
+  Scenario scenario = read_scenario(options.input);
+  if (!options.classifier.empty()) follow_classifier(options.classifier, scenario);
   const Interrupts interrupts;
   const BusSettings settings = bus_settings(options.bus, silent);
   const DdsBus bus(settings);

@@ -15,5 +15,6 @@ namespace {
 
 ExitStatus train(const TrainOptions&) { refuse("train"); }
 ExitStatus evaluate(const EvaluateOptions&) { refuse("evaluate"); }
+void follow_classifier(const std::filesystem::path&, Scenario&) { refuse("run --classifier"); }
 
 }  // namespace flinch

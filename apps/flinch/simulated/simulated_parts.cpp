@@ -2,6 +2,7 @@
 
 #include "apps/flinch/conclusion.h"
 #include "apps/flinch/fault_options.h"
+#include "apps/flinch/learning_verbs.h"
 #include "apps/flinch/progress.h"
 #include "apps/flinch/stop_watch.h"
 #include "experiments/report/run_folder.h"
@@ -24,6 +25,7 @@ bool was_simulated(const Recording& recording) { return recording.find("truth") 
 ExitStatus run_simulated(const RunOptions& options) {
   SimulatedScenario scenario = read_simulated_scenario(options.input, options.seed);
   add_faults(options.faults, *scenario.robot.robot, scenario.station.faults);
+  if (!options.classifier.empty()) follow_classifier(options.classifier, scenario);
   built(scenario);  // before anything is written
   const RunFolder folder = folder_of(options, scenario.name);
   const StopWatch watch;

@@ -1,0 +1,51 @@
+#include "systems/contact/learned_classifier.h"
+
+#include <utility>
+
+#include "systems/contact/evidence_features.h"
+#include "systems/foundation/findings.h"
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+
+LearnedClassifier::LearnedClassifier(const std::shared_ptr<const ParallelRobot>& robot,
+                                     LearnedClassifierSettings settings)
+    : classes_(robot->body_count(), robot->legs()),
+      translations_(robot->space().translations()),
+      settings_(std::move(settings)) {
+  Findings found("learned classifier: ");
+  found.require(settings_.network != nullptr, "there is no network");
+  if (settings_.network) {
+    const NetworkParameters& parameters = settings_.network->parameters();
+    found.require(
+        parameters.inputs() == evidence_feature_count && parameters.result == NetworkResult::softmax_of_rows,
+        "the network answers another question than which class was touched");
+  }
+  found.require(settings_.accept >= 0.0 && settings_.accept <= 1.0, "accept must be between 0 and 1");
+  found.require(settings_.window >= Time{}, "window must not be negative");
+  found.positive("largest_residual", settings_.largest_residual);
+  found.require(classes_.count() <= NeuralNetwork::max_rows, "the robot has too many bodies to compare");
+  throw_if_any(found.take());
+}
+
+void LearnedClassifier::classify(Time now, const ContactPhase& contact, const ContactEvidence& seen,
+                                 const WrenchEstimate& estimate, const ContactClassification& last,
+                                 ContactClassification& result) const {
+  result = contact.active && !contact.begins(now) ? last : ContactClassification();
+  const bool is_told = contact.active && now - contact.since <= settings_.window && seen.valid &&
+                       estimate.wrench_in_base.size() >= translations_;
+  if (!is_told) return;
+  NeuralNetwork::Values features, probability;
+  evidence_features(classes_, seen, estimate.wrench_in_base.head(translations_).norm(), features);
+  if (!settings_.network->evaluate(features, probability)) return;
+  result.acquired = seen.acquired;
+  result.valid = true;
+  result.probability = probability.row(0).transpose();
+  Eigen::Index most_likely = 0;
+  result.probability.maxCoeff(&most_likely);
+  result.most_likely = static_cast<int>(most_likely);
+  result.several_contacts = seen.residual.minCoeff() > settings_.largest_residual;
+  result.accepted = result.confidence() >= settings_.accept && !result.several_contacts;
+}
+
+}  // namespace flinch
