@@ -1,0 +1,31 @@
+#include <gtest/gtest.h>
+
+#include "learning/evaluation.h"
+#include "learning/model_questions.h"
+#include "learning/onnx_file.h"
+#include "tests/learning/contact_examples.h"
+
+namespace flinch {
+namespace {
+
+ClassifierModel shipped() { return read_onnx(FLINCH_SOURCE_DIR "/apps/models/bodies.onnx"); }
+
+TEST(ShippedModel, FitsTheShippedRobotAndThisVersionOfItsFeatures) {
+  const ClassifierModel model = shipped();
+  EXPECT_EQ(features_for(model, test::contact_examples(1, 1)).question(), Question::touched);
+  EXPECT_GT(std::stod(model.provenance.at("cross_validated_accuracy")), 0.85);
+}
+
+TEST(ShippedModel, TellsContactsThatNoSimulationMade) {
+  const ClassifierModel model = shipped();
+  const DataSet data = test::contact_examples(1000, 3);
+  const FeatureSet features = features_for(model, data);
+  const Questions questions = questions_of(data, features, {}, false, 2);
+  const Evaluation evaluation = evaluate(answers_of(NeuralNetwork(model.network), questions, data), features,
+                                         model.accepted_from, "all");
+  EXPECT_GT(*evaluation.confusion.balanced_accuracy(), 0.85);
+  EXPECT_LT(evaluation.accepted.wrong_of_accepted, 0.02);
+}
+
+}  // namespace
+}  // namespace flinch
