@@ -126,9 +126,8 @@ std::string reliability_chart(const Evaluation& chosen) {
   for (const ReliabilityBin& bin : chosen.reliability) {
     if (bin.count == 0) continue;
     chart.add(fmt::format(
-        "<rect class=\"bar\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"><title>{} answers "
-        "of "
-        "{:.1f} % confidence, {:.1f} % right</title></rect>",
+        "<rect class=\"column\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\">"
+        "<title>{} answers of {:.1f} % confidence, {:.1f} % right</title></rect>",
         chart.x(bin.from) + 2, chart.y(bin.accuracy), chart.x(bin.to) - chart.x(bin.from) - 4,
         chart.y(0.0) - chart.y(bin.accuracy), bin.count, 100.0 * bin.confidence, 100.0 * bin.accuracy));
     chart.add(fmt::format("<circle class=\"point\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\"/>",
