@@ -14,6 +14,7 @@ namespace flinch {
 namespace {
 
 constexpr double slack_price = 1e4;  // above every multiplier: the slack is used where nothing else is left
+constexpr double smallest_reach = 1e-3;    // share of the reach along a direction
 constexpr double slowest_direction = 0.1;  // share of a speed limit below which it cannot bind
 constexpr std::uint32_t platform_speed_bit = 1U << 16U;
 constexpr std::uint32_t drive_speed_bit = 1U << 17U;
@@ -45,14 +46,14 @@ class Programme {
       : settings_(settings), at_(at), motion_(motion), drives_(static_cast<int>(motion.G.cols())) {
     programme_.C.resize(max_constraints, drives_ + 1);
     programme_.d.resize(max_constraints);
+    usual_reach_ = reach_of(PlatformVector::Unit(motion.G.rows(), 0));
   }
 
-  /// gradient^T dv >= least, softened by the slack; `scale`: an acceleration by which both are counted.
-  /// Positive where the drives can do anything about it.
+  /// gradient^T dv >= least, softened by the slack; both count as shares of what the drives can do.
   void accelerate(const PlatformVector& gradient, double least, std::uint32_t name) {
     const JointVector by_torque = gradient.transpose() * motion_.G;
-    const double reach = settings_.max_torque * by_torque.lpNorm<1>();
-    if (!(reach > 0.0)) return;
+    const double reach = reach_of(gradient);
+    if (reach < smallest_reach * usual_reach_) return;  // the drives can do nothing about it here
     auto row = programme_.C.row(rows_);
     row.head(drives_) = settings_.max_torque / reach * by_torque.transpose();
     row[drives_] = 1.0;
@@ -60,12 +61,11 @@ class Programme {
     names_[static_cast<std::size_t>(rows_++)] = name;
   }
 
+  /// Where h is flat, it is steeper on the way to its limit: there the drives can do what they usually do.
   void add_barrier(const Barrier& barrier, double excess) {
     const double h = barrier.room + excess;
     const double dh = barrier.gradient.dot(at_.velocity);
-    const double a = settings_.braking.of(barrier.kind) * settings_.max_torque *
-                     (barrier.gradient.transpose() * motion_.G).lpNorm<1>();
-    if (!(a > 0.0)) return;
+    const double a = settings_.braking.of(barrier.kind) * std::max(reach_of(barrier.gradient), usual_reach_);
     const double c = a / settings_.approach;
     const double root = std::sqrt(c * c + 2.0 * a * std::max(h, 0.0));
     const double alpha = h > 0.0 ? root - c : settings_.approach * h;
@@ -133,6 +133,11 @@ class Programme {
   }
 
  private:
+  /// The largest acceleration along `gradient` that all drives together can cause.
+  double reach_of(const PlatformVector& gradient) const {
+    return settings_.max_torque * (gradient.transpose() * motion_.G).lpNorm<1>();
+  }
+
   void bound(int variable, double sign, double least) {
     programme_.C.row(rows_).setZero();
     programme_.C(rows_, variable) = sign;
@@ -145,6 +150,7 @@ class Programme {
   const Motion& motion_;
   int drives_;
   int rows_ = 0;
+  double usual_reach_ = 0.0;  ///< along the first direction [m/s^2]
   std::array<std::uint32_t, max_constraints> names_{};
   QuadraticProgramme programme_;
 };

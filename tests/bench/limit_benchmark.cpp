@@ -1,0 +1,110 @@
+// What it costs to keep the robot within its limits for a tick, as a multiple of one evaluation of the
+// model's kinematics and dynamics: far from all limits, and in a corner of them, where the quadratic
+// programme has most to do.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <memory>
+#include <numbers>
+
+#include "systems/framework/diagram_builder.h"
+#include "systems/laws/limit_keeper.h"
+#include "systems/model/robot_model.h"
+#include "systems/robot/planar_rrr.h"
+#include "systems/robot/planar_rrr_presets.h"
+#include "tests/support/processor_time.h"
+#include "tests/support/ticking.h"
+
+namespace flinch {
+namespace {
+
+std::shared_ptr<const PlanarRrr> bench() {
+  static const auto robot =
+      std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::test_bench));
+  return robot;
+}
+
+LimitKeeperSettings strict_settings() {
+  constexpr double degree = std::numbers::pi / 180.0;
+  LimitKeeperSettings settings;
+  settings.use = LimitKeeperSettings::Use::always;
+  settings.limits.workspace = {.centre = {},
+                               .max_distance = 0.35,
+                               .max_rotation = 29.0 * degree,
+                               .min_abs_det_A = 0.2,
+                               .min_abs_det_B = 0.15,
+                               .min_self_collision_distance = 0.17,
+                               .min_active = -35.0 * degree,
+                               .max_active = 150.0 * degree};
+  settings.limits.max_condition_number = 15.0;
+  settings.max_platform_speed = 2.1;
+  settings.max_drive_speed = 7.6;
+  return settings;
+}
+
+/// A model and, if wanted, the limits behind it, at one motion.
+class Kept {
+ public:
+  Kept(const PlatformMotion& motion, const JointVector& torque, bool limits) : ticking_(wire(limits)) {
+    ticking_.set(platform_, motion);
+    if (!limits) return;
+    ticking_.set(reaction_, ReactionState{ReactionMode::nominal, ReactionMode::stopped, {}});
+    ticking_.set(request_, TorqueCommand{.computed = {}, .valid = true, .torque = torque});
+    ticking_.set(disturbance_, WrenchEstimate());
+  }
+
+  /// The best of several runs [s].
+  double time_of_a_tick() {
+    double best = 1.0;
+    for (int run = 0; run < 20; ++run) {
+      const auto begin = test::processor_time();
+      for (int k = 0; k < 500; ++k) ticking_.tick();
+      best = std::min(best, (test::processor_time() - begin).count() / 500.0);
+    }
+    return best;
+  }
+  void tick() { ticking_.tick(); }
+  int steps() const { return static_cast<int>(ticking_.get(keeper_->status).steps); }
+
+ private:
+  DiagramBuilder& wire(bool limits) {
+    auto& model = builder_.add<RobotModel>("model", bench());
+    platform_ = builder_.export_input("platform", model.platform);
+    if (!limits) return builder_;
+    keeper_ = &builder_.add<LimitKeeper>("limits", bench(), strict_settings());
+    builder_.connect(model.kinematics, keeper_->kinematics);
+    builder_.connect(model.dynamics, keeper_->dynamics);
+    request_ = builder_.export_input("request", keeper_->request);
+    reaction_ = builder_.export_input("reaction", keeper_->reaction);
+    disturbance_ = builder_.export_input("disturbance", keeper_->disturbance);
+    return builder_;
+  }
+
+  DiagramBuilder builder_{"bench", 1ms};
+  LimitKeeper* keeper_ = nullptr;
+  InputPort<PlatformMotion> platform_;
+  InputPort<TorqueCommand> request_;
+  InputPort<ReactionState> reaction_;
+  InputPort<WrenchEstimate> disturbance_;
+  test::Ticking ticking_;
+};
+
+void LimitTick(benchmark::State& state, const PlatformMotion& motion, const Eigen::Vector3d& torque) {
+  Kept kept(motion, torque, true), model(motion, torque, false);
+  for (auto unused : state) kept.tick();
+  const double evaluation = model.time_of_a_tick();
+  state.counters["times_the_model"] = (kept.time_of_a_tick() - evaluation) / evaluation;
+  state.counters["steps"] = kept.steps();
+}
+
+PlatformMotion moving(const Eigen::Vector3d& pose, const Eigen::Vector3d& velocity) {
+  return {.acquired = {}, .status = PlatformMotion::Status::valid, .pose = pose, .velocity = velocity};
+}
+
+BENCHMARK_CAPTURE(LimitTick, far_from_all, moving({0.02, 0.01, 0.02}, {0.1, 0.1, 0.1}),
+                  Eigen::Vector3d(1.0, -1.0, 1.0));
+BENCHMARK_CAPTURE(LimitTick, in_a_corner, moving({0.33, 0.0, 0.0}, {1.9, 0.4, 3.0}),
+                  Eigen::Vector3d(100.0, -100.0, 100.0));
+
+}  // namespace
+}  // namespace flinch

@@ -1,0 +1,176 @@
+#include "tests/campaign/limits/reactions_within_limits.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <thread>
+
+#include "experiments/campaign/campaign.h"
+#include "experiments/campaign/campaign_run.h"
+#include "experiments/simulated/experiment.h"
+#include "experiments/verdict/recorded_truth.h"
+#include "systems/framework/recorded_values.h"
+#include "systems/robot/contact_jacobian.h"
+#include "systems/robot/link_segments.h"
+#include "systems/safety/fault_table.h"
+#include "systems/signals/contact_detection.h"
+#include "systems/signals/gate_status.h"
+#include "systems/signals/limit_status.h"
+#include "systems/signals/reaction_state.h"
+
+namespace flinch::test {
+namespace {
+
+constexpr double touched = 1.0;         // [N]
+constexpr double at_rest = 0.02;        // [m/s]
+constexpr double released_after = 0.1;  // [s]
+constexpr double sigma_kappa_s = 15.0;
+constexpr double sigma_sc_s = 0.17;  // [m]
+
+std::string value_of(const CampaignRun& run, const std::string& key) {
+  for (const auto& [name, value] : run.values) {
+    if (name == key) return value;
+  }
+  return "";
+}
+
+std::string kind_of(const std::string& body) {
+  return body.starts_with("leg") ? body.substr(body.find('_') + 1) : body;
+}
+
+/// Follows when the robot is touched.
+class Touching {
+ public:
+  void see(double time, double force, ReactionOutcome& outcome) {
+    if (force > touched) {
+      if (!onset_) onset_ = time;
+      if (last_ && time - *last_ > released_after) outcome.reclosed = true;
+      if (!outcome.reclosed) last_ = time;
+      still_ = true;
+    } else {
+      still_ = false;
+    }
+    outcome.peak_force = std::max(outcome.peak_force, force);
+  }
+  void finish(ReactionOutcome& outcome) const {
+    if (onset_ && last_ && !still_) outcome.removed = *last_ - *onset_;
+  }
+
+ private:
+  std::optional<double> onset_, last_;
+  bool still_ = false;
+};
+
+void measure_place(const Mechanism& robot, const RecordedTruth& truth, ReactionOutcome& outcome) {
+  Kinematics at;
+  robot.kinematics(truth.pose, truth.velocity, at);
+  outcome.sigma_kappa = std::max(outcome.sigma_kappa, at.sigma_kappa);
+  outcome.sigma_sc = std::min(outcome.sigma_sc, self_collision_distance(robot, at));
+  outcome.det_A = std::min(outcome.det_A, std::abs(at.det_A));
+  outcome.distance = std::max(outcome.distance, truth.pose.head(robot.space().translations()).norm());
+  outcome.rotation = std::max(outcome.rotation, robot.space().rotation_angle(truth.pose));
+}
+
+/// Whether the robot can stop within the safety values from here: straight, in the shortest time that 70 Nm
+/// allow at the beginning, looked at in ten places.
+bool can_stop_inside(const Mechanism& robot, const RecordedTruth& truth) {
+  constexpr double most_torque = 70.0;
+  Kinematics at;
+  Dynamics dynamics;
+  robot.kinematics(truth.pose, truth.velocity, at);
+  robot.dynamics(at, dynamics);
+  if (!at.valid || !dynamics.valid) return false;
+  double stop = 5e-3;
+  for (; stop < 1.0; stop *= 1.05) {
+    const PlatformVector wrench = dynamics.M_x * (-truth.velocity / stop) + dynamics.C_x * truth.velocity +
+                                  dynamics.g_x + dynamics.F_fr_x;
+    if (drive_torques(at, wrench).lpNorm<Eigen::Infinity>() <= most_torque) break;
+  }
+  for (int k = 0; k <= 10; ++k) {
+    const double t = 0.1 * k * stop;
+    const PlatformVector way = truth.velocity * (t - 0.5 * t * t / stop);
+    robot.kinematics(robot.space().plus(truth.pose, way), PlatformVector::Zero(robot.dof()), at);
+    if (!(at.sigma_kappa <= sigma_kappa_s && self_collision_distance(robot, at) >= sigma_sc_s)) return false;
+  }
+  return true;
+}
+
+ReactionOutcome outcome_of(const CampaignRun& run) {
+  ReactionOutcome outcome;
+  outcome.keep = value_of(run, "control.limits.keep");
+  outcome.body = kind_of(value_of(run, "contact"));
+  const Recording recording =
+      run_for_signals(run.scenario, {"truth", "contact", "gate", "detection", "reaction", "limits"});
+  const RecordedValues<RecordedTruth> truths(recording, "truth");
+  const RecordedValues<RecordedContact> contacts(recording, "contact");
+  const RecordedValues<GateStatus> gates(recording, "gate");
+  const RecordedValues<ContactDetection> detections(recording, "detection");
+  const RecordedValues<ReactionState> modes(recording, "reaction");
+  const RecordedValues<LimitStatus> limits(recording, "limits");
+  const Mechanism& robot = *run.scenario.robot.robot;
+  Touching touching;
+  double detected = 0.0;
+  for (std::size_t k = 0; k < recording.samples(); ++k) {
+    const double time = to_seconds(Time(recording.time_ns[k]));
+    touching.see(time, contacts[k].strongest.force_in_base.norm(), outcome);
+    if (const GateStatus gate = gates[k]; gate.fault != GateFault::none && outcome.fault.empty())
+      outcome.fault = fault_table()[static_cast<std::size_t>(gate.fault) - 1].description;
+    const LimitStatus limit = limits[k];
+    outcome.slack = std::max(outcome.slack, limit.slack);
+    outcome.steps = std::max(outcome.steps, static_cast<int>(limit.steps));
+    const RecordedTruth truth = truths[k];
+    if (k == 0) {
+      measure_place(robot, truth, outcome);
+      outcome.starts_inside = outcome.sigma_kappa <= sigma_kappa_s && outcome.sigma_sc >= sigma_sc_s;
+    }
+    if (!outcome.detected && detections[k].level == ContactLevel::none) continue;
+    measure_place(robot, truth, outcome);
+    if (!outcome.struck && modes[k].mode == ReactionMode::zero_g) {
+      outcome.struck = true;
+      detected = time;
+      outcome.rest.reset();
+    }
+    if (!outcome.detected) {
+      detected = time;
+      outcome.brakeable = can_stop_inside(robot, truth);
+    }
+    outcome.detected = true;
+    if (truth.velocity.head(robot.space().translations()).norm() > at_rest) {
+      outcome.rest.reset();
+    } else if (!outcome.rest) {
+      outcome.rest = time - detected;
+    }
+  }
+  touching.finish(outcome);
+  return outcome;
+}
+
+}  // namespace
+
+std::vector<ReactionOutcome> run_reactions(const std::filesystem::path& file, std::size_t draws,
+                                           int threads) {
+  CampaignOverrides overrides;
+  overrides.draws = draws;
+  const Campaign campaign = read_campaign(file, overrides);
+  std::vector<ReactionOutcome> outcomes(campaign.runs());
+  std::atomic<std::size_t> next = 0;
+  std::vector<std::jthread> workers;
+  for (int i = 0; i < threads; ++i) {
+    workers.emplace_back([&] {
+      for (std::size_t run = next++; run < outcomes.size(); run = next++)
+        outcomes[run] = outcome_of(draw_run(campaign, run));
+    });
+  }
+  workers.clear();
+  return outcomes;
+}
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return std::nan("");
+  const auto place = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(place, 1) - 1);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+}  // namespace flinch::test

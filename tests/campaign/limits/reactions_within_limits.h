@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace flinch::test {
+
+/// What the true robot did in one run of a campaign, from the detection of a contact on.
+struct ReactionOutcome {
+  std::string keep;  ///< control.limits.keep
+  std::string body;  ///< that was to be touched
+  bool detected = false;
+  bool starts_inside = false;     ///< at the start both measures are within their safety values
+  bool struck = false;            ///< a contact got hard: zero gravity
+  bool brakeable = false;         ///< at the detection it could still stop within both safety values
+  std::string fault;              ///< why the gate closed, "" if it did not
+  std::optional<double> removed;  ///< after the onset of the contact [s]
+  /// After the detection or, where the contact got hard, after that: until the platform stays below 0.02 m/s
+  /// [s].
+  std::optional<double> rest;
+  double peak_force = 0.0;   ///< [N]
+  double sigma_kappa = 0.0;  ///< the largest
+  double sigma_sc = 1.0;     ///< the smallest [m]
+  double det_A = 1.0;        ///< the smallest, without sign
+  double distance = 0.0;     ///< the largest, of the platform from the centre [m]
+  double rotation = 0.0;     ///< the largest [rad]
+  double slack = 0.0;        ///< the largest
+  int steps = 0;             ///< the most of a quadratic programme
+  bool reclosed = false;     ///< touched again after a release of 100 ms
+};
+
+/// Runs every run of a campaign file, `draws` at each point of its grid, in `threads` threads.
+std::vector<ReactionOutcome> run_reactions(const std::filesystem::path& campaign, std::size_t draws,
+                                           int threads);
+
+/// The value below which this share lies; not a number where there is none.
+double quantile(std::vector<double> values, double share);
+
+}  // namespace flinch::test

@@ -1,0 +1,108 @@
+// What becomes of the robot's limits in 800 reactions by default and in a thousand with strict limits, on
+// robots that differ from their model. FLINCH_RUNS in the environment says how many of each body instead.
+#include "tests/campaign/limits/reactions_within_limits.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <numbers>
+
+namespace flinch {
+namespace {
+
+using test::ReactionOutcome;
+
+std::size_t runs_of_each_body(std::size_t usual) {
+  const char* const wanted = std::getenv("FLINCH_RUNS");
+  return wanted != nullptr ? static_cast<std::size_t>(std::atoi(wanted)) : usual;
+}
+
+std::filesystem::path campaign_file(const char* name) {
+  return std::filesystem::path(FLINCH_SOURCE_DIR) / "apps/campaigns" / name;
+}
+
+/// The runs of one group, added up.
+struct Group {
+  std::size_t n = 0, detected = 0, brakeable = 0, faults = 0, reclosed = 0, slack = 0;
+  std::size_t kappa = 0, sc = 0;  ///< beyond the safety values
+  std::size_t kappa_brakeable = 0,
+              sc_brakeable = 0;  ///< of runs that could still stop within them at the detection
+  std::vector<double> removed, rest;
+  double sigma_kappa = 0.0, sigma_sc = 1.0, det_A = 1.0, distance = 0.0, rotation = 0.0, largest_slack = 0.0;
+  int steps = 0;
+
+  void add(const ReactionOutcome& run) {
+    ++n;
+    faults += run.fault.empty() ? 0U : 1U;
+    steps = std::max(steps, run.steps);
+    largest_slack = std::max(largest_slack, run.slack);
+    slack += run.slack > 1e-3 ? 1U : 0U;
+    if (!run.detected) return;
+    ++detected;
+    const bool beyond_kappa = run.sigma_kappa > 15.0 * (1.0 + 1e-6),
+               beyond_sc = run.sigma_sc < 0.17 * (1.0 - 1e-6);
+    kappa += beyond_kappa ? 1U : 0U;
+    sc += beyond_sc ? 1U : 0U;
+    brakeable += run.brakeable ? 1U : 0U;
+    kappa_brakeable += run.brakeable && beyond_kappa ? 1U : 0U;
+    sc_brakeable += run.brakeable && beyond_sc ? 1U : 0U;
+    reclosed += run.reclosed ? 1U : 0U;
+    if (run.removed) removed.push_back(*run.removed);
+    if (run.struck) rest.push_back(run.rest.value_or(9.0));
+    sigma_kappa = std::max(sigma_kappa, run.sigma_kappa);
+    sigma_sc = std::min(sigma_sc, run.sigma_sc);
+    det_A = std::min(det_A, run.det_A);
+    distance = std::max(distance, run.distance);
+    rotation = std::max(rotation, run.rotation);
+  }
+
+  void print(const std::string& name) const {
+    std::printf(
+        "%-26s %4zu runs, %4zu detected, %3zu faults, removed %3.0f/%3.0f ms, rest %3.0f/%3.0f/%4.0f ms, "
+        "again "
+        "%zu\n"
+        "  beyond kappa %zu, sc %zu; of %zu brakeable at the detection %zu, %zu; worst kappa %.2f, sc %.4f "
+        "m, "
+        "det A %.3f, %.4f m, %.1f deg; slack in %zu runs (%.3f), %d steps\n",
+        name.c_str(), n, detected, faults, 1e3 * test::quantile(removed, 0.5),
+        1e3 * test::quantile(removed, 0.95), 1e3 * test::quantile(rest, 0.5),
+        1e3 * test::quantile(rest, 0.95), 1e3 * test::quantile(rest, 1.0), reclosed, kappa, sc, brakeable,
+        kappa_brakeable, sc_brakeable, sigma_kappa, sigma_sc, det_A, distance,
+        rotation * 180.0 / std::numbers::pi, slack, largest_slack, steps);
+  }
+};
+
+TEST(DefaultReaction, StaysWithinEveryLimitOfTheGateAndComesToRest) {
+  Group all;
+  for (const ReactionOutcome& run :
+       test::run_reactions(campaign_file("default_reaction.yaml"), runs_of_each_body(200), 2))
+    all.add(run);
+  all.print("default");
+  EXPECT_EQ(all.faults, 0U);
+  EXPECT_GT(all.det_A, 0.2);
+  EXPECT_LT(all.distance, 0.35);
+  EXPECT_LT(all.rotation, 29.0 * std::numbers::pi / 180.0);
+  EXPECT_LT(test::quantile(all.rest, 0.95), 0.5);
+}
+
+TEST(ReactionsWithinLimits, KeepThemWhereTheyAreAlwaysKept) {
+  std::map<std::string, Group> groups;
+  for (const ReactionOutcome& run :
+       test::run_reactions(campaign_file("reaction_1000.yaml"), runs_of_each_body(250), 2)) {
+    if (!run.starts_inside) continue;
+    groups[run.keep].add(run);
+    std::string group = run.keep;
+    group.append(", ").append(run.body);
+    groups[group].add(run);
+  }
+  for (const auto& [name, group] : groups) group.print(name);
+  const Group& always = groups["always"];
+  EXPECT_EQ(always.kappa, 0U);
+  EXPECT_EQ(always.sc, 0U);
+  EXPECT_EQ(always.faults, 0U);
+  EXPECT_LE(always.slack, always.n / 100);
+}
+
+}  // namespace
+}  // namespace flinch
