@@ -1,5 +1,6 @@
-// A run of a campaign: drawn, built, simulated for 1.2 s and judged, without page or recording. `per_4_cores` is how
-// many four processors do in a second, by the processor time that a run takes, whatever else the machine does.
+// A run of a campaign: drawn, built, simulated for 1.2 s and judged, without page or recording.
+// `per_4_cores` is how many four processors do in a second, by the processor time that a run takes, whatever
+// else the machine does.
 #include <benchmark/benchmark.h>
 
 #include <string>
