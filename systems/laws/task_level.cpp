@@ -1,0 +1,141 @@
+#include "systems/laws/task_level.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "systems/robot/impedance_damping.h"
+
+namespace flinch {
+namespace {
+
+constexpr double least_conditioned = 1e-10;  // of a task's mobility, relative
+
+/// e and de of a task that moves with the platform.
+struct TaskError {
+  PlatformVector e;
+  PlatformVector de;
+};
+
+TaskError error_of(const TaskGoal& goal, const PlatformVector& velocity) {
+  return {goal.reference.error, goal.reference.rate - goal.task.rate(velocity)};
+}
+
+// M_i^-1 (K_F e + D_F de), from the mobility M_i^-1 = J_i M_x^-1 J_i^T.
+PlatformVector compliant_acceleration(const TaskGains& gains, const PlatformMatrix& mobility,
+                                      const TaskError& error) {
+  if (mobility.rows() == 1) {
+    const double root = std::sqrt(gains.force[0] * mobility(0, 0));
+    return mobility * gains.force.cwiseProduct(error.e) + 2.0 * gains.damping_ratio[0] * root * error.de;
+  }
+  // A direction in which the task cannot be moved has no inertia to design a damping for.
+  const auto n = mobility.rows();
+  PlatformMatrix movable = mobility;
+  const double size = mobility.trace();
+  if (movable.determinant() <
+      std::pow(least_conditioned, static_cast<double>(n - 1)) * std::pow(size, static_cast<double>(n))) {
+    movable.diagonal().array() += 1e-6 * size;
+  }
+  const PlatformMatrix M = movable.inverse();
+  const PlatformMatrix K = gains.force.asDiagonal();
+  const PlatformMatrix D = impedance_damping(0.5 * (M + M.transpose()), K, gains.damping_ratio).D;
+  return mobility * (K * error.e + D * error.de);  // [SafePR] (44b), (46)
+}
+
+PlatformVector velocity_reference(const TaskList& list, const Kinematics& kinematics,
+                                  const TaskLevelSettings& settings) {
+  TaskPriority priority(drive_count(kinematics), settings.inverse);
+  for (const TaskGoal& goal : list) {
+    const DriveTask task = seen_by_drives(goal.task, kinematics);
+    if (!task.valid) continue;
+    priority.add(task.J,
+                 goal.reference.rate + goal.gains.velocity.cwiseProduct(goal.reference.error));  // (32b)
+  }
+  return priority.solution();
+}
+
+PlatformVector acceleration_reference(const TaskList& list, const Kinematics& kinematics,
+                                      const TaskLevelSettings& settings) {
+  const int drives = drive_count(kinematics);
+  TaskPriority priority(drives, settings.inverse);
+  for (const TaskGoal& goal : list) {
+    const DriveTask task = seen_by_drives(goal.task, kinematics);
+    if (!task.valid) continue;
+    const TaskError error = error_of(goal, kinematics.velocity);
+    const PlatformVector wanted = goal.reference.acceleration + goal.gains.stiffness.cwiseProduct(error.e) +
+                                  goal.gains.damping.cwiseProduct(error.de);  // (33b)
+    priority.add(task.J, wanted - task.drift);
+  }
+  priority.add(PlatformMatrix::Identity(drives, drives), -settings.free_damping * kinematics.rates.active);
+  const PlatformVector& wanted = priority.solution();
+  const double largest = wanted.lpNorm<Eigen::Infinity>();
+  return wanted * std::min(1.0, settings.largest_acceleration / std::max(largest, 1e-300));
+}
+
+// With M_x = L L^T and u = L^T ddx the dynamically consistent projections are orthogonal ones of J L^-T.
+PlatformVector wrench_reference(const TaskList& list, const Kinematics& kinematics, const Dynamics& dynamics,
+                                const TaskLevelSettings& settings) {
+  const int n = static_cast<int>(dynamics.M_x.rows());
+  const Eigen::LLT<PlatformMatrix> M(dynamics.M_x);
+  const PlatformMatrix L = M.matrixL();
+  TaskPriority priority(n, settings.inverse);
+  for (const TaskGoal& goal : list) {
+    if (!goal.task.valid) continue;
+    const PlatformMatrix J =
+        L.triangularView<Eigen::Lower>().solve(PlatformMatrix(goal.task.J.transpose())).transpose();
+    const PlatformVector wanted =
+        goal.reference.acceleration +
+        compliant_acceleration(goal.gains, J * J.transpose(), error_of(goal, kinematics.velocity));
+    priority.add(J, wanted - goal.task.drift);
+  }
+  const PlatformMatrix free =
+      L.triangularView<Eigen::Lower>().solve(PlatformMatrix(PlatformMatrix::Identity(n, n))).transpose();
+  priority.add(free, -settings.free_damping * kinematics.velocity);
+  return L * priority.solution();
+}
+
+}  // namespace
+
+PlatformVector task_reference(TaskLevel level, const TaskList& list, const Kinematics& kinematics,
+                              const Dynamics& dynamics, const TaskLevelSettings& settings) noexcept {
+  if (!kinematics.valid || !dynamics.valid) return PlatformVector::Zero(drive_count(kinematics));
+  switch (level) {
+    case TaskLevel::velocity:
+      return velocity_reference(list, kinematics, settings);
+    case TaskLevel::acceleration:
+      return acceleration_reference(list, kinematics, settings);
+    case TaskLevel::torque:
+      break;
+  }
+  return wrench_reference(list, kinematics, dynamics, settings);
+}
+
+JointVector task_torque(TaskLevel level, const PlatformVector& reference, const Kinematics& kinematics,
+                        const Dynamics& dynamics, const TaskLevelSettings& settings) noexcept {
+  const PlatformMatrix& J = kinematics.J_x_qa;
+  const JointVector& dq = kinematics.rates.active;
+  PlatformVector b_x = dynamics.C_x * kinematics.velocity + dynamics.g_x + dynamics.F_fr_x;
+  if (level == TaskLevel::torque) {
+    return saturated(J.transpose() * b_x, J.transpose() * reference, settings.largest_torque);
+  }
+  b_x += dynamics.M_x * (kinematics.dJ_x_qa * dq);
+  const JointVector b = J.transpose() * b_x;
+  if (level == TaskLevel::acceleration) {
+    return saturated(b, J.transpose() * (dynamics.M_x * (J * reference)), settings.largest_torque);
+  }
+  const JointVector wanted =
+      settings.velocity_feedforward * reference + settings.velocity_gain * (reference - dq);  // (32e)
+  return saturated(b, wanted, settings.largest_torque);
+}
+
+JointVector saturated(const JointVector& known, const JointVector& wanted, double largest) noexcept {
+  double share = 1.0;
+  for (Eigen::Index i = 0; i < known.size(); ++i) {
+    const double room = wanted[i] > 0.0 ? largest - known[i] : largest + known[i];
+    if (std::abs(wanted[i]) > room) share = std::min(share, std::max(room, 0.0) / std::abs(wanted[i]));
+  }
+  return (known + share * wanted).cwiseMax(-largest).cwiseMin(largest);
+}
+
+}  // namespace flinch

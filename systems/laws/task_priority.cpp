@@ -1,0 +1,40 @@
+#include "systems/laws/task_priority.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+namespace flinch {
+namespace {
+
+// Of a singular value with the square `squared`: s / (s^2 + lambda^2), over s.
+double inverse_square(double squared, const DampedInverseSettings& settings) {
+  if (!(squared > settings.truncated * settings.truncated)) return 0.0;
+  const double ratio = squared / (settings.near_singular * settings.near_singular);
+  const double lambda_squared = ratio < 1.0 ? settings.damping * settings.damping * (1.0 - ratio) : 0.0;
+  return 1.0 / (squared + lambda_squared);
+}
+
+}  // namespace
+
+// From the eigenvectors U of J J^T: V = J^T U / s.
+PlatformMatrix damped_inverse(const PlatformMatrix& J, const DampedInverseSettings& settings) noexcept {
+  if (J.rows() == 1) return J.transpose() * inverse_square(J.squaredNorm(), settings);
+  const PlatformMatrix squared = J * J.transpose();
+  const Eigen::SelfAdjointEigenSolver<PlatformMatrix> system(squared);
+  const PlatformMatrix& U = system.eigenvectors();
+  const PlatformVector inverses =
+      system.eigenvalues().unaryExpr([&](double s) { return inverse_square(s, settings); });
+  return J.transpose() * (U * inverses.asDiagonal() * U.transpose());
+}
+
+TaskPriority::TaskPriority(int n, const DampedInverseSettings& settings) noexcept
+    : settings_(settings), solution_(PlatformVector::Zero(n)), null_space_(PlatformMatrix::Identity(n, n)) {}
+
+void TaskPriority::add(const PlatformMatrix& J, const PlatformVector& target) noexcept {
+  const PlatformMatrix J_p = J * null_space_;
+  const PlatformMatrix inverse = damped_inverse(J_p, settings_);
+  solution_ += inverse * (target - J * solution_);
+  null_space_ -= inverse * J_p;
+}
+
+}  // namespace flinch
