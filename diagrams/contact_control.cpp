@@ -4,6 +4,7 @@
 
 #include "diagrams/isolation_stages.h"
 #include "diagrams/limit_keeping.h"
+#include "systems/contact/told_contact.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/constant.h"
 #include "systems/laws/operator_buttons.h"
@@ -185,11 +186,15 @@ Safety add_safety(const Path& path, const ReactionPorts& given, const Laws& laws
   return safety;
 }
 
-/// What the reaction sequence learns one tick later.
-void connect_back(DiagramBuilder& builder, const Laws& laws, const Safety& safety,
-                  ReactionSequence& sequence) {
-  builder.connect(laws.reaction.port().reference, sequence.reaction);
-  builder.connect(safety.gate.status, sequence.gate);
+/// Connects what blocks learn one tick later, and what the operator presses.
+InputPort<OperatorCommand> connect_back(DiagramBuilder& builder, const SensedPorts& sensed, const Laws& laws,
+                                        const Safety& safety, const Operator& wanted) {
+  builder.connect(laws.reaction.port().reference, wanted.sequence.reaction);
+  builder.connect(safety.gate.status, wanted.sequence.gate);
+  const auto pressed = builder.export_input("operator_command", wanted.buttons.buttons);
+  builder.connect(pressed, safety.monitor.buttons);
+  builder.connect(sensed.status, safety.monitor.station);
+  return pressed;
 }
 
 /// Lets a contact detector follow each estimator that the others do not follow, for comparison.
@@ -272,6 +277,37 @@ void show_isolation(const Path& path, const Isolation& isolation, OtherStages& s
   }
 }
 
+/// The torques of laws that are not followed, and the constraints of all.
+void show_laws(const Path& path, const Laws& laws, OtherStages& shown) {
+  shown.torques = show_torques(path, laws);
+  for (const Added<LawPorts>* kind : {&laws.nominal, &laws.reaction}) {
+    for (const Named<LawPorts>& law : kind->all) {
+      if (!law.port.constraints) continue;
+      const std::string name = "constraints_" + law.name;
+      shown.constraints.push_back({name, path.builder.export_output(name, *law.port.constraints)});
+    }
+  }
+}
+
+/// Lets the reaction believe who knows what touches the robot, where the settings say so.
+struct Told {
+  InputPort<ContactClassification> classification;
+  InputPort<ContactLocation> location;
+};
+
+Told add_told_contact(const Path& path, ReactionPorts& reaction) {
+  auto& told = path.builder.add<ToldContact>("told_contact");
+  const Told given{path.builder.optional_input<ContactClassification>("told_classification"),
+                   path.builder.optional_input<ContactLocation>("told_location")};
+  path.builder.connect(given.classification, told.told_classification);
+  path.builder.connect(given.location, told.told_location);
+  if (path.settings.contact_is_told) {
+    reaction.classification = told.classification;
+    reaction.location = told.location;
+  }
+  return given;
+}
+
 }  // namespace
 
 ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
@@ -292,18 +328,16 @@ ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
   const Isolation isolation = add_isolation(path, estimated, detectors.port());
   const auto target = builder.optional_input<TargetCommand>("target");
   const Operator wanted = add_operator(path, estimated, buttons, detectors.port(), target);
-  const ReactionPorts reaction{isolation.classified(), isolation.locators.port().location,
-                               wanted.sequence.reaction_state, wanted.trajectory.reference};
+  ReactionPorts reaction{isolation.classified(), isolation.locators.port().location,
+                         wanted.sequence.reaction_state, wanted.trajectory.reference};
+  const Told told = add_told_contact(path, reaction);
   const Laws laws = add_laws(path, reaction);
   const Safety safety = add_safety(path, reaction, laws);
-  connect_back(builder, laws, safety, wanted.sequence);
-  const auto pressed = builder.export_input("operator_command", buttons.buttons);
-  builder.connect(pressed, safety.monitor.buttons);
-  builder.connect(sensed.status, safety.monitor.station);
+  const auto pressed = connect_back(builder, sensed, laws, safety, wanted);
   OtherStages others = show_others(path, velocities, accelerations, estimators, buttons.reset);
   others.detections = path.show_others("detection", detectors);
-  others.torques = show_torques(path, laws);
   show_isolation(path, isolation, others);
+  show_laws(path, laws, others);
   const ContactControl control{
       .joints = sensed.joints,
       .drives = sensed.drives,
@@ -311,6 +345,8 @@ ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
       .status = sensed.status,
       .operator_command = pressed,
       .target = target,
+      .told_classification = told.classification,
+      .told_location = told.location,
       .tick_timing = builder.export_input("tick_timing", safety.monitor.timing),
       .torque_command = builder.export_output("torque_command", safety.gate.torque_command),
       .brake = builder.export_output("brake", safety.gate.brake),
@@ -324,8 +360,8 @@ ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
       .isolation_wrench = builder.export_output("isolation_wrench", reaction.isolation_wrench),
       .features = builder.export_output("features", reaction.features),
       .evidence = builder.export_output("evidence", reaction.evidence),
-      .classification = builder.export_output("classification", reaction.classification),
-      .location = builder.export_output("location", reaction.location),
+      .classification = builder.export_output("classification", isolation.classifiers.port()),
+      .location = builder.export_output("location", isolation.locators.port().location),
       .reaction_state = builder.export_output("reaction_state", reaction.reaction),
       .reference = builder.export_output("reference", laws.selector.reference),
       .requested_torque = builder.export_output("requested_torque", laws.selector.torque),

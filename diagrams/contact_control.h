@@ -28,6 +28,8 @@ struct OtherStages {
   std::vector<Named<OutputPort<ContactLocation>>> locations;
   /// "particles_" + the name of each locator that has some, whether it is followed or not.
   std::vector<Named<OutputPort<ParticleCloud>>> clouds;
+  /// Of every law that keeps some, whether it is followed or not: "constraints_" + its name.
+  std::vector<Named<OutputPort<ConstraintState>>> constraints;
 };
 
 /// The ports of the contact-control pipeline.
@@ -37,7 +39,10 @@ struct ContactControl {
   InputPort<ImuReading> imu;  ///< may be left open: no data
   InputPort<StationStatus> status;
   InputPort<OperatorCommand> operator_command;
-  InputPort<TargetCommand> target;    ///< may be left open: none
+  InputPort<TargetCommand> target;  ///< may be left open: none
+  /// What touches the robot and where, from someone who knows; may be left open: nobody does.
+  InputPort<ContactClassification> told_classification;
+  InputPort<ContactLocation> told_location;
   InputPort<TickTiming> tick_timing;  ///< for RealtimeRunner::feed_timing(); not valid in simulated time
 
   OutputPort<TorqueCommand> torque_command;  ///< from the torque gate, as is `brake`

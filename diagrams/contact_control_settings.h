@@ -6,6 +6,7 @@
 
 #include "diagrams/control_stages.h"
 #include "diagrams/isolation_settings.h"
+#include "diagrams/task_settings.h"
 #include "systems/contact/contact_detector.h"
 #include "systems/estimators/disturbance_filter.h"
 #include "systems/estimators/imu_filter.h"
@@ -57,6 +58,8 @@ struct ContactControlSettings {
   /// that are reacted to.
   ContactDetectorSettings detector_of(const std::string& estimator) const;
 
+  /// Reactions go by who tells the control path what touches the robot, and not by the followed classifier.
+  bool contact_is_told = false;
   IsolationSettings isolation;  ///< what is touched, where and how hard
 
   // ---- what to do
@@ -65,6 +68,7 @@ struct ContactControlSettings {
   RetractionSettings retraction;          ///< 0.10 m along the force
   /// Share of the translational stiffness that is left while reacting, 0 to 1. [SafePR] IV-A
   double reaction_stiffness = 1.0;
+  TaskSettings tasks;  ///< of the laws that serve tasks by priority
   ReactionSequenceSettings sequence;
   /// After a hard contact: zero gravity that takes energy out. None: zero gravity alone, [SafePR] IV-A, which
   /// is no torque at all for a robot that moves horizontally: it coasts on.

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "diagrams/acceleration_stages.h"
 #include "diagrams/contact_control_settings.h"
 #include "diagrams/estimator_stages.h"
 #include "diagrams/isolation_stages.h"
+#include "diagrams/task_stages.h"
 #include "systems/foundation/nearest_name.h"
 #include "systems/foundation/setup_error.h"
 
@@ -112,6 +114,8 @@ ControlStages known_stages() {
   stages.estimators.all = estimator_stages();
   stages.classifiers.all = classifier_stages();
   stages.locators.all = locator_stages();
+  for (ControlLaw& law : tracking_stages()) stages.nominal_laws.add(std::move(law));
+  for (ControlLaw& law : task_reaction_stages()) stages.reaction_laws.add(std::move(law));
   return stages;
 }
 

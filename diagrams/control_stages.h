@@ -5,6 +5,7 @@
 
 #include "diagrams/stage.h"
 #include "systems/robot/parallel_robot.h"
+#include "systems/signals/constraint_state.h"
 #include "systems/signals/contact_classes.h"
 #include "systems/signals/contact_detection.h"
 #include "systems/signals/contact_features.h"
@@ -92,6 +93,7 @@ struct LawPorts {
   OutputPort<TorqueCommand> torque;
   /// Of a reaction: `finished` ends it. Not valid where there is nothing to be followed.
   OutputPort<PlatformReference> reference;
+  std::optional<OutputPort<ConstraintState>> constraints{};  ///< of a law that keeps some
 };
 
 using VelocitySource = Stage<SensedPorts, OutputPort<JointMotion>>;

@@ -34,6 +34,10 @@ struct SimulatedStationSettings {
 
   std::vector<RequestedFault> faults;  ///< Of sensors, drives, brakes and of the link to the control path.
 
+  /// Who says what touches the robot, in the place of a classifier; empty: nobody. "truth": what does. The
+  /// name of a class: that one from the first touch of a body that has to do with it on.
+  std::string told_contact;
+
   std::uint64_t seed = 0;  ///< Of the run; each sensor derives its own.
   Time tick = 1ms;         ///< The time between ticks of the diagram, or a multiple of it.
 

@@ -58,6 +58,7 @@ void export_control(DiagramBuilder& builder, const ContactControl& control) {
   show(control.others.classifications);
   show(control.others.locations);
   show(control.others.clouds);
+  show(control.others.constraints);
 }
 
 std::vector<std::string> recorded_paths(const Diagram& diagram) {

@@ -11,6 +11,7 @@
 #include "experiments/scenario/scenario_isolation.h"
 #include "experiments/scenario/scenario_pose.h"
 #include "experiments/scenario/scenario_stages.h"
+#include "experiments/scenario/scenario_tasks.h"
 #include "systems/config/config_reader.h"
 #include "systems/config/robot_file.h"
 #include "systems/foundation/nearest_name.h"
@@ -183,6 +184,7 @@ void read_control(ConfigReader control, const ParallelRobot& robot, ContactContr
   read_detection(control, estimators, settings);
   read_isolation(control.section("isolation"), settings.isolation);
   read_laws(control, robot, settings);
+  read_tasks(control, robot, settings.tasks);
 }
 
 void read_motion(ConfigReader motion, const RobotFile& file, std::uint64_t seed,

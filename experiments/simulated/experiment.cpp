@@ -5,6 +5,7 @@
 #include "diagrams/contact_control.h"
 #include "experiments/recorded/recorded_signals.h"
 #include "experiments/recorded/robot_as_drawn.h"
+#include "experiments/simulated/contact_teller.h"
 #include "experiments/simulated/simulated_scenario.h"
 #include "experiments/verdict/recorded_run.h"
 #include "experiments/verdict/run_watch.h"
@@ -23,11 +24,21 @@ namespace flinch {
 Experiment build_experiment(const SimulatedScenario& scenario) {
   DiagramBuilder builder("experiment", 1ms);
   const SimulatedStation station = add_simulated_station(builder, scenario.station);
-  const ContactControl control = add_contact_control(builder, scenario.robot.robot, scenario.control);
+  ContactControlSettings settings = scenario.control;
+  settings.contact_is_told = !scenario.station.told_contact.empty();
+  const ContactControl control = add_contact_control(builder, scenario.robot.robot, settings);
   connect(builder, station, control);
   const auto operator_command = builder.export_input("operator", control.operator_command);
   const auto target = builder.export_input("target", control.target);
   builder.connect(builder.add<Constant<TickTiming>>("tick_timing", TickTiming()).value, control.tick_timing);
+  if (settings.contact_is_told) {
+    auto& teller =
+        builder.add<ContactTeller>("contact_teller", scenario.robot.robot, scenario.station.told_contact);
+    builder.connect(station.contact_truth, teller.contact);
+    builder.connect(station.platform_truth, teller.platform);
+    builder.connect(teller.classification, control.told_classification);
+    builder.connect(teller.location, control.told_location);
+  }
   builder.export_output("truth", station.plant_truth);
   builder.export_output("contact", station.contact_truth);
   const Obstacles& obstacles = scenario.station.bench.obstacles;

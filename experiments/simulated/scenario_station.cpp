@@ -1,9 +1,11 @@
 #include "experiments/simulated/scenario_station.h"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "experiments/scenario/scenario.h"
 #include "experiments/scenario/scenario_pose.h"
@@ -15,7 +17,9 @@
 #include "plant/specimen.h"
 #include "plant/true_robot.h"
 #include "systems/config/config_reader.h"
+#include "systems/foundation/nearest_name.h"
 #include "systems/robot/parallel_robot.h"
+#include "systems/signals/contact_classes.h"
 
 namespace flinch {
 namespace {
@@ -26,6 +30,20 @@ std::span<double> entries(Vector& vector) {
 }
 
 enum class PlantFriction { as_robot_file, none };
+
+/// "controller", where it finds out by itself; "truth"; or the class that the experiment is made for.
+void read_classification(ConfigReader& plant, const ParallelRobot& robot, std::string& told) {
+  std::string by = "controller";
+  plant.text("classification", by);
+  std::vector<std::string> known = {"controller", "truth"};
+  const ContactClasses classes(robot.body_count(), robot.legs());
+  for (int i = 0; i < classes.count(); ++i) known.push_back(classes.name(i));
+  if (std::find(known.begin(), known.end(), by) == known.end()) {
+    plant.problem("classification", "is '" + by + "'; it must be controller, truth, or a class of contact" +
+                                        did_you_mean(by, known));
+  }
+  told = by == "controller" ? "" : by;
+}
 
 /// Factors on the model, one for each drive or leg.
 void read_scales(ConfigReader& plant, const char* name, int count, JointVector& scales) {
@@ -44,6 +62,7 @@ Realism read_plant(ConfigReader plant, const RobotFile& believed, SimulatedStati
   station.drives.driver_torque_constant = believed.drives.torque_constant;
   plant.choice("friction", friction,
                {{"as_robot_file", PlantFriction::as_robot_file}, {"none", PlantFriction::none}});
+  read_classification(plant, *believed.robot, station.told_contact);
   read_scales(plant, "drive_friction_scale", drives, deviation.drive_friction_scale);
   read_scales(plant, "passive_friction_scale", believed.robot->legs(), deviation.passive_friction_scale);
   plant.number("leg_inertia_scale", unit::none, mass_scale, positive);

@@ -31,6 +31,7 @@ constexpr std::array known_units = {
     KeyUnit{"ms", unit::s, 1.0, 1e3},
     KeyUnit{"us", unit::s, 1.0, 1e6},
     KeyUnit{"per_s", unit::per_s},
+    KeyUnit{"per_s2", unit::per_s2},
     KeyUnit{"Hz", unit::Hz},
     KeyUnit{"kHz", unit::Hz, 1e3},
     KeyUnit{"kg", unit::kg},

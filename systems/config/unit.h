@@ -28,6 +28,7 @@ inline constexpr Unit rad_per_s2{"rad_per_s2", "rad/s^2"};
 inline constexpr Unit rad_per_s3{"rad_per_s3", "rad/s^3"};
 inline constexpr Unit s{"s", "s"};
 inline constexpr Unit per_s{"per_s", "1/s"};
+inline constexpr Unit per_s2{"per_s2", "1/s^2"};
 inline constexpr Unit Hz{"Hz", "Hz"};
 inline constexpr Unit kg{"kg", "kg"};
 inline constexpr Unit kg_m2{"kg_m2", "kg m^2"};

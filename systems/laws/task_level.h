@@ -7,8 +7,8 @@
 #include "systems/robot/kinematics.h"
 #include "systems/signals/task_list.h"
 
-/// Tasks by priority on the three levels of [SafePR] IV-C to IV-E. On each a law has two halves: the tasks give a
-/// reference, which is what is blended where tasks change, and the reference gives torques.
+/// Tasks by priority on the three levels of [SafePR] IV-C to IV-E. On each a law has two halves: the tasks
+/// give a reference, which is what is blended where tasks change, and the reference gives torques.
 namespace flinch {
 
 /// What a task controller commands, and so in which metric tasks share what is left.
@@ -27,6 +27,7 @@ struct TaskLevelSettings {
   double velocity_gain = 60.0;          ///< D_qa, of (32e) [Nms/rad]
   double largest_acceleration = 100.0;  ///< of a drive's reference [rad/s^2]
   double largest_torque = 100.0;        ///< of a drive [Nm]
+  double largest_torque_rate = 20e3;    ///< of a drive, so that no switch makes a step [Nm/s]
 };
 
 /// What the tasks of `list` want together, one entry a drive or platform coordinate: dq_a,ref [rad/s],
@@ -53,8 +54,8 @@ PlatformVector task_reference(TaskLevel level, const TaskList& list, const Kinem
 JointVector task_torque(TaskLevel level, const PlatformVector& reference, const Kinematics& kinematics,
                         const Dynamics& dynamics, const TaskLevelSettings& settings) noexcept;
 
-/// `wanted` made shorter, in its direction, so that no entry of known + wanted exceeds `largest`; where that of
-/// `known` alone does, known + wanted clamped.
+/// `wanted` made shorter, in its direction, so that no entry of known + wanted exceeds `largest`; where that
+/// of `known` alone does, known + wanted clamped.
 JointVector saturated(const JointVector& known, const JointVector& wanted, double largest) noexcept;
 
 }  // namespace flinch

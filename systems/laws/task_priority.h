@@ -11,9 +11,9 @@ struct DampedInverseSettings {
   double truncated = 1e-6;      ///< singular values below it count as zero
 };
 
-/// J^dagger = V diag(s / (s^2 + lambda^2)) U^T with lambda^2 = lambda_0^2 (1 - (s / epsilon)^2) for each singular
-/// value s < epsilon, 0 above: the Moore-Penrose inverse of all that can be moved, and less and less of the
-/// rest. Any shape, any rank.
+/// J^dagger = V diag(s / (s^2 + lambda^2)) U^T with lambda^2 = lambda_0^2 (1 - (s / epsilon)^2) for each
+/// singular value s < epsilon, 0 above: the Moore-Penrose inverse of all that can be moved, and less and less
+/// of the rest. Any shape, any rank.
 PlatformMatrix damped_inverse(const PlatformMatrix& J, const DampedInverseSettings& settings = {}) noexcept;
 
 /// Rates or accelerations u of the drives that serve tasks by priority: each as well as those before it leave

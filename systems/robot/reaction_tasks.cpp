@@ -40,6 +40,16 @@ Task platform_pose_task(const Mechanism& mechanism, const Kinematics& kinematics
   return task;
 }
 
+Task platform_orientation_task(const Mechanism& mechanism, const Kinematics& kinematics) noexcept {
+  const int rows = mechanism.space().rotations();
+  Task task = no_task(rows, mechanism.dof());
+  if (!kinematics.reachable || rows == 0) return task;
+  task.sigma = mechanism.difference(kinematics.pose, mechanism.space().origin()).tail(rows);
+  task.J.rightCols(rows).setIdentity();
+  task.valid = true;
+  return task;
+}
+
 Task drive_task(const Kinematics& kinematics, int drive) noexcept {
   return joint_task(kinematics, kinematics.joints.active, kinematics.J_qa_x, kinematics.dJ_qa_x, drive);
 }

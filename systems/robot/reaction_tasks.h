@@ -15,6 +15,10 @@ Task platform_position_task(const Mechanism& mechanism, const Kinematics& kinema
 /// rotation vector from the base frame [rad], so that differences of them mean nothing but for planar robots.
 Task platform_pose_task(const Mechanism& mechanism, const Kinematics& kinematics) noexcept;
 
+/// The orientation's rows of that task, to be held below the position. No rows where the platform cannot
+/// turn, and then not valid.
+Task platform_orientation_task(const Mechanism& mechanism, const Kinematics& kinematics) noexcept;
+
 /// sigma = q_a,j: position of a drive [rad or m]. (28)
 Task drive_task(const Kinematics& kinematics, int drive) noexcept;
 

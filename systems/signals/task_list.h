@@ -31,12 +31,13 @@ struct TaskGoal {
   TaskGains gains;
 };
 
-/// Tasks by priority, the highest first.
+/// Tasks by priority, the highest first. Without any the robot is braked.
 struct TaskList {
   static constexpr std::size_t most = 4;
 
   std::array<TaskGoal, most> goals;
   int count = 0;
+  bool valid = false;  ///< They are what shall be done now.
 
   /// Without effect where there is no room left.
   void add(const TaskGoal& goal) {

@@ -79,6 +79,19 @@ TEST_P(ReactionTaskLaws, InTheCentreTheDistanceHasNoGradient) {
   EXPECT_EQ(task.drift[0], 0.0);
 }
 
+TEST_P(ReactionTaskLaws, PositionAndOrientationAreThePose) {
+  const MotionState& state = states.front();
+  const Kinematics k = kinematics_at(state.pose, state.velocity);
+  const Task pose = platform_pose_task(robot, k);
+  const Task orientation = platform_orientation_task(robot, k);
+  EXPECT_EQ(orientation.rows(), space.rotations());
+  EXPECT_EQ(orientation.valid, space.rotations() > 0);
+  if (!orientation.valid) return;
+  const Task both = stacked(platform_position_task(robot, k), orientation);
+  EXPECT_EQ(both.J, pose.J);
+  EXPECT_LT((both.sigma - pose.sigma).norm(), 1e-12);
+}
+
 TEST_P(ReactionTaskLaws, WhatThereIsNotIsNotValid) {
   const Kinematics k = kinematics_at(robot.home_pose(), unit(0));
   EXPECT_FALSE(drive_task(k, robot.drives()).valid);

@@ -1,0 +1,77 @@
+#include "diagrams/task_stages.h"
+
+#include "diagrams/contact_control_settings.h"
+#include "systems/laws/pose_goals.h"
+#include "systems/laws/task_controller.h"
+#include "systems/motion/constraint_watch.h"
+#include "systems/motion/reaction_task.h"
+
+namespace flinch {
+namespace {
+
+/// The tasks that a law serves.
+struct LedTasks {
+  OutputPort<TaskList> goals;
+  OutputPort<PlatformReference> reference;
+};
+
+LawPorts add_controller(const StageSite& site, TaskLevel level, ConstraintWatch::Role role,
+                        const ReactionPorts& given, const LedTasks& led) {
+  DiagramBuilder& builder = site.builder;
+  const TaskSettings& settings = site.settings.tasks;
+  auto& watch =
+      builder.add<ConstraintWatch>(site.name + "_constraints", site.robot, settings.constraints, role);
+  builder.connect(given.reaction, watch.reaction);
+  builder.connect(given.kinematics, watch.kinematics);
+
+  auto& controller = builder.add<TaskController>(
+      site.name, site.robot,
+      TaskControllerSettings{.level = level, .levels = settings.levels, .blend = settings.blend});
+  builder.connect(led.goals, controller.tasks);
+  builder.connect(watch.goals, controller.constraint_goals);
+  builder.connect(watch.constraints, controller.constraints);
+  builder.connect(given.kinematics, controller.kinematics);
+  builder.connect(given.dynamics, controller.dynamics);
+  return {.torque = controller.torque, .reference = led.reference, .constraints = watch.constraints};
+}
+
+LawPorts add_tracking(const StageSite& site, TaskLevel level, const ReactionPorts& given) {
+  auto& goals = site.builder.add<PoseGoals>(site.name + "_goals", site.robot, site.settings.tasks.nominal);
+  site.builder.connect(given.nominal, goals.reference);
+  site.builder.connect(given.kinematics, goals.kinematics);
+  return add_controller(site, level, ConstraintWatch::Role::nominal, given, {goals.goals, given.nominal});
+}
+
+LawPorts add_reaction(const StageSite& site, TaskLevel level, const ReactionPorts& given) {
+  DiagramBuilder& builder = site.builder;
+  auto& task = builder.add<ReactionTask>(site.name + "_task", site.robot, site.settings.tasks.reaction);
+  builder.connect(given.reaction, task.reaction);
+  builder.connect(given.kinematics, task.kinematics);
+  builder.connect(given.dynamics, task.dynamics);
+  builder.connect(given.wrench, task.estimate);
+  builder.connect(given.classification, task.classification);
+  builder.connect(given.location, task.location);
+  return add_controller(site, level, ConstraintWatch::Role::reacting, given, {task.goals, task.reference});
+}
+
+template <auto add>
+ControlLaw law(const char* name, TaskLevel level) {
+  return {name,
+          [level](const StageSite& site, const ReactionPorts& given) { return add(site, level, given); }};
+}
+
+}  // namespace
+
+std::vector<ControlLaw> tracking_stages() {
+  return {law<add_tracking>("velocity_tracking", TaskLevel::velocity),
+          law<add_tracking>("acceleration_tracking", TaskLevel::acceleration),
+          law<add_tracking>("torque_tracking", TaskLevel::torque)};
+}
+
+std::vector<ControlLaw> task_reaction_stages() {
+  return {law<add_reaction>("velocity_reaction", TaskLevel::velocity),
+          law<add_reaction>("acceleration_reaction", TaskLevel::acceleration),
+          law<add_reaction>("torque_reaction", TaskLevel::torque)};
+}
+
+}  // namespace flinch

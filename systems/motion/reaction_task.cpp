@@ -1,0 +1,250 @@
+#include "systems/motion/reaction_task.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "systems/foundation/findings.h"
+#include "systems/foundation/setup_error.h"
+#include "systems/robot/angles.h"
+#include "systems/robot/link_segments.h"
+#include "systems/robot/reaction_tasks.h"
+
+namespace flinch {
+namespace {
+
+bool moves_joints(ReactionKind kind) {
+  return kind == ReactionKind::first_link || kind == ReactionKind::opening;
+}
+
+// v = W J^T (J W J^T)^-1 d: how the platform moves where the task alone moves along `direction` with a rate
+// of 1 and as little else as W allows.
+PlatformVector least_motion(const Task& task, const PlatformVector& direction, const PlatformMatrix& W) {
+  const PlatformMatrix W_J = W * task.J.transpose();
+  const Eigen::LDLT<PlatformMatrix> mobility(PlatformMatrix(task.J * W_J));
+  return W_J * PlatformVector(mobility.solve(direction));
+}
+
+// Largest speed of a coupling joint in such a motion, on the torque level and on those of the drives.
+double platform_speed(const Task& task, const PlatformVector& direction, const Kinematics& at,
+                      const Dynamics& model, int translations) {
+  const auto n = model.M_x.rows();
+  const PlatformMatrix by_inertia = model.M_x.llt().solve(PlatformMatrix(PlatformMatrix::Identity(n, n)));
+  const PlatformMatrix by_drives = at.J_x_qa * at.J_x_qa.transpose();
+  double reach = 0.0;
+  for (int leg = 0; leg < drive_count(at); ++leg) {
+    const CartesianVector& joint = at.legs[static_cast<std::size_t>(leg)].coupling_joint;
+    if (joint.size() != translations) continue;
+    reach = std::max(reach, (joint - at.pose.head(translations)).norm());
+  }
+  double fastest = 0.0;
+  for (const PlatformMatrix* const W : {&by_inertia, &by_drives}) {
+    const PlatformVector v = least_motion(task, direction, *W);
+    const double turning = v.tail(v.size() - translations).norm();
+    fastest = std::max(fastest, v.head(translations).norm() + reach * turning);
+  }
+  return fastest;
+}
+
+MotionLimits slowed(const MotionLimits& limits, double share) {
+  return {limits.velocity * share, limits.acceleration * share, limits.jerk * share};
+}
+
+/// The force that acts on a second link across its axis; empty where it is too weak to go by.
+CartesianVector force_across(const Kinematics& at, BodyId link, const CartesianVector& force) {
+  const Segment axis = link_segment(at, link);
+  const CartesianVector along = (axis.end - axis.begin).normalized();
+  return force - along.dot(force) * along;
+}
+
+}  // namespace
+
+std::vector<std::string> problems(const ReactionTaskSettings& settings) {
+  Findings found("reaction tasks: ");
+  found.require(settings.displacement > 0, "displacement must be positive");
+  found.require(settings.first_link_angle > 0, "first_link_angle must be positive");
+  found.require(settings.opening_angle > 0 && settings.opening_step > 0, "openings must be positive");
+  found.require(settings.largest_opening >= settings.opening_angle,
+                "largest_opening must be at least opening_angle");
+  found.require(settings.force_to_go_by > 0, "force_to_go_by must be positive");
+  found.require(settings.released_force > 0 && settings.released_moment > 0,
+                "thresholds of a release must be positive");
+  found.require(settings.released_for >= Time::zero(), "released_for must not be negative");
+  found.require(can_be_planned_with(settings.translation), "limits of translation must be positive");
+  found.require(can_be_planned_with(settings.joint), "limits of joints must be positive");
+  found.require(settings.largest_platform_speed > 0, "largest_platform_speed must be positive");
+  return found.take();
+}
+
+ReactionTask::ReactionTask(std::shared_ptr<const ParallelRobot> robot, const ReactionTaskSettings& settings)
+    : robot_(std::move(robot)), settings_(settings) {
+  throw_if_any(problems(settings));
+}
+
+// ---------------------------------------------------------------- what shall be done
+
+void ReactionTask::classify(const Kinematics& at, const WrenchEstimate& contact,
+                            const ContactClassification& touched, const ContactLocation& place,
+                            ReactionPlan& plan) const {
+  const ContactClasses classes(robot_->body_count(), robot_->legs());
+  if (!touched.valid || !touched.accepted || !classes.contains(touched.most_likely) || !at.valid) return;
+  if (!contact.valid || !usable(contact.wrench_in_base, robot_->dof())) return;
+  const int directions = robot_->space_dimension();
+  CartesianVector force = contact.wrench_in_base.head(directions);
+  plan.leg = classes.leg(touched.most_likely);
+  if (classes.is_clamping(touched.most_likely)) {
+    plan.kind = at.joints.passive.size() > plan.leg ? ReactionKind::opening : ReactionKind::brake;
+    return;
+  }
+  const BodyId body = ContactClasses::body(touched.most_likely);
+  if (body.is_link1()) {
+    plan.kind = contact.drive_torque.size() > plan.leg ? ReactionKind::first_link : ReactionKind::brake;
+    return;
+  }
+  if (body.is_link2()) {
+    const bool placed = place.valid && place.body == body.index() && place.force_in_base.size() == directions;
+    plan.point_in_body = robot_->axis_point(body, placed ? place.fraction : 0.5);
+    force = placed ? place.force_in_base : force_across(at, body, force);
+  }
+  if (!(force.norm() >= settings_.force_to_go_by)) return;
+  plan.kind = body.is_platform() ? ReactionKind::platform : ReactionKind::second_link;
+  plan.direction = force.normalized();
+}
+
+Task ReactionTask::task_of(const ReactionPlan& plan, const Kinematics& at) const {
+  const auto narrowed = [&](const Task& task) {
+    return settings_.along_force_only ? along(task, plan.direction) : task;
+  };
+  switch (plan.kind) {
+    case ReactionKind::platform:
+      return narrowed(platform_position_task(*robot_, at));
+    case ReactionKind::second_link:
+      return narrowed(point_task(*robot_, at, BodyId::link2(plan.leg), plan.point_in_body));
+    case ReactionKind::first_link:
+      return drive_task(at, plan.leg);
+    case ReactionKind::opening:
+      return stacked(drive_task(at, plan.leg), passive_joint_task(at, plan.leg));
+    case ReactionKind::brake:
+      break;
+  }
+  return no_task(1, robot_->dof());
+}
+
+// (31): the first link retreats and the elbow stretches, so that the second link goes back with it by three
+// times as much.
+PlatformVector ReactionTask::displacement(const ReactionPlan& plan, const Kinematics& at,
+                                          const WrenchEstimate& contact) const {
+  if (plan.kind == ReactionKind::first_link) {
+    const double sign = std::copysign(1.0, contact.drive_torque[plan.leg]);
+    return PlatformVector::Constant(1, sign * settings_.first_link_angle);
+  }
+  if (plan.kind == ReactionKind::opening) {
+    const double s = std::copysign(1.0, at.joints.passive[plan.leg]);
+    return Eigen::Vector2d(-s * plan.opened, -2.0 * s * plan.opened);
+  }
+  if (settings_.along_force_only) return PlatformVector::Constant(1, settings_.displacement);
+  return settings_.displacement * plan.direction;
+}
+
+// ---------------------------------------------------------------- and when
+
+void ReactionTask::move(Time now, const Task& task, const PlatformVector& rate,
+                        const PlatformVector& displacement, const Kinematics& at, const Dynamics& model,
+                        ReactionPlan& plan) const {
+  MotionLimits limits = settings_.translation;
+  if (moves_joints(plan.kind)) {
+    limits = settings_.joint;
+    const double fastest = limits.velocity * platform_speed(task, displacement.normalized(), at, model,
+                                                            robot_->space().translations());
+    limits = slowed(limits, std::min(1.0, settings_.largest_platform_speed / std::max(fastest, 1e-9)));
+  }
+  plan.begin = now;
+  plan.motion = SynchronisedMotion::plan(task.sigma, rate, task.sigma + displacement, limits);
+}
+
+void ReactionTask::begin(Time now, const Kinematics& at, const Dynamics& model, const WrenchEstimate& contact,
+                         ReactionPlan& plan) const {
+  plan.begin = now;
+  plan.touched = now;
+  plan.opened = settings_.opening_angle;
+  const Task task = task_of(plan, at);
+  if (!task.valid || !model.valid) {
+    plan.kind = ReactionKind::brake;
+    return;
+  }
+  move(now, task, task.rate(at.velocity), displacement(plan, at, contact), at, model, plan);
+}
+
+bool ReactionTask::feels(const WrenchEstimate& contact) const {
+  if (!contact.valid || contact.wrench_in_base.size() != robot_->dof()) return true;
+  const int translations = robot_->space().translations();
+  const auto forces = contact.wrench_in_base.head(translations).array().abs();
+  const auto moments = contact.wrench_in_base.tail(robot_->dof() - translations).array().abs();
+  return (forces >= settings_.released_force).any() || (moments >= settings_.released_moment).any();
+}
+
+bool ReactionTask::is_released(Time now, const ReactionPlan& plan) const {
+  return now - plan.touched >= settings_.released_for;
+}
+
+bool ReactionTask::has_arrived(Time now, const ReactionPlan& plan) const {
+  return to_seconds(now - plan.begin) >= plan.motion.duration();
+}
+
+void ReactionTask::plan(Time now, const ReactionPlan& last, const ReactionState& state, const Kinematics& at,
+                        const Dynamics& model, const WrenchEstimate& contact,
+                        const ContactClassification& touched, const ContactLocation& place,
+                        ReactionPlan& next) const {
+  if (state.entered(ReactionMode::react, now)) {
+    next = ReactionPlan();
+    classify(at, contact, touched, place, next);
+    begin(now, at, model, contact, next);
+    return;
+  }
+  next = last;
+  if (next.kind != ReactionKind::opening) return;
+  if (feels(contact)) next.touched = now;
+  const bool more = has_arrived(now, next) && feels(contact) && state.mode == ReactionMode::react;
+  const double step = std::min(settings_.opening_step, settings_.largest_opening - next.opened);
+  if (!more || !(step > 0.0) || !at.valid || !model.valid) return;
+  next.opened += step;
+  const double s = std::copysign(1.0, at.joints.passive[next.leg]);
+  Task task = task_of(next, at);
+  task.sigma = next.motion.goal();
+  move(now, task, Eigen::Vector2d::Zero(), Eigen::Vector2d(-s * step, -2.0 * s * step), at, model, next);
+}
+
+// ---------------------------------------------------------------- what follows from it at a tick
+
+void ReactionTask::lead(Time now, const ReactionPlan& plan, const Kinematics& at, TaskList& list) const {
+  list.count = 0;
+  list.valid = at.valid;
+  const Task task = task_of(plan, at);
+  const VectorMotion wanted = plan.motion.evaluate(to_seconds(now - plan.begin));
+  if (!task.valid || !wanted.valid || wanted.position.size() != task.rows()) return;
+  PlatformVector error = wanted.position - task.sigma;
+  if (moves_joints(plan.kind) && robot_->drive_kind(plan.leg) == DriveKind::revolute) {
+    error = error.unaryExpr([](double angle) { return wrap_angle(angle); });
+  }
+  list.add({task, {error, wanted.velocity, wanted.acceleration}, gains_of(plan, task.rows())});
+}
+
+void ReactionTask::follow(Time now, const ReactionPlan& plan, const Kinematics& at,
+                          PlatformReference& followed) const {
+  const bool done = plan.kind != ReactionKind::opening || is_released(now, plan) ||
+                    plan.opened >= settings_.largest_opening;
+  const PlatformVector rest = PlatformVector::Zero(robot_->dof());
+  followed = {at.valid, at.valid && done && has_arrived(now, plan), at.pose, rest, rest};
+}
+
+TaskGains ReactionTask::gains_of(const ReactionPlan& plan, int rows) const {
+  const TaskGains& one = plan.kind == ReactionKind::platform      ? settings_.platform
+                         : plan.kind == ReactionKind::second_link ? settings_.second_link
+                         : plan.kind == ReactionKind::first_link  ? settings_.first_link
+                                                                  : settings_.opening;
+  return TaskGains::uniform(rows, one.velocity[0], one.stiffness[0], one.damping[0], one.force[0],
+                            one.damping_ratio[0]);
+}
+
+}  // namespace flinch

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "systems/framework/never_allocates.h"
+#include "systems/framework/system.h"
+#include "systems/motion/reaction_task_settings.h"
+#include "systems/motion/synchronised_motion.h"
+#include "systems/robot/dynamics.h"
+#include "systems/robot/parallel_robot.h"
+#include "systems/signals/contact_classes.h"
+#include "systems/signals/contact_location.h"
+#include "systems/signals/platform_reference.h"
+#include "systems/signals/reaction_state.h"
+#include "systems/signals/task_list.h"
+#include "systems/signals/wrench_estimate.h"
+
+namespace flinch {
+
+/// What a reaction does about a contact. [SafePR] (26)-(31)
+enum class ReactionKind : std::uint8_t {
+  brake,       ///< nothing to give way to: what touches the robot is not known, or the force has no direction
+  platform,    ///< the platform moves along the force
+  first_link,  ///< the drive of a first link turns away
+  second_link,  ///< the point that is touched moves along the force
+  opening,      ///< the links of a leg that clamps open
+};
+
+/// What was decided when the reaction began, and how far it has come.
+struct ReactionPlan {
+  ReactionKind kind = ReactionKind::brake;
+  int leg = -1;                   ///< of a link or clamping
+  CartesianVector point_in_body;  ///< of a second link
+  CartesianVector direction;      ///< of the force; empty where both directions are a task
+  SynchronisedMotion motion;      ///< of the task
+  Time begin{};                   ///< of that motion
+  double opened = 0.0;            ///< planned opening of the first link [rad]
+  Time touched{};                 ///< tick at which a force was last felt
+};
+
+template <>
+inline constexpr bool never_allocates<ReactionPlan> =
+    never_allocates<CartesianVector>&& never_allocates<PlatformVector>;
+
+/// Gives way to a contact as its class asks for: at the tick at which the reaction begins class, place,
+/// direction of the force and leg are frozen, and a jerk-limited motion of the task of that class is planned
+/// from how it moves now. An opening that has arrived goes on by `opening_step` where
+/// a force is still felt, up to the largest opening. [SafePR] IV-B, Alg. 5
+///
+/// Where the class is not accepted, or the force has no direction, the list has no task: the robot is braked.
+/// Displacements of legs are opposite to those printed, which press a first link against what it clamps.
+class ReactionTask final : public System {
+  State<ReactionPlan> last_ = state<ReactionPlan>("last");
+
+ public:
+  /// Throws SetupError for settings that have `problems`.
+  ReactionTask(std::shared_ptr<const ParallelRobot> robot, const ReactionTaskSettings& settings);
+
+  InputPort<ReactionState> reaction = input<ReactionState>("reaction");
+  InputPort<Kinematics> kinematics = input<Kinematics>("kinematics");
+  InputPort<Dynamics> dynamics = input<Dynamics>("dynamics");
+  InputPort<WrenchEstimate> estimate = input<WrenchEstimate>("estimate");
+  InputPort<ContactClassification> classification = input<ContactClassification>("classification");
+  InputPort<ContactLocation> location = input<ContactLocation>("location");
+
+ private:
+  Intermediate<ReactionPlan> plan_ = intermediate<&ReactionTask::plan>(
+      "plan", clock, last_, reaction, kinematics, dynamics, estimate, classification, location);
+
+ public:
+  OutputPort<TaskList> goals = output<&ReactionTask::lead>("goals", clock, plan_, kinematics);
+  OutputPort<ReactionKind> kind = output<&ReactionTask::kind_of>("kind", plan_);
+  /// `finished` when the motion has arrived and a leg is released. Tasks leave part of the pose free, so the
+  /// pose is the measured one.
+  OutputPort<PlatformReference> reference =
+      output<&ReactionTask::follow>("reference", clock, plan_, kinematics);
+
+ private:
+  Update remember_ = keep(last_, plan_);
+
+  void plan(Time now, const ReactionPlan& last, const ReactionState& state, const Kinematics& at,
+            const Dynamics& model, const WrenchEstimate& contact, const ContactClassification& touched,
+            const ContactLocation& place, ReactionPlan& next) const;
+  void lead(Time now, const ReactionPlan& plan, const Kinematics& at, TaskList& list) const;
+  ReactionKind kind_of(const ReactionPlan& plan) const { return plan.kind; }
+  void follow(Time now, const ReactionPlan& plan, const Kinematics& at, PlatformReference& followed) const;
+
+  /// Decides about kind, leg, point and direction.
+  void classify(const Kinematics& at, const WrenchEstimate& contact, const ContactClassification& touched,
+                const ContactLocation& place, ReactionPlan& plan) const;
+  void begin(Time now, const Kinematics& at, const Dynamics& model, const WrenchEstimate& contact,
+             ReactionPlan& plan) const;
+  /// Plans from `task`, moving with `rate`.
+  void move(Time now, const Task& task, const PlatformVector& rate, const PlatformVector& displacement,
+            const Kinematics& at, const Dynamics& model, ReactionPlan& plan) const;
+  Task task_of(const ReactionPlan& plan, const Kinematics& at) const;
+  PlatformVector displacement(const ReactionPlan& plan, const Kinematics& at,
+                              const WrenchEstimate& contact) const;
+  bool feels(const WrenchEstimate& contact) const;
+  bool is_released(Time now, const ReactionPlan& plan) const;
+  bool has_arrived(Time now, const ReactionPlan& plan) const;
+  TaskGains gains_of(const ReactionPlan& plan, int rows) const;
+
+  std::shared_ptr<const ParallelRobot> robot_;
+  ReactionTaskSettings settings_;
+};
+
+}  // namespace flinch

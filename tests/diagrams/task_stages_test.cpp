@@ -1,0 +1,108 @@
+#include "diagrams/task_stages.h"
+
+#include <gmock/gmock.h>
+
+#include "systems/framework/constant.h"
+#include "tests/diagrams/contact_bench.h"
+#include "tests/support/allocations.h"
+
+namespace flinch {
+namespace {
+
+using enum ReactionMode;
+using test::Bench;
+using test::collision;
+using test::Experiment;
+
+/// `law`, told from the start what will be touched.
+ControlLaw told(ControlLaw law, int touched) {
+  return {law.name, [law, touched](const StageSite& site, const ReactionPorts& given) {
+            ContactClassification classification;
+            classification.valid = classification.accepted = true;
+            classification.most_likely = touched;
+            ReactionPorts known = given;
+            known.classification =
+                site.builder.add<Constant<ContactClassification>>(site.name + "_told", classification).value;
+            return law.add(site, known);
+          }};
+}
+
+class TaskStages : public ::testing::TestWithParam<int> {
+ protected:
+  ControlLaw tracking() const { return tracking_stages()[static_cast<std::size_t>(GetParam())]; }
+  ControlLaw reaction() const { return task_reaction_stages()[static_cast<std::size_t>(GetParam())]; }
+  /// Tracks and reacts on one level; the platform will be touched.
+  Experiment experiment(double speed) const {
+    Experiment experiment = collision(speed);
+    experiment.control.stages.nominal_laws.follow(tracking());
+    experiment.control.stages.reaction_laws.follow(told(reaction(), 0));
+    return experiment;
+  }
+};
+
+std::string level_name(const ::testing::TestParamInfo<int>& level) {
+  static const std::vector<std::string> names = {"Velocity", "Acceleration", "Torque"};
+  return names[static_cast<std::size_t>(level.param)];
+}
+INSTANTIATE_TEST_SUITE_P(Levels, TaskStages, ::testing::Range(0, 3), level_name);
+
+TEST_P(TaskStages, AContactIsAnsweredAndHeldUntilTheOperatorEndsIt) {
+  Bench bench(experiment(0.5));
+  ASSERT_TRUE(bench.run_until(react, 1500ms));
+  ASSERT_TRUE(bench.run_until(hold, 1000ms));
+  bench.run(200ms);
+  EXPECT_EQ(bench.state().mode, hold);
+  EXPECT_LT(bench.velocity().norm(), 0.01);
+  bench.reset();
+  bench.tick();
+  EXPECT_EQ(bench.state().mode, nominal);
+}
+
+TEST_P(TaskStages, AContactThatNobodyKnowsIsAnsweredByBraking) {
+  Experiment unknown = experiment(0.5);
+  unknown.control.stages.reaction_laws = {};
+  unknown.control.stages.reaction_laws.follow(reaction());
+  Bench bench(unknown);
+  ASSERT_TRUE(bench.run_until(react, 1500ms));
+  bench.run(500ms);
+  EXPECT_LT(bench.velocity().norm(), 0.02);
+  EXPECT_EQ(bench.gate().phase, GatePhase::open);
+}
+
+TEST_P(TaskStages, TheControlPathDoesNotAllocateWhileItReacts) {
+  Bench bench(experiment(0.5));
+  bench.run(50ms);
+  const test::AllocationCounter counter;
+  bench.run_until(hold, 2500ms);
+  EXPECT_EQ(counter.count(), 0);
+  EXPECT_EQ(bench.state().mode, hold);
+}
+
+// No switch of the sequence makes a step in the torques that the laws ask for.
+TEST_P(TaskStages, TorquesNeverChangeFasterThanTheGateLetsThem) {
+  Bench bench(experiment(0.5));
+  JointVector before = JointVector::Zero(3);
+  double largest = 0.0;
+  bool passed = false;
+  bench.run(2500ms, [&] {
+    const TorqueCommand& asked = bench.context.get(bench.control.requested_torque);
+    if (!asked.valid) return;
+    if (passed) largest = std::max(largest, (asked.torque - before).lpNorm<Eigen::Infinity>());
+    before = asked.torque;
+    passed = true;
+  });
+  EXPECT_LE(largest, 20.0 + 1e-9);
+  EXPECT_GT(largest, 0.0);
+}
+
+TEST(TaskStageNames, AreKnownToScenarios) {
+  const std::vector<std::string> nominal_laws = names_of(known_stages().nominal_laws);
+  const std::vector<std::string> reaction_laws = names_of(known_stages().reaction_laws);
+  EXPECT_THAT(nominal_laws,
+              testing::IsSupersetOf({"velocity_tracking", "acceleration_tracking", "torque_tracking"}));
+  EXPECT_THAT(reaction_laws,
+              testing::IsSupersetOf({"velocity_reaction", "acceleration_reaction", "torque_reaction"}));
+}
+
+}  // namespace
+}  // namespace flinch

@@ -1,0 +1,133 @@
+// The experiments of [SafePR] V-B, V-D and V-E with laws that serve tasks by priority.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+
+#include "experiments/simulated/experiment.h"
+#include "experiments/simulated/simulated_scenario.h"
+#include "experiments/verdict/verdict.h"
+#include "systems/config/config_file.h"
+#include "systems/framework/recorded_values.h"
+#include "systems/signals/constraint_state.h"
+#include "systems/signals/gate_status.h"
+#include "systems/signals/torque_command.h"
+#include "systems/signals/workspace_measures.h"
+
+namespace flinch {
+namespace {
+
+/// A scenario with a word of its file replaced.
+SimulatedScenario scenario(const std::string& name, const std::string& from = "",
+                           const std::string& to = "") {
+  const std::filesystem::path file = FLINCH_SOURCE_DIR "/apps/scenarios/" + name + ".yaml";
+  std::string text = read_config_file(file);
+  if (!from.empty()) text.replace(text.find(from), from.size(), to);
+  return parse_simulated_scenario(text, file);
+}
+
+struct Shown {
+  Verdict verdict;
+  double largest_kappa = 0.0;
+  double least_distance = 1.0;
+  double last_kappa = 0.0;
+  double last_distance = 0.0;
+  int ticks_too_near = 0;
+  double largest_torque_step = 0.0;  ///< of what the laws ask for, while they are heard [Nm]
+  bool lost_hold = false;            ///< the gate closed near a type-II singularity
+};
+
+Shown run(const SimulatedScenario& scenario) {
+  const Recording recording = run_experiment(scenario);
+  Shown shown;
+  shown.verdict = judge(recording, scenario.robot.robot->space(), scenario.expected, scenario.force_limits);
+  const auto measures = read<WorkspaceMeasures>(recording, "measures");
+  const auto gate = read<GateStatus>(recording, "gate");
+  const auto asked = read<TorqueCommand>(recording, "requested_torque");
+  JointVector before;
+  for (std::size_t k = 0; k < recording.samples(); ++k) {
+    const WorkspaceMeasures now = measures[k];
+    shown.largest_kappa = std::max(shown.largest_kappa, now.sigma_kappa);
+    shown.least_distance = std::min(shown.least_distance, now.sigma_sc);
+    shown.ticks_too_near += now.sigma_sc < 0.17 - 1e-6 ? 1 : 0;
+    shown.last_kappa = now.sigma_kappa;
+    shown.last_distance = now.sigma_sc;
+    shown.lost_hold |= gate[k].fault == GateFault::type_2_singularity;
+    const TorqueCommand torque = asked[k];
+    const bool heard = gate[k].phase == GatePhase::open && torque.valid;
+    if (heard && before.size() > 0) {
+      shown.largest_torque_step =
+          std::max(shown.largest_torque_step, (torque.torque - before).lpNorm<Eigen::Infinity>());
+    }
+    before = heard ? torque.torque : JointVector();
+  }
+  return shown;
+}
+
+// [SafePR] V-B: less than 10 mm on every level.
+TEST(TaskTracking, FollowsTheSquareOnEveryLevel) {
+  for (const std::string level : {"velocity", "acceleration", "torque"}) {
+    const Shown shown = run(scenario("square_tasks", "[torque_tracking]", "[" + level + "_tracking]"));
+    EXPECT_TRUE(shown.verdict.good()) << level;
+    EXPECT_LT(shown.verdict.max_tracking_error, 0.010) << level;
+    std::printf("  %s level: %.2f mm, %.2f deg\n", level.c_str(), 1e3 * shown.verdict.max_tracking_error,
+                shown.verdict.max_orientation_error * 180.0 / M_PI);
+  }
+}
+
+// [SafePR] V-D, left.
+TEST(TaskReaction, WithoutConstraintsARetreatEndsInASingularity) {
+  EXPECT_TRUE(run(scenario("reaction_near_singularity", "kept: after_contact", "kept: never")).lost_hold);
+}
+TEST(TaskReaction, WithConstraintsItStopsAtTheConditionNumber) {
+  const Shown shown = run(scenario("reaction_near_singularity"));
+  EXPECT_TRUE(shown.verdict.good());
+  EXPECT_FALSE(shown.lost_hold);
+  EXPECT_NEAR(shown.last_kappa, 15.0, 0.15);
+  EXPECT_GT(shown.last_distance, 0.17 - 0.002);
+  EXPECT_LE(shown.largest_torque_step, 20.0 + 1e-9);
+}
+
+// [SafePR] V-D, right. Links are 60 mm thick.
+TEST(TaskReaction, WithoutConstraintsARetreatEndsInASelfCollision) {
+  EXPECT_LT(run(scenario("reaction_near_itself", "kept: after_contact", "kept: never")).least_distance, 0.06);
+}
+TEST(TaskReaction, WithConstraintsLegsStayApart) {
+  const Shown shown = run(scenario("reaction_near_itself"));
+  EXPECT_TRUE(shown.verdict.good());
+  EXPECT_GT(shown.least_distance, 0.12);
+  EXPECT_NEAR(shown.last_distance, 0.17, 0.002);
+  EXPECT_LT(shown.last_kappa, 15.15);
+  EXPECT_LE(shown.largest_torque_step, 20.0 + 1e-9);
+}
+
+// [SafePR] V-E: overshoot is short, and the position is reached all the same.
+TEST(TaskTracking, KeepsBothConstraintsWithoutAContact) {
+  for (const std::string level : {"acceleration", "torque"}) {
+    const Shown shown =
+        run(scenario("constraints_without_contact", "[torque_tracking]", "[" + level + "_tracking]"));
+    EXPECT_TRUE(shown.verdict.good()) << level;
+    EXPECT_NEAR(shown.last_distance, 0.17, 0.001) << level;
+    EXPECT_LT(shown.largest_kappa, 15.75) << level;
+  }
+  EXPECT_LT(run(scenario("constraints_without_contact", "kept: always", "kept: never")).least_distance, 0.15);
+}
+
+// Every sort of contact, on every level: noticed, answered, released, and no fault.
+TEST(TaskReaction, AnswersEverySortOfContactOnEveryLevel) {
+  for (const std::string body : {"platform", "first_link", "second_link", "clamping"}) {
+    for (const std::string level : {"velocity", "acceleration", "torque"}) {
+      const Shown shown = run(scenario(body + "_reaction", "[torque_reaction]", "[" + level + "_reaction]"));
+      EXPECT_TRUE(shown.verdict.good()) << body << " " << level;
+      ASSERT_EQ(shown.verdict.contacts.size(), 1U) << body << " " << level << ": it closes again";
+      const ContactVerdict& contact = shown.verdict.contacts.front();
+      ASSERT_TRUE(contact.removed);
+      EXPECT_LT(*contact.removed - contact.onset, body == "clamping" ? 0.275 : 0.125) << body << " " << level;
+      EXPECT_LE(shown.largest_torque_step, 20.0 + 1e-9) << body << " " << level;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace flinch
