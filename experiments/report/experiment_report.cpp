@@ -90,7 +90,8 @@ std::vector<ReportMeasure> measures(const Verdict& verdict, const Expectations& 
 
 std::string caveat(Witness witness) {
   const std::string common =
-      " flinch is not a certified safety function; take force limits from the standard itself.";
+      " flinch is not a certified safety function. Its verdicts on forces are engineering estimates: take "
+      "limits from the standard itself.";
   switch (witness) {
     case Witness::truth:
       return "Simulation." + common;
@@ -114,6 +115,18 @@ std::string thinning(const Recording& recording) {
       together);
 }
 
+/// The limits that laws keep which serve tasks, where one of them is followed.
+void add_constraints(const ContactControlSettings& control, std::vector<ReportBound>& lines) {
+  const ConstraintSettings& constraints = control.tasks.constraints;
+  const bool serves_tasks = followed_name(control.stages.reaction_laws).ends_with("_reaction") ||
+                            followed_name(control.stages.nominal_laws).ends_with("_tracking");
+  if (!serves_tasks || constraints.kept == ConstraintsKept::never) return;
+  lines.push_back({"sigma_kappa", "activation value", constraints.sigma_kappa.activation});
+  lines.push_back({"sigma_kappa", "safety value", constraints.sigma_kappa.safety});
+  lines.push_back({"sigma_sc", "activation value", constraints.sigma_sc.activation});
+  lines.push_back({"sigma_sc", "safety value", constraints.sigma_sc.safety});
+}
+
 std::vector<ReportBound> bounds(const Scenario& scenario, const Verdict& verdict) {
   const ContactDetectorSettings detector =
       scenario.control.detector_of(followed_name(scenario.control.stages.estimators));
@@ -128,6 +141,7 @@ std::vector<ReportBound> bounds(const Scenario& scenario, const Verdict& verdict
     lines.push_back({"contact_force", contact.limit_name + " limit", contact.limit});
   }
   lines.push_back({"sigma_sc", "torque gate closes", scenario.robot.limits.min_self_collision_distance});
+  add_constraints(scenario.control, lines);
   return lines;
 }
 

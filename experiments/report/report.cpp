@@ -24,9 +24,22 @@ const Names charts{"contact_force",
 constexpr int most_estimators = 16;
 
 Names column_names() {
-  Names names{"pose_x",   "pose_y",       "pose_z", "pose_phi",       "pose_qw",           "pose_qx",
-              "pose_qy",  "pose_qz",      "speed",  "position_error", "orientation_error", "sigma_kappa",
-              "sigma_sc", "contact_force"};
+  Names names{"pose_x",
+              "pose_y",
+              "pose_z",
+              "pose_phi",
+              "pose_qw",
+              "pose_qx",
+              "pose_qy",
+              "pose_qz",
+              "speed",
+              "position_error",
+              "orientation_error",
+              "sigma_kappa",
+              "sigma_sc",
+              "contact_force",
+              "sigma_kappa_reference",
+              "sigma_sc_reference"};
   const auto add = [&names](const std::string& prefix) {
     for (const char* const axis : {"x", "y", "z"}) names.push_back(prefix + axis);
   };

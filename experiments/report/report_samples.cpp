@@ -15,6 +15,7 @@
 #include "experiments/verdict/recorded_truth.h"
 #include "systems/framework/recorded_values.h"
 #include "systems/robot/parallel_robot.h"
+#include "systems/signals/constraint_state.h"
 #include "systems/signals/platform_motion.h"
 #include "systems/signals/platform_reference.h"
 #include "systems/signals/torque_command.h"
@@ -337,6 +338,38 @@ class States {
   std::size_t detector_ = 0, mode_ = 0, gate_ = 0;
 };
 
+/// Which constraints the laws that serve tasks keep before all others, and where they lead them.
+class Constraints {
+ public:
+  Constraints(const Recording& recording, PageSamples& page) : page_(page) {
+    for (const Signal& signal : recording.signals) {
+      if (signal.path.starts_with("constraints_")) laws_.emplace_back(recording, signal.path);
+    }
+    if (laws_.empty()) return;
+    lane_ = page.lane("constraints", {"inside", "condition number", "self-collision", "both", "not kept"});
+    sigma_kappa_ = page.column("sigma_kappa_reference");
+    sigma_sc_ = page.column("sigma_sc_reference");
+  }
+
+  void show(std::size_t sample) {
+    if (laws_.empty()) return;
+    ConstraintState kept;  // of the law that is followed
+    for (const auto& law : laws_) {
+      const ConstraintState state = law[sample];
+      if (state.watched) kept = state;
+    }
+    const int mode = kept.watched ? static_cast<int>(kept.mode) : 4;
+    page_.set_state(lane_, mode, mode == 4 ? -1 : mode);
+    page_.set(sigma_kappa_, kept.sigma_kappa.active ? kept.sigma_kappa.reference : no_data);
+    page_.set(sigma_sc_, kept.sigma_sc.active ? kept.sigma_sc.reference : no_data);
+  }
+
+ private:
+  PageSamples& page_;
+  std::vector<RecordedValues<ConstraintState>> laws_;
+  std::size_t lane_ = 0, sigma_kappa_ = 0, sigma_sc_ = 0;
+};
+
 }  // namespace
 
 void add_samples(const ParallelRobot& robot, const Recording& recording, Report& report) {
@@ -351,6 +384,7 @@ void add_samples(const ParallelRobot& robot, const Recording& recording, Report&
   Forces forces(robot, recording, simulated, page);
   EstimatesSideBySide estimates(robot.space(), recording, page, report);
   Drives drives(robot, recording, simulated, page);
+  Constraints constraints(recording, page);
   ObstacleMotion obstacles(recording, report.obstacles.size(), robot.space().translations(), page);
   std::optional<RecordedTruths> truths;
   if (simulated) truths.emplace(recording);
@@ -365,6 +399,7 @@ void add_samples(const ParallelRobot& robot, const Recording& recording, Report&
     forces.show(k, truth, hardness);
     estimates.show(k);
     drives.show(k, truth);
+    constraints.show(k);
     obstacles.show(k, hardness);
   }
   page.finish(report);

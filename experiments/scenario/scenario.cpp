@@ -6,6 +6,7 @@
 #include "diagrams/robot_settings.h"
 #include "experiments/scenario/robot_files.h"
 #include "experiments/scenario/scenario_control.h"
+#include "experiments/verdict/body_regions.h"
 #include "systems/config/config_file.h"
 #include "systems/config/config_reader.h"
 #include "systems/config/yaml_text.h"
@@ -46,6 +47,16 @@ void read_expectations(ConfigReader expect, const ParallelRobot& robot, Expectat
 }
 
 void read_force_limits(ConfigReader reader, ForceLimits& limits) {
+  std::string region = limits.region;
+  reader.text("region", region);
+  if (const BodyRegion* const known = find_body_region(region)) {
+    limits = force_limits_of(*known);
+  } else {
+    std::vector<std::string> names;
+    for (const BodyRegion& each : body_regions()) names.emplace_back(each.name);
+    reader.problem("region", "is '" + region + "', which is no region of the body that has limits" +
+                                 did_you_mean(region, names));
+  }
   reader.number("transient", unit::N, limits.transient, positive);
   reader.number("quasi_static", unit::N, limits.quasi_static, positive);
   reader.number("transient_duration", unit::s, limits.transient_duration, positive);

@@ -77,9 +77,11 @@ void ContactWatch::extend(const RunSample& now, double period) {
   ContactVerdict& contact = contacts_.back();
   last_ = now.time;
   contact.removed = now.time + period;
-  if (now.time - contact.onset > limits_.transient_duration) {
+  const bool lasts = now.time - contact.onset > limits_.transient_duration;
+  if (lasts) {
     contact.lasting_force = std::max(contact.lasting_force.value_or(0.0), now.force());
   }
+  if (now.force() > (lasts ? limits_.quasi_static : limits_.transient)) contact.over_limit += period;
   name_body(now, contact);
   if (now.force() > contact.peak_force) {
     contact.peak_force = now.force();

@@ -16,6 +16,7 @@
 #include "systems/signals/force_torque_reading.h"
 #include "systems/signals/platform_motion.h"
 #include "systems/signals/platform_reference.h"
+#include "systems/signals/workspace_measures.h"
 
 namespace flinch {
 namespace {
@@ -94,9 +95,16 @@ void compare_motion(const Configuration& pose, const PlatformVector& velocity, c
 }  // namespace
 
 bool is_judged(const std::string& path) {
-  static constexpr std::array judged = {"detection", "reaction", "wrench",   "reference",     "gate",
-                                        "truth",     "contact",  "location", "classification"};
+  static constexpr std::array judged = {"detection", "reaction", "wrench",   "reference",      "gate",
+                                        "truth",     "contact",  "location", "classification", "measures"};
   return path.starts_with(detection_by) || std::find(judged.begin(), judged.end(), path) != judged.end();
+}
+
+/// Whether the recording tells of the robot's own bodies.
+bool records_self_contact(const Recording& recording) {
+  const Signal* const contact = recording.find("contact");
+  return contact != nullptr && std::any_of(contact->layout.fields.begin(), contact->layout.fields.end(),
+                                           [](const Field& field) { return field.name == "self_contact"; });
 }
 
 /// Those that the witness has.
@@ -113,6 +121,8 @@ struct RecordedRun::Signals {
     class_names = class_names_of(recording);
     if (recording.find("classification") != nullptr) classification.emplace(recording, "classification");
     if (recording.find("location") != nullptr) location.emplace(recording, "location");
+    if (recording.find("measures") != nullptr) measures.emplace(recording, "measures");
+    if (records_self_contact(recording)) self_contact.emplace(recording, "contact");
     if (recording.find("tick_timing") != nullptr) timing.emplace(recording, "tick_timing");
     if (recording.find("joints_link") != nullptr) joints_link.emplace(recording, "joints_link");
     if (witness == Witness::truth) {
@@ -133,6 +143,8 @@ struct RecordedRun::Signals {
   std::vector<std::string> class_names;  // of what can be touched
   std::optional<RecordedValues<ContactClassification>> classification;
   std::optional<RecordedValues<ContactLocation>> location;
+  std::optional<RecordedValues<WorkspaceMeasures>> measures;
+  std::optional<RecordedValues<RecordedSelfContact>> self_contact;
   std::optional<RecordedValues<RecordedContact>> contact;
   std::optional<RecordedValues<RecordedTruth>> truth;
   std::optional<RecordedValues<ForceTorqueReading>> force_torque;
@@ -184,6 +196,14 @@ RunSample RecordedRun::operator[](std::size_t sample) const {
   if (signals.location) now.location = (*signals.location)[sample];
   const RecordedEstimate estimate = signals.wrench[sample];
   now.estimate_valid = estimate.valid;
+  if (signals.measures) {
+    const WorkspaceMeasures measures = (*signals.measures)[sample];
+    if (measures.valid) {
+      now.sigma_kappa = measures.sigma_kappa;
+      now.sigma_sc = measures.sigma_sc;
+    }
+  }
+  if (signals.self_contact) now.self_contact = (*signals.self_contact)[sample].self_contact;
   const PlatformReference reference = signals.reference[sample];
   now.reference_valid = reference.valid;
   if (signals.truth) {

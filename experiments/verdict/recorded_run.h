@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -33,6 +34,10 @@ struct RunSample {
   bool estimate_valid = false;
   double observer_error_force = 0.0;   ///< of the estimate, largest component [N]
   double observer_error_moment = 0.0;  ///< likewise [Nm]
+  /// Of the pose that the controller measured; not numbers where it knew none, or they were not recorded.
+  double sigma_kappa = std::numeric_limits<double>::quiet_NaN();
+  double sigma_sc = std::numeric_limits<double>::quiet_NaN();  ///< likewise [m]
+  bool self_contact = false;  ///< bodies of the robot touch one another, as far as that is known
   bool reference_valid = false;
   double position_error = 0.0;     ///< [m]
   double orientation_error = 0.0;  ///< [rad]

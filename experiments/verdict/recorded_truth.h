@@ -60,6 +60,16 @@ struct RecordedContact {
   }
 };
 
+/// Read from the signal "contact", where it tells of that.
+struct RecordedSelfContact {
+  bool self_contact = false;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("self_contact", "", self.self_contact);
+  }
+};
+
 /// Read from the signal "obstacles", where any of them may move.
 struct RecordedObstacles {
   std::array<Eigen::Vector3d, 8> displacement_in_base{};  ///< from their positions at rest [m]

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "experiments/verdict/contact_watch.h"
@@ -36,6 +37,12 @@ class DetectionWatch {
   std::optional<ContactLevel> level_;  ///< of the sample before
   double last_touched_ = -Verdict::same_contact;
 };
+
+void extend(double measure, std::optional<MeasureRange>& range) {
+  if (std::isnan(measure)) return;
+  if (!range) range = {measure, measure, measure};
+  *range = {std::min(range->least, measure), std::max(range->most, measure), measure};
+}
 
 void note_first(const RunSample& now, Verdict& verdict) {
   for (std::size_t i = 0; i < verdict.first_noticed.size() && i < now.noticed_by.size(); ++i) {
@@ -147,6 +154,11 @@ void RunWatch::see(const RunSample& now) {
   so_far.was_touched |= touched;
   if (!so_far.was_touched) measure_errors(now, verdict);
   if (now.is_true) verdict.loop_closure = std::max(verdict.loop_closure.value_or(0.0), now.loop_closure);
+  verdict.self_contact |= now.self_contact;
+  if (!verdict.detections.empty()) {
+    extend(now.sigma_kappa, verdict.sigma_kappa);
+    extend(now.sigma_sc, verdict.sigma_sc);
+  }
   so_far.gate = now.gate;
   so_far.gate_opens |= now.gate.phase == GatePhase::open;
   so_far.faults.see(now, verdict);

@@ -48,10 +48,10 @@ void judge_contacts(const Verdict& verdict, const Expectations& expected,
     }
     if (!contact.within_limit) {
       const bool lasts = contact.limit_name == "quasi-static";
-      failures.push_back(fmt::format("the force on {} {} {:.0f} N, above the {} limit of {:.0f} N", touched,
-                                     lasts ? "stayed at" : "reached",
-                                     lasts ? *contact.lasting_force : contact.peak_force, contact.limit_name,
-                                     contact.limit));
+      failures.push_back(fmt::format(
+          "the force on {} {} {:.0f} N, above the {} limit of {:.0f} N, for {:.0f} ms in all", touched,
+          lasts ? "stayed at" : "reached", lasts ? *contact.lasting_force : contact.peak_force,
+          contact.limit_name, contact.limit, 1e3 * contact.over_limit));
     }
   }
 }

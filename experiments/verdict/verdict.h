@@ -13,6 +13,7 @@ struct Recording;
 /// A force limit for contact with a person. These defaults are the values that [SafePR] quotes for the hand
 /// from ISO/TS 15066; whoever makes a claim takes them from the standard.
 struct ForceLimits {
+  std::string region = "hand";      ///< of the body, see body_regions.h
   double transient = 280.0;         ///< for the first `transient_duration` of a contact [N]
   double quasi_static = 140.0;      ///< for what lasts longer [N]
   double transient_duration = 0.5;  ///< [s]
@@ -62,6 +63,14 @@ struct ContactVerdict {
   double limit = 0.0;
   std::string limit_name;
   bool within_limit = false;  ///< both forces are
+  double over_limit = 0.0;    ///< how long the force was above the limit of its time [s]
+};
+
+/// How far a measure of the workspace went.
+struct MeasureRange {
+  double least = 0.0;
+  double most = 0.0;
+  double last = 0.0;
 };
 
 /// What a verdict rests on, besides what the controller itself says.
@@ -90,8 +99,12 @@ struct Verdict {
   double max_tracking_error = 0.0;         ///< in the nominal mode, before anything touches the robot [m]
   double max_orientation_error = 0.0;      ///< likewise [rad]
   std::optional<double> loop_closure;      ///< largest miss of a leg; of simulations [m]
-  std::string fault;                       ///< why the torque gate closed; "" if it did not
-  double simulated = 0.0;                  ///< [s]
+  /// From the first detection on; none: nothing was detected, or nobody recorded them.
+  std::optional<MeasureRange> sigma_kappa;
+  std::optional<MeasureRange> sigma_sc;  ///< likewise [m]
+  bool self_contact = false;             ///< bodies of the robot touched one another
+  std::string fault;                     ///< why the torque gate closed; "" if it did not
+  double simulated = 0.0;                ///< [s]
 
   std::vector<std::string> failures;  ///< why the verdict is bad, one sentence each; empty: it is good
   std::vector<std::string> remarks;   ///< what a reader must know of a good verdict as well, likewise

@@ -44,6 +44,7 @@ Json contact_json(const ContactVerdict& contact) {
           {"limit_N", contact.limit},
           {"within_limit", contact.within_limit},
           {"limit", contact.limit_name},
+          {"over_limit_ms", 1e3 * contact.over_limit},
           {"lasting_force_N", contact.lasting_force ? Json(*contact.lasting_force) : Json(nullptr)},
           {"onset_s", contact.onset},
           {"speed_m_per_s", contact.speed}};

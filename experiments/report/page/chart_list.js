@@ -64,9 +64,10 @@ function chartList() {
     { id: "orientation_error", title: "Tracking error, orientation", unit: "°", scale: degrees, least: 0.01, fromZero: true,
       series: one("orientation_error", "error", "--plain") },
     { id: "torque", title: `Drive ${report.drive_unit === "N" ? "forces" : "torques"}`, unit: report.drive_unit, least: 2, series: torques() },
-    { id: "sigma_kappa", title: "Condition number", symbol: ["σ", "κ"], unit: "", least: 0.5, series: one("sigma_kappa", "σκ", "--plain") },
+    { id: "sigma_kappa", title: "Condition number", symbol: ["σ", "κ"], unit: "", least: 0.5, series: [
+      ...one("sigma_kappa", "σκ", "--plain"), ...one("sigma_kappa_reference", "led to", "--estimate")] },
     { id: "sigma_sc", title: "Self-collision distance", symbol: ["σ", "sc"], unit: "mm", scale: 1000, least: 2,
-      series: one("sigma_sc", "σsc", "--plain") },
+      series: [...one("sigma_sc", "σsc", "--plain"), ...one("sigma_sc_reference", "led to", "--estimate")] },
   ];
   for (const chart of list) {
     chart.scale ??= 1;
