@@ -156,6 +156,8 @@ Campaign read_campaign(const std::filesystem::path& file, const CampaignOverride
   campaign.draws = static_cast<std::size_t>(draws);
   reader.seed("seed", campaign.seed);
   reader.number("missed_after", unit::s, campaign.missed_after, positive);
+  reader.choice("summary", campaign.summary,
+                {{"detections", Campaign::Summary::detections}, {"reactions", Campaign::Summary::reactions}});
   for (ConfigReader& axis : reader.sections("grid")) campaign.grid.push_back(read_axis(axis));
   const auto name = std::make_shared<const std::string>(file.string());
   for (ConfigReader& draw : reader.sections("draw")) campaign.drawn.push_back(read_draw(draw, name));

@@ -7,15 +7,34 @@
 #include "experiments/campaign/campaign_run.h"
 #include "experiments/verdict/verdict.h"
 #include "systems/config/parsed.h"
+#include "systems/motion/constraint_settings.h"
 
 namespace flinch {
 namespace {
 
 /// "leg2_link1" is a link1.
-std::string kind_of(const ContactVerdict& contact) {
-  if (contact.is_push) return "push";
-  if (!contact.body.starts_with("leg")) return contact.body;
-  return contact.body.substr(contact.body.find('_') + 1);
+std::string kind_of(const std::string& body) {
+  return body.starts_with("leg") ? body.substr(body.find('_') + 1) : body;
+}
+
+/// Limits are kept to this share.
+constexpr double exactly = 1e-6;
+
+void note_constraints(const Verdict& verdict, const ConstraintSettings& limits, RunResult& result) {
+  result.self_contact = verdict.self_contact;
+  if (verdict.sigma_kappa) {
+    result.sigma_kappa_most = verdict.sigma_kappa->most;
+    result.sigma_kappa_last = verdict.sigma_kappa->last;
+    result.violates_sigma_kappa = verdict.sigma_kappa->most > (1.0 + exactly) * limits.sigma_kappa.safety;
+  }
+  if (verdict.sigma_sc) {
+    result.sigma_sc_least = verdict.sigma_sc->least;
+    result.sigma_sc_last = verdict.sigma_sc->last;
+    const bool kappa_ends =
+        verdict.sigma_kappa && verdict.sigma_kappa->last <= 1.05 * limits.sigma_kappa.safety;
+    result.ends_inside = kappa_ends && verdict.sigma_sc->last >= limits.sigma_sc.safety - 0.005;
+    result.violates_sigma_sc = verdict.sigma_sc->least < (1.0 - exactly) * limits.sigma_sc.safety;
+  }
 }
 
 std::string text_of(const std::string& value) { return value; }
@@ -70,6 +89,17 @@ void columns(Result& result, Visit&& visit, VisitValues&& visit_values) {
   visit("removal_time_s", result.removal_time);
   visit("speed_m_per_s", result.speed);
   visit("peak_force_N", result.peak_force);
+  visit("over_limit_s", result.over_limit);
+  visit("meant", result.meant);
+  visit("law", result.law);
+  visit("sigma_kappa_most", result.sigma_kappa_most);
+  visit("sigma_kappa_last", result.sigma_kappa_last);
+  visit("sigma_sc_least_m", result.sigma_sc_least);
+  visit("sigma_sc_last_m", result.sigma_sc_last);
+  visit("violates_sigma_kappa", result.violates_sigma_kappa);
+  visit("violates_sigma_sc", result.violates_sigma_sc);
+  visit("ends_inside", result.ends_inside);
+  visit("self_contact", result.self_contact);
   visit("observer_error_force_N", result.observer_error_force);
   visit("observer_error_moment_Nm", result.observer_error_moment);
   visit("tracking_error_m", result.tracking_error);
@@ -114,12 +144,16 @@ RunResult result_of(const CampaignRun& run, const Verdict& verdict) {
   result.observer_error_force = verdict.max_observer_error_force;
   result.observer_error_moment = verdict.max_observer_error_moment;
   result.tracking_error = verdict.max_tracking_error;
+  result.law = followed_name(run.scenario.control.stages.reaction_laws);
+  result.meant = kind_of(run.scenario.expected.contact.value_or(""));
+  note_constraints(verdict, run.scenario.control.tasks.constraints, result);
+  for (const ContactVerdict& contact : verdict.contacts) result.over_limit += contact.over_limit;
   const std::optional<double> onset =
       verdict.contacts.empty() ? std::nullopt : std::optional(verdict.contacts.front().onset);
   result.estimators = results_by_estimator(verdict, onset);
   if (!verdict.contacts.empty()) {
     const ContactVerdict& first = verdict.contacts.front();
-    result.body = kind_of(first);
+    result.body = first.is_push ? "push" : kind_of(first.body);
     if (first.removed) result.removal_time = *first.removed - first.onset;
     result.speed = first.speed;
     result.peak_force = first.peak_force;

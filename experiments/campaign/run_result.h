@@ -39,6 +39,17 @@ struct RunResult {
   std::optional<double> removal_time;  ///< from the onset [s]
   std::optional<double> speed;         ///< of the platform at the onset [m/s]
   std::optional<double> peak_force;    ///< [N]
+  double over_limit = 0.0;             ///< time above the limit of the force, of all contacts [s]
+  /// What the scenario means to be touched, as `body`; "" where it does not say.
+  std::string meant;
+  std::string law;  ///< of the reaction: "torque_reaction"
+  // From the first detection on.
+  std::optional<double> sigma_kappa_most, sigma_kappa_last;
+  std::optional<double> sigma_sc_least, sigma_sc_last;  ///< [m]
+  bool violates_sigma_kappa = false;                    ///< beyond its safety value
+  bool violates_sigma_sc = false;                       ///< likewise
+  bool ends_inside = false;  ///< at the end within 5 % of sigma_kappa's and 5 mm of sigma_sc's safety value
+  bool self_contact = false;
   double observer_error_force = 0.0;   ///< as in Verdict [N]
   double observer_error_moment = 0.0;  ///< [Nm]
   double tracking_error = 0.0;         ///< [m]

@@ -13,6 +13,7 @@
 #include "experiments/campaign/campaign_page.h"
 #include "experiments/campaign/campaign_run.h"
 #include "experiments/campaign/campaign_summary.h"
+#include "experiments/campaign/reaction_summary.h"
 #include "experiments/campaign/run_campaign.h"
 #include "experiments/report/run_folder.h"
 #include "experiments/simulated/experiment.h"
@@ -70,6 +71,18 @@ RunFolder campaign_folder(const CampaignOptions& options, const Campaign& campai
   return folder;
 }
 
+void print(const Campaign& campaign, const std::vector<RunResult>& results,
+           const std::vector<CampaignGroup>& groups, const CampaignPace& pace, bool json) {
+  if (campaign.summary == Campaign::Summary::reactions) {
+    const ReactionSummary summary = reactions_of(results);
+    fmt::print("{}",
+               json ? reactions_json(campaign, summary, pace) + "\n" : reactions_table(campaign, summary));
+  } else {
+    fmt::print("{}",
+               json ? campaign_json(campaign, groups, pace) + "\n" : campaign_table(campaign, groups, pace));
+  }
+}
+
 }  // namespace
 
 ExitStatus campaign(const CampaignOptions& options) {
@@ -103,8 +116,7 @@ ExitStatus campaign(const CampaignOptions& options) {
   }
   const CampaignPace pace{results.size() - before, watch.seconds()};
   const std::vector<CampaignGroup> groups = groups_of(campaign, results);
-  fmt::print("{}", options.common.json ? campaign_json(campaign, groups, pace) + "\n"
-                                       : campaign_table(campaign, groups, pace));
+  print(campaign, results, groups, pace, options.common.json);
   const std::filesystem::path page = folder.path / "campaign.html";
   write_campaign_page(campaign, results, groups, options.common.command_line, page);
   if (!options.common.quiet) {

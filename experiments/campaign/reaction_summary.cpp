@@ -1,0 +1,179 @@
+#include "experiments/campaign/reaction_summary.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "experiments/campaign/campaign.h"
+
+namespace flinch {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string level_of(const std::string& law) {
+  const std::string suffix = "_reaction";
+  return law.ends_with(suffix) ? law.substr(0, law.size() - suffix.size()) : law;
+}
+
+/// The smallest value within which at least this share of `count` lies; none where fewer are known.
+std::optional<double> quantile(std::vector<double> values, std::size_t count, double share) {
+  const auto place = static_cast<std::size_t>(std::ceil(share * static_cast<double>(count)));
+  if (place == 0 || place > values.size()) return std::nullopt;
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(place - 1), values.end());
+  return values[place - 1];
+}
+
+struct Collected {
+  ReactionGroup group;
+  std::vector<double> removals, peaks;
+
+  void add(const RunResult& result) {
+    ++group.n;
+    const bool noticed = !result.estimators.empty() && result.estimators.front().detection_time.has_value();
+    group.detected += noticed ? 1U : 0U;
+    if (result.removal_time) removals.push_back(*result.removal_time);
+    if (result.peak_force) peaks.push_back(*result.peak_force);
+    group.over_limit += result.over_limit > 0.0 ? 1U : 0U;
+    group.violations_sigma_kappa += result.violates_sigma_kappa ? 1U : 0U;
+    group.violations_sigma_sc += result.violates_sigma_sc ? 1U : 0U;
+    group.final_inside += result.ends_inside ? 1U : 0U;
+    group.self_collisions += result.self_contact ? 1U : 0U;
+    group.gate_faults += result.fault.empty() ? 0U : 1U;
+  }
+
+  ReactionGroup finished() {
+    group.removed_median = quantile(removals, group.n, 0.5);
+    group.removed_p95 = quantile(removals, group.n, 0.95);
+    group.removed_largest = quantile(removals, removals.size(), 1.0);
+    group.peak_median = quantile(peaks, peaks.size(), 0.5);
+    group.peak_largest = quantile(peaks, peaks.size(), 1.0);
+    return group;
+  }
+};
+
+std::string body_of(const RunResult& result) { return result.meant.empty() ? result.body : result.meant; }
+
+std::string text_of(std::optional<double> value, double scale) {
+  return value ? fmt::format("{:.0f}", scale * *value) : "-";
+}
+
+Json json_of(std::optional<double> value, double scale = 1.0) {
+  return value ? Json(scale * *value) : Json(nullptr);
+}
+
+}  // namespace
+
+std::optional<ForceFit> fit_line(const std::vector<double>& x, const std::vector<double>& y) {
+  const std::size_t n = std::min(x.size(), y.size());
+  if (n < 3) return std::nullopt;
+  double mean_x = 0.0, mean_y = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    mean_x += x[i] / static_cast<double>(n);
+    mean_y += y[i] / static_cast<double>(n);
+  }
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    xx += (x[i] - mean_x) * (x[i] - mean_x);
+    xy += (x[i] - mean_x) * (y[i] - mean_y);
+    yy += (y[i] - mean_y) * (y[i] - mean_y);
+  }
+  if (!(xx > 0.0)) return std::nullopt;
+  ForceFit fit;
+  fit.n = n;
+  fit.slope = xy / xx;
+  fit.intercept = mean_y - fit.slope * mean_x;
+  fit.pearson = yy > 0.0 ? xy / std::sqrt(xx * yy) : 0.0;
+  return fit;
+}
+
+ReactionSummary reactions_of(const std::vector<RunResult>& results) {
+  std::map<std::pair<std::string, std::string>, Collected> collected;
+  std::map<std::string, std::pair<std::vector<double>, std::vector<double>>> forces;
+  for (const RunResult& result : results) {
+    const std::string body = body_of(result);
+    Collected& group = collected[{level_of(result.law), body}];
+    group.group.level = level_of(result.law);
+    group.group.body = body;
+    group.add(result);
+    if (!result.speed || !result.peak_force) continue;
+    forces[body].first.push_back(*result.speed);
+    forces[body].second.push_back(*result.peak_force);
+  }
+  ReactionSummary summary;
+  for (auto& [key, group] : collected) summary.groups.push_back(group.finished());
+  for (const auto& [body, points] : forces) {
+    std::optional<ForceFit> fit = fit_line(points.first, points.second);
+    if (!fit) continue;
+    fit->body = body;
+    summary.fits.push_back(*fit);
+  }
+  return summary;
+}
+
+std::string reactions_table(const Campaign& campaign, const ReactionSummary& summary) {
+  std::string text = fmt::format("{}: {} runs\n\n", campaign.title, campaign.runs());
+  text += fmt::format("{:<14} {:<10} {:>5} {:>8} {:>17} {:>13} {:>10} {:>10} {:>10} {:>7} {:>7} {:>7}\n",
+                      "level", "body", "runs", "noticed", "removed ms", "peak N", "over", "kappa", "sc",
+                      "inside", "self", "gate");
+  text += fmt::format("{:<14} {:<10} {:>5} {:>8} {:>17} {:>13} {:>10} {:>10} {:>10} {:>7} {:>7} {:>7}\n", "",
+                      "", "", "", "median/p95/most", "median/most", "limit", "violated", "violated", "at end",
+                      "contact", "faults");
+  for (const ReactionGroup& group : summary.groups) {
+    text += fmt::format("{:<14} {:<10} {:>5} {:>8} {:>17} {:>13} {:>10} {:>10} {:>10} {:>7} {:>7} {:>7}\n",
+                        group.level, group.body, group.n, group.detected,
+                        text_of(group.removed_median, 1e3) + "/" + text_of(group.removed_p95, 1e3) + "/" +
+                            text_of(group.removed_largest, 1e3),
+                        text_of(group.peak_median, 1.0) + "/" + text_of(group.peak_largest, 1.0),
+                        group.over_limit, group.violations_sigma_kappa, group.violations_sigma_sc,
+                        group.final_inside, group.self_collisions, group.gate_faults);
+  }
+  text += "\npeak force over speed\n";
+  for (const ForceFit& fit : summary.fits) {
+    text += fmt::format("{:<10} {:>4} runs  {:>6.0f} N + {:>4.0f} N/(m/s)  r = {:.3f}\n", fit.body, fit.n,
+                        fit.intercept, fit.slope, fit.pearson);
+  }
+  return text;
+}
+
+std::string reactions_json(const Campaign& campaign, const ReactionSummary& summary,
+                           const CampaignPace& pace) {
+  Json groups = Json::array(), fits = Json::array();
+  std::size_t failed = 0;
+  for (const ReactionGroup& group : summary.groups) {
+    failed += group.gate_faults;
+    groups.push_back({{"level", group.level},
+                      {"body", group.body},
+                      {"n", group.n},
+                      {"detected", group.detected},
+                      {"removed_median_ms", json_of(group.removed_median, 1e3)},
+                      {"removed_p95_ms", json_of(group.removed_p95, 1e3)},
+                      {"removed_max_ms", json_of(group.removed_largest, 1e3)},
+                      {"peak_median_N", json_of(group.peak_median)},
+                      {"peak_max_N", json_of(group.peak_largest)},
+                      {"over_limit", group.over_limit},
+                      {"violations_sigma_kappa", group.violations_sigma_kappa},
+                      {"violations_sigma_sc", group.violations_sigma_sc},
+                      {"final_inside", group.final_inside},
+                      {"self_collisions", group.self_collisions},
+                      {"gate_faults", group.gate_faults}});
+  }
+  for (const ForceFit& fit : summary.fits) {
+    fits.push_back({{"body", fit.body},
+                    {"n", fit.n},
+                    {"slope_N_s_per_m", fit.slope},
+                    {"intercept_N", fit.intercept},
+                    {"pearson", fit.pearson}});
+  }
+  const double rate = pace.wall > 0.0 ? static_cast<double>(pace.runs_now) / pace.wall : 0.0;
+  return Json{
+      {"campaign", campaign.name}, {"runs", campaign.runs()}, {"failed", failed}, {"wall_s", pace.wall},
+      {"runs_per_s", rate},        {"groups", groups},        {"fits", fits}}
+      .dump();
+}
+
+}  // namespace flinch

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/campaign/campaign_summary.h"
+#include "experiments/campaign/run_result.h"
+
+namespace flinch {
+
+/// The runs of one law of the reaction that meant to touch the same sort of body.
+struct ReactionGroup {
+  std::string level;  ///< "velocity" of "velocity_reaction"; of other laws their name
+  std::string body;   ///< that was meant to be touched, else that was
+  std::size_t n = 0;
+  std::size_t detected = 0;
+  std::optional<double> removed_median, removed_p95;  ///< from the onset; none where more stayed [s]
+  std::optional<double> removed_largest;              ///< of those that were removed [s]
+  std::optional<double> peak_median, peak_largest;    ///< [N]
+  std::size_t over_limit = 0;                         ///< runs with a force above its limit
+  std::size_t violations_sigma_kappa = 0;             ///< beyond the safety value at any time
+  std::size_t violations_sigma_sc = 0;
+  std::size_t final_inside = 0;  ///< runs that ended within 5 % of sigma_kappa's and 5 mm of sigma_sc's limit
+  std::size_t self_collisions = 0;
+  std::size_t gate_faults = 0;
+};
+
+/// peak force = intercept + slope speed, by least squares. [SafePR] Table V
+struct ForceFit {
+  std::string body;
+  std::size_t n = 0;
+  double slope = 0.0;      ///< [N/(m/s)]
+  double intercept = 0.0;  ///< [N]
+  double pearson = 0.0;    ///< r
+};
+
+struct ReactionSummary {
+  std::vector<ReactionGroup> groups;  ///< by level, then by body
+  std::vector<ForceFit> fits;         ///< of each body over all levels, with three or more runs
+};
+
+/// The limits of sigma_kappa and sigma_sc are those of the runs.
+ReactionSummary reactions_of(const std::vector<RunResult>& results);
+
+/// A table for people, and one JSON object on one line.
+std::string reactions_table(const Campaign& campaign, const ReactionSummary& summary);
+std::string reactions_json(const Campaign& campaign, const ReactionSummary& summary,
+                           const CampaignPace& pace);
+
+/// The least-squares line through the points (x_i, y_i); none below three points or where all x are the same.
+std::optional<ForceFit> fit_line(const std::vector<double>& x, const std::vector<double>& y);
+
+}  // namespace flinch

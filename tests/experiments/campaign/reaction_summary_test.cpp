@@ -1,0 +1,108 @@
+#include "experiments/campaign/reaction_summary.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "experiments/campaign/campaign.h"
+
+namespace flinch {
+namespace {
+
+RunResult run(const std::string& law, const std::string& meant, double removal, double speed, double peak) {
+  RunResult result;
+  result.law = law;
+  result.meant = meant;
+  result.body = "link2";
+  result.removal_time = removal;
+  result.speed = speed;
+  result.peak_force = peak;
+  result.ends_inside = true;
+  result.estimators = {{.name = "observer", .detection_time = 0.01}};
+  return result;
+}
+
+TEST(ReactionSummary, GroupsByLevelAndByTheBodyThatWasMeant) {
+  const ReactionSummary summary = reactions_of({run("torque_reaction", "clamping", 0.1, 1.0, 100.0),
+                                                run("torque_reaction", "clamping", 0.2, 0.5, 50.0),
+                                                run("torque_reaction", "", 0.1, 1.0, 100.0),
+                                                run("retraction", "clamping", 0.1, 1.0, 100.0)});
+  ASSERT_EQ(summary.groups.size(), 3U);
+  EXPECT_EQ(summary.groups[0].level, "retraction");
+  EXPECT_EQ(summary.groups[1].level, "torque");
+  EXPECT_EQ(summary.groups[1].body, "clamping");
+  EXPECT_EQ(summary.groups[1].n, 2U);
+  EXPECT_EQ(summary.groups[2].body, "link2");
+}
+
+TEST(ReactionSummary, CountsWhatRunsShow) {
+  RunResult bad = run("torque_reaction", "platform", 0.3, 1.0, 300.0);
+  bad.over_limit = 0.01;
+  bad.violates_sigma_kappa = bad.violates_sigma_sc = bad.self_contact = true;
+  bad.ends_inside = false;
+  bad.fault = "a drive is too fast";
+  bad.estimators.front().detection_time.reset();
+  const ReactionGroup group =
+      reactions_of({bad, run("torque_reaction", "platform", 0.1, 0.5, 80.0)}).groups[0];
+  EXPECT_EQ(group.n, 2U);
+  EXPECT_EQ(group.detected, 1U);
+  EXPECT_EQ(group.over_limit, 1U);
+  EXPECT_EQ(group.violations_sigma_kappa, 1U);
+  EXPECT_EQ(group.violations_sigma_sc, 1U);
+  EXPECT_EQ(group.self_collisions, 1U);
+  EXPECT_EQ(group.final_inside, 1U);
+  EXPECT_EQ(group.gate_faults, 1U);
+  EXPECT_EQ(group.removed_median, 0.1);
+  EXPECT_EQ(group.removed_p95, 0.3);
+  EXPECT_EQ(group.peak_largest, 300.0);
+}
+
+// A contact that is not over at the end has no time of removal: it counts as longer than all others.
+TEST(ReactionSummary, AContactThatStaysIsLongerThanAllOthers) {
+  RunResult stays = run("torque_reaction", "platform", 0.0, 1.0, 100.0);
+  stays.removal_time.reset();
+  const ReactionGroup group =
+      reactions_of({stays, run("torque_reaction", "platform", 0.1, 0.5, 80.0)}).groups[0];
+  EXPECT_EQ(group.removed_median, 0.1);
+  EXPECT_EQ(group.removed_p95, std::nullopt);
+  EXPECT_EQ(group.removed_largest, 0.1);
+}
+
+TEST(LineThroughForces, IsThatOfLeastSquares) {
+  const auto exact = fit_line({0.1, 0.5, 1.5}, {23.0 + 13.2, 23.0 + 66.0, 23.0 + 198.0});
+  ASSERT_TRUE(exact);
+  EXPECT_NEAR(exact->slope, 132.0, 1e-9);
+  EXPECT_NEAR(exact->intercept, 23.0, 1e-9);
+  EXPECT_NEAR(exact->pearson, 1.0, 1e-12);
+  // By hand: means 2 and 2, xy = 1, xx = 2, yy = 2.
+  const auto scattered = fit_line({1.0, 2.0, 3.0}, {1.0, 3.0, 2.0});
+  EXPECT_NEAR(scattered->slope, 0.5, 1e-12);
+  EXPECT_NEAR(scattered->intercept, 1.0, 1e-12);
+  EXPECT_NEAR(scattered->pearson, 0.5, 1e-12);
+}
+
+TEST(LineThroughForces, IsNoneWithoutEnoughPoints) {
+  EXPECT_FALSE(fit_line({1.0, 2.0}, {1.0, 2.0}));
+  EXPECT_FALSE(fit_line({1.0, 1.0, 1.0}, {1.0, 2.0, 3.0}));
+}
+
+TEST(ReactionSummary, IsOneJsonObjectWithTheGroupsAndTheLines) {
+  Campaign campaign;
+  campaign.name = "some";
+  const ReactionSummary summary = reactions_of({run("torque_reaction", "platform", 0.1, 0.5, 50.0),
+                                                run("torque_reaction", "platform", 0.1, 1.0, 100.0),
+                                                run("torque_reaction", "platform", 0.1, 1.5, 150.0)});
+  const auto json = nlohmann::json::parse(reactions_json(campaign, summary, {}));
+  const auto& group = json["groups"][0];
+  for (const char* key : {"level", "body", "n", "detected", "removed_median_ms", "removed_p95_ms",
+                          "peak_median_N", "peak_max_N", "over_limit", "violations_sigma_kappa",
+                          "violations_sigma_sc", "self_collisions", "gate_faults"}) {
+    EXPECT_TRUE(group.contains(key)) << key;
+  }
+  EXPECT_EQ(group["removed_median_ms"], 100.0);
+  EXPECT_NEAR(json["fits"][0]["slope_N_s_per_m"].get<double>(), 100.0, 1e-9);
+  EXPECT_THAT(reactions_table(campaign, summary), testing::HasSubstr("r = 1.000"));
+}
+
+}  // namespace
+}  // namespace flinch
