@@ -22,6 +22,7 @@ void read_levels(ConfigReader reader, TaskLevelSettings& levels) {
   reader.number("velocity_feedforward", unit::Nms_per_rad, levels.velocity_feedforward, not_negative);
   reader.number("largest_acceleration", unit::rad_per_s2, levels.largest_acceleration, positive);
   reader.number("largest_torque", unit::Nm, levels.largest_torque, positive);
+  reader.number("largest_torque_rate", unit::Nm_per_s, levels.largest_torque_rate, positive);
 }
 
 void read_motion_limits(ConfigReader reader, MotionLimits& limits, bool angular) {
