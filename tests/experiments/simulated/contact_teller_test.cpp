@@ -47,7 +47,9 @@ TEST(ContactTeller, TellsWhichBodyIsTouchedAndWhere) {
     EXPECT_EQ(teller.told().confidence(), 1.0);
     EXPECT_EQ(teller.place().body, body);
     EXPECT_EQ(teller.place().force_in_base, Eigen::Vector2d(3, 4));
-    if (body > 0) EXPECT_NEAR(teller.place().fraction, 0.3, 1e-12);
+    if (body > 0) {
+      EXPECT_NEAR(teller.place().fraction, 0.3, 1e-12);
+    }
   }
 }
 
