@@ -33,7 +33,7 @@ std::unique_ptr<const BenchDynamics> BenchDynamics::make(const BenchSettings& se
 
 BenchDynamics::BenchDynamics(const BenchSettings& settings)
     : settings_(settings), dof_(settings.robot->dof()), size_(2 * dof_) {
-  bool timed = false;
+  bool timed = !settings_.pulls.empty();
   for (std::size_t i = 0; i < settings_.obstacles.size(); ++i) {
     const Obstacle& obstacle = *settings_.obstacles[i];
     obstacle_at_[i] = obstacle.moves_freely() ? size_ : -1;

@@ -14,7 +14,7 @@
 namespace flinch {
 
 /// The continuous state: the platform's coordinates xi in a chart and its velocity v; displacement and
-/// velocity of each obstacle that moves freely; the time [s], where an obstacle follows it.
+/// velocity of each obstacle that moves freely; the time [s], where an obstacle or a rope follows it.
 using BenchState = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * max_dof + 6 * max_obstacles + 1, 1>;
 
 /// A chart of the configurations around that of a tick: the configuration is `pose` (+) (xi - `xi`). So xi

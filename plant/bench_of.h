@@ -43,6 +43,7 @@ class BenchOf final : public BenchDynamics {
             ContactForces& out) const noexcept;
   HeldPoint next_held(std::size_t obstacle, const BenchState& state, double t, const BenchSnapshot& snapshot,
                       const BenchStep& before) const noexcept;
+  PlatformVector pulled(const Instant& now, const BenchState& state) const noexcept;
   JointVector drive_torque(const Instant& now, const DriveAction& drives) const noexcept;
   PlatformVector acceleration(const Instant& now, JointVector torque, const DriveAction& drives,
                               const PlatformVector& wrench) const noexcept;
@@ -123,6 +124,19 @@ void BenchOf<Robot>::hold(const Instant& now, int obstacle, const PlacedObstacle
   internal::add({held.body, obstacle, point, force, 0.0, true}, out);
 }
 
+/// What all ropes do to the platform.
+template <class Robot>
+PlatformVector BenchOf<Robot>::pulled(const Instant& now, const BenchState& state) const noexcept {
+  PlatformVector wrench = PlatformVector::Zero(dof());
+  for (const RopePull& pull : settings().pulls) {
+    const Eigen::Vector3d force = pull.at(time(state));
+    if (force.isZero(0.0)) continue;
+    const Eigen::Vector3d point = robot_.point_in_base(now, pull.body, pull.point_in_body);
+    wrench += robot_.wrench(now, pull.body, point, force);
+  }
+  return wrench;
+}
+
 template <class Robot>
 JointVector BenchOf<Robot>::drive_torque(const Instant& now, const DriveAction& drives) const noexcept {
   JointVector torque = drives.torque;
@@ -161,7 +175,7 @@ void BenchOf<Robot>::rates(const BenchState& state, const DriveAction& drives,
   robot_.coordinate_rates(state, step.chart, rates);
   rates.segment(dof(), dof()) =
       acceleration(now, drive_torque(now, drives), drives,
-                   applied_wrench + contacts.obstacle_wrench + contacts.self_wrench);
+                   applied_wrench + pulled(now, state) + contacts.obstacle_wrench + contacts.self_wrench);
   add_obstacle_rates(state, contacts, rates);
 }
 
@@ -178,13 +192,15 @@ void BenchOf<Robot>::snapshot(const BenchState& state, const DriveAction& drives
   out.contacts.clear(dof());
   out.near_pairs.count = 0;
   if (!out.reachable) return;
+  out.applied_wrench += pulled(now, state);
   robot_.describe(now, out);
   place_obstacles(state, out.obstacles);
   out.candidates = robot_.candidates(now, out.obstacles, duration);
   find_forces(now, out.obstacles, step, out.candidates, out.contacts);
   out.drive_torque = drive_torque(now, drives);
-  out.acceleration = acceleration(now, out.drive_torque, drives,
-                                  applied_wrench + out.contacts.obstacle_wrench + out.contacts.self_wrench);
+  out.acceleration =
+      acceleration(now, out.drive_torque, drives,
+                   out.applied_wrench + out.contacts.obstacle_wrench + out.contacts.self_wrench);
   robot_.find_near_pairs(now, out.obstacles, out.near_pairs);
   for (std::size_t i = 0; i < settings().obstacles.size(); ++i) {
     out.force_on_mount[i] =

@@ -36,6 +36,12 @@ std::vector<std::string> problems(const BenchSettings& settings) {
                     settings.uneven_torque.size() == static_cast<std::size_t>(settings.robot->drives()),
                 "uneven_torque has " + std::to_string(settings.uneven_torque.size()) +
                     " entries; the robot has " + std::to_string(settings.robot->drives()) + " drives");
+  for (const RopePull& pull : settings.pulls) {
+    found.require(pull.body >= 0 && pull.body < settings.robot->body_count(),
+                  "a rope pulls at a body that the robot has not");
+    found.require(pull.rise >= 0s && pull.hold >= 0s && pull.fall >= 0s,
+                  "the pull of a rope has a negative rise, hold or fall");
+  }
   found.not_negative("brake.torque", settings.brake.torque, "Nm");
   found.positive("brake.velocity", settings.brake.velocity, "rad/s");
   found.not_negative("brake.force", settings.brake.force, "N");

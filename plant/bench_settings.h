@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "plant/obstacle.h"
+#include "plant/rope_pull.h"
 #include "plant/uneven_torque.h"
 #include "systems/robot/mechanism.h"
 
@@ -29,6 +30,7 @@ struct BenchSettings {
   std::optional<ContactMaterial> link_material = ContactMaterial{.stiffness = 5e4};
   BrakeFriction brake;
   std::vector<UnevenTorque> uneven_torque;  ///< Of each drive; empty: all are even.
+  std::vector<RopePull> pulls;              ///< By ropes, besides all contacts.
 };
 
 /// All that is wrong with `settings`, one sentence each.

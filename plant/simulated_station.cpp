@@ -62,6 +62,13 @@ OutputPort<ImuReading> add_imu(DiagramBuilder& inside, const SimulatedStationSet
 
 std::optional<OutputPort<ForceTorqueReading>> add_force_torque_sensor(
     DiagramBuilder& inside, const SimulatedStationSettings& settings, const Parts& parts) {
+  if (!settings.instrument.mountings.empty()) {
+    auto& instrument =
+        inside.add<SimulatedInstrument>("instrument", settings.instrument, settings.bench.pulls,
+                                        settings.bench.robot, derive_seed(settings.seed, "instrument"));
+    inside.connect(parts.plant.truth, instrument.truth);
+    return instrument.force_torque;
+  }
   if (!settings.has_force_torque_sensor()) return std::nullopt;
   const auto obstacle = static_cast<std::size_t>(settings.force_torque->obstacle);
   auto& sensor =
@@ -78,6 +85,7 @@ SimulatedStationSettings with_ideal_sensors(SimulatedStationSettings settings) {
   settings.encoders.ideal = true;
   settings.currents.ideal = true;
   settings.imu.ideal = true;
+  settings.instrument.ideal = true;
   if (settings.force_torque) settings.force_torque->ideal = true;
   return settings;
 }

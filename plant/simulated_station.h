@@ -16,6 +16,7 @@
 #include "plant/simulated_encoders.h"
 #include "plant/simulated_force_torque_sensor.h"
 #include "plant/simulated_imu.h"
+#include "plant/simulated_instrument.h"
 #include "systems/framework/diagram_builder.h"
 #include "systems/signals/platform_motion.h"
 
@@ -30,6 +31,8 @@ struct SimulatedStationSettings {
   SimulatedImuSettings imu;
   /// Mounted where there is the obstacle that it names.
   std::optional<SimulatedForceTorqueSettings> force_torque = SimulatedForceTorqueSettings{};
+  /// In the place of the sensor below an obstacle, where it has mountings.
+  SimulatedInstrumentSettings instrument;
   std::vector<WrenchRamp> applied_wrench;  ///< Pushes on the platform.
 
   std::vector<RequestedFault> faults;  ///< Of sensors, drives, brakes and of the link to the control path.

@@ -9,16 +9,12 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
-#include "apps/flinch/bus/bus_verbs.h"
-#include "apps/flinch/learning_verbs.h"
+#include "apps/flinch/verbs.h"
 #include "systems/foundation/nearest_name.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
 namespace {
-
-/// Checks without a name of their own, which would stand in the help beside the option's.
-CLI::Validator between(int low, int high) { return CLI::Range(low, high).description(""); }
 
 /// A finite number of seconds; "" if it is.
 std::string problem_with_seconds(const std::string& text) {
@@ -67,11 +63,6 @@ void add_fault(CLI::App& verb, std::vector<std::string>& faults) {
       ->type_name("FAULT");
 }
 
-void add_common(CLI::App& verb, CommonOptions& common) {
-  verb.add_flag("--json", common.json, "Print one JSON object on stdout; messages go to stderr");
-  verb.add_flag("--quiet", common.quiet, "Print nothing but results and errors");
-}
-
 void add_threads(CLI::App& verb, std::optional<std::size_t>& threads, const char* help) {
   verb.add_option("--threads", threads, help)->check(between(1, 1024))->type_name("N");
 }
@@ -94,15 +85,6 @@ int complain(const std::vector<std::string>& problems, bool json) {
   return static_cast<int>(ExitStatus::bad_input);
 }
 
-/// What is wrong with `text` as a seed; "" if nothing is.
-std::string problem_with_seed(const std::string& text) {
-  std::uint64_t seed = 0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, seed);
-  if (error == std::errc{} && rest == end) return "";
-  return "is '" + text + "'; it must be a whole number between 0 and 2^64 - 1";
-}
-
 /// Puts the number of the station that `text` names in its place; what is wrong with it, "" if nothing is.
 std::string number_of_station(std::string& text) {
   const std::vector<std::string> names = {"simulated", "dds", "recorded"};  // as StationKind
@@ -111,37 +93,6 @@ std::string number_of_station(std::string& text) {
   text = std::to_string(found - names.begin());
   return "";
 }
-
-/// The verbs and their options.
-struct Verbs {
-  RunOptions run;
-  CampaignOptions campaign;
-  CalibrateThresholdsOptions thresholds;
-  DatasetOptions dataset;
-  TrainOptions train;
-  EvaluateOptions evaluate;
-  ServeOptions serve;
-  LinkOptions link;
-  KeysOptions keys;
-  ReportOptions report;
-  GraphOptions graph;
-  CheckOptions check;
-  std::function<ExitStatus()> chosen;
-  CommonOptions* common = nullptr;
-
-  template <class Options>
-  CLI::App& add(CLI::App& app, const char* name, const char* help, const char* example, Options& options,
-                ExitStatus (*verb)(const Options&)) {
-    CLI::App& sub = *app.add_subcommand(name, help);
-    sub.footer(std::string("Example:\n  ") + example);
-    add_common(sub, options.common);
-    sub.callback([this, &options, verb] {
-      common = &options.common;
-      chosen = [&options, verb] { return verb(options); };
-    });
-    return sub;
-  }
-};
 
 void add_verbs(CLI::App& app, Verbs& verbs) {
   CLI::App& run_verb =
@@ -307,37 +258,6 @@ void add_evaluate_verb(CLI::App& app, Verbs& verbs) {
   add_threads(verb, options.threads, "At once [one a processor]");
 }
 
-void add_calibrate_verb(CLI::App& app, Verbs& verbs) {
-  CLI::App& calibrate = *app.add_subcommand("calibrate", "Find parameters from recordings");
-  calibrate.require_subcommand(1);
-  calibrate.formatter(std::make_shared<CLI::Formatter>());  // not the one that it shares with the program
-  calibrate.get_formatter()->label("SUBCOMMAND", "WHAT");
-  CalibrateThresholdsOptions& options = verbs.thresholds;
-  CLI::App& verb = verbs.add(
-      calibrate, "thresholds",
-      "Thresholds of contact detectors for a stated rate of false alarms, from motion without contact",
-      "flinch calibrate thresholds out/motion_1/run.h5 out/motion_2/run.h5 --rate 0.5 --out "
-      "thresholds.yaml",
-      options, &calibrate_thresholds);
-  verb.add_option("recordings", options.recordings,
-                  "Recordings (HDF5) of motion without contact, of one robot or several")
-      ->required()
-      ->type_name("RUN.h5...");
-  verb.add_option("--rate", options.rate, "False alarms an hour, of each estimator [0.5]")
-      ->check(CLI::Range(1e-6, 1e6).description(""))
-      ->type_name("N");
-  verb.add_option("--confidence", options.confidence, "With which the rate is kept, 0.5 to 0.9999 [0.95]")
-      ->check(CLI::Range(0.5, 0.9999).description(""))
-      ->type_name("P");
-  verb.add_option(
-          "--safety-factor", options.safety_factor,
-          "Of the papers' rule, a multiple of the largest value seen, which is told for comparison [2]")
-      ->check(CLI::Range(1.0, 100.0).description(""))
-      ->type_name("K");
-  verb.add_option("--out", options.out, "Write the thresholds as a section of scenario files")
-      ->type_name("FILE.yaml");
-}
-
 void add_bus_verbs(CLI::App& app, Verbs& verbs) {
   CLI::App& serve_verb = verbs.add(
       app, "serve", "Put the simulated robot of a scenario on the bus, in real time, as if it were there",
@@ -409,6 +329,20 @@ std::string usage_problem(const CLI::App& app, const CLI::ParseError& error, con
 
 }  // namespace
 
+/// What is wrong with `text` as a seed; "" if nothing is.
+std::string problem_with_seed(const std::string& text) {
+  std::uint64_t seed = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, seed);
+  if (error == std::errc{} && rest == end) return "";
+  return "is '" + text + "'; it must be a whole number between 0 and 2^64 - 1";
+}
+
+void add_common(CLI::App& verb, CommonOptions& common) {
+  verb.add_flag("--json", common.json, "Print one JSON object on stdout; messages go to stderr");
+  verb.add_flag("--quiet", common.quiet, "Print nothing but results and errors");
+}
+
 int run_command_line(int argc, const char* const* argv) {
   CLI::App app("flinch: contact detection and reaction for parallel robots. Not a certified safety function.",
                "flinch");
@@ -426,6 +360,8 @@ int run_command_line(int argc, const char* const* argv) {
   add_dataset_verb(app, verbs);
   add_train_verb(app, verbs);
   add_evaluate_verb(app, verbs);
+  add_excite_verb(app, verbs);
+  add_import_verb(app, verbs);
   add_bus_verbs(app, verbs);
   add_keys_verb(app, verbs);
   try {

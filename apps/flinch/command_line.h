@@ -65,6 +65,41 @@ struct CalibrateThresholdsOptions {
   double safety_factor = 2.0;
 };
 
+/// What every calibration from recordings understands.
+struct CalibrateOptions {
+  CommonOptions common;
+  std::vector<std::filesystem::path> recordings;
+  std::vector<std::filesystem::path> unseen;  ///< that are not used, but judged by
+  std::vector<std::filesystem::path> with;    ///< parameter files that hold already
+  std::filesystem::path out;                  ///< a parameter file; empty: none
+};
+
+struct CalibrateAllOptions {
+  CommonOptions common;
+  std::filesystem::path folder;  ///< with recordings anywhere below it
+  std::filesystem::path out;     ///< a folder; empty: calibration in that one
+  double rate = 0.5;             ///< of false alarms [1/h]
+};
+
+struct ExciteOptions {
+  CommonOptions common;
+  std::filesystem::path robot;
+  std::filesystem::path out;
+  double duration = 20.0;  ///< [s]
+  double distance = 0.2;   ///< of poses from home [m]
+  double rotation_deg = 20.0;
+  double velocity = 1.5;       ///< [m/s]
+  double acceleration = 12.0;  ///< [m/s^2]
+  int trials = 2000;
+  std::uint64_t seed = 1;
+};
+
+struct ImportOptions {
+  CommonOptions common;
+  std::filesystem::path mapping;
+  std::filesystem::path out;
+};
+
 struct ReportOptions {
   CommonOptions common;
   std::filesystem::path recording;
@@ -86,6 +121,12 @@ struct CheckOptions {
 ExitStatus run(const RunOptions& options);
 ExitStatus campaign(const CampaignOptions& options);
 ExitStatus calibrate_thresholds(const CalibrateThresholdsOptions& options);
+ExitStatus calibrate_torque_constant(const CalibrateOptions& options);
+ExitStatus calibrate_imu_pose(const CalibrateOptions& options);
+ExitStatus calibrate_dynamics(const CalibrateOptions& options);
+ExitStatus calibrate_all(const CalibrateAllOptions& options);
+ExitStatus excite(const ExciteOptions& options);
+ExitStatus import_log(const ImportOptions& options);
 ExitStatus report(const ReportOptions& options);
 ExitStatus graph(const GraphOptions& options);
 ExitStatus check(const CheckOptions& options);

@@ -13,6 +13,7 @@
 #include "experiments/verdict/verdict.h"
 #include "systems/config/config_file.h"
 #include "systems/config/config_reader.h"
+#include "systems/config/parameter_file.h"
 #include "systems/config/robot_file.h"
 #include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/result_file.h"
@@ -108,6 +109,9 @@ ExitStatus check(const CheckOptions& options) {
   if (options.file.extension() == ".h5" || is_journal(options.file)) {
     recorded_report(options.file, options.common);
     what = "recording";
+  } else if (is_parameter_file(options.file)) {
+    read_parameter_file(options.file);
+    what = "calibration";
   } else if (is_robot_file(options.file)) {
     read_robot_file(options.file);
     what = "robot";

@@ -10,7 +10,7 @@ namespace flinch {
 LiveExperiment build_live_experiment(const Scenario& scenario) {
   DiagramBuilder builder("experiment");
   LiveExperiment experiment;
-  const bool has_instrument = !scenario.obstacles.empty();  // the sensor below the pylon
+  const bool has_instrument = !scenario.obstacles.empty() || !scenario.mountings.empty();
   experiment.station = add_external_station(builder, scenario.robot.robot, {.force_torque = has_instrument});
   experiment.control = add_contact_control(builder, scenario.robot.robot, scenario.control);
   connect(builder, experiment.station, experiment.control);

@@ -80,6 +80,9 @@ std::map<std::string, std::string> recorded_attributes(const Scenario& scenario,
   attributes["scenario.text"] = scenario.text;
   attributes["robot.file"] = scenario.robot_file.filename().string();
   attributes["robot.text"] = scenario.robot_text;
+  int number = 0;
+  for (const ParameterFile& file : scenario.calibrations)
+    attributes["calibration." + std::to_string(++number) + ".text"] = file.text;
   return attributes;
 }
 

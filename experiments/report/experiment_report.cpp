@@ -222,6 +222,10 @@ Report experiment_report(const Scenario& scenario, const Recording& recording, c
   report.provenance = provenance(recording);
   report.texts = {{"Scenario " + scenario.file.filename().string(), scenario.text},
                   {"Robot " + scenario.robot_file.filename().string(), scenario.robot_text}};
+  for (const ParameterFile& file : scenario.calibrations) {
+    const std::string name = std::filesystem::path(file.file).filename().string();
+    report.texts.push_back({"Calibration " + name, file.text});
+  }
   return report;
 }
 

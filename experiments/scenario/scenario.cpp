@@ -5,7 +5,9 @@
 
 #include "diagrams/robot_settings.h"
 #include "experiments/scenario/robot_files.h"
+#include "experiments/scenario/scenario_calibrations.h"
 #include "experiments/scenario/scenario_control.h"
+#include "experiments/scenario/scenario_pulls.h"
 #include "experiments/verdict/body_regions.h"
 #include "systems/config/config_file.h"
 #include "systems/config/config_reader.h"
@@ -90,13 +92,16 @@ void read_rest(ConfigReader& reader, std::optional<std::uint64_t> seed, const Se
   ControlStages stages = std::move(scenario.control.stages);
   scenario.control = settings_for(robot, scenario.robot.drives, scenario.robot.limits);
   scenario.control.stages = std::move(stages);
+  calibrate_control(scenario.calibrations, scenario.control);
   read_control(reader.section("control"), robot, scenario.control);
   read_motion(reader.section("motion"), scenario.robot, scenario.seed, scenario.control);
   scenario.obstacles = read_obstacles(reader);
+  scenario.mountings = read_mountings(reader, robot);
   others(reader, scenario);
   read_expectations(reader.section("expect"), robot, scenario.expected);
   read_force_limits(reader.section("force_limits"), scenario.force_limits);
   scenario.values = reader.finish();
+  scenario.doubts = doubts_about_calibrations(scenario);
 }
 
 Scenario assemble(ConfigReader reader, const std::filesystem::path& file, RobotFiles& robots,
@@ -107,12 +112,19 @@ Scenario assemble(ConfigReader reader, const std::filesystem::path& file, RobotF
   scenario.file = file;
   scenario.name = file.stem().string();
   reader.required().file("robot", scenario.robot_file);
-  scenario.robot = robot_or_stand_in(reader, [&] {
+  scenario.robot_as_built = robot_or_stand_in(reader, [&] {
     if (scenario.robot_file.empty()) throw SetupError(std::vector<std::string>{});
     const auto entry = robots.read(scenario.robot_file);
     scenario.robot_text = entry->text;
     return entry->robot;
   });
+  scenario.calibrations = read_calibrations(reader);
+  scenario.robot = scenario.robot_as_built;
+  try {
+    if (reader.good()) scenario.robot = calibrated_robot(scenario);
+  } catch (const SetupError& error) {
+    reader.add_problems(error.problems());
+  }
   read_rest(reader, seed, others, scenario);
   return scenario;
 }
@@ -144,6 +156,7 @@ void leave_simulation_unread(ConfigReader& file, const Scenario&) {
     file.leave_unread(section);
   if (file.has("pylon")) file.section("pylon").leave_rest_unread();
   for (ConfigReader& obstacle : file.sections("obstacles")) obstacle.leave_rest_unread();
+  for (ConfigReader& pull : file.sections("pulls")) pull.leave_rest_unread();
 }
 
 Scenario read_scenario(const std::filesystem::path& file, std::optional<std::uint64_t> seed,
@@ -180,7 +193,10 @@ Scenario recorded_scenario(const Recording& recording, const std::filesystem::pa
   ConfigReader reader = ConfigReader::parse(scenario.text, file.string() + ":" + scenario.file.string());
   std::string unused;
   reader.text("robot", unused);
-  scenario.robot = parse_robot_file(scenario.robot_text, file.string() + ":" + scenario.robot_file.string());
+  scenario.robot_as_built =
+      parse_robot_file(scenario.robot_text, file.string() + ":" + scenario.robot_file.string());
+  scenario.calibrations = recorded_calibrations(reader, recording, file);
+  scenario.robot = calibrated_robot(scenario);
   read_rest(reader, recorded_seed(recording, file), others, scenario);
   return scenario;
 }

@@ -11,8 +11,10 @@
 #include "diagrams/contact_control_settings.h"
 #include "experiments/scenario/scenario_obstacles.h"
 #include "experiments/verdict/verdict.h"
+#include "systems/config/parameter_file.h"
 #include "systems/config/read_value.h"
 #include "systems/config/robot_file.h"
+#include "systems/signals/instrument_mounting.h"
 
 namespace flinch {
 
@@ -32,15 +34,19 @@ struct Scenario {
   Time duration = 1s;
 
   std::filesystem::path robot_file;
-  RobotFile robot;  ///< what the controller believes
+  RobotFile robot;           ///< what the controller believes
+  RobotFile robot_as_built;  ///< what the robot file says, without calibrations
+  std::vector<ParameterFile> calibrations;
   ContactControlSettings control;
   std::vector<ScenarioObstacle> obstacles;
+  std::vector<InstrumentMounting> mountings;  ///< of the instrument at which ropes pull
   Expectations expected;
   ForceLimits force_limits;
 
-  std::vector<ReadValue> values;  ///< every parameter of the scenario, defaults included
-  std::string text;               ///< of the file
-  std::string robot_text;         ///< of the robot file
+  std::vector<std::string> doubts;  ///< about the calibrations, one sentence each
+  std::vector<ReadValue> values;    ///< every parameter of the scenario, defaults included
+  std::string text;                 ///< of the file
+  std::string robot_text;           ///< of the robot file
 };
 
 /// Reads sections of a scenario file that a Scenario has no place for. `so_far` has robot, motion, control,

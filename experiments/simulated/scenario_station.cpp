@@ -53,22 +53,22 @@ void read_scales(ConfigReader& plant, const char* name, int count, JointVector& 
 
 /// What is true of the robot, where that differs from what the controller believes; how far one that is drawn
 /// may be off that.
-Realism read_plant(ConfigReader plant, const RobotFile& believed, SimulatedStationSettings& station) {
-  const int drives = believed.robot->drives();
+Realism read_plant(ConfigReader plant, const Scenario& scenario, SimulatedStationSettings& station) {
+  const RobotFile& built = scenario.robot_as_built;  // calibrations change what is believed, not what is true
+  const int drives = built.robot->drives();
   PlantFriction friction = PlantFriction::as_robot_file;
   double mass_scale = 1.0;
   RobotDeviation deviation;
-  station.drives.torque_constant = believed.drives.torque_constant;
-  station.drives.driver_torque_constant = believed.drives.torque_constant;
+  station.drives.torque_constant = built.drives.torque_constant;
+  station.drives.driver_torque_constant = scenario.robot.drives.torque_constant;
   plant.choice("friction", friction,
                {{"as_robot_file", PlantFriction::as_robot_file}, {"none", PlantFriction::none}});
-  read_classification(plant, *believed.robot, station.told_contact);
+  read_classification(plant, *built.robot, station.told_contact);
   read_scales(plant, "drive_friction_scale", drives, deviation.drive_friction_scale);
-  read_scales(plant, "passive_friction_scale", believed.robot->legs(), deviation.passive_friction_scale);
+  read_scales(plant, "passive_friction_scale", built.robot->legs(), deviation.passive_friction_scale);
   plant.number("leg_inertia_scale", unit::none, mass_scale, positive);
   plant.number("payload", unit::kg, deviation.payload, not_negative);
-  const Unit& per_ampere =
-      believed.robot->drive_kind(0) == DriveKind::revolute ? unit::Nm_per_A : unit::N_per_A;
+  const Unit& per_ampere = built.robot->drive_kind(0) == DriveKind::revolute ? unit::Nm_per_A : unit::N_per_A;
   plant.numbers("torque_constant", per_ampere, entries(station.drives.torque_constant), positive);
   plant.numbers("driver_torque_constant", per_ampere, entries(station.drives.driver_torque_constant),
                 positive);
@@ -78,11 +78,11 @@ Realism read_plant(ConfigReader plant, const RobotFile& believed, SimulatedStati
     deviation.drive_friction_scale.setZero();
     deviation.passive_friction_scale.setZero();
   }
-  station.bench.robot = true_robot(believed.robot, deviation);
+  station.bench.robot = true_robot(built.robot, deviation);
   if (plant.has("initial_pose")) {
-    station.bench.initial_pose = read_pose(plant.section("initial_pose"), *believed.robot);
+    station.bench.initial_pose = read_pose(plant.section("initial_pose"), *built.robot);
   }
-  return read_realism(plant, *believed.robot);
+  return read_realism(plant, *built.robot);
 }
 
 void read_encoder(ConfigReader reader, EncoderErrors& errors) {
@@ -109,6 +109,39 @@ void read_force_torque(ConfigReader reader, SimulatedForceTorqueSettings& sensor
   reader.duration("delay", sensor.delay, not_negative);
 }
 
+void read_instrument(ConfigReader reader, SimulatedInstrumentSettings& instrument) {
+  reader.flag("ideal", instrument.ideal);
+  reader.number("force_noise", unit::N, instrument.force_noise, not_negative);
+  reader.number("moment_noise", unit::Nm, instrument.moment_noise, not_negative);
+  reader.number("misalignment", unit::rad, instrument.misalignment, not_negative);
+  reader.number("zero_offset", unit::N, instrument.zero_offset, not_negative);
+}
+
+/// The pulls at one mounting, one after the other once the rope is no longer slack.
+void read_pulls(ConfigReader& reader, const InstrumentMounting& mounting, int directions,
+                std::vector<RopePull>& pulls) {
+  static constexpr std::array axes = {"force_x", "force_y", "force_z"};
+  RopePull pull{.body = mounting.body, .point_in_body = mounting.position_in_body};
+  reader.duration("rise", pull.rise, between(0.01, 60.0));
+  reader.duration("hold", pull.hold, between(0.0, 60.0));
+  reader.duration("fall", pull.fall, between(0.01, 60.0));
+  std::vector<double> first;
+  reader.required().numbers(axes[0], unit::N, first);
+  std::vector<Eigen::Vector3d> peaks(first.size(), Eigen::Vector3d::Zero());
+  for (int i = 0; i < directions; ++i) {
+    std::vector<double> forces(first.size());
+    reader.required().numbers(axes[static_cast<std::size_t>(i)], unit::N, std::span<double>(forces));
+    for (std::size_t k = 0; k < forces.size(); ++k) peaks[k][i] = forces[k];
+  }
+  Time start = mounting.start + mounting.slack;
+  for (const Eigen::Vector3d& peak : peaks) {
+    pull.peak_in_base = peak;
+    pull.start = start;
+    pulls.push_back(pull);
+    start += pull.rise + pull.hold + pull.fall;
+  }
+}
+
 void read_sensors(ConfigReader sensors, SimulatedStationSettings& station) {
   bool ideal = false;
   sensors.flag("ideal", ideal);
@@ -127,6 +160,7 @@ void read_sensors(ConfigReader sensors, SimulatedStationSettings& station) {
 
   read_imu(sensors.section("imu"), station.imu);
   read_force_torque(sensors.section("force_torque"), *station.force_torque);
+  read_instrument(sensors.section("instrument"), station.instrument);
 }
 
 WrenchRamp read_ramp(ConfigReader reader, const ConfigurationSpace& space) {
@@ -157,9 +191,15 @@ void read_station(ConfigReader& file, const Scenario& scenario, SimulatedStation
   const std::optional<PlatformPath>& path = scenario.control.trajectory.path;
   if (path) station.bench.initial_pose = path->start();
   station.bench.obstacles = read_simulated_obstacles(file, scenario.obstacles);
-  const Realism realism = read_plant(file.section("plant"), scenario.robot, station);
+  const Realism realism = read_plant(file.section("plant"), scenario, station);
   for (ConfigReader& ramp : file.sections("applied_wrench"))
     station.applied_wrench.push_back(read_ramp(ramp, station.bench.robot->space()));
+  std::size_t mounting = 0;
+  for (ConfigReader& pulls : file.sections("pulls")) {
+    read_pulls(pulls, scenario.mountings[mounting++], scenario.robot.robot->space_dimension(),
+               station.bench.pulls);
+  }
+  station.instrument.mountings = scenario.mountings;
   read_sensors(file.section("sensors"), station);
   station.faults = read_faults(file, *scenario.robot.robot);
   specimen = draw_specimen(realism, *scenario.robot.robot, scenario.robot.drives.max_torque, scenario.seed);

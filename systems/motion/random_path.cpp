@@ -24,14 +24,6 @@ void draw_in_ball(double radius, RandomGenerator& random, Part part) {
   part *= radius;
 }
 
-Configuration draw_pose(const ConfigurationSpace& space, const Configuration& centre,
-                        const RandomPathSettings& settings, RandomGenerator& random) {
-  PlatformVector away = PlatformVector::Zero(space.dimension());
-  draw_in_ball(settings.distance, random, away.head(space.translations()));
-  draw_in_ball(settings.rotation, random, away.tail(space.rotations()));
-  return space.plus(centre, away);
-}
-
 bool is_inside(const ParallelRobot& robot, const Kinematics& k, const RandomPathSettings& settings) {
   const WorkspaceLimits& limits = settings.workspace;
   const double room = spare * (limits.max_active - limits.min_active) / 2.0;
@@ -46,7 +38,22 @@ bool is_inside(const ParallelRobot& robot, const Kinematics& k, const RandomPath
          k.rates.active.cwiseAbs().maxCoeff() <= (1.0 - spare) * settings.max_drive_speed;
 }
 
-bool is_inside(const ParallelRobot& robot, const PlatformPath& path, const RandomPathSettings& settings) {
+Configuration centre_of(const ParallelRobot& robot, const RandomPathSettings& settings) {
+  return settings.centre.size() == 0 ? robot.home_pose() : settings.centre;
+}
+
+}  // namespace
+
+Configuration random_pose(const ParallelRobot& robot, const RandomPathSettings& settings,
+                          RandomGenerator& random) {
+  const ConfigurationSpace& space = robot.space();
+  PlatformVector away = PlatformVector::Zero(space.dimension());
+  draw_in_ball(settings.distance, random, away.head(space.translations()));
+  draw_in_ball(settings.rotation, random, away.tail(space.rotations()));
+  return space.plus(centre_of(robot, settings), away);
+}
+
+bool stays_within(const ParallelRobot& robot, const PlatformPath& path, const RandomPathSettings& settings) {
   Kinematics k;
   for (double time = 0.0; time < path.duration() + step; time += step) {
     const PlatformReference at = path.evaluate(time);
@@ -56,12 +63,9 @@ bool is_inside(const ParallelRobot& robot, const PlatformPath& path, const Rando
   return true;
 }
 
-}  // namespace
-
 PlatformPath random_path(const ParallelRobot& robot, const RandomPathSettings& settings, std::uint64_t seed) {
   RandomGenerator random(derive_seed(seed, "random path"));
-  const Configuration centre = settings.centre.size() == 0 ? robot.home_pose() : settings.centre;
-  std::vector<Configuration> poses = {centre};
+  std::vector<Configuration> poses = {centre_of(robot, settings)};
   double duration = 0.0;
   for (int draws = 0; duration < settings.duration; ++draws) {
     if (draws == most_draws) {
@@ -69,10 +73,10 @@ PlatformPath random_path(const ParallelRobot& robot, const RandomPathSettings& s
           "of " + std::to_string(most_draws) +
           " random poses none can be reached within the robot's limits; lower distance or speed");
     }
-    const Configuration next = draw_pose(robot.space(), centre, settings, random);
+    const Configuration next = random_pose(robot, settings, random);
     try {
       const PlatformPath way = PlatformPath::through(robot, {poses.back(), next}, settings.limits);
-      if (!is_inside(robot, way, settings)) continue;
+      if (!stays_within(robot, way, settings)) continue;
       duration += way.duration();
     } catch (const SetupError&) {  // out of reach
       continue;

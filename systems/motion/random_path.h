@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "systems/framework/random.h"
 #include "systems/motion/platform_path.h"
 #include "systems/robot/workspace_limits.h"
 
@@ -27,5 +28,12 @@ struct RandomPathSettings {
 /// or ball, the orientation likewise. Poses to which the way is not within the limits are drawn again. Throws
 /// SetupError where hardly any is, or the path cannot be planned.
 PlatformPath random_path(const ParallelRobot& robot, const RandomPathSettings& settings, std::uint64_t seed);
+
+/// One of its poses, whether it can be reached or not.
+Configuration random_pose(const ParallelRobot& robot, const RandomPathSettings& settings,
+                          RandomGenerator& random);
+
+/// Whether all of a path is within the limits, with a tenth to spare.
+bool stays_within(const ParallelRobot& robot, const PlatformPath& path, const RandomPathSettings& settings);
 
 }  // namespace flinch

@@ -6,8 +6,9 @@
 
 namespace flinch {
 
-/// One sample of the force-torque sensor below the object that the robot touches: what the object does to the
-/// robot. For validation only; no control block reads it.
+/// One sample of a force-torque instrument: what an object does to the robot that stands on it, or a rope
+/// that is tied to it where it is mounted on the robot. For validation and calibration; no control block
+/// reads it.
 struct ForceTorqueReading {
   Time acquired{};
   bool valid = false;

@@ -25,6 +25,7 @@ MAY_INCLUDE = {
     "plant": ["plant", *DIAGRAMS],
     "drivers": ["drivers", *DIAGRAMS],
     **{room: EXPERIMENTS for room in EXPERIMENT_ROOMS},
+    "identification": ["identification", "calibration", *EXPERIMENTS],
     "calibration": ["calibration", *EXPERIMENTS],
     "learning": ["learning", *EXPERIMENTS],
     "experiments/simulated": ["experiments/simulated", "plant", *EXPERIMENTS],
@@ -43,6 +44,7 @@ PARTS = {
     ("learning",): ["apps/flinch/learning", "apps/flinch/datasets"],
     ("experiments/dataset",): ["apps/flinch/datasets"],
     ("experiments/ranks",): ["apps/flinch/simulated"],
+    ("identification",): ["apps/flinch/identified"],
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"')
 

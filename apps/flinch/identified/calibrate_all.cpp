@@ -1,0 +1,257 @@
+// flinch calibrate all: every calibration that a folder of recordings allows, in the order in which they rest
+// on one another.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "apps/flinch/identified/calibration_files.h"
+#include "apps/flinch/progress.h"
+#include "calibration/calibration_output.h"
+#include "calibration/contact_free_peaks.h"
+#include "calibration/threshold_calibration.h"
+#include "calibration/thresholds_output.h"
+#include "experiments/recorded/replay.h"
+#include "experiments/scenario/scenario_calibrations.h"
+#include "identification/dynamics_calibration.h"
+#include "identification/imu_pose_calibration.h"
+#include "identification/torque_constant_calibration.h"
+#include "systems/foundation/result_file.h"
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The recordings of a folder by what they are for, which the name of their scenario tells.
+struct Sorted {
+  std::vector<OpenedRecording> pulls, unseen_pulls, imu, dynamics, motion;
+};
+
+std::vector<std::filesystem::path> recordings_below(const std::filesystem::path& folder) {
+  if (!std::filesystem::is_directory(folder)) throw SetupError(folder.string() + ": is no folder");
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file() && entry.path().extension() == ".h5") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  if (files.empty()) throw SetupError(folder.string() + ": there is no recording (.h5) below it");
+  return files;
+}
+
+Sorted sorted(std::vector<OpenedRecording> files, std::vector<std::string>& warnings) {
+  Sorted result;
+  for (OpenedRecording& file : files) {
+    const std::string& name = file.scenario.name;
+    const auto is_called = [&name](const char* with) { return name.find(with) != std::string::npos; };
+    if (is_called("calibration_pulls")) {
+      (name.find("second") != std::string::npos ? result.unseen_pulls : result.pulls)
+          .push_back(std::move(file));
+    } else if (is_called("calibration_rectangle") || is_called("calibration_standstill")) {
+      result.imu.push_back(std::move(file));
+    } else if (is_called("calibration_excitation")) {
+      result.dynamics.push_back(std::move(file));
+    } else if (file.scenario.expected.contact == "none") {
+      result.motion.push_back(std::move(file));
+    } else {
+      warnings.push_back(file.source.file +
+                         ": is for no calibration and is left out; scenarios of calibrations are "
+                         "called calibration_pulls, _rectangle, _standstill, _excitation, and "
+                         "others say 'expect: {contact: none}'");
+    }
+  }
+  return result;
+}
+
+template <class Kind>
+std::vector<Kind> as(const std::vector<OpenedRecording>& files) {
+  std::vector<Kind> result;
+  for (const OpenedRecording& file : files) {
+    Kind& one = result.emplace_back();
+    one.source = file.source;
+    one.recording = &file.recording;
+    if constexpr (requires { one.mountings; }) one.mountings = file.scenario.mountings;
+  }
+  return result;
+}
+
+JointVector found_constants(const CalibrationResult& result, JointVector constant) {
+  for (Eigen::Index i = 0; i < constant.size(); ++i)
+    constant[i] = result.parameters[static_cast<std::size_t>(i)].value;
+  return constant;
+}
+
+/// The thresholds that a control path with these calibrations needs, by playing the readings to it again.
+std::vector<EstimatorThresholds> thresholds_with(const std::vector<OpenedRecording>& motion,
+                                                 const std::vector<ParameterFile>& calibrations,
+                                                 double rate) {
+  ThresholdGoal goal;
+  goal.false_alarms_per_hour = rate;
+  std::vector<std::vector<EstimatorPeaks>> peaks;
+  for (const OpenedRecording& file : motion) {
+    Scenario scenario = file.scenario;
+    if (!calibrations.empty()) {
+      scenario.calibrations = calibrations;
+      scenario.robot = calibrated_robot(scenario);
+      calibrate_control(calibrations, scenario.control);
+      scenario.control.drive_torque.torque_constant = scenario.robot.drives.torque_constant;
+    }
+    const Replay replayed = replay(scenario, read_recording(file.source.file));
+    peaks.push_back(contact_free_peaks(replayed.recording, scenario.robot.robot->space(), goal.stretch));
+  }
+  return calibrate_thresholds(pooled(peaks), goal);
+}
+
+class All {
+ public:
+  explicit All(const CalibrateAllOptions& options)
+      : options_(options),
+        out_(options.out.empty() ? options.folder / "calibration" : options.out),
+        files_(sorted(open_recordings(recordings_below(options.folder), options.common), warnings_)) {}
+
+  ExitStatus run() {
+    std::filesystem::create_directories(out_);
+    Progress progress("calibrating", options_.common.quiet || options_.common.json);
+    torque_constants();
+    progress.show(0.3);
+    dynamics();
+    progress.show(0.5);
+    imu_pose();
+    progress.show(0.7);
+    thresholds();
+    progress.show(1.0);
+    if (results_.empty())
+      throw SetupError(options_.folder.string() + ": no recording below it is for a calibration");
+    return ExitStatus::done;
+  }
+
+  std::string json() const {
+    Json calibrations = Json::array(), recordings = Json::array(), parameters = Json::array();
+    Json before = Json::object(), after = Json::object();
+    std::vector<std::string> warnings = warnings_;
+    for (const CalibrationResult& result : results_) {
+      const Json one = Json::parse(calibration_json(result));
+      for (const Json& recording : one["recordings"]) recordings.push_back(recording);
+      for (const Json& parameter : one["parameters"]) parameters.push_back(parameter);
+      before[result.kind] = one["residual_before"];
+      after[result.kind] = one["residual_after"];
+      warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
+      calibrations.push_back(one);
+    }
+    Json all = {{"kind", "all"},
+                {"recordings", recordings},
+                {"parameters", parameters},
+                {"residual_before", before},
+                {"residual_after", after},
+                {"warnings", warnings},
+                {"calibrations", calibrations}};
+    all["thresholds_before"] = threshold_json(before_);
+    all["thresholds_after"] = threshold_json(after_);
+    return all.dump();
+  }
+
+  std::string table() const {
+    std::string text;
+    for (const CalibrationResult& result : results_)
+      text += fmt::format("== {}\n{}\n", result.kind, calibration_table(result));
+    if (!after_.empty()) text += "== thresholds\n";
+    for (std::size_t i = 0; i < after_.size(); ++i) {
+      text += fmt::format("{:<28} {:.3g} N before, {:.3g} N after; {:.3g} Nm before, {:.3g} Nm after\n",
+                          after_[i].estimator, before_[i].force.value, after_[i].force.value,
+                          before_[i].moment.value, after_[i].moment.value);
+    }
+    return text;
+  }
+
+  std::vector<std::string> warnings() const {
+    std::vector<std::string> all = warnings_;
+    for (const CalibrationResult& result : results_)
+      all.insert(all.end(), result.warnings.begin(), result.warnings.end());
+    return all;
+  }
+
+ private:
+  void keep(CalibrationResult result, const Scenario& scenario) {
+    const ParameterFile file = write_calibration(result, scenario, out_);
+    calibrations_.push_back(file);
+    results_.push_back(std::move(result));
+  }
+
+  void torque_constants() {
+    if (files_.pulls.empty()) return;
+    const Scenario& scenario = files_.pulls.front().scenario;
+    constant_ = scenario.control.drive_torque.torque_constant;
+    CalibrationResult result = calibrate_torque_constants(
+        {.robot = scenario.robot.robot.get(), .drives = scenario.robot.drives, .constant = constant_},
+        as<PullRecording>(files_.pulls), as<PullRecording>(files_.unseen_pulls));
+    constant_ = found_constants(result, constant_);
+    keep(std::move(result), scenario);
+  }
+
+  void dynamics() {
+    if (files_.dynamics.empty()) return;
+    const Scenario& scenario = files_.dynamics.front().scenario;
+    if (constant_.size() == 0) constant_ = scenario.control.drive_torque.torque_constant;
+    keep(calibrate_dynamics(
+             {.robot = scenario.robot.robot.get(), .drives = scenario.robot.drives, .constant = constant_},
+             as<MotionRecording>(files_.dynamics), {}),
+         scenario);
+  }
+
+  void imu_pose() {
+    if (files_.imu.empty()) return;
+    const Scenario& scenario = files_.imu.front().scenario;
+    keep(calibrate_imu_pose(*scenario.robot.robot, scenario.control.imu_mount, as<ImuRecording>(files_.imu)),
+         scenario);
+  }
+
+  void thresholds() {
+    if (files_.motion.empty()) return;
+    try {
+      before_ = thresholds_with(files_.motion, {}, options_.rate);
+      after_ = thresholds_with(files_.motion, calibrations_, options_.rate);
+    } catch (const SetupError& error) {
+      for (const std::string& problem : error.problems()) warnings_.push_back("thresholds: " + problem);
+      before_.clear();
+      after_.clear();
+      return;
+    }
+    std::vector<std::string> names;
+    for (const OpenedRecording& file : files_.motion) names.push_back(file.source.file);
+    ThresholdGoal goal;
+    goal.false_alarms_per_hour = options_.rate;
+    write_result(out_ / "thresholds.yaml", thresholds_yaml(after_, goal, names));
+  }
+
+  static Json threshold_json(const std::vector<EstimatorThresholds>& thresholds) {
+    Json list = Json::array();
+    for (const EstimatorThresholds& of : thresholds) {
+      list.push_back({{"estimator", of.estimator},
+                      {"force_N", of.force.value},
+                      {"moment_Nm", of.moment.value > 0.0 ? Json(of.moment.value) : Json(nullptr)}});
+    }
+    return list;
+  }
+
+  const CalibrateAllOptions& options_;
+  std::filesystem::path out_;
+  std::vector<std::string> warnings_;
+  Sorted files_;
+  JointVector constant_;
+  std::vector<CalibrationResult> results_;
+  std::vector<ParameterFile> calibrations_;
+  std::vector<EstimatorThresholds> before_, after_;
+};
+
+}  // namespace
+
+ExitStatus calibrate_all(const CalibrateAllOptions& options) {
+  All all(options);
+  const ExitStatus status = all.run();
+  fmt::print("{}", options.common.json ? all.json() + "\n" : all.table());
+  for (const std::string& warning : all.warnings()) fmt::print(stderr, "warning: {}\n", warning);
+  return status;
+}
+
+}  // namespace flinch

@@ -1,0 +1,108 @@
+#include "apps/flinch/identified/calibration_files.h"
+
+#include <fmt/chrono.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <ctime>
+#include <fstream>
+#include <vector>
+
+#include "apps/flinch/conclusion.h"
+#include "apps/flinch/simulated/simulated_parts.h"
+#include "calibration/calibration_output.h"
+#include "calibration/calibration_page.h"
+#include "experiments/scenario/scenario_calibrations.h"
+#include "systems/foundation/result_file.h"
+#include "systems/foundation/setup_error.h"
+#include "systems/foundation/sha256.h"
+
+namespace flinch {
+namespace {
+
+std::string hash_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  Sha256 hash;
+  std::vector<char> piece(1U << 20U);
+  while (stream) {
+    stream.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+    hash.add({piece.data(), static_cast<std::size_t>(stream.gcount())});
+  }
+  return hash.digits();
+}
+
+std::string today() { return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr))); }
+
+void note_robot(const Scenario& scenario, CalibrationResult& result) {
+  result.robot_file = scenario.robot_file.string();
+  result.robot_sha256 = sha256(scenario.robot_text);
+}
+
+}  // namespace
+
+std::vector<OpenedRecording> open_recordings(const std::vector<std::filesystem::path>& files,
+                                             const CommonOptions& common) {
+  std::vector<OpenedRecording> opened;
+  std::vector<std::string> problems;
+  for (const std::filesystem::path& file : files) {
+    try {
+      OpenedRecording one{{file.string(), {}}, open_recording(file), {}};
+      tell_if_partial(one.recording, common);
+      one.source.sha256 = hash_of(file);
+      one.scenario = recorded_scenario(one.recording, file);
+      opened.push_back(std::move(one));
+      if (opened.back().scenario.robot_text == opened.front().scenario.robot_text) continue;
+      problems.push_back(file.string() + ": was recorded of another robot file than " +
+                         opened.front().source.file + "; calibrate each robot by itself");
+    } catch (const SetupError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  throw_if_any(std::move(problems));
+  return opened;
+}
+
+namespace {
+
+/// The parameter file, and beside it the page of the same name, which is returned.
+std::filesystem::path write_files(const CalibrationResult& result, const std::filesystem::path& file) {
+  const std::filesystem::path page = std::filesystem::path(file).replace_extension(".html");
+  write_result(file, calibration_yaml(result, today()));
+  write_result(page, calibration_page(result, today()));
+  return page;
+}
+
+}  // namespace
+
+JointVector calibrated_constants(const Scenario& scenario, const std::vector<std::filesystem::path>& files) {
+  if (files.empty()) return scenario.control.drive_torque.torque_constant;
+  Scenario calibrated = scenario;
+  for (const std::filesystem::path& file : files)
+    calibrated.calibrations.push_back(read_parameter_file(file));
+  return calibrated_robot(calibrated).drives.torque_constant;
+}
+
+ParameterFile write_calibration(CalibrationResult& result, const Scenario& scenario,
+                                const std::filesystem::path& folder) {
+  note_robot(scenario, result);
+  std::string name = result.kind;
+  std::replace(name.begin(), name.end(), '-', '_');
+  const std::filesystem::path file = folder / (name + ".yaml");
+  write_files(result, file);
+  return read_parameter_file(file);
+}
+
+ExitStatus conclude_calibration(CalibrationResult& result, const Scenario& scenario,
+                                const CalibrateOptions& options) {
+  note_robot(scenario, result);
+  fmt::print("{}", options.common.json ? calibration_json(result) + "\n" : calibration_table(result));
+  for (const std::string& warning : result.warnings) fmt::print(stderr, "warning: {}\n", warning);
+  if (!options.out.empty()) {
+    const std::filesystem::path page = write_files(result, options.out);
+    if (!options.common.quiet)
+      fmt::print(stderr, "parameters: {}\nreport:     {}\n", options.out.string(), page.string());
+  }
+  return ExitStatus::done;
+}
+
+}  // namespace flinch

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+
+#include "apps/flinch/bus/bus_verbs.h"
+#include "apps/flinch/command_line.h"
+#include "apps/flinch/learning_verbs.h"
+
+namespace flinch {
+
+/// Checks without a name of their own, which would stand in the help beside the option's.
+inline CLI::Validator between(int low, int high) { return CLI::Range(low, high).description(""); }
+
+/// What is wrong with `text` as a seed; "" if nothing is.
+std::string problem_with_seed(const std::string& text);
+
+/// The options that every verb understands.
+void add_common(CLI::App& verb, CommonOptions& common);
+
+/// The verbs and their options.
+struct Verbs {
+  RunOptions run;
+  CampaignOptions campaign;
+  CalibrateThresholdsOptions thresholds;
+  DatasetOptions dataset;
+  TrainOptions train;
+  EvaluateOptions evaluate;
+  CalibrateOptions torque_constant;
+  CalibrateOptions imu_pose;
+  CalibrateOptions dynamics;
+  CalibrateAllOptions calibrate_all;
+  ExciteOptions excite;
+  ImportOptions import_log;
+  ServeOptions serve;
+  LinkOptions link;
+  KeysOptions keys;
+  ReportOptions report;
+  GraphOptions graph;
+  CheckOptions check;
+  std::function<ExitStatus()> chosen;
+  CommonOptions* common = nullptr;
+
+  template <class Options>
+  CLI::App& add(CLI::App& app, const char* name, const char* help, const char* example, Options& options,
+                ExitStatus (*verb)(const Options&)) {
+    CLI::App& sub = *app.add_subcommand(name, help);
+    sub.footer(std::string("Example:\n  ") + example);
+    add_common(sub, options.common);
+    sub.callback([this, &options, verb] {
+      common = &options.common;
+      chosen = [&options, verb] { return verb(options); };
+    });
+    return sub;
+  }
+};
+
+/// The verbs that find parameters: `calibrate` with all its kinds, and `excite`.
+void add_calibrate_verb(CLI::App& app, Verbs& verbs);
+void add_excite_verb(CLI::App& app, Verbs& verbs);
+/// The verb that makes a recording out of a log of another tool.
+void add_import_verb(CLI::App& app, Verbs& verbs);
+
+}  // namespace flinch

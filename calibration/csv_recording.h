@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "systems/framework/recording.h"
+
+namespace flinch {
+
+/// A recording out of a log of another tool: the CSV file that the mapping file (YAML) names, and what its
+/// columns are. docs/files.md has the keys. Values are interpolated to the recording's period; across gaps of
+/// more than three periods nothing is valid. Throws SetupError with all that is wrong with either, by row and
+/// column.
+Recording read_csv_recording(const std::filesystem::path& mapping,
+                             const std::map<std::string, std::string>& provenance = {});
+
+}  // namespace flinch

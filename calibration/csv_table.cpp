@@ -1,0 +1,97 @@
+#include "calibration/csv_table.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include "systems/foundation/nearest_name.h"
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+constexpr std::size_t most_problems = 10;
+
+std::string trimmed(std::string text) {
+  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '"'; };
+  while (!text.empty() && blank(text.back())) text.pop_back();
+  std::size_t begin = 0;
+  while (begin < text.size() && blank(text[begin])) ++begin;
+  return text.substr(begin);
+}
+
+std::vector<std::string> split(const std::string& line, char separator) {
+  std::vector<std::string> cells;
+  std::size_t begin = 0;
+  for (std::size_t end; (end = line.find(separator, begin)) != std::string::npos; begin = end + 1)
+    cells.push_back(trimmed(line.substr(begin, end - begin)));
+  cells.push_back(trimmed(line.substr(begin)));
+  return cells;
+}
+
+/// Whether `text` is a finite number, which is then in `value`.
+bool is_number(const std::string& text, double& value) {
+  const char* const begin = text.starts_with('+') ? text.data() + 1 : text.data();
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(begin, end, value);
+  return error == std::errc{} && rest == end && std::isfinite(value);
+}
+
+}  // namespace
+
+int CsvTable::find(const std::string& name) const {
+  const auto found = std::find(names.begin(), names.end(), name);
+  return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+}
+
+CsvTable read_csv(const std::filesystem::path& file, char separator, const std::vector<std::string>& wanted) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string line;
+  if (!stream || !std::getline(stream, line))
+    throw SetupError(file.string() + ": the file cannot be read or is empty");
+  CsvTable table;
+  table.names = split(line, separator);
+  std::vector<std::string> problems;
+  std::vector<int> columns;
+  for (const std::string& name : wanted) {
+    columns.push_back(table.find(name));
+    if (columns.back() < 0)
+      problems.push_back(file.string() + ":1: there is no column '" + name + "'" +
+                         did_you_mean(name, table.names));
+  }
+  throw_if_any(problems);
+
+  std::vector<double> values;  // row by row, only what is wanted
+  std::size_t row = 1;
+  while (std::getline(stream, line)) {
+    ++row;
+    if (trimmed(line).empty()) continue;
+    const std::vector<std::string> cells = split(line, separator);
+    for (std::size_t i = 0; i < columns.size() && problems.size() < most_problems; ++i) {
+      const auto column = static_cast<std::size_t>(columns[i]);
+      double value = std::numeric_limits<double>::quiet_NaN();
+      const std::string place = file.string() + ":" + std::to_string(row) + ": column '" + wanted[i] + "'";
+      if (column >= cells.size()) {
+        problems.push_back(place + " is missing; the row has " + std::to_string(cells.size()) + " cells");
+      } else if (!is_number(cells[column], value)) {
+        problems.push_back(place + " is '" + cells[column] + "'; it must be a number");
+      }
+      values.push_back(value);
+    }
+    if (problems.size() >= most_problems) break;
+  }
+  throw_if_any(problems);
+  const auto width = static_cast<Eigen::Index>(wanted.size());
+  const auto rows = width == 0 ? 0 : static_cast<Eigen::Index>(values.size()) / width;
+  table.values.setConstant(rows, static_cast<Eigen::Index>(table.names.size()),
+                           std::numeric_limits<double>::quiet_NaN());
+  for (Eigen::Index k = 0; k < rows; ++k) {
+    for (Eigen::Index i = 0; i < width; ++i)
+      table.values(k, columns[static_cast<std::size_t>(i)]) = values[static_cast<std::size_t>(k * width + i)];
+  }
+  return table;
+}
+
+}  // namespace flinch

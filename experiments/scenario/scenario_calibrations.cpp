@@ -1,0 +1,110 @@
+#include "experiments/scenario/scenario_calibrations.h"
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "experiments/scenario/scenario.h"
+#include "systems/config/config_reader.h"
+#include "systems/foundation/setup_error.h"
+#include "systems/foundation/sha256.h"
+#include "systems/framework/recording.h"
+
+namespace flinch {
+namespace {
+
+constexpr double telling_change = 0.01;  // of a torque constant: more than its calibration is off
+
+std::string constant_key(const RobotFile& robot, int drive) {
+  const bool turns = robot.robot->drive_kind(0) == DriveKind::revolute;
+  return std::string(turns ? "drives.torque_constant_Nm_per_A[" : "drives.force_constant_N_per_A[") +
+         std::to_string(drive) + "]";
+}
+
+/// Sets the entry of the vector that `name` means, such as "control.imu_mount.position_m[2]".
+void set_entry(const FileParameter& parameter, const std::string& vector, Eigen::Vector3d& values) {
+  for (int i = 0; i < 3; ++i) {
+    if (parameter.name == vector + "[" + std::to_string(i) + "]") values[i] = parameter.value;
+  }
+}
+
+}  // namespace
+
+std::vector<ParameterFile> read_calibrations(ConfigReader& scenario) {
+  std::vector<ParameterFile> files;
+  for (ConfigReader& entry : scenario.sections("calibrations")) {
+    std::filesystem::path file;
+    entry.required().file("file", file);
+    if (file.empty()) continue;
+    try {
+      files.push_back(read_parameter_file(file));
+    } catch (const SetupError& error) {
+      entry.add_problems(error.problems());
+    }
+  }
+  return files;
+}
+
+std::vector<ParameterFile> recorded_calibrations(ConfigReader& scenario, const Recording& recording,
+                                                 const std::filesystem::path& file) {
+  for (ConfigReader& entry : scenario.sections("calibrations")) entry.leave_rest_unread();
+  std::vector<ParameterFile> files;
+  for (int number = 1;; ++number) {
+    const std::string name = "calibration." + std::to_string(number) + ".text";
+    const auto found = recording.attributes.find(name);
+    if (found == recording.attributes.end()) return files;
+    files.push_back(parse_parameter_file(found->second, file.string() + ":" + name));
+  }
+}
+
+RobotFile calibrated_robot(const Scenario& scenario) {
+  if (scenario.calibrations.empty()) return scenario.robot_as_built;
+  std::string text = scenario.robot_text;
+  for (const ParameterFile& file : scenario.calibrations)
+    text = with_parameters(text, scenario.robot_file.string(), file);
+  return parse_robot_file(text, scenario.robot_file.string() + ", calibrated");
+}
+
+void calibrate_control(const std::vector<ParameterFile>& calibrations, ContactControlSettings& control) {
+  for (const ParameterFile& file : calibrations) {
+    for (const FileParameter& parameter : file.parameters) {
+      if (parameter.belongs_to != "scenario" || !parameter.identifiable) continue;
+      set_entry(parameter, "control.imu_mount.position_m", control.imu_mount.position_in_platform);
+      set_entry(parameter, "control.imu_mount.angles_rad", control.imu_mount.angles);
+    }
+  }
+}
+
+std::vector<std::string> doubts_about_calibrations(const Scenario& scenario) {
+  std::vector<std::string> doubts;
+  if (scenario.calibrations.empty()) return doubts;
+  std::map<std::string, std::string> given_by;
+  const std::string robot_hash = sha256(scenario.robot_text);
+  for (const ParameterFile& file : scenario.calibrations) {
+    if (file.robot.sha256 != robot_hash) {
+      doubts.push_back(file.file + ": the robot file has changed since this calibration of " + file.date +
+                       "; calibrate again, or check that what changed does not matter to it");
+    }
+    for (const FileParameter& parameter : file.parameters) {
+      if (parameter.belongs_to.empty() || !parameter.identifiable) continue;
+      const auto [before, is_new] = given_by.emplace(parameter.name, file.file);
+      if (!is_new && before->second != file.file) {
+        doubts.push_back(file.file + ": replaces what " + before->second + " says of '" + parameter.name +
+                         "'");
+      }
+    }
+    const JointVector& constant = scenario.control.drive_torque.torque_constant;
+    for (const FileParameter& assumed : file.assumed) {
+      for (int i = 0; i < static_cast<int>(constant.size()); ++i) {
+        const bool differs = std::abs(constant[i] / assumed.value - 1.0) > telling_change;
+        if (assumed.name != constant_key(scenario.robot, i) || !differs) continue;
+        doubts.push_back(file.file + ": rests on " + assumed.name + " = " + std::to_string(assumed.value) +
+                         ", and " + std::to_string(constant[i]) + " is used; calibrate '" + file.kind +
+                         "' again");
+      }
+    }
+  }
+  return doubts;
+}
+
+}  // namespace flinch

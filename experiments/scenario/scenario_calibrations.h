@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "systems/config/parameter_file.h"
+#include "systems/config/robot_file.h"
+
+namespace flinch {
+
+class ConfigReader;
+struct ContactControlSettings;
+struct Recording;
+struct Scenario;
+
+/// Reads the files that `calibrations` of a scenario names. What is wrong with them is noted.
+std::vector<ParameterFile> read_calibrations(ConfigReader& scenario);
+
+/// The same files as a recording keeps them, by its attributes calibration.1.text, ...; the key of the
+/// scenario is taken.
+std::vector<ParameterFile> recorded_calibrations(ConfigReader& scenario, const Recording& recording,
+                                                 const std::filesystem::path& file);
+
+/// The robot with what is calibrated in the place of what the robot file says. Throws SetupError where that
+/// does not fit it.
+RobotFile calibrated_robot(const Scenario& scenario);
+
+/// The same for what `control` of the scenario does not say itself: the mount of the IMU.
+void calibrate_control(const std::vector<ParameterFile>& calibrations, ContactControlSettings& control);
+
+/// What is doubtful about them once the scenario has been read, one sentence each: of another robot file;
+/// resting on torque constants that are no longer used; one replacing another.
+std::vector<std::string> doubts_about_calibrations(const Scenario& scenario);
+
+}  // namespace flinch

@@ -1,0 +1,310 @@
+#include "identification/dynamics_calibration.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/verdict/recorded_run.h"
+#include "identification/dynamic_parameters.h"
+#include "identification/dynamics_fit.h"
+#include "identification/dynamics_rows.h"
+#include "systems/foundation/setup_error.h"
+#include "systems/framework/recording.h"
+
+namespace flinch {
+namespace {
+
+constexpr double least_excitation = 0.01;  // of the largest torque: range of a drive's torque
+constexpr double poor = 0.2;               // of the torque's deviation: what is left of it after the fit
+
+double root_mean_square(const Eigen::VectorXd& x) {
+  return x.size() == 0 ? 0.0 : std::sqrt(x.squaredNorm() / static_cast<double>(x.size()));
+}
+
+/// Throws SetupError where something touched the robot.
+void refuse_contact(const Recording& recording, const ParallelRobot& robot) {
+  if (recording.find("truth") == nullptr) return;  // nobody knows
+  const RecordedRun run(recording, robot.space());
+  for (std::size_t k = 0; k < run.size(); ++k) {
+    if (run[k].is_touched()) {
+      throw SetupError(
+          fmt::format("something touched or pushed the robot at {:.3f} s; dynamics come from motion "
+                      "without contact",
+                      run[k].time));
+    }
+  }
+}
+
+DynamicsRows rows_of(const DynamicsBelief& belief, const DynamicParameters& parameters,
+                     const std::vector<MotionRecording>& recordings, std::vector<std::string>& warnings) {
+  DynamicsRows rows;
+  std::vector<std::string> problems;
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    std::vector<std::string> own;
+    const std::string& file = recordings[r].source.file;
+    try {
+      refuse_contact(*recordings[r].recording, *belief.robot);
+      rows.append(dynamics_rows(*recordings[r].recording, *belief.robot, parameters, belief.constant,
+                                static_cast<int>(r), own));
+    } catch (const SetupError& error) {
+      for (const std::string& problem : error.problems()) problems.push_back(file + ": " + problem);
+    }
+    for (const std::string& warning : own) warnings.push_back(file + ": " + warning);
+  }
+  throw_if_any(std::move(problems));
+  return rows;
+}
+
+/// The numbers of one drive out of those of all.
+Eigen::VectorXd of_drive(const DynamicsRows& rows, const Eigen::VectorXd& numbers, int drive) {
+  std::vector<double> own;
+  for (Eigen::Index row = 0; row < numbers.size(); ++row) {
+    if (rows.drive[static_cast<std::size_t>(row)] == drive) own.push_back(numbers[row]);
+  }
+  return Eigen::Map<Eigen::VectorXd>(own.data(), static_cast<Eigen::Index>(own.size()));
+}
+
+double spread(const Eigen::VectorXd& x) {
+  return x.size() == 0 ? 0.0 : std::sqrt((x.array() - x.mean()).square().mean());
+}
+
+double correlation(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  const double scale = spread(a) * spread(b);
+  return scale > 0.0 ? ((a.array() - a.mean()) * (b.array() - b.mean())).mean() / scale : 0.0;
+}
+
+void check(const DynamicsBelief& belief, const DynamicsRows& rows, const char* unit) {
+  std::vector<std::string> problems;
+  const int drives = belief.robot->drives();
+  const double seconds = rows.time.empty() ? 0.0 : 0.01 * static_cast<double>(rows.surplus.size()) / drives;
+  if (seconds < 4.0) {
+    throw SetupError(fmt::format(
+        "the recordings are too short: {:.1f} s of motion; at least 4 s are needed, 20 s are good", seconds));
+  }
+  for (int i = 0; i < drives; ++i) {
+    const Eigen::VectorXd torque = of_drive(rows, rows.torque, i);
+    const double range = torque.maxCoeff() - torque.minCoeff();
+    const double least = least_excitation * belief.drives.max_torque;
+    if (range >= least) continue;
+    problems.push_back(
+        fmt::format("drive {} is not excited: its torque ranges over {:.2g} {}, and at least {:.2g} {} are "
+                    "needed; record a "
+                    "motion that flinch excite designs",
+                    i + 1, range, unit, least, unit));
+  }
+  throw_if_any(std::move(problems));
+  // Legs or currents that are swapped answer another drive's model better than their own.
+  const Eigen::VectorXd modelled = rows.torque - rows.surplus;
+  for (int i = 0; i < drives; ++i) {
+    const double own = correlation(of_drive(rows, modelled, i), of_drive(rows, rows.torque, i));
+    for (int j = 0; j < drives; ++j) {
+      const double other = correlation(of_drive(rows, modelled, i), of_drive(rows, rows.torque, j));
+      if (j == i || other < 0.8 || own > other - 0.3) continue;
+      problems.push_back(
+          fmt::format("what drive {} should do is what the current of drive {} does (correlation {:.2f}, own "
+                      "{:.2f}); currents or legs are swapped: check the order of the drives",
+                      i + 1, j + 1, other, own));
+    }
+  }
+  throw_if_any(std::move(problems));
+}
+
+bool is_physical(const DynamicParameters& parameters, const Eigen::VectorXd& values) {
+  try {
+    return parameters.with(values) != nullptr;
+  } catch (const SetupError&) {
+    return false;
+  }
+}
+
+/// What the data hardly tell is held as believed, and the rest found again. Then, where no such robot can
+/// exist, parameters that are known worst are held one after the other until one can.
+struct Solution {
+  DynamicsFit fit;
+  FitUncertainty sure;
+  std::vector<bool> held;
+  int held_for_physics = 0;
+};
+
+Solution solve(const DynamicsRows& rows, const DynamicParameters& parameters, int drives,
+               double usual_error) {
+  Solution solution;
+  const auto p = parameters.list().size();
+  solution.held.assign(p, false);
+  const auto again = [&] {
+    solution.fit = fit_dynamics(rows, parameters.list(), drives, usual_error, solution.held);
+    solution.sure = fit_uncertainty(solution.fit.linear);
+  };
+  again();
+  for (std::size_t j = 0; j < p; ++j) solution.held[j] = !solution.sure.identifiable[j];
+  again();
+  while (!is_physical(parameters, solution.fit.values)) {
+    std::size_t worst = p;
+    double most = 0.0;
+    for (std::size_t j = 0; j < p; ++j) {
+      const double share =
+          solution.sure.deviation[static_cast<Eigen::Index>(j)] / parameters.list()[j].deviation;
+      if (solution.held[j] || share < most) continue;
+      most = share;
+      worst = j;
+    }
+    if (worst == p)
+      throw SetupError("no physical robot explains the motion; the torque constants may be wrong");
+    solution.held[worst] = true;
+    ++solution.held_for_physics;
+    again();
+  }
+  return solution;
+}
+
+void add_parameters(const DynamicParameters& parameters, const Solution& solution,
+                    CalibrationResult& result) {
+  const std::vector<FileValue> now = parameters.in_file(solution.fit.values);
+  const std::vector<FileValue> before = parameters.in_file(parameters.believed());
+  const auto p = static_cast<Eigen::Index>(parameters.list().size());
+  const auto n = static_cast<Eigen::Index>(now.size());
+  Eigen::MatrixXd map(n, p);  // of parameters to what the file says
+  for (Eigen::Index j = 0; j < p; ++j) {
+    const double h = 1e-6 * parameters.list()[static_cast<std::size_t>(j)].deviation;
+    Eigen::VectorXd moved = solution.fit.values;
+    moved[j] += h;
+    const std::vector<FileValue> there = parameters.in_file(moved);
+    for (std::size_t i = 0; i < now.size(); ++i)
+      map(static_cast<Eigen::Index>(i), j) = (there[i].value - now[i].value) / h;
+  }
+  result.covariance = map * solution.sure.covariance.topLeftCorner(p, p) * map.transpose();
+  result.influence = map * solution.sure.influence.topRows(p);
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    const bool held = solution.held[static_cast<std::size_t>(now[i].mainly)];
+    result.parameters.push_back(
+        {.name = now[i].name,
+         .value = now[i].value,
+         .deviation =
+             held ? std::nullopt : std::optional(std::sqrt(std::max(0.0, result.covariance(row, row)))),
+         .unit = now[i].unit,
+         .identifiable = !held,
+         .before = before[i].value,
+         .belongs_to = "robot"});
+  }
+}
+
+void add_residuals(const DynamicsRows& rows, const Eigen::VectorXd& after, const LinearFit& linear,
+                   int drives, CalibrationResult& result) {
+  std::vector<double> old_kept, kept;
+  for (int i = 0; i < drives; ++i) {
+    CalibrationPlot plot{.title = fmt::format("drive {}", i + 1),
+                         .x_name = "time",
+                         .x_unit = "s",
+                         .y_name = "residual torque",
+                         .y_unit = result.residual_unit,
+                         .x = {},
+                         .before = {},
+                         .after = {}};
+    for (Eigen::Index row = 0; row < after.size(); ++row) {
+      if (rows.drive[static_cast<std::size_t>(row)] != i || linear.weight[row] < 0.05) continue;
+      plot.x.push_back(rows.time[static_cast<std::size_t>(row)]);
+      plot.before.push_back(rows.surplus[row]);
+      plot.after.push_back(after[row]);
+    }
+    old_kept.insert(old_kept.end(), plot.before.begin(), plot.before.end());
+    kept.insert(kept.end(), plot.after.begin(), plot.after.end());
+    result.plots.push_back(std::move(plot));
+  }
+  const auto rms = [](std::vector<double>& v) {
+    return root_mean_square(Eigen::Map<Eigen::VectorXd>(v.data(), static_cast<Eigen::Index>(v.size())));
+  };
+  result.residual_before = rms(old_kept);
+  result.residual_after = rms(kept);
+}
+
+/// Errors of the torque that the model predicts, before and after.
+void validate(const DynamicsBelief& belief, const DynamicParameters& parameters,
+              const Eigen::VectorXd& values, const std::vector<MotionRecording>& unseen,
+              CalibrationResult& result) {
+  if (unseen.empty()) return;
+  const DynamicsRows rows = rows_of(belief, parameters, unseen, result.warnings);
+  const Eigen::VectorXd error = rows.surplus - rows.regressor * (values - parameters.believed());
+  const double torque = root_mean_square(rows.torque);
+  const double left = root_mean_square(error);
+  const double beyond = std::sqrt(std::max(0.0, left * left - rows.noise * rows.noise));
+  result.notes.push_back(
+      fmt::format("on motion that was not used the predicted torque errs by {:.3g} {} (RMS), {:.2f} % of the "
+                  "torque beyond the "
+                  "noise of the current; with the believed parameters by {:.3g} {}",
+                  left, result.residual_unit, 100.0 * beyond / torque, root_mean_square(rows.surplus),
+                  result.residual_unit));
+  result.validation_unit = result.residual_unit;
+  for (int i = 0; i < belief.robot->drives(); ++i) {
+    const Eigen::VectorXd own = of_drive(rows, error, i);
+    std::vector<double> sorted(own.begin(), own.end());
+    std::sort(sorted.begin(), sorted.end());
+    const auto at = [&](double share) {
+      return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1) + 0.5)];
+    };
+    result.validation.push_back(
+        {fmt::format("drive {}", i + 1), sorted.front(), at(0.25), at(0.5), at(0.75), sorted.back()});
+  }
+}
+
+void doubt(const DynamicsRows& rows, const Solution& solution, const Eigen::VectorXd& after,
+           CalibrationResult& result) {
+  const double left_out = static_cast<double>((solution.fit.linear.weight.array() < 0.05).count()) /
+                          static_cast<double>(after.size());
+  if (left_out > 0.1) {
+    result.warnings.push_back(fmt::format(
+        "{:.0f} % of the samples do not fit the others and are left out; something touched the robot, "
+        "or readings are spoilt",
+        100.0 * left_out));
+  }
+  if (result.residual_after > poor * spread(rows.torque)) {
+    result.warnings.push_back(
+        "the model explains the torques badly: torque constants, geometry or the order of the legs may be "
+        "wrong");
+  }
+  if (solution.held_for_physics > 0) {
+    result.warnings.push_back(
+        fmt::format("{} parameters are held as believed, since no robot can have what the data say; record a "
+                    "richer motion",
+                    solution.held_for_physics));
+  }
+}
+
+}  // namespace
+
+CalibrationResult calibrate_dynamics(const DynamicsBelief& belief,
+                                     const std::vector<MotionRecording>& recordings,
+                                     const std::vector<MotionRecording>& unseen) {
+  CalibrationResult result;
+  result.kind = "dynamics";
+  const bool turns = belief.robot->drive_kind(0) == DriveKind::revolute;
+  result.residual_unit = turns ? "Nm" : "N";
+  for (const MotionRecording& recording : recordings) result.recordings.push_back(recording.source);
+  const auto parameters = DynamicParameters::of(*belief.robot);
+  const DynamicsRows rows = rows_of(belief, *parameters, recordings, result.warnings);
+  check(belief, rows, result.residual_unit.c_str());
+
+  const int drives = belief.robot->drives();
+  const Solution solution = solve(rows, *parameters, drives, 0.01 * belief.drives.max_torque);
+  result.rank = solution.sure.rank;
+  result.condition = solution.sure.condition;
+  add_parameters(*parameters, solution, result);
+  Eigen::VectorXd after = rows.surplus - rows.regressor * (solution.fit.values - parameters->believed());
+  for (Eigen::Index row = 0; row < after.size(); ++row)
+    after[row] -= solution.fit.offset[rows.drive[static_cast<std::size_t>(row)]];
+  add_residuals(rows, after, solution.fit.linear, drives, result);
+  doubt(rows, solution, after, result);
+  validate(belief, *parameters, solution.fit.values, unseen, result);
+  const char* const key = turns ? "drives.torque_constant_Nm_per_A" : "drives.force_constant_N_per_A";
+  for (int i = 0; i < drives; ++i) {
+    result.assumed.push_back(
+        {.name = fmt::format("{}[{}]", key, i), .value = belief.constant[i], .unit = turns ? "Nm/A" : "N/A"});
+  }
+  result.notes.push_back(
+      fmt::format("rank {} of {}, condition {:.3g}; what is not identifiable is held as believed",
+                  result.rank, solution.fit.linear.jacobian.cols(), result.condition));
+  return result;
+}
+
+}  // namespace flinch

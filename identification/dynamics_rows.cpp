@@ -1,0 +1,164 @@
+#include "identification/dynamics_rows.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "identification/encoder_motion.h"
+#include "identification/parameter_variants.h"
+#include "identification/robust_mean.h"
+#include "identification/spikes.h"
+#include "identification/zero_phase.h"
+#include "systems/foundation/setup_error.h"
+#include "systems/framework/recorded_values.h"
+#include "systems/signals/drive_reading.h"
+
+namespace flinch {
+namespace {
+
+constexpr double motion_cutoff = 100.0;    // what is made of it is low-passed again below [Hz]
+constexpr double cutoff_frequency = 25.0;  // [Hz]
+constexpr double rows_period = 0.01;       // [s]
+constexpr double edge = 0.1;               // [s]
+constexpr double cluster_length = 0.5;     // [s]
+constexpr Time shortest = 1s;
+
+/// Currents of a stretch at the instants of the encoders. A reading is what acted until its tick, so that
+/// what acts at the tick lies between it and the next one.
+Eigen::MatrixXd currents(const Recording& recording, const ValidStretch& stretch, int drives,
+                         bool& complete) {
+  const auto readings = read<DriveReading>(recording, "drives");
+  Eigen::MatrixXd current = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(stretch.count), drives);
+  complete = true;
+  for (std::size_t k = 0; k < stretch.count; ++k) {
+    const DriveReading reading = readings[stretch.first + k];
+    const bool good = reading.valid && reading.current.size() == drives && reading.current.allFinite();
+    complete = complete && good;
+    if (good) current.row(static_cast<Eigen::Index>(k)) = reading.current.transpose();
+  }
+  return current;
+}
+
+Eigen::MatrixXd between_ticks(const Eigen::MatrixXd& current) {
+  Eigen::MatrixXd mean = current;
+  const Eigen::Index n = current.rows();
+  mean.topRows(n - 1) = 0.5 * (current.topRows(n - 1) + current.bottomRows(n - 1));
+  return mean;
+}
+
+/// What is left of white noise of deviation 1 after the filter.
+double noise_gain(double period) {
+  Eigen::MatrixXd impulse = Eigen::MatrixXd::Zero(2001, 1);
+  impulse(1000, 0) = 1.0;
+  return zero_phase(impulse, cutoff_frequency, period).norm();
+}
+
+/// Deviation of the white noise in a signal that is smooth otherwise.
+double white_noise(const Eigen::VectorXd& x) {
+  const Eigen::Index n = x.size();
+  const Eigen::VectorXd second = x.tail(n - 2) - 2.0 * x.segment(1, n - 2) + x.head(n - 2);
+  return robust_deviation({second.begin(), second.end()}) / std::sqrt(6.0);
+}
+
+}  // namespace
+
+void DynamicsRows::append(const DynamicsRows& more) {
+  const Eigen::Index n = surplus.size(), m = more.surplus.size();
+  regressor.conservativeResize(n + m, more.regressor.cols());
+  surplus.conservativeResize(n + m);
+  torque.conservativeResize(n + m);
+  regressor.bottomRows(m) = more.regressor;
+  surplus.tail(m) = more.surplus;
+  torque.tail(m) = more.torque;
+  drive.insert(drive.end(), more.drive.begin(), more.drive.end());
+  cluster.insert(cluster.end(), more.cluster.begin(), more.cluster.end());
+  recording.insert(recording.end(), more.recording.begin(), more.recording.end());
+  time.insert(time.end(), more.time.begin(), more.time.end());
+  noise = std::max(noise, more.noise);
+}
+
+namespace {
+
+/// The rows of one stretch.
+DynamicsRows rows_of(const Recording& recording, const ParallelRobot& robot,
+                     const ParameterVariants& variants, const JointVector& constant,
+                     const ValidStretch& stretch, Eigen::MatrixXd current, int number) {
+  const double period = to_seconds(recording.period);
+  const EncoderMotion motion = encoder_motion(recording, robot, stretch, motion_cutoff);
+  const int drives = robot.drives();
+  const auto n = static_cast<Eigen::Index>(stretch.count);
+  const auto p = static_cast<Eigen::Index>(variants.size());
+  DynamicsRows out;
+  for (int i = 0; i < drives; ++i)
+    out.noise =
+        std::max(out.noise, constant[i] * white_noise(current.col(i)) * noise_gain(period) / std::sqrt(2.0));
+  Eigen::MatrixXd torque = between_ticks(current) * constant.asDiagonal();
+  Eigen::MatrixXd surplus(n, drives), Y(n, drives * p);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    Kinematics at;
+    robot.kinematics(motion.pose[static_cast<std::size_t>(k)], motion.velocity.row(k).transpose(), at);
+    const PlatformVector acceleration = motion.acceleration.row(k).transpose();
+    const JointVector base = model_effort(robot, at, acceleration);
+    surplus.row(k) = torque.row(k) - base.transpose();
+    Eigen::MatrixXd of_sample = variants.regressor(base, at, acceleration);
+    Y.row(k) = Eigen::Map<Eigen::RowVectorXd>(of_sample.data(), of_sample.size());
+  }
+  torque = zero_phase(torque, cutoff_frequency, period);
+  surplus = zero_phase(surplus, cutoff_frequency, period);
+  Y = zero_phase(Y, cutoff_frequency, period);
+
+  const auto step = std::max<Eigen::Index>(1, std::lround(rows_period / period));
+  const auto margin = static_cast<Eigen::Index>(edge / period);
+  const Eigen::Index samples = std::max<Eigen::Index>(0, (n - 2 * margin + step - 1) / step);
+  out.regressor.resize(samples * drives, p);
+  out.surplus.resize(samples * drives);
+  out.torque.resize(samples * drives);
+  for (Eigen::Index s = 0; s < samples; ++s) {
+    const Eigen::Index k = margin + s * step;
+    const double time = to_seconds(Time(recording.time_ns[stretch.first + static_cast<std::size_t>(k)]));
+    for (int i = 0; i < drives; ++i) {
+      const Eigen::Index row = s * drives + i;
+      for (Eigen::Index j = 0; j < p; ++j) out.regressor(row, j) = Y(k, j * drives + i);
+      out.surplus[row] = surplus(k, i);
+      out.torque[row] = torque(k, i);
+      out.drive.push_back(i);
+      out.cluster.push_back(100000 * number + static_cast<int>(time / cluster_length));
+      out.recording.push_back(number);
+      out.time.push_back(time);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+DynamicsRows dynamics_rows(const Recording& recording, const ParallelRobot& robot,
+                           const DynamicParameters& parameters, const JointVector& constant, int number,
+                           std::vector<std::string>& warnings) {
+  if (recording.find("drives") == nullptr)
+    throw SetupError("there is no signal 'drives', the motor currents");
+  const ParameterVariants variants(parameters);
+  DynamicsRows rows;
+  std::size_t spikes = 0, all = 0;
+  for (const ValidStretch& stretch :
+       valid_stretches(recording, static_cast<std::size_t>(shortest / recording.period))) {
+    bool complete = true;
+    Eigen::MatrixXd current = currents(recording, stretch, robot.drives(), complete);
+    if (!complete) {
+      warnings.push_back("a stretch of " + std::to_string(stretch.count) +
+                         " samples has motor currents that are missing, and is left out");
+      continue;
+    }
+    spikes += remove_spikes(current);
+    all += static_cast<std::size_t>(current.size());
+    rows.append(rows_of(recording, robot, variants, constant, stretch, std::move(current), number));
+  }
+  if (rows.surplus.size() == 0)
+    throw SetupError("no second of it is recorded with valid encoders and currents in the nominal motion");
+  if (static_cast<double>(spikes) > 0.02 * static_cast<double>(all)) {
+    warnings.push_back(std::to_string(100 * spikes / all) +
+                       " % of the motor currents are spikes, which are smoothed; check the amplifiers");
+  }
+  return rows;
+}
+
+}  // namespace flinch

@@ -1,0 +1,99 @@
+#include "identification/encoder_motion.h"
+
+#include "identification/zero_phase.h"
+#include "systems/foundation/setup_error.h"
+#include "systems/framework/recorded_values.h"
+#include "systems/robot/rotation.h"
+#include "systems/signals/joint_reading.h"
+#include "systems/signals/reaction_state.h"
+
+namespace flinch {
+namespace {
+
+/// Rows are the coordinates of each pose in the chart around the first one.
+Eigen::MatrixXd chart_coordinates(const Recording& recording, const ParallelRobot& robot,
+                                  const ValidStretch& stretch, Configuration& origin) {
+  const auto joints = read<JointReading>(recording, "joints");
+  Eigen::MatrixXd xi(static_cast<Eigen::Index>(stretch.count), robot.dof());
+  Configuration pose = robot.home_pose();
+  WorkingMode mode = robot.home_working_mode();
+  for (std::size_t k = 0; k < stretch.count; ++k) {
+    const JointReading reading = joints[stretch.first + k];
+    if (k == 0 && reading.passive_valid) {
+      pose = robot.start_pose(reading.active, reading.passive);
+      mode = robot.working_mode(reading.passive);
+    }
+    const ForwardSolution solution = robot.forward_kinematics(reading.active, pose, mode);
+    if (!solution.converged) {
+      throw SetupError("the encoders fit no pose of the robot at " +
+                       std::to_string(1e-9 * static_cast<double>(recording.time_ns[stretch.first + k])) +
+                       " s; the robot file is of another robot, or the encoders of its legs are swapped");
+    }
+    pose = solution.pose;
+    if (k == 0) origin = pose;
+    xi.row(static_cast<Eigen::Index>(k)) = robot.difference(pose, origin).transpose();
+  }
+  return xi;
+}
+
+/// Central differences; one-sided at the ends.
+Eigen::MatrixXd differences(const Eigen::MatrixXd& x, double period) {
+  const Eigen::Index n = x.rows();
+  Eigen::MatrixXd rate = Eigen::MatrixXd::Zero(n, x.cols());
+  if (n < 3) return rate;
+  rate.middleRows(1, n - 2) = (x.bottomRows(n - 2) - x.topRows(n - 2)) / (2.0 * period);
+  rate.row(0) = rate.row(1);
+  rate.row(n - 1) = rate.row(n - 2);
+  return rate;
+}
+
+}  // namespace
+
+std::vector<ValidStretch> valid_stretches(const Recording& recording, std::size_t least) {
+  const auto joints = read<JointReading>(recording, "joints");
+  const bool has_mode = recording.find("reaction") != nullptr;
+  const auto mode = has_mode ? std::optional(read<ReactionState>(recording, "reaction")) : std::nullopt;
+  std::vector<ValidStretch> stretches;
+  ValidStretch now;
+  const auto end = [&] {
+    if (now.count >= least) stretches.push_back(now);
+    now.count = 0;
+  };
+  for (std::size_t k = 0; k < recording.samples(); ++k) {
+    const bool moved = !mode || (*mode)[k].mode == ReactionMode::nominal;
+    const bool follows =
+        now.count == 0 || Time(recording.time_ns[k] - recording.time_ns[k - 1]) == recording.period;
+    if (!follows) end();
+    if (!joints[k].valid || !moved) {
+      end();
+      continue;
+    }
+    if (now.count == 0) now.first = k;
+    ++now.count;
+  }
+  end();
+  return stretches;
+}
+
+EncoderMotion encoder_motion(const Recording& recording, const ParallelRobot& robot,
+                             const ValidStretch& stretch, double cutoff_frequency) {
+  const double period = to_seconds(recording.period);
+  Configuration origin;
+  const Eigen::MatrixXd xi =
+      zero_phase(chart_coordinates(recording, robot, stretch, origin), cutoff_frequency, period);
+  EncoderMotion motion;
+  motion.velocity = differences(xi, period);
+  const Eigen::Index rotation = robot.space().translations();
+  for (Eigen::Index k = 0; k < xi.rows(); ++k) {
+    const PlatformVector step = xi.row(k).transpose();
+    motion.pose.push_back(robot.space().plus(origin, step));
+    if (robot.space().rotations() < 3) continue;
+    const Eigen::Vector3d turned = step.segment<3>(rotation);
+    const Eigen::Vector3d rate = motion.velocity.row(k).segment<3>(rotation).transpose();
+    motion.velocity.row(k).segment<3>(rotation) = (left_jacobian(turned) * rate).transpose();
+  }
+  motion.acceleration = differences(motion.velocity, period);
+  return motion;
+}
+
+}  // namespace flinch

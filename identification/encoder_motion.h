@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "systems/robot/parallel_robot.h"
+
+namespace flinch {
+
+struct Recording;
+
+/// A stretch of a recording in which every joint reading is valid: samples first, first + 1, ...
+struct ValidStretch {
+  std::size_t first = 0;
+  std::size_t count = 0;
+};
+
+/// The stretches in which the encoders are valid and the control path moves the robot, each of at least
+/// `least` samples.
+std::vector<ValidStretch> valid_stretches(const Recording& recording, std::size_t least);
+
+/// How the platform moved, from the encoders alone and afterwards: forward kinematics of every sample,
+/// smoothed without delay, and central differences of that. One row a sample.
+struct EncoderMotion {
+  std::vector<Configuration> pose;
+  Eigen::MatrixXd velocity;      ///< v, in the base frame
+  Eigen::MatrixXd acceleration;  ///< dv/dt
+};
+
+/// Of one stretch of a recording. Throws SetupError where the encoders fit no pose.
+EncoderMotion encoder_motion(const Recording& recording, const ParallelRobot& robot,
+                             const ValidStretch& stretch, double cutoff_frequency);
+
+}  // namespace flinch

@@ -1,0 +1,326 @@
+#include "identification/torque_constant_fit.h"
+
+#include <ceres/ceres.h>
+#include <ceres/rotation.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "identification/ceres_fit.h"
+#include "identification/robust_mean.h"
+#include "systems/robot/rotation.h"
+
+namespace flinch {
+namespace {
+
+using DriveUnknowns = std::array<double, 7>;  // k_t, o, c, sine and cosine of cogging and ripple
+using Turn = std::array<double, 3>;           // a rotation vector
+
+constexpr double least_explained = 0.1;  // of the scatter, for a wave to be believed
+
+/// sgn(rate), smooth.
+double direction(double rate, double slow) { return std::tanh(2.0 * rate / slow); }
+
+/// One window at one drive.
+struct PullResidual {
+  const PullWindow* window;
+  int drive;
+  double sigma;  ///< of the residual, without the noise of the current [Nm or N]
+  double slow;
+  double cogging_rate;
+  double ripple_rate;
+
+  template <class T>
+  bool operator()(const T* const of_drive, const T* const turn, T* residual) const {
+    const PullWindow& w = *window;
+    const std::array<T, 3> force = {T(w.force.x()), T(w.force.y()), T(w.force.z())};
+    const std::array<T, 3> moment = {T(w.moment.x()), T(w.moment.y()), T(w.moment.z())};
+    std::array<T, 3> true_force, true_moment;
+    ceres::AngleAxisRotatePoint(turn, force.data(), true_force.data());
+    ceres::AngleAxisRotatePoint(turn, moment.data(), true_moment.data());
+    T pulled(0.0);
+    for (int j = 0; j < 3; ++j) {
+      const auto at = static_cast<std::size_t>(j);
+      pulled += w.force_map(drive, j) * true_force[at] + w.moment_map(drive, j) * true_moment[at];
+    }
+    const double phase = ripple_rate * w.position[drive];
+    const T uneven = 1.0 + of_drive[5] * std::sin(phase) + of_drive[6] * std::cos(phase);
+    const T effort = of_drive[0] * w.current[drive] * uneven - w.model_effort[drive] + pulled - of_drive[1] -
+                     of_drive[2] * direction(w.rate[drive], slow) -
+                     of_drive[3] * std::sin(cogging_rate * w.position[drive]) -
+                     of_drive[4] * std::cos(cogging_rate * w.position[drive]);
+    using std::sqrt;
+    const T of_current = of_drive[0] * w.current_deviation[drive];
+    residual[0] = effort / sqrt(sigma * sigma + of_current * of_current);
+    return true;
+  }
+};
+
+/// What is left at a place, and by what a wave there is multiplied.
+struct WaveSample {
+  double position, factor, left;
+};
+
+/// How fast a wave goes on along the way, and the share of the scatter that it explains.
+struct Wave {
+  double rate = 0.0;
+  double explained = 0.0;
+};
+
+double explained(const std::vector<WaveSample>& samples, double rate) {
+  Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d b = Eigen::Vector3d::Zero();
+  double sum = 0.0, squares = 0.0;
+  for (const WaveSample& sample : samples) {
+    const double phase = rate * sample.position;
+    const Eigen::Vector3d a(1.0, sample.factor * std::sin(phase), sample.factor * std::cos(phase));
+    H += a * a.transpose();
+    b += sample.left * a;
+    sum += sample.left;
+    squares += sample.left * sample.left;
+  }
+  const double scatter = squares - sum * sum / static_cast<double>(samples.size());
+  return 1.0 - (squares - b.dot(H.ldlt().solve(b))) / scatter;
+}
+
+/// The wave that explains most, from half a wave over the range up to where neighbours alternate; none where
+/// it explains little.
+Wave dominant_wave(const std::vector<WaveSample>& samples) {
+  if (samples.size() < 30) return {};
+  std::vector<double> steps;
+  double low = samples.front().position, high = low;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    low = std::min(low, samples[k].position);
+    high = std::max(high, samples[k].position);
+    if (k > 0) steps.push_back(std::abs(samples[k].position - samples[k - 1].position));
+  }
+  const double range = high - low;
+  const double most = 0.5 * std::numbers::pi / std::max(median(steps), 1e-3 * range);
+  // Of n values of noise the best of a thousand waves explains 14 / n.
+  Wave best{0.0, std::max(least_explained, 30.0 / static_cast<double>(samples.size()))};
+  for (double rate = std::numbers::pi / range; rate < most; rate += 0.25 / range) {
+    const double share = explained(samples, rate);
+    if (share > best.explained) best = {rate, share};
+  }
+  return best.rate > 0.0 ? best : Wave();
+}
+
+/// Everything that is looked for, as Ceres moves it.
+struct Unknowns {
+  std::vector<DriveUnknowns> drives;
+  std::vector<Turn> turns;
+};
+
+class Fit {
+ public:
+  Fit(const std::vector<PullWindow>& windows, int mountings, const JointVector& believed,
+      const TorqueConstantModel& model)
+      : windows_(windows),
+        model_(model),
+        sigma_(JointVector::Constant(believed.size(), model.usual_error)),
+        rate_(JointVector::Zero(believed.size())),
+        ripple_rate_(JointVector::Zero(believed.size())) {
+    for (const double k : believed) unknowns_.drives.push_back({k, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
+    unknowns_.turns.assign(static_cast<std::size_t>(mountings), Turn{});
+    planar_ = !windows.empty() && windows.front().force_map.col(2).isZero(0.0);
+  }
+
+  void solve() {
+    for (const Loss loss :
+         {Loss::huber, Loss::huber, Loss::huber, Loss::huber, Loss::tukey, Loss::tukey, Loss::tukey}) {
+      solve_once(loss);
+      if (model_.cogging && loss == Loss::huber) find_waves();
+      rescale();
+    }
+    solve_once(Loss::tukey);
+  }
+
+  TorqueConstantFit take() {
+    TorqueConstantFit fit = values();
+    fit.linear = linearised(*problem_, blocks_, columns_, Loss::tukey);
+    for (const std::size_t w : rows_) {
+      fit.linear.cluster.push_back(windows_[w].cluster);
+      fit.linear.recording.push_back(windows_[w].recording);
+    }
+    fit.linear.prior_information = Eigen::VectorXd::Zero(fit.linear.jacobian.cols());
+    Eigen::Index of_drives = 0;
+    for (int i = 0; i < static_cast<int>(sigma_.size()); ++i) {
+      fit.column_of_drive.push_back(of_drives);
+      of_drives += 7 - static_cast<Eigen::Index>(held_of(i).size());
+    }
+    const double believed = model_.misalignment_belief;
+    for (Eigen::Index i = of_drives; i < fit.linear.jacobian.cols(); ++i)
+      fit.linear.prior_information[i] = 1.0 / (believed * believed);
+    fit.window_of_row = rows_;
+    fit.drive_of_row = drives_of_rows_;
+    return fit;
+  }
+
+ private:
+  bool tells(const PullWindow& window, int drive) const {
+    return !model_.coulomb || std::abs(window.rate[drive]) > model_.slow;
+  }
+
+  void solve_once(Loss loss) {
+    problem_ = std::make_unique<ceres::Problem>();
+    blocks_.clear();
+    rows_.clear();
+    drives_of_rows_.clear();
+    for (std::size_t w = 0; w < windows_.size(); ++w) {
+      for (int i = 0; i < static_cast<int>(sigma_.size()); ++i) {
+        if (!tells(windows_[w], i)) continue;
+        auto* const cost = new ceres::AutoDiffCostFunction<PullResidual, 1, 7, 3>(
+            new PullResidual{&windows_[w], i, sigma_[i], model_.slow, rate_[i], ripple_rate_[i]});
+        blocks_.push_back(problem_->AddResidualBlock(cost, loss_function(loss),
+                                                     unknowns_.drives[index(i)].data(),
+                                                     unknowns_.turns[index(windows_[w].mounting)].data()));
+        rows_.push_back(w);
+        drives_of_rows_.push_back(i);
+      }
+    }
+    constrain();
+    solve_problem(*problem_);
+  }
+
+  /// Which unknowns of a drive are not looked for.
+  std::vector<int> held_of(int drive) const {
+    std::vector<int> held;
+    if (!model_.coulomb) held.push_back(2);
+    if (rate_[drive] == 0.0) held.insert(held.end(), {3, 4});
+    if (ripple_rate_[drive] == 0.0) held.insert(held.end(), {5, 6});
+    return held;
+  }
+
+  /// Looks in what is left for what repeats along the way, by itself or times the torque, and takes what
+  /// explains more.
+  void find_waves() {
+    const TorqueConstantFit fit = values();
+    for (int i = 0; i < static_cast<int>(sigma_.size()); ++i) {
+      std::vector<WaveSample> cogging, ripple;
+      for (const PullWindow& window : windows_) {
+        if (!tells(window, i) || window.position.size() == 0) continue;
+        const double left = torque_residual(window, i, fit, model_.slow);
+        if (std::abs(left) > 4.0 * sigma_[i]) continue;
+        cogging.push_back({window.position[i], 1.0, left});
+        ripple.push_back({window.position[i], fit.constant[i] * window.current[i], left});
+      }
+      const Wave cogs = rate_[i] > 0.0 ? Wave() : dominant_wave(cogging);
+      const Wave ripples = ripple_rate_[i] > 0.0 ? Wave() : dominant_wave(ripple);
+      if (cogs.explained > ripples.explained) {
+        rate_[i] = cogs.rate;
+      } else if (ripples.explained > 0.0) {
+        ripple_rate_[i] = ripples.rate;
+      }
+    }
+  }
+
+  void constrain() {
+    columns_.clear();
+    for (DriveUnknowns& drive : unknowns_.drives) {
+      if (!problem_->HasParameterBlock(drive.data())) continue;
+      columns_.push_back(drive.data());
+      problem_->SetParameterLowerBound(drive.data(), 0, 1e-9);
+      const std::vector<int> held = held_of(static_cast<int>(&drive - unknowns_.drives.data()));
+      if (!held.empty()) problem_->SetManifold(drive.data(), new ceres::SubsetManifold(7, held));
+    }
+    for (Turn& turn : unknowns_.turns) {
+      if (!problem_->HasParameterBlock(turn.data())) continue;
+      if (!model_.misalignment) {
+        problem_->SetParameterBlockConstant(turn.data());
+        continue;
+      }
+      columns_.push_back(turn.data());
+      if (planar_) problem_->SetManifold(turn.data(), new ceres::SubsetManifold(3, {0, 1}));
+      add_belief(*problem_, turn.data(), Eigen::Vector3d::Zero(),
+                 Eigen::Vector3d::Constant(model_.misalignment_belief));
+    }
+  }
+
+  /// sigma_i of the residuals, without what the noise of the current explains.
+  void rescale() {
+    const TorqueConstantFit fit = values();
+    for (int i = 0; i < static_cast<int>(sigma_.size()); ++i) {
+      std::vector<double> residuals, of_current;
+      for (const PullWindow& window : windows_) {
+        if (!tells(window, i)) continue;
+        residuals.push_back(torque_residual(window, i, fit, model_.slow));
+        of_current.push_back(fit.constant[i] * window.current_deviation[i]);
+      }
+      if (residuals.empty()) continue;
+      const double all = robust_deviation(residuals);
+      const double known = median(of_current);
+      const double least = 0.1 * known + 1e-6 * model_.usual_error;
+      sigma_[i] = std::sqrt(std::max(all * all - known * known, least * least));
+    }
+  }
+
+  TorqueConstantFit values() const {
+    TorqueConstantFit fit;
+    const auto n = static_cast<Eigen::Index>(unknowns_.drives.size());
+    fit.constant.resize(n);
+    fit.offset.resize(n);
+    fit.coulomb.resize(n);
+    fit.cogging_parts.setZero(2, n);
+    fit.ripple_parts.setZero(2, n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const DriveUnknowns& drive = unknowns_.drives[static_cast<std::size_t>(i)];
+      fit.constant[i] = drive[0];
+      fit.offset[i] = drive[1];
+      fit.coulomb[i] = drive[2];
+      fit.cogging_parts.col(i) << drive[3], drive[4];
+      fit.ripple_parts.col(i) << drive[5], drive[6];
+    }
+    for (const Turn& turn : unknowns_.turns) fit.misalignment.emplace_back(turn[0], turn[1], turn[2]);
+    fit.deviation = sigma_;
+    fit.cogging_rate = rate_;
+    fit.ripple_rate = ripple_rate_;
+    fit.cogging = fit.cogging_parts.colwise().norm().transpose();
+    return fit;
+  }
+
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+  const std::vector<PullWindow>& windows_;
+  TorqueConstantModel model_;
+  JointVector sigma_;
+  JointVector rate_;         ///< of the cogging; 0: none
+  JointVector ripple_rate_;  ///< likewise
+  bool planar_ = false;
+  Unknowns unknowns_;
+  std::unique_ptr<ceres::Problem> problem_;
+  std::vector<ceres::ResidualBlockId> blocks_;
+  std::vector<double*> columns_;
+  std::vector<std::size_t> rows_;
+  std::vector<int> drives_of_rows_;
+};
+
+}  // namespace
+
+TorqueConstantFit fit_torque_constants(const std::vector<PullWindow>& windows, int mountings,
+                                       const JointVector& believed, const TorqueConstantModel& model) {
+  Fit fit(windows, mountings, believed, model);
+  fit.solve();
+  return fit.take();
+}
+
+double torque_residual(const PullWindow& window, int drive, const TorqueConstantFit& fit, double slow) {
+  const Eigen::Vector3d& turn = fit.misalignment[static_cast<std::size_t>(window.mounting)];
+  const Eigen::Matrix3d R = rotation_matrix(quaternion_exp(turn));
+  const auto wave = [&](double rate, const auto& parts) {
+    if (!(rate > 0.0)) return 0.0;
+    const double phase = rate * window.position[drive];
+    return parts(0, drive) * std::sin(phase) + parts(1, drive) * std::cos(phase);
+  };
+  const double cogging = wave(fit.cogging_rate[drive], fit.cogging_parts);
+  const double uneven = 1.0 + wave(fit.ripple_rate[drive], fit.ripple_parts);
+  const double pulled =
+      window.force_map.row(drive).dot(R * window.force) + window.moment_map.row(drive).dot(R * window.moment);
+  return fit.constant[drive] * window.current[drive] * uneven - window.model_effort[drive] + pulled -
+         fit.offset[drive] - fit.coulomb[drive] * direction(window.rate[drive], slow) - cogging;
+}
+
+}  // namespace flinch

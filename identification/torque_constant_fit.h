@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "identification/fit_uncertainty.h"
+#include "identification/pull_windows.h"
+
+namespace flinch {
+
+/// What a fit of torque constants looks for besides them.
+struct TorqueConstantModel {
+  bool coulomb = true;                 ///< friction that the model of the robot does not have
+  bool misalignment = true;            ///< of the instrument, anew at each mounting
+  double misalignment_belief = 0.035;  ///< Standard deviation of what is believed of it, 2 degrees [rad].
+  double usual_error = 1.0;            ///< of a window before anything is known [Nm or N]. [ICRA23] III-B
+  bool cogging = true;                 ///< what repeats along the way, where it explains much
+  double slow = 0.02;                  ///< Below it nobody knows where friction points to [rad/s or m/s].
+};
+
+/// Torque constants of all drives, and what else explains the pulls.
+struct TorqueConstantFit {
+  JointVector constant;                       ///< k_t [Nm/A or N/A]
+  JointVector offset;                         ///< o [Nm or N]
+  JointVector coulomb;                        ///< beyond what the model of the robot has [Nm or N]
+  std::vector<Eigen::Vector3d> misalignment;  ///< by mounting: rotation vector in the axes of its body [rad]
+  JointVector cogging;  ///< amplitude of what repeats along the way of each drive; 0: none is seen [Nm or N]
+  JointVector cogging_rate;                                               ///< of its phase [rad/rad or rad/m]
+  Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, max_dof> cogging_parts;  ///< of sine and cosine
+  JointVector ripple_rate;  ///< likewise of what repeats as a share of the torque
+  Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, max_dof> ripple_parts;
+  JointVector deviation;  ///< of the residuals of each drive, outliers apart [Nm or N]
+
+  /// Columns: k_t, o, c and parts of cogging and ripple of each drive, as far as they were looked for, then
+  /// the misalignments.
+  LinearFit linear;
+  std::vector<Eigen::Index> column_of_drive;  ///< that of its k_t
+  std::vector<std::size_t> window_of_row;
+  std::vector<int> drive_of_row;
+};
+
+/// Minimises over windows w and drives i the squares of
+/// r = ( k_i I_wi (1 + ripple_i(q_wi)) - e_wi + [J^T R(delta) f_w]_i - o_i - c_i sgn(dq_wi) - cogging_i(q_wi)
+/// ) / sqrt(sigma_i^2 + k_i^2 sigma_Iwi^2) after [ICRA23] (5), where e is what the model needs for its
+/// motion. The currents are noisy too; the denominator takes that into account, so that no slope is flattened
+/// (Deming). Loss: Huber, then Tukey, with sigma_i from the residuals. Ceres.
+TorqueConstantFit fit_torque_constants(const std::vector<PullWindow>& windows, int mountings,
+                                       const JointVector& believed, const TorqueConstantModel& model);
+
+/// The residual of a window at the drive `drive`, not divided by anything [Nm or N].
+double torque_residual(const PullWindow& window, int drive, const TorqueConstantFit& fit, double slow);
+
+}  // namespace flinch

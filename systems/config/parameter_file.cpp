@@ -1,0 +1,155 @@
+#include "systems/config/parameter_file.h"
+
+#include <map>
+#include <memory>
+
+#include "systems/config/config_file.h"
+#include "systems/config/config_node.h"
+#include "systems/config/config_reader.h"
+#include "systems/config/parsed.h"
+#include "systems/config/yaml_text.h"
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+using Node = std::shared_ptr<const ConfigNode>;
+
+HashedFile read_hashed(ConfigReader reader) {
+  HashedFile hashed;
+  reader.required().text("file", hashed.file);
+  reader.required().text("sha256", hashed.sha256);
+  if (reader.good() && hashed.sha256.size() != 64)
+    reader.problem("sha256", "must have 64 hexadecimal digits");
+  return hashed;
+}
+
+FileParameter read_parameter(ConfigReader& reader) {
+  FileParameter parameter;
+  double deviation = 0.0;
+  reader.required().text("name", parameter.name);
+  reader.required().number("value", unit::none, parameter.value);
+  reader.text("unit", parameter.unit);
+  reader.flag("identifiable", parameter.identifiable);
+  reader.text("belongs_to", parameter.belongs_to);
+  if (reader.has("standard_deviation")) {
+    reader.number("standard_deviation", unit::none, deviation, not_negative);
+    parameter.deviation = deviation;
+  }
+  const std::string& owner = parameter.belongs_to;
+  if (!owner.empty() && owner != "robot" && owner != "scenario")
+    reader.problem("belongs_to", "is '" + owner + "'; it must be robot or scenario");
+  return parameter;
+}
+
+/// In single quotes, in which YAML doubles one that is meant.
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char letter : text) result += letter == '\'' ? std::string("''") : std::string(1, letter);
+  return result + "'";
+}
+
+std::string line_of(const FileParameter& parameter) {
+  std::string text = "  - {name: " + quoted(parameter.name) + ", value: " + exact_text(parameter.value);
+  if (parameter.deviation) text += ", standard_deviation: " + exact_text(*parameter.deviation);
+  if (!parameter.unit.empty()) text += ", unit: " + quoted(parameter.unit);
+  text += std::string(", identifiable: ") + (parameter.identifiable ? "true" : "false");
+  if (!parameter.belongs_to.empty()) text += ", belongs_to: " + parameter.belongs_to;
+  return text + "}\n";
+}
+
+std::string line_of(const HashedFile& hashed) {
+  return "{file: " + quoted(hashed.file) + ", sha256: " + quoted(hashed.sha256) + "}";
+}
+
+/// "drives.torque_constant_Nm_per_A" of "drives.torque_constant_Nm_per_A[0]"; empty where it is no entry of a
+/// list of numbers.
+std::string list_of(const std::string& name) {
+  const std::size_t open = name.rfind('[');
+  return name.ends_with(']') && open != std::string::npos ? name.substr(0, open) : "";
+}
+
+Node list_node(const std::vector<double>& values) {
+  auto node = std::make_shared<ConfigNode>();
+  node->kind = ConfigNode::Kind::list;
+  for (const double value : values) node->items.push_back(scalar_node(exact_text(value)));
+  return node;
+}
+
+}  // namespace
+
+ParameterFile parse_parameter_file(std::string_view text, const std::string& file) {
+  ParameterFile result;
+  result.file = file;
+  result.text = text;
+  ConfigReader reader = ConfigReader::parse(text, file);
+  int version = 0;
+  reader.required().integer("flinch_calibration", version, 1, ParameterFile::version);
+  reader.required().text("kind", result.kind);
+  reader.required().text("date", result.date);
+  result.robot = read_hashed(reader.required().section("robot"));
+  for (ConfigReader& recording : reader.sections("recordings"))
+    result.recordings.push_back(read_hashed(recording));
+  ConfigReader residual = reader.section("residual");
+  residual.number("before", unit::none, result.residual_before);
+  residual.number("after", unit::none, result.residual_after);
+  residual.text("unit", result.residual_unit);
+  for (ConfigReader& parameter : reader.sections("parameters"))
+    result.parameters.push_back(read_parameter(parameter));
+  for (ConfigReader& parameter : reader.sections("assumed"))
+    result.assumed.push_back(read_parameter(parameter));
+  reader.finish();
+  return result;
+}
+
+bool is_parameter_file(const std::filesystem::path& file) {
+  return ConfigReader::open(file).has("flinch_calibration");
+}
+
+ParameterFile read_parameter_file(const std::filesystem::path& file) {
+  return parse_parameter_file(read_config_file(file), file.string());
+}
+
+std::string parameter_file_text(const ParameterFile& parameters) {
+  std::string text =
+      "# Written by flinch calibrate. A scenario takes it over with\n#   calibrations: [{file: NAME}]\n";
+  text += "flinch_calibration: " + std::to_string(ParameterFile::version) + "\n";
+  text += "kind: " + parameters.kind + "\ndate: '" + parameters.date + "'\n";
+  text += "robot: " + line_of(parameters.robot) + "\n";
+  if (!parameters.recordings.empty()) text += "recordings:\n";
+  for (const HashedFile& recording : parameters.recordings) text += "  - " + line_of(recording) + "\n";
+  text += "residual: {before: " + exact_text(parameters.residual_before) +
+          ", after: " + exact_text(parameters.residual_after);
+  if (!parameters.residual_unit.empty()) text += ", unit: " + quoted(parameters.residual_unit);
+  text += "}\n";
+  if (!parameters.parameters.empty()) text += "parameters:\n";
+  for (const FileParameter& parameter : parameters.parameters) text += line_of(parameter);
+  if (!parameters.assumed.empty()) text += "assumed:\n";
+  for (const FileParameter& parameter : parameters.assumed) text += line_of(parameter);
+  return text;
+}
+
+std::string with_parameters(std::string_view robot_text, const std::string& file,
+                            const ParameterFile& parameters) {
+  Node root = parse_yaml(robot_text, file);
+  std::map<std::string, std::vector<double>> lists;
+  for (const FileParameter& parameter : parameters.parameters) {
+    if (parameter.belongs_to != "robot" || !parameter.identifiable) continue;
+    const std::string list = list_of(parameter.name);
+    if (list.empty()) {
+      root = with_value(*root, parameter.name, scalar_node(exact_text(parameter.value)));
+      continue;
+    }
+    std::vector<double>& values = lists[list];
+    const std::string expected = list + "[" + std::to_string(values.size()) + "]";
+    if (parameter.name != expected) {
+      throw SetupError(parameters.file + ": '" + parameter.name + "' stands where '" + expected +
+                       "' should; a list is taken over as a whole");
+    }
+    values.push_back(parameter.value);
+  }
+  for (const auto& [list, values] : lists) root = with_value(*root, list, list_node(values));
+  return yaml_text(*root);
+}
+
+}  // namespace flinch

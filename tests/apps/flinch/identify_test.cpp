@@ -1,0 +1,102 @@
+// flinch calibrate torque-constant and its kin, as typed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/apps/flinch/program.h"
+#include "tests/support/workplace.h"
+
+namespace flinch {
+namespace {
+
+using test::flinch;
+using test::Outcome;
+using ::testing::HasSubstr;
+
+class Identify : public ::testing::Test {
+ protected:
+  std::string recorded(const std::string& scenario) const {
+    EXPECT_EQ(
+        flinch({"run", place.at("scenarios/" + scenario + ".yaml"), "--out", place.at(scenario), "--quiet"})
+            .status,
+        0);
+    return place.at(scenario + "/run.h5");
+  }
+
+  test::Workplace place;
+};
+
+TEST_F(Identify, TorqueConstantsAreToldAsAnObject) {
+  const std::string recording = recorded("calibration_pulls");
+  const Outcome outcome = flinch({"calibrate", "torque-constant", recording, "--json"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["kind"], "torque-constant");
+  EXPECT_EQ(json["recordings"], nlohmann::json::array({recording}));
+  EXPECT_EQ(json["sha256"][0].get<std::string>().size(), 64U);
+  const auto& first = json["parameters"][0];
+  EXPECT_EQ(first["name"], "drives.torque_constant_Nm_per_A[0]");
+  EXPECT_NEAR(first["value"], 6.021, 0.03);
+  EXPECT_GT(first["standard_deviation"], 0.0);
+  EXPECT_EQ(first["unit"], "Nm/A");
+  EXPECT_EQ(first["identifiable"], true);
+  EXPECT_LT(json["residual_after"], json["residual_before"]);
+  EXPECT_TRUE(json["warnings"].empty()) << json["warnings"];
+}
+
+TEST_F(Identify, AParameterFileIsTakenOverByAScenario) {
+  const std::string recording = recorded("calibration_rectangle");
+  const std::string file = place.at("scenarios/imu.yaml");
+  EXPECT_EQ(flinch({"calibrate", "imu-pose", recording, "--out", file, "--quiet"}).status, 0);
+  EXPECT_THAT(flinch({"check", file}).out, HasSubstr("a good calibration file"));
+  EXPECT_THAT(test::bytes_of(place.at("scenarios/imu.html")), HasSubstr("accelerometer x"));
+  place.replace("scenarios/square.yaml", "duration_s: 3.5",
+                "duration_s: 0.5\ncalibrations: [{file: imu.yaml}]");
+  const Outcome run =
+      flinch({"run", place.at("scenarios/square.yaml"), "--out", place.at("square"), "--json"});
+  EXPECT_TRUE(nlohmann::json::parse(run.out)["remarks"].empty()) << run.out;
+  place.replace("robots/planar_3rrr.yaml", "mass_kg: 0.642", "mass_kg: 0.65");
+  const Outcome changed =
+      flinch({"run", place.at("scenarios/square.yaml"), "--out", place.at("square"), "--json"});
+  EXPECT_THAT(nlohmann::json::parse(changed.out)["remarks"].dump(),
+              HasSubstr("the robot file has changed since"));
+}
+
+TEST_F(Identify, AllThatAFolderAllowsIsCalibratedInOrder) {
+  for (const char* const scenario : {"calibration_pulls", "calibration_excitation", "calibration_rectangle"})
+    recorded(scenario);
+  const Outcome outcome = flinch({"calibrate", "all", place.at(""), "--out", place.at("found"), "--json"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["kind"], "all");
+  ASSERT_EQ(json["calibrations"].size(), 3U);
+  EXPECT_EQ(json["calibrations"][0]["kind"], "torque-constant");
+  EXPECT_EQ(json["calibrations"][1]["kind"], "dynamics");
+  EXPECT_EQ(json["calibrations"][2]["kind"], "imu-pose");
+  for (const char* const file : {"found/torque_constant.yaml", "found/dynamics.yaml", "found/imu_pose.html"})
+    EXPECT_FALSE(test::bytes_of(place / file).empty()) << file;
+}
+
+TEST_F(Identify, AMotionThatExcitesIsAScenarioThatRuns) {
+  const std::string file = place.at("scenarios/own.yaml");
+  const Outcome outcome = flinch({"excite", place.at("robots/planar_3rrr.yaml"), "--out", file, "--duration",
+                                  "5", "--trials", "30", "--json"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_LE(json["condition"], json["first_condition"]);
+  EXPECT_EQ(flinch({"check", file}).status, 0) << flinch({"check", file}).err;
+}
+
+TEST_F(Identify, TellsEveryRecordingThatWillNotDo) {
+  place.replace("scenarios/square.yaml", "duration_s: 3.5", "duration_s: 1");
+  const std::string square = recorded("square");
+  const Outcome outcome = flinch({"calibrate", "torque-constant", square, place.at("none.h5")});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("none.h5: there is no such file"));
+  EXPECT_THAT(flinch({"calibrate", "torque-constant", square}).err,
+              HasSubstr("square/run.h5: its scenario has no 'pulls'"));
+}
+
+}  // namespace
+}  // namespace flinch

@@ -1,0 +1,55 @@
+#include "calibration/csv_table.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/support/problems_of.h"
+
+namespace flinch {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+
+std::filesystem::path file_with(const std::string& text) {
+  const auto file = std::filesystem::path(testing::TempDir()) /
+                    (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".csv");
+  std::ofstream(file) << text;
+  return file;
+}
+
+TEST(Csv, HasTheColumnsThatAreWanted) {
+  const CsvTable table =
+      read_csv(file_with("t, \"q1\" ,name\r\n0,+1.5,a\r\n1,-2e-3,b\r\n\n"), ',', {"t", "q1"});
+  ASSERT_EQ(table.values.rows(), 2);
+  EXPECT_EQ(table.values(0, table.find("q1")), 1.5);
+  EXPECT_EQ(table.values(1, table.find("q1")), -2e-3);
+  EXPECT_EQ(table.find("q2"), -1);
+}
+
+TEST(Csv, TellsRowAndColumnOfWhatIsNoNumber) {
+  const auto file = file_with("t;q1\n0;1\n1;abc\n2\n3;nan\n");
+  EXPECT_THAT(test::problems_of([&] {
+                read_csv(file, ';', {"t", "q1"});
+              }),
+              ElementsAre(EndsWith(".csv:3: column 'q1' is 'abc'; it must be a number"),
+                          EndsWith(".csv:4: column 'q1' is missing; the row has 1 cells"),
+                          EndsWith(".csv:5: column 'q1' is 'nan'; it must be a number")));
+}
+
+TEST(Csv, TellsAColumnThatIsNotThere) {
+  const auto file = file_with("time,current_1\n0,1\n");
+  EXPECT_THAT(test::problems_of([&] { read_csv(file, ',', {"curent_1"}); }),
+              ElementsAre(HasSubstr(".csv:1: there is no column 'curent_1'; did you mean 'current_1'?")));
+}
+
+TEST(Csv, ThatIsNotThereIsTold) {
+  EXPECT_THAT(test::problems_of([] { read_csv("nowhere.csv", ',', {}); }),
+              ElementsAre(HasSubstr("cannot be read")));
+}
+
+}  // namespace
+}  // namespace flinch

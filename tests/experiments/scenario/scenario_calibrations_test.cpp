@@ -1,0 +1,81 @@
+#include "experiments/scenario/scenario_calibrations.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "experiments/scenario/scenario.h"
+#include "systems/foundation/sha256.h"
+#include "tests/support/problems_of.h"
+#include "tests/support/workplace.h"
+
+namespace flinch {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+class Calibrations : public ::testing::Test {
+ protected:
+  ParameterFile made() const {
+    ParameterFile file;
+    file.kind = "torque-constant";
+    file.date = "2026-11-22";
+    file.robot = {"planar_3rrr.yaml", sha256(test::bytes_of(place / "robots/planar_3rrr.yaml"))};
+    for (int i = 0; i < 3; ++i) {
+      file.parameters.push_back({.name = "drives.torque_constant_Nm_per_A[" + std::to_string(i) + "]",
+                                 .value = 7.0 + i,
+                                 .belongs_to = "robot"});
+    }
+    file.parameters.push_back(
+        {.name = "control.imu_mount.position_m[0]", .value = 0.07, .belongs_to = "scenario"});
+    return file;
+  }
+  Scenario read(const ParameterFile& file, const std::string& control = "{}") const {
+    place.write("scenarios/found.yaml", parameter_file_text(file));
+    place.write("scenarios/own.yaml",
+                "robot: ../robots/planar_3rrr.yaml\nduration_s: 1\ncalibrations: [{file: "
+                "found.yaml}]\ncontrol: " +
+                    control + "\n");
+    return read_scenario(place / "scenarios/own.yaml");
+  }
+
+  test::Workplace place;
+};
+
+TEST_F(Calibrations, ChangeWhatIsBelievedAndNotWhatIsBuilt) {
+  const Scenario scenario = read(made());
+  EXPECT_EQ(scenario.robot.drives.torque_constant, Eigen::Vector3d(7.0, 8.0, 9.0));
+  EXPECT_EQ(scenario.control.drive_torque.torque_constant, Eigen::Vector3d(7.0, 8.0, 9.0));
+  EXPECT_EQ(scenario.robot_as_built.drives.torque_constant, Eigen::Vector3d(6.021, 6.6116, 6.7315));
+  EXPECT_EQ(scenario.control.imu_mount.position_in_platform, Eigen::Vector3d(0.07, 0.001, -0.097));
+  EXPECT_THAT(scenario.doubts, IsEmpty());
+}
+
+TEST_F(Calibrations, GiveWayToWhatTheScenarioSaysItself) {
+  const Scenario scenario = read(made(), "{imu_mount: {position_m: [0, 0, 0]}}");
+  EXPECT_EQ(scenario.control.imu_mount.position_in_platform, Eigen::Vector3d::Zero());
+}
+
+TEST_F(Calibrations, OfARobotFileThatHasChangedAreDoubted) {
+  const ParameterFile file = made();
+  place.replace("robots/planar_3rrr.yaml", "mass_kg: 0.642", "mass_kg: 0.7");
+  EXPECT_THAT(read(file).doubts, ElementsAre(HasSubstr("the robot file has changed since")));
+}
+
+TEST_F(Calibrations, ThatRestOnOtherTorqueConstantsAreDoubted) {
+  ParameterFile file = made();
+  file.kind = "dynamics";
+  file.assumed = {{.name = "drives.torque_constant_Nm_per_A[1]", .value = 6.6}};
+  EXPECT_THAT(read(file).doubts, ElementsAre(HasSubstr("rests on drives.torque_constant_Nm_per_A[1] = 6.6")));
+}
+
+TEST_F(Calibrations, ThatDoNotFitTheRobotAreRefused) {
+  ParameterFile file = made();
+  file.parameters.push_back({.name = "legs[5].rotor_inertia_kg_m2", .value = 1.0, .belongs_to = "robot"});
+  EXPECT_THAT(test::problems_of([&] { read(file); }), Contains(HasSubstr("the list has 3 entries")));
+}
+
+}  // namespace
+}  // namespace flinch

@@ -1,0 +1,113 @@
+#include "calibration/csv_recording.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iomanip>
+#include <numbers>
+
+#include "identification/torque_constant_calibration.h"
+#include "systems/signals/drive_reading.h"
+#include "systems/signals/force_torque_reading.h"
+#include "systems/signals/joint_reading.h"
+#include "tests/identification/recorded.h"
+#include "tests/support/problems_of.h"
+
+namespace flinch {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+/// As another tool might log a simulated run: angles in degrees, one of them the other way round, currents in
+/// mA.
+void write_log(const Recording& recording, const std::filesystem::path& file) {
+  std::ofstream out(file);
+  out << "t_ms,q1,q2,q3,p1,p2,p3,i1,i2,i3,fx,fy\n" << std::setprecision(12);
+  const auto joints = read<JointReading>(recording, "joints");
+  const auto drives = read<DriveReading>(recording, "drives");
+  const auto pulls = read<ForceTorqueReading>(recording, "force_torque");
+  constexpr double degree = std::numbers::pi / 180.0;
+  for (std::size_t k = 0; k < recording.samples(); ++k) {
+    const JointReading at = joints[k];
+    const DriveReading drive = drives[k];
+    if (!at.valid || !drive.valid) continue;
+    out << 5000.0 + static_cast<double>(k);
+    for (int i = 0; i < 3; ++i) out << ',' << (i == 1 ? -1.0 : 1.0) * at.active[i] / degree;
+    for (int i = 0; i < 3; ++i) out << ',' << at.passive[i];
+    for (int i = 0; i < 3; ++i) out << ',' << 1000.0 * drive.current[i];
+    const ForceTorqueReading pull = pulls[k];
+    out << ',' << pull.force_in_base.x() << ',' << pull.force_in_base.y() << '\n';
+  }
+}
+
+constexpr const char* mapping = R"(csv: log.csv
+scenario: scenarios/calibration_pulls.yaml
+time: {column: t_ms, unit: ms}
+columns:
+  - {column: q1, signal: joints.active, entry: 0, unit: deg}
+  - {column: q2, signal: joints.active, entry: 1, unit: deg, sign: -1}
+  - {column: q3, signal: joints.active, entry: 2, unit: deg}
+  - {column: p1, signal: joints.passive, entry: 0, unit: rad}
+  - {column: p2, signal: joints.passive, entry: 1, unit: rad}
+  - {column: p3, signal: joints.passive, entry: 2, unit: rad}
+  - {column: i1, signal: drives.current, entry: 0, unit: mA}
+  - {column: i2, signal: drives.current, entry: 1, unit: mA}
+  - {column: i3, signal: drives.current, entry: 2, unit: mA}
+  - {column: fx, signal: force_torque.force, entry: 0, unit: N}
+  - {column: fy, signal: force_torque.force, entry: 1, unit: N}
+)";
+
+class ImportedLog : public ::testing::Test {
+ protected:
+  std::vector<std::string> problems() const {
+    return test::problems_of([this] { read_csv_recording(place / "mapping.yaml"); });
+  }
+  test::Workplace place;
+};
+
+TEST(ALog, GivesTheTorqueConstantsOfTheRunThatItLogs) {
+  const test::Simulated run = test::simulated("calibration_pulls.yaml");
+  const test::Workplace place;
+  write_log(run.recording, place / "log.csv");
+  place.write("mapping.yaml", mapping);
+  const Recording imported = read_csv_recording(place / "mapping.yaml");
+  const TorqueConstantBelief belief{.robot = run.scenario.robot.robot.get(),
+                                    .drives = run.scenario.robot.drives,
+                                    .constant = run.scenario.control.drive_torque.torque_constant};
+  const auto calibrated = [&](const Recording& recording) {
+    return calibrate_torque_constants(belief, {{{"run.h5", ""}, &recording, run.scenario.mountings}}, {});
+  };
+  const CalibrationResult direct = calibrated(run.recording);
+  const CalibrationResult got = calibrated(imported);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(got.parameters[i].value, direct.parameters[i].value, *direct.parameters[i].deviation);
+}
+
+TEST_F(ImportedLog, MustHaveAllJointsAndKnownSignals) {
+  place.write("log.csv", "t_ms,q1\n0,1\n1,2\n");
+  place.write("mapping.yaml",
+              "csv: log.csv\nscenario: scenarios/calibration_pulls.yaml\n"
+              "time: {column: t_ms, unit: ms}\ncolumns:\n"
+              "  - {column: q1, signal: joints.active, entry: 0, unit: deg}\n");
+  EXPECT_THAT(problems(), Contains(HasSubstr("no column is mapped to entry 1 of joints.active")));
+  place.replace("mapping.yaml", "joints.active", "joint.active");
+  EXPECT_THAT(problems(), Contains(HasSubstr("did you mean 'joints.active'?")));
+  place.replace("mapping.yaml", "joint.active, entry: 0, unit: deg",
+                "joints.active, entry: 7, unit: N, sign: 2");
+  EXPECT_THAT(problems(), Contains(HasSubstr("columns[0].unit: is 'N', which is no unit of this quantity")));
+  EXPECT_THAT(problems(), Contains(HasSubstr("columns[0].sign")));
+}
+
+TEST_F(ImportedLog, MustHaveATimeThatGrows) {
+  place.write("log.csv", "t_ms,q1\n0,1\n1,2\n1,3\n");
+  place.write("mapping.yaml",
+              "csv: log.csv\nscenario: scenarios/calibration_pulls.yaml\n"
+              "time: {column: t_ms, unit: ms}\ncolumns:\n"
+              "  - {column: q1, signal: joints.active, entry: 0, unit: deg}\n");
+  EXPECT_THAT(problems(), Contains(HasSubstr("log.csv:4: column 't_ms' does not grow")));
+}
+
+}  // namespace
+}  // namespace flinch

@@ -1,0 +1,153 @@
+#include "identification/dynamics_calibration.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "identification/dynamics_fit.h"
+#include "systems/robot/planar_rrr.h"
+#include "systems/signals/drive_reading.h"
+#include "tests/identification/recorded.h"
+#include "tests/support/problems_of.h"
+
+namespace flinch {
+namespace {
+
+using test::edit;
+using test::Simulated;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr const char* realism =
+    "plant: {realism: {like: bench, leg_inertia: 0.1, platform_inertia: 0.1, torque_constant: 0}}";
+/// Parameters that are off, and nothing else of a real robot: what is left is noise.
+constexpr const char* only_parameters =
+    "plant: {realism: {friction: 0.2, leg_inertia: 0.1, platform_inertia: 0.1}}";
+
+DynamicsBelief belief(const Simulated& run) {
+  return {.robot = run.scenario.robot.robot.get(),
+          .drives = run.scenario.robot.drives,
+          .constant = run.scenario.control.drive_torque.torque_constant};
+}
+
+CalibrationResult calibrated(const Simulated& run) {
+  return calibrate_dynamics(belief(run), {{{"run.h5", ""}, &run.recording}}, {});
+}
+
+TEST(Dynamics, PredictTheTorqueOfAnUnseenMotionToOnePercentBeyondNoise) {
+  const Simulated run = test::simulated("calibration_excitation.yaml", {{realism, only_parameters}});
+  const Simulated other = test::simulated("random_motion.yaml", {{"plant: {realism: bench}", only_parameters},
+                                                                 {"duration_s: 36", "duration_s: 15"}});
+  const CalibrationResult got = calibrate_dynamics(belief(run), {{{"run.h5", ""}, &run.recording}},
+                                                   {{{"other.h5", ""}, &other.recording}});
+  EXPECT_TRUE(got.warnings.empty()) << got.warnings.front();
+  ASSERT_FALSE(got.notes.empty());
+  double percent = 100.0;
+  for (const std::string& note : got.notes) {
+    const std::size_t at = note.find("(RMS), ");
+    if (at != std::string::npos) percent = std::stod(note.substr(at + 7));
+  }
+  EXPECT_LT(percent, 1.0) << ::testing::PrintToString(got.notes);
+  EXPECT_LT(got.residual_after, 0.3 * got.residual_before);
+}
+
+TEST(Dynamics, FindWhatIsTrueWithinTheirDeviations) {
+  const Simulated run = test::simulated("calibration_excitation.yaml", {{realism, only_parameters}});
+  const CalibrationResult got = calibrated(run);
+  const auto& truth = dynamic_cast<const PlanarRrr&>(*run.scenario.station.bench.robot).parameters();
+  int found = 0;
+  for (const CalibratedParameter& parameter : got.parameters) {
+    if (!parameter.identifiable) continue;
+    for (int leg = 0; leg < 3; ++leg) {
+      const PlanarRrrLeg& of = truth.legs[static_cast<std::size_t>(leg)];
+      const std::string at = "legs[" + std::to_string(leg) + "].";
+      const std::map<std::string, double> known = {
+          {at + "active_friction.coulomb_Nm", of.active_friction.coulomb},
+          {at + "passive_friction.viscous_Nms_per_rad", of.passive_friction.viscous}};
+      const auto true_value = known.find(parameter.name);
+      if (true_value == known.end()) continue;
+      ++found;
+      EXPECT_NEAR(parameter.value, true_value->second, 3.0 * *parameter.deviation) << parameter.name;
+    }
+  }
+  EXPECT_GE(found, 5);
+}
+
+TEST(DynamicsFit, HasTheJacobianOfItsRows) {
+  DynamicsRows rows;
+  RandomGenerator random(1);
+  rows.regressor.resize(60, 4);
+  rows.surplus.resize(60);
+  rows.torque.setZero(60);
+  const Eigen::Vector4d truth(0.5, -0.2, 0.1, 0.3);
+  for (int row = 0; row < 60; ++row) {
+    for (int j = 0; j < 4; ++j) rows.regressor(row, j) = random.normal();
+    rows.drive.push_back(row % 2);
+    rows.cluster.push_back(row / 6);
+    rows.recording.push_back(0);
+    rows.surplus[row] =
+        rows.regressor.row(row).dot(truth) + (row % 2 == 0 ? 0.05 : -0.05) + 1e-3 * random.normal();
+  }
+  std::vector<DynamicParameter> parameters(
+      4, {.name = "p", .unit = "", .believed = 0.0, .deviation = 2.0, .least = -9.0});
+  const DynamicsFit fit = fit_dynamics(rows, parameters, 2, 1.0, std::vector<bool>(4, false));
+  EXPECT_LT((fit.values - truth).norm(), 2e-3);
+  EXPECT_NEAR(fit.offset[0], 0.05, 1e-3);
+  for (int row = 0; row < 60; ++row) {
+    const double sigma = fit.deviation[row % 2];
+    EXPECT_LT((fit.linear.jacobian.row(row).head(4) - rows.regressor.row(row) / sigma).norm(), 1e-6 / sigma);
+    EXPECT_NEAR(fit.linear.jacobian(row, 4 + row % 2), 1.0 / sigma, 1e-6 / sigma);
+  }
+  parameters[1].least = 0.0;
+  EXPECT_GE(fit_dynamics(rows, parameters, 2, 1.0, std::vector<bool>(4, false)).values[1], -1e-12)
+      << "nothing is below what is possible";
+}
+
+TEST(BadMotions, ThatAreTooShortAreRefused) {
+  Simulated run = test::simulated("calibration_excitation.yaml");
+  edit<DriveReading>(run.recording, "drives",
+                     [](std::size_t k, DriveReading& reading) { reading.valid = k < 3000; });
+  EXPECT_THAT(test::problems_of([&] { calibrated(run); }), Contains(HasSubstr("run.h5: no second of it")));
+}
+
+TEST(BadMotions, AtStandstillAreRefused) {
+  EXPECT_THAT(
+      test::problems_of([&] {
+        calibrated(test::simulated("calibration_standstill.yaml", {{"duration_s: 5", "duration_s: 8"}}));
+      }),
+      Contains(HasSubstr("drive 1 is not excited")));
+}
+
+TEST(BadMotions, WithContactAreRefused) {
+  EXPECT_THAT(test::problems_of([&] { calibrated(test::simulated("platform_collision.yaml")); }),
+              ElementsAre(HasSubstr("something touched or pushed the robot at 0.5")));
+}
+
+TEST(BadMotions, WithSwappedCurrentsAreRefused) {
+  Simulated run = test::simulated("calibration_excitation.yaml");
+  edit<DriveReading>(run.recording, "drives", [](std::size_t, DriveReading& reading) {
+    std::swap(reading.current[0], reading.current[2]);
+  });
+  EXPECT_THAT(test::problems_of([&] { calibrated(run); }),
+              Contains(HasSubstr("currents or legs are swapped")));
+}
+
+TEST(AFifthOfOutliers, MovesNoDynamicParameterByMoreThanItsDeviation) {
+  Simulated run = test::simulated("calibration_excitation.yaml");
+  const CalibrationResult clean = calibrated(run);
+  RandomGenerator random(3);
+  edit<DriveReading>(run.recording, "drives", [&](std::size_t, DriveReading& reading) {
+    if (random.uniform(0.0, 1.0) < 0.2) reading.current[1] += random.uniform(-20.0, 20.0);
+  });
+  const CalibrationResult spoilt = calibrated(run);
+  EXPECT_THAT(spoilt.warnings, Contains(HasSubstr("are spikes")));
+  for (std::size_t i = 0; i < clean.parameters.size(); ++i) {
+    if (!clean.parameters[i].identifiable || !spoilt.parameters[i].identifiable) continue;
+    EXPECT_LT(std::abs(spoilt.parameters[i].value - clean.parameters[i].value),
+              *spoilt.parameters[i].deviation)
+        << clean.parameters[i].name;
+  }
+}
+
+}  // namespace
+}  // namespace flinch
