@@ -48,6 +48,7 @@ Shown run(const SimulatedScenario& scenario) {
   JointVector before;
   for (std::size_t k = 0; k < recording.samples(); ++k) {
     const WorkspaceMeasures now = measures[k];
+    if (!now.valid) continue;
     shown.largest_kappa = std::max(shown.largest_kappa, now.sigma_kappa);
     shown.least_distance = std::min(shown.least_distance, now.sigma_sc);
     shown.ticks_too_near += now.sigma_sc < 0.17 - 1e-6 ? 1 : 0;
