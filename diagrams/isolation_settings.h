@@ -17,11 +17,20 @@ struct IsolationSettings {
   /// Of the momentum observer that it reads, for every coordinate alike: at the detection tick of one with 20
   /// 1/s that one still estimates a small part of the force [1/s].
   double observer_gain = 100.0;
-  WrenchUncertainty uncertainty;  ///< of that observer
-  Time same_contact = 100ms;      ///< for so long a contact that has gone may come back as the same
+  /// Of that observer, measured on the realistic bench, as are the frequencies below.
+  WrenchUncertainty uncertainty{
+      .force = 1.5, .moment = 0.12, .share_of_force = 0.02, .share_of_lever = 0.002};
+  Time same_contact = 100ms;  ///< for so long a contact that has gone may come back as the same
 
   FeatureSettings features;
-  TouchHypothesesSettings hypotheses;
+  TouchHypothesesSettings hypotheses{.object_speed = 0.2,
+                                     .object_radius = 0.04,
+                                     .softness = 0.005,
+                                     .closing_speed = 0.05,
+                                     .friction = 0.1,
+                                     .platform_bias = 0.65,
+                                     .link1_bias = -1.3,
+                                     .clamping_bias = -1.05};
   ModelClassifierSettings model_classifier;
   DecisionTreeSettings decision_tree;
   ContactLocatorSettings closed_form;

@@ -78,7 +78,13 @@ ContactClassifier learned_classifier_stage(LearnedClassifierSettings settings) {
           [settings = std::move(settings)](const StageSite& site, const ContactPorts& given) {
             auto& classifier = site.builder.add<LearnedClassifier>(site.name, site.robot, settings);
             site.builder.connect(given.contact, classifier.phase);
-            site.builder.connect(given.evidence, classifier.evidence);
+            // The evidence that it was trained with, whatever the model classifier is told.
+            auto& evidence = site.builder.add<EvidenceEstimator>(
+                site.name + "_evidence", site.robot, TouchHypothesesSettings(), WrenchUncertainty());
+            site.builder.connect(given.contact, evidence.phase);
+            site.builder.connect(given.kinematics, evidence.kinematics);
+            site.builder.connect(given.isolation_wrench, evidence.wrench);
+            site.builder.connect(evidence.evidence, classifier.evidence);
             site.builder.connect(given.isolation_wrench, classifier.wrench);
             return classifier.classification;
           }};

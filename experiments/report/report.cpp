@@ -20,7 +20,10 @@ const Names charts{"contact_force",
                    "orientation_error",
                    "torque",
                    "sigma_kappa",
-                   "sigma_sc"};
+                   "sigma_sc",
+                   "probability",
+                   "location_error",
+                   "force_error"};
 constexpr int most_estimators = 16;
 
 Names column_names() {
@@ -39,7 +42,10 @@ Names column_names() {
               "sigma_sc",
               "contact_force",
               "sigma_kappa_reference",
-              "sigma_sc_reference"};
+              "sigma_sc_reference",
+              "location_error",
+              "force_error",
+              "probability_platform"};
   const auto add = [&names](const std::string& prefix) {
     for (const char* const axis : {"x", "y", "z"}) names.push_back(prefix + axis);
   };
@@ -58,7 +64,13 @@ Names column_names() {
       names.push_back("estimator_" + std::to_string(i) + part);
   }
   for (int obstacle = 1; obstacle <= 8; ++obstacle) add("obstacle_" + std::to_string(obstacle) + "_");
+  for (int particle = 1; particle <= most_page_particles; ++particle) {
+    add("particle_" + std::to_string(particle) + "_");
+  }
   for (int leg = 1; leg <= 6; ++leg) {
+    for (const std::string what : {"link1", "link2", "clamping"}) {
+      names.push_back("probability_leg" + std::to_string(leg) + "_" + what);
+    }
     add("elbow_" + std::to_string(leg) + "_");
     for (const std::string torque : {"torque_commanded_", "torque_applied_"}) {
       names.push_back(torque + std::to_string(leg));

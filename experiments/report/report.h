@@ -13,6 +13,9 @@ namespace flinch {
 /// A point or vector, base frame; z is 0 for a planar robot.
 using ReportPoint = std::array<double, 3>;
 
+/// Particles of a locator that a page shows.
+inline constexpr int most_page_particles = 12;
+
 /// One contact of an experiment, from the plant's ground truth and the robot's own detector.
 /// What did not happen or was not measured has no value: a contact that was never noticed has no `detected`.
 struct ReportContact {

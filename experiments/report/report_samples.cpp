@@ -10,12 +10,16 @@
 
 #include "experiments/report/drawn_robot.h"
 #include "experiments/report/page_samples.h"
+#include "experiments/report/vector_columns.h"
 #include "experiments/verdict/recorded_estimate.h"
 #include "experiments/verdict/recorded_run.h"
 #include "experiments/verdict/recorded_truth.h"
 #include "systems/framework/recorded_values.h"
 #include "systems/robot/parallel_robot.h"
 #include "systems/signals/constraint_state.h"
+#include "systems/signals/contact_classes.h"
+#include "systems/signals/contact_location.h"
+#include "systems/signals/particle_cloud.h"
 #include "systems/signals/platform_motion.h"
 #include "systems/signals/platform_reference.h"
 #include "systems/signals/torque_command.h"
@@ -24,56 +28,6 @@
 
 namespace flinch {
 namespace {
-
-const double no_data = std::nan("");
-constexpr std::array axes{"x", "y", "z"};
-
-/// A vector of the page: one column a component, all of the sample whose `weight` is greatest.
-class VectorColumns {
- public:
-  VectorColumns(PageSamples& page, const std::vector<std::string>& names) : page_(page) {
-    for (const std::string& name : names) columns_.push_back(page.column(name));
-  }
-  void set(const auto& vector, double weight) {
-    const bool fits = vector.size() == static_cast<Eigen::Index>(columns_.size());
-    for (std::size_t i = 0; i < columns_.size(); ++i) {
-      page_.set(columns_[i], fits ? vector[static_cast<Eigen::Index>(i)] : no_data, fits ? weight : no_data);
-    }
-  }
-  void set_no_data() { set(Eigen::Matrix<double, 0, 1>(), 0.0); }
-
- private:
-  PageSamples& page_;
-  std::vector<std::size_t> columns_;
-};
-
-std::vector<std::string> named(const std::string& prefix, int count) {
-  std::vector<std::string> names;
-  for (int i = 0; i < count; ++i) names.push_back(prefix + axes[static_cast<std::size_t>(i)]);
-  return names;
-}
-
-std::vector<std::string> numbered(const std::string& prefix, int count) {
-  std::vector<std::string> names;
-  for (int i = 0; i < count; ++i) names.push_back(prefix + std::to_string(i + 1));
-  return names;
-}
-
-std::vector<std::string> pose_names(const ConfigurationSpace& space) {
-  std::vector<std::string> names = named("pose_", space.translations());
-  if (space.rotations() == 1) names.emplace_back("pose_phi");
-  if (space.rotations() == 3) names.insert(names.end(), {"pose_qw", "pose_qx", "pose_qy", "pose_qz"});
-  return names;
-}
-
-std::vector<std::string> wrench_names(const std::string& name, const ConfigurationSpace& space) {
-  std::vector<std::string> names = named(name + "_force_", space.translations());
-  if (space.rotations() == 1) names.push_back(name + "_moment");
-  if (space.rotations() == 3) {
-    for (const std::string& moment : named(name + "_moment_", 3)) names.push_back(moment);
-  }
-  return names;
-}
 
 /// What of a sample only a simulation knows.
 struct Truth {
@@ -370,6 +324,85 @@ class Constraints {
   std::size_t lane_ = 0, sigma_kappa_ = 0, sigma_sc_ = 0;
 };
 
+/// What the robot takes for touched, where, and how far off.
+class Isolation {
+ public:
+  /// Recordings of control paths that do not classify show nothing of it.
+  Isolation(const ParallelRobot& robot, const Recording& recording, bool simulated, PageSamples& page)
+      : robot_(robot), classes_(robot.body_count(), robot.legs()), page_(page) {
+    if (recording.find("classification") == nullptr || recording.find("location") == nullptr) return;
+    classification_.emplace(recording, "classification");
+    location_.emplace(recording, "location");
+    std::vector<std::string> names, states = {"nothing"};
+    for (int i = 0; i < classes_.count(); ++i) {
+      names.push_back("probability_" + classes_.name(i));
+      states.push_back(classes_.name(i));
+    }
+    probability_.emplace(page, names);
+    point_.emplace(page, named("isolated_", robot.space_dimension()));
+    taken_for_ = page.lane("taken for", std::move(states));
+    if (simulated) {
+      location_error_ = page.column("location_error");
+      force_error_ = page.column("force_error");
+    }
+    const bool has_particles = recording.find("particles_particle_filter") != nullptr;
+    if (has_particles && simulated) add_particles(recording);
+  }
+
+  void show(std::size_t sample, const RunSample& run, const Truth* truth, double hardness) {
+    if (!classification_) return;
+    const ContactClassification said = (*classification_)[sample];
+    probability_->set(said.valid ? said.probability : ClassVector(), hardness);
+    page_.set_state(taken_for_, said.valid && said.accepted ? said.most_likely + 1 : 0, hardness);
+    const ContactLocation found = (*location_)[sample];
+    const bool located = found.valid && found.located;
+    point_->set(located ? found.point_in_base : CartesianVector(), hardness);
+    if (truth != nullptr) show_errors(found, located && run.is_touched(), truth->contact.strongest, hardness);
+    if (cloud_) show_particles((*cloud_)[sample], truth->robot.pose, hardness);
+  }
+
+ private:
+  void add_particles(const Recording& recording) {
+    cloud_.emplace(recording, "particles_particle_filter");
+    for (const std::string& name : numbered("particle_", most_page_particles)) {
+      particles_.emplace_back(page_, named(name + "_", robot_.space_dimension()));
+    }
+  }
+  void show_errors(const ContactLocation& found, bool known, const RecordedTouch& touch, double hardness) {
+    known = known && touch.body >= 0 && touch.point_in_base.size() == found.point_in_base.size();
+    page_.set(location_error_, known ? (found.point_in_base - touch.point_in_base).norm() : no_data,
+              hardness);
+    page_.set(force_error_, known ? (found.force_in_base - touch.force_in_base).norm() : no_data, hardness);
+  }
+
+  /// Every few of them, on the axis of their link.
+  void show_particles(const ParticleCloud& cloud, const Configuration& pose, double hardness) {
+    if (cloud.count > 0) robot_.kinematics(pose, PlatformVector::Zero(robot_.dof()), kinematics_);
+    for (std::size_t i = 0; i < particles_.size(); ++i) {
+      const auto chosen =
+          static_cast<Eigen::Index>(i * static_cast<std::size_t>(cloud.count) / particles_.size());
+      if (cloud.count == 0) {
+        particles_[i].set_no_data();
+        continue;
+      }
+      const BodyId link = BodyId::from_index(cloud.body);
+      particles_[i].set(
+          robot_.point_on_body(kinematics_, link, robot_.axis_point(link, cloud.fraction[chosen])), hardness);
+    }
+  }
+
+  const ParallelRobot& robot_;
+  ContactClasses classes_;
+  PageSamples& page_;
+  Kinematics kinematics_;
+  std::optional<RecordedValues<ContactClassification>> classification_;
+  std::optional<RecordedValues<ContactLocation>> location_;
+  std::optional<RecordedValues<ParticleCloud>> cloud_;
+  std::optional<VectorColumns> probability_, point_;
+  std::vector<VectorColumns> particles_;
+  std::size_t taken_for_ = 0, location_error_ = 0, force_error_ = 0;
+};
+
 }  // namespace
 
 void add_samples(const ParallelRobot& robot, const Recording& recording, Report& report) {
@@ -385,6 +418,7 @@ void add_samples(const ParallelRobot& robot, const Recording& recording, Report&
   EstimatesSideBySide estimates(robot.space(), recording, page, report);
   Drives drives(robot, recording, simulated, page);
   Constraints constraints(recording, page);
+  Isolation isolation(robot, recording, simulated, page);
   ObstacleMotion obstacles(recording, report.obstacles.size(), robot.space().translations(), page);
   std::optional<RecordedTruths> truths;
   if (simulated) truths.emplace(recording);
@@ -400,6 +434,7 @@ void add_samples(const ParallelRobot& robot, const Recording& recording, Report&
     estimates.show(k);
     drives.show(k, truth);
     constraints.show(k);
+    isolation.show(k, now, truth, hardness);
     obstacles.show(k, hardness);
   }
   page.finish(report);

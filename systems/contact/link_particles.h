@@ -12,8 +12,8 @@ namespace flinch {
 inline constexpr int max_particles = 256;
 
 struct LinkParticleSettings {
-  int particles = 50;  ///< R, at most `max_particles`
-  bool angled = true;  ///< forces along the link as well, [l, f_x, f_y]; otherwise across alone
+  int particles = 50;   ///< R, at most `max_particles`
+  bool angled = false;  ///< forces along the link as well, [l, f_x, f_y]; otherwise across alone
   /// Sigma_mot of one step, [PAR]: of the fraction, of the force along the link and across it [N^2].
   double fraction_variance = 2.5e-6;
   double along_variance = 1.25e-3;

@@ -46,6 +46,9 @@ struct ForceFit {
   double explained = 0.0;  // of F^T S^-1 F
 };
 
+/// What `ForceFit::log_gain` cannot exceed.
+double most_gain(double explained) { return 0.5 * explained + std::numbers::ln2; }
+
 ForceFit fit_force(double hh, double hF, double scale) {
   const double precision = hh + 1.0 / (scale * scale);
   const double s = 1.0 / std::sqrt(precision);
@@ -190,8 +193,10 @@ void TouchHypotheses::weigh_body(const Scene& scene, BodyId body, Tally& tally) 
       const double size = 1.0 / std::sqrt(1.0 + mu * mu);
       const double hh = (nn + 2.0 * mu * nt + mu * mu * tt) * size * size;
       const double hF = -(nF + mu * tF) * size;
+      const double explained = hF > 0.0 && hh > 0.0 ? hF * hF / hh : 0.0;
+      tally.explained = std::max(tally.explained, explained);
+      if (tally.is_negligible(most_gain(explained))) continue;
       const ForceFit fit = fit_force(hh, hF, settings_.force_scale);
-      tally.explained = std::max(tally.explained, fit.explained);
       if (tally.is_negligible(fit.log_gain)) continue;
       if (weight < 0.0) {
         weight =

@@ -33,6 +33,17 @@ function byEstimator(part, truth) {
     one(`estimator_${i + 1}_${part}`, name.replaceAll("_", " "), estimatorColours[i % estimatorColours.length]))];
 }
 
+/** Probabilities of the classes that ever had a share worth drawing; those of a leg have its colour. */
+function probabilities() {
+  return Object.keys(report.columns).filter((name) => name.startsWith("probability_")).flatMap((name) => {
+    const values = report.columns[name];
+    if (!values.some((value) => value !== null && value > 0.05)) return [];
+    const leg = /leg(\d)/.exec(name)?.[1];
+    const label = name.slice("probability_".length).replaceAll("_", " ");
+    return [{ label, values, colour: leg ? `--leg-${leg}` : "--plain", wide: name.endsWith("clamping") }];
+  });
+}
+
 /** Decimals that show three significant digits of the largest value, but at least one. */
 function decimalsFor(values) {
   const largest = values.reduce((size, value) => Math.max(size, Math.abs(value ?? 0)), 0);
@@ -57,6 +68,11 @@ function chartList() {
       series: byEstimator("force", magnitudeOf("external_force")) },
     { id: "moment_by_estimator", title: "External moment, by estimator", unit: "Nm", least: 2.4, fromZero: true,
       series: byEstimator("moment", magnitudeOf("external_moment") ?? report.columns.external_moment?.map((m) => m && Math.abs(m))) },
+    { id: "probability", title: "What is touched", unit: "%", scale: 100, least: 100, fromZero: true, series: probabilities() },
+    { id: "location_error", title: "Error of the place", unit: "mm", scale: 1000, least: 10, fromZero: true,
+      series: one("location_error", "error", "--plain") },
+    { id: "force_error", title: "Error of the force", unit: "N", least: 10, fromZero: true,
+      series: one("force_error", "error", "--plain") },
     { id: "speed", title: "Speed of the platform", unit: "m/s", least: 0.05, fromZero: true, series: [
       ...one("speed", "speed", "--plain")] },
     { id: "position_error", title: "Tracking error, position", unit: "mm", scale: 1000, least: 0.1, fromZero: true,

@@ -33,10 +33,10 @@ function magnitudeOf(name) {
   });
 }
 
-/** Number of columns that are called `prefix` 1, 2, ... */
-function columnCount(prefix) {
+/** Number of columns that are called `prefix` 1 `suffix`, 2, ... */
+function columnCount(prefix, suffix = "") {
   let count = 0;
-  while (has(`${prefix}${count + 1}`)) count += 1;
+  while (has(`${prefix}${count + 1}${suffix}`)) count += 1;
   return count;
 }
 

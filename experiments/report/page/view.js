@@ -47,6 +47,9 @@ class View {
     this.action = shape(this.forces, "line", { class: "action" });
     this.trueForces = [1, 2].map(() => shape(this.forces, "path", { class: "force-true" }));
     this.estimate = shape(this.forces, "path", { class: "force-estimate" });
+    this.particles = Array.from({ length: columnCount("particle_", "_x") }, () =>
+      shape(this.forces, "circle", { r: 3, class: "particle" }));
+    this.isolated = shape(this.forces, "circle", { r: 6, class: "isolated-point" });
     this.points = [1, 2].map(() => shape(this.forces, "circle", { r: 4.5, class: "contact-point" }));
     this.pulse = shape(this.marks, "circle", { class: "pulse" });
   }
@@ -131,9 +134,16 @@ class View {
     });
     const estimate = vectorAt("estimated_force_", sample);
     const shown = estimate && Math.hypot(...estimate) >= noticeableForce();
+    this.showPoint(this.isolated, vectorAt("isolated_", sample));
+    this.particles.forEach((particle, i) => this.showPoint(particle, vectorAt(`particle_${i + 1}_`, sample)));
     const foot = (has("isolated_x") && vectorAt("isolated_", sample)) || pose.position;
     set(this.estimate, { d: shown ? this.arrow(foot, estimate, 2.5, 11) : "" });
     set(this.action, shown ? this.lineOfAction(pose, estimate, momentAt("estimated_moment", sample)) : { visibility: "hidden" });
+  }
+
+  /** Hidden where there is none. */
+  showPoint(circle, point) {
+    set(circle, point ? { ...centreOf(this.project(point)), visibility: "visible" } : { visibility: "hidden" });
   }
 
   /** Outline of an arrow of a force that acts at a point; nothing where it points at the reader. */
