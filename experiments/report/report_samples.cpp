@@ -70,14 +70,14 @@ class Motion {
   void show(const Configuration& pose, const PlatformVector& velocity, std::size_t sample, double hardness) {
     pose_.set(pose, hardness);
     const bool moves = velocity.size() == space_.dimension();
-    page_.set(speed_, moves ? velocity.head(space_.translations()).norm() : no_data);
+    page_.set(speed_, moves ? velocity.head(space_.translations()).norm() : no_value);
     const PlatformReference wanted = reference_[sample];
     const bool followed = wanted.valid && space_.contains(pose) && space_.contains(wanted.pose);
     const PlatformVector error =
         followed ? space_.difference(pose, wanted.pose) : PlatformVector::Zero(space_.dimension());
-    page_.set(position_error_, followed ? error.head(space_.translations()).norm() : no_data);
+    page_.set(position_error_, followed ? error.head(space_.translations()).norm() : no_value);
     if (orientation_error_)
-      page_.set(*orientation_error_, followed ? error.tail(space_.rotations()).norm() : no_data);
+      page_.set(*orientation_error_, followed ? error.tail(space_.rotations()).norm() : no_value);
   }
 
   ConfigurationSpace space_;
@@ -124,12 +124,12 @@ class Forces {
 
   /// A contact point is only shown while its body is touched.
   static void show(const RecordedTouch& touch, double hardness, Touch& columns) {
-    const CartesianVector nothing = CartesianVector::Constant(touch.point_in_base.size(), no_data);
+    const CartesianVector nothing = CartesianVector::Constant(touch.point_in_base.size(), no_value);
     columns.point.set(touch.body >= 0 ? touch.point_in_base : nothing, hardness);
     columns.force.set(touch.body >= 0 ? touch.force_in_base : nothing, hardness);
   }
   double strength(const PlatformVector& wrench) const {
-    return wrench.size() < translations_ ? no_data : wrench.head(translations_).norm();
+    return wrench.size() < translations_ ? no_value : wrench.head(translations_).norm();
   }
 
   int translations_;
@@ -166,8 +166,8 @@ class EstimatesSideBySide {
     for (const Estimate& each : estimates_) {
       const RecordedEstimate now = each.values[sample];
       const bool fits = now.valid && now.wrench_in_base.size() == space_.dimension();
-      page_.set(each.force, fits ? now.wrench_in_base.head(space_.translations()).norm() : no_data);
-      page_.set(each.moment, fits ? now.wrench_in_base.tail(space_.rotations()).norm() : no_data);
+      page_.set(each.force, fits ? now.wrench_in_base.head(space_.translations()).norm() : no_value);
+      page_.set(each.moment, fits ? now.wrench_in_base.tail(space_.rotations()).norm() : no_value);
     }
   }
 
@@ -203,15 +203,15 @@ class Drives {
     set(commanded_, command.valid ? command.torque : JointVector());
     if (truth != nullptr) set(applied_, truth->robot.drive_torque);
     const WorkspaceMeasures now = measures_[sample];
-    page_.set(sigma_kappa_, now.valid ? now.sigma_kappa : no_data);
-    page_.set(sigma_sc_, now.valid ? now.sigma_sc : no_data, now.valid ? 1.0 / now.sigma_sc : no_data);
+    page_.set(sigma_kappa_, now.valid ? now.sigma_kappa : no_value);
+    page_.set(sigma_sc_, now.valid ? now.sigma_sc : no_value, now.valid ? 1.0 / now.sigma_sc : no_value);
   }
 
  private:
   void set(const std::vector<std::size_t>& columns, const JointVector& torque) {
     for (std::size_t i = 0; i < columns.size(); ++i) {
       const auto drive = static_cast<Eigen::Index>(i);
-      page_.set(columns[i], drive < torque.size() ? torque[drive] : no_data);
+      page_.set(columns[i], drive < torque.size() ? torque[drive] : no_value);
     }
   }
 
@@ -314,8 +314,8 @@ class Constraints {
     }
     const int mode = kept.watched ? static_cast<int>(kept.mode) : 4;
     page_.set_state(lane_, mode, mode == 4 ? -1 : mode);
-    page_.set(sigma_kappa_, kept.sigma_kappa.active ? kept.sigma_kappa.reference : no_data);
-    page_.set(sigma_sc_, kept.sigma_sc.active ? kept.sigma_sc.reference : no_data);
+    page_.set(sigma_kappa_, kept.sigma_kappa.active ? kept.sigma_kappa.reference : no_value);
+    page_.set(sigma_sc_, kept.sigma_sc.active ? kept.sigma_sc.reference : no_value);
   }
 
  private:
@@ -370,9 +370,9 @@ class Isolation {
   }
   void show_errors(const ContactLocation& found, bool known, const RecordedTouch& touch, double hardness) {
     known = known && touch.body >= 0 && touch.point_in_base.size() == found.point_in_base.size();
-    page_.set(location_error_, known ? (found.point_in_base - touch.point_in_base).norm() : no_data,
+    page_.set(location_error_, known ? (found.point_in_base - touch.point_in_base).norm() : no_value,
               hardness);
-    page_.set(force_error_, known ? (found.force_in_base - touch.force_in_base).norm() : no_data, hardness);
+    page_.set(force_error_, known ? (found.force_in_base - touch.force_in_base).norm() : no_value, hardness);
   }
 
   /// Every few of them, on the axis of their link.

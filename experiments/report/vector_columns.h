@@ -12,7 +12,7 @@
 
 namespace flinch {
 
-inline const double no_data = std::nan("");
+inline const double no_value = std::nan("");
 inline constexpr std::array page_axes{"x", "y", "z"};
 
 /// A vector of the page: one column a component, all of the sample whose `weight` is greatest.
@@ -24,7 +24,7 @@ class VectorColumns {
   void set(const auto& vector, double weight) {
     const bool fits = vector.size() == static_cast<Eigen::Index>(columns_.size());
     for (std::size_t i = 0; i < columns_.size(); ++i) {
-      page_.set(columns_[i], fits ? vector[static_cast<Eigen::Index>(i)] : no_data, fits ? weight : no_data);
+      page_.set(columns_[i], fits ? vector[static_cast<Eigen::Index>(i)] : no_value, fits ? weight : no_value);
     }
   }
   void set_no_data() { set(Eigen::Matrix<double, 0, 1>(), 0.0); }

@@ -1,6 +1,6 @@
 // What is touched, where and how hard, of contacts with robots that are drawn anew: at the tick of the
-// detection and 10 ms later. FLINCH_CONTACTS in the environment says how many contacts of each sort instead of
-// 50, FLINCH_PUSHES how many pushes instead of 100.
+// detection and some time later. FLINCH_CONTACTS in the environment says how many contacts of each sort
+// instead of 30, FLINCH_PUSHES how many pushes instead of 60.
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -114,7 +114,7 @@ void print_head() {
 TEST(IsolationAccuracy, OfRandomCollisionsAndClampings) {
   const Campaign campaign =
       read_campaign("apps/campaigns/touched_bodies.yaml",
-                    {.draws = static_cast<std::size_t>(std::stoi(wanted("FLINCH_CONTACTS", "50")))});
+                    {.draws = static_cast<std::size_t>(std::stoi(wanted("FLINCH_CONTACTS", "30")))});
   print_head();
   std::array<std::array<Findings, 3>, 2> of_point;  // the model, and robots that differ from it
   for (std::size_t run = 0; run < campaign.runs(); ++run) {
@@ -208,7 +208,7 @@ struct PushErrors {
 };
 
 void try_pushes(bool angled) {
-  const int pushes = std::stoi(wanted("FLINCH_PUSHES", "100"));
+  const int pushes = std::stoi(wanted("FLINCH_PUSHES", "60"));
   constexpr int after[] = {10, 50, 150};
   PushErrors closed_form[3], particles[3];
   Balance body;
@@ -251,8 +251,13 @@ void try_pushes(bool angled) {
     particles[k].print("particle_filter", after[k], detected);
   }
   EXPECT_GT(detected, 0.9 * pushes);
-  EXPECT_LT(quantile(closed_form[1].fraction, 0.5), angled ? 0.10 : 0.04);
-  EXPECT_LT(quantile(particles[1].fraction, 0.5), angled ? 0.15 : 0.04);
+  const std::size_t last = angled ? 2 : 1;  // [SafePR] V-F2: 4 % and 4 N after 50 ms; 10 % after 150 ms
+  EXPECT_LT(quantile(closed_form[last].fraction, 0.5), angled ? 0.10 : 0.04);
+  EXPECT_LT(quantile(particles[last].fraction, 0.5), angled ? 0.10 : 0.04);
+  EXPECT_GE(closed_form[last].covered, 0.9 * static_cast<double>(closed_form[last].fraction.size()));
+  if (!angled) {
+    EXPECT_LT(quantile(closed_form[1].force, 0.5), 4.0);
+  }
 }
 
 TEST(IsolationAccuracy, OfSlowPushesAcrossSecondLinks) { try_pushes(false); }
