@@ -24,13 +24,8 @@ class VectorColumns {
   void set(const auto& vector, double weight) {
     const bool fits = vector.size() == static_cast<Eigen::Index>(columns_.size());
     for (std::size_t i = 0; i < columns_.size(); ++i) {
-<<<<<<< HEAD
       page_.set(columns_[i], fits ? vector[static_cast<Eigen::Index>(i)] : no_value,
                 fits ? weight : no_value);
-=======
-      page_.set(columns_[i], fits ? vector[static_cast<Eigen::Index>(i)] : no_value,
-                fits ? weight : no_value);
->>>>>>> d789a48 (Give the columns of vectors on a page a file of their own)
     }
   }
   void set_no_data() { set(Eigen::Matrix<double, 0, 1>(), 0.0); }
