@@ -79,8 +79,9 @@ ContactClassifier learned_classifier_stage(LearnedClassifierSettings settings) {
             auto& classifier = site.builder.add<LearnedClassifier>(site.name, site.robot, settings);
             site.builder.connect(given.contact, classifier.phase);
             // The evidence that it was trained with, whatever the model classifier is told.
-            auto& evidence = site.builder.add<EvidenceEstimator>(
-                site.name + "_evidence", site.robot, TouchHypothesesSettings(), WrenchUncertainty());
+            auto& evidence = site.builder.add<EvidenceEstimator>(site.name + "_evidence", site.robot,
+                                                                 TouchHypothesesSettings(),
+                                                                 WrenchUncertainty(), settings.window);
             site.builder.connect(given.contact, evidence.phase);
             site.builder.connect(given.kinematics, evidence.kinematics);
             site.builder.connect(given.isolation_wrench, evidence.wrench);
@@ -102,7 +103,7 @@ ContactPorts add_isolation(const StageSite& site, const EstimatePorts& given,
   auto& observer = add_observer(site, given);
   auto& features = builder.add<FeatureExtraction>("contact_features", site.robot, settings.features);
   auto& evidence = builder.add<EvidenceEstimator>("contact_evidence", site.robot, settings.hypotheses,
-                                                  settings.uncertainty);
+                                                  settings.uncertainty, settings.model_classifier.window);
   builder.connect(detection, period.detection);
   builder.connect(given.reset, period.reset);
   builder.connect(given.kinematics, features.kinematics);

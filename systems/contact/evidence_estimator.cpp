@@ -16,8 +16,11 @@ WrenchUncertainty checked(const WrenchUncertainty& uncertainty) {
 
 EvidenceEstimator::EvidenceEstimator(std::shared_ptr<const ParallelRobot> robot,
                                      const TouchHypothesesSettings& settings,
-                                     const WrenchUncertainty& uncertainty)
-    : space_(robot->space()), hypotheses_(std::move(robot), settings), uncertainty_(checked(uncertainty)) {}
+                                     const WrenchUncertainty& uncertainty, Time window)
+    : space_(robot->space()),
+      hypotheses_(std::move(robot), settings),
+      uncertainty_(checked(uncertainty)),
+      window_(window) {}
 
 void EvidenceEstimator::weigh(const ContactPhase& contact, const Kinematics& now,
                               const WrenchEstimate& estimate, ContactEvidence& result) const {

@@ -8,11 +8,11 @@
 namespace flinch {
 namespace {
 
-TEST(EvidenceEstimator, WeighsWhileAContactLastsAndRestsOtherwise) {
+TEST(EvidenceEstimator, WeighsInTheFirstMomentsOfAContactAndRestsOtherwise) {
   const auto robot = test::touched_bench();
   DiagramBuilder builder;
   auto& block =
-      builder.add<EvidenceEstimator>("evidence", robot, TouchHypothesesSettings{}, WrenchUncertainty{});
+      builder.add<EvidenceEstimator>("evidence", robot, TouchHypothesesSettings{}, WrenchUncertainty{}, 5ms);
   const auto phase = builder.export_input("phase", block.phase);
   const auto kinematics = builder.export_input("kinematics", block.kinematics);
   const auto wrench = builder.export_input("wrench", block.wrench);
@@ -35,11 +35,13 @@ TEST(EvidenceEstimator, WeighsWhileAContactLastsAndRestsOtherwise) {
   EXPECT_EQ(evidence.acquired, 7ms);
   EXPECT_EQ(evidence.log_evidence.size(), 10);
   EXPECT_FALSE(see(true, lost).valid);
+  for (int tick = 0; tick < 5; ++tick) see(true, push);
+  EXPECT_TRUE(see(true, lost).valid) << "the window is over, and what was weighed in it stands";
   EXPECT_EQ(allocations.count(), 0);
 }
 
 TEST(EvidenceEstimator, AsksForNoiseThatIsPositive) {
-  EXPECT_THROW(EvidenceEstimator(test::touched_bench(), {}, {.force = 0.0}), SetupError);
+  EXPECT_THROW(EvidenceEstimator(test::touched_bench(), {}, {.force = 0.0}, 10ms), SetupError);
 }
 
 }  // namespace
