@@ -11,6 +11,7 @@
 #include "systems/laws/zero_gravity.h"
 #include "systems/model/robot_model.h"
 #include "systems/safety/fault_monitor.h"
+#include "systems/safety/plausibility_monitor.h"
 
 namespace flinch {
 namespace {
@@ -87,6 +88,7 @@ struct Laws {
 
 /// And whether they may leave.
 struct Safety {
+  PlausibilityMonitor& plausibility;
   FaultMonitor& monitor;
   TorqueGate& gate;
 };
@@ -165,9 +167,27 @@ Laws add_laws(const Path& path, const ReactionPorts& given) {
   return laws;
 }
 
+void watch_plausibility(DiagramBuilder& builder, const ReactionPorts& given, const Safety& safety) {
+  PlausibilityMonitor& monitor = safety.plausibility;
+  builder.connect(given.joints, monitor.joints);
+  builder.connect(given.drives, monitor.drives);
+  builder.connect(given.imu, monitor.imu);
+  builder.connect(given.status, monitor.station);
+  builder.connect(given.platform, monitor.platform);
+  builder.connect(given.kinematics, monitor.kinematics);
+  builder.connect(given.dynamics, monitor.dynamics);
+  builder.connect(safety.gate.torque_command, monitor.commanded);
+  builder.connect(safety.gate.brake, monitor.brake);
+  builder.connect(safety.gate.status, monitor.gate);
+  builder.connect(monitor.plausibility, safety.monitor.plausibility);
+}
+
 Safety add_safety(const Path& path, const ReactionPorts& given, const Laws& laws) {
   DiagramBuilder& builder = path.builder;
-  const Safety safety{builder.add<FaultMonitor>("fault_monitor", path.robot, path.settings.faults),
+  PlausibilityLimits limits = path.settings.plausibility;
+  limits.imu_mount = path.settings.imu_mount;
+  const Safety safety{builder.add<PlausibilityMonitor>("plausibility_monitor", path.robot, limits),
+                      builder.add<FaultMonitor>("fault_monitor", path.robot, path.settings.faults),
                       builder.add<TorqueGate>("torque_gate", path.settings.torque_gate)};
   builder.connect(given.joints, safety.monitor.joints);
   builder.connect(given.drives, safety.monitor.drives);
@@ -183,6 +203,7 @@ Safety add_safety(const Path& path, const ReactionPorts& given, const Laws& laws
   builder.connect(laws.kept.torque, safety.gate.command);
   builder.connect(laws.stop.torque, safety.gate.stop);
   builder.connect(given.reset, safety.gate.reset);
+  watch_plausibility(builder, given, safety);
   return safety;
 }
 
@@ -366,6 +387,7 @@ ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
       .reference = builder.export_output("reference", laws.selector.reference),
       .requested_torque = builder.export_output("requested_torque", laws.selector.torque),
       .limits = builder.export_output("limits", laws.kept.status),
+      .plausibility = builder.export_output("plausibility", safety.plausibility.plausibility),
       .faults = builder.export_output("faults", safety.monitor.faults),
       .gate = builder.export_output("gate", safety.gate.status),
       .others = others};

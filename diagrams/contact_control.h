@@ -9,6 +9,7 @@
 #include "systems/framework/tick_timing.h"
 #include "systems/signals/limit_status.h"
 #include "systems/signals/operator_command.h"
+#include "systems/signals/plausibility.h"
 #include "systems/signals/target_command.h"
 
 namespace flinch {
@@ -65,6 +66,7 @@ struct ContactControl {
   OutputPort<PlatformReference> reference;     ///< that is being followed
   OutputPort<TorqueCommand> requested_torque;  ///< what the laws ask for, before limits and gate
   OutputPort<LimitStatus> limits;
+  OutputPort<Plausibility> plausibility;
   OutputPort<FaultReport> faults;
   OutputPort<GateStatus> gate;
   OtherStages others;

@@ -23,6 +23,7 @@
 #include "systems/motion/platform_trajectory.h"
 #include "systems/motion/retraction.h"
 #include "systems/safety/fault_table.h"
+#include "systems/safety/plausibility_limits.h"
 #include "systems/safety/torque_gate.h"
 #include "systems/sensors/drive_torque_mapping.h"
 #include "systems/sensors/velocity_filter.h"
@@ -79,6 +80,7 @@ struct ContactControlSettings {
 
   // ---- safety
   FaultLimits faults;
+  PlausibilityLimits plausibility;  ///< with `imu_mount` in the place of its own
   ControlledStopSettings controlled_stop;
   TorqueGateSettings torque_gate;  ///< 100 Nm, 20 Nm/ms
 };

@@ -16,6 +16,16 @@ double least_inertia(const ParallelRobot& robot) {
   return joint_space_dynamics(kinematics, dynamics).M_qa.diagonal().minCoeff();
 }
 
+PlausibilityLimits plausibility_for(const DriveParameters& drives, double inertia) {
+  PlausibilityLimits limits;
+  limits.drive_acceleration = drives.max_torque / inertia;
+  limits.torque_constant = drives.torque_constant;
+  limits.current = 0.01 * drives.max_torque / drives.torque_constant.minCoeff();
+  limits.still_torque = 0.1 * drives.max_torque;
+  limits.resting_rate = drives.max_speed / 80.0;
+  return limits;
+}
+
 }  // namespace
 
 ContactControlSettings settings_for(const ParallelRobot& robot, const DriveParameters& drives,
@@ -29,6 +39,7 @@ ContactControlSettings settings_for(const ParallelRobot& robot, const DriveParam
   settings.faults.max_torque_jump = drives.max_torque_jump;
   settings.faults.torque_range = drives.max_torque;
   settings.faults.max_unseen_current = 0.06 * drives.max_torque / drives.torque_constant.minCoeff();
+  settings.plausibility = plausibility_for(drives, least_inertia(robot));
   settings.torque_gate.max_torque = drives.max_torque;
   settings.torque_gate.max_torque_rate = drives.max_torque_rate;
   settings.sequence.rest_speed = drives.max_speed / 160.0;

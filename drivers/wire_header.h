@@ -8,7 +8,7 @@ struct flinch_Header;  // drivers/idl/flinch.idl
 namespace flinch {
 
 /// Which wire format and meaning this version of flinch speaks. Samples of any other are refused.
-inline constexpr std::uint16_t protocol_version = 2;
+inline constexpr std::uint16_t protocol_version = 3;
 
 /// Bits of flinch_Header::flags.
 inline constexpr std::uint8_t flag_valid = 1;

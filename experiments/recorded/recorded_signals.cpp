@@ -45,6 +45,7 @@ void export_control(DiagramBuilder& builder, const ContactControl& control) {
   builder.export_output("limits", control.limits);
   builder.export_output("torque_command", control.torque_command);
   builder.export_output("brake", control.brake);
+  builder.export_output("plausibility", control.plausibility);
   builder.export_output("gate", control.gate);
   const auto show = [&builder](const auto& others) {
     for (const auto& other : others) builder.export_output(other.name, other.port);

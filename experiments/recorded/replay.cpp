@@ -25,6 +25,15 @@ const Signal* find(const Recording& recording, const std::string& path) {
   return found == recording.signals.end() ? nullptr : &*found;
 }
 
+/// The control that runs on the readings. What another than the recorded one commands has never reached the
+/// drives whose currents are seen.
+ContactControlSettings control_over(const Scenario& scenario, const Recording& recorded) {
+  ContactControlSettings settings = scenario.control;
+  const auto text = recorded.attributes.find("scenario.text");
+  settings.plausibility.commands_act = text != recorded.attributes.end() && text->second == scenario.text;
+  return settings;
+}
+
 /// As it was recorded in real time; in simulated time there was none.
 OutputPort<TickTiming> add_timing(DiagramBuilder& builder, const Recording& recorded) {
   if (find(recorded, "tick_timing") == nullptr) {
@@ -47,7 +56,8 @@ std::unique_ptr<Diagram> build_replay(const Scenario& scenario, const Recording&
   DiagramBuilder builder("replay", recorded.period);
   const Station station = add_recorded_station(
       builder, recorded, "", {.all = faults, .tick = recorded.period, .seed = scenario.seed});
-  const ContactControl control = add_contact_control(builder, scenario.robot.robot, scenario.control);
+  const ContactControl control =
+      add_contact_control(builder, scenario.robot.robot, control_over(scenario, recorded));
   const auto& buttons = builder.add<Player<OperatorCommand>>("operator", recorded, "operator");
   connect(builder, station, control);
   builder.connect(buttons.played, control.operator_command);

@@ -40,7 +40,8 @@ FaultReport FaultMonitor::judge(Time now, const FaultMonitorMemory& memory, cons
                                 const DriveReading& currents, const JointMotion& rates,
                                 const PlatformMotion& pose, const WorkspaceMeasures& workspace,
                                 const ContactDetection& contact, const PlatformReference& followed,
-                                const OperatorCommand& pressed, const ReactionState& state) const {
+                                const OperatorCommand& pressed, const ReactionState& state,
+                                const Plausibility& plausible) const {
   const Evidence evidence{.robot = *robot_,
                           .limits = limits_,
                           .now = now,
@@ -60,7 +61,8 @@ FaultReport FaultMonitor::judge(Time now, const FaultMonitorMemory& memory, cons
                           .command = memory.command,
                           .last_command = memory.last_command,
                           .buttons = pressed,
-                          .reaction = state};
+                          .reaction = state,
+                          .plausibility = plausible};
   return {.valid = true,
           .present = find_faults(evidence),
           .tolerable = tolerable_faults(memory.recovery, limits_.recovery_margin)};

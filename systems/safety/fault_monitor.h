@@ -41,6 +41,7 @@ class FaultMonitor final : public System {
   InputPort<TorqueCommand> command = input<TorqueCommand>("command");
   InputPort<OperatorCommand> buttons = input<OperatorCommand>("buttons");
   InputPort<ReactionState> reaction = input<ReactionState>("reaction");
+  InputPort<Plausibility> plausibility = input<Plausibility>("plausibility");  ///< of these readings
 
  private:
   Intermediate<FaultMonitorMemory> now_ = intermediate<&FaultMonitor::advance>(
@@ -49,7 +50,7 @@ class FaultMonitor final : public System {
  public:
   OutputPort<FaultReport> faults =
       output<&FaultMonitor::judge>("faults", clock, now_, timing, station, joints, drives, motion, platform,
-                                   measures, detection, reference, buttons, reaction);
+                                   measures, detection, reference, buttons, reaction, plausibility);
 
  private:
   Update remember_ = keep(last_, now_);
@@ -62,7 +63,8 @@ class FaultMonitor final : public System {
                     const StationStatus& status, const JointReading& angles, const DriveReading& currents,
                     const JointMotion& rates, const PlatformMotion& pose, const WorkspaceMeasures& workspace,
                     const ContactDetection& contact, const PlatformReference& followed,
-                    const OperatorCommand& pressed, const ReactionState& state) const;
+                    const OperatorCommand& pressed, const ReactionState& state,
+                    const Plausibility& plausible) const;
 
   std::shared_ptr<const ParallelRobot> robot_;
   FaultLimits limits_;

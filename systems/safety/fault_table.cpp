@@ -53,12 +53,19 @@ bool joints_invalid(const Evidence& e) { return e.joints_gap > e.limits.longest_
 
 bool joints_stale(const Evidence& e) { return e.joints.valid && is_old(e.joints.acquired, e); }
 
+/// Whether those who look for contradictions have found this.
+bool contradicted(const Evidence& e, GateFault fault) {
+  return e.plausibility.valid && (e.plausibility.present & fault_bit(fault)) != 0;
+}
+
 bool encoder_jump(const Evidence& e) {
+  if (contradicted(e, GateFault::encoder_jump)) return true;
   const double interval = std::max(to_seconds(e.encoders.interval), 1e-3);
   return largest(e.encoders.step) > e.limits.max_encoder_rate * interval;
 }
 
 bool encoder_frozen(const Evidence& e) {
+  if (contradicted(e, GateFault::encoder_frozen)) return true;
   if (e.encoders.step.size() == 0) return false;  // no reading, which is another fault
   for (Eigen::Index i = 0; i < e.encoders.angle.size(); ++i) {
     const bool should_have_moved = e.encoders.unseen_motion(i) > e.limits.max_unseen_motion ||
@@ -83,7 +90,8 @@ bool forward_kinematics(const Evidence& e) {
 }
 
 bool encoders_implausible(const Evidence& e) {
-  return e.platform.status == PlatformMotion::Status::implausible;
+  return e.platform.status == PlatformMotion::Status::implausible ||
+         contradicted(e, GateFault::encoders_implausible);
 }
 
 bool type_1_singularity(const Evidence& e) {
@@ -112,7 +120,8 @@ bool joint_range(const Evidence& e) {
 bool recovers(const Evidence& e) { return e.reaction.mode == ReactionMode::recover; }
 
 bool joint_speed(const Evidence& e) {
-  const double share = recovers(e) ? e.limits.recovery_speed : 1.0;
+  const bool degraded = e.plausibility.valid && e.plausibility.passive_lost;
+  const double share = recovers(e) ? e.limits.recovery_speed : (degraded ? e.limits.degraded_speed : 1.0);
   return has_motion(e) && largest(e.motion.velocity) > share * e.limits.max_joint_speed;
 }
 
@@ -157,42 +166,64 @@ bool touched_in_recovery(const Evidence& e) {
 
 // ---------------------------------------------------------------- the table
 
-constexpr GateReaction stop = GateReaction::controlled_stop;
-constexpr GateReaction brake = GateReaction::zero_torque_and_brake;
+template <GateFault fault>
+bool found_contradicted(const Evidence& e) {
+  return contradicted(e, fault);
+}
 
 constexpr std::array rows{
-    FaultRow{GateFault::loop_late, brake, 0, loop_late, "the control loop is late"},
-    FaultRow{GateFault::station_silent, brake, 3, station_silent, "the station does not say how it is"},
-    FaultRow{GateFault::station_fault, brake, 0, station_fault, "the station reports a fault"},
-    FaultRow{GateFault::station_disabled, brake, 0, station_disabled, "the station does not act on torques"},
-    FaultRow{GateFault::joints_invalid, brake, 2, joints_invalid, "no usable angles of the drives"},
-    FaultRow{GateFault::joints_stale, brake, 3, joints_stale, "the angles of the drives are too old"},
-    FaultRow{GateFault::encoder_jump, brake, 0, encoder_jump, "the angle of a drive jumps"},
-    FaultRow{GateFault::encoder_frozen, brake, 6, encoder_frozen, "the angle of a drive does not follow it"},
-    FaultRow{GateFault::velocity_invalid, brake, 0, velocity_invalid, "no rates of the drives"},
-    FaultRow{GateFault::drives_invalid, stop, 2, drives_invalid, "no usable motor currents"},
-    FaultRow{GateFault::drives_stale, stop, 3, drives_stale, "the motor currents are too old"},
-    FaultRow{GateFault::forward_kinematics, stop, 0, forward_kinematics, "the platform's pose is not known"},
-    FaultRow{GateFault::encoders_implausible, stop, 0, encoders_implausible,
+    FaultRow{GateFault::loop_late, Doubt::time, 0, loop_late, "the control loop is late"},
+    FaultRow{GateFault::station_silent, Doubt::drives, 3, station_silent,
+             "the station does not say how it is"},
+    FaultRow{GateFault::station_fault, Doubt::drives, 0, station_fault, "the station reports a fault"},
+    FaultRow{GateFault::station_disabled, Doubt::drives, 0, station_disabled,
+             "the station does not act on torques"},
+    FaultRow{GateFault::joints_invalid, Doubt::angles, 2, joints_invalid, "no usable angles of the drives"},
+    FaultRow{GateFault::joints_stale, Doubt::angles, 3, joints_stale, "the angles of the drives are too old"},
+    FaultRow{GateFault::encoder_jump, Doubt::angles, 0, encoder_jump, "the angle of a drive jumps"},
+    FaultRow{GateFault::encoder_frozen, Doubt::angles, 6, encoder_frozen,
+             "the angle of a drive does not follow it"},
+    FaultRow{GateFault::velocity_invalid, Doubt::rates, 0, velocity_invalid, "no rates of the drives"},
+    FaultRow{GateFault::drives_invalid, Doubt::currents, 2, drives_invalid, "no usable motor currents"},
+    FaultRow{GateFault::drives_stale, Doubt::currents, 3, drives_stale, "the motor currents are too old"},
+    FaultRow{GateFault::forward_kinematics, Doubt::angles, 0, forward_kinematics,
+             "the platform's pose is not known"},
+    FaultRow{GateFault::encoders_implausible, Doubt::angles, 0, encoders_implausible,
              "encoders contradict each other or the last pose"},
-    FaultRow{GateFault::type_1_singularity, stop, 0, type_1_singularity,
+    FaultRow{GateFault::type_1_singularity, Doubt::nothing, 0, type_1_singularity,
              "a leg is nearly stretched or folded"},
-    FaultRow{GateFault::type_2_singularity, stop, 0, type_2_singularity,
+    FaultRow{GateFault::type_2_singularity, Doubt::nothing, 0, type_2_singularity,
              "the drives nearly lose hold of the platform"},
-    FaultRow{GateFault::workspace_radius, stop, 0, workspace_radius, "the platform is too far out"},
-    FaultRow{GateFault::orientation, stop, 0, orientation, "the platform is turned too far"},
-    FaultRow{GateFault::joint_range, stop, 0, joint_range, "a drive is outside its range"},
-    FaultRow{GateFault::joint_speed, stop, 0, joint_speed, "a drive is too fast"},
-    FaultRow{GateFault::self_collision, stop, 0, self_collision, "links of different legs are too close"},
-    FaultRow{GateFault::contact_unmonitored, stop, 0, contact_unmonitored, "contacts would not be noticed"},
-    FaultRow{GateFault::control_error, stop, 0, control_error, "a drive is too far from its reference"},
-    FaultRow{GateFault::command_invalid, stop, 0, command_invalid, "the laws have no torques"},
-    FaultRow{GateFault::command_stale, stop, 3, command_stale, "the laws' torques are too old"},
-    FaultRow{GateFault::command_not_finite, stop, 0, command_not_finite, "the laws' torques are no numbers"},
-    FaultRow{GateFault::torque_jump, stop, 0, torque_jump, "the laws' torques jump"},
-    FaultRow{GateFault::operator_stop, stop, 0, operator_stop, "the operator stops the robot"},
-    FaultRow{GateFault::touched_in_recovery, stop, 0, touched_in_recovery,
+    FaultRow{GateFault::workspace_radius, Doubt::nothing, 0, workspace_radius, "the platform is too far out"},
+    FaultRow{GateFault::orientation, Doubt::nothing, 0, orientation, "the platform is turned too far"},
+    FaultRow{GateFault::joint_range, Doubt::nothing, 0, joint_range, "a drive is outside its range"},
+    FaultRow{GateFault::joint_speed, Doubt::nothing, 0, joint_speed, "a drive is too fast"},
+    FaultRow{GateFault::self_collision, Doubt::nothing, 0, self_collision,
+             "links of different legs are too close"},
+    FaultRow{GateFault::contact_unmonitored, Doubt::nothing, 0, contact_unmonitored,
+             "contacts would not be noticed"},
+    FaultRow{GateFault::control_error, Doubt::nothing, 0, control_error,
+             "a drive is too far from its reference"},
+    FaultRow{GateFault::command_invalid, Doubt::laws, 0, command_invalid, "the laws have no torques"},
+    FaultRow{GateFault::command_stale, Doubt::laws, 3, command_stale, "the laws' torques are too old"},
+    FaultRow{GateFault::command_not_finite, Doubt::laws, 0, command_not_finite,
+             "the laws' torques are no numbers"},
+    FaultRow{GateFault::torque_jump, Doubt::laws, 0, torque_jump, "the laws' torques jump"},
+    FaultRow{GateFault::operator_stop, Doubt::nothing, 0, operator_stop, "the operator stops the robot"},
+    FaultRow{GateFault::touched_in_recovery, Doubt::nothing, 0, touched_in_recovery,
              "the robot is touched while it recovers"},
+    FaultRow{GateFault::motion_contradicted, Doubt::angles, 0,
+             found_contradicted<GateFault::motion_contradicted>,
+             "the IMU tells another motion than the encoders"},
+    FaultRow{GateFault::drive_not_following, Doubt::drives, 0,
+             found_contradicted<GateFault::drive_not_following>,
+             "a motor's current is not that of its command"},
+    FaultRow{GateFault::drives_without_effect, Doubt::drives, 0,
+             found_contradicted<GateFault::drives_without_effect>, "torques change and nothing moves"},
+    FaultRow{GateFault::stop_ineffective, Doubt::drives, 0, found_contradicted<GateFault::stop_ineffective>,
+             "a controlled stop does not slow the robot down"},
+    FaultRow{GateFault::brake_not_holding, Doubt::drives, 0, found_contradicted<GateFault::brake_not_holding>,
+             "a drive moves that its brake should hold"},
 };
 
 constexpr bool in_order() {
@@ -222,6 +253,8 @@ std::vector<std::string> problems(const FaultLimits& limits, const ParallelRobot
   found.require(limits.torque_range > 0, "torque_range must be positive");
   found.require(limits.recovery_speed > 0 && limits.recovery_speed <= 1,
                 "recovery_speed must be above 0 and at most 1");
+  found.require(limits.degraded_speed > 0 && limits.degraded_speed <= 1,
+                "degraded_speed must be above 0 and at most 1");
   found.require(limits.recovery_margin >= 0, "recovery_margin must not be negative");
   return found.take();
 }
@@ -234,6 +267,14 @@ bool is_usable(const JointReading& joints, const ParallelRobot& robot) noexcept 
 
 bool is_usable(const DriveReading& drives, const ParallelRobot& robot) noexcept {
   return drives.valid && fits_drives(drives.current, robot);
+}
+
+FaultMask faults_that_doubt(Doubt doubt) noexcept {
+  FaultMask doubting = 0;
+  for (const FaultRow& row : rows) {
+    if (row.doubt == doubt) doubting |= fault_bit(row.fault);
+  }
+  return doubting;
 }
 
 FaultMask find_faults(const Evidence& evidence) noexcept {
@@ -251,7 +292,7 @@ GateFault first_fault(FaultMask faults) noexcept {
 GateReaction worst_reaction(FaultMask faults) noexcept {
   GateReaction worst = GateReaction::none;
   for (const FaultRow& row : rows) {
-    if ((faults & fault_bit(row.fault)) != 0) worst = std::max(worst, row.reaction);
+    if ((faults & fault_bit(row.fault)) != 0) worst = std::max(worst, row.reaction());
   }
   return worst;
 }

@@ -18,6 +18,7 @@
 #include "systems/signals/operator_command.h"
 #include "systems/signals/platform_motion.h"
 #include "systems/signals/platform_reference.h"
+#include "systems/signals/plausibility.h"
 #include "systems/signals/reaction_state.h"
 #include "systems/signals/station_status.h"
 #include "systems/signals/torque_command.h"
@@ -60,6 +61,8 @@ struct FaultLimits {
   /// While the robot recovers: the share of `max_joint_speed` that is left, and by how much it may get
   /// further beyond a limit than it was, as a share of the limit: for noise and for a motion that begins.
   double recovery_speed = 0.15;
+  /// The same where passive encoders have been lost, by which an active one that lies would have been found.
+  double degraded_speed = 0.5;
   double recovery_margin = 0.02;
 };
 
@@ -88,17 +91,39 @@ struct Evidence {
   const TorqueCommand& last_command;  ///< of the tick before
   const OperatorCommand& buttons;
   const ReactionState& reaction;
+  const Plausibility& plausibility;  ///< not valid where nobody asks
 };
+
+/// What a fault calls in doubt.
+enum class Doubt : std::uint8_t {
+  nothing,   ///< where the robot is or what is wanted is wrong, and what is known of it is right
+  time,      ///< ticks and commands do not come when they should
+  angles,    ///< and so the rates
+  rates,     ///< of the drives
+  drives,    ///< whether they and their brakes do as they are told
+  currents,  ///< what is measured of the motors
+  laws,      ///< what they ask for
+};
+
+/// What follows: a controlled stop needs ticks, rates and drives that can be trusted; where one of them is in
+/// doubt, torque by them would drive the robot, and only brakes are left.
+constexpr GateReaction reaction_to(Doubt doubt) {
+  const bool needed =
+      doubt == Doubt::time || doubt == Doubt::angles || doubt == Doubt::rates || doubt == Doubt::drives;
+  return needed ? GateReaction::zero_torque_and_brake : GateReaction::controlled_stop;
+}
 
 /// One fault: when it is present, what the gate then does, how soon.
 struct FaultRow {
   GateFault fault;
-  GateReaction reaction;
+  Doubt doubt;  ///< all else is trusted
   /// Ticks of 1 ms, with the default limits, from the tick at which the cause first shows to the tick at
   /// which the gate reacts: 0 is the same tick.
   int latency;
   bool (*present)(const Evidence& evidence);
   const char* description;
+
+  constexpr GateReaction reaction() const { return reaction_to(doubt); }
 };
 
 /// One row for each fault but `none`, in their order. A row whose own inputs are missing stays silent: the
@@ -108,6 +133,9 @@ std::span<const FaultRow> fault_table() noexcept;
 /// Whether a sample can be worked with: valid, of the robot's size and finite.
 bool is_usable(const JointReading& joints, const ParallelRobot& robot) noexcept;
 bool is_usable(const DriveReading& drives, const ParallelRobot& robot) noexcept;
+
+/// The faults that call this in doubt.
+FaultMask faults_that_doubt(Doubt doubt) noexcept;
 
 /// All faults present.
 FaultMask find_faults(const Evidence& evidence) noexcept;

@@ -36,6 +36,11 @@ enum class GateFault : std::uint8_t {
   torque_jump,
   operator_stop,
   touched_in_recovery,
+  motion_contradicted,
+  drive_not_following,
+  drives_without_effect,
+  stop_ineffective,
+  brake_not_holding,
 };
 
 /// What the torque gate does about a fault, in order of severity.
@@ -46,7 +51,7 @@ enum class GateReaction : std::uint8_t {
 };
 
 /// A set of faults, one bit each: bit i stands for the fault with number i.
-using FaultMask = std::uint32_t;
+using FaultMask = std::uint64_t;
 
 constexpr FaultMask fault_bit(GateFault fault) { return FaultMask{1} << static_cast<unsigned>(fault); }
 

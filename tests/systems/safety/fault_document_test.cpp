@@ -24,10 +24,31 @@ std::vector<std::string> documented_rows() {
   return rows;
 }
 
+std::string in_words(Doubt doubt) {
+  switch (doubt) {
+    case Doubt::nothing:
+      return "";
+    case Doubt::time:
+      return "time";
+    case Doubt::angles:
+      return "angles";
+    case Doubt::rates:
+      return "rates";
+    case Doubt::drives:
+      return "drives";
+    case Doubt::currents:
+      return "currents";
+    case Doubt::laws:
+      return "laws";
+  }
+  return "?";
+}
+
 std::string document(const FaultRow& row) {
-  const bool stops = row.reaction == GateReaction::controlled_stop;
+  const bool stops = row.reaction() == GateReaction::controlled_stop;
   return "| " + std::to_string(static_cast<int>(row.fault)) + " | " + row.description + " | " +
-         (stops ? "controlled stop" : "no torque, brakes") + " | " + std::to_string(row.latency) + " ms |";
+         (stops ? "controlled stop" : "no torque, brakes") + " | " + in_words(row.doubt) + " | " +
+         std::to_string(row.latency) + " ms |";
 }
 
 TEST(FaultDocument, HasTheRowsOfTheFaultTable) {

@@ -36,6 +36,7 @@ struct Inputs {
   TorqueCommand command;
   OperatorCommand buttons;
   ReactionState reaction{.mode = ReactionMode::nominal, .previous = ReactionMode::stopped, .since = {}};
+  Plausibility plausibility{.valid = true};
   Time last_seen = 10ms;  ///< for what hangs: the last tick of open()
 };
 
@@ -54,6 +55,7 @@ struct Safety {
     ticking.set(command, inputs.command);
     ticking.set(buttons, inputs.buttons);
     ticking.set(reaction, inputs.reaction);
+    ticking.set(plausibility, inputs.plausibility);
     ticking.set(stop, {.computed = ticking.now(), .valid = true, .torque = Eigen::Vector3d(7.0, 8.0, 9.0)});
     ticking.set(reset, {.reset = reset_now});
     ticking.tick();
@@ -79,6 +81,7 @@ struct Safety {
   InputPort<PlatformReference> reference = builder.export_input("reference", monitor.reference);
   InputPort<OperatorCommand> buttons = builder.export_input("buttons", monitor.buttons);
   InputPort<ReactionState> reaction = builder.export_input("reaction", monitor.reaction);
+  InputPort<Plausibility> plausibility = builder.export_input("plausibility", monitor.plausibility);
   InputPort<TorqueCommand> stop = builder.export_input("stop", gate.stop);
   InputPort<ResetCommand> reset = builder.export_input("reset", gate.reset);
   Ticking ticking{builder};

@@ -1,0 +1,91 @@
+#include "systems/safety/current_watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flinch {
+namespace {
+
+template <class Ring, class Value>
+void push(Ring& ring, const Value& value) {
+  std::move(ring.begin() + 1, ring.end(), ring.begin());
+  ring.back() = value;
+}
+
+/// By how much a current lies outside of what was commanded lately [A].
+double outside(const CurrentWatch& watch, Eigen::Index drive, double current) {
+  double low = watch.commanded.front()[drive], high = low;
+  for (const JointVector& command : watch.commanded) {
+    low = std::min(low, command[drive]);
+    high = std::max(high, command[drive]);
+  }
+  return std::max({low - current, current - high, 0.0});
+}
+
+bool all_commanded(const CurrentWatch& watch, int drives) {
+  return std::all_of(watch.commanded.begin(), watch.commanded.end(),
+                     [drives](const JointVector& command) { return command.size() == drives; });
+}
+
+/// Three ticks in a row: the least of them counts.
+void judge_tube(CurrentWatch& watch, const PlausibilityTick& tick, Plausibility& found) {
+  const PlausibilityLimits& limits = tick.limits;
+  const bool asked = tick.free && limits.commands_act && all_commanded(watch, tick.robot.drives());
+  for (Eigen::Index i = 0; i < tick.robot.drives(); ++i) {
+    auto& before = watch.outside[static_cast<std::size_t>(i)];
+    double ratio = 0.0;
+    if (asked) {
+      const double current = tick.drives.current[i];
+      const double commanded = watch.commanded.back()[i];
+      const double noise = limits.current_noise * watch.noise.deviation(i, 0.0);
+      const double limit = std::max(limits.current, noise) +
+                           limits.current_scale * std::max(std::abs(current), std::abs(commanded));
+      ratio = outside(watch, i, current) / limit;
+    }
+    note(found, PlausibilityCheck::tube, std::min({before[0], before[1], ratio}),
+         GateFault::drive_not_following, static_cast<int>(i));
+    before = {before[1], ratio};
+  }
+}
+
+void judge_quiet(CurrentWatch& watch, const PlausibilityTick& tick, Plausibility& found) {
+  const auto& [a, b, c, d] = watch.measured;
+  const JointVector third = d - 3.0 * c + 3.0 * b - a;
+  if (tick.held) watch.third.add(third);
+  if (!watch.third.known()) return;
+  for (Eigen::Index i = 0; i < third.size(); ++i) {
+    int& ticks = watch.quiet[static_cast<std::size_t>(i)];
+    const double noise = watch.third.deviation(i, 0.0);
+    const bool noisy = noise > 0.1 * tick.limits.current;
+    ticks = noisy && std::abs(third[i]) < tick.limits.quiet * noise ? ticks + 1 : 0;
+    note(found, PlausibilityCheck::quiet_current, ticks / (tick.limits.quiet_ticks - 0.5),
+         GateFault::drive_not_following, static_cast<int>(i));
+  }
+}
+
+}  // namespace
+
+void advance(CurrentWatch& watch, const PlausibilityTick& tick, Plausibility& found) noexcept {
+  const JointVector& current = tick.drives.current;
+  if (!tick.drives.valid || current.size() != tick.robot.drives() || !current.allFinite()) {
+    watch.readings = 0;
+    return;
+  }
+  if (tick.limits.torque_constant.size() == 0) return;
+  if (watch.readings > 0 && tick.drives.acquired <= watch.acquired) return;
+  if (tick.drives.acquired - watch.acquired > 1500us) watch.readings = 0;
+  watch.acquired = tick.drives.acquired;
+  push(watch.measured, current);
+  watch.readings = std::min(watch.readings + 1, 4);
+  if (tick.held) watch.noise.add(current);
+  judge_tube(watch, tick, found);
+  if (watch.readings == 4) judge_quiet(watch, tick, found);
+}
+
+void command(CurrentWatch& watch, const PlausibilityLimits& limits, const TorqueCommand& torque) noexcept {
+  const bool asked = torque.valid && torque.torque.size() == limits.torque_constant.size();
+  push(watch.commanded,
+       asked ? JointVector(torque.torque.cwiseQuotient(limits.torque_constant)) : JointVector());
+}
+
+}  // namespace flinch

@@ -1,0 +1,176 @@
+#include "systems/safety/inertial_watch.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "systems/robot/imu_mount.h"
+#include "systems/robot/spatial_motion.h"
+
+namespace flinch {
+namespace {
+
+constexpr Time period = 1ms;
+
+const SensorPointMotion* motion_at(const InertialWatch& watch, Time time) {
+  const std::size_t held = std::min(watch.motions, watch.motion.size());
+  for (std::size_t age = 1; age <= held; ++age) {
+    const SensorPointMotion& motion = watch.motion[(watch.motions - age) % watch.motion.size()];
+    if (std::chrono::abs(motion.time - time) <= period / 2) return motion.known ? &motion : nullptr;
+  }
+  return nullptr;
+}
+
+/// What the encoders tell of the tick before the last: with rates from two intervals, the middle of them.
+SensorPointMotion told_by_encoders(const AngleWatch& angles, const PlausibilityTick& tick) {
+  SensorPointMotion motion;
+  motion.time = angles.rates_at();
+  const JointVector rates = angles.rates();
+  const Kinematics& kinematics = tick.kinematics;
+  if (rates.size() == 0 || !kinematics.valid || !tick.platform.valid()) return motion;
+  const PlatformVector velocity = kinematics.J_x_qa * rates;
+  const ConfigurationSpace space = tick.robot.space();
+  const SpatialMotion body =
+      spatial_motion(space, kinematics.pose, velocity, PlatformVector::Zero(velocity.size()));
+  const Eigen::Matrix3d to_sensor = platform_to_sensor(tick.limits.imu_mount);
+  motion.velocity.head(space.translations()) = velocity.head(space.translations());
+  motion.velocity += body.angular_velocity.cross(body.axes * tick.limits.imu_mount.position_in_platform);
+  motion.axes = body.axes * to_sensor.transpose();
+  motion.turning = motion.axes.transpose() * body.angular_velocity;
+  motion.known = true;
+  return motion;
+}
+
+/// Standard deviations of velocity and angular velocity that the noise of the angles makes.
+struct Spread {
+  double velocity = 0.0, turning = 0.0;
+};
+Spread spread_of(const AngleWatch& angles, const PlausibilityTick& tick) {
+  Spread spread;
+  const Eigen::Index translations = tick.robot.space().translations();
+  const PlatformMatrix& J = tick.kinematics.J_x_qa;
+  for (Eigen::Index i = 0; i < J.cols(); ++i) {
+    const double rate = angles.angle_noise(i, tick.limits) / (std::sqrt(2.0) * to_seconds(period));
+    spread.velocity += rate * rate * J.col(i).head(translations).squaredNorm();
+    spread.turning += rate * rate * J.col(i).tail(J.rows() - translations).squaredNorm();
+  }
+  return {std::sqrt(spread.velocity), std::sqrt(spread.turning)};
+}
+
+/// How far `value` lies outside of what the encoders said within a tick of `time`, axis by axis; zero within.
+Eigen::Vector3d outside_of_tube(const InertialWatch& watch, Time time, const Eigen::Vector3d& value) {
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(HUGE_VAL), high = -low;
+  for (const Time apart : {-period, Time::zero(), period}) {
+    const SensorPointMotion* const motion = motion_at(watch, time + apart);
+    if (motion == nullptr) return Eigen::Vector3d::Zero();
+    low = low.cwiseMin(motion->turning);
+    high = high.cwiseMax(motion->turning);
+  }
+  return (value - high).cwiseMax(0.0) + (value - low).cwiseMin(0.0);
+}
+
+void judge_turning(InertialWatch& watch, const PlausibilityTick& tick, const ImuReading& imu,
+                   const Spread& spread, Plausibility& found) {
+  const Eigen::Vector3d turning = imu.angular_velocity - watch.gyroscope.mean();
+  watch.turning[watch.turnings++ % watch.turning.size()] = outside_of_tube(watch, imu.acquired, turning);
+  if (!tick.free) watch.turnings = 0;
+  if (watch.turnings < watch.turning.size()) return;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& each : watch.turning) mean += each / static_cast<double>(watch.turning.size());
+  const double noise = std::hypot(spread.turning, std::max(watch.gyroscope.deviation(), 1e-3)) / 2.0;
+  const double limit = tick.limits.inertial * noise + tick.limits.gyroscope_scale * turning.norm();
+  note(found, PlausibilityCheck::gyroscope, mean.lpNorm<Eigen::Infinity>() / limit,
+       GateFault::motion_contradicted);
+}
+
+/// The change of velocity over a window, as the encoders tell it and as the accelerometer sums it up. Where
+/// the acceleration changes, a sample is a value at an instant, not a mean: hence its total variation.
+void judge_velocity(InertialWatch& watch, const PlausibilityTick& tick, const ImuReading& imu,
+                    const Spread& spread, const SensorPointMotion& now, Plausibility& found) {
+  const Eigen::Vector3d force = imu.specific_force - watch.accelerometer.mean();
+  watch.acceleration[watch.accelerations++ % InertialWatch::window] = now.axes * force + tick.robot.gravity();
+  if (!tick.free) watch.accelerations = 0;
+  double ratio = 0.0;
+  const SensorPointMotion* const before =
+      motion_at(watch, now.time - static_cast<Time::rep>(InertialWatch::window - 1) * period);
+  if (watch.accelerations >= InertialWatch::window && before != nullptr) {
+    const auto at = [&watch](std::size_t k) -> const Eigen::Vector3d& {
+      return watch.acceleration[(watch.accelerations + k) % InertialWatch::window];
+    };
+    const Eigen::Vector3d& first = at(0);
+    const Eigen::Vector3d& last = at(InertialWatch::window - 1);
+    Eigen::Vector3d sum = 0.5 * (first + last);  // trapezoids
+    double variation = first.norm() + last.norm();
+    for (std::size_t k = 1; k < InertialWatch::window; ++k) {
+      variation += (at(k) - at(k - 1)).norm();
+      if (k + 1 < InertialWatch::window) sum += at(k);
+    }
+    const double noise =
+        std::sqrt(2.0) * spread.velocity + to_seconds(period) * 4.0 * watch.accelerometer.deviation();
+    const double limit = tick.limits.inertial * noise + tick.limits.acceleration_time * variation;
+    const Eigen::Vector3d apart = now.velocity - before->velocity - to_seconds(period) * sum;
+    ratio = apart.head(tick.robot.space().translations()).norm() / limit;
+  }
+  note(found, PlausibilityCheck::accelerometer, std::min({watch.outside[0], watch.outside[1], ratio}),
+       GateFault::motion_contradicted);
+  watch.outside = {watch.outside[1], ratio};
+}
+
+void learn(InertialWatch& watch, const ImuReading& imu, const Eigen::Vector3d& gravity,
+           const SensorPointMotion& now) {
+  watch.gyroscope.add(imu.angular_velocity);
+  watch.accelerometer.add(imu.specific_force + now.axes.transpose() * gravity);
+}
+
+/// The first sample that waits and of whose instant, and the tick after it, the encoders have told.
+const ImuReading* next_sample(const InertialWatch& watch, const AngleWatch& angles) {
+  for (const ImuReading& sample : watch.waiting) {
+    const bool known = sample.acquired + period / 2 < angles.rates_at();
+    if (sample.valid && known && sample.acquired > watch.acquired) return &sample;
+  }
+  return nullptr;
+}
+
+void keep_waiting(InertialWatch& watch, const ImuReading& imu) {
+  const bool is_new = imu.valid && imu.acquired > watch.waiting.back().acquired &&
+                      imu.angular_velocity.allFinite() && imu.specific_force.allFinite();
+  if (!is_new && watch.waiting.back().valid) return;
+  std::move(watch.waiting.begin() + 1, watch.waiting.end(), watch.waiting.begin());
+  watch.waiting.back() = imu;
+}
+
+}  // namespace
+
+void LearnedBias::add(const Eigen::Vector3d& value) noexcept {
+  if (count >= LearnedNoise::most) return;
+  sum += value;
+  squares += value.cwiseAbs2();
+  ++count;
+}
+
+double LearnedBias::deviation() const noexcept {
+  const Eigen::Vector3d variance = squares / count - mean().cwiseAbs2();
+  return std::sqrt(std::max(variance.maxCoeff(), 0.0));
+}
+
+void advance(InertialWatch& watch, const AngleWatch& angles, const PlausibilityTick& tick,
+             Plausibility& found) noexcept {
+  watch.motion[watch.motions++ % watch.motion.size()] = told_by_encoders(angles, tick);
+  keep_waiting(watch, tick.imu);
+  const ImuReading* const imu = next_sample(watch, angles);
+  if (imu == nullptr) return;
+  if (imu->acquired - watch.acquired > 3 * period / 2) watch.accelerations = watch.turnings = 0;
+  watch.acquired = imu->acquired;
+  const SensorPointMotion* const now = motion_at(watch, imu->acquired);
+  if (now == nullptr) {
+    watch.accelerations = watch.turnings = 0;
+    return;
+  }
+  if (tick.held) learn(watch, *imu, tick.robot.gravity(), *now);
+  if (!watch.gyroscope.known()) return;
+  const Spread spread = spread_of(angles, tick);
+  judge_turning(watch, tick, *imu, spread, found);
+  judge_velocity(watch, tick, *imu, spread, *now, found);
+}
+
+}  // namespace flinch

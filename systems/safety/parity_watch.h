@@ -1,0 +1,19 @@
+#pragma once
+
+#include <array>
+
+#include "systems/safety/plausibility_tick.h"
+
+namespace flinch {
+
+/// Passive encoders against the active ones: by how much they have left what these imply, since they agreed.
+struct ParityWatch {
+  int learned = 0;
+  JointVector offset{};                    ///< while the robot was held, mean [rad]
+  std::array<JointVector, 16> mismatch{};  ///< a ring [rad]
+  std::size_t count = 0;
+};
+
+void advance(ParityWatch& watch, const PlausibilityTick& tick, Plausibility& found) noexcept;
+
+}  // namespace flinch

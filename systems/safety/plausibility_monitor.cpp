@@ -1,0 +1,80 @@
+#include "systems/safety/plausibility_monitor.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+constexpr int settling = 8;      // ticks after the brakes have opened that belong to no check
+constexpr int lost_after = 20;   // ticks without a reading
+constexpr int there_after = 20;  // ticks with one
+
+/// What the two commands before have done over the last two intervals: each half of them. None where one of
+/// them was no torque.
+JointVector acting_torque(const PlausibilityMemory& memory) {
+  if (memory.torque.size() == 0 || memory.torque.size() != memory.torque_before.size()) return {};
+  return 0.5 * (memory.torque + memory.torque_before);
+}
+
+void count(bool there, int& seen, int& missing) {
+  if (there) seen = std::min(seen + 1, there_after);
+  missing = there ? 0 : std::min(missing + 1, lost_after);
+}
+
+bool is_lost(int seen, int missing) { return seen >= there_after && missing >= lost_after; }
+
+}  // namespace
+
+PlausibilityMonitor::PlausibilityMonitor(std::shared_ptr<const ParallelRobot> robot,
+                                         const PlausibilityLimits& limits)
+    : robot_(std::move(robot)), limits_(limits) {
+  throw_if_any(problems(limits, robot_->drives()));
+}
+
+void PlausibilityMonitor::advance(Time now, const PlausibilityMemory& last, const JointReading& angles,
+                                  const DriveReading& currents, const ImuReading& inertial,
+                                  const StationStatus& status, const PlatformMotion& pose,
+                                  const Kinematics& kinematic, const Dynamics& dynamic,
+                                  PlausibilityMemory& next) const {
+  next = last;
+  next.found = {};
+  next.found.valid = true;
+  const bool open = status.valid && !status.braked && status.enabled && !next.rest.engage;
+  next.free = open ? std::min(last.free + 1, settling) : (status.valid || next.rest.engage ? 0 : last.free);
+  next.moved = last.moved || open;
+  const PlausibilityTick tick{.robot = *robot_,
+                              .limits = limits_,
+                              .now = now,
+                              .joints = angles,
+                              .drives = currents,
+                              .imu = inertial,
+                              .platform = pose,
+                              .kinematics = kinematic,
+                              .dynamics = dynamic,
+                              .held = !next.moved && status.valid && status.braked,
+                              .free = next.free == settling};
+  flinch::advance(next.angles, tick, limits_.commands_act ? acting_torque(last) : JointVector(), next.found);
+  flinch::advance(next.currents, tick, next.found);
+  flinch::advance(next.inertial, next.angles, tick, next.found);
+  flinch::advance(next.parity, tick, next.found);
+  flinch::advance(next.rest, next.angles, tick, next.found);
+  count(angles.passive_valid, next.passive_seen, next.passive_missing);
+  count(inertial.valid, next.imu_seen, next.imu_missing);
+  next.found.passive_lost = is_lost(next.passive_seen, next.passive_missing);
+  next.found.imu_lost = is_lost(next.imu_seen, next.imu_missing);
+}
+
+void PlausibilityMonitor::remember(Time now, const PlausibilityMemory& memory, const TorqueCommand& torque,
+                                   const BrakeCommand& brakes, const GateStatus& status,
+                                   PlausibilityMemory& next) const {
+  next = memory;
+  next.torque_before = next.torque;
+  next.torque = torque.valid ? torque.torque : JointVector();
+  command(next.currents, limits_, torque);
+  flinch::remember(next.rest, now, status, brakes.engage, torque);
+}
+
+}  // namespace flinch

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <memory>
+
+#include "systems/framework/system.h"
+#include "systems/safety/current_watch.h"
+#include "systems/safety/inertial_watch.h"
+#include "systems/safety/parity_watch.h"
+#include "systems/safety/rest_watch.h"
+#include "systems/signals/brake_command.h"
+#include "systems/signals/station_status.h"
+
+namespace flinch {
+
+/// What the plausibility monitor remembers.
+struct PlausibilityMemory {
+  AngleWatch angles;
+  CurrentWatch currents;
+  InertialWatch inertial;
+  ParityWatch parity;
+  RestWatch rest;
+  JointVector torque, torque_before;         ///< commanded in the two ticks before [Nm]; empty: none
+  int free = 0;                              ///< ticks since the brakes have opened
+  bool moved = false;                        ///< they have been open before: nothing is learned any more
+  int passive_seen = 0, imu_seen = 0;        ///< ticks with valid readings
+  int passive_missing = 0, imu_missing = 0;  ///< ticks in a row without
+  Plausibility found;
+};
+
+/// Asks sensors and drives those questions into which a contact cannot enter: current against command,
+/// encoders against one another and against the IMU, an angle against what mass allows, a signal against its
+/// own noise. What passes all and still disagrees with the model is a contact.
+///
+/// Noise, biases and offsets are learned while the brakes hold the robot before its first motion; what needs
+/// them stays silent without.
+class PlausibilityMonitor final : public System {
+  State<PlausibilityMemory> last_ = state<PlausibilityMemory>("last");
+
+ public:
+  /// Throws SetupError for limits that are not positive.
+  PlausibilityMonitor(std::shared_ptr<const ParallelRobot> robot, const PlausibilityLimits& limits);
+
+  InputPort<JointReading> joints = input<JointReading>("joints");
+  InputPort<DriveReading> drives = input<DriveReading>("drives");
+  InputPort<ImuReading> imu = input<ImuReading>("imu");
+  InputPort<StationStatus> station = input<StationStatus>("station");
+  InputPort<PlatformMotion> platform = input<PlatformMotion>("platform");
+  InputPort<Kinematics> kinematics = input<Kinematics>("kinematics");
+  InputPort<Dynamics> dynamics = input<Dynamics>("dynamics");
+  // What the gate has done; seen at the next tick.
+  InputPort<TorqueCommand> commanded = input<TorqueCommand>("commanded");
+  InputPort<BrakeCommand> brake = input<BrakeCommand>("brake");
+  InputPort<GateStatus> gate = input<GateStatus>("gate");
+
+ private:
+  Intermediate<PlausibilityMemory> now_ = intermediate<&PlausibilityMonitor::advance>(
+      "memory", clock, last_, joints, drives, imu, station, platform, kinematics, dynamics);
+
+ public:
+  OutputPort<Plausibility> plausibility = output<&PlausibilityMonitor::read>("plausibility", now_);
+
+ private:
+  Update remember_ = update<&PlausibilityMonitor::remember>(last_, clock, now_, commanded, brake, gate);
+
+  void advance(Time now, const PlausibilityMemory& last, const JointReading& angles,
+               const DriveReading& currents, const ImuReading& inertial, const StationStatus& status,
+               const PlatformMotion& pose, const Kinematics& kinematic, const Dynamics& dynamic,
+               PlausibilityMemory& next) const;
+  void read(const PlausibilityMemory& memory, Plausibility& result) const { result = memory.found; }
+  void remember(Time now, const PlausibilityMemory& memory, const TorqueCommand& torque,
+                const BrakeCommand& brakes, const GateStatus& status, PlausibilityMemory& next) const;
+
+  std::shared_ptr<const ParallelRobot> robot_;
+  PlausibilityLimits limits_;
+};
+
+}  // namespace flinch

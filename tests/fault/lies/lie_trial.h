@@ -1,0 +1,58 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "systems/framework/time.h"
+#include "systems/signals/gate_fault.h"
+
+/// Lies of sensors and drives in the closed loop of a realistic robot, and what becomes of it.
+namespace flinch::test {
+
+/// Where and how the robot moves when it is lied to.
+struct LieScene {
+  double speed = 0.3;  ///< of the platform through the middle [m/s]; 0: it stands there
+  double direction_deg = 0.0;
+  unsigned seed = 1;  ///< draws robot and noise
+  bool passive_encoders = true;
+  bool imu = true;
+  Time brakes = 0ms;             ///< that they take to close
+  bool from_standstill = false;  ///< the lie begins before the motion
+  std::string realism = "bench";
+};
+
+/// A run as the trial looks at it, by ticks.
+struct LieRun {
+  std::vector<double> speed, energy, phase, fault;
+  std::vector<std::vector<double>> torque;  ///< of each drive [Nm]
+  std::vector<double> x, y;
+};
+
+struct LieOutcome {
+  std::string lie;
+  LieScene scene;
+  std::optional<Time> alarm;  ///< from the lie until the gate closes
+  GateFault fault = GateFault::none;
+  bool named = false;        ///< a fault that doubts what lies, not a limit that is passed
+  double torque = 0.0;       ///< largest beyond the honest run's, until 50 ms or the alarm [Nm]
+  double excess = 0.0;       ///< speed above the honest run's, after the alarm [m/s]
+  std::optional<Time> rest;  ///< from the alarm until the platform rests
+  double travel = 0.0;       ///< meanwhile [m]
+  Time growth{};             ///< of the kinetic energy after the alarm
+};
+
+/// The tick at which the lie of a scene begins.
+Time lie_at(const LieScene& scene);
+
+/// The scene without a lie.
+LieRun honest_run(const LieScene& scene);
+
+/// The same with "SIGNAL:KIND" and a size; several are joined by '+'.
+LieOutcome try_lie(const LieScene& scene, const std::string& lie, const LieRun& honest);
+
+/// A line of the table.
+std::string line_of(const LieOutcome& outcome);
+std::string table_head();
+
+}  // namespace flinch::test

@@ -1,0 +1,319 @@
+#include "systems/safety/plausibility_monitor.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+#include "systems/foundation/setup_error.h"
+#include "systems/framework/random.h"
+#include "tests/support/allocations.h"
+#include "tests/support/planar_bench.h"
+#include "tests/support/ticking.h"
+
+namespace flinch {
+namespace {
+
+using enum PlausibilityCheck;
+
+constexpr double degree = std::numbers::pi / 180.0;
+constexpr double angle_noise = 7e-6;    // [rad]
+constexpr double current_noise = 0.01;  // [A]
+
+PlausibilityLimits limits() {
+  PlausibilityLimits limits;
+  limits.torque_constant = Eigen::Vector3d::Constant(6.0);
+  return limits;
+}
+
+/// What a tick is told; that of a robot at rest at home with all sensors, unless a test changes it.
+struct Told {
+  JointReading joints;
+  DriveReading drives;
+  ImuReading imu;
+  StationStatus station;
+  TorqueCommand command;
+  BrakeCommand brake{.engage = false};
+  GateStatus gate{.phase = GatePhase::open, .reaction = GateReaction::none};
+};
+
+/// The monitor before a robot that stands still while its brakes hold it for 200 ms, then without.
+class Watched {
+ public:
+  Watched() {
+    for (int k = 0; k < 200; ++k) tick(held);
+    for (int k = 0; k < 60; ++k) tick();
+  }
+
+  static void held(Told& told) {
+    told.station.braked = told.brake.engage = true;
+    told.command.valid = false;
+  }
+
+  const Plausibility& tick(const std::function<void(Told&)>& change = [](Told&) {}) {
+    Told told = healthy();
+    change(told);
+    ticking_.set(joints_, told.joints);
+    ticking_.set(drives_, told.drives);
+    ticking_.set(imu_, told.imu);
+    ticking_.set(station_, told.station);
+    ticking_.set(platform_, posture_.platform);
+    ticking_.set(kinematics_, posture_.kinematics);
+    ticking_.set(dynamics_, posture_.dynamics);
+    ticking_.set(commanded_, told.command);
+    ticking_.set(brake_, told.brake);
+    ticking_.set(gate_, told.gate);
+    ticking_.tick();
+    return ticking_.get(monitor_.plausibility);
+  }
+
+  int ticks() const { return static_cast<int>(ticking_.now() / 1ms); }
+
+ private:
+  double noise(double deviation) { return deviation * random_.normal(); }
+
+  Told healthy() {
+    Told told;
+    const Time now = ticking_.now();
+    posture_ = test::Posture(*robot_, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), now);
+    told.joints = posture_.joints;
+    for (double& angle : told.joints.active) angle += noise(angle_noise);
+    told.drives.acquired = told.station.acquired = told.command.computed = told.imu.acquired = now;
+    told.drives.valid = told.station.valid = told.station.enabled = told.command.valid = told.imu.valid =
+        true;
+    told.drives.current.setZero(3);
+    for (double& current : told.drives.current) current += noise(current_noise);
+    told.command.torque.setZero(3);
+    told.imu.specific_force = -robot_->gravity();
+    for (double& rate : told.imu.angular_velocity) rate += noise(1e-3);
+    return told;
+  }
+
+  std::shared_ptr<const PlanarRrr> robot_ = test::planar_bench();
+  RandomGenerator random_{1};
+  test::Posture posture_{*robot_};
+  DiagramBuilder builder_{"test", 1ms};
+  PlausibilityMonitor& monitor_ = builder_.add<PlausibilityMonitor>("monitor", robot_, limits());
+  InputPort<JointReading> joints_ = builder_.export_input("joints", monitor_.joints);
+  InputPort<DriveReading> drives_ = builder_.export_input("drives", monitor_.drives);
+  InputPort<ImuReading> imu_ = builder_.export_input("imu", monitor_.imu);
+  InputPort<StationStatus> station_ = builder_.export_input("station", monitor_.station);
+  InputPort<PlatformMotion> platform_ = builder_.export_input("platform", monitor_.platform);
+  InputPort<Kinematics> kinematics_ = builder_.export_input("kinematics", monitor_.kinematics);
+  InputPort<Dynamics> dynamics_ = builder_.export_input("dynamics", monitor_.dynamics);
+  InputPort<TorqueCommand> commanded_ = builder_.export_input("commanded", monitor_.commanded);
+  InputPort<BrakeCommand> brake_ = builder_.export_input("brake", monitor_.brake);
+  InputPort<GateStatus> gate_ = builder_.export_input("gate", monitor_.gate);
+  test::Ticking ticking_{builder_};
+};
+
+/// Ticks with `change` until `fault` is found, 0 for the first; none within 200.
+std::optional<int> ticks_until(Watched& watched, GateFault fault, const std::function<void(Told&)>& change) {
+  for (int k = 0; k < 200; ++k) {
+    if ((watched.tick(change).present & fault_bit(fault)) != 0) return k;
+  }
+  return std::nullopt;
+}
+
+TEST(PlausibilityMonitor, FindsNothingInAnHonestRobotAtRest) {
+  Watched watched;
+  for (int k = 0; k < 3000; ++k) {
+    const Plausibility& found = watched.tick();
+    ASSERT_EQ(found.present, FaultMask{0}) << k;
+    for (const double ratio : found.ratio) ASSERT_LT(ratio, 0.8) << k;
+  }
+}
+
+TEST(PlausibilityMonitor, SaysOfWhichDriveTheAngleJumps) {
+  for (const double step : {2e-3, -2e-3}) {
+    Watched watched;
+    const Plausibility& found = watched.tick([step](Told& told) { told.joints.active[1] += step; });
+    EXPECT_EQ(found.present, fault_bit(GateFault::encoder_jump));
+    EXPECT_EQ(found.drive, 1);
+    EXPECT_NEAR(found.of(jump), 2e-3 / 1e-3 / (5.0 * 172.0 * 1e-3), 0.1);
+  }
+}
+
+/// A small step shows there and back; a drift shows once.
+TEST(PlausibilityMonitor, KnowsAContactFromAStepAndADrift) {
+  const auto by = [](double step, double rate) {
+    return [=, k = 0](Told& told) mutable { told.joints.active[2] += step + rate * 1e-3 * ++k; };
+  };
+  Watched stepped;
+  EXPECT_EQ(ticks_until(stepped, GateFault::encoder_jump, by(4e-4, 0.0)), 1);
+  Watched drifting;
+  EXPECT_EQ(ticks_until(drifting, GateFault::encoder_jump, by(0.0, 0.7)), 1);
+  Watched pushed;  // 100 rad/s^2, that no drive makes, for 6 ms
+  const auto accelerated = [k = 0](Told& told) mutable {
+    const double time = 1e-3 * std::min(k++, 6);
+    told.joints.active[2] += 0.5 * 100.0 * time * time;
+  };
+  for (int k = 0; k < 7; ++k) {
+    EXPECT_EQ(pushed.tick(accelerated).present & fault_bit(GateFault::encoder_jump), FaultMask{0});
+  }
+}
+
+TEST(PlausibilityMonitor, MissesTheNoiseOfAnAngleAndOfACurrent) {
+  Watched frozen;
+  const auto angle =
+      ticks_until(frozen, GateFault::encoder_frozen, [](Told& told) { told.joints.active[0] = 1.0; });
+  ASSERT_TRUE(angle.has_value());
+  EXPECT_LE(*angle, 12);
+  Watched stuck;
+  const auto current =
+      ticks_until(stuck, GateFault::drive_not_following, [](Told& told) { told.drives.current[0] = 0.0; });
+  ASSERT_TRUE(current.has_value());
+  EXPECT_LE(*current, 12);
+}
+
+TEST(PlausibilityMonitor, AsksAfterThreeTicksWhyACurrentWasNotCommanded) {
+  for (const double wrong : {0.3, -0.3}) {
+    Watched watched;
+    const auto off = [wrong](Told& told) { told.drives.current[1] += wrong; };
+    EXPECT_EQ(ticks_until(watched, GateFault::drive_not_following, off), 2);
+  }
+  Watched near;
+  EXPECT_EQ(
+      ticks_until(near, GateFault::drive_not_following, [](Told& told) { told.drives.current[1] += 0.1; }),
+      std::nullopt);
+}
+
+TEST(PlausibilityMonitor, BelievesACurrentThatFollowsWithinSixTicks) {
+  Watched watched;
+  std::array<double, 6> delayed{};
+  for (int k = 0; k < 200; ++k) {
+    const double torque = 60.0 * std::sin(0.05 * k);
+    const Plausibility& found = watched.tick([&](Told& told) {
+      told.command.torque[1] = torque;
+      told.drives.current[1] += delayed[static_cast<std::size_t>(k + 1) % 6] / 6.0;
+    });
+    delayed[static_cast<std::size_t>(k) % 6] = torque;
+    EXPECT_LT(found.of(tube), 1.0) << k;
+  }
+}
+
+TEST(PlausibilityMonitor, ComparesEncodersWithTheUnitOnThePlatform) {
+  Watched turned;
+  const auto rate = ticks_until(turned, GateFault::motion_contradicted,
+                                [](Told& told) { told.imu.angular_velocity[2] += 0.2; });
+  ASSERT_TRUE(rate.has_value());
+  EXPECT_LE(*rate, 6);
+  Watched pulled;
+  const auto force = ticks_until(pulled, GateFault::motion_contradicted,
+                                 [](Told& told) { told.imu.specific_force[0] += 20.0; });
+  ASSERT_TRUE(force.has_value());
+  EXPECT_LE(*force, 22);
+}
+
+TEST(PlausibilityMonitor, ComparesActiveWithPassiveEncoders) {
+  const auto wrong = [](double angle) { return [angle](Told& told) { told.joints.passive[2] += angle; }; };
+  Watched far;
+  EXPECT_EQ(ticks_until(far, GateFault::encoders_implausible, wrong(0.51 * degree)), 0);
+  Watched near;
+  const auto mean = ticks_until(near, GateFault::encoders_implausible, wrong(-0.36 * degree));
+  ASSERT_TRUE(mean.has_value());
+  EXPECT_LE(*mean, 16);
+  Watched within;
+  EXPECT_EQ(ticks_until(within, GateFault::encoders_implausible, wrong(0.34 * degree)), std::nullopt);
+  Watched turned;
+  EXPECT_EQ(ticks_until(turned, GateFault::encoders_implausible, wrong(2.0 * std::numbers::pi)),
+            std::nullopt);
+}
+
+TEST(PlausibilityMonitor, SaysWhatHasBeenThereAndIsNoMore) {
+  Watched watched;
+  const auto blind = [](Told& told) { told.joints.passive_valid = told.imu.valid = false; };
+  for (int k = 0; k < 19; ++k) EXPECT_FALSE(watched.tick(blind).passive_lost);
+  EXPECT_TRUE(watched.tick(blind).passive_lost);
+  EXPECT_TRUE(watched.tick(blind).imu_lost);
+  EXPECT_FALSE(watched.tick().passive_lost);
+}
+
+TEST(PlausibilityMonitor, WondersWhyNothingMovesThoughTorquesChange) {
+  const auto wind_up = [](double rate) {
+    return [=, k = 0](Told& told) mutable {
+      told.command.torque.setConstant(rate * ++k);
+      told.drives.current = told.command.torque / 6.0;
+    };
+  };
+  Watched stuck;
+  const auto found = ticks_until(stuck, GateFault::drives_without_effect, wind_up(0.8));
+  ASSERT_TRUE(found.has_value());
+  EXPECT_LE(*found, 33);
+  Watched slow;
+  EXPECT_EQ(ticks_until(slow, GateFault::drives_without_effect, wind_up(0.5)), std::nullopt);
+}
+
+TEST(PlausibilityMonitor, NoticesADriveThatItsBrakeDoesNotHold) {
+  Watched watched;
+  const auto sinking = [k = 0](Told& told) mutable {
+    Watched::held(told);
+    told.gate = {.phase = GatePhase::closed, .fault = GateFault::station_fault};
+    told.joints.active[1] += 0.2e-3 * ++k;
+  };
+  const auto found = ticks_until(watched, GateFault::brake_not_holding, sinking);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_GT(*found, 60);
+  EXPECT_LT(*found, 66);
+}
+
+TEST(PlausibilityMonitor, DoesNotBelieveAboutABrakeWhatItsFaultHasCalledFalse) {
+  Watched watched;
+  const auto drifting = [k = 0](Told& told) mutable {
+    Watched::held(told);
+    told.gate = {.phase = GatePhase::closed,
+                 .fault = GateFault::encoder_jump,
+                 .faults = fault_bit(GateFault::encoder_jump)};
+    told.joints.active[1] += 5e-3 * ++k;
+  };
+  EXPECT_EQ(ticks_until(watched, GateFault::brake_not_holding, drifting), std::nullopt);
+}
+
+TEST(PlausibilityMonitor, NoticesAStopThatTakesNoEnergyOut) {
+  for (const double gain : {1.0, -1.0}) {  // a rate that stays; one that falls
+    Watched watched;
+    const Time begin = Time(1ms) * watched.ticks();
+    const auto stopping = [=, k = 0](Told& told) mutable {
+      told.gate = {.phase = GatePhase::closed, .reaction = GateReaction::controlled_stop, .since = begin};
+      const double time = 1e-3 * ++k;
+      const double angle = gain > 0 ? time : 0.03 * (1.0 - std::exp(-time / 0.03));
+      told.joints.active.array() += angle;
+    };
+    const auto found = ticks_until(watched, GateFault::stop_ineffective, stopping);
+    EXPECT_EQ(found.has_value(), gain > 0);
+    if (found) {
+      EXPECT_LT(*found, 25);
+    }
+  }
+}
+
+TEST(PlausibilityMonitor, NeverAllocates) {
+  Watched watched;
+  std::int64_t allocations = 0;
+  for (int k = 0; k < 50; ++k) {
+    const std::function<void(Told&)> lie = [](Told& told) { told.joints.active[1] = 1.0; };
+    const test::AllocationCounter counter;
+    watched.tick(lie);
+    allocations += counter.count();
+  }
+  EXPECT_EQ(allocations, 0);
+}
+
+TEST(PlausibilityMonitor, RefusesLimitsThatCouldNotBeKept) {
+  PlausibilityLimits bad = limits();
+  bad.parity = 0.0;
+  bad.torque_constant = Eigen::Vector2d::Ones();
+  try {
+    const PlausibilityMonitor monitor(test::planar_bench(), bad);
+    FAIL();
+  } catch (const SetupError& error) {
+    EXPECT_EQ(error.problems().size(), 2U);
+  }
+}
+
+}  // namespace
+}  // namespace flinch
