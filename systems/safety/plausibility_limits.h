@@ -25,8 +25,8 @@ struct PlausibilityLimits {
   ImuMount imu_mount;
   double inertial = 10.0;         ///< difference to the IMU, in standard deviations
   double gyroscope_scale = 0.03;  ///< share of the rate that may be missing
-  double acceleration_time =
-      2e-3;  ///< by which encoders and IMU may be apart where the acceleration changes [s]
+  /// By which encoders and IMU may be apart where the acceleration changes [s].
+  double acceleration_time = 2e-3;
   double parity = 0.25 * std::numbers::pi / 180.0;  ///< of a passive encoder: its accuracy [rad]
 
   JointVector torque_constant{};  ///< by which the drives make a current of a torque; empty: not asked

@@ -19,6 +19,14 @@ JointVector acting_torque(const PlausibilityMemory& memory) {
   return 0.5 * (memory.torque + memory.torque_before);
 }
 
+/// Takes in what the gate did at the end of the tick before.
+void note(PlausibilityMemory& memory, const GateAction& done, const PlausibilityLimits& limits, Time now) {
+  memory.torque_before = memory.torque;
+  memory.torque = done.torque.valid ? done.torque.torque : JointVector();
+  command(memory.currents, limits, done.torque);
+  remember(memory.rest, now, done.status, done.brake.engage, done.torque);
+}
+
 void count(bool there, int& seen, int& missing) {
   if (there) seen = std::min(seen + 1, there_after);
   missing = there ? 0 : std::min(missing + 1, lost_after);
@@ -34,12 +42,13 @@ PlausibilityMonitor::PlausibilityMonitor(std::shared_ptr<const ParallelRobot> ro
   throw_if_any(problems(limits, robot_->drives()));
 }
 
-void PlausibilityMonitor::advance(Time now, const PlausibilityMemory& last, const JointReading& angles,
-                                  const DriveReading& currents, const ImuReading& inertial,
-                                  const StationStatus& status, const PlatformMotion& pose,
-                                  const Kinematics& kinematic, const Dynamics& dynamic,
-                                  PlausibilityMemory& next) const {
+void PlausibilityMonitor::advance(Time now, const PlausibilityMemory& last, const GateAction& done,
+                                  const JointReading& angles, const DriveReading& currents,
+                                  const ImuReading& inertial, const StationStatus& status,
+                                  const PlatformMotion& pose, const Kinematics& kinematic,
+                                  const Dynamics& dynamic, PlausibilityMemory& next) const {
   next = last;
+  note(next, done, limits_, now);
   next.found = {};
   next.found.valid = true;
   const bool open = status.valid && !status.braked && status.enabled && !next.rest.engage;
@@ -56,7 +65,7 @@ void PlausibilityMonitor::advance(Time now, const PlausibilityMemory& last, cons
                               .dynamics = dynamic,
                               .held = !next.moved && status.valid && status.braked,
                               .free = next.free == settling};
-  flinch::advance(next.angles, tick, limits_.commands_act ? acting_torque(last) : JointVector(), next.found);
+  flinch::advance(next.angles, tick, limits_.commands_act ? acting_torque(next) : JointVector(), next.found);
   flinch::advance(next.currents, tick, next.found);
   flinch::advance(next.inertial, next.angles, tick, next.found);
   flinch::advance(next.parity, tick, next.found);
@@ -65,16 +74,6 @@ void PlausibilityMonitor::advance(Time now, const PlausibilityMemory& last, cons
   count(inertial.valid, next.imu_seen, next.imu_missing);
   next.found.passive_lost = is_lost(next.passive_seen, next.passive_missing);
   next.found.imu_lost = is_lost(next.imu_seen, next.imu_missing);
-}
-
-void PlausibilityMonitor::remember(Time now, const PlausibilityMemory& memory, const TorqueCommand& torque,
-                                   const BrakeCommand& brakes, const GateStatus& status,
-                                   PlausibilityMemory& next) const {
-  next = memory;
-  next.torque_before = next.torque;
-  next.torque = torque.valid ? torque.torque : JointVector();
-  command(next.currents, limits_, torque);
-  flinch::remember(next.rest, now, status, brakes.engage, torque);
 }
 
 }  // namespace flinch

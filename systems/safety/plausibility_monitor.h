@@ -27,6 +27,13 @@ struct PlausibilityMemory {
   Plausibility found;
 };
 
+/// What the gate has done at the tick before.
+struct GateAction {
+  TorqueCommand torque;
+  BrakeCommand brake;
+  GateStatus status;
+};
+
 /// Asks sensors and drives those questions into which a contact cannot enter: current against command,
 /// encoders against one another and against the IMU, an angle against what mass allows, a signal against its
 /// own noise. What passes all and still disagrees with the model is a contact.
@@ -35,6 +42,7 @@ struct PlausibilityMemory {
 /// them stays silent without.
 class PlausibilityMonitor final : public System {
   State<PlausibilityMemory> last_ = state<PlausibilityMemory>("last");
+  State<GateAction> done_ = state<GateAction>("done");
 
  public:
   /// Throws SetupError for limits that are not positive.
@@ -54,21 +62,24 @@ class PlausibilityMonitor final : public System {
 
  private:
   Intermediate<PlausibilityMemory> now_ = intermediate<&PlausibilityMonitor::advance>(
-      "memory", clock, last_, joints, drives, imu, station, platform, kinematics, dynamics);
+      "memory", clock, last_, done_, joints, drives, imu, station, platform, kinematics, dynamics);
 
  public:
   OutputPort<Plausibility> plausibility = output<&PlausibilityMonitor::read>("plausibility", now_);
 
  private:
-  Update remember_ = update<&PlausibilityMonitor::remember>(last_, clock, now_, commanded, brake, gate);
+  Update remember_ = keep(last_, now_);
+  Update note_ = update<&PlausibilityMonitor::note_action>(done_, commanded, brake, gate);
 
-  void advance(Time now, const PlausibilityMemory& last, const JointReading& angles,
+  void advance(Time now, const PlausibilityMemory& last, const GateAction& done, const JointReading& angles,
                const DriveReading& currents, const ImuReading& inertial, const StationStatus& status,
                const PlatformMotion& pose, const Kinematics& kinematic, const Dynamics& dynamic,
                PlausibilityMemory& next) const;
   void read(const PlausibilityMemory& memory, Plausibility& result) const { result = memory.found; }
-  void remember(Time now, const PlausibilityMemory& memory, const TorqueCommand& torque,
-                const BrakeCommand& brakes, const GateStatus& status, PlausibilityMemory& next) const;
+  void note_action(const TorqueCommand& torque, const BrakeCommand& brakes, const GateStatus& status,
+                   GateAction& done) const {
+    done = {torque, brakes, status};
+  }
 
   std::shared_ptr<const ParallelRobot> robot_;
   PlausibilityLimits limits_;

@@ -50,8 +50,8 @@ void judge_brakes(RestWatch& watch, const PlausibilityTick& tick, const JointVec
        static_cast<int>(drive));
 }
 
-/// Brakes that have stayed closed, or drives whose torques end nowhere: a torque has been another one for half
-/// the window, and nothing has moved in all of it.
+/// Brakes that have stayed closed, or drives whose torques end nowhere: a torque has been another one for
+/// half the window, and nothing has moved in all of it.
 void judge_still(RestWatch& watch, const AngleWatch& angles, const PlausibilityTick& tick,
                  Plausibility& found) {
   const std::size_t ring = watch.angle.size();

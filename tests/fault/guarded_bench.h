@@ -98,11 +98,11 @@ class GuardedBench {
   void run_until(Time end) {
     while (context_.time() < end) tick();
   }
-  /// The time from now until a tick finds `fault`; none within `limit`.
-  std::optional<Time> time_until(GateFault fault, Time limit) {
+  /// The time from now until a tick finds one of `wanted`; none within `limit`.
+  std::optional<Time> time_until(FaultMask wanted, Time limit) {
     for (const Time start = context_.time(); context_.time() < start + limit;) {
       tick();
-      if ((faults() & fault_bit(fault)) != 0) return context_.time() - start - 1ms;
+      if ((faults() & wanted) != 0) return context_.time() - start - 1ms;
     }
     return std::nullopt;
   }

@@ -1,11 +1,19 @@
-// The whole campaign of lies, and how near honest robots come to be called liars. FLINCH_LIES_RUNS: share of it.
+// The whole campaign of lies, and how near honest robots come to be called liars. FLINCH_LIES_SHARE says how
+// much of it.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <string>
 
+#include "experiments/simulated/experiment.h"
+#include "experiments/simulated/simulated_scenario.h"
+#include "plant/sundials_integrator.h"
+#include "systems/framework/block_profile.h"
+#include "systems/framework/simulator.h"
 #include "tests/fault/lies/false_alarms.h"
+#include "tests/fault/lies/lie_cases.h"
 
 namespace flinch::test {
 namespace {
@@ -13,6 +21,60 @@ namespace {
 std::size_t runs(std::size_t all) {
   const char* const share = std::getenv("FLINCH_LIES_SHARE");
   return share == nullptr ? all : static_cast<std::size_t>(std::atof(share) * static_cast<double>(all));
+}
+
+TEST(Lies, AreAllNamedOrCannotBe) {
+  std::vector<LieCase> cases = all_lies();
+  cases.resize(std::min(cases.size(), runs(cases.size())));
+  const std::vector<LieOutcome> outcomes = try_all(cases);
+  fmt::print("{}", table_head());
+  int unnamed = 0, excused = 0;
+  LieOutcome worst;
+  Time longest{};
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    const LieOutcome& outcome = outcomes[i];
+    fmt::print("{}", line_of(outcome));
+    const std::string problem = problem_with(outcome);
+    const std::string reason = reason_of_failure(cases[i]);
+    unnamed += outcome.named ? 0 : 1;
+    EXPECT_TRUE(outcome.began) << "the gate was not open: " << line_of(outcome);
+    if (!problem.empty() && !reason.empty()) {
+      ++excused;
+      fmt::print("  {}: {}\n", problem, reason);
+      continue;
+    }
+    EXPECT_EQ(problem, "") << line_of(outcome);
+    if (!outcome.named) continue;
+    worst.excess = std::max(worst.excess, outcome.excess);
+    worst.growth = std::max(worst.growth, outcome.growth);
+    longest = std::max(longest, outcome.rest.value_or(1h));
+  }
+  fmt::print(
+      "{} lies, {} never named, {} beyond a bound with a reason; of the named at most {:.2f} m/s above the "
+      "honest "
+      "run, {} ms until rest, {} ms of growing energy\n",
+      outcomes.size(), unnamed, excused, worst.excess, longest / 1ms, worst.growth / 1ms);
+}
+
+/// The best of ten stretches of a second, since other programs take their time as well.
+TEST(Plausibility, CostsLittle) {
+  const SimulatedScenario scenario =
+      read_simulated_scenario(FLINCH_SOURCE_DIR "/apps/scenarios/square_realistic.yaml");
+  const Experiment experiment = build_experiment(scenario);
+  Simulator simulator(*experiment.diagram, std::make_unique<SundialsIntegrator>());
+  Context context = experiment.diagram->make_context();
+  double least = 1e9;
+  for (int stretch = 0; stretch < 10; ++stretch) {
+    BlockProfile profile(*experiment.diagram);
+    simulator.profile(profile);
+    for (int tick = 0; tick < 300; ++tick) simulator.step(context);
+    for (const BlockProfile::Row& row : profile.rows()) {
+      if (row.path.ends_with("plausibility_monitor"))
+        least = std::min(least, 1e6 * to_seconds(row.total) / static_cast<double>(profile.ticks()));
+    }
+  }
+  fmt::print("all questions: {:.2f} us a tick\n", least);
+  EXPECT_LT(least, 2.5);
 }
 
 class FalseAlarms : public testing::TestWithParam<MountedSensors> {};

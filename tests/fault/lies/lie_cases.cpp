@@ -1,20 +1,42 @@
 #include "tests/fault/lies/lie_cases.h"
 
+#include <atomic>
+#include <future>
+#include <map>
+#include <mutex>
+#include <string>
+#include <tuple>
+
 namespace flinch::test {
+namespace {
+
+constexpr Time quick = 5ms, slow = 30ms;  // brakes
+
+using Key = std::tuple<double, bool, bool, Time, bool, unsigned>;
+Key key(const LieScene& scene) {
+  return {scene.speed, scene.passive_encoders, scene.imu, scene.brakes, scene.from_standstill, scene.seed};
+}
+
+void add(std::vector<LieCase>& cases, const LieScene& scene, const std::vector<std::string>& lies) {
+  for (const std::string& lie : lies) cases.push_back({scene, lie});
+}
+
+}  // namespace
 
 std::vector<std::string> lies_of_a_drive(int number) {
   const std::string n = std::to_string(number);
   std::vector<std::string> lies;
-  const auto add = [&](const std::string& signal, const std::vector<std::string>& kinds) {
+  const auto tell = [&](const std::string& signal, const std::vector<std::string>& kinds) {
     for (const std::string& kind : kinds) lies.push_back(signal + n + ":" + kind);
   };
-  add("encoder", {"wrong:0.001", "wrong:0.005", "wrong:-0.02", "drifting:11", "drifting:-5", "drifting:1",
-                  "drifting:0.2", "drifting:0.05", "drifting:0.02", "stuck", "stuck:7e-6", "scaled:0.5",
-                  "scaled:2", "reversed", "delayed:0.01", "delayed:0.03", "noise:1e-4", "noise:1e-3"});
-  add("current",
-      {"wrong:0.5", "wrong:-2", "stuck", "scaled:0", "scaled:2", "scaled:0.5", "reversed", "noise:0.5"});
-  add("drive", {"off", "stuck", "stuck:50", "stuck:-30", "reversed", "wrong:20", "scaled:0", "delayed:0.02"});
-  add("passive_encoder", {"wrong:0.0175", "drifting:0.2", "stuck"});
+  tell("encoder", {"wrong:0.001", "wrong:0.005", "wrong:-0.02", "drifting:11", "drifting:-5", "drifting:1",
+                   "drifting:0.2", "drifting:0.05", "drifting:0.02", "stuck", "stuck:7e-6", "scaled:0.5",
+                   "scaled:2", "reversed", "delayed:0.01", "delayed:0.03", "noise:1e-4", "noise:1e-3"});
+  tell("current",
+       {"wrong:0.5", "wrong:-2", "stuck", "scaled:0", "scaled:2", "scaled:0.5", "reversed", "noise:0.5"});
+  tell("drive",
+       {"off", "stuck", "stuck:50", "stuck:-30", "reversed", "wrong:20", "scaled:0", "delayed:0.02"});
+  tell("passive_encoder", {"wrong:0.0175", "drifting:0.2", "stuck"});
   return lies;
 }
 
@@ -37,6 +59,82 @@ std::vector<std::string> lies_of_all() {
           "accelerometer:wrong:20",
           "imu:stuck",
           "passive_encoders:off"};
+}
+
+std::vector<LieCase> all_lies() {
+  std::vector<LieCase> cases;
+  unsigned seed = 1;
+  for (const double speed : {0.0, 0.1, 0.3, 0.6, 1.0, 1.4}) {
+    for (int drive = 1; drive <= 3; ++drive) {
+      const LieScene scene{.speed = speed, .seed = seed++, .brakes = quick};
+      add(cases, scene, lies_of_a_drive(drive));
+      if (drive == 1) add(cases, scene, lies_of_all());
+    }
+  }
+  for (const double speed : {0.3, 1.4}) {
+    for (const bool passive : {true, false}) {
+      const LieScene blind{
+          .speed = speed, .seed = seed++, .passive_encoders = passive, .imu = false, .brakes = quick};
+      add(cases, blind, lies_of_a_drive(2));
+      const LieScene early{.speed = speed, .seed = seed++, .brakes = quick, .from_standstill = true};
+      add(cases, early, lies_of_a_drive(passive ? 1 : 3));
+    }
+    const LieScene blind{.speed = speed, .seed = seed++, .passive_encoders = false, .brakes = quick};
+    add(cases, blind, lies_of_a_drive(1));
+    const LieScene late{.speed = speed, .seed = seed++, .brakes = slow};
+    add(cases, late, lies_of_a_drive(3));
+    add(cases, late, lies_of_all());
+  }
+  return cases;
+}
+
+std::vector<LieCase> lies_that_once_passed() {
+  const LieScene moving{.speed = 0.3, .brakes = quick};
+  const LieScene resting{.speed = 0.0, .brakes = quick};
+  std::vector<LieCase> cases;
+  add(cases, moving,
+      {"encoder3:reversed", "encoder1:drifting:-5", "encoder1:drifting:11", "drive1:reversed",
+       "encoders:delayed:0.01+passive_encoders:delayed:0.01",
+       "encoders:stuck:7e-6+passive_encoders:stuck:1e-4", "drive1:stuck:50", "drives:off",
+       "currents:reversed", "currents:stuck", "passive_encoders:off+encoder1:drifting:0.2"});
+  add(cases, resting, {"encoder2:wrong:0.005", "drive1:stuck:50"});
+  add(cases, {.speed = 1.0, .brakes = quick}, {"currents:scaled:0.5", "currents:scaled:2", "brakes:stuck"});
+  return cases;
+}
+
+std::string reason_of_failure(const LieCase& told) {
+  const auto tells = [&told](const char* word) { return told.lie.find(word) != std::string::npos; };
+  if (tells("drive") && tells("scaled:0"))
+    return "a torque that is missing under a current as commanded is an obstacle to that drive";
+  if (tells("brakes:stuck"))
+    return "what holds the drives is an obstacle until a torque has changed and nothing has moved for 32 ms";
+  if (told.scene.brakes >= slow)
+    return "until slow brakes have closed the robot coasts, where the honest one would slow down by its "
+           "drives";
+  return "";
+}
+
+std::vector<LieOutcome> try_all(const std::vector<LieCase>& cases) {
+  std::map<Key, std::shared_future<LieRun>> honest;
+  std::mutex mutex;
+  std::atomic<std::size_t> next = 0;
+  std::vector<LieOutcome> outcomes(cases.size());
+  const auto work = [&] {
+    for (std::size_t i = next++; i < cases.size(); i = next++) {
+      std::shared_future<LieRun> run;
+      {
+        const std::lock_guard lock(mutex);
+        auto& known = honest[key(cases[i].scene)];
+        if (!known.valid()) known = std::async(std::launch::deferred, honest_run, cases[i].scene).share();
+        run = known;
+      }
+      outcomes[i] = try_lie(cases[i].scene, cases[i].lie, run.get());
+    }
+  };
+  auto other = std::async(std::launch::async, work);
+  work();
+  other.get();
+  return outcomes;
 }
 
 }  // namespace flinch::test

@@ -7,8 +7,27 @@
 
 namespace flinch::test {
 
+/// A lie in a scene.
+struct LieCase {
+  LieScene scene;
+  std::string lie;
+};
+
 /// The lies that are tried of each drive, and of all sensors of a kind together.
 std::vector<std::string> lies_of_a_drive(int number);
 std::vector<std::string> lies_of_all();
+
+/// All of them over drives, speeds, sensors that are mounted, brakes, and begun before the motion: over a
+/// thousand.
+std::vector<LieCase> all_lies();
+
+/// What was once told without being noticed, or answered by torque.
+std::vector<LieCase> lies_that_once_passed();
+
+/// Why a lie cannot be seen in time, or its answer not be better; empty where it can.
+std::string reason_of_failure(const LieCase& told);
+
+/// Tries cases on two threads, in their order.
+std::vector<LieOutcome> try_all(const std::vector<LieCase>& cases);
 
 }  // namespace flinch::test

@@ -74,8 +74,10 @@ std::string faults_of(const LieScene& scene, const std::string& lie) {
 }
 
 LieRun run(const LieScene& scene, const std::string& lie) {
-  const SimulatedScenario scenario =
+  SimulatedScenario scenario =
       parse_simulated_scenario(text_of(scene, faults_of(scene, lie)), "lie.yaml", scene.seed);
+  scenario.control.forward_kinematics.initial_pose = scenario.station.bench.initial_pose.value_or(
+      scenario.robot.robot->home_pose());  // without passive encoders nothing else tells it
   const Recording recording = run_experiment(scenario);
   LieRun run;
   run.x = recording.column("truth", "pose", 0);
@@ -111,6 +113,7 @@ LieOutcome try_lie(const LieScene& scene, const std::string& lie, const LieRun& 
   LieOutcome outcome{.lie = lie, .scene = scene, .alarm = {}, .rest = {}};
   const auto begin = static_cast<std::size_t>((scene.from_standstill ? 280ms : lie_at(scene)) / 1ms);
   const std::size_t end = lied.speed.size();
+  outcome.began = lied.phase[begin - 1] == static_cast<double>(GatePhase::open);
   std::size_t alarm = begin;
   while (alarm < end && lied.phase[alarm] != static_cast<double>(GatePhase::closed)) ++alarm;
   if (alarm < end) {
@@ -136,6 +139,17 @@ LieOutcome try_lie(const LieScene& scene, const std::string& lie, const LieRun& 
   }
   outcome.growth = Time(1ms) * static_cast<Time::rep>(most - alarm);
   return outcome;
+}
+
+std::string problem_with(const LieOutcome& is) {
+  const bool in_time = is.named && is.alarm && *is.alarm <= 50ms;
+  if (is.torque > 30.0 && !in_time) return fmt::format("{:.0f} Nm without a name", is.torque);
+  if (!is.alarm || !is.named) return "";
+  const Time patience = is.scene.brakes > 5ms ? 60ms : 30ms;
+  if (is.excess > 0.25) return fmt::format("{:.2f} m/s above the honest run", is.excess);
+  if (!is.rest || *is.rest > patience) return "it does not come to rest in time";
+  if (is.growth > 5ms) return fmt::format("its energy grows for {} ms", is.growth / 1ms);
+  return "";
 }
 
 std::string table_head() {

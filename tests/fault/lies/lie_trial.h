@@ -32,6 +32,7 @@ struct LieRun {
 struct LieOutcome {
   std::string lie;
   LieScene scene;
+  bool began = false;         ///< the gate was open when the lie began
   std::optional<Time> alarm;  ///< from the lie until the gate closes
   GateFault fault = GateFault::none;
   bool named = false;        ///< a fault that doubts what lies, not a limit that is passed
@@ -50,6 +51,11 @@ LieRun honest_run(const LieScene& scene);
 
 /// The same with "SIGNAL:KIND" and a size; several are joined by '+'.
 LieOutcome try_lie(const LieScene& scene, const std::string& lie, const LieRun& honest);
+
+/// What speaks against an answer: no name for a lie that makes more than 30 Nm within 50 ms, more than
+/// 0.25 m/s above the honest run after the alarm, more than 30 ms until rest (60 ms with brakes of 30 ms), or
+/// an energy that grows for more than 5 ms. "" where nothing does.
+std::string problem_with(const LieOutcome& outcome);
 
 /// A line of the table.
 std::string line_of(const LieOutcome& outcome);

@@ -1,19 +1,45 @@
+// What a robot of the bench makes of sensors and drives that lie: a slice of the campaign.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include "tests/fault/lies/false_alarms.h"
 #include "tests/fault/lies/lie_cases.h"
 
 namespace flinch::test {
 namespace {
 
-TEST(Lies, Trial) {
+TEST(Lies, ThatOncePassedAreNamedAndAnsweredByBrakes) {
+  const std::vector<LieCase> cases = lies_that_once_passed();
   fmt::print("{}", table_head());
-  for (const double speed : {0.0, 0.3, 1.0}) {
-    const LieScene scene{.speed = speed};
-    const LieRun honest = honest_run(scene);
-    for (const std::string& lie : lies_of_a_drive(2)) fmt::print("{}", line_of(try_lie(scene, lie, honest)));
-    for (const std::string& lie : lies_of_all()) fmt::print("{}", line_of(try_lie(scene, lie, honest)));
+  for (const LieOutcome& outcome : try_all(cases)) {
+    fmt::print("{}", line_of(outcome));
+    EXPECT_EQ(problem_with(outcome), "") << outcome.lie;
+    EXPECT_TRUE(outcome.named) << outcome.lie;
   }
+}
+
+TEST(Lies, OfOneDriveAtOneSpeedAreAnsweredInTime) {
+  std::vector<LieCase> cases;
+  for (const std::string& lie : lies_of_a_drive(2)) cases.push_back({{.speed = 0.6, .brakes = 5ms}, lie});
+  for (const LieOutcome& outcome : try_all(cases)) EXPECT_EQ(problem_with(outcome), "") << line_of(outcome);
+}
+
+TEST(Honesty, IsNotDoubtedInMotionNorInContact) {
+  const std::string folder = FLINCH_SOURCE_DIR "/tests/campaign/lies/";
+  for (const MountedSensors sensors :
+       {MountedSensors{}, MountedSensors{.passive_encoders = false, .imu = false}}) {
+    for (const auto& [file, runs] : {std::pair("motion.yaml", 2), std::pair("contacts.yaml", 40)}) {
+      const Margins margins = margins_of_campaign(folder + file, static_cast<std::size_t>(runs), sensors);
+      EXPECT_TRUE(margins.alarms.empty()) << file << ": " << margins.table();
+      EXPECT_GT(margins.seconds, 30.0) << "the robots move";
+      for (const double ratio : margins.largest) EXPECT_LT(ratio, 0.9) << margins.table();
+    }
+  }
+}
+
+TEST(LostPassiveEncoders, StopNoRobotThatIsSlow) {
+  const LieScene slow{.speed = 0.3, .brakes = 5ms};
+  EXPECT_FALSE(try_lie(slow, "passive_encoders:off", honest_run(slow)).alarm.has_value());
 }
 
 }  // namespace

@@ -176,7 +176,13 @@ std::map<GateFault, std::vector<Way>> ways_of_pose_and_workspace() {
                  in.reaction.mode = ReactionMode::recover;
                  return in.posture.motion.velocity[2];
                },
-               -1.2, 1.2, 0.01)},
+               -1.2, 1.2, 0.01) +
+           beyond(
+               [](Inputs& in) -> double& {
+                 in.plausibility.passive_lost = true;
+                 return in.posture.motion.velocity[2];
+               },
+               -4.0, 4.0, 0.01)},
       {GateFault::self_collision,
        {{[](Inputs& in) { in.posture.measures.sigma_sc = 0.0499; }, 0,
          [](Inputs& in) { in.posture.measures.sigma_sc = 0.05; }}}},
