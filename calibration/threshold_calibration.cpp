@@ -13,8 +13,10 @@ namespace {
 constexpr std::size_t fewest_stretches = 60;
 constexpr double furthest_extrapolation = 1000.0;
 
-CalibratedThreshold threshold(const std::vector<double>& peaks, double probability,
-                              const ThresholdGoal& goal) {
+}  // namespace
+
+CalibratedThreshold calibrated_threshold(const std::vector<double>& peaks, double probability,
+                                         const ThresholdGoal& goal) {
   CalibratedThreshold result;
   if (peaks.empty()) return result;
   const Gumbel fit = fit_gumbel(peaks);
@@ -25,30 +27,28 @@ CalibratedThreshold threshold(const std::vector<double>& peaks, double probabili
   return result;
 }
 
-void check(const EstimatorPeaks& peaks, const ThresholdGoal& goal) {
-  const double recorded = static_cast<double>(peaks.force.size()) * to_seconds(goal.stretch);  // [s]
+void require_enough(const std::string& estimator, std::size_t stretches, const ThresholdGoal& goal) {
+  const double recorded = static_cast<double>(stretches) * to_seconds(goal.stretch);  // [s]
   const double needed = std::max(static_cast<double>(fewest_stretches) * to_seconds(goal.stretch),
                                  3600.0 / goal.false_alarms_per_hour / furthest_extrapolation);
   if (recorded >= needed) return;
   throw SetupError(
       fmt::format("{}: {:.1f} s of motion with valid estimates are recorded; {:.1f} s are needed for {} "
                   "false alarms an hour",
-                  peaks.estimator, recorded, needed, goal.false_alarms_per_hour));
+                  estimator, recorded, needed, goal.false_alarms_per_hour));
 }
-
-}  // namespace
 
 std::vector<EstimatorThresholds> calibrate_thresholds(const std::vector<EstimatorPeaks>& peaks,
                                                       const ThresholdGoal& goal) {
   std::vector<EstimatorThresholds> all;
   for (const EstimatorPeaks& of : peaks) {
-    check(of, goal);
+    require_enough(of.estimator, of.force.size(), goal);
     const double alarms_a_stretch = goal.false_alarms_per_hour / 3600.0 * to_seconds(goal.stretch);
     const double share = of.moment.empty() ? 1.0 : 0.5;  // force and moment have half of the alarms each
     all.push_back({.estimator = of.estimator,
                    .stretches = of.force.size(),
-                   .force = threshold(of.force, share * alarms_a_stretch, goal),
-                   .moment = threshold(of.moment, share * alarms_a_stretch, goal)});
+                   .force = calibrated_threshold(of.force, share * alarms_a_stretch, goal),
+                   .moment = calibrated_threshold(of.moment, share * alarms_a_stretch, goal)});
   }
   return all;
 }

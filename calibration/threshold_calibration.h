@@ -38,6 +38,12 @@ struct EstimatorThresholds {
 std::vector<EstimatorThresholds> calibrate_thresholds(const std::vector<EstimatorPeaks>& peaks,
                                                       const ThresholdGoal& goal);
 
+/// What the largest of a stretch exceeds with this probability, from such peaks; all zero without any.
+CalibratedThreshold calibrated_threshold(const std::vector<double>& peaks, double probability,
+                                         const ThresholdGoal& goal);
+/// Throws SetupError where so many stretches are too few, as `calibrate_thresholds`.
+void require_enough(const std::string& estimator, std::size_t stretches, const ThresholdGoal& goal);
+
 /// All peaks of the same estimators together. Throws SetupError where one has other estimators.
 std::vector<EstimatorPeaks> pooled(const std::vector<std::vector<EstimatorPeaks>>& recordings);
 

@@ -2,9 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
-
-#include "calibration/threshold_calibration.h"
 
 namespace flinch {
 namespace {
@@ -24,57 +23,118 @@ std::string row(const std::string& estimator, const char* quantity, const Calibr
                      threshold.value, threshold.best_guess, threshold.largest, threshold.papers_rule, unit);
 }
 
-double seconds(const EstimatorThresholds& thresholds, const ThresholdGoal& goal) {
-  return static_cast<double>(thresholds.stretches) * to_seconds(goal.stretch);
+double seconds(std::size_t stretches, const ThresholdGoal& goal) {
+  return static_cast<double>(stretches) * to_seconds(goal.stretch);
+}
+
+/// One part of a residual, by name.
+struct NamedSurprise {
+  const char* name;
+  const CalibratedSurprise& surprise;
+};
+
+std::array<NamedSurprise, 2> parts(const CalibratedResidual& residual) {
+  return {{{"level", residual.level}, {"change", residual.change}}};
+}
+
+std::string residuals_table(const ThresholdFindings& found) {
+  std::string text = fmt::format(
+      "\nfused detector, all of it together; deviations of the errors by cause, noise in {}\n{:<22} {:<6} "
+      "{:>9} "
+      "{:>9} {:>9} {:>7} {:>7} {:>7} {:>7} {:>8}\n",
+      found.drives_turn ? "Nm" : "N", "residual", "of", "threshold", "guess", "largest", "noise", "speed",
+      "load", "torque", "friction");
+  for (const CalibratedResidual& residual : found.residuals) {
+    for (const auto& [part, of] : parts(residual)) {
+      text += fmt::format(
+          "{:<22} {:<6} {:>9.3g} {:>9.3g} {:>9.3g} {:>7.3f} {:>7.3f} {:>7.3f} {:>7.3f} {:>8.3f}\n",
+          residual.estimator, part, of.threshold.value, of.threshold.best_guess, of.threshold.largest,
+          of.errors.noise, of.errors.speed, of.errors.load, of.errors.torque, of.errors.friction);
+    }
+  }
+  return text;
+}
+
+std::string residuals_yaml(const ThresholdFindings& found) {
+  std::string text = "fused_detector:\n  residuals:\n";
+  for (const CalibratedResidual& residual : found.residuals) {
+    text += "    - estimator: " + residual.estimator + "\n";
+    for (const auto& [part, of] : parts(residual)) {
+      text += fmt::format("      {}: {{threshold: {:.4g}, noise_{}: {:.4g}, speed_{}: {:.4g}", part,
+                          of.threshold.value, found.drives_turn ? "Nm" : "N", of.errors.noise,
+                          found.drives_turn ? "Nms_per_rad" : "Ns_per_m", of.errors.speed);
+      text += fmt::format(", load: {:.4g}, torque: {:.4g}, friction: {:.4g}}}\n", of.errors.load,
+                          of.errors.torque, of.errors.friction);
+    }
+  }
+  return text;
+}
+
+Json json_of(const CalibratedSurprise& of) {
+  return {{"value", of.threshold.value},     {"best_guess", of.threshold.best_guess},
+          {"largest", of.threshold.largest}, {"noise", of.errors.noise},
+          {"speed", of.errors.speed},        {"load", of.errors.load},
+          {"torque", of.errors.torque},      {"friction", of.errors.friction}};
 }
 
 }  // namespace
 
-std::string thresholds_table(const std::vector<EstimatorThresholds>& thresholds, const ThresholdGoal& goal) {
+std::string thresholds_table(const ThresholdFindings& found) {
+  const ThresholdGoal& goal = found.goal;
   std::string text =
       fmt::format("for {} false alarms an hour of each estimator, kept with a confidence of {:.0f} %\n\n",
                   goal.false_alarms_per_hour, 100.0 * goal.confidence);
   text += fmt::format("{:<28} {:<6} {:>9} {:>9} {:>9} {:>9}\n", "estimator", "of", "threshold", "guess",
                       "largest", fmt::format("{:.3g} x max", goal.safety_factor));
-  for (const EstimatorThresholds& of : thresholds) {
+  for (const EstimatorThresholds& of : found.estimators) {
     text += row(of.estimator, "force", of.force, "N");
     if (of.moment.value > 0.0) text += row("", "moment", of.moment, "Nm");
   }
-  if (!thresholds.empty()) {
+  if (!found.residuals.empty()) text += residuals_table(found);
+  if (!found.estimators.empty()) {
     text += fmt::format("\nfrom {:.1f} s of motion without contact, in stretches of {} s\n",
-                        seconds(thresholds.front(), goal), to_seconds(goal.stretch));
+                        seconds(found.estimators.front().stretches, goal), to_seconds(goal.stretch));
   }
   return text;
 }
 
-std::string thresholds_json(const std::vector<EstimatorThresholds>& thresholds, const ThresholdGoal& goal) {
+std::string thresholds_json(const ThresholdFindings& found) {
+  const ThresholdGoal& goal = found.goal;
   Json list = Json::array();
-  for (const EstimatorThresholds& of : thresholds) {
+  for (const EstimatorThresholds& of : found.estimators) {
     list.push_back({{"estimator", of.estimator},
-                    {"contact_free_s", seconds(of, goal)},
+                    {"contact_free_s", seconds(of.stretches, goal)},
                     {"force_N", json_of(of.force)},
                     {"moment_Nm", of.moment.value > 0.0 ? json_of(of.moment) : Json(nullptr)}});
+  }
+  Json residuals = Json::array();
+  for (const CalibratedResidual& residual : found.residuals) {
+    residuals.push_back({{"estimator", residual.estimator},
+                         {"contact_free_s", seconds(residual.stretches, goal)},
+                         {"level", json_of(residual.level)},
+                         {"change", json_of(residual.change)}});
   }
   return Json{{"false_alarms_per_h", goal.false_alarms_per_hour},
               {"confidence", goal.confidence},
               {"safety_factor", goal.safety_factor},
-              {"thresholds", list}}
+              {"thresholds", list},
+              {"fused_detector", residuals}}
       .dump();
 }
 
-std::string thresholds_yaml(const std::vector<EstimatorThresholds>& thresholds, const ThresholdGoal& goal,
-                            const std::vector<std::string>& recordings) {
+std::string thresholds_yaml(const ThresholdFindings& found) {
   std::string text = fmt::format(
       "# Thresholds for {} false alarms an hour of each estimator, kept with a confidence of {:.0f} %. "
       "From:\n",
-      goal.false_alarms_per_hour, 100.0 * goal.confidence);
-  for (const std::string& recording : recordings) text += "#   " + recording + "\n";
+      found.goal.false_alarms_per_hour, 100.0 * found.goal.confidence);
+  for (const std::string& recording : found.recordings) text += "#   " + recording + "\n";
   text += "# Belongs into the section 'control' of a scenario.\ncontact_detector:\n  by_estimator:\n";
-  for (const EstimatorThresholds& of : thresholds) {
+  for (const EstimatorThresholds& of : found.estimators) {
     text += fmt::format("    - {{estimator: {}, reaction_force_N: {:.4g}", of.estimator, of.force.value);
     if (of.moment.value > 0.0) text += fmt::format(", reaction_moment_Nm: {:.4g}", of.moment.value);
     text += "}\n";
   }
+  if (!found.residuals.empty()) text += residuals_yaml(found);
   return text;
 }
 

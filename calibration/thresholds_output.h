@@ -3,16 +3,24 @@
 #include <string>
 #include <vector>
 
+#include "calibration/residual_calibration.h"
+
 namespace flinch {
 
-struct EstimatorThresholds;
-struct ThresholdGoal;
+/// What was found for a rate of false alarms.
+struct ThresholdFindings {
+  ThresholdGoal goal;
+  std::vector<EstimatorThresholds> estimators;
+  std::vector<CalibratedResidual> residuals;  ///< empty: no fused detector told the loads of the drives
+  std::vector<std::string> recordings;        ///< names of the files that they come from
+  bool drives_turn = true;
+};
 
 /// As a table for people; as one JSON object on one line, to which later versions add keys and rename none;
-/// and as the section `control.contact_detector` of a scenario file, with what they come from above it.
-std::string thresholds_table(const std::vector<EstimatorThresholds>& thresholds, const ThresholdGoal& goal);
-std::string thresholds_json(const std::vector<EstimatorThresholds>& thresholds, const ThresholdGoal& goal);
-std::string thresholds_yaml(const std::vector<EstimatorThresholds>& thresholds, const ThresholdGoal& goal,
-                            const std::vector<std::string>& recordings);
+/// and as the sections `contact_detector` and `fused_detector` of `control` in a scenario file, with what
+/// they come from above.
+std::string thresholds_table(const ThresholdFindings& found);
+std::string thresholds_json(const ThresholdFindings& found);
+std::string thresholds_yaml(const ThresholdFindings& found);
 
 }  // namespace flinch

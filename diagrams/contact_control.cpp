@@ -44,12 +44,15 @@ struct Path {
   DiagramBuilder& builder;
   const Robot& robot;
   const ContactControlSettings& settings;
+  /// Which stages judge by; see StageSite.
+  std::shared_ptr<std::vector<Named<OutputPort<DriveLoad>>>> loads =
+      std::make_shared<std::vector<Named<OutputPort<DriveLoad>>>>();
 
   template <class Given, class Port>
   Added<Port> add(const Stages<Stage<Given, Port>>& stages, const Given& given) const {
     Added<Port> added;
     for (const Stage<Given, Port>& stage : stages.all) {
-      const StageSite site{builder, stage.name, robot, settings};
+      const StageSite site{builder, stage.name, robot, settings, loads.get()};
       added.all.push_back({stage.name, stage.add(site, given)});
     }
     added.followed = followed_name(stages);
@@ -243,6 +246,15 @@ std::vector<Named<OutputPort<PlatformAcceleration>>> show_accelerations(
   return shown;
 }
 
+std::vector<Named<OutputPort<DriveLoad>>> show_loads(const Path& path) {
+  std::vector<Named<OutputPort<DriveLoad>>> shown;
+  for (const auto& [detector, load] : *path.loads) {
+    const std::string name = "load_" + detector;
+    shown.push_back({name, path.builder.export_output(name, load)});
+  }
+  return shown;
+}
+
 /// The torques of laws that are not followed.
 std::vector<Named<OutputPort<TorqueCommand>>> show_torques(const Path& path, const Laws& laws) {
   std::vector<Named<OutputPort<TorqueCommand>>> shown;
@@ -280,6 +292,7 @@ OtherStages show_others(const Path& path, const Added<OutputPort<JointMotion>>& 
   shown.joint_motions = path.show_others("joint_motion", velocities);
   shown.accelerations = show_accelerations(path, accelerations);
   shown.wrenches = path.show_others("wrench", estimators);
+  shown.loads = show_loads(path);
   shown.detections_by_estimator = show_detections_by(path, estimators, reset);
   return shown;
 }

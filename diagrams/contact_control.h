@@ -31,6 +31,8 @@ struct OtherStages {
   std::vector<Named<OutputPort<ParticleCloud>>> clouds;
   /// Of every law that keeps some, whether it is followed or not: "constraints_" + its name.
   std::vector<Named<OutputPort<ConstraintState>>> constraints;
+  /// What detectors take for the loads of the drives, "load_" + their name.
+  std::vector<Named<OutputPort<DriveLoad>>> loads;
 };
 
 /// The ports of the contact-control pipeline.

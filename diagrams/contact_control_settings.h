@@ -5,6 +5,7 @@
 #include <string>
 
 #include "diagrams/control_stages.h"
+#include "diagrams/fused_detector_settings.h"
 #include "diagrams/isolation_settings.h"
 #include "diagrams/task_settings.h"
 #include "systems/contact/contact_detector.h"
@@ -58,6 +59,7 @@ struct ContactControlSettings {
   /// The settings of a contact detector that follows `estimator`. Hard contacts are at least as hard as those
   /// that are reacted to.
   ContactDetectorSettings detector_of(const std::string& estimator) const;
+  FusedDetectorSettings fused_detector;  ///< judges nothing until it is calibrated
 
   /// Reactions go by who tells the control path what touches the robot, and not by the followed classifier.
   bool contact_is_told = false;

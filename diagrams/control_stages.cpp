@@ -8,6 +8,7 @@
 #include "diagrams/acceleration_stages.h"
 #include "diagrams/contact_control_settings.h"
 #include "diagrams/estimator_stages.h"
+#include "diagrams/fused_detector.h"
 #include "diagrams/isolation_stages.h"
 #include "diagrams/task_stages.h"
 #include "systems/foundation/nearest_name.h"
@@ -116,6 +117,7 @@ ControlStages known_stages() {
   stages.locators.all = locator_stages();
   for (ControlLaw& law : tracking_stages()) stages.nominal_laws.add(std::move(law));
   for (ControlLaw& law : task_reaction_stages()) stages.reaction_laws.add(std::move(law));
+  stages.detectors.all.push_back({"fused_detector", add_fused_detector});
   return stages;
 }
 

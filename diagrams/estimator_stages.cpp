@@ -5,28 +5,13 @@
 
 #include "diagrams/acceleration_stages.h"
 #include "diagrams/contact_control_settings.h"
+#include "diagrams/lagless_motion.h"
 #include "systems/estimators/direct_method.h"
 #include "systems/estimators/estimate_fallback.h"
 #include "systems/foundation/setup_error.h"
-#include "systems/model/robot_model.h"
 
 namespace flinch {
 namespace {
-
-/// Where a further block of a stage is added, called as the stage and `what` it is.
-StageSite part(const StageSite& site, const std::string& what) {
-  return {site.builder, site.name + "_" + what, site.robot, site.settings};
-}
-
-/// The drive torque of the present, without the filter that aligns it with the velocity.
-OutputPort<DriveTorque> add_torque_as_it_is(const StageSite& site, const SensedPorts& given) {
-  DriveTorqueSettings settings = site.settings.drive_torque;
-  settings.low_pass.reset();
-  auto& torque = site.builder.add<DriveTorqueMapping>(site.name, site.robot, settings);
-  site.builder.connect(given.drives, torque.drives);
-  site.builder.connect(given.status, torque.status);
-  return torque.torque;
-}
 
 /// An estimator of the momentum: one of its own inputs is all that each of them reads.
 template <class Estimator, class Settings>
@@ -50,28 +35,6 @@ OutputPort<WrenchEstimate> add_momentum_kalman_filter(const StageSite& site, con
 
 OutputPort<WrenchEstimate> add_sliding_mode_observer(const StageSite& site, const AcceleratedPorts& given) {
   return add<SlidingModeObserver>(site, given, site.settings.sliding_mode_observer);
-}
-
-DisturbanceFilter& add_encoder_filter(const StageSite& site, const MotionPorts& given) {
-  DiagramBuilder& builder = site.builder;
-  auto& filter = builder.add<DisturbanceFilter>(site.name, site.robot, site.settings.disturbance_filter);
-  builder.connect(given.joints, filter.joints);
-  builder.connect(given.platform, filter.platform);
-  builder.connect(given.kinematics, filter.kinematics);
-  builder.connect(given.dynamics, filter.dynamics);
-  builder.connect(add_torque_as_it_is(part(site, "torque"), given), filter.torque);
-  return filter;
-}
-
-/// The same with a motion whose velocity hardly lags, the model there, and torques that do not.
-AcceleratedPorts without_lag(const StageSite& site, const AcceleratedPorts& given) {
-  AcceleratedPorts present = given;
-  present.platform = add_encoder_filter(part(site, "velocity"), given).followed;
-  auto& model = site.builder.add<RobotModel>(site.name + "_model", site.robot);
-  site.builder.connect(present.platform, model.platform);
-  present.kinematics = model.kinematics;
-  present.dynamics = model.dynamics;
-  return present;
 }
 
 /// An estimate that needs the IMU, and beside it the momentum observer for where that fails.

@@ -8,10 +8,18 @@
 
 #include "systems/framework/diagram_builder.h"
 #include "systems/robot/parallel_robot.h"
+#include "systems/signals/drive_load.h"
 
 namespace flinch {
 
 struct ContactControlSettings;
+
+/// An output of the stage called `name`.
+template <class Port>
+struct Named {
+  std::string name;
+  Port port;
+};
 
 /// Where a stage is added.
 struct StageSite {
@@ -19,6 +27,8 @@ struct StageSite {
   std::string name;         ///< of the stage, for its block; of further blocks: name + "_" + what they are
   std::shared_ptr<const ParallelRobot> robot;
   const ContactControlSettings& settings;
+  /// Takes the loads of the drives that a detector of this site judges by, to be recorded; null: nobody does.
+  std::vector<Named<OutputPort<DriveLoad>>>* loads = nullptr;
 };
 
 /// A part of the control path that can be exchanged: its name, and the function that adds its blocks to
@@ -60,12 +70,5 @@ std::vector<std::string> names_of(const Stages<S>& stages) {
   for (const S& stage : stages.all) names.push_back(stage.name);
   return names;
 }
-
-/// An output of the stage called `name`.
-template <class Port>
-struct Named {
-  std::string name;
-  Port port;
-};
 
 }  // namespace flinch

@@ -14,31 +14,65 @@
 
 namespace flinch {
 
-ExitStatus calibrate_thresholds(const CalibrateThresholdsOptions& options) {
-  ThresholdGoal goal;
-  goal.false_alarms_per_hour = options.rate;
-  goal.confidence = options.confidence;
-  goal.safety_factor = options.safety_factor;
+namespace {
+
+/// The recordings, and what those who made them knew of their robots.
+struct FreeMotions {
+  std::vector<Recording> recordings;
+  std::vector<Scenario> scenarios;
   std::vector<std::vector<EstimatorPeaks>> peaks;
-  std::vector<std::string> problems, names;
+};
+
+/// Throws SetupError with all that is wrong with all of them.
+FreeMotions read_motions(const CalibrateThresholdsOptions& options, const ThresholdGoal& goal) {
+  FreeMotions read;
+  std::vector<std::string> problems;
   for (const std::filesystem::path& file : options.recordings) {
-    names.push_back(file.string());
     try {
-      const Recording recording = open_recording(file);
+      Recording recording = open_recording(file);
       tell_if_partial(recording, options.common);
-      const Scenario scenario = scenario_of(recording, file);
-      peaks.push_back(out_of(
+      Scenario scenario = scenario_of(recording, file);
+      read.peaks.push_back(out_of(
           file, [&] { return contact_free_peaks(recording, scenario.robot.robot->space(), goal.stretch); }));
+      read.recordings.push_back(std::move(recording));
+      read.scenarios.push_back(std::move(scenario));
     } catch (const SetupError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
   }
   throw_if_any(std::move(problems));
-  const std::vector<EstimatorThresholds> thresholds = calibrate_thresholds(pooled(peaks), goal);
-  fmt::print("{}", options.common.json ? thresholds_json(thresholds, goal) + "\n"
-                                       : thresholds_table(thresholds, goal));
+  return read;
+}
+
+/// Of the estimators whose residuals a fused detector judges by, as far as they are recorded.
+std::vector<CalibratedResidual> residuals_of(const FreeMotions& motions, const ThresholdGoal& goal) {
+  std::vector<ResidualRecording> recordings;
+  for (std::size_t i = 0; i < motions.recordings.size(); ++i) {
+    const Scenario& scenario = motions.scenarios[i];
+    recordings.push_back(
+        {&motions.recordings[i], scenario.robot.robot->space(), scenario.control.fused_detector.tracking});
+  }
+  const std::vector<std::string> estimators =
+      calibrated_residuals(recordings, {"disturbance_filter", "imu_residual"});
+  if (estimators.empty()) return {};
+  return calibrate_residuals(recordings, estimators, goal);
+}
+
+}  // namespace
+
+ExitStatus calibrate_thresholds(const CalibrateThresholdsOptions& options) {
+  ThresholdFindings found;
+  found.goal.false_alarms_per_hour = options.rate;
+  found.goal.confidence = options.confidence;
+  found.goal.safety_factor = options.safety_factor;
+  for (const std::filesystem::path& file : options.recordings) found.recordings.push_back(file.string());
+  const FreeMotions motions = read_motions(options, found.goal);
+  found.estimators = calibrate_thresholds(pooled(motions.peaks), found.goal);
+  found.residuals = residuals_of(motions, found.goal);
+  found.drives_turn = motions.scenarios.front().robot.robot->drive_kind(0) == DriveKind::revolute;
+  fmt::print("{}", options.common.json ? thresholds_json(found) + "\n" : thresholds_table(found));
   if (options.out.empty()) return ExitStatus::done;
-  write_result(options.out, thresholds_yaml(thresholds, goal, names));
+  write_result(options.out, thresholds_yaml(found));
   if (!options.common.quiet) fmt::print(stderr, "thresholds: {}\n", options.out.string());
   return ExitStatus::done;
 }

@@ -60,6 +60,7 @@ void export_control(DiagramBuilder& builder, const ContactControl& control) {
   show(control.others.locations);
   show(control.others.clouds);
   show(control.others.constraints);
+  show(control.others.loads);
 }
 
 std::vector<std::string> recorded_paths(const Diagram& diagram) {
@@ -76,6 +77,7 @@ std::map<std::string, std::string> recorded_attributes(const Scenario& scenario,
   attributes["seed"] = std::to_string(scenario.seed);
   attributes["control.estimator"] = followed_name(scenario.control.stages.estimators);
   attributes["contact.classes"] = class_names(*scenario.robot.robot);
+  attributes["control.detector"] = followed_name(scenario.control.stages.detectors);
   attributes["scenario.name"] = scenario.name;
   attributes["scenario.file"] = scenario.file.filename().string();
   attributes["scenario.text"] = scenario.text;

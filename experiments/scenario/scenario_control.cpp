@@ -8,6 +8,7 @@
 
 #include "diagrams/contact_control_settings.h"
 #include "experiments/scenario/scenario_estimators.h"
+#include "experiments/scenario/scenario_fused_detector.h"
 #include "experiments/scenario/scenario_isolation.h"
 #include "experiments/scenario/scenario_pose.h"
 #include "experiments/scenario/scenario_stages.h"
@@ -182,6 +183,7 @@ void read_control(ConfigReader control, const ParallelRobot& robot, ContactContr
   read_sensing(control, robot, settings);
   read_estimators(control, robot, settings);
   read_detection(control, estimators, settings);
+  read_fused_detector(control.section("fused_detector"), robot, estimators, settings.fused_detector);
   read_isolation(control.section("isolation"), settings.isolation);
   read_laws(control, robot, settings);
   read_tasks(control, robot, settings.tasks);

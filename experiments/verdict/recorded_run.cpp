@@ -26,15 +26,32 @@ Witness witness_of(const Recording& recording) {
   return recording.find("force_torque") != nullptr ? Witness::force_torque : Witness::none;
 }
 
-const std::string detection_by = "detection_by_";
+const std::string detection_by = "detection_by_";  // + an estimator, with a contact detector after it
+const std::string detection_of = "detection_";     // + a detector
 
-std::vector<std::string> estimators_of(const Recording& recording) {
-  const auto followed = recording.attributes.find("control.estimator");
-  std::vector<std::string> names = {followed == recording.attributes.end() ? "" : followed->second};
-  for (const Signal& signal : recording.signals) {
-    if (signal.path.starts_with(detection_by)) names.push_back(signal.path.substr(detection_by.size()));
+std::string attribute(const Recording& recording, const std::string& name) {
+  const auto found = recording.attributes.find(name);
+  return found == recording.attributes.end() ? "" : found->second;
+}
+
+/// What a detector is told as: a contact detector by the estimator that it follows, another by its own name.
+std::string told_as(const std::string& detector, const std::string& estimator) {
+  return detector.empty() || detector == "contact_detector" ? estimator : detector;
+}
+
+/// The name and the signal of every detector, first of the one that the robot follows.
+std::vector<std::pair<std::string, std::string>> detections_of(const Recording& recording) {
+  const std::string estimator = attribute(recording, "control.estimator");
+  std::vector<std::pair<std::string, std::string>> found = {
+      {told_as(attribute(recording, "control.detector"), estimator), "detection"}};
+  for (const auto& [path, layout, rows] : recording.signals) {
+    if (path.starts_with(detection_by)) {
+      found.emplace_back(path.substr(detection_by.size()), path);
+    } else if (path.starts_with(detection_of)) {
+      found.emplace_back(told_as(path.substr(detection_of.size()), estimator), path);
+    }
   }
-  return names;
+  return found;
 }
 
 std::vector<std::string> class_names_of(const Recording& recording) {
@@ -97,7 +114,7 @@ void compare_motion(const Configuration& pose, const PlatformVector& velocity, c
 bool is_judged(const std::string& path) {
   static constexpr std::array judged = {"detection", "reaction", "wrench",   "reference",      "gate",
                                         "truth",     "contact",  "location", "classification", "measures"};
-  return path.starts_with(detection_by) || std::find(judged.begin(), judged.end(), path) != judged.end();
+  return path.starts_with(detection_of) || std::find(judged.begin(), judged.end(), path) != judged.end();
 }
 
 /// Whether the recording tells of the robot's own bodies.
@@ -109,15 +126,15 @@ bool records_self_contact(const Recording& recording) {
 
 /// Those that the witness has.
 struct RecordedRun::Signals {
-  Signals(const Recording& recording, Witness witness, const std::vector<std::string>& estimators)
+  Signals(const Recording& recording, Witness witness,
+          const std::vector<std::pair<std::string, std::string>>& detections)
       : detection(recording, "detection"),
         reaction(recording, "reaction"),
         wrench(recording, "wrench"),
         reference(recording, "reference"),
         gate(recording, "gate") {
-    for (std::size_t i = 1; i < estimators.size(); ++i) {
-      detections_by.emplace_back(recording, detection_by + estimators[i]);
-    }
+    for (std::size_t i = 1; i < detections.size(); ++i)
+      detections_by.emplace_back(recording, detections[i].second);
     class_names = class_names_of(recording);
     if (recording.find("classification") != nullptr) classification.emplace(recording, "classification");
     if (recording.find("location") != nullptr) location.emplace(recording, "location");
@@ -157,8 +174,9 @@ RecordedRun::RecordedRun(const Recording& recording, ConfigurationSpace space)
     : recording_(recording),
       space_(space),
       witness_(witness_of(recording)),
-      estimators_(estimators_of(recording)),
-      signals_(std::make_unique<Signals>(recording, witness_, estimators_)) {}
+      signals_(std::make_unique<Signals>(recording, witness_, detections_of(recording))) {
+  for (const auto& [name, path] : detections_of(recording)) estimators_.push_back(name);
+}
 
 RecordedRun::~RecordedRun() = default;
 

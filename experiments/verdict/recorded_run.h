@@ -83,8 +83,8 @@ class RecordedRun {
   ~RecordedRun();
 
   Witness witness() const { return witness_; }
-  /// The estimators that detectors follow, first the one that the robot follows: "" where the recording does
-  /// not name it.
+  /// The estimators that contact detectors follow, and other detectors by their own names, first the one that
+  /// the robot follows: "" where the recording does not name it.
   const std::vector<std::string>& estimators() const { return estimators_; }
   std::size_t size() const;
   double period() const;    ///< [s]

@@ -20,18 +20,17 @@ std::vector<std::string> problems(const ContactDetectorSettings& settings) {
   return found.take();
 }
 
-// One threshold a component: forces first.
-PlatformVector components(const WrenchThreshold& threshold, const ParallelRobot& robot) {
+}  // namespace
+
+PlatformVector of_components(const WrenchThreshold& threshold, const ParallelRobot& robot) {
   PlatformVector components = PlatformVector::Constant(robot.dof(), threshold.moment);
   components.head(robot.space().translations()).setConstant(threshold.force);
   return components;
 }
 
-}  // namespace
-
 ContactDetector::ContactDetector(const std::shared_ptr<const ParallelRobot>& robot,
                                  const ContactDetectorSettings& settings)
-    : reaction_(components(settings.reaction, *robot)), hard_(components(settings.hard, *robot)) {
+    : reaction_(of_components(settings.reaction, *robot)), hard_(of_components(settings.hard, *robot)) {
   throw_if_any(problems(settings));
   keep(Every{settings.period}, previous_, contact);
 }

@@ -16,6 +16,9 @@ struct WrenchThreshold {
   double moment = 0.0;  ///< [Nm]
 };
 
+/// One threshold a component: forces first.
+PlatformVector of_components(const WrenchThreshold& threshold, const ParallelRobot& robot);
+
 struct ContactDetectorSettings {
   WrenchThreshold reaction{10.0, 1.0};  ///< epsilon_r, [SafePR] V-B
   WrenchThreshold hard{60.0, 3.0};      ///< epsilon_g, [PAR]

@@ -2,10 +2,10 @@
 
 #include <memory>
 
-#include "systems/estimators/history.h"
 #include "systems/framework/system.h"
 #include "systems/robot/parallel_robot.h"
 #include "systems/signals/drive_torque.h"
+#include "systems/signals/history.h"
 #include "systems/signals/platform_acceleration.h"
 #include "systems/signals/platform_motion.h"
 #include "systems/signals/wrench_estimate.h"

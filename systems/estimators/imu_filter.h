@@ -4,10 +4,10 @@
 #include <memory>
 
 #include "systems/estimators/error_covariance.h"
-#include "systems/estimators/history.h"
 #include "systems/framework/system.h"
 #include "systems/robot/imu_output.h"
 #include "systems/robot/parallel_robot.h"
+#include "systems/signals/history.h"
 #include "systems/signals/imu_bias.h"
 #include "systems/signals/imu_reading.h"
 #include "systems/signals/platform_acceleration.h"

@@ -3,11 +3,11 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "systems/estimators/history.h"
 #include "systems/framework/system.h"
 #include "systems/robot/imu_output.h"
 #include "systems/robot/parallel_robot.h"
 #include "systems/signals/drive_torque.h"
+#include "systems/signals/history.h"
 #include "systems/signals/imu_reading.h"
 #include "systems/signals/platform_motion.h"
 #include "systems/signals/sampling.h"

@@ -12,22 +12,36 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::vector<EstimatorThresholds> some = {
-    {.estimator = "observer",
-     .stretches = 180,
-     .force = {6.25, 5.5, 4.0, 8.0},
-     .moment = {0.5, 0.4, 0.3, 0.6}},
-    {.estimator = "filter", .stretches = 180, .force = {7.5, 7.0, 5.0, 10.0}, .moment = {}}};
+const ThresholdFindings some = {
+    .goal = {},
+    .estimators = {{.estimator = "observer",
+                    .stretches = 180,
+                    .force = {6.25, 5.5, 4.0, 8.0},
+                    .moment = {0.5, 0.4, 0.3, 0.6}},
+                   {.estimator = "filter", .stretches = 180, .force = {7.5, 7.0, 5.0, 10.0}, .moment = {}}},
+    .residuals = {},
+    .recordings = {"a/run.h5"}};
+
+ThresholdFindings with_a_residual(bool drives_turn) {
+  ThresholdFindings found = some;
+  found.drives_turn = drives_turn;
+  found.residuals = {
+      {.estimator = "filter",
+       .stretches = 180,
+       .level = {{.noise = 0.25, .speed = 0.5, .load = 0.0, .torque = 0.125, .friction = 0.75}, {8.0}},
+       .change = {{.noise = 0.5, .speed = 0.25, .load = 0.0625, .torque = 0.5, .friction = 1.0}, {9.5}}}};
+  return found;
+}
 
 TEST(TheTable, ShowsThresholdsBesideThePapersRule) {
-  const std::string table = thresholds_table(some, {});
+  const std::string table = thresholds_table(some);
   EXPECT_THAT(table, HasSubstr("2 x max"));
   EXPECT_THAT(table, HasSubstr("from 90.0 s of motion without contact"));
   EXPECT_THAT(table, HasSubstr("6.25"));
 }
 
 TEST(TheObject, HasEveryNumber) {
-  const auto json = nlohmann::json::parse(thresholds_json(some, {}));
+  const auto json = nlohmann::json::parse(thresholds_json(some));
   EXPECT_EQ(json["false_alarms_per_h"], 0.5);
   EXPECT_EQ(json["thresholds"][0]["force_N"]["value"], 6.25);
   EXPECT_EQ(json["thresholds"][0]["moment_Nm"]["papers_rule"], 0.6);
@@ -36,7 +50,7 @@ TEST(TheObject, HasEveryNumber) {
 
 TEST(TheSection, IsWhatAScenarioTakes) {
   EXPECT_EQ(
-      thresholds_yaml(some, {}, {"a/run.h5"}),
+      thresholds_yaml(some),
       "# Thresholds for 0.5 false alarms an hour of each estimator, kept with a confidence of 95 %. From:\n"
       "#   a/run.h5\n"
       "# Belongs into the section 'control' of a scenario.\n"
@@ -44,6 +58,32 @@ TEST(TheSection, IsWhatAScenarioTakes) {
       "  by_estimator:\n"
       "    - {estimator: observer, reaction_force_N: 6.25, reaction_moment_Nm: 0.5}\n"
       "    - {estimator: filter, reaction_force_N: 7.5}\n");
+}
+
+TEST(TheSection, OfAFusedDetectorHasTheUnitsOfTheDrives) {
+  EXPECT_THAT(
+      thresholds_yaml(with_a_residual(true)),
+      HasSubstr("fused_detector:\n"
+                "  residuals:\n"
+                "    - estimator: filter\n"
+                "      level: {threshold: 8, noise_Nm: 0.25, speed_Nms_per_rad: 0.5, load: 0, torque: "
+                "0.125, friction: 0.75}\n"
+                "      change: {threshold: 9.5, noise_Nm: 0.5, speed_Nms_per_rad: 0.25, load: 0.0625, "
+                "torque: 0.5, friction: 1}\n"));
+  EXPECT_THAT(thresholds_yaml(with_a_residual(false)), HasSubstr("noise_N: 0.25, speed_Ns_per_m: 0.5"));
+}
+
+TEST(TheObject, HasTheResidualsOfAFusedDetector) {
+  const auto json = nlohmann::json::parse(thresholds_json(with_a_residual(true)));
+  EXPECT_EQ(json["fused_detector"][0]["estimator"], "filter");
+  EXPECT_EQ(json["fused_detector"][0]["change"]["value"], 9.5);
+  EXPECT_EQ(json["fused_detector"][0]["level"]["torque"], 0.125);
+  EXPECT_TRUE(nlohmann::json::parse(thresholds_json(some))["fused_detector"].empty());
+}
+
+TEST(TheTable, ShowsTheErrorsThatAFusedDetectorReckonsWith) {
+  EXPECT_THAT(thresholds_table(with_a_residual(true)), HasSubstr("noise in Nm"));
+  EXPECT_THAT(thresholds_table(with_a_residual(true)), HasSubstr("0.125"));
 }
 
 }  // namespace

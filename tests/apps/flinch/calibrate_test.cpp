@@ -15,6 +15,7 @@ using test::Outcome;
 using ::testing::HasSubstr;
 
 constexpr const char* square = "scenarios/square.yaml";
+constexpr const char* random_motion = "scenarios/random_motion.yaml";
 constexpr const char* collision = "scenarios/platform_collision.yaml";
 
 class CalibrateThresholds : public ::testing::Test {
@@ -52,6 +53,34 @@ TEST_F(CalibrateThresholds, FindsThoseOfEachEstimatorAndAScenarioTakesThem) {
   const Outcome run = flinch({"run", place.at(collision), "--out", place.at("out"), "--json"});
   const auto contact = nlohmann::json::parse(run.out)["contacts"][0];
   EXPECT_LT(contact["detection_ms"], 11.0) << "its threshold is below the 10 N with which it takes 12 ms";
+}
+
+TEST_F(CalibrateThresholds, FindsWhatTheFusedDetectorJudgesByAndAScenarioTakesIt) {
+  place.replace(random_motion, "duration_s: 36", "duration_s: 32.5");
+  EXPECT_EQ(flinch({"run", place.at(random_motion), "--out", place.at("free"), "--quiet"}).status, 0);
+  const Outcome outcome = flinch(
+      {"calibrate", "thresholds", place.at("free/run.h5"), "--json", "--out", place.at("thresholds.yaml")});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out)["fused_detector"];
+  ASSERT_EQ(json.size(), 2U);
+  for (const auto& of : json) {
+    for (const char* part : {"level", "change"}) {
+      EXPECT_GT(of[part]["value"], of[part]["largest"]) << of;
+      EXPECT_LT(of[part]["value"], 15.0) << "a fifth of that is one deviation too few: " << of;
+      EXPECT_GT(of[part]["noise"], 0.05) << "of the currents alone: " << of;
+    }
+  }
+  // The sections go into 'control', which is one level deeper.
+  std::string section = test::bytes_of(place / "thresholds.yaml");
+  section.erase(0, section.find("fused_detector:"));
+  for (std::size_t at = section.find('\n'); at + 1 < section.size(); at = section.find('\n', at + 1))
+    section.insert(at + 1, "  ");
+  place.replace(collision, "  contact_detector:",
+                "  detectors: [contact_detector, fused_detector]\n  " + section + "  contact_detector:");
+  const Outcome run = flinch({"run", place.at(collision), "--out", place.at("out"), "--json"});
+  const auto by = nlohmann::json::parse(run.out)["contacts"][0]["detection_by_estimator_ms"];
+  EXPECT_LT(by["fused_detector"], 6.0);
+  EXPECT_LT(by["fused_detector"], by["momentum_observer"]);
 }
 
 TEST_F(CalibrateThresholds, OfAnEstimatorDecideWhenItsDetectorNotices) {

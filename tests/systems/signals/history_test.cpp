@@ -1,4 +1,4 @@
-#include "systems/estimators/history.h"
+#include "systems/signals/history.h"
 
 #include <gtest/gtest.h>
 

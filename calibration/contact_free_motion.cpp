@@ -1,0 +1,53 @@
+#include "calibration/contact_free_motion.h"
+
+#include <cstdio>
+
+#include "experiments/verdict/recorded_run.h"
+#include "systems/foundation/setup_error.h"
+#include "systems/framework/recording.h"
+
+namespace flinch {
+namespace {
+
+std::string at(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "at %.3f s", seconds);
+  return text;
+}
+
+}  // namespace
+
+std::vector<bool> nominal_samples(const Recording& recording, const ConfigurationSpace& space) {
+  const RecordedRun run(recording, space);
+  std::vector<bool> nominal(run.size());
+  for (std::size_t k = 0; k < nominal.size(); ++k) {
+    const RunSample now = run[k];
+    if (now.is_touched()) {
+      throw SetupError("something touched or pushed the robot " + at(now.time) +
+                       "; thresholds come from motion without contact");
+    }
+    if (run.witness() == Witness::none && now.detection.level != ContactLevel::none) {
+      throw SetupError("the robot noticed a contact " + at(now.time) +
+                       ", and nobody knows whether there was one; record with higher thresholds in "
+                       "control.contact_detector");
+    }
+    nominal[k] = now.mode == ReactionMode::nominal;
+  }
+  return nominal;
+}
+
+std::vector<std::pair<std::string, std::string>> estimates_of(const Recording& recording) {
+  std::vector<std::pair<std::string, std::string>> found;
+  const auto followed = recording.attributes.find("control.estimator");
+  if (recording.find("wrench") != nullptr && followed != recording.attributes.end()) {
+    found.emplace_back(followed->second, "wrench");
+  }
+  const std::string others = "wrench_";
+  for (const Signal& signal : recording.signals) {
+    if (signal.path.starts_with(others)) found.emplace_back(signal.path.substr(others.size()), signal.path);
+  }
+  if (found.empty()) throw SetupError("the recording holds no estimates of named estimators");
+  return found;
+}
+
+}  // namespace flinch

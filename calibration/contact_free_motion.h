@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "systems/robot/configuration_space.h"
+
+namespace flinch {
+
+struct Recording;
+
+/// Whether each sample belongs to the nominal motion. Throws SetupError where something touched the robot, or
+/// where the robot noticed something, so that nobody knows.
+std::vector<bool> nominal_samples(const Recording& recording, const ConfigurationSpace& space);
+
+/// Names of the estimators and the signals of what they say. Throws SetupError where there are none.
+std::vector<std::pair<std::string, std::string>> estimates_of(const Recording& recording);
+
+}  // namespace flinch

@@ -1,0 +1,146 @@
+#include "calibration/residual_calibration.h"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+
+#include "calibration/contact_free_motion.h"
+#include "calibration/error_sizes.h"
+#include "systems/foundation/setup_error.h"
+#include "systems/framework/recorded_values.h"
+
+namespace flinch {
+namespace {
+
+constexpr std::size_t most_samples = 60'000;  // of a drive, to which sizes are fitted
+
+/// The signal of the loads of the drives; "" where there is none.
+std::string loads_of(const Recording& recording) {
+  for (const Signal& signal : recording.signals) {
+    if (signal.path.starts_with("load_")) return signal.path;
+  }
+  return "";
+}
+
+/// Whether the sample belongs to the nominal motion, and what is seen of the residual then.
+using Visit = std::function<void(bool nominal, const ResidualMemory& memory)>;
+
+/// Follows an estimator's residual through a recording as `WhitenedDetector` does.
+void follow(const ResidualRecording& of, const std::string& estimator, const Visit& visit) {
+  const Recording& recording = *of.recording;
+  const std::vector<bool> nominal = nominal_samples(recording, of.space);
+  const auto signals = estimates_of(recording);
+  const auto signal =
+      std::find_if(signals.begin(), signals.end(), [&](const auto& each) { return each.first == estimator; });
+  const auto estimates = read<WrenchEstimate>(recording, signal->second);
+  const auto loads = read<DriveLoad>(recording, loads_of(recording));
+  LoadHistory past;
+  ResidualMemory memory, next;
+  for (std::size_t k = 0; k < estimates.size(); ++k) {
+    const DriveLoad load = loads[k];
+    follow_residual(estimates[k], load, past, Time(recording.time_ns[k]), of.tracking, memory, next);
+    if (load.valid) past.push(load);
+    memory = next;
+    visit(nominal[k], memory);
+  }
+}
+
+/// The level of a residual, or its change: what is seen of it, where it means something.
+struct Statistic {
+  DriveResidual SeenResidual::*part;
+  bool needs_settling;
+
+  const DriveResidual* of(bool nominal, const SeenResidual& seen) const {
+    return nominal && seen.is_new && (seen.settled || !needs_settling) ? &(seen.*part) : nullptr;
+  }
+};
+
+constexpr Statistic level_statistic{&SeenResidual::level, false};
+constexpr Statistic change_statistic{&SeenResidual::change, true};
+
+ResidualErrors fit(const std::vector<ResidualRecording>& recordings, const std::string& estimator,
+                   const Statistic& statistic) {
+  std::size_t ticks = 0;
+  for (const ResidualRecording& each : recordings) ticks += each.recording->samples();
+  const std::size_t stride = 1 + ticks / most_samples;
+  std::vector<ErrorSample> samples;
+  std::size_t k = 0;
+  for (const ResidualRecording& each : recordings) {
+    follow(each, estimator, [&](bool nominal, const ResidualMemory& memory) {
+      const DriveResidual* const seen = statistic.of(nominal, memory.seen);
+      if (seen == nullptr || k++ % stride != 0) return;
+      for (int i = 0; i < seen->effort.size(); ++i) {
+        ErrorSample& sample = samples.emplace_back();
+        sample.squared = seen->effort[i] * seen->effort[i];
+        sample.features = error_features(memory.seen.load, *seen, i);
+        // The level is seen with the torque itself: it would count twice.
+        if (!statistic.needs_settling) sample.features[2] = 0.0;
+      }
+    });
+  }
+  if (samples.empty()) throw SetupError(estimator + ": no valid estimate is recorded");
+  return fit_error_sizes(samples);
+}
+
+/// The largest surprise of each stretch in which there was one at all times.
+std::vector<double> peaks(const std::vector<ResidualRecording>& recordings, const std::string& estimator,
+                          const Statistic& statistic, const ResidualErrors& errors, Time stretch) {
+  std::vector<double> found;
+  for (const ResidualRecording& each : recordings) {
+    const auto length = static_cast<std::size_t>(std::max<std::int64_t>(1, stretch / each.recording->period));
+    std::size_t ticks = 0;  // of the present stretch
+    double largest = 0.0;
+    follow(each, estimator, [&](bool nominal, const ResidualMemory& memory) {
+      const bool waits = nominal && memory.started && !memory.seen.is_new;
+      const DriveResidual* const seen = statistic.of(nominal, memory.seen);
+      if (seen == nullptr && !waits) ticks = 0;
+      if (ticks == 0) largest = 0.0;
+      if (seen != nullptr) largest = std::max(largest, surprise(memory.seen.load, *seen, errors));
+      if ((seen == nullptr && !waits) || ++ticks < length) return;
+      found.push_back(largest);
+      ticks = 0;
+    });
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<std::string> calibrated_residuals(const std::vector<ResidualRecording>& recordings,
+                                              const std::vector<std::string>& wanted) {
+  std::map<std::string, std::size_t> times;
+  for (const ResidualRecording& each : recordings) {
+    if (loads_of(*each.recording).empty()) return {};
+    for (const auto& [estimator, signal] : estimates_of(*each.recording)) ++times[estimator];
+  }
+  std::vector<std::string> found;
+  for (const std::string& name : wanted) {
+    if (times[name] == recordings.size()) found.push_back(name);
+  }
+  return found;
+}
+
+std::vector<CalibratedResidual> calibrate_residuals(const std::vector<ResidualRecording>& recordings,
+                                                    const std::vector<std::string>& estimators,
+                                                    const ThresholdGoal& goal) {
+  const double share = 0.5 / static_cast<double>(estimators.size());
+  const double probability = share * goal.false_alarms_per_hour / 3600.0 * to_seconds(goal.stretch);
+  std::vector<CalibratedResidual> all;
+  for (const std::string& estimator : estimators) {
+    CalibratedResidual& residual = all.emplace_back();
+    residual.estimator = estimator;
+    const auto calibrate = [&](const Statistic& statistic, CalibratedSurprise& result) {
+      result.errors = fit(recordings, estimator, statistic);
+      const std::vector<double> largest =
+          peaks(recordings, estimator, statistic, result.errors, goal.stretch);
+      require_enough(estimator, largest.size(), goal);
+      result.threshold = calibrated_threshold(largest, probability, goal);
+      residual.stretches = largest.size();
+    };
+    calibrate(level_statistic, residual.level);
+    calibrate(change_statistic, residual.change);
+  }
+  return all;
+}
+
+}  // namespace flinch

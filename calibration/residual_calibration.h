@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "calibration/threshold_calibration.h"
+#include "systems/contact/residual_errors.h"
+#include "systems/robot/configuration_space.h"
+
+namespace flinch {
+
+struct Recording;
+
+/// Motion without contact in which a fused detector told the loads of the drives.
+struct ResidualRecording {
+  const Recording* recording;
+  ConfigurationSpace space;   ///< of the recorded robot
+  ResidualTracking tracking;  ///< of the detector that shall judge
+};
+
+/// When the level or the change of a residual is a contact.
+struct CalibratedSurprise {
+  ResidualErrors errors;
+  CalibratedThreshold threshold;  ///< of what is left once the errors have deviation 1
+};
+
+struct CalibratedResidual {
+  std::string estimator;
+  std::size_t stretches = 0;
+  CalibratedSurprise level, change;
+};
+
+/// Those of `wanted` that all recordings have an estimate of; none where one has no loads.
+std::vector<std::string> calibrated_residuals(const std::vector<ResidualRecording>& recordings,
+                                              const std::vector<std::string>& wanted);
+
+/// Sizes of the errors, fitted to all recordings together, and thresholds, so that all residuals together
+/// give the rate of false alarms that is asked: each of their statistics has an equal share. Throws
+/// SetupError as `calibrate_thresholds`.
+std::vector<CalibratedResidual> calibrate_residuals(const std::vector<ResidualRecording>& recordings,
+                                                    const std::vector<std::string>& estimators,
+                                                    const ThresholdGoal& goal);
+
+}  // namespace flinch

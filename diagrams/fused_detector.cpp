@@ -1,0 +1,84 @@
+#include "diagrams/fused_detector.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "diagrams/contact_control_settings.h"
+#include "diagrams/estimator_stages.h"
+#include "diagrams/lagless_motion.h"
+#include "systems/contact/either_detector.h"
+#include "systems/foundation/nearest_name.h"
+#include "systems/foundation/setup_error.h"
+#include "systems/framework/constant.h"
+#include "systems/model/drive_loads.h"
+
+namespace flinch {
+namespace {
+
+OutputPort<DriveLoad> add_loads(const StageSite& site, const AcceleratedPorts& given) {
+  const AcceleratedPorts present = without_lag(part(site, "motion"), given);
+  auto& loads = site.builder.add<DriveLoads>(site.name + "_loads");
+  site.builder.connect(present.platform, loads.platform);
+  site.builder.connect(present.kinematics, loads.kinematics);
+  site.builder.connect(present.dynamics, loads.dynamics);
+  site.builder.connect(add_torque_as_it_is(part(site, "torque"), given), loads.torque);
+  return loads.load;
+}
+
+/// That which runs, else one for this detector alone.
+OutputPort<WrenchEstimate> estimate_of(const std::string& name, const StageSite& site,
+                                       const EstimatePorts& given) {
+  std::vector<std::string> known;
+  for (const auto& running : given.estimates) {
+    if (running.name == name) return running.port;
+    known.push_back(running.name);
+  }
+  for (const WrenchEstimator& stage : estimator_stages()) {
+    if (stage.name == name) return stage.add(part(site, name), given);
+    known.push_back(stage.name);
+  }
+  throw SetupError(site.name + ": there is no estimator '" + name + "'" + did_you_mean(name, known));
+}
+
+OutputPort<ContactDetection> add_residual(const StageSite& site, const FusedResidual& residual,
+                                          const EstimatePorts& given, OutputPort<DriveLoad> load) {
+  const WhitenedDetectorSettings settings{.level = residual.level,
+                                          .change = residual.change,
+                                          .tracking = site.settings.fused_detector.tracking,
+                                          .hard = site.settings.contact_detector.hard};
+  const std::string name = site.name + "_by_" + residual.estimator;
+  auto& detector = site.builder.add<WhitenedDetector>(name, site.robot, settings);
+  site.builder.connect(estimate_of(residual.estimator, site, given), detector.wrench);
+  site.builder.connect(load, detector.load);
+  site.builder.connect(given.reset, detector.reset);
+  return detector.contact;
+}
+
+OutputPort<ContactDetection> add_nothing(const StageSite& site) {
+  if (followed_name(site.settings.stages.detectors) == site.name) {
+    throw SetupError(site.name +
+                     " is followed but has no residuals to judge by; flinch calibrate thresholds finds them");
+  }
+  return site.builder.add<Constant<ContactDetection>>(site.name, ContactDetection()).value;
+}
+
+}  // namespace
+
+OutputPort<ContactDetection> add_fused_detector(const StageSite& site, const EstimatePorts& given) {
+  const OutputPort<DriveLoad> load = add_loads(site, given);
+  if (site.loads != nullptr) site.loads->push_back({site.name, load});
+  const std::vector<FusedResidual>& residuals = site.settings.fused_detector.residuals;
+  if (residuals.empty()) return add_nothing(site);
+  OutputPort<ContactDetection> noticed = add_residual(site, residuals.front(), given, load);
+  for (std::size_t i = 1; i < residuals.size(); ++i) {
+    const std::string name = i + 1 < residuals.size() ? site.name + "_" + std::to_string(i) : site.name;
+    auto& either = site.builder.add<EitherDetector>(name);
+    site.builder.connect(noticed, either.first);
+    site.builder.connect(add_residual(site, residuals[i], given, load), either.second);
+    noticed = either.contact;
+  }
+  return noticed;
+}
+
+}  // namespace flinch

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "diagrams/control_stages.h"
+
+namespace flinch {
+
+/// A stage that notices what any of `ContactControlSettings::fused_detector.residuals` shows: a
+/// `WhitenedDetector` on each, and either of them. An estimator that does not run is added for it alone. Hard
+/// contacts are those of `contact_detector`. Throws SetupError for an estimator that there is not, and where
+/// it is followed and has no residual.
+OutputPort<ContactDetection> add_fused_detector(const StageSite& site, const EstimatePorts& given);
+
+}  // namespace flinch

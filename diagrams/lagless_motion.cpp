@@ -1,0 +1,42 @@
+#include "diagrams/lagless_motion.h"
+
+#include "diagrams/contact_control_settings.h"
+#include "systems/model/robot_model.h"
+
+namespace flinch {
+
+StageSite part(const StageSite& site, const std::string& what) {
+  return {site.builder, site.name + "_" + what, site.robot, site.settings, site.loads};
+}
+
+OutputPort<DriveTorque> add_torque_as_it_is(const StageSite& site, const SensedPorts& given) {
+  DriveTorqueSettings settings = site.settings.drive_torque;
+  settings.low_pass.reset();
+  auto& torque = site.builder.add<DriveTorqueMapping>(site.name, site.robot, settings);
+  site.builder.connect(given.drives, torque.drives);
+  site.builder.connect(given.status, torque.status);
+  return torque.torque;
+}
+
+DisturbanceFilter& add_encoder_filter(const StageSite& site, const MotionPorts& given) {
+  DiagramBuilder& builder = site.builder;
+  auto& filter = builder.add<DisturbanceFilter>(site.name, site.robot, site.settings.disturbance_filter);
+  builder.connect(given.joints, filter.joints);
+  builder.connect(given.platform, filter.platform);
+  builder.connect(given.kinematics, filter.kinematics);
+  builder.connect(given.dynamics, filter.dynamics);
+  builder.connect(add_torque_as_it_is(part(site, "torque"), given), filter.torque);
+  return filter;
+}
+
+AcceleratedPorts without_lag(const StageSite& site, const AcceleratedPorts& given) {
+  AcceleratedPorts present = given;
+  present.platform = add_encoder_filter(part(site, "velocity"), given).followed;
+  auto& model = site.builder.add<RobotModel>(site.name + "_model", site.robot);
+  site.builder.connect(present.platform, model.platform);
+  present.kinematics = model.kinematics;
+  present.dynamics = model.dynamics;
+  return present;
+}
+
+}  // namespace flinch

@@ -1,0 +1,49 @@
+#include "experiments/scenario/scenario_fused_detector.h"
+
+#include <algorithm>
+
+#include "diagrams/fused_detector_settings.h"
+#include "systems/config/config_reader.h"
+#include "systems/foundation/nearest_name.h"
+#include "systems/robot/parallel_robot.h"
+
+namespace flinch {
+namespace {
+
+void read(ConfigReader reader, bool drives_turn, SurpriseThreshold& limit) {
+  ConfigReader needed = reader.required();
+  needed.number("threshold", unit::none, limit.threshold, positive);
+  needed.number("noise", drives_turn ? unit::Nm : unit::N, limit.errors.noise, positive);
+  reader.number("speed", drives_turn ? unit::Nms_per_rad : unit::Ns_per_m, limit.errors.speed, not_negative);
+  reader.number("load", unit::none, limit.errors.load, not_negative);
+  reader.number("torque", unit::none, limit.errors.torque, not_negative);
+  reader.number("friction", unit::none, limit.errors.friction, not_negative);
+}
+
+bool has(const std::vector<FusedResidual>& residuals, const std::string& estimator) {
+  return std::any_of(residuals.begin(), residuals.end(),
+                     [&](const FusedResidual& residual) { return residual.estimator == estimator; });
+}
+
+}  // namespace
+
+void read_fused_detector(ConfigReader fused, const ParallelRobot& robot,
+                         const std::vector<std::string>& estimators, FusedDetectorSettings& settings) {
+  const bool turn = robot.drive_kind(0) == DriveKind::revolute;
+  fused.number("tracking", unit::per_s, settings.tracking.rate, positive);
+  for (ConfigReader& own : fused.sections("residuals")) {
+    FusedResidual residual;
+    own.required().text("estimator", residual.estimator);
+    const std::string& name = residual.estimator;
+    if (std::find(estimators.begin(), estimators.end(), name) == estimators.end()) {
+      own.problem("estimator", "is '" + name + "', which is no estimator" + did_you_mean(name, estimators));
+    } else if (has(settings.residuals, name)) {
+      own.problem("estimator", "is '" + name + "', as that of an entry before it");
+    }
+    read(own.section("level"), turn, residual.level);
+    read(own.section("change"), turn, residual.change);
+    settings.residuals.push_back(residual);
+  }
+}
+
+}  // namespace flinch

@@ -1,0 +1,30 @@
+#include "systems/contact/residual_errors.h"
+
+#include <cmath>
+#include <limits>
+
+namespace flinch {
+namespace {
+
+constexpr double square(double value) { return value * value; }
+
+}  // namespace
+
+double ResidualErrors::variance(const ErrorFeatures& features) const {
+  return square(noise) * features[0] + square(speed) * features[1] + square(load) * features[2] +
+         square(torque) * features[3] + square(friction) * features[4];
+}
+
+ErrorFeatures error_features(const DriveLoad& load, const DriveResidual& seen, int drive) {
+  return {1.0, square(load.rate[drive]), square(load.torque[drive]), square(seen.torque[drive]),
+          square(seen.friction[drive])};
+}
+
+double surprise(const DriveLoad& load, const DriveResidual& seen, const ResidualErrors& errors) {
+  double sum = 0.0;
+  for (int i = 0; i < seen.effort.size(); ++i)
+    sum += square(seen.effort[i]) / errors.variance(error_features(load, seen, i));
+  return std::isfinite(sum) ? std::sqrt(sum) : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace flinch

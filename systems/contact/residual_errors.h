@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+
+#include "systems/contact/seen_residual.h"
+
+namespace flinch {
+
+/// What the squared error of a drive's residual grows with: 1, and the squares of what `ResidualErrors` has.
+using ErrorFeatures = std::array<double, 5>;
+
+/// How large the errors of a residual are: deviations of independent parts, each in proportion to something.
+struct ResidualErrors {
+  double noise = 0.0;     ///< whatever the drive does [Nm or N]
+  double speed = 0.0;     ///< with its rate [Nm s/rad or N s/m]
+  double load = 0.0;      ///< with its torque
+  double torque = 0.0;    ///< with the torque as the residual is seen, itself or its change
+  double friction = 0.0;  ///< with the friction that the model expects, likewise
+
+  double variance(const ErrorFeatures& features) const;
+};
+
+/// Of a drive under `load`, whose residual is seen as `seen`: its level, or its change.
+ErrorFeatures error_features(const DriveLoad& load, const DriveResidual& seen, int drive);
+
+/// The length of the residual once each drive's is divided by its deviation, sqrt(sum of r_i^2 / v_i): its
+/// square is distributed as chi-square where the errors are as assumed. Infinite where it is not finite.
+double surprise(const DriveLoad& load, const DriveResidual& seen, const ResidualErrors& errors);
+
+}  // namespace flinch

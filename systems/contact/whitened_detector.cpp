@@ -1,0 +1,68 @@
+#include "systems/contact/whitened_detector.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "systems/foundation/findings.h"
+#include "systems/foundation/setup_error.h"
+
+namespace flinch {
+namespace {
+
+void find_problems(const std::string& owner, const SurpriseThreshold& settings, Findings& findings) {
+  findings.positive(owner + ".threshold", settings.threshold);
+  findings.positive(owner + ".noise", settings.errors.noise, "Nm or N");
+  findings.not_negative(owner + ".speed", settings.errors.speed, "Nm s/rad or N s/m");
+  findings.not_negative(owner + ".load", settings.errors.load);
+  findings.not_negative(owner + ".torque", settings.errors.torque);
+  findings.not_negative(owner + ".friction", settings.errors.friction);
+}
+
+std::vector<std::string> problems(const WhitenedDetectorSettings& settings) {
+  Findings found;
+  find_problems("level", settings.level, found);
+  find_problems("change", settings.change, found);
+  found.positive("tracking", settings.tracking.rate, "1/s");
+  found.require(settings.hard.force > 0.0 && settings.hard.moment > 0.0,
+                "hard has a threshold that is not positive [N, Nm]");
+  return found.take();
+}
+
+bool exceeds(const DriveLoad& load, const DriveResidual& seen, const SurpriseThreshold& limit) {
+  return surprise(load, seen, limit.errors) >= limit.threshold;
+}
+
+}  // namespace
+
+WhitenedDetector::WhitenedDetector(const std::shared_ptr<const ParallelRobot>& robot,
+                                   const WhitenedDetectorSettings& settings)
+    : settings_(settings), hard_(of_components(settings.hard, *robot)) {
+  throw_if_any(problems(settings));
+  keep(Every{settings_.tracking.sampling.period}, memory_, next_);
+  keep(Every{settings_.tracking.sampling.period}, previous_, contact);
+}
+
+ContactLevel WhitenedDetector::level(const SeenResidual& seen, const PlatformVector& estimate) const {
+  const bool touched = exceeds(seen.load, seen.level, settings_.level) ||
+                       (seen.settled && exceeds(seen.load, seen.change, settings_.change));
+  if (!touched) return ContactLevel::none;
+  return (estimate.array().abs() >= hard_.array()).any() ? ContactLevel::hard : ContactLevel::reaction;
+}
+
+void WhitenedDetector::detect(const ResidualMemory& next, const WrenchEstimate& estimate,
+                              const ResetCommand& command, const ContactDetection& previous, Time now,
+                              ContactDetection& result) const {
+  result = command.reset ? ContactDetection() : previous;
+  const bool has_estimate = estimate.valid && !estimate.health.fallen_back;
+  result.valid = next.started && has_estimate && estimate.wrench_in_base.size() == hard_.size();
+  const bool is_judged = result.valid && next.seen.is_new;
+  result.present_level = is_judged ? level(next.seen, estimate.wrench_in_base) : ContactLevel::none;
+  if (result.level == ContactLevel::none && result.present_level != ContactLevel::none) {
+    result.detected = now;
+    result.wrench_in_base = estimate.wrench_in_base;
+  }
+  result.level = std::max(result.level, result.present_level);
+}
+
+}  // namespace flinch

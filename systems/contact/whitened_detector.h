@@ -1,0 +1,74 @@
+#pragma once
+
+#include <memory>
+
+#include "systems/contact/contact_detector.h"
+#include "systems/contact/residual_errors.h"
+#include "systems/framework/system.h"
+#include "systems/signals/drive_load.h"
+
+namespace flinch {
+
+/// Above which surprise a residual is a contact, and what makes it one.
+struct SurpriseThreshold {
+  double threshold = 0.0;  ///< of the length of the whitened residual
+  ResidualErrors errors;
+};
+
+struct WhitenedDetectorSettings {
+  SurpriseThreshold level;   ///< of the residual itself: what lasts
+  SurpriseThreshold change;  ///< of what is new of it: slow errors of the model are gone
+  ResidualTracking tracking;
+  WrenchThreshold hard{60.0, 3.0};  ///< of the estimate, as of `ContactDetector`
+};
+
+/// Says that the robot is touched when what an estimator holds for the effort at the drives is larger than
+/// its errors explain. Each drive's is divided by the deviation that its error has under the present speed,
+/// torque and friction (`ResidualErrors`, from motion without contact); the length of what is left is
+/// compared with a threshold. The same is done with the change of late, from which slow errors are gone.
+/// (Derived.)
+///
+/// The level latches as that of `ContactDetector`. In a tick whose estimate is not new nothing is noticed;
+/// where none has come for the longest hold, or it has fallen back to another estimator, the detection is
+/// not valid.
+class WhitenedDetector final : public System {
+  State<LoadHistory> past_ = state<LoadHistory>("past");
+  State<ResidualMemory> memory_ = state<ResidualMemory>("memory");
+  State<ContactDetection> previous_ = state<ContactDetection>("previous");
+
+ public:
+  /// Throws SetupError for thresholds and deviations that are not positive.
+  WhitenedDetector(const std::shared_ptr<const ParallelRobot>& robot,
+                   const WhitenedDetectorSettings& settings);
+
+  InputPort<WrenchEstimate> wrench = input<WrenchEstimate>("wrench");
+  InputPort<DriveLoad> load = input<DriveLoad>("load");
+  InputPort<ResetCommand> reset = input<ResetCommand>("reset");
+
+ private:
+  Intermediate<ResidualMemory> next_ =
+      intermediate<&WhitenedDetector::follow>("next", wrench, load, past_, memory_, clock);
+
+ public:
+  OutputPort<ContactDetection> contact =
+      output<&WhitenedDetector::detect>("contact", next_, wrench, reset, previous_, clock);
+
+ private:
+  Update remember_ = update<&WhitenedDetector::remember>(past_, load);
+
+  void follow(const WrenchEstimate& estimate, const DriveLoad& fresh, const LoadHistory& past,
+              const ResidualMemory& memory, Time now, ResidualMemory& next) const {
+    follow_residual(estimate, fresh, past, now, settings_.tracking, memory, next);
+  }
+  void remember(const DriveLoad& fresh, LoadHistory& past) const {
+    if (fresh.valid) past.push(fresh);
+  }
+  void detect(const ResidualMemory& next, const WrenchEstimate& estimate, const ResetCommand& command,
+              const ContactDetection& previous, Time now, ContactDetection& result) const;
+  ContactLevel level(const SeenResidual& seen, const PlatformVector& estimate) const;
+
+  WhitenedDetectorSettings settings_;
+  PlatformVector hard_;
+};
+
+}  // namespace flinch

@@ -1,0 +1,17 @@
+#include "systems/model/drive_loads.h"
+
+namespace flinch {
+
+void DriveLoads::tell(const PlatformMotion& motion, const Kinematics& at, const Dynamics& model,
+                      const DriveTorque& drives, DriveLoad& result) const {
+  result = DriveLoad();
+  if (!motion.valid() || !at.valid || !model.valid || !drives.valid) return;
+  if (drives.torque.size() != drive_count(at)) return;
+  result.acquired = motion.acquired;
+  result.rate = at.rates.active;
+  result.torque = drives.torque;
+  result.friction = at.J_x_qa.transpose() * model.F_fr_x;  // [SafePR] (6b)
+  result.valid = result.rate.allFinite() && result.torque.allFinite() && result.friction.allFinite();
+}
+
+}  // namespace flinch

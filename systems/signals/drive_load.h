@@ -1,0 +1,27 @@
+#pragma once
+
+#include "systems/framework/time.h"
+#include "systems/robot/vectors.h"
+
+namespace flinch {
+
+/// How the drives work at one instant, as encoders, currents and model tell it; one entry a drive. What the
+/// errors of an estimated contact grow with.
+struct DriveLoad {
+  Time acquired{};
+  bool valid = false;
+  JointVector rate;      ///< [rad/s or m/s]
+  JointVector torque;    ///< tau_a, not filtered [Nm or N]
+  JointVector friction;  ///< of all joints, as the drives feel it: J_x_qa^T F_fr_x [Nm or N]
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("acquired", "ns", self.acquired);
+    visit("valid", "", self.valid);
+    visit("rate", "<drive velocity>", self.rate);
+    visit("torque", "<drive force>", self.torque);
+    visit("friction", "<drive force>", self.friction);
+  }
+};
+
+}  // namespace flinch

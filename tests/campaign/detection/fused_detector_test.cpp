@@ -1,0 +1,72 @@
+// What the fused detector of the campaigns that ship shows, on a part of their runs.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+
+#include "experiments/campaign/campaign.h"
+#include "experiments/campaign/exact_bounds.h"
+#include "experiments/campaign/run_campaign.h"
+
+namespace flinch {
+namespace {
+
+std::vector<RunResult> results_of(const std::string& name, std::size_t draws) {
+  CampaignOverrides fewer;
+  fewer.draws = draws;
+  const Campaign campaign =
+      read_campaign(std::string(FLINCH_SOURCE_DIR "/apps/campaigns/") + name + ".yaml", fewer);
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / name;
+  std::filesystem::remove_all(folder);
+  const std::vector<RunResult> results = run_campaign(campaign, folder, 2);
+  std::filesystem::remove_all(folder);
+  return results;
+}
+
+const EstimatorResult& by(const RunResult& result, const std::string& name) {
+  return *std::find_if(result.estimators.begin(), result.estimators.end(),
+                       [&](const EstimatorResult& each) { return each.name == name; });
+}
+
+TEST(TheFusedDetector, SeesNoContactInMotionWithoutOne) {
+  std::size_t alarms = 0;
+  double hours = 0.0;
+  for (const RunResult& result : results_of("false_alarms", 30)) {
+    alarms += by(result, "fused_detector").false_alarm ? 1 : 0;
+    hours += by(result, "fused_detector").contact_free / 3600.0;
+  }
+  std::printf("  %zu false alarms in %.2f h: at most %.1f an hour (95 %%)\n", alarms, hours,
+              upper_rate(alarms, hours));
+  EXPECT_GT(hours, 0.27);
+  EXPECT_EQ(alarms, 0U) << "half a one an hour was asked";
+}
+
+TEST(TheFusedDetector, IsFasterOnEveryBodyThanAnyEstimatorWithAThreshold) {
+  std::map<std::string, std::map<std::string, std::vector<double>>> times;  // by body and estimator [ms]
+  std::size_t contacts = 0, missed = 0;
+  for (const RunResult& result : results_of("detection_roc", 25)) {
+    for (const EstimatorResult& each : result.estimators)
+      times[result.body][each.name].push_back(1e3 * each.detection_time.value_or(1.0));
+    ++contacts;
+    missed += by(result, "fused_detector").detection_time.value_or(1.0) > 0.1 ? 1 : 0;
+  }
+  for (auto& [body, of] : times) {
+    std::map<std::string, double> sums;  // of times, each counted as 100 ms at most
+    for (const auto& [estimator, each] : of) {
+      for (const double time : each) sums[estimator] += std::min(time, 100.0);
+    }
+    for (const auto& [estimator, sum] : sums)
+      EXPECT_LE(sums["fused_detector"], sum) << body << " by " << estimator;
+    std::vector<double>& fused = of["fused_detector"];
+    std::sort(fused.begin(), fused.end());
+    const double median = fused[fused.size() / 2];
+    std::printf("  %-9s %3zu contacts, median %.1f ms\n", body.c_str(), fused.size(), median);
+    EXPECT_LT(median, 7.0) << body;
+  }
+  EXPECT_LE(missed, contacts / 33) << "eight of the 800 of the whole campaign are";
+}
+
+}  // namespace
+}  // namespace flinch

@@ -1,0 +1,176 @@
+#include "systems/contact/whitened_detector.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "systems/foundation/setup_error.h"
+#include "tests/support/allocations.h"
+#include "tests/support/planar_bench.h"
+#include "tests/support/ticking.h"
+
+namespace flinch {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Deviations of 0.1 Nm, and of half of what friction or torque changes by; contacts are five of these.
+WhitenedDetectorSettings settings() {
+  const ResidualErrors errors{.noise = 0.1, .speed = 0.0, .load = 0.0, .torque = 0.5, .friction = 0.5};
+  return {.level = {.threshold = 20.0, .errors = errors},
+          .change = {.threshold = 5.0, .errors = errors},
+          .tracking = {},
+          .hard = {60.0, 3.0}};
+}
+
+/// The detector, fed with an estimate of the effort at the first drive.
+class WhitenedDetectorTest : public testing::Test {
+ protected:
+  const ContactDetection& see(double effort, Time late = 0ms) {
+    const Time now = ticking_.now();
+    load_.acquired = now;
+    estimate_.acquired = now - late;
+    estimate_.drive_torque = Eigen::Vector3d(effort, 0.0, 0.0);
+    ticking_.set(load_port_, load_);
+    ticking_.set(wrench_, estimate_);
+    ticking_.set(reset_, reset_now_);
+    ticking_.tick();
+    return ticking_.get(block_.contact);
+  }
+  void settle(double effort = 0.0, Time late = 0ms) {
+    for (int k = 0; k < 300; ++k) see(effort, late);
+    ASSERT_EQ(see(effort, late).level, ContactLevel::none);
+  }
+  bool notices(double effort) { return see(effort).present_level != ContactLevel::none; }
+
+  DiagramBuilder builder_;
+  WhitenedDetector& block_ = builder_.add<WhitenedDetector>("detector", test::planar_bench(), settings());
+  InputPort<WrenchEstimate> wrench_ = builder_.export_input("wrench", block_.wrench);
+  InputPort<DriveLoad> load_port_ = builder_.export_input("load", block_.load);
+  InputPort<ResetCommand> reset_ = builder_.export_input("reset", block_.reset);
+  test::Ticking ticking_{builder_};
+  DriveLoad load_{.acquired = {},
+                  .valid = true,
+                  .rate = Eigen::Vector3d::Zero(),
+                  .torque = Eigen::Vector3d::Zero(),
+                  .friction = Eigen::Vector3d::Zero()};
+  WrenchEstimate estimate_{
+      .acquired = {}, .valid = true, .wrench_in_base = Eigen::Vector3d(5.0, 0.0, 0.0), .drive_torque = {}};
+  ResetCommand reset_now_{};
+};
+
+TEST_F(WhitenedDetectorTest, NoticesAStepAboveTheThresholdOfItsChangeAlone) {
+  settle();
+  EXPECT_FALSE(notices(0.499));
+  settle();
+  EXPECT_TRUE(notices(0.501));
+}
+
+TEST_F(WhitenedDetectorTest, DoesNotNoticeWhatGrowsSlowly) {
+  settle();
+  for (double effort = 0.0; effort < 1.9; effort += 0.01) EXPECT_FALSE(notices(effort)) << effort;
+}
+
+TEST_F(WhitenedDetectorTest, NoticesWhatLastsByTheLevel) {
+  settle();
+  double effort = 0.0;
+  while (!notices(effort) && effort < 3.0) effort += 0.01;
+  EXPECT_NEAR(effort, 2.0, 0.011) << "20 deviations";
+}
+
+TEST_F(WhitenedDetectorTest, ExpectsLargerErrorsWhereFrictionOrTorqueHaveJustChanged) {
+  settle();
+  load_.friction[0] = 1.2;
+  EXPECT_FALSE(notices(2.4)) << "five deviations of hypot(0.1, 0.5 1.2)";
+  settle();
+  load_.torque[0] = 4.0;
+  EXPECT_FALSE(notices(2.4 + 0.5));
+  settle();
+  EXPECT_TRUE(notices(2.4 + 1.2)) << "nothing has changed";
+}
+
+TEST_F(WhitenedDetectorTest, SetsALateEstimateBesideTheLoadOfItsTime) {
+  settle(0.0, 4ms);
+  load_.friction[0] = 1.2;
+  for (int k = 0; k < 4; ++k) EXPECT_EQ(see(0.0, 4ms).level, ContactLevel::none);
+  EXPECT_EQ(see(2.4, 4ms).level, ContactLevel::none) << "the friction changed four ticks ago";
+  settle(0.0, 4ms);
+  load_.friction[0] = 0.0;
+  EXPECT_NE(see(2.4, 4ms).level, ContactLevel::none) << "it changed now, and the estimate tells of before";
+}
+
+TEST_F(WhitenedDetectorTest, LatchesUntilTheReset) {
+  settle();
+  const ContactDetection noticed = see(1.0);
+  EXPECT_EQ(noticed.level, ContactLevel::reaction);
+  EXPECT_EQ(noticed.wrench_in_base, estimate_.wrench_in_base);
+  for (int k = 0; k < 300; ++k) see(0.0);
+  EXPECT_EQ(see(0.0).level, ContactLevel::reaction);
+  EXPECT_EQ(see(0.0).detected, noticed.detected);
+  reset_now_.reset = true;
+  EXPECT_EQ(see(0.0).level, ContactLevel::none);
+}
+
+TEST_F(WhitenedDetectorTest, CallsHardWhatIsNoticedAndAboveTheHardThreshold) {
+  settle();
+  estimate_.wrench_in_base[1] = -61.0;
+  EXPECT_EQ(see(0.0).level, ContactLevel::none) << "a large wrench that is expected is no contact";
+  EXPECT_EQ(see(1.0).level, ContactLevel::hard);
+}
+
+TEST_F(WhitenedDetectorTest, DoesNotJudgeAnEstimateOfAnotherEstimator) {
+  settle();
+  estimate_.health.fallen_back = true;
+  const ContactDetection& told = see(100.0);
+  EXPECT_FALSE(told.valid);
+  EXPECT_EQ(told.level, ContactLevel::none);
+}
+
+TEST_F(WhitenedDetectorTest, BeginsAnewAfterAGapAndWaitsForItsMean) {
+  settle();
+  estimate_.valid = false;
+  for (int k = 0; k < 10; ++k) EXPECT_FALSE(see(0.0).valid);
+  estimate_.valid = true;
+  EXPECT_FALSE(notices(1.0)) << "there is no mean of late to compare with";
+  for (int k = 0; k < 59; ++k) EXPECT_FALSE(notices(1.0));
+  settle(1.0);
+  EXPECT_TRUE(notices(1.6));
+}
+
+TEST_F(WhitenedDetectorTest, NoticesNothingInATickWithoutANewEstimate) {
+  settle();
+  ASSERT_TRUE(notices(1.0));
+  const Time acquired = estimate_.acquired;
+  const Time late = ticking_.now() - acquired;
+  EXPECT_EQ(see(1.0, late).present_level, ContactLevel::none);
+  EXPECT_TRUE(see(1.0, late + 1ms).valid) << "it is held";
+}
+
+TEST_F(WhitenedDetectorTest, IsNotLedAstrayByWhatIsNotFinite) {
+  settle();
+  EXPECT_EQ(see(nan).level, ContactLevel::none);
+  load_.valid = false;
+  EXPECT_EQ(see(0.0).level, ContactLevel::none);
+  load_.valid = true;
+  for (int k = 0; k < 100; ++k) see(0.0);
+  EXPECT_TRUE(notices(1.0));
+}
+
+TEST_F(WhitenedDetectorTest, NeverAllocates) {
+  settle();
+  const test::AllocationCounter counter;
+  for (int k = 0; k < 100; ++k) see(k % 7 == 0 ? 1.0 : 0.0, 3ms);
+  EXPECT_EQ(counter.count(), 0);
+}
+
+TEST(WhitenedDetectorSettings, AreRefusedWhereAThresholdOrTheNoiseIsMissing) {
+  try {
+    const WhitenedDetector detector(test::planar_bench(), {});
+    FAIL();
+  } catch (const SetupError& error) {
+    EXPECT_EQ(error.problems().size(), 4U);
+  }
+}
+
+}  // namespace
+}  // namespace flinch

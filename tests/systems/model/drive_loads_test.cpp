@@ -1,0 +1,67 @@
+#include "systems/model/drive_loads.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/planar_bench.h"
+#include "tests/support/ticking.h"
+
+namespace flinch {
+namespace {
+
+const PlatformVector pose{{0.05, -0.02, 0.1}}, velocity{{0.4, 0.3, -1.0}};
+
+struct Loads {
+  DriveLoad of(const test::Posture& at, const DriveTorque& drives) {
+    ticking.set(platform, at.platform);
+    ticking.set(kinematics, at.kinematics);
+    ticking.set(dynamics, at.dynamics);
+    ticking.set(torque, drives);
+    ticking.tick();
+    return ticking.get(block.load);
+  }
+
+  DiagramBuilder builder;
+  DriveLoads& block = builder.add<DriveLoads>("loads");
+  InputPort<PlatformMotion> platform = builder.export_input("platform", block.platform);
+  InputPort<Kinematics> kinematics = builder.export_input("kinematics", block.kinematics);
+  InputPort<Dynamics> dynamics = builder.export_input("dynamics", block.dynamics);
+  InputPort<DriveTorque> torque = builder.export_input("torque", block.torque);
+  test::Ticking ticking{builder};
+};
+
+const JointVector torque{{1.0, -2.0, 3.0}};
+
+TEST(DriveLoads, HaveThePowerOfAllFriction) {
+  const auto robot = test::planar_bench(BenchFriction::test_bench);
+  const test::Posture at(*robot, pose, velocity, 7ms);
+  const DriveLoad load = Loads().of(at, {7ms, true, torque});
+  ASSERT_TRUE(load.valid);
+  EXPECT_EQ(load.acquired, 7ms);
+  EXPECT_EQ(load.torque, torque);
+  EXPECT_EQ(load.rate, at.kinematics.rates.active);
+  double power = 0.0;  // of the joints, one by one
+  for (int leg = 0; leg < 3; ++leg) {
+    const PlanarRrrLeg& of = robot->parameters().legs[static_cast<std::size_t>(leg)];
+    const auto friction = [&](const JointFriction& joint, double rate) {
+      return rate * (joint.viscous * rate + joint.coulomb * std::tanh(rate / 0.01));
+    };
+    power += friction(of.active_friction, at.kinematics.rates.active[leg]) +
+             friction(of.passive_friction, at.kinematics.rates.passive[leg]);
+  }
+  EXPECT_NEAR(load.friction.dot(load.rate), power, 1e-12);
+}
+
+TEST(DriveLoads, AreNotValidWhereSomethingIsMissing) {
+  const test::Posture at(*test::planar_bench(), pose, velocity);
+  Loads loads;
+  EXPECT_TRUE(loads.of(at, {{}, true, torque}).valid);
+  EXPECT_FALSE(loads.of(at, {{}, false, torque}).valid);
+  EXPECT_FALSE(loads.of(at, {{}, true, JointVector::Zero(2)}).valid);
+  EXPECT_FALSE(loads.of(at, {{}, true, JointVector::Constant(3, std::nan(""))}).valid);
+  test::Posture lost = at;
+  lost.platform.status = PlatformMotion::Status::no_data;
+  EXPECT_FALSE(loads.of(lost, {{}, true, torque}).valid);
+}
+
+}  // namespace
+}  // namespace flinch
