@@ -9,10 +9,10 @@ namespace flinch {
 
 /// What was found for a rate of false alarms.
 struct ThresholdFindings {
-  ThresholdGoal goal;
-  std::vector<EstimatorThresholds> estimators;
-  std::vector<CalibratedResidual> residuals;  ///< empty: no fused detector told the loads of the drives
-  std::vector<std::string> recordings;        ///< names of the files that they come from
+  ThresholdGoal goal{};
+  std::vector<EstimatorThresholds> estimators{};
+  std::vector<CalibratedResidual> residuals{};  ///< empty: no fused detector told the loads of the drives
+  std::vector<std::string> recordings{};        ///< names of the files that they come from
   bool drives_turn = true;
 };
 

@@ -217,11 +217,11 @@ class All {
       after_.clear();
       return;
     }
-    std::vector<std::string> names;
-    for (const OpenedRecording& file : files_.motion) names.push_back(file.source.file);
-    ThresholdGoal goal;
-    goal.false_alarms_per_hour = options_.rate;
-    write_result(out_ / "thresholds.yaml", thresholds_yaml(after_, goal, names));
+    const ParallelRobot& robot = *files_.motion.front().scenario.robot.robot;
+    ThresholdFindings found{.estimators = after_, .drives_turn = robot.drive_kind(0) == DriveKind::revolute};
+    found.goal.false_alarms_per_hour = options_.rate;
+    for (const OpenedRecording& file : files_.motion) found.recordings.push_back(file.source.file);
+    write_result(out_ / "thresholds.yaml", thresholds_yaml(found));
   }
 
   static Json threshold_json(const std::vector<EstimatorThresholds>& thresholds) {
