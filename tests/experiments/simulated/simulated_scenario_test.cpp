@@ -34,12 +34,17 @@ const PlanarRrrParameters& believed(const SimulatedScenario& scenario) {
   return dynamic_cast<const PlanarRrr&>(*scenario.robot.robot).parameters();
 }
 
-TEST(ShippedScenarios, AreThoseOfThePapersThreeOnRealisticRobotsOneUnalignedAndOneOrTwoOfEveryOtherRobot) {
+TEST(ShippedScenarios, AreTheseAndNoOthers) {
   EXPECT_THAT(
       test::shipped_scenarios(),
-      ElementsAre("clamping", "first_link_collision", "five_bar_collision", "hexapod_collision",
-                  "hexapod_push", "platform_collision", "platform_collision_realistic", "random_motion",
-                  "second_link_collision", "square", "square_realistic", "square_unaligned", "stiffness"));
+      ElementsAre("calibration_excitation", "calibration_motion", "calibration_pulls",
+                  "calibration_pulls_second", "calibration_rectangle", "calibration_standstill", "clamping",
+                  "clamping_reaction", "constraints_without_contact", "first_link_collision",
+                  "first_link_reaction", "five_bar_collision", "hexapod_calibration_pulls",
+                  "hexapod_collision", "hexapod_push", "platform_collision", "platform_collision_realistic",
+                  "platform_reaction", "random_motion", "reaction_near_itself", "reaction_near_singularity",
+                  "second_link_collision", "second_link_reaction", "square", "square_realistic",
+                  "square_tasks", "square_unaligned", "stiffness"));
 }
 
 TEST(ShippedScenarios, AreAllGood) {
