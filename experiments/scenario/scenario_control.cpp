@@ -75,6 +75,8 @@ void read_detection(ConfigReader& control, const std::vector<std::string>& estim
 }
 
 void read_laws(ConfigReader& control, const ParallelRobot& robot, ContactControlSettings& settings) {
+  control.section("plausibility")
+      .number("imu_deviations", unit::none, settings.plausibility.inertial, positive);
   ConfigReader impedance = control.section("impedance");
   const std::span<double> stiffness = entries(settings.impedance.stiffness);
   const auto translations = static_cast<std::size_t>(robot.space().translations());
