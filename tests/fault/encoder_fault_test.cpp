@@ -72,8 +72,8 @@ TEST_P(FrozenEncoder, IsFoundInTimeAndBeforeTheChainsContradictIt) {
   for (std::size_t drive = 0; drive < 3; ++drive) {
     const auto found = time_to_find(encoder_faults, passing_at(speed()), speed(), frozen(drive));
     const auto contradicted =
-        time_to_find(fault_bit(GateFault::encoders_implausible),
-                     without_encoder_faults(passing_at(speed())), speed(), frozen(drive));
+        time_to_find(fault_bit(GateFault::encoders_implausible), without_encoder_faults(passing_at(speed())),
+                     speed(), frozen(drive));
     record("drive_" + std::to_string(drive + 1), found);
     record("drive_" + std::to_string(drive + 1) + "_otherwise", contradicted);
     ASSERT_TRUE(found.has_value());

@@ -8,8 +8,8 @@
 #include <map>
 
 #include "systems/framework/monotonic_clock.h"
-#include "tests/support/two_networks.h"
 #include "tests/support/free_domain.h"
+#include "tests/support/two_networks.h"
 
 namespace flinch::test {
 namespace {
