@@ -19,7 +19,7 @@ std::vector<RunResult> results_of(const std::string& name, std::size_t draws) {
   const Campaign campaign =
       read_campaign(std::string(FLINCH_SOURCE_DIR "/apps/campaigns/") + name + ".yaml", fewer);
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / name;
-  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
   const std::vector<RunResult> results = run_campaign(campaign, folder, 2);
   std::filesystem::remove_all(folder);
   return results;
@@ -43,6 +43,10 @@ TEST(TheFusedDetector, SeesNoContactInMotionWithoutOne) {
   EXPECT_EQ(alarms, 0U) << "half a one an hour was asked";
 }
 
+/// Of the 800 contacts of the whole campaign [ms], docs/observers.md.
+const std::map<std::string, double> median_of_all{
+    {"platform", 4.0}, {"link1", 5.7}, {"link2", 5.0}, {"clamping", 6.0}};
+
 TEST(TheFusedDetector, IsFasterOnEveryBodyThanAnyEstimatorWithAThreshold) {
   std::map<std::string, std::map<std::string, std::vector<double>>> times;  // by body and estimator [ms]
   std::size_t contacts = 0, missed = 0;
@@ -63,7 +67,9 @@ TEST(TheFusedDetector, IsFasterOnEveryBodyThanAnyEstimatorWithAThreshold) {
     std::sort(fused.begin(), fused.end());
     const double median = fused[fused.size() / 2];
     std::printf("  %-9s %3zu contacts, median %.1f ms\n", body.c_str(), fused.size(), median);
-    EXPECT_LT(median, 7.0) << body;
+    const std::size_t soon = static_cast<std::size_t>(std::count_if(
+        fused.begin(), fused.end(), [&](double time) { return time <= median_of_all.at(body); }));
+    EXPECT_GE(upper_share(soon, fused.size(), 0.999), 0.5) << body << " later than the whole campaign";
   }
   EXPECT_LE(missed, contacts / 33) << "eight of the 800 of the whole campaign are";
 }

@@ -23,7 +23,7 @@ Medians medians_of(const std::string& name, std::size_t robots) {
   const Campaign campaign =
       read_campaign(std::string(FLINCH_SOURCE_DIR "/apps/campaigns/") + name + ".yaml", fewer);
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / name;
-  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
   std::map<std::string, std::map<std::size_t, std::vector<double>>> times;  // by estimator and point
   for (const RunResult& result : run_campaign(campaign, folder, 2)) {
     for (const EstimatorResult& by : result.estimators) {
