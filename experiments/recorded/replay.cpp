@@ -31,6 +31,7 @@ ContactControlSettings control_over(const Scenario& scenario, const Recording& r
   ContactControlSettings settings = scenario.control;
   const auto text = recorded.attributes.find("scenario.text");
   settings.plausibility.commands_act = text != recorded.attributes.end() && text->second == scenario.text;
+  settings.contact_is_told = find(recorded, "told_classification") != nullptr;
   return settings;
 }
 
@@ -44,11 +45,14 @@ OutputPort<TickTiming> add_timing(DiagramBuilder& builder, const Recording& reco
   return timing.played;
 }
 
-void replay_target(DiagramBuilder& builder, const Recording& recorded, const ContactControl& control) {
-  if (find(recorded, "target") == nullptr) return;
-  const auto& target = builder.add<Player<TargetCommand>>("target", recorded, "target");
-  builder.connect(target.played, control.target);
-  builder.export_output("target", target.played);
+/// What not every recording has: the operator's targets, and what the reaction was told of the contact.
+template <class T>
+void replay_if_recorded(DiagramBuilder& builder, const Recording& recorded, const std::string& path,
+                        InputPort<T> port) {
+  if (find(recorded, path) == nullptr) return;
+  const auto& player = builder.add<Player<T>>(path, recorded, path);
+  builder.connect(player.played, port);
+  builder.export_output(path, player.played);
 }
 
 std::unique_ptr<Diagram> build_replay(const Scenario& scenario, const Recording& recorded,
@@ -63,7 +67,9 @@ std::unique_ptr<Diagram> build_replay(const Scenario& scenario, const Recording&
   builder.connect(buttons.played, control.operator_command);
   builder.connect(add_timing(builder, recorded), control.tick_timing);
   builder.export_output("operator", buttons.played);
-  replay_target(builder, recorded, control);
+  replay_if_recorded(builder, recorded, "target", control.target);
+  replay_if_recorded(builder, recorded, "told_classification", control.told_classification);
+  replay_if_recorded(builder, recorded, "told_location", control.told_location);
   export_readings(builder, station);
   export_control(builder, control);
   return builder.build();

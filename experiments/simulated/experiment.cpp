@@ -38,6 +38,8 @@ Experiment build_experiment(const SimulatedScenario& scenario) {
     builder.connect(station.platform_truth, teller.platform);
     builder.connect(teller.classification, control.told_classification);
     builder.connect(teller.location, control.told_location);
+    builder.export_output("told_classification", teller.classification);
+    builder.export_output("told_location", teller.location);
   }
   builder.export_output("truth", station.plant_truth);
   builder.export_output("contact", station.contact_truth);

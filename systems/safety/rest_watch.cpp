@@ -10,6 +10,11 @@ namespace {
 
 constexpr Time brakes_close = 60ms;  // brakes of 30 ms, and as long again until the robot rests
 constexpr Time torque_turns = 15ms;  // from one end of the range to the other, behind the velocity filter
+constexpr double period = 1e-3;      // of readings [s]
+constexpr std::size_t arm = 6;       // of a second difference [ticks]
+constexpr double idle_share =
+    0.75;                       // of a change of torque; lags and friction leave half of it without effect
+constexpr double surely = 5.0;  // standard deviations
 constexpr double energy_left = 0.9;  // share of what it was 6 ms before; damping leaves two thirds
 
 /// 1/2 v^T M_x v with the rates of the last two ticks [J].
@@ -50,8 +55,77 @@ void judge_brakes(RestWatch& watch, const PlausibilityTick& tick, const JointVec
        static_cast<int>(drive));
 }
 
+/// What is `age` ticks younger than the oldest of a full ring.
+template <class Ring>
+const JointVector& aged(const Ring& ring, std::size_t ticks, std::size_t age) {
+  return ring[(ticks + age) % ring.size()];
+}
+
+bool drives_have_stood(const RestWatch& watch, const AngleWatch& angles, const PlausibilityTick& tick) {
+  const auto ring = static_cast<double>(watch.angle.size());
+  for (Eigen::Index i = 0; i < tick.robot.drives(); ++i) {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (const JointVector& angle : watch.angle) {
+      low = std::min(low, angle[i]);
+      high = std::max(high, angle[i]);
+    }
+    const double still =
+        std::max(0.1 * tick.limits.resting_rate * period * ring, 10.0 * angles.angle_noise(i, tick.limits));
+    if (high - low > still) return false;
+  }
+  return true;
+}
+
+/// By how much each torque has been another one for half the window than when it began [Nm].
+JointVector change_of_torque(const RestWatch& watch) {
+  const std::size_t ring = watch.torque.size();
+  const JointVector& oldest = aged(watch.torque, watch.ticks, 0);
+  JointVector least = JointVector::Constant(oldest.size(), HUGE_VAL);
+  for (std::size_t age = ring / 2; age < ring; ++age)
+    least = least.cwiseMin((aged(watch.torque, watch.ticks, age) - oldest).cwiseAbs());
+  return least;
+}
+
+/// Acceleration of the drives around an age, and the torque that made it: both weighted as the second
+/// difference of the angles over an arm weighs them.
+struct DrivenMotion {
+  JointVector acceleration, torque;
+};
+
+DrivenMotion driven_motion(const RestWatch& watch, std::size_t age) {
+  const auto angle = [&](std::size_t at) { return aged(watch.angle, watch.ticks, at); };
+  constexpr double area = arm * arm;
+  DrivenMotion motion;
+  motion.acceleration = (angle(age + arm) - 2.0 * angle(age) + angle(age - arm)) / (area * period * period);
+  motion.torque.setZero(motion.acceleration.size());
+  for (std::size_t away = 0; away < arm; ++away) {
+    const double weight = static_cast<double>(arm - away) / area;
+    motion.torque += weight * aged(watch.torque, watch.ticks, age + away);
+    if (away > 0) motion.torque += weight * aged(watch.torque, watch.ticks, age - away);
+  }
+  return motion;
+}
+
+/// How surely the change of each torque, from the begin of the window to its end, has moved nothing: what
+/// M_qa ddq leaves of it, over what honest drives leave; above 1 for those that do not move the robot.
+/// Gravity, bias and all that lasts is in both ends.
+JointVector idleness(const RestWatch& watch, const AngleWatch& angles, const PlausibilityTick& tick) {
+  const DrivenMotion first = driven_motion(watch, arm);
+  const DrivenMotion last = driven_motion(watch, watch.angle.size() - 1 - arm);
+  const PlatformMatrix& J = tick.kinematics.J_x_qa;
+  const PlatformMatrix M_qa = J.transpose() * tick.dynamics.M_x * J;
+  const JointVector change = last.torque - first.torque;
+  const JointVector idle = change - M_qa * (last.acceleration - first.acceleration);
+  JointVector noise(idle.size());  // of that difference of accelerations
+  for (Eigen::Index i = 0; i < noise.size(); ++i)
+    noise[i] = std::sqrt(12.0) * angles.angle_noise(i, tick.limits) / (arm * arm * period * period);
+  const JointVector unsure = surely * (M_qa.cwiseAbs() * noise);
+  return idle.cwiseAbs().cwiseQuotient((idle_share * change.cwiseAbs()).cwiseMax(unsure));
+}
+
 /// Brakes that have stayed closed, or drives whose torques end nowhere: a torque has been another one for
-/// half the window, and nothing has moved in all of it.
+/// half the window, nothing has moved to speak of, and not as this torque would move it. An honest robot
+/// that comes to rest moves as little, but as its torque says.
 void judge_still(RestWatch& watch, const AngleWatch& angles, const PlausibilityTick& tick,
                  Plausibility& found) {
   const std::size_t ring = watch.angle.size();
@@ -62,24 +136,11 @@ void judge_still(RestWatch& watch, const AngleWatch& angles, const PlausibilityT
   }
   watch.angle[watch.ticks % ring] = angles.angle.back();
   ++watch.ticks;
-  if (watch.ticks < ring) return;
-  double change = 0.0;
-  for (Eigen::Index i = 0; i < tick.robot.drives(); ++i) {
-    const double still = std::max(0.1 * tick.limits.resting_rate * 1e-3 * static_cast<double>(ring),
-                                  10.0 * angles.angle_noise(i, tick.limits));
-    double low = HUGE_VAL, high = -HUGE_VAL, least = HUGE_VAL;
-    for (std::size_t age = 0; age < ring; ++age) {
-      const std::size_t k = (watch.ticks + age) % ring;  // the oldest first
-      if (watch.torque[k].size() <= i) return;
-      low = std::min(low, watch.angle[k][i]);
-      high = std::max(high, watch.angle[k][i]);
-      const double since = std::abs(watch.torque[k][i] - watch.torque[watch.ticks % ring][i]);
-      if (age >= ring / 2) least = std::min(least, since);
-    }
-    if (high - low > still) return;
-    change = std::max(change, least);
-  }
-  note(found, PlausibilityCheck::still, change / tick.limits.still_torque, GateFault::drives_without_effect);
+  const bool known = watch.ticks >= ring && tick.kinematics.valid && tick.dynamics.valid;
+  if (!known || !drives_have_stood(watch, angles, tick)) return;
+  const JointVector changed = change_of_torque(watch) / tick.limits.still_torque;
+  note(found, PlausibilityCheck::still, changed.cwiseMin(idleness(watch, angles, tick)).maxCoeff(),
+       GateFault::drives_without_effect);
 }
 
 }  // namespace

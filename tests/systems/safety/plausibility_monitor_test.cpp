@@ -11,6 +11,7 @@
 
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/random.h"
+#include "systems/robot/joint_space_dynamics.h"
 #include "tests/support/allocations.h"
 #include "tests/support/planar_bench.h"
 #include "tests/support/ticking.h"
@@ -246,6 +247,34 @@ TEST(PlausibilityMonitor, WondersWhyNothingMovesThoughTorquesChange) {
   EXPECT_LE(*found, 33);
   Watched slow;
   EXPECT_EQ(ticks_until(slow, GateFault::drives_without_effect, wind_up(0.5)), std::nullopt);
+}
+
+/// All drives slow down to rest with 25 rad/s^2, which then dies away with `jerk` [rad/s^3]: torques fall by
+/// 12 Nm and more, and next to nothing moves from then on. `stuck`: the same torques, and it never moved.
+std::optional<int> coming_to_rest(double jerk, bool stuck) {
+  constexpr double hardest = 25.0;  // [rad/s^2]
+  const test::Posture home(*test::planar_bench(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0ns);
+  const Eigen::Matrix3d inertia = joint_space_dynamics(home.kinematics, home.dynamics).M_qa;
+  Watched watched;
+  const auto slow_down = [=, k = 0](Told& told) mutable {
+    const double left = std::max(0.0, 0.06 - 1e-3 * k++);  // until it rests [s]
+    const double dying = hardest / jerk;
+    const double before = std::max(0.0, left - dying);  // with the whole acceleration
+    const double rate = 0.5 * jerk * dying * dying, way = rate * dying / 3.0;
+    const double distance = left < dying ? jerk * left * left * left / 6.0
+                                         : way + rate * before + 0.5 * hardest * before * before;
+    if (!stuck) told.joints.active.array() -= distance;
+    told.command.torque = -inertia * Eigen::Vector3d::Constant(std::min(hardest, jerk * left));
+    told.drives.current = told.command.torque / 6.0;
+  };
+  return ticks_until(watched, GateFault::drives_without_effect, slow_down);
+}
+
+TEST(PlausibilityMonitor, KnowsARobotThatComesToRestFromOneThatNothingMoves) {
+  for (const double jerk : {600.0, 1200.0, 2500.0, 5000.0, 25000.0}) {
+    EXPECT_EQ(coming_to_rest(jerk, false), std::nullopt) << jerk;
+    EXPECT_TRUE(coming_to_rest(jerk, true).has_value()) << jerk;
+  }
 }
 
 TEST(PlausibilityMonitor, NoticesADriveThatItsBrakeDoesNotHold) {
