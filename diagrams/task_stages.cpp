@@ -1,5 +1,7 @@
 #include "diagrams/task_stages.h"
 
+#include <algorithm>
+
 #include "diagrams/contact_control_settings.h"
 #include "systems/laws/pose_goals.h"
 #include "systems/laws/task_controller.h"
@@ -15,12 +17,11 @@ struct LedTasks {
   OutputPort<PlatformReference> reference;
 };
 
-LawPorts add_controller(const StageSite& site, TaskLevel level, ConstraintWatch::Role role,
-                        const ReactionPorts& given, const LedTasks& led) {
+LawPorts add_controller(const StageSite& site, TaskLevel level, const ConstraintSettings& constraints,
+                        ConstraintWatch::Role role, const ReactionPorts& given, const LedTasks& led) {
   DiagramBuilder& builder = site.builder;
   const TaskSettings& settings = site.settings.tasks;
-  auto& watch =
-      builder.add<ConstraintWatch>(site.name + "_constraints", site.robot, settings.constraints, role);
+  auto& watch = builder.add<ConstraintWatch>(site.name + "_constraints", site.robot, constraints, role);
   builder.connect(given.reaction, watch.reaction);
   builder.connect(given.kinematics, watch.kinematics);
 
@@ -39,10 +40,12 @@ LawPorts add_tracking(const StageSite& site, TaskLevel level, const ReactionPort
   auto& goals = site.builder.add<PoseGoals>(site.name + "_goals", site.robot, site.settings.tasks.nominal);
   site.builder.connect(given.nominal, goals.reference);
   site.builder.connect(given.kinematics, goals.kinematics);
-  return add_controller(site, level, ConstraintWatch::Role::nominal, given, {goals.goals, given.nominal});
+  return add_controller(site, level, site.settings.tasks.constraints, ConstraintWatch::Role::nominal, given,
+                        {goals.goals, given.nominal});
 }
 
-LawPorts add_reaction(const StageSite& site, TaskLevel level, const ReactionPorts& given) {
+LawPorts add_reaction_with(const StageSite& site, TaskLevel level, const ConstraintSettings& constraints,
+                           const ReactionPorts& given) {
   DiagramBuilder& builder = site.builder;
   auto& task = builder.add<ReactionTask>(site.name + "_task", site.robot, site.settings.tasks.reaction);
   builder.connect(given.reaction, task.reaction);
@@ -51,7 +54,19 @@ LawPorts add_reaction(const StageSite& site, TaskLevel level, const ReactionPort
   builder.connect(given.wrench, task.estimate);
   builder.connect(given.classification, task.classification);
   builder.connect(given.location, task.location);
-  return add_controller(site, level, ConstraintWatch::Role::reacting, given, {task.goals, task.reference});
+  return add_controller(site, level, constraints, ConstraintWatch::Role::reacting, given,
+                        {task.goals, task.reference});
+}
+
+LawPorts add_reaction(const StageSite& site, TaskLevel level, const ReactionPorts& given) {
+  return add_reaction_with(site, level, site.settings.tasks.constraints, given);
+}
+
+/// The limit keeper holds the constraints: none becomes a task.
+LawPorts add_strict_reaction(const StageSite& site, TaskLevel level, const ReactionPorts& given) {
+  ConstraintSettings watched = site.settings.tasks.constraints;
+  watched.kept = ConstraintsKept::never;
+  return add_reaction_with(site, level, watched, given);
 }
 
 template <auto add>
@@ -71,7 +86,17 @@ std::vector<ControlLaw> tracking_stages() {
 std::vector<ControlLaw> task_reaction_stages() {
   return {law<add_reaction>("velocity_reaction", TaskLevel::velocity),
           law<add_reaction>("acceleration_reaction", TaskLevel::acceleration),
-          law<add_reaction>("torque_reaction", TaskLevel::torque)};
+          law<add_reaction>("torque_reaction", TaskLevel::torque),
+          law<add_strict_reaction>("strict_reaction", TaskLevel::torque)};
+}
+
+void keep_constraints_strictly(ContactControlSettings& settings) {
+  const ConstraintSettings& constraints = settings.tasks.constraints;
+  PlaceLimits& limits = settings.limits.limits;
+  settings.limits.use = LimitKeeperSettings::Use::always;
+  limits.max_condition_number = std::min(limits.max_condition_number, constraints.sigma_kappa.safety);
+  limits.workspace.min_self_collision_distance =
+      std::max(limits.workspace.min_self_collision_distance, constraints.sigma_sc.safety);
 }
 
 }  // namespace flinch

@@ -6,11 +6,18 @@
 
 namespace flinch {
 
+struct ContactControlSettings;
+
 /// Laws of the nominal motion that serve tasks by priority: "velocity_tracking", "acceleration_tracking",
 /// "torque_tracking", after the level of [SafePR] IV-C to IV-E.
 std::vector<ControlLaw> tracking_stages();
 
-/// Laws of the reaction that do so: "velocity_reaction", "acceleration_reaction", "torque_reaction".
+/// Laws of the reaction that do so: "velocity_reaction", "acceleration_reaction", "torque_reaction",
+/// and "strict_reaction": the tasks of the torque level, whose constraints the limit keeper holds instead.
 std::vector<ControlLaw> task_reaction_stages();
+
+/// What "strict_reaction" needs: the limit keeper holds the safety values of the tasks' constraints, in the
+/// nominal motion too.
+void keep_constraints_strictly(ContactControlSettings& settings);
 
 }  // namespace flinch

@@ -110,6 +110,12 @@ HalfWay meeting_of(const CampaignContact& settings, RobotFiles& robots, const Dr
   return at;
 }
 
+/// What is drawn to be touched is what the scenario expects.
+void expect(const std::string& body, Draft& draft, CampaignRun& run) {
+  run.values.emplace_back("contact", body);
+  draft.set("expect.contact", scalar_node(body));
+}
+
 /// The first obstacle runs into a body of `kind`, or presses on it. False where this draw has no such place.
 bool move_obstacle(const CampaignContact& settings, RobotFiles& robots, Draft& draft, const std::string& kind,
                    RandomGenerator& random, CampaignRun& run) {
@@ -121,7 +127,7 @@ bool move_obstacle(const CampaignContact& settings, RobotFiles& robots, Draft& d
   const HalfWay at = meeting_of(settings, robots, draft);
   const auto contact = draw_touch(robot, at.now, kind, scenario.obstacles.front().shape, random);
   if (!contact) return false;
-  run.values.emplace_back("contact", contact->body);
+  expect(contact->body, draft, run);
   const int directions = robot.space_dimension();
   if (settings.by == CampaignContact::By::pushing) {
     draft.set("obstacles[0].kind", scalar_node("hand"));
@@ -141,7 +147,7 @@ bool place_obstacle(RobotFiles& robots, Draft& draft, const std::string& kind, R
   if (scenario.obstacles.empty()) throw SetupError("there is no obstacle that 'contact' could move");
   const auto contact = draw_contact(scenario, kind, scenario.obstacles.front().shape, random);
   if (!contact) return false;
-  run.values.emplace_back("contact", contact->body);
+  expect(contact->body, draft, run);
   place(draft, draft.has("pylon") ? "pylon." : "obstacles[0].", contact->position_in_base,
         scenario.robot.robot->space_dimension(), run);
   return true;

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "diagrams/contact_control_settings.h"
+#include "diagrams/task_stages.h"
 #include "experiments/scenario/scenario_estimators.h"
 #include "experiments/scenario/scenario_fused_detector.h"
 #include "experiments/scenario/scenario_isolation.h"
@@ -96,6 +97,9 @@ void read_laws(ConfigReader& control, const ParallelRobot& robot, ContactControl
   retraction.number("stiffness_share", unit::none, settings.reaction_stiffness, fraction);
   read_limits(retraction.section("limits"), settings.retraction.limits);
 
+  const std::vector<std::string> laws = names_of(settings.stages.reaction_laws);
+  if (std::find(laws.begin(), laws.end(), "strict_reaction") != laws.end())
+    keep_constraints_strictly(settings);
   ConfigReader limits = control.section("limits");
   using Use = LimitKeeperSettings::Use;
   limits.choice("keep", settings.limits.use,
@@ -187,8 +191,8 @@ void read_control(ConfigReader control, const ParallelRobot& robot, ContactContr
   read_detection(control, estimators, settings);
   read_fused_detector(control.section("fused_detector"), robot, estimators, settings.fused_detector);
   read_isolation(control.section("isolation"), settings.isolation);
-  read_laws(control, robot, settings);
   read_tasks(control, robot, settings.tasks);
+  read_laws(control, robot, settings);
 }
 
 void read_motion(ConfigReader motion, const RobotFile& file, std::uint64_t seed,

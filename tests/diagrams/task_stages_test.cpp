@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "systems/framework/constant.h"
 #include "tests/diagrams/contact_bench.h"
 #include "tests/support/allocations.h"
@@ -29,22 +31,26 @@ ControlLaw told(ControlLaw law, int touched) {
 
 class TaskStages : public ::testing::TestWithParam<int> {
  protected:
-  ControlLaw tracking() const { return tracking_stages()[static_cast<std::size_t>(GetParam())]; }
+  static constexpr int strict = 3;
+  ControlLaw tracking() const {
+    return tracking_stages()[static_cast<std::size_t>(std::min(GetParam(), strict - 1))];
+  }
   ControlLaw reaction() const { return task_reaction_stages()[static_cast<std::size_t>(GetParam())]; }
   /// Tracks and reacts on one level; the platform will be touched.
   Experiment experiment(double speed) const {
     Experiment experiment = collision(speed);
     experiment.control.stages.nominal_laws.follow(tracking());
     experiment.control.stages.reaction_laws.follow(told(reaction(), 0));
+    if (GetParam() == strict) keep_constraints_strictly(experiment.control);
     return experiment;
   }
 };
 
 std::string level_name(const ::testing::TestParamInfo<int>& level) {
-  static const std::vector<std::string> names = {"Velocity", "Acceleration", "Torque"};
+  static const std::vector<std::string> names = {"Velocity", "Acceleration", "Torque", "Strict"};
   return names[static_cast<std::size_t>(level.param)];
 }
-INSTANTIATE_TEST_SUITE_P(Levels, TaskStages, ::testing::Range(0, 3), level_name);
+INSTANTIATE_TEST_SUITE_P(Levels, TaskStages, ::testing::Range(0, 4), level_name);
 
 TEST_P(TaskStages, AContactIsAnsweredAndHeldUntilTheOperatorEndsIt) {
   Bench bench(experiment(0.5));
@@ -100,8 +106,27 @@ TEST(TaskStageNames, AreKnownToScenarios) {
   const std::vector<std::string> reaction_laws = names_of(known_stages().reaction_laws);
   EXPECT_THAT(nominal_laws,
               testing::IsSupersetOf({"velocity_tracking", "acceleration_tracking", "torque_tracking"}));
-  EXPECT_THAT(reaction_laws,
-              testing::IsSupersetOf({"velocity_reaction", "acceleration_reaction", "torque_reaction"}));
+  EXPECT_THAT(reaction_laws, testing::IsSupersetOf({"velocity_reaction", "acceleration_reaction",
+                                                    "torque_reaction", "strict_reaction"}));
+}
+
+TEST(TheStrictReaction, LetsTheLimitKeeperHoldTheSafetyValuesOfTheConstraints) {
+  ContactControlSettings settings;
+  settings.tasks.constraints.sigma_kappa.safety = 9.0;
+  settings.tasks.constraints.sigma_sc.safety = 0.12;
+  keep_constraints_strictly(settings);
+  EXPECT_EQ(settings.limits.use, LimitKeeperSettings::Use::always);
+  EXPECT_EQ(settings.limits.limits.max_condition_number, 9.0);
+  EXPECT_EQ(settings.limits.limits.workspace.min_self_collision_distance, 0.12);
+}
+
+TEST(TheStrictReaction, NeverLoosensALimitOfTheRobot) {
+  ContactControlSettings settings;
+  settings.limits.limits.max_condition_number = 5.0;
+  settings.limits.limits.workspace.min_self_collision_distance = 0.3;
+  keep_constraints_strictly(settings);
+  EXPECT_EQ(settings.limits.limits.max_condition_number, 5.0);
+  EXPECT_EQ(settings.limits.limits.workspace.min_self_collision_distance, 0.3);
 }
 
 }  // namespace

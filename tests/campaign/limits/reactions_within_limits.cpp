@@ -97,7 +97,7 @@ bool can_stop_inside(const Mechanism& robot, const RecordedTruth& truth) {
 
 ReactionOutcome outcome_of(const CampaignRun& run) {
   ReactionOutcome outcome;
-  outcome.keep = value_of(run, "control.limits.keep");
+  outcome.law = followed_name(run.scenario.control.stages.reaction_laws);
   outcome.body = kind_of(value_of(run, "contact"));
   const Recording recording =
       run_for_signals(run.scenario, {"truth", "contact", "gate", "detection", "reaction", "limits"});

@@ -10,7 +10,7 @@ namespace flinch::test {
 
 /// What the true robot did in one run of a campaign, from the detection of a contact on.
 struct ReactionOutcome {
-  std::string keep;  ///< control.limits.keep
+  std::string law;   ///< of the reaction
   std::string body;  ///< that was to be touched
   bool detected = false;
   bool starts_inside = false;     ///< at the start both measures are within their safety values

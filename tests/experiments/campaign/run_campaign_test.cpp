@@ -81,7 +81,9 @@ TEST_F(ACampaign, RunsBodiesIntoThePylon) {
   for (const RunResult& result : whole) {
     EXPECT_NE(result.body, "none");
     for (const auto& [key, value] : result.values) {
-      if (key == "contact" && value.ends_with(result.body)) ++as_drawn;
+      if (key != "contact") continue;
+      if (value.ends_with(result.body)) ++as_drawn;
+      EXPECT_TRUE(value.ends_with(result.meant)) << result.meant << " is expected, not " << value;
     }
   }
   EXPECT_GE(as_drawn, whole.size() - 2) << "of " << whole.size();
