@@ -367,7 +367,6 @@ ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
   const Told told = add_told_contact(path, reaction);
   const Laws laws = add_laws(path, reaction);
   const Safety safety = add_safety(path, reaction, laws);
-  const auto pressed = connect_back(builder, sensed, laws, safety, wanted);
   OtherStages others = show_others(path, velocities, accelerations, estimators, buttons.reset);
   others.detections = path.show_others("detection", detectors);
   show_isolation(path, isolation, others);
@@ -377,7 +376,7 @@ ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
       .drives = sensed.drives,
       .imu = sensed.imu,
       .status = sensed.status,
-      .operator_command = pressed,
+      .operator_command = connect_back(builder, sensed, laws, safety, wanted),
       .target = target,
       .told_classification = told.classification,
       .told_location = told.location,

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "apps/flinch/bus/bus_verbs.h"
@@ -18,6 +20,9 @@ std::string problem_with_seed(const std::string& text);
 
 /// The options that every verb understands.
 void add_common(CLI::App& verb, CommonOptions& common);
+
+/// How much is done at once.
+void add_threads(CLI::App& verb, std::optional<std::size_t>& threads, const char* help);
 
 /// The verbs and their options.
 struct Verbs {
@@ -59,6 +64,8 @@ struct Verbs {
 /// The verbs that find parameters: `calibrate` with all its kinds, and `excite`.
 void add_calibrate_verb(CLI::App& app, Verbs& verbs);
 void add_excite_verb(CLI::App& app, Verbs& verbs);
+/// The verbs that make data sets and classifiers.
+void add_learning_verbs(CLI::App& app, Verbs& verbs);
 /// The verb that makes a recording out of a log of another tool.
 void add_import_verb(CLI::App& app, Verbs& verbs);
 
