@@ -20,6 +20,8 @@
 namespace flinch {
 namespace {
 
+constexpr double most_gaps = 100'000.0;  // periods without a row, of the smallest log
+
 /// What a column can be.
 struct Target {
   const char* name;
@@ -145,8 +147,14 @@ class Log {
       }
     }
     if (time_.size() < 2) throw SetupError(mapping.csv.string() + ": there are fewer than two rows");
-    const double span = time_.back() - time_.front();
-    samples_ = 1 + static_cast<std::size_t>(span / to_seconds(mapping.period) + 1e-6);
+    const double periods = (time_.back() - time_.front()) / to_seconds(mapping.period);
+    // Rows that are further apart than three periods leave nothing valid between them.
+    if (!(periods < 3.0 * static_cast<double>(time_.size()) + most_gaps)) {
+      throw SetupError(mapping.csv.string() + ": column '" + mapping.time_column + "' passes through " +
+                       std::to_string(periods) + " periods of the recording in " +
+                       std::to_string(time_.size()) + " rows; check the unit of the time, or 'period'");
+    }
+    samples_ = 1 + static_cast<std::size_t>(periods + 1e-6);
     std::size_t row = 0;
     for (std::size_t k = 0; k < samples_; ++k) {
       const double now = time_.front() + static_cast<double>(k) * to_seconds(mapping.period);

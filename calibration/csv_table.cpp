@@ -4,7 +4,6 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <limits>
 
 #include "systems/foundation/nearest_name.h"
 #include "systems/foundation/setup_error.h"
@@ -51,15 +50,14 @@ CsvTable read_csv(const std::filesystem::path& file, char separator, const std::
   std::string line;
   if (!stream || !std::getline(stream, line))
     throw SetupError(file.string() + ": the file cannot be read or is empty");
-  CsvTable table;
-  table.names = split(line, separator);
+  const std::vector<std::string> names = split(line, separator);
   std::vector<std::string> problems;
-  std::vector<int> columns;
+  std::vector<std::size_t> columns;
   for (const std::string& name : wanted) {
-    columns.push_back(table.find(name));
-    if (columns.back() < 0)
-      problems.push_back(file.string() + ":1: there is no column '" + name + "'" +
-                         did_you_mean(name, table.names));
+    const auto found = std::find(names.begin(), names.end(), name);
+    columns.push_back(static_cast<std::size_t>(found - names.begin()));
+    if (found == names.end())
+      problems.push_back(file.string() + ":1: there is no column '" + name + "'" + did_you_mean(name, names));
   }
   throw_if_any(problems);
 
@@ -70,8 +68,8 @@ CsvTable read_csv(const std::filesystem::path& file, char separator, const std::
     if (trimmed(line).empty()) continue;
     const std::vector<std::string> cells = split(line, separator);
     for (std::size_t i = 0; i < columns.size() && problems.size() < most_problems; ++i) {
-      const auto column = static_cast<std::size_t>(columns[i]);
-      double value = std::numeric_limits<double>::quiet_NaN();
+      const std::size_t column = columns[i];
+      double value = 0.0;
       const std::string place = file.string() + ":" + std::to_string(row) + ": column '" + wanted[i] + "'";
       if (column >= cells.size()) {
         problems.push_back(place + " is missing; the row has " + std::to_string(cells.size()) + " cells");
@@ -85,13 +83,8 @@ CsvTable read_csv(const std::filesystem::path& file, char separator, const std::
   throw_if_any(problems);
   const auto width = static_cast<Eigen::Index>(wanted.size());
   const auto rows = width == 0 ? 0 : static_cast<Eigen::Index>(values.size()) / width;
-  table.values.setConstant(rows, static_cast<Eigen::Index>(table.names.size()),
-                           std::numeric_limits<double>::quiet_NaN());
-  for (Eigen::Index k = 0; k < rows; ++k) {
-    for (Eigen::Index i = 0; i < width; ++i)
-      table.values(k, columns[static_cast<std::size_t>(i)]) = values[static_cast<std::size_t>(k * width + i)];
-  }
-  return table;
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  return {wanted, Eigen::Map<const Rows>(values.data(), rows, width)};
 }
 
 }  // namespace flinch

@@ -9,10 +9,10 @@ namespace flinch {
 
 /// Columns of a file of comma-separated values whose first row names them.
 struct CsvTable {
-  std::vector<std::string> names;
-  Eigen::MatrixXd values;  ///< rows x columns; those that were not asked for are not a number
+  std::vector<std::string> names;  ///< of the columns that were asked for
+  Eigen::MatrixXd values;          ///< rows x these columns
 
-  /// Index of the column `name`; -1: there is none.
+  /// Index of the column `name`; -1: it was not asked for.
   int find(const std::string& name) const;
 };
 

@@ -7,6 +7,7 @@ option(FLINCH_BUILD_APPS "The flinch program and the examples" ${PROJECT_IS_TOP_
 option(FLINCH_BUILD_TESTS "Tests and benchmarks" ${PROJECT_IS_TOP_LEVEL})
 option(FLINCH_DEVELOPER "Warnings are errors" ${PROJECT_IS_TOP_LEVEL})
 option(FLINCH_ASSERTIONS "assert(), Eigen's and the standard library's checks, in every build type" OFF)
+option(FLINCH_FUZZ "Fuzz targets of the readers (needs clang)" OFF)
 set(FLINCH_SANITIZE "" CACHE STRING "Sanitizers to compile with, e.g. address,undefined or thread")
 
 set(CMAKE_CXX_STANDARD 20)
@@ -45,4 +46,8 @@ endif()
 if(FLINCH_SANITIZE)
   add_compile_options(-fsanitize=${FLINCH_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${FLINCH_SANITIZE})
+endif()
+if(FLINCH_FUZZ)  # what was reached is counted everywhere; tests/fuzz links what asks for it
+  add_compile_options(-fsanitize=fuzzer-no-link)
+  add_link_options(-fsanitize=fuzzer-no-link)
 endif()

@@ -14,6 +14,8 @@
 namespace flinch {
 namespace {
 
+constexpr double most_runs = 1e8;  // of all points of the grid
+
 void read_scenarios(ConfigReader& reader, Campaign& campaign) {
   if (reader.one_of({"scenario", "scenarios"}) == "scenarios") {
     for (ConfigReader& entry : reader.sections("scenarios"))
@@ -114,6 +116,17 @@ std::string line_of(const std::vector<std::shared_ptr<const ConfigNode>>& values
   return line;
 }
 
+/// Counted in real numbers, which do not overflow.
+void check_size(const Campaign& campaign) {
+  double runs = static_cast<double>(campaign.draws) * static_cast<double>(campaign.scenarios.size());
+  for (const CampaignAxis& axis : campaign.grid) runs *= static_cast<double>(axis.values.size());
+  if (campaign.contact) runs *= static_cast<double>(campaign.contact->bodies.size());
+  if (runs <= most_runs) return;
+  throw SetupError(campaign.file.string() + ": asks for " + exact_text(runs) +
+                   " runs, with 'runs' at each point of 'grid'; at most " + exact_text(most_runs) +
+                   " can be");
+}
+
 }  // namespace
 
 std::string Campaign::identity() const {
@@ -178,6 +191,7 @@ Campaign read_campaign(const std::filesystem::path& file, const CampaignOverride
   throw_if_any(std::move(problems));
   if (overrides.draws) campaign.draws = *overrides.draws;
   if (overrides.seed) campaign.seed = *overrides.seed;
+  check_size(campaign);
   campaign.robots = std::make_shared<RobotFiles>();
   for (const std::filesystem::path& file_of_scenario : campaign.scenarios) {
     const Scenario scenario = read_scenario(file_of_scenario);

@@ -44,6 +44,7 @@ class Frame {
     into.resize(size);
     for (double& number : into) number = take<double>();
   }
+  bool has_more() const { return at_ < bytes_.size(); }
   bool ended() const { return at_ == bytes_.size(); }
 
  private:
@@ -71,10 +72,10 @@ std::pair<std::size_t, ContactSamples> run_of(const std::string& bytes, const Pa
   Frame frame(bytes);
   const auto run = static_cast<std::size_t>(frame.take<std::uint64_t>());
   ContactSamples samples;
-  for (auto letters = frame.take<std::uint64_t>(); letters > 0 && letters <= bytes.size(); --letters)
+  for (auto letters = frame.take<std::uint64_t>(); letters > 0 && frame.has_more(); --letters)
     samples.left_out += frame.take<char>();
   const auto count = frame.take<std::uint64_t>();
-  for (std::uint64_t i = 0; i < count && i < bytes.size(); ++i) {
+  for (std::uint64_t i = 0; i < count && frame.has_more(); ++i) {
     DataSample& sample = samples.samples.emplace_back();
     sample.run = static_cast<int>(run);
     for (int* const number : {&sample.configuration, &sample.moment, &sample.touched})
@@ -110,7 +111,7 @@ DataJournal::DataJournal(std::filesystem::path file, const DataSpec& spec, const
 }
 
 void DataJournal::read(const std::string& header, const ParallelRobot& robot) {
-  constexpr std::uint64_t longest = 1U << 30U;
+  const std::uint64_t longest = std::filesystem::file_size(file_);
   std::ifstream stream(file_, std::ios::binary);
   std::string line;
   if (!std::getline(stream, line)) return;

@@ -109,5 +109,16 @@ TEST_F(ImportedLog, MustHaveATimeThatGrows) {
   EXPECT_THAT(problems(), Contains(HasSubstr("log.csv:4: column 't_ms' does not grow")));
 }
 
+TEST_F(ImportedLog, MayNotPassThroughMoreTimeThanItsRowsTellOf) {
+  place.write("mapping.yaml",
+              "csv: log.csv\nscenario: scenarios/calibration_pulls.yaml\n"
+              "time: {column: t_ms, unit: ms}\n");
+  for (const char* const last : {"1e9", "1e300"}) {
+    place.write("log.csv", std::string("t_ms\n0\n1\n") + last + "\n");
+    EXPECT_THAT(problems(), Contains(HasSubstr("in 3 rows; check the unit of the time, or 'period'")))
+        << last;
+  }
+}
+
 }  // namespace
 }  // namespace flinch

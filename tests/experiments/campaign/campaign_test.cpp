@@ -53,6 +53,16 @@ TEST(ReadingACampaign, TellsAllThatIsWrong) {
                   HasSubstr("bad.yaml:7: draw[2]: has none of of, from")));
 }
 
+TEST(ReadingACampaign, RefusesAGridThatIsTooLargeForAnyMachine) {
+  const test::Workplace place;
+  std::string text = "scenario: ../scenarios/platform_collision.yaml\nruns: 10000000\ngrid:\n";
+  for (int axis = 0; axis < 20; ++axis)
+    text += "  - {key: a.b" + std::to_string(axis) + ", values: [1, 2, 3, 4, 5, 6, 7, 8]}\n";
+  place.write("campaigns/endless.yaml", text);
+  EXPECT_THAT(problems_of(place / "campaigns/endless.yaml"),
+              ElementsAre(HasSubstr("endless.yaml: asks for 1.152921504606847e+25 runs")));
+}
+
 TEST(TheCommandLine, AddsAxesAndReplacesWhatTheFileSaysOfAKey) {
   const test::Workplace place;
   test::small_campaign(place);

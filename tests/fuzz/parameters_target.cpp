@@ -1,0 +1,45 @@
+// Parameter files of calibrations, and a robot that takes them over.
+#include "systems/config/parameter_file.h"
+#include "tests/fuzz/fuzz_files.h"
+#include "tests/fuzz/fuzz_target.h"
+
+namespace flinch::test {
+namespace {
+
+const std::string& robot_text() {
+  static const std::string text = bytes_of_file(FLINCH_SOURCE_DIR "/apps/robots/planar_3rrr.yaml");
+  return text;
+}
+
+void read(std::string_view bytes) {
+  const ParameterFile parameters = parse_parameter_file(bytes, "fuzzed.yaml");
+  parameter_file_text(parameters);
+  with_parameters(robot_text(), "planar_3rrr.yaml", parameters);
+}
+
+std::vector<std::string> seeds() {
+  ParameterFile file;
+  file.kind = "torque-constant";
+  file.date = "2026-11-22";
+  file.robot = {"planar_3rrr.yaml", std::string(64, 'a')};
+  file.recordings = {{"run.h5", std::string(64, 'b')}};
+  file.residual_before = 0.67;
+  file.residual_after = 0.03;
+  file.residual_unit = "Nm";
+  for (int i = 0; i < 3; ++i) {
+    file.parameters.push_back({.name = "drives.torque_constant_Nm_per_A[" + std::to_string(i) + "]",
+                               .value = 6.0 + 0.01 * i,
+                               .deviation = 0.002,
+                               .unit = "Nm/A",
+                               .belongs_to = "robot"});
+  }
+  file.parameters.push_back({.name = "offset[0]", .value = 0.1, .unit = "A", .identifiable = false});
+  file.assumed = {{.name = "drives.torque_constant_Nm_per_A[0]", .value = 6.0, .unit = "Nm/A"}};
+  return {parameter_file_text(file)};
+}
+
+}  // namespace
+
+const FuzzTarget parameters_target{"parameters", read, seeds};
+
+}  // namespace flinch::test

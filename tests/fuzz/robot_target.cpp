@@ -1,0 +1,17 @@
+// Robot files.
+#include "systems/config/robot_file.h"
+#include "tests/fuzz/fuzz_files.h"
+#include "tests/fuzz/fuzz_target.h"
+
+namespace flinch::test {
+namespace {
+
+void read(std::string_view bytes) { parse_robot_file(bytes, "fuzzed.yaml"); }
+
+std::vector<std::string> seeds() { return shipped_files("robots", ".yaml"); }
+
+}  // namespace
+
+const FuzzTarget robot_target{"robot", read, seeds};
+
+}  // namespace flinch::test
