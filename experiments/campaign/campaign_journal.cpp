@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "experiments/campaign/campaign.h"
+#include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
@@ -40,6 +41,7 @@ CampaignJournal::CampaignJournal(const std::filesystem::path& folder, const Camp
   std::ifstream before = rows();
   // Written anew, so that what follows does not stand behind half a row.
   const std::filesystem::path anew = file_.string() + ".new";
+  remove_link(anew);
   stream_.open(anew, std::ios::binary);
   stream_ << first_line_ << "\n";
   read(std::move(before), [&](RunResult&& result) { add(result); });

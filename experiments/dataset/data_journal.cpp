@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "experiments/dataset/data_spec.h"
+#include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
@@ -102,6 +103,7 @@ std::string sealed(const std::string& frame) {
 DataJournal::DataJournal(std::filesystem::path file, const DataSpec& spec, const ParallelRobot& robot)
     : file_(std::move(file)) {
   const std::string header = fmt::format("flinch data set {:016x}\n", hash_of(spec.identity()));
+  remove_link(file_);
   if (std::filesystem::exists(file_)) read(header, robot);
   // Written anew, so that what follows does not stand behind half a frame.
   stream_.open(file_, std::ios::binary | std::ios::trunc);

@@ -144,6 +144,11 @@ void ResultFile::fail() const {
                    ": the file cannot be written: " + std::generic_category().message(errno));
 }
 
+void remove_link(const fs::path& file) {
+  std::error_code ignored;
+  if (fs::is_symlink(file, ignored)) fs::remove(file, ignored);
+}
+
 void write_result(const fs::path& file, std::string_view text) {
   ResultFile result(file);
   result.write(text);

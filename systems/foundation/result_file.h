@@ -46,6 +46,9 @@ class ResultFile {
   int descriptor_ = -1;
 };
 
+/// Removes a symbolic link where somebody is to write a file by its name: it is replaced, not followed.
+void remove_link(const std::filesystem::path& file);
+
 /// Writes a whole file so.
 void write_result(const std::filesystem::path& file, std::string_view text);
 

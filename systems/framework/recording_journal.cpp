@@ -16,6 +16,7 @@
 #include <optional>
 #include <system_error>
 
+#include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recording_check.h"
 
@@ -187,6 +188,12 @@ class Gathered {
   std::vector<iovec> pieces_;
 };
 
+/// Opens a journal to write, and no file that a link leads to.
+int open_own(const std::filesystem::path& part) {
+  remove_link(part);
+  return open(part.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
+}
+
 /// Reads `bytes` at `offset`; false where the file is too short.
 bool read_at(int file, std::uint64_t offset, void* data, std::size_t bytes) {
   char* const begin = static_cast<char*>(data);
@@ -315,7 +322,7 @@ std::string how_far(const Recording& recording, bool goes_on) {
 }  // namespace
 
 RecordingJournal::RecordingJournal(const Recording& description, const std::filesystem::path& part)
-    : part_(part), file_(open(part.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+    : part_(part), file_(open_own(part)) {
   const auto fail = [this](const std::string& why) {
     if (file_ >= 0) close(file_);
     throw SetupError(part_.string() + ": the recording cannot be written: " + why);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <ostream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,9 @@ struct FuzzTarget {
   /// What is read without a complaint, to begin with.
   std::vector<std::string> (*seeds)();
 };
+
+/// How tests name it.
+inline void PrintTo(const FuzzTarget* target, std::ostream* stream) { *stream << target->name; }
 
 extern const FuzzTarget campaign_target;
 extern const FuzzTarget campaign_journal_target;

@@ -63,8 +63,6 @@ long peak_kB() {
   return usage.ru_maxrss;
 }
 
-void PrintTo(const FuzzTarget* target, std::ostream* stream) { *stream << target->name; }
-
 class Readers : public testing::TestWithParam<const FuzzTarget*> {};
 
 INSTANTIATE_TEST_SUITE_P(Fuzz, Readers,
