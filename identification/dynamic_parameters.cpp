@@ -24,7 +24,7 @@ std::vector<FileValue> DynamicParameters::in_file(const Eigen::VectorXd& values)
   return told;
 }
 
-std::unique_ptr<const DynamicParameters> DynamicParameters::of(const ParallelRobot& robot) {
+std::unique_ptr<const DynamicParameters> DynamicParameters::find(const ParallelRobot& robot) {
   if (const auto* rrr = dynamic_cast<const PlanarRrr*>(&robot))
     return planar_dynamic_parameters(rrr->parameters());
   if (const auto* bar = dynamic_cast<const FiveBar*>(&robot))
@@ -32,6 +32,11 @@ std::unique_ptr<const DynamicParameters> DynamicParameters::of(const ParallelRob
   if (const auto* hexapod = dynamic_cast<const Hexapod*>(&robot)) {
     return hexapod_dynamic_parameters(hexapod->parameters());
   }
+  return nullptr;
+}
+
+std::unique_ptr<const DynamicParameters> DynamicParameters::of(const ParallelRobot& robot) {
+  if (auto found = find(robot)) return found;
   throw SetupError("the dynamics of a robot called '" + robot.name() +
                    "' have no parameters that are known here");
 }

@@ -36,12 +36,18 @@ class DynamicParameters {
   /// where no robot can be made of them.
   virtual std::shared_ptr<const ParallelRobot> with(const Eigen::VectorXd& values) const = 0;
 
+  /// Matrices, linear in the values, that are positive definite for each robot that can be built: more than
+  /// that masses and moments are positive.
+  virtual std::vector<Eigen::MatrixXd> must_be_definite(const Eigen::VectorXd& values) const = 0;
+
   /// What a robot file says of such a robot: the values themselves, where its keys are those of the list.
   virtual std::vector<FileValue> in_file(const Eigen::VectorXd& values) const;
 
   Eigen::VectorXd believed() const;
 
-  /// Of the robot's own kind. Throws SetupError for one whose parameters are not known here.
+  /// Of the robot's own kind; null for one whose parameters are not known here.
+  static std::unique_ptr<const DynamicParameters> find(const ParallelRobot& robot);
+  /// Likewise, and throws SetupError for such a one.
   static std::unique_ptr<const DynamicParameters> of(const ParallelRobot& robot);
 
  protected:

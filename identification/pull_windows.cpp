@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 
+#include "identification/dynamic_parameters.h"
 #include "identification/encoder_motion.h"
 #include "identification/parameter_variants.h"
 #include "identification/robust_mean.h"
@@ -64,7 +66,9 @@ class Reader {
   Reader(const Recording& recording, const ParallelRobot& robot, const ValidStretch& stretch)
       : robot_(robot),
         stretch_(stretch),
+        parameters_(DynamicParameters::find(robot)),
         motion_(encoder_motion(recording, robot, stretch, cutoff_frequency)) {
+    if (parameters_) variants_.emplace(*parameters_);
     const auto n = static_cast<Eigen::Index>(stretch.count);
     samples_.current.setZero(n, robot.drives());
     samples_.force.setZero(n, 3);
@@ -101,8 +105,14 @@ class Reader {
     robot_.kinematics(motion_.pose[static_cast<std::size_t>(row)], motion_.velocity.row(row).transpose(), at);
     return at;
   }
-  JointVector effort(Eigen::Index row, const Kinematics& at) const {
-    return model_effort(robot_, at, motion_.acceleration.row(row).transpose());
+  /// What the model needs for the motion at a sample, and its slopes.
+  void tell_effort(Eigen::Index row, const Kinematics& at, PullWindow& window) const {
+    const PlatformVector acceleration = motion_.acceleration.row(row).transpose();
+    window.model_effort = model_effort(robot_, at, acceleration);
+    if (!parameters_) return;
+    window.effort_slopes = variants_->regressor(window.model_effort, at, acceleration);
+    for (Eigen::Index j = 0; j < window.effort_slopes.cols(); ++j)
+      window.effort_slopes.col(j) *= parameters_->list()[static_cast<std::size_t>(j)].deviation;
   }
 
   const Samples& samples() const { return samples_; }
@@ -111,6 +121,8 @@ class Reader {
  private:
   const ParallelRobot& robot_;
   ValidStretch stretch_;
+  std::unique_ptr<const DynamicParameters> parameters_;  // none of a robot whose parameters are not known
+  std::optional<ParameterVariants> variants_;
   EncoderMotion motion_;
   Samples samples_;
 };
@@ -139,7 +151,7 @@ PullWindow mean_window(const ParallelRobot& robot, const Reader& reader, Eigen::
     window.force[i] = robust_mean(samples.force.col(i).segment(from, count)).value;
     window.moment[i] = robust_mean(samples.moment.col(i).segment(from, count)).value;
   }
-  window.model_effort = reader.effort(middle, at);
+  reader.tell_effort(middle, at, window);
   window.position = at.joints.active;
   window.rate = at.rates.active;
   window.drive_map = at.J_qa_x;

@@ -16,13 +16,16 @@ struct PullWindow {
   using ForceMap = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, max_dof, 3>;
 
   int recording = 0;
-  int mounting = 0;                       ///< counted through all recordings
-  int cluster = 0;                        ///< those whose errors are not independent: one pull
-  int body = 0;                           ///< BodyId::index()
-  double time = 0.0;                      ///< [s]
-  JointVector current;                    ///< [A]
-  JointVector current_deviation;          ///< of that mean, from the scatter within the window [A]
-  JointVector model_effort;               ///< what the model of the robot needs for its motion [Nm or N]
+  int mounting = 0;               ///< counted through all recordings
+  int cluster = 0;                ///< those whose errors are not independent: one pull
+  int body = 0;                   ///< BodyId::index()
+  double time = 0.0;              ///< [s]
+  JointVector current;            ///< [A]
+  JointVector current_deviation;  ///< of that mean, from the scatter within the window [A]
+  JointVector model_effort;       ///< what the model of the robot needs for its motion [Nm or N]
+  /// How that depends on each dynamic parameter, in deviations of what is believed of them [Nm or N]; no
+  /// columns: the model is taken as true.
+  Eigen::MatrixXd effort_slopes;
   JointVector position;                   ///< of the drives [rad or m]
   JointVector rate;                       ///< of the drives [rad/s or m/s]
   Eigen::Vector3d force{0.0, 0.0, 0.0};   ///< in the axes of the body, without the zero of the instrument [N]

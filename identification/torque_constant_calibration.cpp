@@ -249,6 +249,7 @@ void add_residuals(const std::vector<PullWindow>& windows, const TorqueConstantF
   before.coulomb.setZero();
   before.cogging_parts.setZero();
   before.ripple_parts.setZero();
+  before.surplus.resize(0);
   for (Eigen::Vector3d& turn : before.misalignment) turn.setZero();
   std::vector<double> old_residuals, residuals;
   for (int i = 0; i < fit.constant.size(); ++i) {

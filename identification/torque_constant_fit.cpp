@@ -21,6 +21,8 @@ using DriveUnknowns = std::array<double, 7>;  // k_t, o, c, sine and cosine of c
 using Turn = std::array<double, 3>;           // a rotation vector
 
 constexpr double least_explained = 0.1;  // of the scatter, for a wave to be believed
+constexpr double least_slope = 0.01;     // of the usual error, for a parameter of the robot to matter
+constexpr double alike = 0.95;           // the correlation of what cannot be told apart
 
 /// sgn(rate), smooth.
 double direction(double rate, double slow) { return std::tanh(2.0 * rate / slow); }
@@ -34,8 +36,9 @@ struct PullResidual {
   double cogging_rate;
   double ripple_rate;
 
+  /// `surplus`: what the drive must do beyond the model.
   template <class T>
-  bool operator()(const T* const of_drive, const T* const turn, T* residual) const {
+  bool operator()(const T* const of_drive, const T* const turn, const T* const surplus, T* residual) const {
     const PullWindow& w = *window;
     const std::array<T, 3> force = {T(w.force.x()), T(w.force.y()), T(w.force.z())};
     const std::array<T, 3> moment = {T(w.moment.x()), T(w.moment.y()), T(w.moment.z())};
@@ -49,8 +52,8 @@ struct PullResidual {
     }
     const double phase = ripple_rate * w.position[drive];
     const T uneven = 1.0 + of_drive[5] * std::sin(phase) + of_drive[6] * std::cos(phase);
-    const T effort = of_drive[0] * w.current[drive] * uneven - w.model_effort[drive] + pulled - of_drive[1] -
-                     of_drive[2] * direction(w.rate[drive], slow) -
+    const T effort = of_drive[0] * w.current[drive] * uneven - w.model_effort[drive] - surplus[0] + pulled -
+                     of_drive[1] - of_drive[2] * direction(w.rate[drive], slow) -
                      of_drive[3] * std::sin(cogging_rate * w.position[drive]) -
                      of_drive[4] * std::cos(cogging_rate * w.position[drive]);
     using std::sqrt;
@@ -59,6 +62,62 @@ struct PullResidual {
     return true;
   }
 };
+
+/// The same, where what the drive must do beyond the model depends linearly on parameters of the robot.
+class RobotPullResidual final : public ceres::CostFunction {
+ public:
+  RobotPullResidual(const PullResidual& pull, Eigen::RowVectorXd slopes)
+      : pull_(new PullResidual(pull)), slopes_(std::move(slopes)) {
+    set_num_residuals(1);
+    *mutable_parameter_block_sizes() = {7, 3};
+    if (slopes_.size() > 0) mutable_parameter_block_sizes()->push_back(static_cast<int>(slopes_.size()));
+  }
+
+  bool Evaluate(double const* const* blocks, double* residual, double** jacobians) const override {
+    const bool robot = slopes_.size() > 0;
+    const double surplus =
+        robot ? slopes_.dot(Eigen::Map<const Eigen::VectorXd>(blocks[2], slopes_.size())) : 0.0;
+    const std::array<const double*, 3> inner = {blocks[0], blocks[1], &surplus};
+    double of_surplus = 0.0;
+    const bool wanted = jacobians != nullptr && robot && jacobians[2] != nullptr;
+    std::array<double*, 3> inner_jacobians = {nullptr, nullptr, wanted ? &of_surplus : nullptr};
+    if (jacobians != nullptr) inner_jacobians[0] = jacobians[0], inner_jacobians[1] = jacobians[1];
+    if (!pull_.Evaluate(inner.data(), residual, inner_jacobians.data())) return false;
+    if (wanted) Eigen::Map<Eigen::RowVectorXd>(jacobians[2], slopes_.size()) = of_surplus * slopes_;
+    return true;
+  }
+
+ private:
+  ceres::AutoDiffCostFunction<PullResidual, 1, 7, 3, 1> pull_;
+  Eigen::RowVectorXd slopes_;
+};
+
+/// The dynamic parameters of which pulls can tell something that offset and Coulomb friction of a drive do
+/// not tell: those that matter, but not what acts at one drive alone as the sign of its rate does.
+std::vector<Eigen::Index> parameters_that_tell(const std::vector<PullWindow>& windows,
+                                               const TorqueConstantModel& model) {
+  std::vector<Eigen::Index> telling;
+  if (windows.empty()) return telling;
+  const Eigen::Index drives = windows.front().effort_slopes.rows();
+  for (Eigen::Index j = 0; j < windows.front().effort_slopes.cols(); ++j) {
+    int acts_on = 0;
+    double most_alike = 0.0;
+    for (Eigen::Index i = 0; i < drives; ++i) {
+      double largest = 0.0, squares = 0.0, signs = 0.0, both = 0.0;
+      for (const PullWindow& window : windows) {
+        const double slope = window.effort_slopes(i, j);
+        const double sign = direction(window.rate[i], model.slow);
+        largest = std::max(largest, std::abs(slope));
+        squares += slope * slope, signs += sign * sign, both += slope * sign;
+      }
+      if (largest < least_slope * model.usual_error) continue;
+      ++acts_on;
+      most_alike = std::max(most_alike, both / std::sqrt(squares * signs));
+    }
+    if (acts_on > 1 || (acts_on == 1 && most_alike < alike)) telling.push_back(j);
+  }
+  return telling;
+}
 
 /// What is left at a place, and by what a wave there is multiplied.
 struct WaveSample {
@@ -126,6 +185,8 @@ class Fit {
         ripple_rate_(JointVector::Zero(believed.size())) {
     for (const double k : believed) unknowns_.drives.push_back({k, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
     unknowns_.turns.assign(static_cast<std::size_t>(mountings), Turn{});
+    telling_ = parameters_that_tell(windows, model);
+    surplus_.setZero(static_cast<Eigen::Index>(telling_.size()));
     planar_ = !windows.empty() && windows.front().force_map.col(2).isZero(0.0);
   }
 
@@ -153,8 +214,9 @@ class Fit {
       of_drives += 7 - static_cast<Eigen::Index>(held_of(i).size());
     }
     const double believed = model_.misalignment_belief;
-    for (Eigen::Index i = of_drives; i < fit.linear.jacobian.cols(); ++i)
-      fit.linear.prior_information[i] = 1.0 / (believed * believed);
+    const Eigen::Index of_turns = fit.linear.jacobian.cols() - of_drives - surplus_.size();
+    fit.linear.prior_information.segment(of_drives, of_turns).setConstant(1.0 / (believed * believed));
+    fit.linear.prior_information.tail(surplus_.size()).setOnes();
     fit.window_of_row = rows_;
     fit.drive_of_row = drives_of_rows_;
     return fit;
@@ -173,17 +235,25 @@ class Fit {
     for (std::size_t w = 0; w < windows_.size(); ++w) {
       for (int i = 0; i < static_cast<int>(sigma_.size()); ++i) {
         if (!tells(windows_[w], i)) continue;
-        auto* const cost = new ceres::AutoDiffCostFunction<PullResidual, 1, 7, 3>(
-            new PullResidual{&windows_[w], i, sigma_[i], model_.slow, rate_[i], ripple_rate_[i]});
-        blocks_.push_back(problem_->AddResidualBlock(cost, loss_function(loss),
-                                                     unknowns_.drives[index(i)].data(),
-                                                     unknowns_.turns[index(windows_[w].mounting)].data()));
+        std::vector<double*> of_row = {unknowns_.drives[index(i)].data(),
+                                       unknowns_.turns[index(windows_[w].mounting)].data()};
+        if (!telling_.empty()) of_row.push_back(surplus_.data());
+        auto* const cost = new RobotPullResidual(
+            {&windows_[w], i, sigma_[i], model_.slow, rate_[i], ripple_rate_[i]}, slopes_of(windows_[w], i));
+        blocks_.push_back(problem_->AddResidualBlock(cost, loss_function(loss), of_row));
         rows_.push_back(w);
         drives_of_rows_.push_back(i);
       }
     }
     constrain();
     solve_problem(*problem_);
+  }
+
+  Eigen::RowVectorXd slopes_of(const PullWindow& window, int drive) const {
+    Eigen::RowVectorXd slopes(surplus_.size());
+    for (Eigen::Index k = 0; k < slopes.size(); ++k)
+      slopes[k] = window.effort_slopes(drive, telling_[static_cast<std::size_t>(k)]);
+    return slopes;
   }
 
   /// Which unknowns of a drive are not looked for.
@@ -238,6 +308,10 @@ class Fit {
       add_belief(*problem_, turn.data(), Eigen::Vector3d::Zero(),
                  Eigen::Vector3d::Constant(model_.misalignment_belief));
     }
+    if (telling_.empty()) return;
+    columns_.push_back(surplus_.data());
+    const Eigen::VectorXd one = Eigen::VectorXd::Ones(surplus_.size());
+    add_belief(*problem_, surplus_.data(), 0.0 * one, one);
   }
 
   /// sigma_i of the residuals, without what the noise of the current explains.
@@ -275,6 +349,9 @@ class Fit {
       fit.ripple_parts.col(i) << drive[5], drive[6];
     }
     for (const Turn& turn : unknowns_.turns) fit.misalignment.emplace_back(turn[0], turn[1], turn[2]);
+    if (!telling_.empty()) fit.surplus.setZero(windows_.front().effort_slopes.cols());
+    for (Eigen::Index k = 0; k < surplus_.size(); ++k)
+      fit.surplus[telling_[static_cast<std::size_t>(k)]] = surplus_[k];
     fit.deviation = sigma_;
     fit.cogging_rate = rate_;
     fit.ripple_rate = ripple_rate_;
@@ -290,6 +367,8 @@ class Fit {
   JointVector rate_;         ///< of the cogging; 0: none
   JointVector ripple_rate_;  ///< likewise
   bool planar_ = false;
+  std::vector<Eigen::Index> telling_;  ///< dynamic parameters that are looked for
+  Eigen::VectorXd surplus_;            ///< theirs
   Unknowns unknowns_;
   std::unique_ptr<ceres::Problem> problem_;
   std::vector<ceres::ResidualBlockId> blocks_;
@@ -319,8 +398,10 @@ double torque_residual(const PullWindow& window, int drive, const TorqueConstant
   const double uneven = 1.0 + wave(fit.ripple_rate[drive], fit.ripple_parts);
   const double pulled =
       window.force_map.row(drive).dot(R * window.force) + window.moment_map.row(drive).dot(R * window.moment);
-  return fit.constant[drive] * window.current[drive] * uneven - window.model_effort[drive] + pulled -
-         fit.offset[drive] - fit.coulomb[drive] * direction(window.rate[drive], slow) - cogging;
+  const double model = window.model_effort[drive] +
+                       (fit.surplus.size() > 0 ? window.effort_slopes.row(drive).dot(fit.surplus) : 0.0);
+  return fit.constant[drive] * window.current[drive] * uneven - model + pulled - fit.offset[drive] -
+         fit.coulomb[drive] * direction(window.rate[drive], slow) - cogging;
 }
 
 }  // namespace flinch

@@ -30,9 +30,11 @@ struct TorqueConstantFit {
   JointVector ripple_rate;  ///< likewise of what repeats as a share of the torque
   Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, max_dof> ripple_parts;
   JointVector deviation;  ///< of the residuals of each drive, outliers apart [Nm or N]
+  /// By how many deviations of what is believed of it each dynamic parameter is off; nothing: not looked for.
+  Eigen::VectorXd surplus;
 
   /// Columns: k_t, o, c and parts of cogging and ripple of each drive, as far as they were looked for, then
-  /// the misalignments.
+  /// the misalignments, then those of the surplus that the pulls can tell.
   LinearFit linear;
   std::vector<Eigen::Index> column_of_drive;  ///< that of its k_t
   std::vector<std::size_t> window_of_row;
@@ -40,10 +42,11 @@ struct TorqueConstantFit {
 };
 
 /// Minimises over windows w and drives i the squares of
-/// r = ( k_i I_wi (1 + ripple_i(q_wi)) - e_wi + [J^T R(delta) f_w]_i - o_i - c_i sgn(dq_wi) - cogging_i(q_wi)
-/// ) / sqrt(sigma_i^2 + k_i^2 sigma_Iwi^2) after [ICRA23] (5), where e is what the model needs for its
-/// motion. The currents are noisy too; the denominator takes that into account, so that no slope is flattened
-/// (Deming). Loss: Huber, then Tukey, with sigma_i from the residuals. Ceres.
+/// r = ( k_i I_wi (1 + ripple_i(q_wi)) - e_wi(p) + [J^T R(delta) f_w]_i - o_i - c_i sgn(dq_wi)
+/// - cogging_i(q_wi) ) / sqrt(sigma_i^2 + k_i^2 sigma_Iwi^2) after [ICRA23] (5), where e is what a robot with
+/// the dynamic parameters p needs for its motion, and of (p - p_believed) / sigma_believed. The currents are
+/// noisy too; the denominator takes that into account, so that no slope is flattened (Deming). Loss: Huber,
+/// then Tukey, with sigma_i from the residuals. Ceres.
 TorqueConstantFit fit_torque_constants(const std::vector<PullWindow>& windows, int mountings,
                                        const JointVector& believed, const TorqueConstantModel& model);
 

@@ -1,0 +1,63 @@
+// Hexapods drawn anew, with a payload of 2 kg and more that nobody knows of: force constants from rope pulls,
+// then friction and platform from a motion that excites them, then what the observer takes for a contact in a
+// motion that neither used. The table is printed; docs/theory.md cites it. FLINCH_ROBOTS in the environment
+// says how many robots each of the four parts has.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "tests/identification/calibrated_robot.h"
+
+namespace flinch {
+namespace {
+
+using test::CalibratedRobot;
+
+int robots_of_a_part() {
+  const char* const wanted = std::getenv("FLINCH_ROBOTS");
+  return wanted != nullptr ? std::atoi(wanted) : 5;
+}
+
+/// Largest share by which a force constant is off.
+double error_of(const CalibrationResult& found, const JointVector& truth) {
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < truth.size(); ++i) {
+    const CalibratedParameter& constant = found.parameters[static_cast<std::size_t>(i)];
+    EXPECT_TRUE(constant.identifiable) << constant.name;
+    largest = std::max(largest, std::abs(constant.value / truth[i] - 1.0));
+  }
+  return largest;
+}
+
+class Hexapods : public ::testing::TestWithParam<int> {};
+
+TEST_P(Hexapods, FindTheirForceConstantsAndFeelNoContactThatIsNone) {
+  const auto count = static_cast<std::uint64_t>(robots_of_a_part());
+  const std::uint64_t first = 1 + static_cast<std::uint64_t>(GetParam()) * count;
+  std::printf("  robot   constants off by   observer before         after\n");
+  for (std::uint64_t seed = first; seed < first + count; ++seed) {
+    CalibratedRobot robot(seed);
+    const Verdict before = robot.judged("hexapod_calibration_motion.yaml");
+    const CalibrationResult constants = robot.torque_constants("hexapod_calibration_pulls.yaml");
+    const JointVector truth =
+        robot.scenario("hexapod_calibration_motion.yaml").station.drives.torque_constant;
+    const double off = error_of(constants, truth);
+    robot.dynamics("hexapod_calibration_excitation.yaml");
+    const Verdict after = robot.judged("hexapod_calibration_motion.yaml");
+    std::printf("  %5d %14.2f %% %8.1f N %6.2f Nm %7.1f N %5.2f Nm\n", static_cast<int>(seed), 100.0 * off,
+                before.max_observer_error_force, before.max_observer_error_moment,
+                after.max_observer_error_force, after.max_observer_error_moment);
+    EXPECT_LE(off, 0.01) << seed;
+    EXPECT_LE(after.max_observer_error_force, 12.0) << seed;
+    EXPECT_LE(after.max_observer_error_moment, 2.5) << seed;
+    EXPECT_GT(before.max_observer_error_force, 40.0) << "there is nothing to show";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Part, Hexapods, ::testing::Range(0, 4));
+
+}  // namespace
+}  // namespace flinch
