@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -9,6 +10,7 @@
 #include "identification/dynamic_parameters.h"
 #include "identification/dynamics_fit.h"
 #include "identification/dynamics_rows.h"
+#include "identification/physical_parameters.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recording.h"
 
@@ -110,22 +112,35 @@ void check(const DynamicsBelief& belief, const DynamicsRows& rows, const char* u
   throw_if_any(std::move(problems));
 }
 
-bool is_physical(const DynamicParameters& parameters, const Eigen::VectorXd& values) {
-  try {
-    return parameters.with(values) != nullptr;
-  } catch (const SetupError&) {
-    return false;
-  }
-}
-
-/// What the data hardly tell is held as believed, and the rest found again. Then, where no such robot can
-/// exist, parameters that are known worst are held one after the other until one can.
 struct Solution {
   DynamicsFit fit;
   FitUncertainty sure;
   std::vector<bool> held;
-  int held_for_physics = 0;
+  double brought_back = 0.0;  ///< largest change of a parameter that physics asked for, in its deviations
 };
+
+/// Where no robot can have these parameters, takes those of the robot that explains the rows best, with
+/// offsets that fit them.
+void make_physical(const DynamicParameters& parameters, Solution& solution) {
+  Eigen::VectorXd& values = solution.fit.values;
+  if (is_physical(parameters, values)) return;
+  const LinearFit& linear = solution.fit.linear;
+  const Eigen::Index p = values.size(), drives = solution.fit.offset.size();
+  Eigen::MatrixXd H = linear.jacobian.transpose() * linear.weight.asDiagonal() * linear.jacobian;
+  H += linear.prior_information.asDiagonal();
+  const Eigen::MatrixXd offsets_follow =
+      -H.bottomRightCorner(drives, drives).ldlt().solve(H.bottomLeftCorner(drives, p));
+  const Eigen::MatrixXd information = H.topLeftCorner(p, p) + H.topRightCorner(p, drives) * offsets_follow;
+  const Eigen::VectorXd change = nearest_physical(parameters, values, information) - values;
+  values += change;
+  solution.fit.offset += offsets_follow * change;
+  for (Eigen::Index j = 0; j < p; ++j) {
+    if (solution.held[static_cast<std::size_t>(j)]) continue;
+    solution.brought_back = std::max(solution.brought_back, std::abs(change[j]) / solution.sure.deviation[j]);
+  }
+}
+
+/// What the data hardly tell is held as believed, and the rest found again.
 
 Solution solve(const DynamicsRows& rows, const DynamicParameters& parameters, int drives,
                double usual_error) {
@@ -139,22 +154,7 @@ Solution solve(const DynamicsRows& rows, const DynamicParameters& parameters, in
   again();
   for (std::size_t j = 0; j < p; ++j) solution.held[j] = !solution.sure.identifiable[j];
   again();
-  while (!is_physical(parameters, solution.fit.values)) {
-    std::size_t worst = p;
-    double most = 0.0;
-    for (std::size_t j = 0; j < p; ++j) {
-      const double share =
-          solution.sure.deviation[static_cast<Eigen::Index>(j)] / parameters.list()[j].deviation;
-      if (solution.held[j] || share < most) continue;
-      most = share;
-      worst = j;
-    }
-    if (worst == p)
-      throw SetupError("no physical robot explains the motion; the torque constants may be wrong");
-    solution.held[worst] = true;
-    ++solution.held_for_physics;
-    again();
-  }
+  make_physical(parameters, solution);
   return solution;
 }
 
@@ -263,11 +263,13 @@ void doubt(const DynamicsRows& rows, const Solution& solution, const Eigen::Vect
         "the model explains the torques badly: torque constants, geometry or the order of the legs may be "
         "wrong");
   }
-  if (solution.held_for_physics > 0) {
+  if (solution.brought_back > 0.0) {
     result.warnings.push_back(
-        fmt::format("{} parameters are held as believed, since no robot can have what the data say; record a "
-                    "richer motion",
-                    solution.held_for_physics));
+        fmt::format("no robot can have the masses and moments that explain the motion best; those of the "
+                    "nearest that can exist are taken, up to {:.2g} deviations away{}",
+                    solution.brought_back,
+                    solution.brought_back > 3.0 ? ": torque constants or the geometry may be wrong"
+                                                : "; a richer motion would tell them better"));
   }
 }
 

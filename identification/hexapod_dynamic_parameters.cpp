@@ -82,6 +82,21 @@ class HexapodDynamicParameters final : public DynamicParameters {
     return std::make_shared<const Hexapod>(robot);
   }
 
+  /// The pseudo-inertia of the platform: mass and moments are those of a body whose density is nowhere
+  /// negative, so that each moment of inertia is less than the sum of the other two. [Wensing, Kim and
+  /// Slotine, IEEE RA-L 3(1), 2018, (8)]
+  std::vector<Eigen::MatrixXd> must_be_definite(const Eigen::VectorXd& values) const override {
+    const Moments m = values.segment<10>(of_platform);
+    Eigen::Matrix3d I;
+    I << m[4], m[7], m[8], m[7], m[5], m[9], m[8], m[9], m[6];
+    Eigen::Matrix4d pseudo;
+    pseudo.topLeftCorner<3, 3>() = 0.5 * I.trace() * Eigen::Matrix3d::Identity() - I;
+    pseudo.topRightCorner<3, 1>() = m.segment<3>(1);
+    pseudo.bottomLeftCorner<1, 3>() = m.segment<3>(1).transpose();
+    pseudo(3, 3) = m[0];
+    return {pseudo};
+  }
+
   std::vector<FileValue> in_file(const Eigen::VectorXd& values) const override {
     std::vector<FileValue> told = DynamicParameters::in_file(values);
     told.resize(static_cast<std::size_t>(of_platform));

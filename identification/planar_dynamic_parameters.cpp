@@ -29,7 +29,19 @@ class PlanarDynamicParameters final : public DynamicParameters {
     return std::make_shared<const Robot>(robot);
   }
 
+  /// Of each leg p2 (p1 - p2) > p3^2: the mass matrix is positive definite in every position of the elbow.
+  std::vector<Eigen::MatrixXd> must_be_definite(const Eigen::VectorXd& values) const override {
+    std::vector<Eigen::MatrixXd> matrices;
+    for (std::size_t i = 0; i < robot_.legs.size(); ++i) {
+      const Eigen::Vector3d p = values.segment<3>(per_leg * static_cast<Eigen::Index>(i));
+      matrices.push_back((Eigen::Matrix2d() << p[0] - p[1], p[2], p[2], p[1]).finished());
+    }
+    return matrices;
+  }
+
  private:
+  static constexpr Eigen::Index per_leg = 7;
+
   /// Calls visit(name, unit, value, deviation of the belief; negative: times the value).
   template <class Visit>
   static void for_each(Parameters& robot, Visit&& visit) {

@@ -6,6 +6,7 @@
 #include "identification/dynamics_fit.h"
 #include "systems/robot/planar_rrr.h"
 #include "systems/signals/drive_reading.h"
+#include "tests/identification/calibrated_robot.h"
 #include "tests/identification/recorded.h"
 #include "tests/support/problems_of.h"
 
@@ -71,6 +72,27 @@ TEST(Dynamics, FindWhatIsTrueWithinTheirDeviations) {
     }
   }
   EXPECT_GE(found, 5);
+}
+
+/// What the observer takes for a contact in a motion that nothing touches and no calibration has used.
+struct FreeMotionErrors {
+  double before, after;  // [N]
+};
+FreeMotionErrors observer_errors(std::uint64_t seed, const char* realism_of_all) {
+  const test::CalibratedRobot::Replacements in_excitation = {{realism, realism_of_all}};
+  const test::CalibratedRobot::Replacements in_motion = {
+      {realism, realism_of_all},
+      {"  drive_torque: {torque_constant_Nm_per_A: [6.1, 6.1, 6.1]}\n", ""},
+      {"duration_s: 36", "duration_s: 10"}};
+  test::CalibratedRobot robot(seed);
+  const double before = robot.judged("calibration_motion.yaml", in_motion).max_observer_error_force;
+  robot.dynamics("calibration_excitation.yaml", in_excitation);
+  return {before, robot.judged("calibration_motion.yaml", in_motion).max_observer_error_force};
+}
+
+TEST(Dynamics, HalveWhatTheObserverTakesForAContact) {
+  const FreeMotionErrors errors = observer_errors(1, only_parameters);
+  EXPECT_LT(errors.after, 0.5 * errors.before);
 }
 
 TEST(DynamicsFit, HasTheJacobianOfItsRows) {
