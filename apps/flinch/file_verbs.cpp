@@ -113,7 +113,9 @@ ExitStatus check(const CheckOptions& options) {
     read_parameter_file(options.file);
     what = "calibration";
   } else if (is_robot_file(options.file)) {
-    read_robot_file(options.file);
+    const std::string text = read_config_file(options.file);
+    parse_robot_file(text, options.file.string());
+    robot_calibrations(text, options.file.string());
     what = "robot";
   } else {
     closed_loop(options.file);

@@ -10,7 +10,8 @@ std::shared_ptr<const RobotFiles::Entry> RobotFiles::read(const std::filesystem:
   if (!entry) {
     std::string text = read_config_file(file);
     RobotFile robot = parse_robot_file(text, file.string());
-    entry = std::make_shared<Entry>(Entry{std::move(robot), std::move(text)});
+    std::vector<ParameterFile> calibrations = robot_calibrations(text, file.string());
+    entry = std::make_shared<Entry>(Entry{std::move(robot), std::move(text), std::move(calibrations)});
   }
   return entry;
 }

@@ -5,7 +5,9 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
+#include "systems/config/parameter_file.h"
 #include "systems/config/robot_file.h"
 
 namespace flinch {
@@ -16,7 +18,8 @@ class RobotFiles {
  public:
   struct Entry {
     RobotFile robot;
-    std::string text;  ///< of the file
+    std::string text;                         ///< of the file
+    std::vector<ParameterFile> calibrations;  ///< that it names
   };
 
   /// Throws SetupError with all that is wrong with the file.

@@ -116,9 +116,10 @@ Scenario assemble(ConfigReader reader, const std::filesystem::path& file, RobotF
     if (scenario.robot_file.empty()) throw SetupError(std::vector<std::string>{});
     const auto entry = robots.read(scenario.robot_file);
     scenario.robot_text = entry->text;
+    scenario.calibrations = entry->calibrations;
     return entry->robot;
   });
-  scenario.calibrations = read_calibrations(reader);
+  for (ParameterFile& own : read_calibrations(reader)) scenario.calibrations.push_back(std::move(own));
   scenario.robot = scenario.robot_as_built;
   try {
     if (reader.good()) scenario.robot = calibrated_robot(scenario);

@@ -7,7 +7,6 @@
 #include "experiments/scenario/scenario.h"
 #include "systems/config/config_reader.h"
 #include "systems/foundation/setup_error.h"
-#include "systems/foundation/sha256.h"
 #include "systems/framework/recording.h"
 
 namespace flinch {
@@ -29,21 +28,6 @@ void set_entry(const FileParameter& parameter, const std::string& vector, Eigen:
 }
 
 }  // namespace
-
-std::vector<ParameterFile> read_calibrations(ConfigReader& scenario) {
-  std::vector<ParameterFile> files;
-  for (ConfigReader& entry : scenario.sections("calibrations")) {
-    std::filesystem::path file;
-    entry.required().file("file", file);
-    if (file.empty()) continue;
-    try {
-      files.push_back(read_parameter_file(file));
-    } catch (const SetupError& error) {
-      entry.add_problems(error.problems());
-    }
-  }
-  return files;
-}
 
 std::vector<ParameterFile> recorded_calibrations(ConfigReader& scenario, const Recording& recording,
                                                  const std::filesystem::path& file) {
@@ -79,7 +63,7 @@ std::vector<std::string> doubts_about_calibrations(const Scenario& scenario) {
   std::vector<std::string> doubts;
   if (scenario.calibrations.empty()) return doubts;
   std::map<std::string, std::string> given_by;
-  const std::string robot_hash = sha256(scenario.robot_text);
+  const std::string robot_hash = calibrated_robot_hash(scenario.robot_text);
   for (const ParameterFile& file : scenario.calibrations) {
     if (file.robot.sha256 != robot_hash) {
       doubts.push_back(file.file + ": the robot file has changed since this calibration of " + file.date +

@@ -14,11 +14,8 @@ struct ContactControlSettings;
 struct Recording;
 struct Scenario;
 
-/// Reads the files that `calibrations` of a scenario names. What is wrong with them is noted.
-std::vector<ParameterFile> read_calibrations(ConfigReader& scenario);
-
-/// The same files as a recording keeps them, by its attributes calibration.1.text, ...; the key of the
-/// scenario is taken.
+/// The files that `calibrations` of robot file and scenario name, as a recording keeps them, by its
+/// attributes calibration.1.text, ...; the key of the scenario is taken.
 std::vector<ParameterFile> recorded_calibrations(ConfigReader& scenario, const Recording& recording,
                                                  const std::filesystem::path& file);
 

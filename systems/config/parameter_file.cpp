@@ -9,6 +9,7 @@
 #include "systems/config/parsed.h"
 #include "systems/config/yaml_text.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/foundation/sha256.h"
 
 namespace flinch {
 namespace {
@@ -108,6 +109,44 @@ bool is_parameter_file(const std::filesystem::path& file) {
 
 ParameterFile read_parameter_file(const std::filesystem::path& file) {
   return parse_parameter_file(read_config_file(file), file.string());
+}
+
+std::vector<ParameterFile> read_calibrations(ConfigReader& file) {
+  std::vector<ParameterFile> files;
+  for (ConfigReader& entry : file.sections("calibrations")) {
+    std::filesystem::path name;
+    entry.required().file("file", name);
+    if (name.empty()) continue;
+    try {
+      files.push_back(read_parameter_file(name));
+    } catch (const SetupError& error) {
+      entry.add_problems(error.problems());
+    }
+  }
+  return files;
+}
+
+std::vector<ParameterFile> robot_calibrations(std::string_view robot_text, const std::string& file) {
+  ConfigReader reader = ConfigReader::parse(robot_text, file);
+  std::vector<ParameterFile> files = read_calibrations(reader);
+  reader.leave_rest_unread();  // for who reads the robot
+  reader.finish();
+  return files;
+}
+
+std::string calibrated_robot_hash(std::string_view robot_text) {
+  std::string kept;
+  bool inside = false;
+  while (!robot_text.empty()) {
+    const std::string_view line = robot_text.substr(0, robot_text.find('\n') + 1);
+    robot_text.remove_prefix(line.empty() ? robot_text.size() : line.size());
+    const std::size_t text = line.find_first_not_of(" \t\r\n");
+    if (text == std::string_view::npos || line[text] == '#') continue;
+    const bool is_key = text == 0 && line.front() != '-' && line.front() != ']';
+    if (is_key) inside = line.starts_with("calibrations:");
+    if (!inside) kept += line;
+  }
+  return sha256(kept);
 }
 
 std::string parameter_file_text(const ParameterFile& parameters) {

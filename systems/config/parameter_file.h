@@ -8,6 +8,8 @@
 
 namespace flinch {
 
+class ConfigReader;
+
 /// One number of a parameter file.
 struct FileParameter {
   std::string name{};  ///< "offset[0]", or the path of a key: "drives.torque_constant_Nm_per_A[0]"
@@ -48,6 +50,15 @@ bool is_parameter_file(const std::filesystem::path& file);
 ParameterFile read_parameter_file(const std::filesystem::path& file);
 /// The same for text that came from `file`.
 ParameterFile parse_parameter_file(std::string_view text, const std::string& file);
+
+/// Reads the files that `calibrations` of a scenario or robot file names. What is wrong with them is noted.
+std::vector<ParameterFile> read_calibrations(ConfigReader& file);
+/// Those of the robot file `robot_text`, which lies at `file`. Throws SetupError with all that is wrong.
+std::vector<ParameterFile> robot_calibrations(std::string_view robot_text, const std::string& file);
+
+/// The hash by which a parameter file knows its robot: of the robot file without `calibrations` and lines of
+/// comment, so that one that takes results over is still the same.
+std::string calibrated_robot_hash(std::string_view robot_text);
 
 /// As text of YAML that reads back to the same numbers, bit for bit.
 std::string parameter_file_text(const ParameterFile& parameters);

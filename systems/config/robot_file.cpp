@@ -81,6 +81,7 @@ RobotFile read_any(ConfigReader file) {
       "kind", kind,
       {{"planar_3rrr", &planar_3rrr}, {"five_bar", &five_bar}, {"hexapod_6ups", &hexapod_6ups}});
   RobotFile result;
+  for (ConfigReader& calibration : file.sections("calibrations")) calibration.leave_rest_unread();
   result.robot = kind->read(file);
   result.drives = read_drives(file.section("drives"), *kind);
   ConfigReader limits = file.section("workspace_limits");

@@ -22,6 +22,7 @@ struct RobotFile {
   std::vector<ReadValue> values;  ///< Every parameter, defaults included.
 };
 
+/// The robot as the file itself says, without what `calibrations` names, which robot_calibrations() reads.
 /// Each throws SetupError with all that is wrong with the file, also physically: masses that are not
 /// positive, inertia that is not positive definite, a home pose out of reach or outside the workspace limits.
 RobotFile read_robot_file(const std::filesystem::path& file);

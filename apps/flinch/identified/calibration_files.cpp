@@ -35,7 +35,7 @@ std::string today() { return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nu
 
 void note_robot(const Scenario& scenario, CalibrationResult& result) {
   result.robot_file = scenario.robot_file.string();
-  result.robot_sha256 = sha256(scenario.robot_text);
+  result.robot_sha256 = calibrated_robot_hash(scenario.robot_text);
 }
 
 }  // namespace

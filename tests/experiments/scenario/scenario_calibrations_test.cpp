@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "experiments/scenario/scenario.h"
-#include "systems/foundation/sha256.h"
 #include "tests/support/problems_of.h"
 #include "tests/support/workplace.h"
 
@@ -22,7 +21,8 @@ class Calibrations : public ::testing::Test {
     ParameterFile file;
     file.kind = "torque-constant";
     file.date = "2026-11-22";
-    file.robot = {"planar_3rrr.yaml", sha256(test::bytes_of(place / "robots/planar_3rrr.yaml"))};
+    file.robot = {"planar_3rrr.yaml",
+                  calibrated_robot_hash(test::bytes_of(place / "robots/planar_3rrr.yaml"))};
     for (int i = 0; i < 3; ++i) {
       file.parameters.push_back({.name = "drives.torque_constant_Nm_per_A[" + std::to_string(i) + "]",
                                  .value = 7.0 + i,
@@ -62,6 +62,37 @@ TEST_F(Calibrations, OfARobotFileThatHasChangedAreDoubted) {
   const ParameterFile file = made();
   place.replace("robots/planar_3rrr.yaml", "mass_kg: 0.642", "mass_kg: 0.7");
   EXPECT_THAT(read(file).doubts, ElementsAre(HasSubstr("the robot file has changed since")));
+}
+
+TEST_F(Calibrations, MayBeNamedByTheRobotFileAsWell) {
+  const ParameterFile file = made();
+  place.write("robots/found.yaml", parameter_file_text(file));
+  const std::string robot = test::bytes_of(place / "robots/planar_3rrr.yaml");
+  place.write("robots/planar_3rrr.yaml", robot + "\ncalibrations:\n  - {file: found.yaml}\n");
+  place.write("scenarios/plain.yaml", "robot: ../robots/planar_3rrr.yaml\nduration_s: 1\n");
+  const Scenario scenario = read_scenario(place / "scenarios/plain.yaml");
+  EXPECT_EQ(scenario.robot.drives.torque_constant, Eigen::Vector3d(7.0, 8.0, 9.0));
+  EXPECT_EQ(scenario.robot_as_built.drives.torque_constant, Eigen::Vector3d(6.021, 6.6116, 6.7315));
+  EXPECT_EQ(scenario.calibrations.size(), 1U);
+  EXPECT_THAT(scenario.doubts, IsEmpty()) << "to take them over is no change of the robot";
+}
+
+TEST_F(Calibrations, OfTheScenarioReplaceThoseOfTheRobotFileAndThatIsSaid) {
+  ParameterFile file = made();
+  place.write("robots/before.yaml", parameter_file_text(file));
+  const std::string robot = test::bytes_of(place / "robots/planar_3rrr.yaml");
+  place.write("robots/planar_3rrr.yaml", robot + "\ncalibrations: [{file: before.yaml}]\n");
+  file.parameters[0].value = 7.5;
+  const Scenario scenario = read(file);
+  EXPECT_EQ(scenario.robot.drives.torque_constant, Eigen::Vector3d(7.5, 8.0, 9.0));
+  EXPECT_THAT(scenario.doubts, Contains(HasSubstr("found.yaml: replaces what")));
+}
+
+TEST_F(Calibrations, ThatTheRobotFileNamesAndThatAreNotThereAreToldWithTheirLine) {
+  const std::string robot = test::bytes_of(place / "robots/planar_3rrr.yaml");
+  place.write("robots/planar_3rrr.yaml", "calibrations: [{file: gone.yaml}]\n" + robot);
+  EXPECT_THAT(test::problems_of([&] { read(made()); }),
+              Contains(HasSubstr("planar_3rrr.yaml:1: calibrations[0].file: is 'gone.yaml'")));
 }
 
 TEST_F(Calibrations, ThatRestOnOtherTorqueConstantsAreDoubted) {
