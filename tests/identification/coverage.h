@@ -1,35 +1,42 @@
 #pragma once
 
-#include <cmath>
-
-#include "identification/torque_constant_fit.h"
-#include "tests/identification/synthetic_pulls.h"
+#include <cstdint>
+#include <map>
+#include <string>
 
 namespace flinch::test {
 
-/// How many of the 95 % intervals of torque constants cover the truth.
-struct Coverage {
-  int covered = 0;
-  int intervals = 0;
+/// How many of the 95 % intervals that calibrations state cover the truth.
+class Coverage {
+ public:
+  /// Counts the interval of a parameter in one more calibration: how far off it is, and its stated deviation.
+  void count(const std::string& parameter, double error, double deviation);
 
-  double share() const { return static_cast<double>(covered) / intervals; }
+  int covered() const;
+  int intervals() const;
+  double share() const;  ///< of all intervals
+  /// The probability that so few intervals of a parameter, or fewer, cover the truth where each does with a
+  /// probability of 0.95: of the parameter for which it is least. Calibrations are independent, so it is
+  /// exact.
+  double probability() const;
+
+ private:
+  struct Count {
+    int covered = 0, all = 0;
+  };
+  std::map<std::string, Count> of_parameter_;
 };
 
-/// Of calibrations from random pulls: cogging of up to 0.5 Nm, 2 degrees of misalignment, noise.
-inline Coverage cover(int calibrations, std::uint64_t first_seed) {
-  const SyntheticPulls truth{
-      .misalignment = 0.035, .current_noise = 0.003, .torque_noise = 0.05, .cogging = 0.5, .windows = 15};
-  Coverage coverage;
-  for (int trial = 0; trial < calibrations; ++trial) {
-    const auto windows = make(truth, first_seed + static_cast<std::uint64_t>(trial));
-    const TorqueConstantFit fit = fit_torque_constants(windows, 7, Eigen::Vector3d::Constant(6.1), {});
-    const Eigen::VectorXd deviation = fit_uncertainty(fit.linear).deviation;
-    for (int i = 0; i < 3; ++i) {
-      coverage.covered += std::abs(fit.constant[i] - truth.constant[i]) <= 1.96 * deviation[3 * i] ? 1 : 0;
-      ++coverage.intervals;
-    }
-  }
-  return coverage;
-}
+/// Torque constants from random pulls at a robot with three drives: cogging of up to 0.5 Nm, 2 degrees of
+/// misalignment, noise.
+Coverage cover_torque_constants(int calibrations, std::uint64_t first_seed);
+
+/// Pose, biases and delay of an IMU that is mounted anew, on a platform that moves in the plane along four
+/// random waves for 4 s; noise of the bench's IMU, low-passed as recordings are.
+Coverage cover_imu_poses(int calibrations, std::uint64_t first_seed);
+
+/// Inertia off by up to 10 % and friction by up to 20 % of the bench's robot, along random waves for 20 s;
+/// motors that cog by up to 0.5 Nm, noise.
+Coverage cover_dynamics(int calibrations, std::uint64_t first_seed);
 
 }  // namespace flinch::test

@@ -5,9 +5,20 @@
 namespace flinch {
 namespace {
 
-// A slice of tests/campaign/identification: 90 intervals, of which a twentieth are wrong by chance.
-TEST(IntervalsOfTorqueConstants, CoverTheTruthInNearlyAllCalibrations) {
-  EXPECT_GE(test::cover(30, 1000).share(), 0.87);
+// Slices of tests/campaign/identification. So few intervals would cover the truth by chance once in ten
+// thousand times if the stated deviations were right.
+constexpr double by_chance = 1e-4;
+
+TEST(IntervalsOfTorqueConstants, CoverTheTruthAsOftenAsStated) {
+  EXPECT_GT(test::cover_torque_constants(20, 1000).probability(), by_chance);
+}
+
+TEST(IntervalsOfImuPoses, CoverTheTruthAsOftenAsStated) {
+  EXPECT_GT(test::cover_imu_poses(8, 1000).probability(), by_chance);
+}
+
+TEST(IntervalsOfDynamics, CoverTheTruthAsOftenAsStated) {
+  EXPECT_GT(test::cover_dynamics(8, 1000).probability(), by_chance);
 }
 
 }  // namespace
