@@ -63,10 +63,11 @@ Segment link_segment(const Kinematics& kinematics, BodyId link) noexcept {
   return {leg.passive_joint, leg.coupling_joint};
 }
 
-// A pair of links whose spheres about their middles are farther apart than the nearest pair so far is passed
-// over.
-double self_collision_distance(const Mechanism& mechanism, const Kinematics& kinematics) noexcept {
-  if (!kinematics.reachable) return 0.0;
+/// The distance of each pair of links of different legs, so far as it is within `margin` of the smallest one
+/// found before it, is told to `see`. A pair whose spheres about the middles of its links are farther apart
+/// than that is passed over.
+template <class See>
+double smallest_distance(const Mechanism& mechanism, const Kinematics& kinematics, double margin, See&& see) {
   std::array<Link, max_bodies> links;
   for (int i = 1; i < mechanism.body_count(); ++i) {
     const Segment link = link_segment(kinematics, BodyId::from_index(i));
@@ -78,25 +79,36 @@ double self_collision_distance(const Mechanism& mechanism, const Kinematics& kin
   for (const BodyPair& pair : mechanism.description().self_collision_pairs) {
     const Link& a = links[static_cast<std::size_t>(pair.a)];
     const Link& b = links[static_cast<std::size_t>(pair.b)];
-    const double nearest = a.radius + b.radius + smallest;
+    const double nearest = a.radius + b.radius + smallest + margin;
     if ((a.middle - b.middle).squaredNorm() > nearest * nearest) continue;
-    smallest = std::min(smallest, closest_points(a.begin, a.end, b.begin, b.end).distance);
+    const SegmentDistance between = closest_points(a.begin, a.end, b.begin, b.end);
+    smallest = std::min(smallest, between.distance);
+    if (between.distance <= smallest + margin) see(NearestLinks{pair, between});
   }
   return smallest;
+}
+
+double self_collision_distance(const Mechanism& mechanism, const Kinematics& kinematics) noexcept {
+  if (!kinematics.reachable) return 0.0;
+  return smallest_distance(mechanism, kinematics, 0.0, [](const NearestLinks&) {});
 }
 
 NearestLinksList nearest_links(const Mechanism& mechanism, const Kinematics& kinematics,
                                double margin) noexcept {
   NearestLinksList nearest;
-  const double limit = self_collision_distance(mechanism, kinematics) + margin;
   if (!kinematics.reachable) return nearest;
-  for (const BodyPair& pair : mechanism.description().self_collision_pairs) {
-    const SegmentDistance between = segment_distance(link_segment(kinematics, BodyId::from_index(pair.a)),
-                                                     link_segment(kinematics, BodyId::from_index(pair.b)));
-    if (between.distance > limit || nearest.count == max_nearest_links) continue;
-    nearest.links[static_cast<std::size_t>(nearest.count)] = {pair, between};
-    ++nearest.count;
-  }
+  const auto drop_beyond = [&nearest](double limit) {
+    const auto beyond = [limit](const NearestLinks& each) { return each.segments.distance > limit; };
+    const auto end = nearest.links.begin() + nearest.count;
+    nearest.count =
+        static_cast<int>(std::remove_if(nearest.links.begin(), end, beyond) - nearest.links.begin());
+  };
+  const double smallest = smallest_distance(mechanism, kinematics, margin, [&](const NearestLinks& found) {
+    drop_beyond(found.segments.distance + margin);
+    if (nearest.count == max_nearest_links) return;
+    nearest.links[static_cast<std::size_t>(nearest.count++)] = found;
+  });
+  drop_beyond(smallest + margin);
   return nearest;
 }
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "systems/robot/constraint_tasks.h"
+#include "systems/robot/planar_determinants.h"
 #include "systems/robot/planar_self_collision.h"
 #include "systems/robot/reaction_tasks.h"
 
@@ -25,24 +26,15 @@ class Builder {
           std::log(largest));
   }
 
-  /// ln |det| / least, by differences, since mechanisms scale their determinants as they like.
   void determinants(double least_A, double least_B) {
     if (!(least_A > 0.0) && !(least_B > 0.0)) return;
-    const int n = mechanism_.dof();
-    PlatformVector gradient_A = PlatformVector::Zero(n), gradient_B = PlatformVector::Zero(n);
-    Kinematics before, after;
-    for (int axis = 0; axis < n; ++axis) {
-      const PlatformVector moved = step_of_differences * PlatformVector::Unit(n, axis);
-      at_rest(-moved, before);
-      at_rest(moved, after);
-      gradient_A[axis] = log_ratio(after.det_A, before.det_A) / (2.0 * step_of_differences);
-      gradient_B[axis] = log_ratio(after.det_B, before.det_B) / (2.0 * step_of_differences);
-    }
+    const auto closed_form = planar_determinant_gradients(mechanism_, kinematics_);
+    const DeterminantGradients gradients = closed_form ? *closed_form : by_differences();
     if (least_B > 0.0)
-      add(BarrierKind::type_1_singularity, log_ratio(kinematics_.det_B, least_B), gradient_B,
+      add(BarrierKind::type_1_singularity, log_ratio(kinematics_.det_B, least_B), gradients.log_B,
           log_drift(&Kinematics::det_B));
     if (least_A > 0.0)
-      add(BarrierKind::type_2_singularity, log_ratio(kinematics_.det_A, least_A), gradient_A,
+      add(BarrierKind::type_2_singularity, log_ratio(kinematics_.det_A, least_A), gradients.log_A,
           log_drift(&Kinematics::det_A));
   }
 
@@ -112,6 +104,20 @@ class Builder {
     add(kind, task.sigma[0] - limit, task.J.row(0).transpose(), task.drift[0]);
   }
 
+  /// Mechanisms scale their determinants as they like, so that nothing else is known of all of them.
+  DeterminantGradients by_differences() const {
+    const int n = mechanism_.dof();
+    DeterminantGradients gradients{PlatformVector::Zero(n), PlatformVector::Zero(n)};
+    Kinematics before, after;
+    for (int axis = 0; axis < n; ++axis) {
+      const PlatformVector moved = step_of_differences * PlatformVector::Unit(n, axis);
+      at_rest(-moved, before);
+      at_rest(moved, after);
+      gradients.log_A[axis] = log_ratio(after.det_A, before.det_A) / (2.0 * step_of_differences);
+      gradients.log_B[axis] = log_ratio(after.det_B, before.det_B) / (2.0 * step_of_differences);
+    }
+    return gradients;
+  }
   void at_rest(const PlatformVector& moved, Kinematics& out) const {
     mechanism_.kinematics(mechanism_.space().plus(kinematics_.pose, moved),
                           PlatformVector::Zero(mechanism_.dof()), out);
