@@ -2,6 +2,7 @@
 
 #include "diagrams/contact_control_settings.h"
 #include "systems/framework/constant.h"
+#include "systems/laws/kept_motion.h"
 #include "systems/laws/limit_keeper.h"
 #include "systems/model/robot_model.h"
 
@@ -39,7 +40,10 @@ KeptTorques add_limit_keeper(const StageSite& site, const ReactionPorts& given,
   DisturbanceFilter& filter = add_motion_filter(site, given);
   auto& model = builder.add<RobotModel>(site.name + "_model", site.robot);
   auto& keeper = builder.add<LimitKeeper>(site.name, site.robot, site.settings.limits);
-  builder.connect(filter.followed, model.platform);
+  auto& kept = builder.add<KeptMotion>(site.name + "_kept_motion", site.settings.limits.use);
+  builder.connect(filter.followed, kept.motion);
+  builder.connect(given.reaction, kept.reaction);
+  builder.connect(kept.kept, model.platform);
   builder.connect(model.kinematics, keeper.kinematics);
   builder.connect(model.dynamics, keeper.dynamics);
   builder.connect(filter.wrench, keeper.disturbance);

@@ -9,6 +9,7 @@
 
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/laws/kept_motion.h"
 
 namespace flinch {
 namespace {
@@ -230,20 +231,7 @@ LimitKeeper::LimitKeeper(std::shared_ptr<const ParallelRobot> robot, const Limit
   throw_if_any(problems(settings, *robot_));
 }
 
-bool LimitKeeper::keeps_in(ReactionMode mode) const {
-  switch (mode) {
-    case ReactionMode::nominal:
-      return settings_.use == LimitKeeperSettings::Use::always;
-    case ReactionMode::react:
-    case ReactionMode::hold:
-    case ReactionMode::zero_g:
-      return settings_.use != LimitKeeperSettings::Use::never;
-    case ReactionMode::stopped:
-    case ReactionMode::recover:
-      break;
-  }
-  return false;
-}
+bool LimitKeeper::keeps_in(ReactionMode mode) const { return keeps_limits_in(mode, settings_.use); }
 
 void LimitKeeper::keep_within(Time now, const Result& last, const TorqueCommand& wanted,
                               const ReactionState& state, const Kinematics& at, const Dynamics& model,

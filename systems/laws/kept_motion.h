@@ -1,0 +1,30 @@
+#pragma once
+
+#include "systems/framework/system.h"
+#include "systems/laws/limit_keeper.h"
+#include "systems/signals/platform_motion.h"
+
+namespace flinch {
+
+/// Whether a LimitKeeper that is used so keeps the limits in this mode.
+bool keeps_limits_in(ReactionMode mode, LimitKeeperSettings::Use use) noexcept;
+
+/// The platform's motion while limits are kept, and otherwise no data: a model that reads it is evaluated in
+/// the ticks in which a LimitKeeper needs it.
+class KeptMotion final : public System {
+ public:
+  explicit KeptMotion(LimitKeeperSettings::Use use) : use_(use) {}
+
+  InputPort<PlatformMotion> motion = input<PlatformMotion>("motion");
+  InputPort<ReactionState> reaction = input<ReactionState>("reaction");
+  OutputPort<PlatformMotion> kept = output<&KeptMotion::keep>("kept", motion, reaction);
+
+ private:
+  PlatformMotion keep(const PlatformMotion& moving, const ReactionState& state) const {
+    return keeps_limits_in(state.mode, use_) ? moving : PlatformMotion();
+  }
+
+  LimitKeeperSettings::Use use_;
+};
+
+}  // namespace flinch
