@@ -21,10 +21,26 @@
 
 namespace flinch {
 
-Experiment build_experiment(const SimulatedScenario& scenario) {
+namespace {
+
+template <class S>
+void keep_followed(Stages<S>& stages) {
+  const std::string followed = followed_name(stages);
+  std::erase_if(stages.all, [&](const S& stage) { return stage.name != followed; });
+}
+
+/// Without the stages that have no effect and of which no verdict tells.
+ContactControlSettings judged_control(ContactControlSettings settings) {
+  keep_followed(settings.stages.classifiers);
+  keep_followed(settings.stages.locators);
+  keep_followed(settings.stages.nominal_laws);
+  keep_followed(settings.stages.reaction_laws);
+  return settings;
+}
+
+Experiment build(const SimulatedScenario& scenario, ContactControlSettings settings) {
   DiagramBuilder builder("experiment", 1ms);
   const SimulatedStation station = add_simulated_station(builder, scenario.station);
-  ContactControlSettings settings = scenario.control;
   settings.contact_is_told = !scenario.station.told_contact.empty();
   const ContactControl control = add_contact_control(builder, scenario.robot.robot, settings);
   connect(builder, station, control);
@@ -51,8 +67,6 @@ Experiment build_experiment(const SimulatedScenario& scenario) {
   export_control(builder, control);
   return {builder.build(), operator_command, target};
 }
-
-namespace {
 
 constexpr std::size_t samples_at_once = 64;  // of a run that is judged while it goes on
 
@@ -91,6 +105,8 @@ std::map<std::string, std::string> simulate(const SimulatedScenario& scenario, c
 
 }  // namespace
 
+Experiment build_experiment(const SimulatedScenario& scenario) { return build(scenario, scenario.control); }
+
 Recording run_experiment(const SimulatedScenario& scenario,
                          const std::map<std::string, std::string>& provenance,
                          const std::function<void(double share)>& progress) {
@@ -104,7 +120,7 @@ Recording run_experiment(const SimulatedScenario& scenario,
 }
 
 Verdict judge_experiment(const SimulatedScenario& scenario) {
-  const Experiment experiment = build_experiment(scenario);
+  const Experiment experiment = build(scenario, judged_control(scenario.control));
   const Diagram& diagram = *experiment.diagram;
   std::vector<std::string> paths = recorded_paths(diagram);
   std::erase_if(paths, [](const std::string& path) { return !is_judged(path); });

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 namespace flinch {
 namespace {
@@ -80,11 +81,12 @@ void LinkParticles::move(const LinkParticleSettings& settings, int directions) n
   const double along = settings.angled ? std::sqrt(settings.along_variance) : 0.0;
   const double across = std::sqrt(settings.across_variance);
   const double fraction = std::sqrt(settings.fraction_variance);
-  for (int i = 0; i < count_; ++i) {  // [SafePR] (20)
+  std::normal_distribution<double> normal;  // which makes its numbers in pairs
+  for (int i = 0; i < count_; ++i) {        // [SafePR] (20)
     LinkParticle& particle = particles_[static_cast<std::size_t>(i)];
-    particle.fraction = reflected(particle.fraction + fraction * random_.normal());
-    if (settings.angled) particle.force[0] += along * random_.normal();
-    for (int axis = 1; axis < directions; ++axis) particle.force[axis] += across * random_.normal();
+    particle.fraction = reflected(particle.fraction + fraction * normal(random_));
+    if (settings.angled) particle.force[0] += along * normal(random_);
+    for (int axis = 1; axis < directions; ++axis) particle.force[axis] += across * normal(random_);
   }
 }
 

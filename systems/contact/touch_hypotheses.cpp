@@ -15,7 +15,8 @@ namespace flinch {
 namespace {
 
 constexpr double impossible = -1e6;
-constexpr double negligible = 30.0;  // ln of how much smaller what adds nothing to a sum is
+constexpr double negligible = 30.0;   // ln of how much smaller what adds nothing to a sum is
+constexpr double surely_free = 37.0;  // softnesses away: what is there leaves a room of 1 to the last bit
 
 Eigen::Vector3d in_space(const CartesianVector& v) {
   Eigen::Vector3d spatial = Eigen::Vector3d::Zero();
@@ -80,7 +81,7 @@ std::vector<Eigen::Vector3d> directions(int dimension, int count) {
 struct TouchHypotheses::Scene {
   const std::array<LegPoints, max_dof>* legs = nullptr;
   std::array<Placed, max_bodies> bodies;
-  PlatformVector wrench;  // L^-1 F
+  WhitenedWrench wrench;  // L^-1 F
 };
 
 /// What has been found of one class: a sum of likelihoods that are known by their logarithms.
@@ -163,6 +164,7 @@ double TouchHypotheses::room(const Scene& scene, int body, int other, const Eige
         length > 0.0 ? std::clamp((centre - placed.begin).dot(axis) / length, 0.0, 1.0) : 0.0;
     const double gap =
         (centre - placed.begin - fraction * axis).norm() - placed.radius - settings_.object_radius;
+    if (gap > surely_free * settings_.softness) continue;
     room *= 1.0 / (1.0 + std::exp(-gap / settings_.softness));
   }
   return room;
@@ -182,26 +184,26 @@ void TouchHypotheses::weigh_body(const Scene& scene, BodyId body, Tally& tally) 
     slide = sliding > 1e-9 ? Eigen::Vector3d(slide / sliding) : Eigen::Vector3d(normal.unitOrthogonal());
     if (robot_->space_dimension() == 2 && sliding <= 1e-9)
       slide = Eigen::Vector3d(-normal.y(), normal.x(), 0.0);
-    const PlatformVector hn = placed.wrench_of(normal, arm);
-    const PlatformVector ht = placed.wrench_of(slide, arm);
+    const WhitenedWrench hn = placed.wrench_of(normal, arm);
+    const WhitenedWrench ht = placed.wrench_of(slide, arm);
     const double nn = hn.squaredNorm(), nt = hn.dot(ht), tt = ht.squaredNorm();
     const double nF = hn.dot(scene.wrench), tF = ht.dot(scene.wrench);
-    const double against = normal_share(sliding / settings_.object_speed);  // friction against the sliding
-    double weight = -1.0;
+    double weight = -1.0, against = 0.0;
     for (int k = -2; k <= 2; ++k) {
-      const double mu = k * settings_.friction;  // of the force along -slide
-      const double size = 1.0 / std::sqrt(1.0 + mu * mu);
-      const double hh = (nn + 2.0 * mu * nt + mu * mu * tt) * size * size;
-      const double hF = -(nF + mu * tF) * size;
+      const double mu = k * settings_.friction;             // of the force along -slide
+      const double hh = nn + 2.0 * mu * nt + mu * mu * tt;  // times 1 + mu^2
+      const double hF = -(nF + mu * tF);                    // times its root
       const double explained = hF > 0.0 && hh > 0.0 ? hF * hF / hh : 0.0;
       tally.explained = std::max(tally.explained, explained);
       if (tally.is_negligible(most_gain(explained))) continue;
-      const ForceFit fit = fit_force(hh, hF, settings_.force_scale);
+      const double size = 1.0 / std::sqrt(1.0 + mu * mu);
+      const ForceFit fit = fit_force(hh * size * size, hF * size, settings_.force_scale);
       if (tally.is_negligible(fit.log_gain)) continue;
       if (weight < 0.0) {
         weight =
             each * approach_weight(speed, settings_.object_speed) *
             room(scene, body.index(), body.index(), placed.origin + arm + settings_.object_radius * normal);
+        against = normal_share(sliding / settings_.object_speed);  // friction against the sliding
       }
       const double share = k == 0 ? 1.0 / 3.0 : (k > 0 ? against : 1.0 - against) / 3.0;
       tally.add(weight * share, fit, place.fraction, speed);
@@ -232,7 +234,7 @@ void TouchHypotheses::weigh_clamping(const Scene& scene, int leg, Tally& tally) 
   const double scale = settings_.force_scale;
   for (int i = 0; i < settings_.points_along; ++i) {
     const double distance = shorter * (i + 0.5) / settings_.points_along;
-    PlatformVector h[2];
+    WhitenedWrench h[2];
     double closing = 0.0;
     for (int k = 0; k < 2; ++k) {
       const Placed& link = scene.bodies[links[k]];
@@ -276,9 +278,11 @@ void TouchHypotheses::place(const Kinematics& kinematics, const Eigen::LLT<Platf
   const CartesianVector origin = CartesianVector::Zero(directions);
   const ContactJacobian J = robot_->contact_jacobian(kinematics, body, origin);
   const auto turning = about_axes(J.rotation);
-  placed.force.setZero(robot_->dof(), 3);
-  placed.force.leftCols(directions) = S.matrixL().solve(PlatformMatrix(J.translation.transpose()));
-  placed.moment = S.matrixL().solve(PlatformMatrix(turning.transpose()));
+  placed.force.setZero();
+  placed.force.topLeftCorner(robot_->dof(), directions) =
+      S.matrixL().solve(PlatformMatrix(J.translation.transpose()));
+  placed.moment.setZero();
+  placed.moment.topRows(robot_->dof()) = S.matrixL().solve(PlatformMatrix(turning.transpose()));
   placed.velocity = in_space(J.translation * kinematics.velocity);
   placed.angular_velocity = turning * kinematics.velocity;
   placed.origin = in_space(robot_->point_on_body(kinematics, body, origin));
@@ -314,7 +318,8 @@ void TouchHypotheses::weigh(const Kinematics& kinematics, const PlatformVector& 
 
   Scene scene;
   scene.legs = &kinematics.legs;
-  scene.wrench = S.matrixL().solve(wrench);
+  scene.wrench.setZero();
+  scene.wrench.head(robot_->dof()) = S.matrixL().solve(wrench);
   for (int i = 0; i < robot_->body_count(); ++i) {
     place(kinematics, S, BodyId::from_index(i), scene.bodies[static_cast<std::size_t>(i)]);
   }

@@ -59,8 +59,10 @@ class TouchHypotheses {
     Eigen::Vector3d point, normal;
     double fraction = 0.0;
   };
-  /// From a force or moment in space to a whitened wrench.
-  using Whitened = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, max_dof, 3>;
+  /// A whitened wrench, and what makes one of a force or moment in space. Below the platform's coordinates
+  /// are zeros: a size that compilers know saves more than they cost.
+  using WhitenedWrench = Eigen::Matrix<double, max_dof, 1>;
+  using Whitened = Eigen::Matrix<double, max_dof, 3>;
   /// A body in the base frame: how its points move and are felt, and a sphere or capsule that it is to
   /// objects beside it.
   struct Placed {
@@ -74,7 +76,7 @@ class TouchHypotheses {
     Eigen::Vector3d velocity_at(const Eigen::Vector3d& arm) const {
       return velocity + angular_velocity.cross(arm);
     }
-    PlatformVector wrench_of(const Eigen::Vector3d& at_point, const Eigen::Vector3d& arm) const {
+    WhitenedWrench wrench_of(const Eigen::Vector3d& at_point, const Eigen::Vector3d& arm) const {
       return force * at_point + moment * arm.cross(at_point);
     }
   };

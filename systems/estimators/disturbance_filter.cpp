@@ -33,8 +33,9 @@ struct Gains {
 /// answer to a single wrong sample.
 double noise_gain(double pole, double T) {
   const Gains gains(std::exp(-pole * T));
+  const double forgotten = 60.0 / (pole * T);  // steps: of the answer exp(-60) is left
   double q = 0.0, v = 0.0, d = 0.0, sum = 0.0;
-  for (int k = 0; k < 100'000; ++k) {
+  for (int k = 0; k < forgotten; ++k) {
     q += v * T + 0.5 * d * T * T;
     v += d * T;
     const double innovation = (k == 0 ? 1.0 : 0.0) - q;

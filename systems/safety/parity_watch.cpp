@@ -11,6 +11,8 @@ JointVector mismatch_of(const PlausibilityTick& tick) {
   const JointVector& passive = tick.joints.passive;
   if (!solved || !tick.joints.passive_valid || tick.platform.acquired != tick.joints.acquired) return {};
   if (passive.size() != tick.robot.passive_joints() || !passive.allFinite()) return {};
+  if (tick.platform.valid() && tick.kinematics.reachable)  // that of this pose, evaluated already
+    return ParallelRobot::passive_difference(passive, tick.kinematics.joints.passive);
   const InverseSolution implied =
       tick.robot.inverse_kinematics(tick.platform.pose, tick.robot.home_working_mode());
   if (!implied.reachable) return {};
