@@ -94,18 +94,8 @@ OutputPort<WrenchEstimate> add_disturbance_filter(const StageSite& site, const A
   return add_encoder_filter(site, given).wrench;
 }
 
-OutputPort<WrenchEstimate> add_imu_residual(const StageSite& site, const AcceleratedPorts& given) {
-  DiagramBuilder& builder = site.builder;
-  ImuResidualSettings settings = site.settings.imu_residual;
-  const AcceleratedPorts present = without_lag(site, given);
-  settings.mount = site.settings.imu_mount;
-  auto& residual = builder.add<ImuResidual>(site.name + "_method", site.robot, settings);
-  builder.connect(present.platform, residual.platform);
-  builder.connect(present.kinematics, residual.kinematics);
-  builder.connect(present.dynamics, residual.dynamics);
-  builder.connect(add_torque_as_it_is(part(site, "torque"), given), residual.torque);
-  builder.connect(given.imu, residual.imu);
-  return add_fallback(site, given, residual.wrench);
+OutputPort<WrenchEstimate> add_imu_residual_alone(const StageSite& site, const AcceleratedPorts& given) {
+  return add_imu_residual(site, given, without_lag(site, given));
 }
 
 }  // namespace
@@ -118,7 +108,21 @@ std::vector<WrenchEstimator> estimator_stages() {
           {"direct_imu_ekf", add_direct_imu_ekf},
           {"direct_extended_imu_ekf", add_direct_extended_imu_ekf},
           {"disturbance_filter", add_disturbance_filter},
-          {"imu_residual", add_imu_residual}};
+          {"imu_residual", add_imu_residual_alone}};
+}
+
+OutputPort<WrenchEstimate> add_imu_residual(const StageSite& site, const AcceleratedPorts& given,
+                                            const AcceleratedPorts& present) {
+  DiagramBuilder& builder = site.builder;
+  ImuResidualSettings settings = site.settings.imu_residual;
+  settings.mount = site.settings.imu_mount;
+  auto& residual = builder.add<ImuResidual>(site.name + "_method", site.robot, settings);
+  builder.connect(present.platform, residual.platform);
+  builder.connect(present.kinematics, residual.kinematics);
+  builder.connect(present.dynamics, residual.dynamics);
+  builder.connect(add_torque_as_it_is(part(site, "torque"), given), residual.torque);
+  builder.connect(given.imu, residual.imu);
+  return add_fallback(site, given, residual.wrench);
 }
 
 }  // namespace flinch

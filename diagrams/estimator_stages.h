@@ -10,4 +10,8 @@ namespace flinch {
 /// the standard one.
 std::vector<WrenchEstimator> estimator_stages();
 
+/// The estimator "imu_residual" where the motion without a lag is known, with the model there: `present`.
+OutputPort<WrenchEstimate> add_imu_residual(const StageSite& site, const AcceleratedPorts& given,
+                                            const AcceleratedPorts& present);
+
 }  // namespace flinch

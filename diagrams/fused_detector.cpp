@@ -16,8 +16,8 @@
 namespace flinch {
 namespace {
 
-OutputPort<DriveLoad> add_loads(const StageSite& site, const AcceleratedPorts& given) {
-  const AcceleratedPorts present = without_lag(part(site, "motion"), given);
+OutputPort<DriveLoad> add_loads(const StageSite& site, const AcceleratedPorts& given,
+                                const LaglessPorts& present) {
   auto& loads = site.builder.add<DriveLoads>(site.name + "_loads");
   site.builder.connect(present.platform, loads.platform);
   site.builder.connect(present.kinematics, loads.kinematics);
@@ -26,14 +26,17 @@ OutputPort<DriveLoad> add_loads(const StageSite& site, const AcceleratedPorts& g
   return loads.load;
 }
 
-/// That which runs, else one for this detector alone.
+/// That which runs, else one for this detector alone; of those that need a motion without a lag it is the
+/// detector's.
 OutputPort<WrenchEstimate> estimate_of(const std::string& name, const StageSite& site,
-                                       const EstimatePorts& given) {
+                                       const EstimatePorts& given, const LaglessPorts& present) {
   std::vector<std::string> known;
   for (const auto& running : given.estimates) {
     if (running.name == name) return running.port;
     known.push_back(running.name);
   }
+  if (name == "disturbance_filter") return present.disturbance;
+  if (name == "imu_residual") return add_imu_residual(part(site, name), given, present);
   for (const WrenchEstimator& stage : estimator_stages()) {
     if (stage.name == name) return stage.add(part(site, name), given);
     known.push_back(stage.name);
@@ -42,14 +45,15 @@ OutputPort<WrenchEstimate> estimate_of(const std::string& name, const StageSite&
 }
 
 OutputPort<ContactDetection> add_residual(const StageSite& site, const FusedResidual& residual,
-                                          const EstimatePorts& given, OutputPort<DriveLoad> load) {
+                                          const EstimatePorts& given, const LaglessPorts& present,
+                                          OutputPort<DriveLoad> load) {
   const WhitenedDetectorSettings settings{.level = residual.level,
                                           .change = residual.change,
                                           .tracking = site.settings.fused_detector.tracking,
                                           .hard = site.settings.contact_detector.hard};
   const std::string name = site.name + "_by_" + residual.estimator;
   auto& detector = site.builder.add<WhitenedDetector>(name, site.robot, settings);
-  site.builder.connect(estimate_of(residual.estimator, site, given), detector.wrench);
+  site.builder.connect(estimate_of(residual.estimator, site, given, present), detector.wrench);
   site.builder.connect(load, detector.load);
   site.builder.connect(given.reset, detector.reset);
   return detector.contact;
@@ -66,16 +70,17 @@ OutputPort<ContactDetection> add_nothing(const StageSite& site) {
 }  // namespace
 
 OutputPort<ContactDetection> add_fused_detector(const StageSite& site, const EstimatePorts& given) {
-  const OutputPort<DriveLoad> load = add_loads(site, given);
+  const LaglessPorts present = without_lag(part(site, "motion"), given);
+  const OutputPort<DriveLoad> load = add_loads(site, given, present);
   if (site.loads != nullptr) site.loads->push_back({site.name, load});
   const std::vector<FusedResidual>& residuals = site.settings.fused_detector.residuals;
   if (residuals.empty()) return add_nothing(site);
-  OutputPort<ContactDetection> noticed = add_residual(site, residuals.front(), given, load);
+  OutputPort<ContactDetection> noticed = add_residual(site, residuals.front(), given, present, load);
   for (std::size_t i = 1; i < residuals.size(); ++i) {
     const std::string name = i + 1 < residuals.size() ? site.name + "_" + std::to_string(i) : site.name;
     auto& either = site.builder.add<EitherDetector>(name);
     site.builder.connect(noticed, either.first);
-    site.builder.connect(add_residual(site, residuals[i], given, load), either.second);
+    site.builder.connect(add_residual(site, residuals[i], given, present, load), either.second);
     noticed = either.contact;
   }
   return noticed;

@@ -29,9 +29,10 @@ DisturbanceFilter& add_encoder_filter(const StageSite& site, const MotionPorts& 
   return filter;
 }
 
-AcceleratedPorts without_lag(const StageSite& site, const AcceleratedPorts& given) {
-  AcceleratedPorts present = given;
-  present.platform = add_encoder_filter(part(site, "velocity"), given).followed;
+LaglessPorts without_lag(const StageSite& site, const AcceleratedPorts& given) {
+  const DisturbanceFilter& filter = add_encoder_filter(part(site, "velocity"), given);
+  LaglessPorts present{given, filter.wrench};
+  present.platform = filter.followed;
   auto& model = site.builder.add<RobotModel>(site.name + "_model", site.robot);
   site.builder.connect(present.platform, model.platform);
   present.kinematics = model.kinematics;

@@ -15,7 +15,10 @@ OutputPort<DriveTorque> add_torque_as_it_is(const StageSite& site, const SensedP
 
 DisturbanceFilter& add_encoder_filter(const StageSite& site, const MotionPorts& given);
 
-/// `given` with a motion whose velocity hardly lags, and the model there.
-AcceleratedPorts without_lag(const StageSite& site, const AcceleratedPorts& given);
+/// Ports with a motion whose velocity hardly lags, and the model there.
+struct LaglessPorts : AcceleratedPorts {
+  OutputPort<WrenchEstimate> disturbance;  ///< that the filter has found which follows the motion
+};
+LaglessPorts without_lag(const StageSite& site, const AcceleratedPorts& given);
 
 }  // namespace flinch
