@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "calibration/csv_table.h"
+#include "calibration/hdf5_table.h"
 #include "experiments/recorded/recorded_signals.h"
 #include "experiments/scenario/scenario.h"
 #include "systems/config/config_reader.h"
@@ -51,7 +52,8 @@ struct Column {
 };
 
 struct Mapping {
-  std::filesystem::path csv;
+  std::filesystem::path log;
+  bool is_hdf5 = false;
   std::filesystem::path scenario;
   std::string separator = ",";
   Time period = 1ms;
@@ -108,7 +110,8 @@ Column read_column(ConfigReader& reader, const ParallelRobot& robot) {
 Mapping read_mapping(const std::filesystem::path& file, std::optional<Scenario>& scenario) {
   Mapping mapping;
   ConfigReader reader = ConfigReader::open(file);
-  reader.required().file("csv", mapping.csv);
+  mapping.is_hdf5 = reader.one_of({"csv", "hdf5"}) == "hdf5";
+  reader.required().file(mapping.is_hdf5 ? "hdf5" : "csv", mapping.log);
   reader.required().file("scenario", mapping.scenario);
   reader.text("separator", mapping.separator);
   reader.duration("period", mapping.period, between(1e-5, 1.0));
@@ -142,15 +145,15 @@ class Log {
     for (Eigen::Index k = 0; k < raw.size(); ++k) {
       time_.push_back(mapping.time_scale * raw[k]);
       if (k > 0 && time_[static_cast<std::size_t>(k)] <= time_[static_cast<std::size_t>(k) - 1]) {
-        throw SetupError(mapping.csv.string() + ":" + std::to_string(k + 2) + ": column '" +
+        throw SetupError(mapping.log.string() + ":" + std::to_string(k + table.first_row) + ": column '" +
                          mapping.time_column + "' does not grow");
       }
     }
-    if (time_.size() < 2) throw SetupError(mapping.csv.string() + ": there are fewer than two rows");
+    if (time_.size() < 2) throw SetupError(mapping.log.string() + ": there are fewer than two rows");
     const double periods = (time_.back() - time_.front()) / to_seconds(mapping.period);
     // Rows that are further apart than three periods leave nothing valid between them.
     if (!(periods < 3.0 * static_cast<double>(time_.size()) + most_gaps)) {
-      throw SetupError(mapping.csv.string() + ": column '" + mapping.time_column + "' passes through " +
+      throw SetupError(mapping.log.string() + ": column '" + mapping.time_column + "' passes through " +
                        std::to_string(periods) + " periods of the recording in " +
                        std::to_string(time_.size()) + " rows; check the unit of the time, or 'period'");
     }
@@ -199,7 +202,7 @@ class Log {
           std::any_of(mapping_.columns.begin(), mapping_.columns.end(),
                       [&](const Column& column) { return column.target == target && column.entry == entry; });
       if (!found)
-        throw SetupError(mapping_.csv.string() + ": no column is mapped to entry " + std::to_string(entry) +
+        throw SetupError(mapping_.log.string() + ": no column is mapped to entry " + std::to_string(entry) +
                          " of " + target);
     }
   }
@@ -314,13 +317,14 @@ Recording read_csv_recording(const std::filesystem::path& file,
   const Mapping mapping = read_mapping(file, scenario);
   std::vector<std::string> wanted = {mapping.time_column};
   for (const Column& column : mapping.columns) wanted.push_back(column.name);
-  const CsvTable table = read_csv(mapping.csv, mapping.separator.front(), wanted);
+  const CsvTable table = mapping.is_hdf5 ? read_hdf5_table(mapping.log, wanted)
+                                         : read_csv(mapping.log, mapping.separator.front(), wanted);
   const Log log(mapping, table);
   Recording recording;
   recording.period = mapping.period;
   for (std::size_t k = 0; k < log.samples(); ++k) recording.time_ns.push_back(log.time(k).count());
   recording.attributes = recorded_attributes(*scenario, provenance);
-  recording.attributes["imported.from"] = mapping.csv.filename().string();
+  recording.attributes["imported.from"] = mapping.log.filename().string();
   add_readings(*scenario, log, recording);
   return recording;
 }

@@ -7,10 +7,11 @@
 
 namespace flinch {
 
-/// Columns of a file of comma-separated values whose first row names them.
+/// Columns of a log, such as a file of comma-separated values whose first row names them.
 struct CsvTable {
   std::vector<std::string> names;  ///< of the columns that were asked for
   Eigen::MatrixXd values;          ///< rows x these columns
+  int first_row = 2;               ///< as people count the rows of the file
 
   /// Index of the column `name`; -1: it was not asked for.
   int find(const std::string& name) const;

@@ -7,7 +7,9 @@
 #include <iomanip>
 #include <numbers>
 
+#include "calibration/csv_table.h"
 #include "identification/torque_constant_calibration.h"
+#include "systems/framework/hdf5_object.h"
 #include "systems/signals/drive_reading.h"
 #include "systems/signals/force_torque_reading.h"
 #include "systems/signals/joint_reading.h"
@@ -83,6 +85,57 @@ TEST(ALog, GivesTheTorqueConstantsOfTheRunThatItLogs) {
   const CalibrationResult got = calibrated(imported);
   for (std::size_t i = 0; i < 3; ++i)
     EXPECT_NEAR(got.parameters[i].value, direct.parameters[i].value, *direct.parameters[i].deviation);
+}
+
+/// The same log as data sets: one of two dimensions for each group of columns, currents as whole mA.
+void write_hdf5_log(const CsvTable& table, const std::filesystem::path& file) {
+  internal::write_hdf5_result(file, 1U << 26U, [&](internal::Hdf5Object::Id id) {
+    const auto rows = static_cast<std::size_t>(table.values.rows());
+    const internal::Hdf5Object group = internal::make_group(id, "log");
+    std::vector<double> time(rows);
+    for (std::size_t k = 0; k < rows; ++k) time[k] = table.values(static_cast<Eigen::Index>(k), 0);
+    internal::write_reals(group, "t_ms", time);
+    std::vector<internal::Number> numbers;
+    for (std::size_t k = 0; k < rows; ++k) {
+      for (Eigen::Index column = 1; column < table.values.cols(); ++column) {
+        internal::Number number{};
+        number.real = table.values(static_cast<Eigen::Index>(k), column);
+        numbers.push_back(number);
+      }
+    }
+    const auto columns = static_cast<std::size_t>(table.values.cols() - 1);
+    const internal::Hdf5Object set = internal::make_table(group, "values", Field::Kind::real, columns, 1000);
+    internal::append_rows(set, Field::Kind::real, 0, rows, columns, numbers.data());
+  });
+}
+
+TEST(ALog, OfHdf5GivesTheRecordingThatItGivesAsCsv) {
+  const test::Simulated run =
+      test::simulated("calibration_pulls.yaml", {{"duration_s: 46", "duration_s: 1"}});
+  const test::Workplace place;
+  write_log(run.recording, place / "log.csv");
+  place.write("mapping.yaml", mapping);
+  const Recording from_csv = read_csv_recording(place / "mapping.yaml");
+  const std::vector<std::string> names = {"t_ms", "q1", "q2", "q3", "p1", "p2",
+                                          "p3",   "i1", "i2", "i3", "fx", "fy"};
+  write_hdf5_log(read_csv(place / "log.csv", ',', names), place / "log.h5");
+  place.replace("mapping.yaml", "csv: log.csv", "hdf5: log.h5");
+  place.replace("mapping.yaml", "column: t_ms", "column: /log/t_ms");
+  for (std::size_t i = 1; i < names.size(); ++i) {
+    place.replace("mapping.yaml", "column: " + names[i] + ",",
+                  "column: \"/log/values[" + std::to_string(i - 1) + "]\",");
+  }
+  const Recording from_hdf5 = read_csv_recording(place / "mapping.yaml");
+  ASSERT_EQ(from_hdf5.samples(), from_csv.samples());
+  for (std::size_t s = 0; s < from_csv.signals.size(); ++s) {
+    ASSERT_EQ(from_hdf5.signals[s].path, from_csv.signals[s].path);
+    for (std::size_t k = 0; k < from_csv.signals[s].rows.size(); ++k)
+      ASSERT_EQ(from_hdf5.signals[s].rows[k].integer, from_csv.signals[s].rows[k].integer);
+  }
+  place.replace("mapping.yaml", "values[3]", "values[30]");
+  EXPECT_THAT(
+      test::problems_of([&] { read_csv_recording(place / "mapping.yaml"); }),
+      Contains(HasSubstr("log.h5: column '/log/values[30]' is not there; the data set has 11 columns")));
 }
 
 TEST_F(ImportedLog, MustHaveAllJointsAndKnownSignals) {

@@ -1,0 +1,60 @@
+#include "calibration/hdf5_table.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "systems/framework/hdf5_object.h"
+#include "tests/support/problems_of.h"
+
+namespace flinch {
+namespace {
+
+using internal::Hdf5Object;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::filesystem::path written(const char* name, const std::function<void(Hdf5Object::Id)>& fill) {
+  const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / name;
+  internal::write_hdf5_result(file, 1U << 20U, fill);
+  return file;
+}
+
+std::vector<std::string> problems(const std::filesystem::path& file, const std::vector<std::string>& wanted) {
+  return test::problems_of([&] { read_hdf5_table(file, wanted); });
+}
+
+TEST(Hdf5Table, ReadsDataSetsOfOneDimensionAndOfTwoOfAnyNumbers) {
+  const auto file = written("flinch_columns.h5", [](Hdf5Object::Id id) {
+    internal::write_reals(id, "t", {0.0, 0.5, 1.0});
+    const Hdf5Object counts = internal::make_table(id, "counts", Field::Kind::integer, 2, 10);
+    std::vector<internal::Number> numbers(6);
+    for (int i = 0; i < 6; ++i) numbers[static_cast<std::size_t>(i)].integer = 10 * i;
+    internal::append_rows(counts, Field::Kind::integer, 0, 3, 2, numbers.data());
+  });
+  const CsvTable table = read_hdf5_table(file, {"t", "/counts[1]"});
+  EXPECT_EQ(table.first_row, 1);
+  EXPECT_EQ(table.values, (Eigen::Matrix<double, 3, 2>() << 0.0, 10.0, 0.5, 30.0, 1.0, 50.0).finished());
+}
+
+TEST(Hdf5Table, NamesRowAndColumnOfWhatIsWrong) {
+  const auto file = written("flinch_wrong.h5", [](Hdf5Object::Id id) {
+    internal::write_reals(id, "t", {0.0, 0.5, 1.0});
+    internal::write_reals(id, "q", {0.0, std::nan(""), 1.0});
+    internal::write_reals(id, "short", {0.0});
+    internal::write_texts(id, "words", {"a", "b", "c"});
+  });
+  EXPECT_THAT(problems(file, {"t", "q"}),
+              ElementsAre(HasSubstr("flinch_wrong.h5:2: column 'q' is no finite number")));
+  EXPECT_THAT(problems(file, {"t", "short"}), ElementsAre(HasSubstr("has 1 rows, and 't' has 3")));
+  EXPECT_THAT(problems(file, {"t", "q[1]"}), ElementsAre(HasSubstr("the data set has 1 columns")));
+  EXPECT_THAT(problems(file, {"t", "words"}), ElementsAre(HasSubstr("has no numbers")));
+  EXPECT_THAT(problems(file, {"t", "gone"}), ElementsAre(HasSubstr("column 'gone': HDF5 failed opening")));
+  EXPECT_THAT(problems(file, {"t", "q[x]"}), ElementsAre(HasSubstr("must end in a number in brackets")));
+  EXPECT_THAT(problems("nowhere.h5", {"t"}), Contains(HasSubstr("nowhere.h5")));
+}
+
+}  // namespace
+}  // namespace flinch
