@@ -10,24 +10,29 @@
 namespace flinch {
 namespace {
 
+/// Gains and poles: slower than any experiment lasts, to faster than ticks follow one another.
+constexpr Range of_a_loop = between(1e-3, 1e4);  // [1/s]
+/// Deviations, densities and rates, whatever their unit: beyond, an estimate is no more than rounding.
+constexpr Range within_reason = between(1e-12, 1e12);
+
 /// What is left to the robot's size is written out, so that a file can change one entry.
 void read(ConfigReader reader, const ParallelRobot& robot, MomentumObserverSettings& settings) {
   if (settings.gain.size() == 0) settings.gain.setConstant(robot.dof(), 20.0);
   const std::span<double> gain(settings.gain.data(), static_cast<std::size_t>(settings.gain.size()));
-  reader.numbers("gain", unit::per_s, gain, between(1e-3, 1e4));
+  reader.numbers("gain", unit::per_s, gain, of_a_loop);
 }
 
 void read(ConfigReader reader, MomentumKalmanFilterSettings& settings) {
-  reader.number("momentum_deviation", unit::Ns, settings.translation.momentum_deviation, positive);
-  reader.number("angular_momentum_deviation", unit::Nms, settings.rotation.momentum_deviation, positive);
-  reader.number("force_density", unit::N2_per_s, settings.translation.force_density, positive);
-  reader.number("moment_density", unit::N2m2_per_s, settings.rotation.force_density, positive);
+  reader.number("momentum_deviation", unit::Ns, settings.translation.momentum_deviation, within_reason);
+  reader.number("angular_momentum_deviation", unit::Nms, settings.rotation.momentum_deviation, within_reason);
+  reader.number("force_density", unit::N2_per_s, settings.translation.force_density, within_reason);
+  reader.number("moment_density", unit::N2m2_per_s, settings.rotation.force_density, within_reason);
 }
 
 void read(ConfigReader reader, SlidingModeObserverSettings& settings) {
-  reader.number("force_rate", unit::N_per_s, settings.force_rate, positive);
-  reader.number("moment_rate", unit::Nm_per_s, settings.moment_rate, positive);
-  reader.number("damping", unit::per_s, settings.damping, positive);
+  reader.number("force_rate", unit::N_per_s, settings.force_rate, within_reason);
+  reader.number("moment_rate", unit::Nm_per_s, settings.moment_rate, within_reason);
+  reader.number("damping", unit::per_s, settings.damping, of_a_loop);
   reader.integer("substeps", settings.substeps, 1, 100);
 }
 
@@ -40,7 +45,7 @@ void read(ConfigReader reader, ImuMount& mount) {
 void read_deviation(ConfigReader& reader, const char* name, const Unit& unit, double& variance) {
   const double before = std::sqrt(variance);
   double deviation = before;
-  reader.number(name, unit, deviation, positive);
+  reader.number(name, unit, deviation, within_reason);
   if (deviation != before) variance = deviation * deviation;
 }
 
@@ -52,19 +57,19 @@ void read(ConfigReader reader, ImuFilterSettings& settings) {
   read_deviation(reader, "accelerometer_deviation", unit::m_per_s2, noise.accelerometer);
   read_deviation(reader, "acceleration_change", unit::m_per_s2, noise.acceleration.translation);
   read_deviation(reader, "angular_acceleration_change", unit::rad_per_s2, noise.acceleration.rotation);
-  reader.number("largest_innovation", unit::none, settings.largest_innovation, positive);
+  reader.number("largest_innovation", unit::none, settings.largest_innovation, within_reason);
 }
 
 void read(ConfigReader reader, const ParallelRobot& robot, DisturbanceFilterSettings& settings) {
   const bool turns = robot.drive_kind(0) == DriveKind::revolute;
-  reader.number("pole", unit::per_s, settings.pole, positive);
-  reader.number("encoder_deviation", turns ? unit::rad : unit::m, settings.encoder_deviation, positive);
+  reader.number("pole", unit::per_s, settings.pole, of_a_loop);
+  reader.number("encoder_deviation", turns ? unit::rad : unit::m, settings.encoder_deviation, within_reason);
 }
 
 void read(ConfigReader reader, ImuResidualSettings& settings) {
-  reader.number("gyroscope_gain", unit::per_s, settings.gyroscope_gain, positive);
-  reader.number("gyroscope_deviation", unit::rad_per_s, settings.gyroscope_deviation, positive);
-  reader.number("accelerometer_deviation", unit::m_per_s2, settings.accelerometer_deviation, positive);
+  reader.number("gyroscope_gain", unit::per_s, settings.gyroscope_gain, of_a_loop);
+  reader.number("gyroscope_deviation", unit::rad_per_s, settings.gyroscope_deviation, within_reason);
+  reader.number("accelerometer_deviation", unit::m_per_s2, settings.accelerometer_deviation, within_reason);
   reader.duration("jitter", settings.jitter, not_negative);
 }
 

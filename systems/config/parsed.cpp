@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <string_view>
 #include <system_error>
 
 namespace flinch {
 namespace {
+
+/// Magnitudes in SI whose squares and products stay finite and above zero, however many are taken.
+constexpr Range computable = between(1e-24, 1e24);
 
 // Reads all of `text` as a number; std::errc{} if that is what it is.
 template <class Number>
@@ -73,6 +77,11 @@ Parsed<double> parse_number(const ConfigNode& node, const KeyUnit& unit, const R
   Parsed<double> parsed = parse_finite(node);
   if (!parsed.complaint.empty()) return parsed;
   parsed.value = unit.to_si(parsed.value);
+  const double magnitude = std::abs(parsed.value);
+  if (std::isfinite(magnitude) && magnitude != 0.0 && !computable.contains(magnitude)) {
+    parsed.complaint = description(node) + "; it must be 0 or of a size between 1e-24 and 1e24 in SI";
+    return parsed;
+  }
   if (!range.contains(parsed.value)) {
     parsed.complaint = description(node) + "; it must " + range.requirement(unit);
   }

@@ -19,7 +19,8 @@ struct Parsed {
 /// What stands there, as the beginning of a complaint: "is 'abc'", "is a list".
 std::string description(const ConfigNode& node);
 
-/// A number without quotes, converted to SI, finite and within `range`.
+/// A number without quotes, converted to SI, finite and within `range`, and 0 or of a size that can be
+/// computed with, whatever the range.
 Parsed<double> parse_number(const ConfigNode& node, const KeyUnit& unit, const Range& range);
 
 /// A whole number in decimal digits, bounds included.

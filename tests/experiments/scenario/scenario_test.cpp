@@ -17,6 +17,7 @@ using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::Field;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::StartsWith;
 
@@ -42,6 +43,32 @@ TEST(Scenario, NeedsNoMoreThanARobotAndADuration) {
   EXPECT_FALSE(scenario.control.trajectory.path.has_value());
   EXPECT_TRUE(scenario.obstacles.empty());
   EXPECT_FALSE(scenario.expected.contact.has_value());
+}
+
+TEST(Scenario, MayNotAskAnEstimatorForMoreThanALoopCanDo) {
+  const test::Workplace place;
+  const std::vector<std::pair<std::string, std::string>> rates = {{"momentum_observer", "gain_per_s"},
+                                                                  {"sliding_mode_observer", "damping_per_s"},
+                                                                  {"disturbance_filter", "pole_per_s"},
+                                                                  {"imu_residual", "gyroscope_gain_per_s"}};
+  const std::vector<std::pair<std::string, std::string>> sizes = {
+      {"momentum_kalman_filter", "force_density_N2_per_s"}, {"sliding_mode_observer", "force_rate_N_per_s"},
+      {"imu_ekf", "gyroscope_deviation_rad_per_s"},         {"extended_imu_ekf", "position_deviation_m"},
+      {"imu_residual", "accelerometer_deviation_m_per_s2"}, {"disturbance_filter", "encoder_deviation_rad"}};
+  const auto problems_of_value = [&](const auto& key, const std::string& value) {
+    const std::string written = key.first == "momentum_observer" ? "[20, " + value + ", 20]" : value;
+    return problems_with(
+        place, std::string(least) + "control: {" + key.first + ": {" + key.second + ": " + written + "}}\n");
+  };
+  for (const auto& key : rates) {
+    for (const char* const value : {"1e300", "1.1e4", "1e-4"})
+      EXPECT_THAT(problems_of_value(key, value), ElementsAre(HasSubstr(key.second))) << key.second << value;
+    EXPECT_THAT(problems_of_value(key, "1e4"), IsEmpty()) << key.second;
+  }
+  for (const auto& key : sizes) {
+    for (const char* const value : {"1e300", "1e13", "1e-13"})
+      EXPECT_THAT(problems_of_value(key, value), ElementsAre(HasSubstr(key.second))) << key.second << value;
+  }
 }
 
 TEST(Scenario, ChoosesStages) {

@@ -188,6 +188,18 @@ TEST(WrongNumber, IsTooLargeOrTooSmallForADouble) {
               ElementsAre("a.yaml:1: mass_kN: is 1e308; it must be a finite number"));
 }
 
+TEST(WrongNumber, IsOfASizeThatNobodyCanComputeWith) {
+  for (const std::string value : {"1e300", "-1e25", "1e-25", "-1e-300"}) {
+    EXPECT_THAT(problems_with_number("mass_kg: " + value),
+                ElementsAre("a.yaml:1: mass_kg: is " + value +
+                            "; it must be 0 or of a size between 1e-24 and 1e24 in SI"));
+  }
+  EXPECT_THAT(problems_with_number("mass_kN: 5e21", unit::N),
+              ElementsAre(::testing::HasSubstr("of a size between")));
+  for (const char* const value : {"0", "1e24", "-1e-24"})
+    EXPECT_THAT(problems_with_number("mass_kg: " + std::string(value)), IsEmpty());
+}
+
 TEST(WrongNumber, IsOutOfRange) {
   EXPECT_THAT(problems_with_number("mass_kg: -0.5", unit::kg, positive),
               ElementsAre("a.yaml:1: mass_kg: is -0.5; it must be positive"));
