@@ -378,9 +378,31 @@ void append_rows(Hdf5Object::Id table, Field::Kind kind, std::size_t at, std::si
         "writing a data set");
 }
 
+namespace {
+
+/// HDF5 allocates for a chunk what the file's index says that it takes there.
+void check_chunks(Hdf5Object::Id table, std::size_t first, std::size_t rows, std::size_t columns) {
+  const Hdf5Object creation(H5Dget_create_plist(table), H5Pclose, "reading how a data set was made");
+  hsize_t chunk[2] = {0, 0};
+  if (H5Pget_layout(creation) != H5D_CHUNKED || H5Pget_chunk(creation, 2, chunk) != 2) return;
+  const std::size_t most = file_size(table);
+  for (hsize_t row = first / chunk[0] * chunk[0]; row < first + rows; row += chunk[0]) {
+    for (hsize_t column = 0; column < columns; column += chunk[1]) {
+      const hsize_t place[2] = {row, column};
+      hsize_t bytes = 0;
+      check(H5Dget_chunk_info_by_coord(table, place, nullptr, nullptr, &bytes), "finding a chunk");
+      if (bytes > most)
+        throw SetupError("a chunk claims to take " + std::to_string(bytes) + " bytes, more than the file");
+    }
+  }
+}
+
+}  // namespace
+
 void read_rows(Hdf5Object::Id table, Field::Kind kind, std::size_t first, std::size_t rows,
                std::size_t columns, Number* numbers) {
   silence_hdf5();
+  check_chunks(table, first, rows, columns);
   const Selection selection = select(table, first, rows, columns);
   check(H5Dread(table, memory_type(kind), selection.in_memory, selection.in_file, H5P_DEFAULT, numbers),
         "reading a data set");

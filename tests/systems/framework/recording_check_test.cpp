@@ -7,48 +7,27 @@
 
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <iostream>
 #include <limits>
-#include <random>
+#include <tuple>
 
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recording.h"
-#include "systems/framework/recording_journal.h"
 #include "tests/systems/framework/honest_recording.h"
+#include "tests/systems/framework/refusal.h"
 
 namespace flinch {
 namespace {
 
 namespace fs = std::filesystem;
-using internal::Number;
-using test::bytes_of;
+using test::refusal;
 using test::TemporaryFile;
 using testing::HasSubstr;
 
 constexpr std::int64_t least = std::numeric_limits<std::int64_t>::min();
 constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
 constexpr std::size_t samples = test::honest_samples;
-
-/// Reads all that there is, in each way that there is. What is wrong with it; empty if it could be read.
-std::string refusal(const fs::path& file) {
-  try {
-    const Recording recording = open_recording(file);
-    for (const Signal& signal : recording.signals) {
-      std::vector<Number> rows(recording.samples() * signal.layout.numbers);
-      recording.read_rows(signal, 0, recording.samples(), rows.data());
-      for (const Field& field : signal.layout.fields) {
-        for (const int element : {0, field.capacity - 1, field.capacity, -1}) {
-          recording.column(signal.path, field.name, element);
-        }
-      }
-    }
-    return "";
-  } catch (const SetupError& error) {
-    return error.what();
-  }
-}
 
 // --- what a hostile file is made of, by the calls of HDF5 ---
 
@@ -262,7 +241,8 @@ std::vector<Case> set_cases() {
 /// What the file says of the size of a field in one of its samples.
 std::vector<Case> size_cases() {
   std::vector<Case> cases;
-  const std::vector<std::int64_t> numbers = {least, -7, -1, 2, 6, 7, 1LL << 31, 1LL << 32, 1LL << 62, most};
+  const std::vector<std::int64_t> numbers = {least, -7, -1,        0,         2,         3,
+                                             6,     7,  1LL << 31, 1LL << 32, 1LL << 62, most};
   for (const std::int64_t rows : numbers) {
     for (const std::int64_t columns : numbers) {
       const bool harmless = rows >= 0 && columns >= 0 && rows <= 6 && columns <= 6 && rows * columns <= 6;
@@ -282,17 +262,89 @@ std::vector<Case> size_cases() {
 }
 
 std::vector<Case> time_cases() {
+  constexpr std::int64_t period = 1'000'000;
   std::vector<Case> cases;
-  for (const std::int64_t time : {least, std::int64_t{-1}, std::int64_t{0}, std::int64_t{19'000'000}, most}) {
-    cases.push_back({"sample 20 at " + std::to_string(time), [=](hid_t file) {
-                       const hid_t set = H5Dopen2(file, "time_ns", H5P_DEFAULT);
-                       std::vector<std::int64_t> times(samples);
-                       for (std::size_t k = 0; k < samples; ++k)
-                         times[k] = static_cast<std::int64_t>(k) * 1'000'000;
-                       times[20] = time;
-                       H5Dwrite(set, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, times.data());
-                       H5Dclose(set);
-                     }});
+  for (const std::size_t sample : {std::size_t{0}, std::size_t{1}, std::size_t{20}, samples - 1}) {
+    const auto honest = static_cast<std::int64_t>(sample) * period;
+    for (const std::int64_t time :
+         {least, std::int64_t{-1}, std::int64_t{0}, honest - period, honest + period, most}) {
+      const bool is_later = sample == 0 || time > honest - period;
+      const bool is_earlier = sample + 1 == samples || time < honest + period;
+      cases.push_back({"sample " + std::to_string(sample) + " at " + std::to_string(time),
+                       [=](hid_t file) {
+                         const hid_t set = H5Dopen2(file, "time_ns", H5P_DEFAULT);
+                         std::vector<std::int64_t> times(samples);
+                         for (std::size_t k = 0; k < samples; ++k)
+                           times[k] = static_cast<std::int64_t>(k) * period;
+                         times[sample] = time;
+                         H5Dwrite(set, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, times.data());
+                         H5Dclose(set);
+                       },
+                       is_later && is_earlier});
+    }
+  }
+  return cases;
+}
+
+void write_text_attribute(hid_t file, const std::string& object, const std::string& name,
+                          const std::string& text) {
+  const hid_t owner = H5Oopen(file, object.c_str(), H5P_DEFAULT);
+  H5Adelete(owner, name.c_str());
+  const hid_t type = H5Tcopy(H5T_C_S1), one = H5Screate(H5S_SCALAR);
+  H5Tset_size(type, std::max<std::size_t>(text.size(), 1));
+  const hid_t attribute = H5Acreate2(owner, name.c_str(), type, one, H5P_DEFAULT, H5P_DEFAULT);
+  H5Awrite(attribute, type, text.c_str());
+  H5Aclose(attribute);
+  H5Tclose(type);
+  H5Sclose(one);
+  H5Oclose(owner);
+}
+
+/// Names of signals and fields that are none.
+std::vector<Case> name_cases() {
+  const std::vector<std::string> signals = {"..",
+                                            "/",
+                                            "//",
+                                            "bench",
+                                            "bench/",
+                                            "bench/state/",
+                                            "/bench//state",
+                                            "time_ns",
+                                            "bench/state/position",
+                                            "bench/state\nbench/state",
+                                            "bench/state\n",
+                                            "bench/../bench/state",
+                                            "bench/st\xc3",
+                                            "/etc/passwd",
+                                            std::string(60'000, 'a'),
+                                            "a" + std::string(30'000, '/')};
+  const std::vector<std::string> fields = {"..",
+                                           "/",
+                                           ".",
+                                           "position\nposition",
+                                           "position.size",
+                                           "joints.size",
+                                           "position\nno",
+                                           "../state/position",
+                                           "../../time_ns",
+                                           "time_ns",
+                                           "position/x",
+                                           "/bench/state/position",
+                                           "position\n\ncount",
+                                           std::string(60'000, 'a'),
+                                           std::string(30'000, '\n') + "position"};
+  std::vector<Case> cases;
+  for (const auto& [object, name, texts] :
+       {std::tuple("/", "flinch.signals", signals), std::tuple("bench/state", "fields", fields)}) {
+    for (const std::string& text : texts) {
+      const bool harmless = text == "bench/state/" || text == "/bench//state" || text == "bench/state\n" ||
+                            text == "/bench/state/position";
+      cases.push_back({std::string(name) + " is " + text.substr(0, 60),
+                       [object = object, name = name, text](hid_t file) {
+                         write_text_attribute(file, object, name, text);
+                       },
+                       harmless});
+    }
   }
   return cases;
 }
@@ -325,6 +377,13 @@ TEST(HostileRecording, MayHaveAttributesOfAnyTypeAndSize) { expect_no_harm(attri
 TEST(HostileRecording, MayHaveDataSetsOfAnyTypeShapeAndPlace) { expect_no_harm(set_cases()); }
 TEST(HostileRecording, MayClaimMatricesOfAnySize) { expect_no_harm(size_cases()); }
 TEST(HostileRecording, MayHaveTimesThatDoNotGrow) { expect_no_harm(time_cases()); }
+TEST(HostileRecording, MayNameWhatIsNone) { expect_no_harm(name_cases()); }
+
+TEST(HostileRecording, IsTriedInEnoughWays) {
+  EXPECT_GE(attribute_cases().size() + set_cases().size() + size_cases().size() + time_cases().size() +
+                name_cases().size(),
+            500U);
+}
 
 TEST(HostileRecording, IsReadWhereItIsHonest) {
   const TemporaryFile file;
@@ -338,64 +397,9 @@ TEST(HostileRecording, MayNotNameOneDataSetManyTimes) {
   write_recording(test::honest_recording(), file.path());
   const hid_t open = H5Fopen(file.path().c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
   H5Lcreate_hard(open, "bench/state", open, "bench/twin", H5P_DEFAULT, H5P_DEFAULT);
-  const hid_t root = H5Oopen(open, "/", H5P_DEFAULT);
-  H5Adelete(root, "flinch.signals");
-  const std::string paths = "bench/state\nbench/twin";
-  const hid_t type = H5Tcopy(H5T_C_S1), one = H5Screate(H5S_SCALAR);
-  H5Tset_size(type, paths.size());
-  const hid_t attribute = H5Acreate2(root, "flinch.signals", type, one, H5P_DEFAULT, H5P_DEFAULT);
-  H5Awrite(attribute, type, paths.data());
-  H5Aclose(attribute);
-  H5Tclose(type);
-  H5Sclose(one);
-  H5Oclose(root);
+  write_text_attribute(open, "/", "flinch.signals", "bench/state\nbench/twin");
   H5Fclose(open);
   EXPECT_THAT(refusal(file.path()), HasSubstr("bench/twin"));
-}
-
-void write_bytes(const fs::path& file, const std::string& bytes) {
-  std::ofstream(file, std::ios::binary | std::ios::trunc)
-      .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-}
-
-/// Reads the file again and again with some bytes changed or its end missing.
-void expect_no_harm_by_any_bytes(const fs::path& file, unsigned seed) {
-  const std::string whole = bytes_of(file);
-  std::mt19937 random(seed);
-  int refused = 0;
-  constexpr int trials = 2000;
-  for (int trial = 0; trial < trials; ++trial) {
-    std::string bytes = whole;
-    for (int change = 0; change < 1 + trial % 4; ++change) {
-      bytes[random() % bytes.size()] = static_cast<char>(random());
-    }
-    if (trial % 5 == 0) bytes.resize(random() % bytes.size());
-    write_bytes(file, bytes);
-    refused += refusal(file).empty() ? 0 : 1;
-  }
-  std::cout << trials << " files, " << refused << " refused" << std::endl;
-  EXPECT_GT(refused, 100);
-}
-
-TEST(HostileJournal, MayHaveAnyBytesAndIsReadAsFarAsItIsWhole) {
-  const TemporaryFile file;
-  const Recording recording = test::honest_recording();
-  {
-    RecordingJournal journal(recording, file.path());
-    for (std::size_t first = 0; first < samples; first += 10) {
-      SampleBlock block{std::span(recording.time_ns).subspan(first, 10), {}};
-      block.rows.emplace_back(std::span(recording.signals[0].rows).subspan(first * 13, 130));
-      journal.append(block);
-    }
-  }
-  ASSERT_EQ(refusal(file.path()), "");
-  expect_no_harm_by_any_bytes(file.path(), 7);
-}
-
-TEST(HostileRecording, MayHaveAnyBytes) {
-  const TemporaryFile file;
-  write_recording(test::honest_recording(), file.path());
-  expect_no_harm_by_any_bytes(file.path(), 11);
 }
 
 TEST(HostileRecording, TakesNoMoreMemoryThanItsSizeAllows) {
