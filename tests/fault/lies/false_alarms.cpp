@@ -32,6 +32,7 @@ double force_of(const ContactTruth& contact) { return contact.strongest.strength
 void Margins::add(const Margins& other) {
   runs += other.runs;
   seconds += other.seconds;
+  touched += other.touched;
   peak_force = std::max(peak_force, other.peak_force);
   for (const auto& [fault, count] : other.alarms) alarms[fault] += count;
   for (std::size_t i = 0; i < largest.size(); ++i) largest[i] = std::max(largest[i], other.largest[i]);
@@ -40,8 +41,8 @@ void Margins::add(const Margins& other) {
 std::string Margins::table() const {
   int all = 0;
   for (const auto& [fault, count] : alarms) all += count;
-  std::string text = fmt::format("{} runs, {:.2f} h, contacts up to {:.0f} N, {} false alarms", runs,
-                                 seconds / 3600.0, peak_force, all);
+  std::string text = fmt::format("{} runs, {:.2f} h, {} with contacts of up to {:.0f} N, {} false alarms",
+                                 runs, seconds / 3600.0, touched, peak_force, all);
   for (const auto& [fault, count] : alarms)
     text += fmt::format(" (fault {}: {})", static_cast<int>(fault), count);
   text += "\n";
@@ -78,6 +79,7 @@ Margins margins_of(SimulatedScenario scenario, const MountedSensors& sensors) {
     if (context.get(control.gate).phase == GatePhase::closed) break;
     if (context.get(control.gate).phase == GatePhase::open) margins.seconds += 1e-3;
   }
+  margins.touched = margins.peak_force > 0.0 ? 1 : 0;
   return margins;
 }
 

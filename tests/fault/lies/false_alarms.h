@@ -23,6 +23,7 @@ struct MountedSensors {
 struct Margins {
   std::size_t runs = 0;
   double seconds = 0.0;     ///< with an open gate
+  std::size_t touched = 0;  ///< runs with a contact
   double peak_force = 0.0;  ///< largest of a contact [N]
   std::map<GateFault, int> alarms;
   std::array<double, plausibility_checks> largest{};  ///< statistic over threshold
