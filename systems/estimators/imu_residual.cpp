@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "systems/estimators/innovation_mean.h"
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/forward_dynamics.h"
@@ -21,6 +22,7 @@ std::vector<std::string> problems(const ImuResidualSettings& settings) {
   found.positive("rest_speed", settings.rest_speed, "m/s");
   found.positive("rest_rate", settings.rest_rate, "rad/s");
   found.positive("rest_samples", settings.rest_samples);
+  found.positive("largest_innovation", settings.largest_innovation);
   found.finite("mount.position_in_platform", settings.mount.position_in_platform, "m");
   found.finite("mount.angles", settings.mount.angles, "rad");
   return found.take();
@@ -86,6 +88,7 @@ void ImuResidual::advance(const ImuReading& reading, const ExpectedMotion& fresh
     next.rotation_residual.setZero();
     next.angular_velocity = reading.angular_velocity;
     next.expected_force = then->force;
+    next.innovation = 1.0;
   }
   learn_bias(reading, *then, next);
   if (continued) turn(reading, *then, T, next);
@@ -134,6 +137,11 @@ void ImuResidual::estimate(const ImuReading& reading, const ExpectedMotion& then
   const PlatformVector acceleration =
       covariance * (weighted.transpose() * weight.cwiseProduct(residual)).eval();
   next.wrench = then.M_x * acceleration;
+  const int left = 6 - robot_->dof();
+  if (left > 0) {
+    const double squares = (weight.cwiseProduct(residual) - weighted * acceleration).squaredNorm();
+    next.innovation = innovation_mean(next.innovation, squares, left, T);
+  }
   const PlatformMatrix spread = then.M_x * covariance * then.M_x.transpose();
   next.standard_deviation = spread.diagonal().cwiseMax(0.0).cwiseSqrt();
 }
@@ -145,7 +153,10 @@ void ImuResidual::read(const ImuResidualMemory& next, const ExpectedMotion& fres
   result.wrench_in_base.setZero(robot_->dof());
   result.drive_torque.setZero(robot_->drives());
   const bool knows = next.started && next.rested >= settings_.rest_samples && next.wrench.allFinite();
-  result.valid = knows && next.sees_imu && fresh.valid && at.valid;
+  const bool is_monitored = robot_->dof() < 6;
+  const bool agrees = !is_monitored || next.innovation <= settings_.largest_innovation;
+  result.valid = knows && agrees && next.sees_imu && fresh.valid && at.valid;
+  result.health.innovation = is_monitored ? next.innovation : 0.0;
   if (!result.valid || next.braked || fresh.braked) return;
   result.wrench_in_base = next.wrench;
   result.drive_torque = at.J_x_qa.transpose() * next.wrench;  // [SafePR] (6b)

@@ -24,6 +24,8 @@ struct ImuResidualSettings {
   double rest_speed = 0.01;                 ///< below which the platform rests [m/s]
   double rest_rate = 0.05;                  ///< likewise [rad/s]
   int rest_samples = 100;                   ///< at rest, before the biases are known
+  /// Above this mean innovation something is wrong with the IMU, and the estimate is not valid.
+  double largest_innovation = 10.0;
   Sampling sampling;
 };
 
@@ -54,6 +56,7 @@ struct ImuResidualMemory {
   bool braked = false;
   PlatformVector wrench;
   PlatformVector standard_deviation;
+  double innovation = 1.0;  ///< mean of late, see `EstimatorHealth`
 };
 
 /// Compares accelerometer and gyroscope with what the model expects of the time at which they measured: with
@@ -65,6 +68,9 @@ struct ImuResidualMemory {
 /// dw/dt_model). Both together give the acceleration by least squares, each weighed by its noise; that of the
 /// accelerometer grows with the slope of what is expected, for a wrong time of the sample is its largest
 /// error.
+///
+/// Where the platform has fewer coordinates than the unit has axes, no acceleration of it explains all that
+/// they say: what is left, of which the mean square over its variance should be 1, monitors the unit.
 ///
 /// The accelerometer's bias is learned where the platform rests: there it measures gravity alone, whoever
 /// touches the robot. Until then, and in a tick without a valid reading, the estimate is not valid. Zero

@@ -28,7 +28,16 @@ FirstOrderMomentumMethod method_of(const ParallelRobot& robot, const MomentumObs
   PlatformVector gain = settings.gain;
   if (gain.size() == 0) gain.setConstant(robot.dof(), 20.0);
   throw_if_any(problems(gain, robot.dof()));
-  return FirstOrderMomentumMethod(gain);
+  const double T = to_seconds(settings.sampling.period);
+  const int translations = robot.space().translations();
+  PlatformVector deviation(gain.size());
+  for (int i = 0; i < deviation.size(); ++i) {
+    const double a = std::exp(-T * gain[i]);
+    const double of_momentum =
+        i < translations ? settings.deviation.translation : settings.deviation.rotation;
+    deviation[i] = (1.0 - a) * std::sqrt(2.0 / (1.0 + a)) * of_momentum / T;
+  }
+  return FirstOrderMomentumMethod(gain, deviation);
 }
 
 }  // namespace

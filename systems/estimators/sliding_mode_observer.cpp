@@ -4,6 +4,7 @@
 
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/framework/random.h"
 
 namespace flinch {
 namespace {
@@ -16,6 +17,25 @@ const SlidingModeObserverSettings& checked(const SlidingModeObserverSettings& se
   found.positive("substeps", settings.substeps);
   throw_if_any(found.take());
   return settings;
+}
+
+/// Root of the mean square of what the method takes for a wrench in a coordinate where there is nothing but
+/// white noise of `deviation` in the momentum.
+double deviation_in_trial(const SlidingModeMethod& method, double T, double deviation, double settled) {
+  RandomGenerator random(1);
+  const PlatformVector none = PlatformVector::Zero(1);
+  PlatformVector before = none, now = none;
+  SlidingModeMethod::Memory memory = method.begin(none), next;
+  double squares = 0.0;
+  const int skipped = static_cast<int>(settled / T), counted = 500;
+  for (int k = 0; k < skipped + counted; ++k) {
+    now[0] = deviation * random.normal();
+    method.advance(memory, {T, before, now, none}, next);
+    if (k >= skipped) squares += next.wrench[0] * next.wrench[0];
+    memory = next;
+    before = now;
+  }
+  return std::sqrt(squares / counted);
 }
 
 }  // namespace
@@ -31,7 +51,18 @@ SlidingModeMethod::SlidingModeMethod(int translations, const SlidingModeObserver
     : translations_(translations),
       gains_{Gains(settings.force_rate, settings.damping), Gains(settings.moment_rate, settings.damping)},
       substep_(to_seconds(settings.inputs.sampling.period) / settings.substeps),
-      settling_time_(settings.convergence_time) {}
+      settling_time_(settings.convergence_time) {
+  const double T = to_seconds(settings.inputs.sampling.period), settled = to_seconds(settling_time_);
+  const SlidingModeMethod rotation(*this, 0), translation(*this, 1);
+  deviation_ = {deviation_in_trial(translation, T, settings.deviation.translation, settled),
+                deviation_in_trial(rotation, T, settings.deviation.rotation, settled)};
+}
+
+void SlidingModeMethod::describe(const Memory& memory, WrenchEstimate& estimate) const {
+  estimate.standard_deviation.resize(memory.wrench.size());
+  for (int i = 0; i < static_cast<int>(memory.wrench.size()); ++i)
+    estimate.standard_deviation[i] = deviation_[i < translations_ ? 0 : 1];
+}
 
 void SlidingModeMethod::advance(const Memory& memory, const MomentumStep& step, Memory& next) const {
   next = memory;

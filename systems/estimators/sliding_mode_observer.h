@@ -3,6 +3,7 @@
 #include <array>
 #include <memory>
 
+#include "systems/estimators/momentum_deviation.h"
 #include "systems/estimators/momentum_estimator.h"
 
 namespace flinch {
@@ -14,6 +15,7 @@ struct SlidingModeObserverSettings {
   int substeps = 10;           ///< steps of the observer in a sampling period
   /// After which the estimate has followed a force that it found when it began.
   Time convergence_time = 100ms;
+  MomentumDeviation deviation;
   MomentumInputs inputs;
 };
 
@@ -25,6 +27,9 @@ struct SlidingModeObserverSettings {
 ///
 /// Between samples the observer makes several steps, in which the momentum is interpolated: that takes away
 /// nearly all chatter. In a narrow layer sgn(e) passes smoothly through zero.
+///
+/// How uncertain the estimate is under white noise of the momentum has no closed form: a trial with half a
+/// second of it tells, once for each kind of coordinates.
 class SlidingModeMethod {
  public:
   struct Memory {
@@ -38,9 +43,14 @@ class SlidingModeMethod {
   Time settling_time() const { return settling_time_; }
   Memory begin(const PlatformVector& p) const { return {p, PlatformVector::Zero(p.size())}; }
   void advance(const Memory& memory, const MomentumStep& step, Memory& next) const;
-  void describe(const Memory&, WrenchEstimate&) const {}
+  void describe(const Memory& memory, WrenchEstimate& estimate) const;
 
  private:
+  /// Another with as many translations.
+  SlidingModeMethod(const SlidingModeMethod& other, int translations) : SlidingModeMethod(other) {
+    translations_ = translations;
+  }
+
   /// Of one kind of coordinates.
   struct Gains {
     Gains(double rate, double damping);
@@ -52,6 +62,7 @@ class SlidingModeMethod {
   std::array<Gains, 2> gains_;
   double substep_;  // the longest [s]
   Time settling_time_;
+  std::array<double, 2> deviation_{};  ///< of a force and of a moment [N, Nm]
 };
 
 /// The sliding-mode observer, with the inputs and the validity of `MomentumEstimator`.

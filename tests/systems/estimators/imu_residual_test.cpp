@@ -34,6 +34,7 @@ class ImuResidualTest : public testing::Test {
       underway_.back().angular_velocity[i] += noise_ * 2.74e-3 * random_.normal();
       underway_.back().specific_force[i] += noise_ * 0.0395 * random_.normal();
     }
+    underway_.back().specific_force[2] += upwards_;
     ticking_.set(platform_, at.platform);
     ticking_.set(kinematics_, at.kinematics);
     ticking_.set(dynamics_, at.dynamics);
@@ -63,7 +64,7 @@ class ImuResidualTest : public testing::Test {
   test::Ticking ticking_{builder_};
   std::deque<ImuReading> underway_;
   bool moves_ = false;
-  double turned_ = 0.0, noise_ = 0.0;
+  double turned_ = 0.0, noise_ = 0.0, upwards_ = 0.0;
   RandomGenerator random_{2};
 };
 
@@ -115,6 +116,24 @@ TEST_F(ImuResidualTest, TellsTheDeviationThatNoiseOfTheImuCauses) {
     told = seen.standard_deviation;
   }
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(std::sqrt(squares[i]) / told[i], 1.0, 0.1) << i;
+}
+
+// Of the six axes three are left that no acceleration in the plane explains.
+TEST_F(ImuResidualTest, MonitorsWhatNoMotionInThePlaneExplains) {
+  rest();
+  noise_ = 1.0;
+  double mean = 0.0;
+  for (int k = 0; k < 5000; ++k) {
+    const WrenchEstimate& seen = see(JointVector::Zero(3), zero);
+    ASSERT_TRUE(seen.valid) << k;
+    mean += seen.health.innovation / 5000;
+  }
+  EXPECT_NEAR(mean, 1.0, 0.1);
+  EXPECT_TRUE(see(JointVector::Zero(3), push).valid) << "a push in the plane is explained";
+  upwards_ = 1.0;
+  int k = 0;
+  while (k < 100 && see(JointVector::Zero(3), zero).valid) ++k;
+  EXPECT_LT(k, 5) << "1 m/s^2 out of the plane, 25 deviations";
 }
 
 TEST_F(ImuResidualTest, IsLessSureWhereTheExpectationIsSteep) {

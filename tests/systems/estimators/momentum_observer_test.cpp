@@ -107,6 +107,21 @@ TEST_P(MomentumObserverOfEitherTiming, RespondsToAStepWithItsTimeConstants) {
   }
 }
 
+TEST_P(MomentumObserverOfEitherTiming, TellsTheDeviationThatNoiseOfTheMomentumCauses) {
+  RandomGenerator random(17);
+  const MomentumDeviation deviation;
+  PlatformVector squares = PlatformVector::Zero(3), told;
+  constexpr int settled = 500, counted = 20'000;
+  for (int k = 0; k < settled + counted; ++k) {
+    PlatformVector momentum{{deviation.translation, deviation.translation, deviation.rotation}};
+    for (double& each : momentum) each *= random.normal();
+    const WrenchEstimate& seen = observer_.see(Inputs(observer_.ticking.now(), momentum, zero));
+    if (k >= settled) squares += seen.wrench_in_base.cwiseAbs2() / counted;
+    told = seen.standard_deviation;
+  }
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(told[i] / std::sqrt(squares[i]), 1.0, 0.05) << i;
+}
+
 // dF/dt = K_o (F_ext - F): the response to alpha t is alpha (t - (1 - exp(-k_o t)) / k_o). A ramp is constant
 // over an interval only on average, hence an error of at most half an interval of it.
 TEST_P(MomentumObserverOfEitherTiming, FollowsARampWithTheLagOfItsTimeConstants) {

@@ -9,6 +9,7 @@
 
 #include "systems/estimators/momentum_observer.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/framework/random.h"
 #include "systems/robot/planar_rrr.h"
 #include "systems/robot/planar_rrr_presets.h"
 
@@ -88,6 +89,31 @@ TEST(SlidingModeObserver, ChattersTenTimesLessForItsSubsteps) {
   const double without = chatter(estimates(SlidingModeMethod(2, coarse), impact, 400), impact, 150);
   EXPECT_LT(with, 0.3);
   EXPECT_GT(without, 10.0 * with);
+}
+
+/// Of a method under white noise of the momentum; and what it tells of itself.
+template <class Method>
+void expect_deviation_as_told(const Method& method, double of_momentum, double tolerance) {
+  RandomGenerator random(17);
+  auto memory = method.begin(three(0.0)), next = memory;
+  PlatformVector before = three(0.0);
+  double squares = 0.0;
+  constexpr int settled = 500, counted = 20'000;
+  for (int k = 0; k < settled + counted; ++k) {
+    const PlatformVector now = three(of_momentum * random.normal());
+    method.advance(memory, {T, before, now, three(0.0)}, next);
+    if (k >= settled) squares += next.wrench[0] * next.wrench[0] / counted;
+    memory = next;
+    before = now;
+  }
+  WrenchEstimate told;
+  method.describe(memory, told);
+  EXPECT_NEAR(told.standard_deviation[0] / std::sqrt(squares), 1.0, tolerance);
+}
+
+TEST(SlidingModeObserver, TellsTheDeviationThatNoiseOfTheMomentumCauses) {
+  expect_deviation_as_told(SlidingModeMethod(2, {}), SlidingModeObserverSettings().deviation.translation,
+                           0.2);
 }
 
 TEST(SlidingModeObserver, BridgesMissingSamplesWithMoreSubsteps) {
