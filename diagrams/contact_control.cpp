@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "diagrams/isolation_stages.h"
+#include "diagrams/lagless_motion.h"
 #include "diagrams/limit_keeping.h"
 #include "systems/contact/told_contact.h"
 #include "systems/foundation/setup_error.h"
@@ -91,17 +92,30 @@ struct Laws {
 
 /// And whether they may leave.
 struct Safety {
-  PlausibilityMonitor& plausibility;
   FaultMonitor& monitor;
   TorqueGate& gate;
 };
 
 SensedPorts add_inputs(DiagramBuilder& builder) {
   return {builder.input<JointReading>("joints"), builder.input<DriveReading>("drives"),
-          builder.optional_input<ImuReading>("imu"), builder.input<StationStatus>("status")};
+          builder.input<StationStatus>("status")};
 }
 
-MotionPorts add_motion(const Path& path, const SensedPorts& sensed, OutputPort<JointMotion> joint_motion) {
+/// The IMU as the station tells it, and who says what of it can be believed.
+struct WatchedImu {
+  InputPort<ImuReading> reading;
+  PlausibilityMonitor& monitor;
+};
+
+WatchedImu add_imu(const Path& path) {
+  PlausibilityLimits limits = path.settings.plausibility;
+  limits.imu_mount = path.settings.imu_mount;
+  return {path.builder.optional_input<ImuReading>("imu"),
+          path.builder.add<PlausibilityMonitor>("plausibility_monitor", path.robot, limits)};
+}
+
+MotionPorts add_motion(const Path& path, const SensedPorts& sensed, OutputPort<JointMotion> joint_motion,
+                       OutputPort<ImuReading> imu) {
   auto& pose =
       path.builder.add<ForwardKinematics>("forward_kinematics", path.robot, path.settings.forward_kinematics);
   auto& model = path.builder.add<RobotModel>("model", path.robot);
@@ -112,7 +126,7 @@ MotionPorts add_motion(const Path& path, const SensedPorts& sensed, OutputPort<J
   path.builder.connect(sensed.drives, torque.drives);
   path.builder.connect(sensed.status, torque.status);
   return {sensed,         joint_motion,   pose.platform, model.kinematics,
-          model.dynamics, model.measures, torque.torque};
+          model.dynamics, model.measures, torque.torque, imu};
 }
 
 OutputPort<PlatformAcceleration> followed_acceleration(
@@ -170,11 +184,16 @@ Laws add_laws(const Path& path, const ReactionPorts& given) {
   return laws;
 }
 
-void watch_plausibility(DiagramBuilder& builder, const ReactionPorts& given, const Safety& safety) {
-  PlausibilityMonitor& monitor = safety.plausibility;
+/// Lets the monitor read everything, and others what it finds.
+void connect(const Path& path, const WatchedImu& imu, const ReactionPorts& given, const Safety& safety) {
+  DiagramBuilder& builder = path.builder;
+  PlausibilityMonitor& monitor = imu.monitor;
+  const StageSite site{builder, "plausibility_monitor", path.robot, path.settings};
   builder.connect(given.joints, monitor.joints);
   builder.connect(given.drives, monitor.drives);
-  builder.connect(given.imu, monitor.imu);
+  builder.connect(imu.reading, monitor.imu);
+  builder.connect(add_torque_as_it_is(part(site, "torque"), given), monitor.torque);
+  builder.connect(given.reset, monitor.reset);
   builder.connect(given.status, monitor.station);
   builder.connect(given.platform, monitor.platform);
   builder.connect(given.kinematics, monitor.kinematics);
@@ -187,10 +206,7 @@ void watch_plausibility(DiagramBuilder& builder, const ReactionPorts& given, con
 
 Safety add_safety(const Path& path, const ReactionPorts& given, const Laws& laws) {
   DiagramBuilder& builder = path.builder;
-  PlausibilityLimits limits = path.settings.plausibility;
-  limits.imu_mount = path.settings.imu_mount;
-  const Safety safety{builder.add<PlausibilityMonitor>("plausibility_monitor", path.robot, limits),
-                      builder.add<FaultMonitor>("fault_monitor", path.robot, path.settings.faults),
+  const Safety safety{builder.add<FaultMonitor>("fault_monitor", path.robot, path.settings.faults),
                       builder.add<TorqueGate>("torque_gate", path.settings.torque_gate)};
   builder.connect(given.joints, safety.monitor.joints);
   builder.connect(given.drives, safety.monitor.drives);
@@ -206,7 +222,6 @@ Safety add_safety(const Path& path, const ReactionPorts& given, const Laws& laws
   builder.connect(laws.kept.torque, safety.gate.command);
   builder.connect(laws.stop.torque, safety.gate.stop);
   builder.connect(given.reset, safety.gate.reset);
-  watch_plausibility(builder, given, safety);
   return safety;
 }
 
@@ -323,6 +338,11 @@ void show_laws(const Path& path, const Laws& laws, OtherStages& shown) {
   }
 }
 
+void show(const Path& path, const Isolation& isolation, const Laws& laws, OtherStages& shown) {
+  show_isolation(path, isolation, shown);
+  show_laws(path, laws, shown);
+}
+
 /// Lets the reaction believe who knows what touches the robot, where the settings say so.
 struct Told {
   InputPort<ContactClassification> classification;
@@ -349,16 +369,16 @@ ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
   throw_if_any(problems(settings.stages));
   DiagramBuilder builder("control");
   const Path path{builder, robot, settings};
-  const ControlStages& stages = settings.stages;
   const SensedPorts sensed = add_inputs(builder);
-  const auto velocities = path.add(stages.velocities, sensed);
-  const MotionPorts motion = add_motion(path, sensed, velocities.port());
-  const auto accelerations = path.add(stages.accelerations, motion);
+  const auto velocities = path.add(settings.stages.velocities, sensed);
+  const WatchedImu imu = add_imu(path);
+  const MotionPorts motion = add_motion(path, sensed, velocities.port(), imu.monitor.believed_imu);
+  const auto accelerations = path.add(settings.stages.accelerations, motion);
   const AcceleratedPorts accelerated{motion, followed_acceleration(path, accelerations), accelerations.all};
-  const auto estimators = path.add(stages.estimators, accelerated);
+  const auto estimators = path.add(settings.stages.estimators, accelerated);
   auto& buttons = builder.add<OperatorButtons>("operator_buttons");
   const EstimatePorts estimated{accelerated, estimators.port(), estimators.all, buttons.reset};
-  const auto detectors = path.add(stages.detectors, estimated);
+  const auto detectors = path.add(settings.stages.detectors, estimated);
   const Isolation isolation = add_isolation(path, estimated, detectors.port());
   const auto target = builder.optional_input<TargetCommand>("target");
   const Operator wanted = add_operator(path, estimated, buttons, detectors.port(), target);
@@ -367,14 +387,14 @@ ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
   const Told told = add_told_contact(path, reaction);
   const Laws laws = add_laws(path, reaction);
   const Safety safety = add_safety(path, reaction, laws);
+  connect(path, imu, reaction, safety);
   OtherStages others = show_others(path, velocities, accelerations, estimators, buttons.reset);
   others.detections = path.show_others("detection", detectors);
-  show_isolation(path, isolation, others);
-  show_laws(path, laws, others);
+  show(path, isolation, laws, others);
   const ContactControl control{
       .joints = sensed.joints,
       .drives = sensed.drives,
-      .imu = sensed.imu,
+      .imu = imu.reading,
       .status = sensed.status,
       .operator_command = connect_back(builder, sensed, laws, safety, wanted),
       .target = target,
@@ -399,7 +419,7 @@ ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
       .reference = builder.export_output("reference", laws.selector.reference),
       .requested_torque = builder.export_output("requested_torque", laws.selector.torque),
       .limits = builder.export_output("limits", laws.kept.status),
-      .plausibility = builder.export_output("plausibility", safety.plausibility.plausibility),
+      .plausibility = builder.export_output("plausibility", imu.monitor.plausibility),
       .faults = builder.export_output("faults", safety.monitor.faults),
       .gate = builder.export_output("gate", safety.gate.status),
       .others = others};

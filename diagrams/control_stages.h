@@ -33,7 +33,6 @@ namespace flinch {
 struct SensedPorts {
   InputPort<JointReading> joints;
   InputPort<DriveReading> drives;
-  InputPort<ImuReading> imu;  ///< never valid where the station has none
   InputPort<StationStatus> status;
 };
 
@@ -45,6 +44,7 @@ struct MotionPorts : SensedPorts {
   OutputPort<Dynamics> dynamics;
   OutputPort<WorkspaceMeasures> measures;
   OutputPort<DriveTorque> drive_torque;
+  OutputPort<ImuReading> imu;  ///< never valid where the station has none, nor while it is in doubt
 };
 
 /// And how it accelerates.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -175,6 +176,9 @@ class FaultyValue final : public System {
 
   /// Of the past, the numbers come; the stamps are those of now.
   void change(Time now, const Memory& memory, const Value& value, Value& result) const {
+    if constexpr (std::is_same_v<Value, ImuReading>) {
+      if (fault_.kind == FaultKind::turned) return turn(result);
+    }
     Value at_onset = onset(value, memory);
     Value earlier = before(value, memory);
     const FaultyNumbers first_numbers = touched_numbers(at_onset, fault_.signal);
@@ -186,6 +190,14 @@ class FaultyValue final : public System {
                                 .normal = memory.normal[max_dof * part + i],
                                 .time = to_seconds(now - fault_.begin)});
     });
+  }
+
+  void turn(ImuReading& reading) const {
+    Eigen::Vector3d axis = Eigen::Vector3d::Ones().normalized();
+    if (fault_.index) axis = Eigen::Vector3d::Unit(*fault_.index);
+    const Eigen::Matrix3d turned = Eigen::AngleAxisd(-fault_.size.value_or(0.0), axis).toRotationMatrix();
+    reading.angular_velocity = turned * reading.angular_velocity;
+    reading.specific_force = turned * reading.specific_force;
   }
 
   struct Circumstances {
@@ -213,8 +225,11 @@ class FaultyValue final : public System {
         return zero - (number - zero);
       case FaultKind::delayed:
         return is.earlier;
+      case FaultKind::saturated:
+        return std::clamp(number, -size, size);
       case FaultKind::off:
       case FaultKind::intermittent:
+      case FaultKind::turned:
         break;
     }
     return number;

@@ -24,8 +24,8 @@ constexpr Kinds all_of(std::initializer_list<FaultKind> kinds) {
 
 using enum FaultKind;
 constexpr Kinds of_values =
-    all_of({off, stuck, noise, wrong, drifting, scaled, delayed, intermittent, reversed});
-constexpr Kinds of_both_parts = all_of({off, stuck, delayed, intermittent, reversed, scaled});
+    all_of({off, stuck, noise, wrong, drifting, scaled, delayed, intermittent, reversed, saturated});
+constexpr Kinds of_both_parts = all_of({off, stuck, delayed, intermittent, reversed, scaled, turned});
 constexpr Kinds of_samples = all_of({off, stuck, delayed, intermittent});
 
 /// What users call a signal, and what can be asked of it.
@@ -59,15 +59,16 @@ constexpr std::array kinds{
     KindWords{noise, "noise", Size::must},       KindWords{wrong, "wrong", Size::must},
     KindWords{drifting, "drifting", Size::must}, KindWords{scaled, "scaled", Size::must},
     KindWords{delayed, "delayed", Size::must},   KindWords{intermittent, "intermittent", Size::may},
-    KindWords{reversed, "reversed", Size::none},
+    KindWords{reversed, "reversed", Size::none}, KindWords{saturated, "saturated", Size::must},
+    KindWords{turned, "turned", Size::must},
 };
 
 const SignalWords& words_of(FaultSignal signal) { return signals[static_cast<std::size_t>(signal)]; }
 const KindWords& words_of(FaultKind kind) { return kinds[static_cast<std::size_t>(kind)]; }
 
 /// How many of it a robot has; 0 where it has none, or only one that cannot be told apart.
-int count_of(FaultSignal signal, const ParallelRobot& robot) {
-  switch (signal) {
+int count_of(const RequestedFault& fault, const ParallelRobot& robot) {
+  switch (fault.signal) {
     case FaultSignal::encoder:
     case FaultSignal::current:
     case FaultSignal::drive:
@@ -80,6 +81,7 @@ int count_of(FaultSignal signal, const ParallelRobot& robot) {
     case FaultSignal::force_torque:
       return 3;
     case FaultSignal::imu:
+      return fault.kind == turned ? 3 : 0;
     case FaultSignal::status:
     case FaultSignal::link:
       break;
@@ -93,7 +95,7 @@ std::string name_of(const RequestedFault& fault) {
 }
 
 void check_place(const RequestedFault& fault, const ParallelRobot& robot, Findings& found) {
-  const int count = count_of(fault.signal, robot);
+  const int count = count_of(fault, robot);
   if (fault.signal == FaultSignal::passive_encoder && count == 0) {
     found.add("the robot has no passive encoders");
   } else if (fault.index && (*fault.index < 0 || *fault.index >= count)) {
@@ -112,6 +114,7 @@ void check_size(const RequestedFault& fault, Findings& found) {
   const bool holds = fault.signal == FaultSignal::brake;
   if (!std::isfinite(size)) found.add("the size must be a finite number");
   if (has_noise && size < 0.0) found.add("the size of noise must not be negative");
+  if (fault.kind == saturated && size < 0.0) found.add("the size, a limit, must not be negative");
   if (fault.kind == intermittent && !(size > 0.0 && size <= 1.0))
     found.add("the size, a share of all ticks, must be above 0 and at most 1");
   if (fault.kind == delayed && !(size >= 0.0 && size <= (holds ? 10.0 : to_seconds(longest_delay))))

@@ -36,6 +36,8 @@ enum class FaultKind : std::uint8_t {
   delayed,       ///< what was true `size` seconds before, under fresh stamps; of the link under true ones
   intermittent,  ///< off in a share `size` of all ticks
   reversed,      ///< with the other sign; an encoder counts the other way
+  saturated,     ///< no further from zero than `size`
+  turned,        ///< the sensor is, about an axis of its own, all of them alike without a number [rad]
 };
 
 /// A fault on request.

@@ -57,8 +57,8 @@ void add_fault(CLI::App& verb, std::vector<std::string>& faults) {
           "What shall be wrong with the robot from TIME [s] on: SIGNAL:KIND@TIME[:SIZE], such as "
           "encoder2:drifting@0.5:-5. SIGNAL: encoder, passive_encoder, current, drive, brake, each with "
           "its number or as encoders etc. for all; gyroscope, accelerometer, imu, force_torque, status, "
-          "link. KIND: off, stuck, noise, wrong, drifting, scaled, delayed, intermittent, reversed. Any "
-          "number of them")
+          "link. KIND: off, stuck, noise, wrong, drifting, scaled, delayed, intermittent, reversed, "
+          "saturated, turned. Any number of them")
       ->allow_extra_args(false)
       ->type_name("FAULT");
 }

@@ -43,7 +43,6 @@ void tell_what_was_lost(const Recording& recording) {
                1e-9 * static_cast<double>(recording.time_ns[tick]));
   };
   tell("passive_lost", "no passive encoders, so drives may turn half as fast,");
-  tell("imu_lost", "no IMU");
 }
 
 ExitStatus conclude(const Scenario& scenario, double wall, const std::filesystem::path& folder,

@@ -9,6 +9,7 @@
 
 #include "diagrams/link_status.h"
 #include "experiments/verdict/recorded_estimate.h"
+#include "experiments/verdict/recorded_imu_doubt.h"
 #include "experiments/verdict/recorded_truth.h"
 #include "systems/framework/recorded_values.h"
 #include "systems/framework/tick_timing.h"
@@ -112,16 +113,17 @@ void compare_motion(const Configuration& pose, const PlatformVector& velocity, c
 }  // namespace
 
 bool is_judged(const std::string& path) {
-  static constexpr std::array judged = {"detection", "reaction", "wrench",   "reference",      "gate",
-                                        "truth",     "contact",  "location", "classification", "measures"};
+  static constexpr std::array judged = {"detection",      "reaction", "wrench",      "reference",
+                                        "gate",           "truth",    "contact",     "location",
+                                        "classification", "measures", "plausibility"};
   return path.starts_with(detection_of) || std::find(judged.begin(), judged.end(), path) != judged.end();
 }
 
-/// Whether the recording tells of the robot's own bodies.
-bool records_self_contact(const Recording& recording) {
-  const Signal* const contact = recording.find("contact");
-  return contact != nullptr && std::any_of(contact->layout.fields.begin(), contact->layout.fields.end(),
-                                           [](const Field& field) { return field.name == "self_contact"; });
+/// Whether a signal of the recording has this field: not that of every version has.
+bool records(const Recording& recording, const char* signal, const char* name) {
+  const Signal* const found = recording.find(signal);
+  return found != nullptr && std::any_of(found->layout.fields.begin(), found->layout.fields.end(),
+                                         [name](const Field& field) { return field.name == name; });
 }
 
 /// Those that the witness has.
@@ -139,7 +141,8 @@ struct RecordedRun::Signals {
     if (recording.find("classification") != nullptr) classification.emplace(recording, "classification");
     if (recording.find("location") != nullptr) location.emplace(recording, "location");
     if (recording.find("measures") != nullptr) measures.emplace(recording, "measures");
-    if (records_self_contact(recording)) self_contact.emplace(recording, "contact");
+    if (records(recording, "contact", "self_contact")) self_contact.emplace(recording, "contact");
+    if (records(recording, "plausibility", "imu_doubt")) imu_doubt.emplace(recording, "plausibility");
     if (recording.find("tick_timing") != nullptr) timing.emplace(recording, "tick_timing");
     if (recording.find("joints_link") != nullptr) joints_link.emplace(recording, "joints_link");
     if (witness == Witness::truth) {
@@ -157,6 +160,7 @@ struct RecordedRun::Signals {
   RecordedValues<RecordedEstimate> wrench;
   RecordedValues<PlatformReference> reference;
   RecordedValues<GateStatus> gate;
+  std::optional<RecordedValues<RecordedImuDoubt>> imu_doubt;
   std::vector<std::string> class_names;  // of what can be touched
   std::optional<RecordedValues<ContactClassification>> classification;
   std::optional<RecordedValues<ContactLocation>> location;
@@ -201,6 +205,7 @@ RunSample RecordedRun::operator[](std::size_t sample) const {
   }
   now.mode = signals.reaction[sample].mode;
   now.gate = signals.gate[sample];
+  if (signals.imu_doubt) now.imu_doubt = (*signals.imu_doubt)[sample].doubt;
   if (signals.timing) now.lost_ticks = static_cast<int>((*signals.timing)[sample].lost_periods);
   if (signals.joints_link) now.unread_readings = static_cast<int>((*signals.joints_link)[sample].skipped);
   if (signals.classification) {

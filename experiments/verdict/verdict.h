@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "systems/signals/imu_doubt.h"
+
 namespace flinch {
 
 class ConfigurationSpace;
@@ -104,7 +106,10 @@ struct Verdict {
   std::optional<MeasureRange> sigma_sc;  ///< likewise [m]
   bool self_contact = false;             ///< bodies of the robot touched one another
   std::string fault;                     ///< why the torque gate closed; "" if it did not
-  double simulated = 0.0;                ///< [s]
+  /// The first doubt about the IMU, and when it came up [s]; none: it was believed.
+  ImuDoubt imu_doubt = ImuDoubt::none;
+  double imu_doubted = 0.0;
+  double simulated = 0.0;  ///< [s]
 
   std::vector<std::string> failures;  ///< why the verdict is bad, one sentence each; empty: it is good
   std::vector<std::string> remarks;   ///< what a reader must know of a good verdict as well, likewise

@@ -100,6 +100,11 @@ Json robot_json(const RunFacts& facts) {
   return robot;
 }
 
+Json imu_doubt_json(const Verdict& verdict) {
+  if (verdict.imu_doubt == ImuDoubt::none) return nullptr;
+  return {{"kind", name(verdict.imu_doubt)}, {"since_s", verdict.imu_doubted}};
+}
+
 const char* name(Witness witness) {
   switch (witness) {
     case Witness::truth:
@@ -156,6 +161,7 @@ std::string verdict_json(const Verdict& verdict, const RunFacts& facts) {
                      {"wall_s", facts.wall},
                      {"seed", facts.seed},
                      {"robot_drawn", robot_json(facts)},
+                     {"imu_doubt", imu_doubt_json(verdict)},
                      {"fault", verdict.fault},
                      {"failures", verdict.failures},
                      {"remarks", verdict.remarks}};

@@ -44,7 +44,8 @@ PlausibilityMonitor::PlausibilityMonitor(std::shared_ptr<const ParallelRobot> ro
 
 void PlausibilityMonitor::advance(Time now, const PlausibilityMemory& last, const GateAction& done,
                                   const JointReading& angles, const DriveReading& currents,
-                                  const ImuReading& inertial, const StationStatus& status,
+                                  const ImuReading& inertial, const DriveTorque& acting,
+                                  const ResetCommand& command, const StationStatus& status,
                                   const PlatformMotion& pose, const Kinematics& kinematic,
                                   const Dynamics& dynamic, PlausibilityMemory& next) const {
   next = last;
@@ -54,12 +55,14 @@ void PlausibilityMonitor::advance(Time now, const PlausibilityMemory& last, cons
   const bool open = status.valid && !status.braked && status.enabled && !next.rest.engage;
   next.free = open ? std::min(last.free + 1, settling) : (status.valid || next.rest.engage ? 0 : last.free);
   next.moved = last.moved || open;
+  ImuReading believed = inertial;
   const PlausibilityTick tick{.robot = *robot_,
                               .limits = limits_,
                               .now = now,
                               .joints = angles,
                               .drives = currents,
-                              .imu = inertial,
+                              .torque = acting,
+                              .imu = believed,
                               .platform = pose,
                               .kinematics = kinematic,
                               .dynamics = dynamic,
@@ -67,6 +70,9 @@ void PlausibilityMonitor::advance(Time now, const PlausibilityMemory& last, cons
                               .free = next.free == settling};
   flinch::advance(next.angles, tick, limits_.commands_act ? acting_torque(next) : JointVector(), next.found);
   flinch::advance(next.currents, tick, next.found);
+  if (command.reset) next.imu = ImuWatch();
+  flinch::advance(next.imu, next.inertial, next.angles, tick, next.found);
+  believed.valid = inertial.valid && !next.found.imu_left_out;
   flinch::advance(next.inertial, next.angles, tick, next.found);
   flinch::advance(next.parity, tick, next.found);
   flinch::advance(next.rest, next.angles, tick, next.found);

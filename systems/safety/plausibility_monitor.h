@@ -4,10 +4,12 @@
 
 #include "systems/framework/system.h"
 #include "systems/safety/current_watch.h"
+#include "systems/safety/imu_watch.h"
 #include "systems/safety/inertial_watch.h"
 #include "systems/safety/parity_watch.h"
 #include "systems/safety/rest_watch.h"
 #include "systems/signals/brake_command.h"
+#include "systems/signals/reset_command.h"
 #include "systems/signals/station_status.h"
 
 namespace flinch {
@@ -17,6 +19,7 @@ struct PlausibilityMemory {
   AngleWatch angles;
   CurrentWatch currents;
   InertialWatch inertial;
+  ImuWatch imu;
   ParityWatch parity;
   RestWatch rest;
   JointVector torque, torque_before;         ///< commanded in the two ticks before [Nm]; empty: none
@@ -38,6 +41,9 @@ struct GateAction {
 /// encoders against one another and against the IMU, an angle against what mass allows, a signal against its
 /// own noise. What passes all and still disagrees with the model is a contact.
 ///
+/// An inertial measurement unit that cannot be believed stops no robot: it is left out. `believed_imu`
+/// passes on what can be believed of it.
+///
 /// Noise, biases and offsets are learned while the brakes hold the robot before its first motion; what needs
 /// them stays silent without.
 class PlausibilityMonitor final : public System {
@@ -51,6 +57,8 @@ class PlausibilityMonitor final : public System {
   InputPort<JointReading> joints = input<JointReading>("joints");
   InputPort<DriveReading> drives = input<DriveReading>("drives");
   InputPort<ImuReading> imu = input<ImuReading>("imu");
+  InputPort<DriveTorque> torque = input<DriveTorque>("torque");
+  InputPort<ResetCommand> reset = input<ResetCommand>("reset");
   InputPort<StationStatus> station = input<StationStatus>("station");
   InputPort<PlatformMotion> platform = input<PlatformMotion>("platform");
   InputPort<Kinematics> kinematics = input<Kinematics>("kinematics");
@@ -61,24 +69,30 @@ class PlausibilityMonitor final : public System {
   InputPort<GateStatus> gate = input<GateStatus>("gate");
 
  private:
-  Intermediate<PlausibilityMemory> now_ = intermediate<&PlausibilityMonitor::advance>(
-      "memory", clock, last_, done_, joints, drives, imu, station, platform, kinematics, dynamics);
+  Intermediate<PlausibilityMemory> now_ =
+      intermediate<&PlausibilityMonitor::advance>("memory", clock, last_, done_, joints, drives, imu, torque,
+                                                  reset, station, platform, kinematics, dynamics);
 
  public:
   OutputPort<Plausibility> plausibility = output<&PlausibilityMonitor::read>("plausibility", now_);
+  OutputPort<ImuReading> believed_imu = output<&PlausibilityMonitor::pass_on>("believed_imu", now_, imu);
 
  private:
   Update remember_ = keep(last_, now_);
   Update note_ = update<&PlausibilityMonitor::note_action>(done_, commanded, brake, gate);
 
   void advance(Time now, const PlausibilityMemory& last, const GateAction& done, const JointReading& angles,
-               const DriveReading& currents, const ImuReading& inertial, const StationStatus& status,
-               const PlatformMotion& pose, const Kinematics& kinematic, const Dynamics& dynamic,
-               PlausibilityMemory& next) const;
+               const DriveReading& currents, const ImuReading& inertial, const DriveTorque& acting,
+               const ResetCommand& command, const StationStatus& status, const PlatformMotion& pose,
+               const Kinematics& kinematic, const Dynamics& dynamic, PlausibilityMemory& next) const;
   void read(const PlausibilityMemory& memory, Plausibility& result) const { result = memory.found; }
-  void note_action(const TorqueCommand& torque, const BrakeCommand& brakes, const GateStatus& status,
+  void pass_on(const PlausibilityMemory& memory, const ImuReading& said, ImuReading& believed) const {
+    believed = said;
+    believed.valid = said.valid && !memory.found.imu_left_out;
+  }
+  void note_action(const TorqueCommand& command, const BrakeCommand& brakes, const GateStatus& status,
                    GateAction& done) const {
-    done = {torque, brakes, status};
+    done = {command, brakes, status};
   }
 
   std::shared_ptr<const ParallelRobot> robot_;

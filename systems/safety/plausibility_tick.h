@@ -8,6 +8,7 @@
 #include "systems/robot/parallel_robot.h"
 #include "systems/safety/plausibility_limits.h"
 #include "systems/signals/drive_reading.h"
+#include "systems/signals/drive_torque.h"
 #include "systems/signals/imu_reading.h"
 #include "systems/signals/joint_reading.h"
 #include "systems/signals/platform_motion.h"
@@ -22,6 +23,7 @@ struct PlausibilityTick {
   Time now;
   const JointReading& joints;
   const DriveReading& drives;
+  const DriveTorque& torque;
   const ImuReading& imu;
   const PlatformMotion& platform;  ///< from these joints
   const Kinematics& kinematics;

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "systems/signals/gate_fault.h"
+#include "systems/signals/imu_doubt.h"
 
 namespace flinch {
 
@@ -33,6 +34,8 @@ struct Plausibility {
   int drive = -1;             ///< of which drive, from 0, where one is known
   bool passive_lost = false;  ///< the passive encoders have been there and are no more
   bool imu_lost = false;      ///< likewise
+  ImuDoubt imu_doubt = ImuDoubt::none;
+  bool imu_left_out = false;  ///< nobody is told its present sample
   /// By PlausibilityCheck: what was found over what is allowed; 0 where it could not be asked.
   std::array<double, plausibility_checks> ratio{};
 
@@ -46,6 +49,8 @@ struct Plausibility {
     visit("drive", "", self.drive);
     visit("passive_lost", "", self.passive_lost);
     visit("imu_lost", "", self.imu_lost);
+    visit("imu_doubt", "", self.imu_doubt);
+    visit("imu_left_out", "", self.imu_left_out);
     visit("ratio", "", self.ratio);
   }
 };

@@ -160,6 +160,22 @@ TEST(FaultyValue, OfAnImuTouchesItsPart) {
   const ImuReading both = Faulty<ImuReading>("imu:reversed@0").told(truth);
   EXPECT_EQ(both.angular_velocity, -truth.angular_velocity);
   EXPECT_EQ(both.specific_force, -truth.specific_force);
+  const ImuReading full = Faulty<ImuReading>("accelerometer:saturated@0:4.5").told(truth);
+  EXPECT_EQ(full.specific_force, Eigen::Vector3d(4.0, 4.5, 4.5));
+  EXPECT_EQ(full.angular_velocity, truth.angular_velocity);
+}
+
+/// What was seen along one axis is seen along another: a third of a turn about the middle of all.
+TEST(FaultyValue, OfAnImuTurnsItsAxes) {
+  const ImuReading truth{.acquired = 0ms,
+                         .valid = true,
+                         .angular_velocity = Eigen::Vector3d(1.0, 2.0, 3.0),
+                         .specific_force = Eigen::Vector3d(4.0, 5.0, 6.0)};
+  const ImuReading third = Faulty<ImuReading>("imu:turned@0:2.0943951023931953").told(truth);
+  EXPECT_LT((third.angular_velocity - Eigen::Vector3d(2.0, 3.0, 1.0)).norm(), 1e-12);
+  EXPECT_LT((third.specific_force - Eigen::Vector3d(5.0, 6.0, 4.0)).norm(), 1e-12);
+  const ImuReading quarter = Faulty<ImuReading>("imu3:turned@0:1.5707963267948966").told(truth);
+  EXPECT_LT((quarter.specific_force - Eigen::Vector3d(5.0, -4.0, 6.0)).norm(), 1e-12);
 }
 
 }  // namespace

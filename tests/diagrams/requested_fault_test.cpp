@@ -34,7 +34,7 @@ TEST(RequestedFault, IsReadFromASentenceAndWrittenBack) {
         "currents:stuck@0.25", "current1:reversed@2", "gyroscope:off@1", "gyroscope3:noise@1:0.5",
         "accelerometer:scaled@0.1:2", "imu:delayed@0.5:0.02", "status:stuck@1", "drive1:stuck@0.6:50",
         "drives:scaled@0:0", "brakes:delayed@0:0.03", "brake2:off@0", "link:intermittent@1:0.3",
-        "force_torque:wrong@1:10"}) {
+        "force_torque:wrong@1:10", "accelerometer:saturated@1:20", "imu2:turned@1:0.2"}) {
     EXPECT_EQ(text_of(parse_fault(text, robot())), text);
   }
   const RequestedFault fault = parse_fault("encoder2:drifting@0.5:-5", robot());
@@ -61,6 +61,8 @@ TEST(RequestedFault, SaysWhatIsWrongWithASentenceAndWhatWouldBeRight) {
   EXPECT_THAT(complaint("encoder1:intermittent@1:0"), HasSubstr("above 0 and at most 1"));
   EXPECT_THAT(complaint("link:stuck@1"), HasSubstr("it can be: off, delayed, intermittent"));
   EXPECT_THAT(complaint("brake1:reversed@1"), HasSubstr("it can be: off, stuck, scaled, delayed"));
+  EXPECT_THAT(complaint("imu4:turned@1:0.1"), HasSubstr("the numbers are 1 to 3"));
+  EXPECT_THAT(complaint("current1:saturated@1:-1"), HasSubstr("must not be negative"));
   EXPECT_THAT(complaint("imu:wrong@1:2"), HasSubstr("it cannot be 'wrong'"));
 }
 

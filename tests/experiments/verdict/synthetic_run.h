@@ -12,6 +12,7 @@
 #include "systems/signals/contact_detection.h"
 #include "systems/signals/gate_status.h"
 #include "systems/signals/platform_reference.h"
+#include "systems/signals/plausibility.h"
 #include "systems/signals/reaction_state.h"
 #include "systems/signals/wrench_estimate.h"
 
@@ -28,6 +29,7 @@ struct Moment {
   GateStatus gate;
   TickTiming timing;
   LinkStatus joints_link;
+  Plausibility plausibility;
 };
 
 /// A recording made up tick by tick: the robot rests where it shall, nothing touches it and nothing is
@@ -78,7 +80,8 @@ class SyntheticRun {
                          signal("reference", &Moment::reference),
                          signal("gate", &Moment::gate),
                          signal("tick_timing", &Moment::timing),
-                         signal("joints_link", &Moment::joints_link)};
+                         signal("joints_link", &Moment::joints_link),
+                         signal("plausibility", &Moment::plausibility)};
     return recording;
   }
 

@@ -58,6 +58,16 @@ TEST(VerdictJson, IsOneLineThatHoldsTheTable) {
   EXPECT_EQ(json["seed"], 7);
   EXPECT_NEAR(json["contacts"][0]["detection_ms"].get<double>(), 12.3, 1e-9);
   EXPECT_TRUE(json["contacts"][0]["removal_ms"].is_null());
+  EXPECT_TRUE(json["imu_doubt"].is_null());
+}
+
+TEST(VerdictJson, TellsSinceWhenTheImuWasLeftOut) {
+  Verdict verdict;
+  verdict.imu_doubt = ImuDoubt::frozen;
+  verdict.imu_doubted = 0.5;
+  const auto json = nlohmann::json::parse(verdict_json(verdict, {}));
+  EXPECT_EQ(json["imu_doubt"]["kind"], "frozen");
+  EXPECT_EQ(json["imu_doubt"]["since_s"], 0.5);
 }
 
 }  // namespace

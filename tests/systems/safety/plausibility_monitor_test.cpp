@@ -61,6 +61,8 @@ class Watched {
     ticking_.set(joints_, told.joints);
     ticking_.set(drives_, told.drives);
     ticking_.set(imu_, told.imu);
+    ticking_.set(torque_, DriveTorque());
+    ticking_.set(reset_, ResetCommand());
     ticking_.set(station_, told.station);
     ticking_.set(platform_, posture_.platform);
     ticking_.set(kinematics_, posture_.kinematics);
@@ -102,6 +104,8 @@ class Watched {
   InputPort<JointReading> joints_ = builder_.export_input("joints", monitor_.joints);
   InputPort<DriveReading> drives_ = builder_.export_input("drives", monitor_.drives);
   InputPort<ImuReading> imu_ = builder_.export_input("imu", monitor_.imu);
+  InputPort<DriveTorque> torque_ = builder_.export_input("torque", monitor_.torque);
+  InputPort<ResetCommand> reset_ = builder_.export_input("reset", monitor_.reset);
   InputPort<StationStatus> station_ = builder_.export_input("station", monitor_.station);
   InputPort<PlatformMotion> platform_ = builder_.export_input("platform", monitor_.platform);
   InputPort<Kinematics> kinematics_ = builder_.export_input("kinematics", monitor_.kinematics);

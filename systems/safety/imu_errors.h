@@ -1,0 +1,61 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+
+#include "systems/signals/imu_doubt.h"
+
+namespace flinch {
+
+/// What a sample of the inertial measurement unit says beyond what is expected of it; sensor axes.
+struct ImuError {
+  Eigen::Vector3d force{0.0, 0.0, 0.0};             ///< beyond what the model expects [m/s^2]
+  Eigen::Vector3d turning{0.0, 0.0, 0.0};           ///< beyond what the encoders say [rad/s]
+  Eigen::Vector3d expected_force{0.0, 0.0, 0.0};    ///< [m/s^2]
+  Eigen::Vector3d expected_turning{0.0, 0.0, 0.0};  ///< [rad/s]
+  Eigen::Vector3d force_slope{0.0, 0.0, 0.0};       ///< d/dt of what is expected [m/s^3]
+  Eigen::Vector3d turning_slope{0.0, 0.0, 0.0};     ///< likewise [rad/s^2]
+  Eigen::Vector3d unconfirmed{0.0, 0.0, 0.0};       ///< of `force`, what the encoders do not show [m/s^2]
+  bool contradicted = false;                        ///< nothing of the robot explains it
+};
+
+/// The latest samples in a row, at most 16.
+struct ImuErrors {
+  static constexpr std::size_t most = 16;
+  std::array<ImuError, most> ring{};
+  std::size_t count = 0;
+
+  void push(const ImuError& error) noexcept { ring[count++ % most] = error; }
+  std::size_t held() const noexcept { return count < most ? count : most; }
+  /// Of 0 the latest.
+  const ImuError& back(std::size_t age) const noexcept { return ring[(count - 1 - age) % most]; }
+  ImuError& latest() noexcept { return ring[(count - 1) % most]; }
+  int contradicted() const noexcept;
+};
+
+/// Standard deviations that errors of an honest unit have.
+struct ImuSpread {
+  double force = 0.0;    ///< [m/s^2]
+  double turning = 0.0;  ///< [rad/s]
+};
+
+/// Whether the error has jumped to and fro at the sample of `age`, like noise that is several times that of
+/// `rest`: two second differences in a row of four deviations, beyond those of what is expected, change their
+/// sign. A contact bends the error, but one way.
+bool jumped(const ImuErrors& errors, std::size_t age, const ImuSpread& rest) noexcept;
+
+/// Whether it has at five of the last twelve samples.
+bool jumps(const ImuErrors& errors, const ImuSpread& rest) noexcept;
+
+/// Whether what the encoders do not confirm goes with the slope of what is expected, as where the unit is
+/// later than its stamps say: by 1.2 to 10 ms, which explains seven tenths of the squares and at least
+/// `significant` of them, root of the sum [m/s^2].
+bool lags(const ImuErrors& errors, double significant) noexcept;
+
+/// What explains the contradicted ones best: a constant, a time by which the unit is late, or axes that are
+/// turned; each fitted by least squares, and judged by its squares left plus ln(n) for each parameter (the
+/// Bayesian information criterion). None that leaves more than half of the squares is an explanation.
+ImuDoubt explanation(const ImuErrors& errors, const ImuSpread& spread) noexcept;
+
+}  // namespace flinch

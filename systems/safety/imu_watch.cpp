@@ -1,0 +1,295 @@
+#include "systems/safety/imu_watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "systems/robot/forward_dynamics.h"
+#include "systems/robot/imu_output.h"
+
+namespace flinch {
+namespace {
+
+constexpr Time period = 1ms;
+constexpr double T = 1e-3;
+constexpr int dropped_after = 5;     // ticks without a reading
+constexpr int back_after = 20;       // ticks with one
+constexpr int frozen_after = 2;      // repetitions of all axes of a part, of both parts together
+constexpr int saturated_after = 5;   // repetitions of one axis
+constexpr int named_after = 8;       // contradicted samples of the last 16
+constexpr int quarantine = 10;       // ticks after two that were contradicted
+constexpr double jitter = 3e-4;      // of stamps [s]
+constexpr double scale = 0.01;       // share of a rate that may be missing
+constexpr double believed = 2.0;     // times what the encoders show
+constexpr double significant = 3.0;  // deviations
+constexpr double surely_late = 4.6, perhaps_late = 2.5;  // see `lags` [m/s^2]
+constexpr std::size_t vote = 6;  // ticks over which encoders and unit are compared with the model
+
+/// Takes in what encoders and model say of this tick.
+void take_motion(ImuWatch& watch, const PlausibilityTick& tick) {
+  const Kinematics& kinematics = tick.kinematics;
+  const int n = tick.robot.dof();
+  const bool known = tick.free && tick.platform.valid() && kinematics.valid && tick.torque.valid &&
+                     !tick.torque.braked && tick.platform.pose.size() == tick.robot.space().stored();
+  const bool is_new = watch.motions == 0 || tick.platform.acquired > watch.back(0).time;
+  if (known && !is_new) return;
+  const auto acceleration =
+      known ? forward_dynamics(kinematics, tick.dynamics, tick.torque.torque, PlatformVector::Zero(n))
+            : std::nullopt;
+  const bool goes_on =
+      watch.motions > 0 && tick.platform.acquired - watch.back(0).time < 3 * period / 2 && acceleration;
+  if (!goes_on) watch.motions = 0;
+  if (!acceleration) return;
+  TickMotion motion{tick.platform.acquired, tick.platform.pose, tick.platform.velocity,
+                    PlatformVector::Zero(n), *acceleration};
+  if (goes_on) motion.step = tick.robot.difference(motion.pose, watch.back(0).pose);
+  watch.motion[watch.motions++ % ImuWatch::kept] = motion;
+}
+
+/// Standard deviations of the pose's coordinates, from the noise of the angles.
+PlatformVector pose_deviation(const AngleWatch& angles, const PlausibilityTick& tick) {
+  const PlatformMatrix& J = tick.kinematics.J_x_qa;
+  PlatformVector squares = PlatformVector::Zero(J.rows());
+  for (Eigen::Index i = 0; i < J.cols(); ++i) {
+    const double noise = angles.angle_noise(i, tick.limits);
+    squares += noise * noise * J.col(i).cwiseAbs2();
+  }
+  return squares.cwiseSqrt();
+}
+
+/// Acceleration of the platform beyond the model, around the motion of `age`: what the parabola through 2 h +
+/// 1 poses has more than the model.
+PlatformVector unexplained(const ImuWatch& watch, int age, int h) {
+  PlatformVector sum = PlatformVector::Zero(watch.back(0).acceleration.size());
+  for (int i = 1 - h; i < h; ++i) {
+    const TickMotion& at = watch.back(static_cast<std::size_t>(age - i));
+    const TickMotion& after = watch.back(static_cast<std::size_t>(age - i - 1));
+    sum += parabola_weight(h, i) * ((after.step - at.step) / (T * T) - at.acceleration);
+  }
+  return sum;
+}
+
+/// Deviation of that for a pose of deviation 1, of parabolas: sqrt(720 / (N (N^2 - 1)(N^2 - 4))) / T^2.
+double parabola_deviation(int h) {
+  const double N = 2.0 * h + 1.0;
+  return std::sqrt(720.0 / (N * (N * N - 1.0) * (N * N - 4.0))) / (T * T);
+}
+
+/// Velocity at the motion of `age`: slope of the line through 2 h + 1 poses.
+PlatformVector line_velocity(const ImuWatch& watch, int age, int h) {
+  PlatformVector apart = PlatformVector::Zero(watch.back(0).step.size()), sum = apart;
+  double squares = 0.0;
+  for (int i = 1; i <= h; ++i) {  // x_{+i} - x_{-i}
+    apart += watch.back(static_cast<std::size_t>(age - i)).step +
+             watch.back(static_cast<std::size_t>(age + i - 1)).step;
+    sum += i * apart;
+    squares += 2.0 * i * i;
+  }
+  return sum / (squares * T);
+}
+double line_deviation(int h) { return 1.0 / (std::sqrt(h * (h + 1.0) * (2.0 * h + 1.0) / 3.0) * T); }
+
+/// A range that grows by what is significant.
+struct Range {
+  double low = 0.0, high = 0.0;
+  void include(double value, double deviation) {
+    if (std::abs(value) < significant * deviation) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  double outside(double value) const { return std::max({value - high, low - value, 0.0}); }
+};
+
+/// What a sample can be compared with.
+struct Comparison {
+  const ImuWatch& watch;
+  const PlausibilityTick& tick;
+  const ImuReading& reading;
+  int age;    ///< of the motion at its instant
+  int ahead;  ///< motions after it that count
+  ImuOutput expected;
+  PlatformVector deviation;  ///< of the pose
+  ImuSpread noise;           ///< of the unit at rest
+  double limit;              ///< in deviations
+};
+
+double row_deviation(const ImuOutput::Jacobian& rows, int row, const PlatformVector& deviation) {
+  return (rows.row(row).transpose().array() * deviation.array()).matrix().norm();
+}
+
+/// Whether the accelerometer says what the encoders, who show `around` beyond the model, do not confirm.
+bool force_contradicted(const Comparison& at, const PlatformVector& around, const ImuError& error) {
+  constexpr int wide = 6, narrow = 3;
+  const PlatformVector long_since = unexplained(at.watch, at.age - at.ahead + wide, wide);
+  const PlatformVector lately = unexplained(at.watch, at.age - at.ahead + narrow, narrow);
+  const ImuOutput::Jacobian& rows = at.expected.by_acceleration;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int row = 3 + axis;
+    const double sigma = row_deviation(rows, row, at.deviation);
+    Range range;
+    range.include(rows.row(row).dot(around), parabola_deviation(at.ahead) * sigma);
+    range.include(rows.row(row).dot(long_since), parabola_deviation(wide) * sigma);
+    range.include(rows.row(row).dot(lately), parabola_deviation(narrow) * sigma);
+    range.low *= believed;
+    range.high *= believed;
+    const double limit = at.limit * std::hypot(parabola_deviation(wide) * sigma, at.noise.force) +
+                         at.limit / 5.0 * jitter * error.force_slope.norm();
+    if (range.outside(error.force[axis]) > limit) return true;
+  }
+  return false;
+}
+
+/// Whether the gyroscope does.
+bool turning_contradicted(const Comparison& at, const ImuError& error) {
+  const auto rows = at.expected.by_velocity.topRows<3>();
+  const Eigen::Vector3d smooth = rows * line_velocity(at.watch, at.age, at.ahead);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double sigma = row_deviation(at.expected.by_velocity, axis, at.deviation);
+    Range range;
+    for (const int h : {1, 2}) {
+      const double other = rows.row(axis).dot(line_velocity(at.watch, at.age, h));
+      range.include(other - smooth[axis], line_deviation(h) * sigma);
+    }
+    const double limit = at.limit * std::hypot(line_deviation(at.ahead) * sigma, at.noise.turning) +
+                         at.limit / 5.0 * (scale * smooth.norm() + jitter * error.turning_slope.norm());
+    if (range.outside(error.turning[axis]) > limit) return true;
+  }
+  return false;
+}
+
+/// Whether it is the unit whose rate has left the model of late, not the encoders, whose line has no jumps.
+bool unit_left_model(const Comparison& at, const ImuErrors& errors) {
+  if (errors.held() <= vote) return false;
+  const Eigen::Vector3d error = errors.back(0).turning;
+  if ((error - errors.back(1).turning).norm() > 0.85 * error.norm()) return true;
+  const auto rows = at.expected.by_velocity.topRows<3>();
+  const int before = at.age + static_cast<int>(vote);  // with what was wrong with the model until then
+  PlatformVector model = static_cast<double>(vote) * unexplained(at.watch, before + 4, 4);
+  for (std::size_t k = 0; k < vote; ++k)
+    model += at.watch.back(static_cast<std::size_t>(at.age) + k).acceleration;
+  const PlatformVector change =
+      line_velocity(at.watch, at.age, at.ahead) - line_velocity(at.watch, before, at.ahead);
+  const Eigen::Vector3d encoders = rows * (change - T * model);
+  const Eigen::Vector3d unit = encoders + errors.back(0).turning - errors.back(vote).turning;
+  return unit.norm() > believed * encoders.norm();
+}
+
+/// Compares the sample with the motion of its instant, where that is known; whether it is contradicted.
+void judge(ImuWatch& watch, const InertialWatch& learned, const AngleWatch& angles,
+           const PlausibilityTick& tick, const ImuReading& reading) {
+  int age = 0;
+  while (age < static_cast<int>(watch.motions) &&
+         watch.back(static_cast<std::size_t>(age)).time - reading.acquired > period / 2)
+    ++age;
+  constexpr int youngest = 2, oldest = 9;  // so that there is enough after and before it
+  if (age < youngest || age > oldest || watch.motions < ImuWatch::kept) {
+    watch.errors.count = 0;
+    return;
+  }
+  const TickMotion& then = watch.back(static_cast<std::size_t>(age));
+  const int ahead = std::min(age, 4);
+  Comparison at{
+      watch,
+      tick,
+      reading,
+      age,
+      ahead,
+      imu_output(tick.robot.space(), tick.limits.imu_mount, tick.robot.gravity(), then.pose, then.velocity,
+                 then.acceleration),
+      pose_deviation(angles, tick),
+      {std::max(learned.accelerometer.deviation(), 1e-3), std::max(learned.gyroscope.deviation(), 1e-4)},
+      0.5 * tick.limits.inertial};
+  const auto rows = at.expected.by_velocity.topRows<3>();
+  ImuError error;
+  error.expected_force = at.expected.value.tail<3>();
+  error.expected_turning = rows * line_velocity(watch, age, ahead);
+  error.force = reading.specific_force - learned.accelerometer.mean() - error.expected_force;
+  error.turning = reading.angular_velocity - learned.gyroscope.mean() - error.expected_turning;
+  if (watch.errors.count > 0)
+    error.force_slope = (error.expected_force - watch.errors.back(0).expected_force) / T;
+  error.turning_slope = rows * then.acceleration;
+  const PlatformVector around = unexplained(watch, age, ahead);
+  error.unconfirmed = error.force - at.expected.by_acceleration.bottomRows<3>() * around;
+  watch.errors.push(error);
+  if (jumped(watch.errors, 0, at.noise)) at.limit *= 0.5;
+  const bool turning = turning_contradicted(at, error);
+  watch.blamed = turning && (watch.blamed || unit_left_model(at, watch.errors));
+  watch.errors.latest().contradicted = force_contradicted(at, around, error) || watch.blamed;
+}
+
+/// How often each axis has said the same, and whether that is more than chance makes.
+ImuDoubt repetition(ImuWatch& watch, const InertialWatch& learned, const ImuReading& reading) {
+  Eigen::Matrix<double, 6, 1> now, last;
+  now << reading.angular_velocity, reading.specific_force;
+  last << watch.before.angular_velocity, watch.before.specific_force;
+  watch.largest = (0.9 * watch.largest).cwiseMax(last.cwiseAbs());
+  bool ends = false;
+  for (int i = 0; i < 6; ++i) {
+    int& repeats = watch.repeats[static_cast<std::size_t>(i)];
+    repeats = now[i] == last[i] ? repeats + 1 : 0;
+    ends = ends || (repeats >= saturated_after && std::abs(now[i]) >= watch.largest[i]);
+  }
+  const bool has_noise = learned.gyroscope.deviation() > 1e-6 && learned.accelerometer.deviation() > 1e-5;
+  if (!has_noise) return ImuDoubt::none;
+  const auto [w1, w2, w3, f1, f2, f3] = watch.repeats;
+  const int turning = std::min({w1, w2, w3}), force = std::min({f1, f2, f3});
+  if (turning + force >= frozen_after) return ImuDoubt::frozen;
+  return ends ? ImuDoubt::saturated : ImuDoubt::none;
+}
+
+void count_missing(ImuWatch& watch, bool valid) {
+  if (valid) watch.seen = std::min(watch.seen + 1, back_after);
+  watch.missing = valid ? 0 : std::min(watch.missing + 1, dropped_after);
+  const bool dropped = watch.seen >= back_after && watch.missing >= dropped_after;
+  if (dropped && watch.doubt == ImuDoubt::none) watch.doubt = ImuDoubt::dropped_out;
+  if (dropped) watch.seen = 0;
+  if (watch.doubt == ImuDoubt::dropped_out && watch.seen >= back_after) watch.doubt = ImuDoubt::none;
+}
+
+/// Leaves out what has just been contradicted, and what follows soon after two of them, or while the unit may
+/// be late.
+void mask(ImuWatch& watch) {
+  if (watch.errors.count == 0) return;
+  if (lags(watch.errors, perhaps_late)) watch.masked = quarantine;
+  if (!watch.errors.latest().contradicted) return;
+  int lately = 0;
+  for (std::size_t age = 0; age < std::min<std::size_t>(4, watch.errors.held()); ++age)
+    lately += watch.errors.back(age).contradicted ? 1 : 0;
+  watch.masked = std::max(watch.masked, lately > 1 ? quarantine : 1);
+}
+
+}  // namespace
+
+double parabola_weight(int h, int i) noexcept {
+  const double square = static_cast<double>(i) * i, inner = static_cast<double>(h) * h;
+  const double outer = (h + 1.0) * (h + 1.0);
+  const double sum = 2.0 * h * (h + 1.0) * (2.0 * h + 1.0) * (4.0 * h * h + 4.0 * h - 3.0) / 15.0;
+  return (inner - square) * (outer - square) / sum;
+}
+
+void advance(ImuWatch& watch, const InertialWatch& learned, const AngleWatch& angles,
+             const PlausibilityTick& tick, Plausibility& found) noexcept {
+  take_motion(watch, tick);
+  const ImuReading& reading = tick.imu;
+  const bool usable_now =
+      reading.valid && usable(reading.angular_velocity, 3) && usable(reading.specific_force, 3);
+  count_missing(watch, usable_now);
+  watch.masked = std::max(watch.masked - 1, 0);
+  if (usable_now && reading.acquired > watch.before.acquired && learned.gyroscope.known()) {
+    ImuDoubt doubt = repetition(watch, learned, reading);
+    if (reading.acquired - watch.before.acquired > 3 * period / 2) watch.errors.count = 0;
+    judge(watch, learned, angles, tick, reading);
+    mask(watch);
+    const ImuSpread rest{learned.accelerometer.deviation(), learned.gyroscope.deviation()};
+    if (doubt == ImuDoubt::none && jumps(watch.errors, rest)) doubt = ImuDoubt::noisy;
+    if (doubt == ImuDoubt::none && lags(watch.errors, surely_late)) doubt = ImuDoubt::late;
+    if (doubt == ImuDoubt::none && watch.errors.contradicted() >= named_after)
+      doubt = explanation(watch.errors, {std::max(rest.force, 0.2), std::max(rest.turning, 5e-3)});
+    if (watch.doubt == ImuDoubt::none) watch.doubt = doubt;
+  }
+  if (usable_now) watch.before = reading;
+  found.imu_doubt = watch.doubt;
+  found.imu_left_out = watch.doubt != ImuDoubt::none || watch.masked > 0;
+}
+
+}  // namespace flinch

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "systems/safety/imu_errors.h"
+#include "systems/safety/inertial_watch.h"
+
+namespace flinch {
+
+/// How the platform moves at a tick, by encoders and model.
+struct TickMotion {
+  Time time{};
+  Configuration pose;
+  PlatformVector velocity;
+  PlatformVector step;          ///< of the pose since the tick before
+  PlatformVector acceleration;  ///< as the drives alone make it
+};
+
+/// Whether the inertial measurement unit can be believed, sample by sample.
+///
+/// What its accelerometer says beyond the model is either what the surroundings do or wrong. The encoders are
+/// younger by the delay of the unit, so they have seen by then what the surroundings did: the mean second
+/// difference of the pose beyond the model around the instant of the sample. A sample that claims more than
+/// twice of that, and more than noise makes, is contradicted; so is one whose rate the encoders do not show,
+/// unless it is they that jumped against the model. (Derived.)
+///
+/// A contradicted sample counts as none. Where half of the last samples are contradicted, or the unit repeats
+/// itself, stands at its end or jumps, it is in doubt by name, and stays so until the operator resets.
+struct ImuWatch {
+  static constexpr std::size_t kept = 24;
+
+  std::array<TickMotion, kept> motion{};  ///< a ring
+  std::size_t motions = 0;                ///< in a row without a gap
+  ImuErrors errors;
+  ImuReading before;             ///< the last reading
+  int seen = 0, missing = 0;     ///< ticks with, and in a row without a valid reading
+  std::array<int, 6> repeats{};  ///< of each axis, to the last bit
+  Eigen::Matrix<double, 6, 1> largest = Eigen::Matrix<double, 6, 1>::Zero();  ///< of late, of each axis
+  bool blamed = false;  ///< for a rate that is not that of the encoders
+  int masked = 0;       ///< ticks that the unit is left out
+  ImuDoubt doubt = ImuDoubt::none;
+
+  const TickMotion& back(std::size_t age) const noexcept { return motion[(motions - 1 - age) % kept]; }
+};
+
+/// Takes in a tick; `learned` knows biases and noise of the unit at rest. Says in `found` what is in doubt.
+void advance(ImuWatch& watch, const InertialWatch& learned, const AngleWatch& angles,
+             const PlausibilityTick& tick, Plausibility& found) noexcept;
+
+/// The mean of second differences over the square of their interval that is the second derivative of the
+/// parabola fitted to 2 h + 1 samples: weights of the differences -(h - 1) ... h - 1 around the middle,
+/// proportional to (h^2 - i^2)((h + 1)^2 - i^2).
+double parabola_weight(int h, int i) noexcept;
+
+}  // namespace flinch

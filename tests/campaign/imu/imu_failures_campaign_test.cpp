@@ -1,0 +1,58 @@
+// Fifty failures of the inertial measurement unit of each kind, in motion and before contacts.
+// FLINCH_IMU_FAILURES says how many of them.
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+#include "tests/fault/imu/imu_trial.h"
+
+namespace flinch::test {
+namespace {
+
+/// Those of which some detector took the failure for a contact.
+std::size_t false_contacts(const std::vector<ImuOutcome>& outcomes) {
+  std::size_t count = 0;
+  for (const ImuOutcome& each : outcomes) {
+    for (const std::string& detector : each.false_contacts)
+      fmt::print("  false: {} by {}\n", each.told, detector);
+    count += each.false_contacts.empty() ? 0 : 1;
+  }
+  return count;
+}
+
+class ImuFailures : public testing::TestWithParam<ImuFailure> {};
+
+INSTANTIATE_TEST_SUITE_P(Every, ImuFailures, testing::ValuesIn(imu_failures()), [](const auto& failure) {
+  std::string word = failure.param.kind;
+  std::replace(word.begin(), word.end(), ' ', '_');
+  return word;
+});
+
+/// Nothing stops and no contact is missed. A unit that is late or turned is known by motion alone: until
+/// there is enough of it, a few are taken for a contact.
+TEST_P(ImuFailures, AreNamedStopNothingAndHideNoContact) {
+  const char* const asked = std::getenv("FLINCH_IMU_FAILURES");
+  const std::size_t count = asked == nullptr ? 50 : static_cast<std::size_t>(std::atoi(asked));
+  const auto moving = try_failures(GetParam(), count, fail_in_motion);
+  const auto touched = try_failures(GetParam(), count, fail_before_contact);
+  fmt::print("{}{}", table_of_failures_head(), line_of(GetParam(), moving, touched));
+  for (const auto* outcomes : {&moving, &touched}) {
+    for (const ImuOutcome& each : *outcomes) {
+      EXPECT_FALSE(each.stopped) << each.told;
+      for (const std::string& name : each.missed) ADD_FAILURE() << each.told << " missed by " << name;
+    }
+  }
+  const auto late = std::count_if(moving.begin(), moving.end(),
+                                  [](const ImuOutcome& each) { return !each.named || *each.named > 20ms; });
+  const bool needs_motion = GetParam().right == ImuDoubt::late || GetParam().right == ImuDoubt::turned;
+  EXPECT_LE(static_cast<std::size_t>(late), needs_motion ? count / 2 : count / 20);
+  const bool is_late = GetParam().right == ImuDoubt::late, is_noisy = GetParam().right == ImuDoubt::noisy;
+  const std::size_t allowed = is_late ? count / 5 : is_noisy ? count / 10 : count / 20;
+  EXPECT_LE(false_contacts(moving) + false_contacts(touched), allowed);
+}
+
+}  // namespace
+}  // namespace flinch::test

@@ -1,0 +1,30 @@
+#include "experiments/verdict/recorded_imu_doubt.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "experiments/verdict/verdict.h"
+#include "systems/robot/configuration_space.h"
+#include "tests/experiments/verdict/synthetic_run.h"
+
+namespace flinch::test {
+namespace {
+
+using ::testing::ElementsAre;
+
+constexpr ConfigurationSpace planar = ConfigurationSpace::Kind::planar_pose;
+
+Verdict judged(const SyntheticRun& run) { return judge(run.recording(), planar, {}, {}); }
+
+TEST(ImuDoubt, IsARemarkAndNoFailure) {
+  SyntheticRun run(100);
+  for (int k = 40; k < 100; ++k) run.at(k).plausibility.imu_doubt = ImuDoubt::biased;
+  const Verdict verdict = judged(run);
+  EXPECT_TRUE(verdict.good());
+  EXPECT_EQ(verdict.imu_doubt, ImuDoubt::biased);
+  EXPECT_THAT(verdict.remarks, ElementsAre("the IMU was left out from 0.040 s on: biased"));
+  EXPECT_TRUE(judged(SyntheticRun(100)).remarks.empty());
+}
+
+}  // namespace
+}  // namespace flinch::test

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "systems/framework/time.h"
+#include "systems/signals/imu_doubt.h"
+
+/// Inertial measurement units that fail while a realistic robot moves, and what becomes of it.
+namespace flinch::test {
+
+/// What happens to the unit: "late", "biased" and so on.
+struct ImuFailure {
+  std::string kind;
+  ImuDoubt right;  ///< what it should be called
+};
+std::vector<ImuFailure> imu_failures();
+
+struct ImuOutcome {
+  bool stopped = false;         ///< the gate closed for a fault
+  std::optional<Time> named{};  ///< from the first wrong sample
+  ImuDoubt doubt = ImuDoubt::none;
+  std::vector<std::string> false_contacts{};  ///< detectors that noticed one before there was any
+  std::vector<std::string> missed{};  ///< that did not within 100 ms of a contact, but do without the failure
+  int contacts = 0;                   ///< detectors that notice it without the failure
+  std::string told{};                 ///< the failure
+};
+
+/// A failure in random motion without contact, faster than 0.3 m/s; `number` draws robot, motion and size.
+ImuOutcome fail_in_motion(const ImuFailure& failure, std::size_t number);
+/// A failure up to 50 ms before a contact.
+ImuOutcome fail_before_contact(const ImuFailure& failure, std::size_t number);
+
+/// All outcomes of `count` failures of a kind.
+std::vector<ImuOutcome> try_failures(const ImuFailure& failure, std::size_t count,
+                                     ImuOutcome (*trial)(const ImuFailure&, std::size_t));
+
+/// The outcomes of a kind in a line of the table.
+std::string table_of_failures_head();
+std::string line_of(const ImuFailure& failure, const std::vector<ImuOutcome>& moving,
+                    const std::vector<ImuOutcome>& touched);
+
+}  // namespace flinch::test

@@ -1,0 +1,238 @@
+#include "systems/safety/imu_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "systems/framework/random.h"
+#include "systems/robot/imu_output.h"
+#include "systems/safety/plausibility_monitor.h"
+#include "tests/support/allocations.h"
+#include "tests/support/planar_bench.h"
+#include "tests/support/ticking.h"
+
+namespace flinch {
+namespace {
+
+constexpr int delay = 4;                // of the unit [ticks]
+constexpr double angle_noise = 7e-6;    // [rad]
+constexpr double force_noise = 0.04;    // [m/s^2]
+constexpr double turning_noise = 3e-3;  // [rad/s]
+
+using Failure = std::function<void(int tick, ImuReading&)>;
+
+/// A robot that moves round a curve, which drives and an outer wrench make together; its unit is some ticks
+/// late, and `failure` spoils what it says.
+class Moving {
+ public:
+  Moving() {
+    for (int k = 0; k < 200; ++k) tick();
+  }
+  bool braked() const { return tick_ < 100; }
+
+  /// `pull` [m/s^2] is what the outer wrench makes of the platform's acceleration.
+  const Plausibility& tick(const Failure& failure = {}, double pull = 0.0, bool reset = false) {
+    const double t = braked() ? 0.0 : 1e-3 * (tick_ - 100), w = 12.0;
+    const Eigen::Vector3d amplitude(0.06, 0.05, 0.2);
+    const Eigen::Vector3d pose = amplitude * (1.0 - std::cos(w * t));
+    const Eigen::Vector3d velocity = w * amplitude * std::sin(w * t);
+    Eigen::Vector3d acceleration = w * w * amplitude * std::cos(w * t);
+    if (braked()) acceleration.setZero();
+    test::Posture posture(*robot_, pose, velocity, ticking_.now());
+    const Eigen::Vector3d driven = acceleration - Eigen::Vector3d(pull, 0.0, 0.0);
+    const JointVector torque =
+        posture.kinematics.J_x_qa.transpose() *
+        (posture.dynamics.M_x * driven + posture.dynamics.C_x * velocity + posture.dynamics.g_x);
+    set_encoders(posture);
+    ticking_.set(torque_, DriveTorque{ticking_.now(), true, torque, braked()});
+    set_unit(imu_output(robot_->space(), {}, robot_->gravity(), pose, velocity, acceleration), failure);
+    const bool held = braked();
+    ticking_.set(station_,
+                 StationStatus{.acquired = ticking_.now(), .valid = true, .enabled = true, .braked = held});
+    ticking_.set(brake_, BrakeCommand{.engage = held});
+    ticking_.set(gate_, GateStatus{.phase = GatePhase::open, .reaction = GateReaction::none});
+    ticking_.set(commanded_, TorqueCommand());
+    ticking_.set(drives_, DriveReading());
+    ticking_.set(reset_, ResetCommand{.reset = reset});
+    ticking_.tick();
+    ++tick_;
+    return ticking_.get(monitor_.plausibility);
+  }
+
+  const ImuReading& believed() const { return ticking_.get(monitor_.believed_imu); }
+  bool is_late_enough() const { return tick_ > 150; }
+
+ private:
+  void set_encoders(test::Posture& posture) {
+    JointVector off = JointVector::Zero(3);
+    for (double& each : off) each = angle_noise * random_.normal();
+    posture.joints.active += off;
+    posture.platform.pose += posture.kinematics.J_x_qa * off;
+    ticking_.set(joints_, posture.joints);
+    ticking_.set(platform_, posture.platform);
+    ticking_.set(kinematics_, posture.kinematics);
+    ticking_.set(dynamics_, posture.dynamics);
+  }
+
+  void set_unit(const ImuOutput& output, const Failure& failure) {
+    ImuReading fresh{ticking_.now(), true, output.value.head<3>(), output.value.tail<3>()};
+    for (double& each : fresh.angular_velocity) each += turning_noise * random_.normal();
+    for (double& each : fresh.specific_force) each += force_noise * random_.normal();
+    underway_.push_back(fresh);
+    ImuReading arrived;
+    if (underway_.size() > delay) arrived = underway_[underway_.size() - 1 - delay];
+    if (failure && arrived.valid) failure(tick_, arrived);
+    ticking_.set(imu_, arrived);
+  }
+
+  std::shared_ptr<const PlanarRrr> robot_ = test::planar_bench();
+  RandomGenerator random_{1};
+  std::vector<ImuReading> underway_;
+  int tick_ = 0;
+  DiagramBuilder builder_{"test", 1ms};
+  PlausibilityMonitor& monitor_ = builder_.add<PlausibilityMonitor>("monitor", robot_, PlausibilityLimits());
+  InputPort<JointReading> joints_ = builder_.export_input("joints", monitor_.joints);
+  InputPort<DriveReading> drives_ = builder_.export_input("drives", monitor_.drives);
+  InputPort<ImuReading> imu_ = builder_.export_input("imu", monitor_.imu);
+  InputPort<DriveTorque> torque_ = builder_.export_input("torque", monitor_.torque);
+  InputPort<ResetCommand> reset_ = builder_.export_input("reset", monitor_.reset);
+  InputPort<StationStatus> station_ = builder_.export_input("station", monitor_.station);
+  InputPort<PlatformMotion> platform_ = builder_.export_input("platform", monitor_.platform);
+  InputPort<Kinematics> kinematics_ = builder_.export_input("kinematics", monitor_.kinematics);
+  InputPort<Dynamics> dynamics_ = builder_.export_input("dynamics", monitor_.dynamics);
+  InputPort<TorqueCommand> commanded_ = builder_.export_input("commanded", monitor_.commanded);
+  InputPort<BrakeCommand> brake_ = builder_.export_input("brake", monitor_.brake);
+  InputPort<GateStatus> gate_ = builder_.export_input("gate", monitor_.gate);
+  test::Ticking ticking_{builder_};
+};
+
+/// Ticks until the unit is in doubt, 0 for the first; none within 60.
+std::optional<int> ticks_until(Moving& moving, ImuDoubt doubt, const Failure& failure) {
+  for (int k = 0; k < 60; ++k) {
+    const Plausibility& found = moving.tick(failure);
+    EXPECT_EQ(found.present, FaultMask{0}) << "nothing stops";
+    if (found.imu_doubt == ImuDoubt::none) continue;
+    EXPECT_STREQ(name(found.imu_doubt), name(doubt));
+    EXPECT_FALSE(moving.believed().valid);
+    return k;
+  }
+  return std::nullopt;
+}
+
+TEST(ImuWatch, BelievesAnHonestUnitInMotionAndInContact) {
+  Moving moving;
+  int left_out = 0;
+  for (int k = 0; k < 3000; ++k) {
+    const double since = k % 500;  // twenty newtons in 10 ms, for 20 ms, and back; then half a sine of 12 ms
+    double pull = std::clamp(since / 10.0, 0.0, 1.0) * std::clamp((40.0 - since) / 10.0, 0.0, 1.0) * 7.0;
+    if (since > 100.0 && since < 112.0) pull = 40.0 * std::sin((since - 100.0) / 12.0 * 3.141592653589793);
+    const Plausibility& found = moving.tick({}, pull);
+    ASSERT_EQ(found.imu_doubt, ImuDoubt::none) << k;
+    left_out += found.imu_left_out ? 1 : 0;
+    if (!found.imu_left_out) {
+      EXPECT_TRUE(moving.believed().valid);
+    }
+  }
+  EXPECT_LT(left_out, 30) << "one tick in a hundred";
+}
+
+TEST(ImuWatch, NamesWhatIsWrongWithinTwentyTicks) {
+  const auto expect = [](ImuDoubt doubt, const Failure& failure, int within) {
+    Moving moving;
+    const auto found = ticks_until(moving, doubt, failure);
+    ASSERT_TRUE(found.has_value()) << name(doubt);
+    EXPECT_LE(*found, within) << name(doubt);
+  };
+  expect(
+      ImuDoubt::dropped_out, [](int, ImuReading& imu) { imu.valid = false; }, 4);
+  std::optional<ImuReading> first;
+  expect(
+      ImuDoubt::frozen,
+      [&first](int, ImuReading& imu) {
+        if (!first) first = imu;
+        imu.specific_force = first->specific_force;
+        imu.angular_velocity = first->angular_velocity;
+      },
+      3);
+  expect(
+      ImuDoubt::saturated,
+      [](int, ImuReading& imu) {
+        imu.specific_force.head(2) = imu.specific_force.head(2).cwiseMin(4.0).cwiseMax(-4.0);
+      },
+      20);
+  expect(
+      ImuDoubt::biased, [](int, ImuReading& imu) { imu.specific_force.x() += 3.0; }, 8);
+  expect(
+      ImuDoubt::biased, [](int, ImuReading& imu) { imu.angular_velocity.z() -= 0.2; }, 8);
+  RandomGenerator random(9);
+  expect(
+      ImuDoubt::noisy,
+      [&random](int, ImuReading& imu) {
+        for (double& each : imu.specific_force) each += 10.0 * force_noise * random.normal();
+        for (double& each : imu.angular_velocity) each += 10.0 * turning_noise * random.normal();
+      },
+      20);
+  const Eigen::Matrix3d turned =
+      Eigen::AngleAxisd(0.3, Eigen::Vector3d(1.0, 2.0, 0.5).normalized()).toRotationMatrix();
+  expect(
+      ImuDoubt::turned,
+      [&turned](int, ImuReading& imu) {
+        imu.specific_force = turned * imu.specific_force;
+        imu.angular_velocity = turned * imu.angular_velocity;
+      },
+      20);
+}
+
+TEST(ImuWatch, LeavesOutTheFirstSampleThatClaimsAContactWhichTheEncodersDoNotShow) {
+  Moving moving;
+  const auto off = [](int, ImuReading& imu) { imu.specific_force.y() += 2.5; };
+  EXPECT_TRUE(moving.tick(off).imu_left_out);
+  EXPECT_FALSE(moving.believed().valid);
+}
+
+TEST(ImuWatch, BelievesAgainOnceTheOperatorResets) {
+  Moving moving;
+  const auto off = [](int, ImuReading& imu) { imu.specific_force.x() += 5.0; };
+  ASSERT_TRUE(ticks_until(moving, ImuDoubt::biased, off).has_value());
+  for (int k = 0; k < 50; ++k)
+    EXPECT_EQ(moving.tick().imu_doubt, ImuDoubt::biased) << "though it is honest again";
+  moving.tick({}, 0.0, true);
+  for (int k = 0; k < 100; ++k) EXPECT_EQ(moving.tick().imu_doubt, ImuDoubt::none);
+  EXPECT_TRUE(moving.believed().valid);
+}
+
+TEST(ImuWatch, BelievesAUnitThatComesBackAfterItDroppedOut) {
+  Moving moving;
+  ASSERT_TRUE(ticks_until(moving, ImuDoubt::dropped_out, [](int, ImuReading& imu) {
+                imu.valid = false;
+              }).has_value());
+  for (int k = 0; k < 25; ++k) moving.tick();
+  EXPECT_EQ(moving.tick().imu_doubt, ImuDoubt::none);
+}
+
+/// Against a parabola fitted to the samples by least squares.
+TEST(ParabolaWeights, GiveTheSecondDerivativeOfTheFittedParabola) {
+  RandomGenerator random(2);
+  for (const int h : {2, 3, 4, 6}) {
+    const int n = 2 * h + 1;
+    Eigen::MatrixXd columns(n, 3);
+    Eigen::VectorXd samples(n);
+    for (int i = 0; i < n; ++i) {
+      columns.row(i) << 1.0, i - h, 0.5 * (i - h) * (i - h);
+      samples[i] = random.normal();
+    }
+    const double fitted = columns.colPivHouseholderQr().solve(samples)[2];
+    double mean = 0.0;
+    for (int i = 1 - h; i < h; ++i)
+      mean += parabola_weight(h, i) * (samples[h + i + 1] - 2.0 * samples[h + i] + samples[h + i - 1]);
+    EXPECT_NEAR(mean, fitted, 1e-12) << h;
+  }
+}
+
+}  // namespace
+}  // namespace flinch
