@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "plant/bench_of.h"
 #include "plant/general_bench.h"
@@ -91,12 +92,28 @@ void BenchDynamics::add_obstacle_rates(const BenchState& state, const ContactFor
   if (time_at_ >= 0) rates[time_at_] = 1.0;
 }
 
-double BenchDynamics::brake_effort(int drive, double rate) const noexcept {
+double BenchDynamics::brake_way(int drive, double position, double braked_at) const noexcept {
+  if (robot().drive_kind(drive) == DriveKind::prismatic)
+    return (position - braked_at) / settings_.brake.sliding_give;
+  return std::remainder(position - braked_at, 2.0 * std::numbers::pi) / settings_.brake.give;
+}
+
+double BenchDynamics::brake_effort(int drive, double rate, double position, double braked_at) const noexcept {
   const BrakeFriction& brake = settings_.brake;
-  if (robot().drive_kind(drive) == DriveKind::prismatic) {
-    return -brake.force * std::tanh(rate / brake.sliding_velocity);
-  }
-  return -brake.torque * std::tanh(rate / brake.velocity);
+  const bool slides = robot().drive_kind(drive) == DriveKind::prismatic;
+  const double way =
+      std::clamp(brake_way(drive, position, braked_at), -BrakeFriction::most_give, BrakeFriction::most_give);
+  return -(slides ? brake.force : brake.torque) *
+         std::tanh(rate / (slides ? brake.sliding_velocity : brake.velocity) + way);
+}
+
+double BenchDynamics::brake_slides_to(int drive, double position, double braked_at) const noexcept {
+  const bool slides = robot().drive_kind(drive) == DriveKind::prismatic;
+  const double most =
+      BrakeFriction::most_give * (slides ? settings_.brake.sliding_give : settings_.brake.give);
+  const double way = brake_way(drive, position, braked_at) / BrakeFriction::most_give;
+  if (std::abs(way) <= 1.0) return braked_at;
+  return position - std::copysign(most, way);
 }
 
 }  // namespace flinch

@@ -36,6 +36,8 @@ struct BenchStep {
   BenchChart chart;
   ContactCandidates candidates;
   std::array<HeldPoint, max_obstacles> held;
+  /// Positions of the drives at which their closed brakes bear nothing [rad or m]; empty: where they are.
+  JointVector braked_at;
 };
 
 /// Everything about the bench at one instant. Wrenches and forces in the base frame.
@@ -48,6 +50,7 @@ struct BenchSnapshot {
   double loop_closure_error = 0.0;  ///< As in PlantTruth [m].
   double kinetic_energy = 0.0;      ///< [J]
   JointVector drive_torque;         ///< That acts, without the brakes' [Nm or N].
+  JointVector braked_at;            ///< As in BenchStep, from now on.
   PlatformVector acceleration;
   PlatformVector applied_wrench;
   ContactForces contacts;
@@ -101,10 +104,15 @@ class BenchDynamics {
   void place_obstacles(const BenchState& state, PlacedObstacles& out) const noexcept;
   void add_obstacle_rates(const BenchState& state, const ContactForces& contacts,
                           BenchState& rates) const noexcept;
-  /// Brake efforts at these drive rates.
-  double brake_effort(int drive, double rate) const noexcept;
+  /// What a closed brake does to its drive at this rate, when it bears nothing at `braked_at`.
+  double brake_effort(int drive, double rate, double position, double braked_at) const noexcept;
+  /// Where a closed brake bears nothing from now on: it has slid if that is too far away.
+  double brake_slides_to(int drive, double position, double braked_at) const noexcept;
 
  private:
+  /// From where a closed brake bears nothing, over its give.
+  double brake_way(int drive, double position, double braked_at) const noexcept;
+
   BenchSettings settings_;
   int dof_;
   std::array<int, max_obstacles> obstacle_at_{};  ///< -1: it does not move freely

@@ -45,8 +45,9 @@ class BenchOf final : public BenchDynamics {
                       const BenchStep& before) const noexcept;
   PlatformVector pulled(const Instant& now, const BenchState& state) const noexcept;
   JointVector drive_torque(const Instant& now, const DriveAction& drives) const noexcept;
+  JointVector braked_at(const Instant& now, const DriveAction& drives, const BenchStep& step) const noexcept;
   PlatformVector acceleration(const Instant& now, JointVector torque, const DriveAction& drives,
-                              const PlatformVector& wrench) const noexcept;
+                              const BenchStep& step, const PlatformVector& wrench) const noexcept;
 
   Robot robot_;
   std::vector<HuntCrossley> laws_;  ///< one an obstacle
@@ -61,6 +62,11 @@ inline Eigen::Vector3d contact_force(const HuntCrossley& law, const SurfaceGap& 
   const double approach = velocity.dot(gap.normal);
   const double push = law.normal_force(-gap.gap, approach);
   return -push * gap.normal + law.friction_force(push, velocity - approach * gap.normal);
+}
+
+/// Share of its friction that the brake of a drive puts on it.
+inline double held_share(const DriveAction& drives, int drive) {
+  return drives.hold.size() > 0 ? drives.hold[drive] : (drives.braked ? 1.0 : 0.0);
 }
 
 inline void add(const Touch& touch, ContactForces& out) {
@@ -150,13 +156,28 @@ JointVector BenchOf<Robot>::drive_torque(const Instant& now, const DriveAction& 
 
 template <class Robot>
 PlatformVector BenchOf<Robot>::acceleration(const Instant& now, JointVector torque, const DriveAction& drives,
+                                            const BenchStep& step,
                                             const PlatformVector& wrench) const noexcept {
-  const bool each_its_own = drives.hold.size() > 0;
   for (int i = 0; i < robot().drives(); ++i) {
-    const double share = each_its_own ? drives.hold[i] : (drives.braked ? 1.0 : 0.0);
-    if (share > 0.0) torque[i] += share * brake_effort(i, robot_.drive_rate(now, i));
+    const double share = internal::held_share(drives, i);
+    if (!(share > 0.0)) continue;
+    const double position = robot_.drive_position(now, i);
+    const double braked_at = step.braked_at.size() > 0 ? step.braked_at[i] : position;
+    torque[i] += share * brake_effort(i, robot_.drive_rate(now, i), position, braked_at);
   }
   return robot_.acceleration(now, torque, wrench);
+}
+
+template <class Robot>
+JointVector BenchOf<Robot>::braked_at(const Instant& now, const DriveAction& drives,
+                                      const BenchStep& step) const noexcept {
+  JointVector next(robot().drives());
+  for (int i = 0; i < robot().drives(); ++i) {
+    next[i] = robot_.drive_position(now, i);
+    const bool holds = internal::held_share(drives, i) > 0.0 && step.braked_at.size() > 0;
+    if (holds) next[i] = brake_slides_to(i, next[i], step.braked_at[i]);
+  }
+  return next;
 }
 
 // ---------------------------------------------------------------- motion
@@ -174,7 +195,7 @@ void BenchOf<Robot>::rates(const BenchState& state, const DriveAction& drives,
   find_forces(now, obstacles, step, step.candidates, contacts);
   robot_.coordinate_rates(state, step.chart, rates);
   rates.segment(dof(), dof()) =
-      acceleration(now, drive_torque(now, drives), drives,
+      acceleration(now, drive_torque(now, drives), drives, step,
                    applied_wrench + pulled(now, state) + contacts.obstacle_wrench + contacts.self_wrench);
   add_obstacle_rates(state, contacts, rates);
 }
@@ -198,8 +219,9 @@ void BenchOf<Robot>::snapshot(const BenchState& state, const DriveAction& drives
   out.candidates = robot_.candidates(now, out.obstacles, duration);
   find_forces(now, out.obstacles, step, out.candidates, out.contacts);
   out.drive_torque = drive_torque(now, drives);
+  out.braked_at = braked_at(now, drives, step);
   out.acceleration =
-      acceleration(now, out.drive_torque, drives,
+      acceleration(now, out.drive_torque, drives, step,
                    out.applied_wrench + out.contacts.obstacle_wrench + out.contacts.self_wrench);
   robot_.find_near_pairs(now, out.obstacles, out.near_pairs);
   for (std::size_t i = 0; i < settings().obstacles.size(); ++i) {
@@ -220,6 +242,7 @@ void BenchOf<Robot>::next_step(const BenchState& state, double t, const BenchSna
   out.chart.pose = snapshot.pose;
   out.chart.xi = state.head(dof());
   out.candidates = snapshot.candidates;
+  out.braked_at = snapshot.braked_at;
   for (std::size_t i = 0; i < settings().obstacles.size(); ++i) {
     out.held[i] = next_held(i, state, t, snapshot, before);
   }

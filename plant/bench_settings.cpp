@@ -44,8 +44,10 @@ std::vector<std::string> problems(const BenchSettings& settings) {
   }
   found.not_negative("brake.torque", settings.brake.torque, "Nm");
   found.positive("brake.velocity", settings.brake.velocity, "rad/s");
+  found.positive("brake.give", settings.brake.give, "rad");
   found.not_negative("brake.force", settings.brake.force, "N");
   found.positive("brake.sliding_velocity", settings.brake.sliding_velocity, "m/s");
+  found.positive("brake.sliding_give", settings.brake.sliding_give, "m");
   check_start(settings, found);
   return found.take();
 }

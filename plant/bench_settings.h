@@ -12,12 +12,18 @@
 
 namespace flinch {
 
-/// Dry friction that closed brakes put on the drives: -effort tanh(rate / velocity).
+/// Dry friction that closed brakes put on the drives: -effort tanh(rate / velocity + way / give), where `way`
+/// is that from where the brake has closed or last slid to, at most `most_give` times `give`. So it holds a
+/// load without creeping, as a stiff spring does, and slides under more than its effort.
 struct BrakeFriction {
+  static constexpr double most_give = 3.0;
+
   double torque = 150.0;           ///< Of drives that turn [Nm].
   double velocity = 0.02;          ///< [rad/s]
+  double give = 1e-4;              ///< [rad]
   double force = 2000.0;           ///< Of drives that slide [N].
   double sliding_velocity = 0.02;  ///< [m/s]
+  double sliding_give = 5e-5;      ///< [m]
 };
 
 /// The simulated bench as a mechanism. Its robot need not be the one that a controller believes in.

@@ -228,6 +228,58 @@ TEST(ContactTruth, WithoutAPylonIsValidAndEmpty) {
   EXPECT_EQ(station.contact().strongest.body, -1);
 }
 
+// ---------------------------------------------------------------- closed brakes
+
+/// With closed brakes and a push that rises to `force` along x within 50 ms and stays for `hold`.
+SimulatedStationSettings leaned_upon(double force, Time hold) {
+  SimulatedStationSettings settings = test::bench_station();
+  settings.applied_wrench = {{.peak_in_base = PlatformVector{{force, 0.0, 0.0}},
+                              .start = 100ms,
+                              .rise = 50ms,
+                              .hold = hold,
+                              .fall = 50ms}};
+  return settings;
+}
+
+/// How far the drive that moved most has moved after each tick [rad].
+std::vector<double> ways_of_braked(const SimulatedStationSettings& settings, Time end) {
+  DiagramBuilder builder("test", 1ms);
+  const SimulatedStation station = add_simulated_station(builder, settings);
+  builder.connect(builder.add<Constant<TorqueCommand>>("torque", TorqueCommand()).value,
+                  station.torque_command);
+  builder.connect(builder.add<Constant<BrakeCommand>>("brake", BrakeCommand()).value, station.brake);
+  const auto diagram = builder.build();
+  Context context = diagram->make_context();
+  Simulator simulator(*diagram, std::make_unique<SundialsIntegrator>());
+  simulator.step(context);
+  const JointVector start = context.get(station.plant_truth).active;
+  std::vector<double> ways;
+  for (Time now = 1ms; now < end; now += 1ms) {
+    simulator.step(context);
+    const JointVector way = context.get(station.plant_truth).active - start;
+    ways.push_back(way.lpNorm<Eigen::Infinity>());
+  }
+  return ways;
+}
+
+TEST(ClosedBrakes, HoldARobotThatIsLeanedUponWhereItIs) {
+  for (const double force : {50.0, 200.0, -300.0}) {
+    const std::vector<double> way = ways_of_braked(leaned_upon(force, 2s), 2s);
+    std::cout << force << " N: " << way[300] << " rad after 0.3 s, " << way.back() << " rad after 2 s\n";
+    EXPECT_LT(way.back(), 2e-4);              // the brake gives way like a stiff spring ...
+    EXPECT_NEAR(way.back(), way[300], 1e-9);  // ... and does not creep
+  }
+  EXPECT_LT(ways_of_braked(leaned_upon(200.0, 200ms), 1s).back(), 1e-8);  // nor stays where it was pushed
+}
+
+TEST(ClosedBrakes, SlideUnderMoreThanTheyHold) {
+  const std::vector<double> way = ways_of_braked(leaned_upon(800.0, 40ms), 1s);
+  EXPECT_GT(way.back(), 1e-2);
+  EXPECT_NEAR(way.back(), way[way.size() - 500], 1e-9);
+  EXPECT_GT(*std::max_element(way.begin(), way.end()), way.back());         // it springs back, ...
+  EXPECT_LT(*std::max_element(way.begin(), way.end()) - way.back(), 4e-4);  // ... by no more than its give
+}
+
 // ---------------------------------------------------------------- set-up
 
 TEST(BenchPlant, RefusesADiagramThatTicksMoreSlowlyThanItLooksAhead) {
