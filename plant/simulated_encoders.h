@@ -23,12 +23,16 @@ struct EncoderErrors {
   std::vector<PositionWave> wave{};
 };
 
+/// The encoders of drives that slide, scales with numbers of their own: noise and resolution are assumed [m].
+inline EncoderErrors sliding_encoders() { return {.noise = 7e-6, .resolution = 0.2e-6}; }
+
 /// The encoders of the bench.
 struct SimulatedEncodersSettings {
   bool ideal = false;           ///< Readings are the truth.
   bool passive_mounted = true;  ///< Otherwise passive angles are not valid.
 
   /// ECN1313; noise and resolution of [RAL25] IV-A. Its system accuracy of 0.0056 degrees is left out there.
+  /// Where drives slide: `sliding_encoders`.
   EncoderErrors active{.accuracy = 0.0, .noise = 4e-4 * degree, .resolution = 1.2e-5 * degree};
   /// RI36-H: an accuracy of 0.1 degrees, [ICRA23] III-A, taken as the standard deviation of each encoder's
   /// error; 3600 lines, counted fourfold (assumed, not published).

@@ -85,10 +85,10 @@ Realism read_plant(ConfigReader plant, const Scenario& scenario, SimulatedStatio
   return read_realism(plant, *built.robot);
 }
 
-void read_encoder(ConfigReader reader, EncoderErrors& errors) {
-  reader.number("accuracy", unit::rad, errors.accuracy, not_negative);
-  reader.number("noise", unit::rad, errors.noise, not_negative);
-  reader.number("resolution", unit::rad, errors.resolution, not_negative);
+void read_encoder(ConfigReader reader, const Unit& unit, EncoderErrors& errors) {
+  reader.number("accuracy", unit, errors.accuracy, not_negative);
+  reader.number("noise", unit, errors.noise, not_negative);
+  reader.number("resolution", unit, errors.resolution, not_negative);
 }
 
 void read_imu(ConfigReader reader, SimulatedImuSettings& imu) {
@@ -142,7 +142,7 @@ void read_pulls(ConfigReader& reader, const InstrumentMounting& mounting, int di
   }
 }
 
-void read_sensors(ConfigReader sensors, SimulatedStationSettings& station) {
+void read_sensors(ConfigReader sensors, const ParallelRobot& robot, SimulatedStationSettings& station) {
   bool ideal = false;
   sensors.flag("ideal", ideal);
   if (ideal) station = with_ideal_sensors(std::move(station));
@@ -150,8 +150,10 @@ void read_sensors(ConfigReader sensors, SimulatedStationSettings& station) {
   ConfigReader encoders = sensors.section("encoders");
   encoders.flag("ideal", station.encoders.ideal);
   encoders.flag("passive_mounted", station.encoders.passive_mounted);
-  read_encoder(encoders.section("active"), station.encoders.active);
-  read_encoder(encoders.section("passive"), station.encoders.passive);
+  const bool slides = robot.drive_kind(0) == DriveKind::prismatic;
+  if (slides) station.encoders.active = sliding_encoders();
+  read_encoder(encoders.section("active"), slides ? unit::m : unit::rad, station.encoders.active);
+  read_encoder(encoders.section("passive"), unit::rad, station.encoders.passive);
 
   ConfigReader currents = sensors.section("currents");
   currents.flag("ideal", station.currents.ideal);
@@ -200,7 +202,7 @@ void read_station(ConfigReader& file, const Scenario& scenario, SimulatedStation
                station.bench.pulls);
   }
   station.instrument.mountings = scenario.mountings;
-  read_sensors(file.section("sensors"), station);
+  read_sensors(file.section("sensors"), *scenario.robot.robot, station);
   station.faults = read_faults(file, *scenario.robot.robot);
   specimen = draw_specimen(realism, *scenario.robot.robot, scenario.robot.drives.max_torque, scenario.seed);
   station = with_specimen(std::move(station), specimen);

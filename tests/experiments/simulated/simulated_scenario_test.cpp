@@ -102,6 +102,18 @@ TEST(SimulatedScenario, CanLetThePlantDifferFromTheModel) {
   EXPECT_GT(believed(scenario).legs[0].active_friction.coulomb, 0.0);
 }
 
+TEST(SimulatedScenario, MeasuresDrivesThatSlideInMetres) {
+  const test::Workplace place;
+  const std::string hexapod = "robot: ../robots/hexapod_6ups.yaml\nduration_s: 0.25\n";
+  EXPECT_EQ(scenario_of(place, hexapod).station.encoders.active.noise, 7e-6);
+  EXPECT_EQ(scenario_of(place, hexapod + "sensors: {encoders: {active: {noise_mm: 0.002}}}\n")
+                .station.encoders.active.noise,
+            2e-6);
+  EXPECT_THROW(scenario_of(place, hexapod + "sensors: {encoders: {active: {noise_deg: 4.0e-4}}}\n"),
+               SetupError);
+  EXPECT_NEAR(scenario_of(place, least).station.encoders.active.noise, 7e-6, 1e-7);  // [rad]
+}
+
 TEST(SimulatedScenario, StartsWhereItsMotionStarts) {
   for (const std::string& name : test::shipped_scenarios()) {
     const SimulatedScenario scenario = read_simulated_scenario(shipped("scenarios/" + name + ".yaml"));
