@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <fstream>
 #include <iterator>
 
@@ -37,9 +38,10 @@ std::vector<std::string> shipped_scenarios() {
   return names;
 }
 
-Workplace::Workplace()
-    : folder_(fs::path(::testing::TempDir()) /
-              ("flinch_" + name_of_test() + "_" + std::to_string(getpid()))) {
+Workplace::Workplace() {
+  static std::atomic<int> made = 0;  // a test may have several
+  folder_ = fs::path(::testing::TempDir()) /
+            ("flinch_" + name_of_test() + "_" + std::to_string(getpid()) + "_" + std::to_string(++made));
   fs::remove_all(folder_);
   fs::create_directories(folder_);
   for (const std::string part : {"scenarios", "robots"}) fs::copy(shipped(part), folder_ / part);
