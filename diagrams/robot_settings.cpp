@@ -36,6 +36,7 @@ ContactControlSettings settings_for(const ParallelRobot& robot, const DriveParam
   settings.faults.max_joint_speed = drives.max_speed;
   settings.faults.max_encoder_rate = drives.max_encoder_rate;
   settings.faults.max_control_error = drives.max_control_error;
+  settings.faults.max_unseen_motion = drives.max_unseen_motion;
   settings.faults.max_torque_jump = drives.max_torque_jump;
   settings.faults.torque_range = drives.max_torque;
   settings.faults.max_unseen_current = 0.06 * drives.max_torque / drives.torque_constant.minCoeff();

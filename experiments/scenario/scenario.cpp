@@ -16,8 +16,6 @@
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recording.h"
 #include "systems/robot/body_id.h"
-#include "systems/robot/planar_rrr.h"
-#include "systems/robot/planar_rrr_presets.h"
 
 namespace flinch {
 namespace {
@@ -64,19 +62,26 @@ void read_force_limits(ConfigReader reader, ForceLimits& limits) {
   reader.number("transient_duration", unit::s, limits.transient_duration, positive);
 }
 
-/// What `read` returns; where that is no good its problems are noted, and the bench stands in so that the
-/// rest of the scenario can be checked as well.
-template <class Read>
-RobotFile robot_or_stand_in(ConfigReader& reader, Read&& read) {
+/// The robot of `scenario`. Where its file is no good the problems are noted and another robot of its kind
+/// stands in, so that the rest of the scenario can be checked as well; a file that names no kind ends it.
+RobotFile read_robot(ConfigReader& reader, RobotFiles& robots, Scenario& scenario) {
+  std::optional<RobotFile> stand_in;
   try {
-    return read();
+    reader.required().file("robot", scenario.robot_file);
+    if (!scenario.robot_file.empty()) {
+      const auto entry = robots.read(scenario.robot_file);
+      scenario.robot_text = entry->text;
+      scenario.calibrations = entry->calibrations;
+      return entry->robot;
+    }
   } catch (const SetupError& error) {
     reader.add_problems(error.problems());
+    stand_in = preset_of_kind(scenario.robot_file);
   }
-  RobotFile bench;
-  bench.robot = std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::none));
-  bench.drives = default_drives(DriveKind::revolute, bench.robot->drives());
-  return bench;
+  if (stand_in) return *stand_in;
+  reader.leave_rest_unread();
+  reader.finish();
+  throw SetupError(std::vector<std::string>{"there is no robot"});
 }
 
 /// Everything but the robot.
@@ -111,14 +116,7 @@ Scenario assemble(ConfigReader reader, const std::filesystem::path& file, RobotF
   scenario.control.stages = known;
   scenario.file = file;
   scenario.name = file.stem().string();
-  reader.required().file("robot", scenario.robot_file);
-  scenario.robot_as_built = robot_or_stand_in(reader, [&] {
-    if (scenario.robot_file.empty()) throw SetupError(std::vector<std::string>{});
-    const auto entry = robots.read(scenario.robot_file);
-    scenario.robot_text = entry->text;
-    scenario.calibrations = entry->calibrations;
-    return entry->robot;
-  });
+  scenario.robot_as_built = read_robot(reader, robots, scenario);
   for (ParameterFile& own : read_calibrations(reader)) scenario.calibrations.push_back(std::move(own));
   scenario.robot = scenario.robot_as_built;
   try {

@@ -116,6 +116,15 @@ void read_laws(ConfigReader& control, const ParallelRobot& robot, ContactControl
   if (!damped) settings.yielding.reset();
 }
 
+/// What a robot may do that is brought back inside its limits.
+void read_recovery(ConfigReader reader, ContactControlSettings& settings) {
+  reader.number("speed_share", unit::none, settings.faults.recovery_speed, fraction);
+  reader.number("torque_share", unit::none, settings.torque_gate.recovery_torque, fraction);
+  reader.number("margin_share", unit::none, settings.faults.recovery_margin, fraction);
+  reader.duration("over_after", settings.torque_gate.recovered_after, not_negative);
+  read_limits(reader.section("limits"), settings.trajectory.recovery);
+}
+
 /// In a plane the angle `direction` from the x axis; in space a vector of any length.
 CartesianVector read_direction(ConfigReader& motion, const ParallelRobot& robot) {
   if (robot.space_dimension() == 2) {
@@ -193,6 +202,7 @@ void read_control(ConfigReader control, const ParallelRobot& robot, ContactContr
   read_isolation(control.section("isolation"), settings.isolation);
   read_tasks(control, robot, settings.tasks);
   read_laws(control, robot, settings);
+  read_recovery(control.section("recovery"), settings);
 }
 
 void read_motion(ConfigReader motion, const RobotFile& file, std::uint64_t seed,

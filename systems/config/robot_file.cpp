@@ -8,7 +8,14 @@
 #include "systems/config/hexapod_file.h"
 #include "systems/config/planar_rrr_file.h"
 #include "systems/config/robot_keys.h"
+#include "systems/foundation/setup_error.h"
+#include "systems/robot/five_bar.h"
+#include "systems/robot/five_bar_presets.h"
+#include "systems/robot/hexapod.h"
+#include "systems/robot/hexapod_presets.h"
 #include "systems/robot/parallel_robot.h"
+#include "systems/robot/planar_rrr.h"
+#include "systems/robot/planar_rrr_presets.h"
 
 namespace flinch {
 namespace {
@@ -19,11 +26,19 @@ struct RobotKind {
   int drives;
   int directions;  ///< in which the platform moves
   std::shared_ptr<const ParallelRobot> (*read)(ConfigReader& file);
+  std::shared_ptr<const ParallelRobot> (*make_preset)();
 };
 
-constexpr RobotKind planar_3rrr{DriveKind::revolute, 3, 2, &read_planar_rrr};
-constexpr RobotKind five_bar{DriveKind::revolute, 2, 2, &read_five_bar};
-constexpr RobotKind hexapod_6ups{DriveKind::prismatic, 6, 3, &read_hexapod};
+constexpr RobotKind planar_3rrr{
+    DriveKind::revolute, 3, 2, &read_planar_rrr, []() -> std::shared_ptr<const ParallelRobot> {
+      return std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::none));
+    }};
+constexpr RobotKind five_bar{
+    DriveKind::revolute, 2, 2, &read_five_bar,
+    []() -> std::shared_ptr<const ParallelRobot> { return std::make_shared<FiveBar>(five_bar_robot()); }};
+constexpr RobotKind hexapod_6ups{
+    DriveKind::prismatic, 6, 3, &read_hexapod,
+    []() -> std::shared_ptr<const ParallelRobot> { return std::make_shared<Hexapod>(hexapod_robot()); }};
 
 /// Keys and units that follow from how drives move.
 struct DriveKeys {
@@ -57,6 +72,7 @@ DriveParameters read_drives(ConfigReader file, const RobotKind& kind) {
   file.number("max_speed", keys.speed, drives.max_speed, positive);
   file.number("max_encoder_rate", keys.speed, drives.max_encoder_rate, positive);
   file.number("max_control_error", keys.position, drives.max_control_error, positive);
+  file.number("max_unseen_motion", unit::rad, drives.max_unseen_motion, positive);
   return drives;
 }
 
@@ -75,11 +91,15 @@ WorkspaceLimits read_limits(ConfigReader& file, const RobotKind& kind) {
   return limits;
 }
 
-RobotFile read_any(ConfigReader file) {
-  const RobotKind* kind = &planar_3rrr;
+void read_kind(ConfigReader& file, const RobotKind*& kind) {
   file.required().choice(
       "kind", kind,
       {{"planar_3rrr", &planar_3rrr}, {"five_bar", &five_bar}, {"hexapod_6ups", &hexapod_6ups}});
+}
+
+RobotFile read_any(ConfigReader file) {
+  const RobotKind* kind = &planar_3rrr;
+  read_kind(file, kind);
   RobotFile result;
   for (ConfigReader& calibration : file.sections("calibrations")) calibration.leave_rest_unread();
   result.robot = kind->read(file);
@@ -100,6 +120,21 @@ RobotFile read_robot_file(const std::filesystem::path& file) { return read_any(C
 
 RobotFile parse_robot_file(std::string_view text, const std::string& file) {
   return read_any(ConfigReader::parse(text, file));
+}
+
+std::optional<RobotFile> preset_of_kind(const std::filesystem::path& file) {
+  try {
+    ConfigReader reader = ConfigReader::open(file);
+    const RobotKind* kind = nullptr;
+    read_kind(reader, kind);
+    if (kind == nullptr) return std::nullopt;
+    RobotFile preset;
+    preset.robot = kind->make_preset();
+    preset.drives = default_drives(kind->drive, kind->drives);
+    return preset;
+  } catch (const SetupError&) {
+    return std::nullopt;
+  }
 }
 
 std::shared_ptr<const ParallelRobot> load_robot(const std::filesystem::path& file) {

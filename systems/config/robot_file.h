@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,8 @@ struct RobotFile {
 RobotFile read_robot_file(const std::filesystem::path& file);
 /// The same for text that came from `file`.
 RobotFile parse_robot_file(std::string_view text, const std::string& file);
+/// A sound robot of the kind that a file names which is no good otherwise; nothing where it names none.
+std::optional<RobotFile> preset_of_kind(const std::filesystem::path& file);
 std::shared_ptr<const ParallelRobot> load_robot(const std::filesystem::path& file);
 
 }  // namespace flinch

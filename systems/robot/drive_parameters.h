@@ -22,6 +22,9 @@ struct DriveParameters {
   double max_encoder_rate = 12.0;
   /// Largest distance of a drive from where it should be [rad] ([m]).
   double max_control_error = 25.0 * std::numbers::pi / 180.0;
+  /// By how much passive joints may have turned from where a drive's encoder says, when it repeats itself
+  /// [rad].
+  double max_unseen_motion = 0.25 * std::numbers::pi / 180.0;
 };
 
 /// For `drives` drives of one kind: turning ones as the bench has them, sliding ones as screws of a hexapod

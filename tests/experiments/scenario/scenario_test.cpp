@@ -128,6 +128,45 @@ TEST(Scenario, HasTheDefaultsOfThePapers) {
   EXPECT_EQ(scenario.force_limits.quasi_static, 140.0);
 }
 
+TEST(Scenario, SaysWhatARobotMayDoThatIsBroughtBack) {
+  const test::Workplace place;
+  const Scenario scenario =
+      scenario_of(place, std::string(least) +
+                             "control: {recovery: {speed_share: 0.1, torque_share: 0.2, margin_share: 0.03, "
+                             "over_after_ms: 50, limits: {velocity_m_per_s: 0.02}}}\n");
+  const ContactControlSettings& control = scenario.control;
+  EXPECT_EQ(control.faults.recovery_speed, 0.1);
+  EXPECT_EQ(control.torque_gate.recovery_torque, 0.2);
+  EXPECT_EQ(control.faults.recovery_margin, 0.03);
+  EXPECT_EQ(control.torque_gate.recovered_after, 50ms);
+  EXPECT_EQ(control.trajectory.recovery.translation.velocity, 0.02);
+  EXPECT_EQ(control.trajectory.recovery.rotation.velocity, 0.15);
+  EXPECT_THAT(problems_with(place, std::string(least) + "control: {recovery: {speed_share: 1.5}}\n"),
+              ElementsAre(HasSubstr("own.yaml:3: control.recovery.speed_share: is 1.5")));
+}
+
+TEST(Scenario, ChecksTheRestByARobotOfTheKindThatIsNoGood) {
+  const test::Workplace place;
+  place.replace("robots/hexapod_6ups.yaml", "characteristic_length_m: 0.25", "characteristic_length_m: -1");
+  const auto problems = problems_with(place,
+                                      "robot: ../robots/hexapod_6ups.yaml\nduration_s: 0.25\nseed: one\n"
+                                      "motion: {kind: through, poses: [{x_m: 0, y_m: 0, z_m: 0.62}]}\n"
+                                      "control: {drive_torque: {force_constant_N_per_A: 100}}\n");
+  EXPECT_THAT(problems, Contains(HasSubstr("characteristic_length_m: is -1 m")));
+  EXPECT_THAT(problems, Contains(HasSubstr("own.yaml:3: seed: is 'one'")));
+  EXPECT_THAT(problems, Each(Not(HasSubstr("not a known key"))));
+}
+
+TEST(Scenario, SaysNothingOfTheRestWhereTheKindIsNotKnown) {
+  const test::Workplace place;
+  place.replace("robots/hexapod_6ups.yaml", "kind: hexapod_6ups", "kind: hexapod");
+  const auto problems = problems_with(place,
+                                      "robot: ../robots/hexapod_6ups.yaml\nduration_s: 0.25\n"
+                                      "motion: {kind: through, poses: [{x_m: 0, y_m: 0, z_m: 0.62}]}\n");
+  EXPECT_THAT(problems, Contains(HasSubstr("kind: is 'hexapod'")));
+  EXPECT_THAT(problems, Each(Not(HasSubstr("own.yaml"))));
+}
+
 TEST(Scenario, TakesTheSeedOfTheCommandLine) {
   const std::filesystem::path file = shipped("scenarios/square.yaml");
   EXPECT_EQ(read_scenario(file).seed, 1U);

@@ -112,6 +112,7 @@ TEST(ShippedRobots, SayWhatTheirDrivesAreGivenAndMayDo) {
   EXPECT_EQ(bench.max_speed, 8.0);
   EXPECT_EQ(bench.max_encoder_rate, 12.0);
   EXPECT_EQ(bench.max_control_error, 25.0 * std::numbers::pi / 180.0);
+  EXPECT_EQ(bench.max_unseen_motion, 0.25 * std::numbers::pi / 180.0);
   const DriveParameters silent = read_robot_file(robots / "planar_3rrr_nominal.yaml").drives;
   EXPECT_EQ(silent.torque_constant, (JointVector{{6.1, 6.1, 6.1}}));
   EXPECT_EQ(silent.max_torque_rate, 20e3);
@@ -269,6 +270,19 @@ TEST_F(ChangedRobotFile, HasNoLimitsUnlessItSaysSo) {
 TEST_F(ChangedRobotFile, IsOfAKindThatIsKnown) {
   replace("planar_3rrr", "planar_3rr");
   EXPECT_THAT(problems(), ElementsAre(line(1) + "kind: is 'planar_3rr'; did you mean 'planar_3rrr'?"));
+}
+
+TEST_F(ChangedRobotFile, HasASoundRobotOfItsKindThoughItIsNoGood) {
+  replace("link_radius_m: 0.03", "link_radius_m: nonsense");
+  const std::optional<RobotFile> preset = preset_of_kind(file());
+  ASSERT_TRUE(preset.has_value());
+  EXPECT_EQ(preset->robot->drives(), 3);
+  EXPECT_EQ(preset->drives.torque_constant.size(), 3);
+  replace("planar_3rrr", "hexapod_6ups");
+  EXPECT_EQ(preset_of_kind(file())->robot->dof(), 6);
+  replace("hexapod_6ups", "hexapod_6up");
+  EXPECT_FALSE(preset_of_kind(file()).has_value());
+  EXPECT_FALSE(preset_of_kind(robots / "nowhere.yaml").has_value());
 }
 
 TEST_F(ChangedRobotFile, HasOneInertiaALeg) {
