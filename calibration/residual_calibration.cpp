@@ -82,7 +82,7 @@ ResidualErrors fit(const std::vector<ResidualRecording>& recordings, const std::
   return fit_error_sizes(samples);
 }
 
-/// The largest surprise of each stretch in which there was one at all times.
+/// The largest surprise of each stretch; ticks without one, as where the IMU is left out, are none of it.
 std::vector<double> peaks(const std::vector<ResidualRecording>& recordings, const std::string& estimator,
                           const Statistic& statistic, const ResidualErrors& errors, Time stretch) {
   std::vector<double> found;
@@ -93,10 +93,10 @@ std::vector<double> peaks(const std::vector<ResidualRecording>& recordings, cons
     follow(each, estimator, [&](bool nominal, const ResidualMemory& memory) {
       const bool waits = nominal && memory.started && !memory.seen.is_new;
       const DriveResidual* const seen = statistic.of(nominal, memory.seen);
-      if (seen == nullptr && !waits) ticks = 0;
+      if (seen == nullptr && !waits) return;
       if (ticks == 0) largest = 0.0;
       if (seen != nullptr) largest = std::max(largest, surprise(memory.seen.load, *seen, errors));
-      if ((seen == nullptr && !waits) || ++ticks < length) return;
+      if (++ticks < length) return;
       found.push_back(largest);
       ticks = 0;
     });
