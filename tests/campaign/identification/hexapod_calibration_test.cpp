@@ -1,7 +1,7 @@
 // Hexapods drawn anew, with a payload of 2 kg and more that nobody knows of: force constants from rope pulls,
 // then friction and platform from a motion that excites them, then what the observer takes for a contact in a
-// motion that neither used. The table is printed. FLINCH_ROBOTS in the environment says how many robots instead
-// of one; each takes a minute.
+// motion that neither used. The table is printed. FLINCH_ROBOTS in the environment says how many robots
+// instead of one; each takes a minute.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // The whole campaign of lies, and how near honest robots come to be called liars. FLINCH_LIES_SHARE says how
-// much of it.
+// much of it: 1 is all, some hours of one processor. Without it 0.02.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ namespace {
 
 std::size_t runs(std::size_t all) {
   const char* const share = std::getenv("FLINCH_LIES_SHARE");
-  return share == nullptr ? all : static_cast<std::size_t>(std::atof(share) * static_cast<double>(all));
+  return static_cast<std::size_t>((share == nullptr ? 0.02 : std::atof(share)) * static_cast<double>(all));
 }
 
 TEST(Lies, AreAllNamedOrCannotBe) {

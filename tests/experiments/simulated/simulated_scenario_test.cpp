@@ -40,9 +40,10 @@ TEST(ShippedScenarios, AreTheseAndNoOthers) {
       ElementsAre("calibration_excitation", "calibration_motion", "calibration_pulls",
                   "calibration_pulls_second", "calibration_rectangle", "calibration_standstill", "clamping",
                   "clamping_reaction", "constraints_without_contact", "first_link_collision",
-                  "first_link_reaction", "five_bar_collision", "hexapod_calibration_pulls",
-                  "hexapod_collision", "hexapod_push", "platform_collision", "platform_collision_realistic",
-                  "platform_reaction", "random_motion", "reaction_near_itself", "reaction_near_singularity",
+                  "first_link_reaction", "five_bar_collision", "hexapod_calibration_excitation",
+                  "hexapod_calibration_motion", "hexapod_calibration_pulls", "hexapod_collision",
+                  "hexapod_push", "platform_collision", "platform_collision_realistic", "platform_reaction",
+                  "random_motion", "reaction_near_itself", "reaction_near_singularity",
                   "second_link_collision", "second_link_reaction", "square", "square_realistic",
                   "square_tasks", "square_unaligned", "stiffness"));
 }

@@ -10,13 +10,13 @@
 namespace flinch {
 namespace {
 
-/// The rows of the table below the heading, without its own heading.
+/// The rows of the first table below the heading, without its own heading.
 std::vector<std::string> documented_rows() {
   std::ifstream document(FLINCH_SOURCE_DIR "/docs/faults.md");
   std::string line;
   while (std::getline(document, line) && line != "## Faults of the link and the programs") continue;
   std::vector<std::string> rows;
-  while (std::getline(document, line) && !line.starts_with("## ")) {
+  while (std::getline(document, line) && (rows.empty() || line.starts_with("| "))) {
     if (line.starts_with("| ")) rows.push_back(line);
   }
   if (rows.size() >= 2) rows.erase(rows.begin(), rows.begin() + 2);
