@@ -141,6 +141,11 @@ DataSet read(const std::filesystem::path& file) {
   return data;
 }
 
+/// Whether it says when the robot is stopped, which no feature of a contact depends on.
+bool is_limit(const std::string& key) {
+  return key.starts_with("workspace_limits.") || key.starts_with("drives.max_");
+}
+
 }  // namespace
 
 ContactClasses classes_of(const ParallelRobot& robot) { return {robot.body_count(), robot.legs()}; }
@@ -148,6 +153,7 @@ ContactClasses classes_of(const ParallelRobot& robot) { return {robot.body_count
 std::string fingerprint(const std::string& robot_text, const std::string& robot_file) {
   std::uint64_t hash = 0xcbf29ce484222325U;  // FNV-1a
   for (const ReadValue& value : parse_robot_file(robot_text, robot_file).values) {
+    if (is_limit(value.key)) continue;
     for (const char letter : value.key + "=" + value.value + "\n")
       hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3U;
   }
