@@ -1,6 +1,6 @@
 #include "learning/data_set.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 #include <filesystem>

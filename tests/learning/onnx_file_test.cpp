@@ -1,6 +1,6 @@
 #include "learning/onnx_file.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <fstream>
 #include <string>

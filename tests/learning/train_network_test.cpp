@@ -1,6 +1,6 @@
 #include "learning/train_network.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <thread>
 

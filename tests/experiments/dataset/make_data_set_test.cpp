@@ -1,6 +1,6 @@
 #include "experiments/dataset/make_data_set.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
 

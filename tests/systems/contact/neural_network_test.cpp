@@ -1,6 +1,6 @@
 #include "systems/contact/neural_network.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 #include <limits>

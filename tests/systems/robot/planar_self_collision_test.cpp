@@ -17,7 +17,9 @@ FLINCH_FOR_BOTH_GEOMETRIES(CouplingAngle);
 TEST_P(CouplingAngle, GradientAndDriftAgreeWithDifferences) {
   Residual gradients("gradient of omega against differences", 1e-8);
   Residual drifts("drift of omega against differences", 1e-7);
-  for (const auto& [pose, velocity] : motions) {
+  for (const PoseAndVelocity& motion : motions) {
+    const auto& pose = motion.pose;
+    const auto& velocity = motion.velocity;
     for (int leg = 0; leg < 3; ++leg) {
       const auto task_at = [&](const Eigen::Vector3d& moved) {
         return coupling_angle_task(robot, kinematics_at(moved, velocity), leg);

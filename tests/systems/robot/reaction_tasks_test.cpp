@@ -56,7 +56,9 @@ TEST_P(ReactionTaskLaws, PointsOfAllBodies) {
   Residual drifts("drift of points against differences", 2e-9);
   for (const MotionState& state : states) {
     for (const auto& [body, point] : points()) {
-      check(gradients, drifts, state, [&](const Kinematics& k) { return point_task(robot, k, body, point); });
+      check(gradients, drifts, state, [&, body = body, point = point](const Kinematics& k) {
+        return point_task(robot, k, body, point);
+      });
     }
   }
 }
