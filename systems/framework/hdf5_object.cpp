@@ -348,6 +348,28 @@ Table open_table(Hdf5Object::Id parent, const std::string& name, Field::Kind kin
   return {std::move(table), size[0]};
 }
 
+namespace {
+
+/// HDF5 allocates for a chunk what the file's index says that it takes there. Of tables with one or two
+/// dimensions.
+void check_chunks(Hdf5Object::Id table, std::size_t first, std::size_t rows, std::size_t columns) {
+  const Hdf5Object creation(H5Dget_create_plist(table), H5Pclose, "reading how a data set was made");
+  hsize_t chunk[2] = {1, 1};
+  if (H5Pget_layout(creation) != H5D_CHUNKED || H5Pget_chunk(creation, 2, chunk) < 1) return;
+  const std::size_t most = file_size(table);
+  for (hsize_t row = first / chunk[0] * chunk[0]; row < first + rows; row += chunk[0]) {
+    for (hsize_t column = 0; column < columns; column += chunk[1]) {
+      const hsize_t place[2] = {row, column};
+      hsize_t bytes = 0;
+      check(H5Dget_chunk_info_by_coord(table, place, nullptr, nullptr, &bytes), "finding a chunk");
+      if (bytes > most)
+        throw SetupError("a chunk claims to take " + std::to_string(bytes) + " bytes, more than the file");
+    }
+  }
+}
+
+}  // namespace
+
 ForeignTable read_foreign_table(Hdf5Object::Id parent, const std::string& name) {
   silence_hdf5();
   const Hdf5Object set = open_data_set(parent, name);
@@ -363,6 +385,7 @@ ForeignTable read_foreign_table(Hdf5Object::Id parent, const std::string& name) 
   check(H5Sget_simple_extent_dims(space, size, nullptr), "reading the size of '" + name + "'");
   check_layout(set, name);
   check_storage(set, name, size[0], size[1]);
+  check_chunks(set, 0, size[0], size[1]);
   ForeignTable table{size[0], size[1], std::vector<double>(size[0] * size[1])};
   check(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, table.numbers.data()),
         "reading the data set '" + name + "'");
@@ -377,27 +400,6 @@ void append_rows(Hdf5Object::Id table, Field::Kind kind, std::size_t at, std::si
   check(H5Dwrite(table, memory_type(kind), selection.in_memory, selection.in_file, H5P_DEFAULT, numbers),
         "writing a data set");
 }
-
-namespace {
-
-/// HDF5 allocates for a chunk what the file's index says that it takes there.
-void check_chunks(Hdf5Object::Id table, std::size_t first, std::size_t rows, std::size_t columns) {
-  const Hdf5Object creation(H5Dget_create_plist(table), H5Pclose, "reading how a data set was made");
-  hsize_t chunk[2] = {0, 0};
-  if (H5Pget_layout(creation) != H5D_CHUNKED || H5Pget_chunk(creation, 2, chunk) != 2) return;
-  const std::size_t most = file_size(table);
-  for (hsize_t row = first / chunk[0] * chunk[0]; row < first + rows; row += chunk[0]) {
-    for (hsize_t column = 0; column < columns; column += chunk[1]) {
-      const hsize_t place[2] = {row, column};
-      hsize_t bytes = 0;
-      check(H5Dget_chunk_info_by_coord(table, place, nullptr, nullptr, &bytes), "finding a chunk");
-      if (bytes > most)
-        throw SetupError("a chunk claims to take " + std::to_string(bytes) + " bytes, more than the file");
-    }
-  }
-}
-
-}  // namespace
 
 void read_rows(Hdf5Object::Id table, Field::Kind kind, std::size_t first, std::size_t rows,
                std::size_t columns, Number* numbers) {

@@ -39,6 +39,12 @@ TEST(Hdf5Table, ReadsDataSetsOfOneDimensionAndOfTwoOfAnyNumbers) {
   EXPECT_EQ(table.values, (Eigen::Matrix<double, 3, 2>() << 0.0, 10.0, 0.5, 30.0, 1.0, 50.0).finished());
 }
 
+// A chunk of this recording claims 2 GB in a file of 20 kB.
+TEST(Hdf5Table, BelievesTheStoredSizeOfAChunkAsFarAsTheFileIsLong) {
+  const std::filesystem::path file = FLINCH_SOURCE_DIR "/tests/fuzz/corpus/recording/stored_size_of_a_chunk";
+  EXPECT_THAT(problems(file, {"time_ns"}), Contains(HasSubstr("more than the file")));
+}
+
 TEST(Hdf5Table, NamesRowAndColumnOfWhatIsWrong) {
   const auto file = written("flinch_wrong.h5", [](Hdf5Object::Id id) {
     internal::write_reals(id, "t", {0.0, 0.5, 1.0});
