@@ -18,6 +18,8 @@ import sys
 import tree
 
 COMPILER_ONLY = ("tests/",)
+# What tests/CMakeLists.txt precompiles stands before every test, alone or beside others.
+PRECOMPILED = ("-include", "gmock/gmock.h", "-include", "gtest/gtest.h", "-include", "Eigen/Dense")
 LARGEST_BUNDLE = 16
 ANONYMOUS = re.compile(r"^namespace \{$(.*?)^\}  // namespace$", re.DOTALL | re.MULTILINE)
 USING = re.compile(r"(?:using|namespace) (?:\w+::)*(\w+)(?: =.*)?;")
@@ -32,6 +34,8 @@ class Source:
         start = next(i for i, word in enumerate(words) if word.endswith(("clang++", "clang++-14")))
         self.compiler = [word for word in words[start:words.index("-o")] if word != "-c"]
         self.by_compiler_only = path.startswith(COMPILER_ONLY)
+        if self.by_compiler_only:
+            self.compiler += PRECOMPILED
         self.own_names = {}
         self.mark = None
 

@@ -1,5 +1,6 @@
 #include "systems/contact/learned_classifier.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

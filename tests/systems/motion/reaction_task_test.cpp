@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/QR>
+
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/diagram_builder.h"
 #include "tests/support/allocations.h"
