@@ -91,7 +91,7 @@ OutputPort<WrenchEstimate> add_direct_extended_imu_ekf(const StageSite& site, co
 }
 
 OutputPort<WrenchEstimate> add_disturbance_filter(const StageSite& site, const AcceleratedPorts& given) {
-  return add_encoder_filter(site, given).wrench;
+  return add_encoder_filter(site, given, site.settings.disturbance_filter).wrench;
 }
 
 OutputPort<WrenchEstimate> add_imu_residual_alone(const StageSite& site, const AcceleratedPorts& given) {

@@ -18,9 +18,10 @@ OutputPort<DriveTorque> add_torque_as_it_is(const StageSite& site, const SensedP
   return torque.torque;
 }
 
-DisturbanceFilter& add_encoder_filter(const StageSite& site, const MotionPorts& given) {
+DisturbanceFilter& add_encoder_filter(const StageSite& site, const MotionPorts& given,
+                                      const DisturbanceFilterSettings& settings) {
   DiagramBuilder& builder = site.builder;
-  auto& filter = builder.add<DisturbanceFilter>(site.name, site.robot, site.settings.disturbance_filter);
+  auto& filter = builder.add<DisturbanceFilter>(site.name, site.robot, settings);
   builder.connect(given.joints, filter.joints);
   builder.connect(given.platform, filter.platform);
   builder.connect(given.kinematics, filter.kinematics);
@@ -30,7 +31,8 @@ DisturbanceFilter& add_encoder_filter(const StageSite& site, const MotionPorts& 
 }
 
 LaglessPorts without_lag(const StageSite& site, const AcceleratedPorts& given) {
-  const DisturbanceFilter& filter = add_encoder_filter(part(site, "velocity"), given);
+  const DisturbanceFilter& filter =
+      add_encoder_filter(part(site, "velocity"), given, site.settings.disturbance_filter);
   LaglessPorts present{given, filter.wrench};
   present.platform = filter.followed;
   auto& model = site.builder.add<RobotModel>(site.name + "_model", site.robot);

@@ -13,7 +13,9 @@ StageSite part(const StageSite& site, const std::string& what);
 /// The drive torque of the present, without the filter that aligns it with the velocity.
 OutputPort<DriveTorque> add_torque_as_it_is(const StageSite& site, const SensedPorts& given);
 
-DisturbanceFilter& add_encoder_filter(const StageSite& site, const MotionPorts& given);
+/// A filter that follows motion and disturbance by that torque.
+DisturbanceFilter& add_encoder_filter(const StageSite& site, const MotionPorts& given,
+                                      const DisturbanceFilterSettings& settings);
 
 /// Ports with a motion whose velocity hardly lags, and the model there.
 struct LaglessPorts : AcceleratedPorts {
