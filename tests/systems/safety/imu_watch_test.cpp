@@ -13,8 +13,7 @@
 #include "systems/robot/imu_output.h"
 #include "systems/safety/plausibility_monitor.h"
 #include "tests/support/allocations.h"
-#include "tests/support/planar_bench.h"
-#include "tests/support/ticking.h"
+#include "tests/systems/safety/monitored.h"
 
 namespace flinch {
 namespace {
@@ -43,28 +42,30 @@ class Moving {
     const Eigen::Vector3d velocity = w * amplitude * std::sin(w * t);
     Eigen::Vector3d acceleration = w * w * amplitude * std::cos(w * t);
     if (braked()) acceleration.setZero();
-    test::Posture posture(*robot_, pose, velocity, ticking_.now());
+    test::Posture posture(*monitor_.robot, pose, velocity, monitor_.ticking.now());
     const Eigen::Vector3d driven = acceleration - Eigen::Vector3d(pull, 0.0, 0.0);
     const JointVector torque =
         posture.kinematics.J_x_qa.transpose() *
         (posture.dynamics.M_x * driven + posture.dynamics.C_x * velocity + posture.dynamics.g_x);
     set_encoders(posture);
-    ticking_.set(torque_, DriveTorque{ticking_.now(), true, torque, braked()});
-    set_unit(imu_output(robot_->space(), {}, robot_->gravity(), pose, velocity, acceleration), failure);
+    monitor_.ticking.set(monitor_.torque, DriveTorque{monitor_.ticking.now(), true, torque, braked()});
+    set_unit(imu_output(monitor_.robot->space(), {}, monitor_.robot->gravity(), pose, velocity, acceleration),
+             failure);
     const bool held = braked();
-    ticking_.set(station_,
-                 StationStatus{.acquired = ticking_.now(), .valid = true, .enabled = true, .braked = held});
-    ticking_.set(brake_, BrakeCommand{.engage = held});
-    ticking_.set(gate_, GateStatus{.phase = GatePhase::open, .reaction = GateReaction::none});
-    ticking_.set(commanded_, TorqueCommand());
-    ticking_.set(drives_, DriveReading());
-    ticking_.set(reset_, ResetCommand{.reset = reset});
-    ticking_.tick();
+    monitor_.ticking.set(
+        monitor_.station,
+        StationStatus{.acquired = monitor_.ticking.now(), .valid = true, .enabled = true, .braked = held});
+    monitor_.ticking.set(monitor_.brake, BrakeCommand{.engage = held});
+    monitor_.ticking.set(monitor_.gate, GateStatus{.phase = GatePhase::open, .reaction = GateReaction::none});
+    monitor_.ticking.set(monitor_.commanded, TorqueCommand());
+    monitor_.ticking.set(monitor_.drives, DriveReading());
+    monitor_.ticking.set(monitor_.reset, ResetCommand{.reset = reset});
+    monitor_.ticking.tick();
     ++tick_;
-    return ticking_.get(monitor_.plausibility);
+    return monitor_.ticking.get(monitor_.block.plausibility);
   }
 
-  const ImuReading& believed() const { return ticking_.get(monitor_.believed_imu); }
+  const ImuReading& believed() const { return monitor_.ticking.get(monitor_.block.believed_imu); }
   bool is_late_enough() const { return tick_ > 150; }
 
  private:
@@ -73,42 +74,27 @@ class Moving {
     for (double& each : off) each = angle_noise * random_.normal();
     posture.joints.active += off;
     posture.platform.pose += posture.kinematics.J_x_qa * off;
-    ticking_.set(joints_, posture.joints);
-    ticking_.set(platform_, posture.platform);
-    ticking_.set(kinematics_, posture.kinematics);
-    ticking_.set(dynamics_, posture.dynamics);
+    monitor_.ticking.set(monitor_.joints, posture.joints);
+    monitor_.ticking.set(monitor_.platform, posture.platform);
+    monitor_.ticking.set(monitor_.kinematics, posture.kinematics);
+    monitor_.ticking.set(monitor_.dynamics, posture.dynamics);
   }
 
   void set_unit(const ImuOutput& output, const Failure& failure) {
-    ImuReading fresh{ticking_.now(), true, output.value.head<3>(), output.value.tail<3>()};
+    ImuReading fresh{monitor_.ticking.now(), true, output.value.head<3>(), output.value.tail<3>()};
     for (double& each : fresh.angular_velocity) each += turning_noise * random_.normal();
     for (double& each : fresh.specific_force) each += force_noise * random_.normal();
     underway_.push_back(fresh);
     ImuReading arrived;
     if (underway_.size() > delay) arrived = underway_[underway_.size() - 1 - delay];
     if (failure && arrived.valid) failure(tick_, arrived);
-    ticking_.set(imu_, arrived);
+    monitor_.ticking.set(monitor_.imu, arrived);
   }
 
-  std::shared_ptr<const PlanarRrr> robot_ = test::planar_bench();
+  test::Monitored monitor_{PlausibilityLimits()};
   RandomGenerator random_{1};
   std::vector<ImuReading> underway_;
   int tick_ = 0;
-  DiagramBuilder builder_{"test", 1ms};
-  PlausibilityMonitor& monitor_ = builder_.add<PlausibilityMonitor>("monitor", robot_, PlausibilityLimits());
-  InputPort<JointReading> joints_ = builder_.export_input("joints", monitor_.joints);
-  InputPort<DriveReading> drives_ = builder_.export_input("drives", monitor_.drives);
-  InputPort<ImuReading> imu_ = builder_.export_input("imu", monitor_.imu);
-  InputPort<DriveTorque> torque_ = builder_.export_input("torque", monitor_.torque);
-  InputPort<ResetCommand> reset_ = builder_.export_input("reset", monitor_.reset);
-  InputPort<StationStatus> station_ = builder_.export_input("station", monitor_.station);
-  InputPort<PlatformMotion> platform_ = builder_.export_input("platform", monitor_.platform);
-  InputPort<Kinematics> kinematics_ = builder_.export_input("kinematics", monitor_.kinematics);
-  InputPort<Dynamics> dynamics_ = builder_.export_input("dynamics", monitor_.dynamics);
-  InputPort<TorqueCommand> commanded_ = builder_.export_input("commanded", monitor_.commanded);
-  InputPort<BrakeCommand> brake_ = builder_.export_input("brake", monitor_.brake);
-  InputPort<GateStatus> gate_ = builder_.export_input("gate", monitor_.gate);
-  test::Ticking ticking_{builder_};
 };
 
 /// Ticks until the unit is in doubt, 0 for the first; none within 60.

@@ -13,8 +13,7 @@
 #include "systems/framework/random.h"
 #include "systems/robot/joint_space_dynamics.h"
 #include "tests/support/allocations.h"
-#include "tests/support/planar_bench.h"
-#include "tests/support/ticking.h"
+#include "tests/systems/safety/monitored.h"
 
 namespace flinch {
 namespace {
@@ -58,31 +57,31 @@ class Watched {
   const Plausibility& tick(const std::function<void(Told&)>& change = [](Told&) {}) {
     Told told = healthy();
     change(told);
-    ticking_.set(joints_, told.joints);
-    ticking_.set(drives_, told.drives);
-    ticking_.set(imu_, told.imu);
-    ticking_.set(torque_, DriveTorque());
-    ticking_.set(reset_, ResetCommand());
-    ticking_.set(station_, told.station);
-    ticking_.set(platform_, posture_.platform);
-    ticking_.set(kinematics_, posture_.kinematics);
-    ticking_.set(dynamics_, posture_.dynamics);
-    ticking_.set(commanded_, told.command);
-    ticking_.set(brake_, told.brake);
-    ticking_.set(gate_, told.gate);
-    ticking_.tick();
-    return ticking_.get(monitor_.plausibility);
+    monitor_.ticking.set(monitor_.joints, told.joints);
+    monitor_.ticking.set(monitor_.drives, told.drives);
+    monitor_.ticking.set(monitor_.imu, told.imu);
+    monitor_.ticking.set(monitor_.torque, DriveTorque());
+    monitor_.ticking.set(monitor_.reset, ResetCommand());
+    monitor_.ticking.set(monitor_.station, told.station);
+    monitor_.ticking.set(monitor_.platform, posture_.platform);
+    monitor_.ticking.set(monitor_.kinematics, posture_.kinematics);
+    monitor_.ticking.set(monitor_.dynamics, posture_.dynamics);
+    monitor_.ticking.set(monitor_.commanded, told.command);
+    monitor_.ticking.set(monitor_.brake, told.brake);
+    monitor_.ticking.set(monitor_.gate, told.gate);
+    monitor_.ticking.tick();
+    return monitor_.ticking.get(monitor_.block.plausibility);
   }
 
-  int ticks() const { return static_cast<int>(ticking_.now() / 1ms); }
+  int ticks() const { return static_cast<int>(monitor_.ticking.now() / 1ms); }
 
  private:
   double noise(double deviation) { return deviation * random_.normal(); }
 
   Told healthy() {
     Told told;
-    const Time now = ticking_.now();
-    posture_ = test::Posture(*robot_, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), now);
+    const Time now = monitor_.ticking.now();
+    posture_ = test::Posture(*monitor_.robot, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), now);
     told.joints = posture_.joints;
     for (double& angle : told.joints.active) angle += noise(angle_noise);
     told.drives.acquired = told.station.acquired = told.command.computed = told.imu.acquired = now;
@@ -91,29 +90,14 @@ class Watched {
     told.drives.current.setZero(3);
     for (double& current : told.drives.current) current += noise(current_noise);
     told.command.torque.setZero(3);
-    told.imu.specific_force = -robot_->gravity();
+    told.imu.specific_force = -monitor_.robot->gravity();
     for (double& rate : told.imu.angular_velocity) rate += noise(1e-3);
     return told;
   }
 
-  std::shared_ptr<const PlanarRrr> robot_ = test::planar_bench();
+  test::Monitored monitor_{limits()};
   RandomGenerator random_{1};
-  test::Posture posture_{*robot_};
-  DiagramBuilder builder_{"test", 1ms};
-  PlausibilityMonitor& monitor_ = builder_.add<PlausibilityMonitor>("monitor", robot_, limits());
-  InputPort<JointReading> joints_ = builder_.export_input("joints", monitor_.joints);
-  InputPort<DriveReading> drives_ = builder_.export_input("drives", monitor_.drives);
-  InputPort<ImuReading> imu_ = builder_.export_input("imu", monitor_.imu);
-  InputPort<DriveTorque> torque_ = builder_.export_input("torque", monitor_.torque);
-  InputPort<ResetCommand> reset_ = builder_.export_input("reset", monitor_.reset);
-  InputPort<StationStatus> station_ = builder_.export_input("station", monitor_.station);
-  InputPort<PlatformMotion> platform_ = builder_.export_input("platform", monitor_.platform);
-  InputPort<Kinematics> kinematics_ = builder_.export_input("kinematics", monitor_.kinematics);
-  InputPort<Dynamics> dynamics_ = builder_.export_input("dynamics", monitor_.dynamics);
-  InputPort<TorqueCommand> commanded_ = builder_.export_input("commanded", monitor_.commanded);
-  InputPort<BrakeCommand> brake_ = builder_.export_input("brake", monitor_.brake);
-  InputPort<GateStatus> gate_ = builder_.export_input("gate", monitor_.gate);
-  test::Ticking ticking_{builder_};
+  test::Posture posture_{*monitor_.robot};
 };
 
 /// Ticks with `change` until `fault` is found, 0 for the first; none within 200.
