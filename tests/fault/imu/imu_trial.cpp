@@ -8,14 +8,11 @@
 #include <future>
 #include <numbers>
 
-#include "diagrams/contact_control.h"
 #include "diagrams/requested_fault.h"
 #include "experiments/campaign/campaign.h"
 #include "experiments/campaign/campaign_run.h"
-#include "plant/sundials_integrator.h"
-#include "systems/framework/constant.h"
 #include "systems/framework/random.h"
-#include "systems/framework/simulator.h"
+#include "tests/fault/scenario_loop.h"
 
 namespace flinch::test {
 namespace {
@@ -35,21 +32,16 @@ struct ImuRun {
 ImuRun run(SimulatedScenario scenario, const std::vector<std::string>& faults, Time end) {
   for (const std::string& each : faults)
     scenario.station.faults.push_back(parse_fault(each, *scenario.robot.robot));
-  DiagramBuilder builder("experiment", 1ms);
-  const SimulatedStation station = add_simulated_station(builder, scenario.station);
-  const ContactControl control = add_contact_control(builder, scenario.robot.robot, scenario.control);
-  connect(builder, station, control);
-  builder.export_input("operator", control.operator_command);
-  builder.connect(builder.add<Constant<TickTiming>>("tick_timing", TickTiming()).value, control.tick_timing);
-  const auto diagram = builder.build();
-  Simulator simulator(*diagram, std::make_unique<SundialsIntegrator>());
-  Context context = diagram->make_context();
+  ScenarioLoop loop(scenario);
+  const SimulatedStation& station = loop.station;
+  const ContactControl& control = loop.control;
+  const Context& context = loop.context;
   std::vector<Named<OutputPort<ContactDetection>>> detectors = control.others.detections;
   for (const auto& each : control.others.detections_by_estimator) detectors.push_back(each);
   ImuRun result;
   while (context.time() < end) {
     const std::size_t tick = result.speed.size();
-    simulator.step(context);
+    loop.tick();
     result.speed.push_back(context.get(station.plant_truth).velocity.head(2).norm());
     result.force.push_back(context.get(station.imu).specific_force);
     const Plausibility& found = context.get(control.plausibility);

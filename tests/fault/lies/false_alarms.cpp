@@ -7,16 +7,12 @@
 #include <future>
 #include <mutex>
 
-#include "diagrams/contact_control.h"
 #include "experiments/campaign/campaign.h"
 #include "experiments/campaign/campaign_run.h"
 #include "experiments/simulated/simulated_scenario.h"
-#include "plant/sundials_integrator.h"
-#include "systems/framework/constant.h"
-#include "systems/framework/diagram_builder.h"
-#include "systems/framework/simulator.h"
 #include "systems/safety/fault_table.h"
 #include "systems/signals/gate_status.h"
+#include "tests/fault/scenario_loop.h"
 
 namespace flinch::test {
 namespace {
@@ -55,19 +51,14 @@ Margins margins_of(SimulatedScenario scenario, const MountedSensors& sensors) {
   scenario.station.encoders.passive_mounted = sensors.passive_encoders;
   scenario.control.forward_kinematics.initial_pose = scenario.station.bench.initial_pose;
   if (!sensors.imu) scenario.station.faults.push_back({.signal = FaultSignal::imu, .kind = FaultKind::off});
-  DiagramBuilder builder("experiment", 1ms);
-  const SimulatedStation station = add_simulated_station(builder, scenario.station);
-  const ContactControl control = add_contact_control(builder, scenario.robot.robot, scenario.control);
-  connect(builder, station, control);
-  builder.export_input("operator", control.operator_command);
-  builder.connect(builder.add<Constant<TickTiming>>("tick_timing", TickTiming()).value, control.tick_timing);
-  const auto diagram = builder.build();
-  Simulator simulator(*diagram, std::make_unique<SundialsIntegrator>());
-  Context context = diagram->make_context();
+  ScenarioLoop loop(scenario);
+  const SimulatedStation& station = loop.station;
+  const ContactControl& control = loop.control;
+  const Context& context = loop.context;
   Margins margins;
   margins.runs = 1;
   while (context.time() < scenario.duration) {
-    simulator.step(context);
+    loop.tick();
     margins.peak_force = std::max(margins.peak_force, force_of(context.get(station.contact_truth)));
     const Plausibility& found = context.get(control.plausibility);
     for (std::size_t i = 0; i < found.ratio.size(); ++i)
