@@ -5,13 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <vector>
 
 #include "systems/framework/monotonic_clock.h"
 #include "tests/fault/link/link_latency.h"
 #include "tests/fault/link/link_trial.h"
 #include "tests/support/machine_watch.h"
+#include "tests/support/wanted.h"
 
 namespace flinch {
 namespace {
@@ -24,10 +24,7 @@ using test::LogEnd;
 constexpr Time bound = 10ms;
 constexpr Time punctual = 1ms;  // the longest between two ticks of the robot, beyond a tick
 
-int wanted_losses() {
-  const char* const wanted = std::getenv("FLINCH_COMMANDERS");
-  return wanted != nullptr ? std::atoi(wanted) : 2;
-}
+int wanted_losses() { return test::wanted("FLINCH_COMMANDERS", 2); }
 
 double ms(Time time) { return 1e3 * to_seconds(time); }
 

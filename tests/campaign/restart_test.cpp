@@ -14,6 +14,7 @@
 #include "tests/fault/link/link_latency.h"
 #include "tests/fault/link/link_trial.h"
 #include "tests/support/machine_watch.h"
+#include "tests/support/wanted.h"
 
 namespace flinch {
 namespace {
@@ -21,10 +22,7 @@ namespace {
 using test::BusLog;
 using test::LinkTrial;
 
-int wanted_restarts() {
-  const char* const wanted = std::getenv("FLINCH_RESTARTS");
-  return wanted != nullptr ? std::atoi(wanted) : 5;
-}
+int wanted_restarts() { return test::wanted("FLINCH_RESTARTS", 5); }
 
 bool is_enabled(const flinch_StatusSample& status) {
   return status.drive_state == static_cast<std::uint8_t>(DriveState::operation_enabled);

@@ -3,27 +3,13 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <map>
 
-#include "experiments/campaign/campaign.h"
 #include "experiments/campaign/exact_bounds.h"
-#include "experiments/campaign/run_campaign.h"
+#include "tests/campaign/detection/shipped_runs.h"
 
 namespace flinch {
 namespace {
-
-std::vector<RunResult> results_of(const std::string& name, std::size_t draws) {
-  CampaignOverrides fewer;
-  fewer.draws = draws;
-  const Campaign campaign =
-      read_campaign(std::string(FLINCH_SOURCE_DIR "/apps/campaigns/") + name + ".yaml", fewer);
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / name;
-  std::filesystem::create_directories(folder);
-  const std::vector<RunResult> results = run_campaign(campaign, folder, 2);
-  std::filesystem::remove_all(folder);
-  return results;
-}
 
 const EstimatorResult& by(const RunResult& result, const std::string& name) {
   return *std::find_if(result.estimators.begin(), result.estimators.end(),
@@ -33,7 +19,7 @@ const EstimatorResult& by(const RunResult& result, const std::string& name) {
 TEST(TheFusedDetector, SeesNoContactInMotionWithoutOne) {
   std::size_t alarms = 0;
   double hours = 0.0;
-  for (const RunResult& result : results_of("false_alarms", 30)) {
+  for (const RunResult& result : test::shipped_runs("false_alarms", 30)) {
     alarms += by(result, "fused_detector").false_alarm ? 1 : 0;
     hours += by(result, "fused_detector").contact_free / 3600.0;
   }
@@ -50,7 +36,7 @@ const std::map<std::string, double> median_of_all{
 TEST(TheFusedDetector, IsFasterOnEveryBodyThanAnyEstimatorWithAThreshold) {
   std::map<std::string, std::map<std::string, std::vector<double>>> times;  // by body and estimator [ms]
   std::size_t contacts = 0, missed = 0;
-  for (const RunResult& result : results_of("detection_roc", 25)) {
+  for (const RunResult& result : test::shipped_runs("detection_roc", 25)) {
     for (const EstimatorResult& each : result.estimators)
       times[result.body][each.name].push_back(1e3 * each.detection_time.value_or(1.0));
     ++contacts;

@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <map>
 
-#include "experiments/campaign/campaign.h"
 #include "experiments/campaign/campaign_summary.h"
-#include "experiments/campaign/run_campaign.h"
+#include "tests/campaign/detection/shipped_runs.h"
 
 namespace flinch {
 namespace {
@@ -18,20 +16,13 @@ namespace {
 using Medians = std::map<std::string, std::vector<double>>;
 
 Medians medians_of(const std::string& name, std::size_t robots) {
-  CampaignOverrides fewer;
-  fewer.draws = robots;
-  const Campaign campaign =
-      read_campaign(std::string(FLINCH_SOURCE_DIR "/apps/campaigns/") + name + ".yaml", fewer);
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / name;
-  std::filesystem::create_directories(folder);
   std::map<std::string, std::map<std::size_t, std::vector<double>>> times;  // by estimator and point
-  for (const RunResult& result : run_campaign(campaign, folder, 2)) {
+  for (const RunResult& result : test::shipped_runs(name, robots)) {
     for (const EstimatorResult& by : result.estimators) {
       EXPECT_FALSE(by.false_alarm) << by.name << " in run " << result.run;
       times[by.name][result.point].push_back(1e3 * by.detection_time.value_or(1.0));
     }
   }
-  std::filesystem::remove_all(folder);
   Medians medians;
   for (auto& [estimator, by_point] : times) {
     std::printf("  %-26s", estimator.c_str());

@@ -7,13 +7,13 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <limits>
 
 #include "calibration/contact_free_peaks.h"
 #include "calibration/threshold_calibration.h"
 #include "systems/framework/random.h"
 #include "tests/identification/calibrated_robot.h"
+#include "tests/support/wanted.h"
 
 namespace flinch {
 namespace {
@@ -83,8 +83,7 @@ double median(std::vector<double> values) {
 }
 
 TEST(CalibratedRobots, NoticeContactsSoonerByLowerThresholds) {
-  const char* const wanted = std::getenv("FLINCH_ROBOTS");
-  const std::uint64_t robots = wanted != nullptr ? std::strtoull(wanted, nullptr, 10) : 4;
+  const auto robots = test::wanted<std::uint64_t>("FLINCH_ROBOTS", 4);
   std::vector<double> before, after, factors;
   int noticed_before = 0, noticed_after = 0;
   std::printf("  robot   threshold before           after      noticed after, median before, after\n");

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <cstdlib>
 
 #include "tests/identification/coverage.h"
+#include "tests/support/wanted.h"
 
 namespace flinch {
 namespace {
@@ -13,9 +13,8 @@ namespace {
 class Intervals : public ::testing::Test {
  protected:
   void SetUp() override {
-    const char* const wanted = std::getenv("FLINCH_CALIBRATIONS");
-    if (wanted == nullptr) GTEST_SKIP() << "FLINCH_CALIBRATIONS=200 says how many to count in";
-    calibrations_ = std::atoi(wanted);
+    calibrations_ = test::wanted("FLINCH_CALIBRATIONS", 0);
+    if (calibrations_ == 0) GTEST_SKIP() << "FLINCH_CALIBRATIONS=200 says how many to count in";
   }
   static void expect_nineteen_of_twenty(const test::Coverage& got) {
     std::printf("  %d of %d intervals of 95 %% hold the truth: %.1f %%\n", got.covered(), got.intervals(),

@@ -10,16 +10,14 @@
 #include <cstdlib>
 
 #include "tests/identification/calibrated_robot.h"
+#include "tests/support/wanted.h"
 
 namespace flinch {
 namespace {
 
 using test::CalibratedRobot;
 
-std::uint64_t robots() {
-  const char* const wanted = std::getenv("FLINCH_ROBOTS");
-  return wanted != nullptr ? std::strtoull(wanted, nullptr, 10) : 1;
-}
+std::uint64_t robots() { return test::wanted<std::uint64_t>("FLINCH_ROBOTS", 1); }
 
 /// Largest share by which a force constant is off.
 double error_of(const CalibrationResult& found, const JointVector& truth) {

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 
 #include "tests/fault/imu/imu_trial.h"
+#include "tests/support/wanted.h"
 
 namespace flinch::test {
 namespace {
@@ -34,8 +34,7 @@ INSTANTIATE_TEST_SUITE_P(Every, ImuFailures, testing::ValuesIn(imu_failures()), 
 /// Nothing stops and no contact is missed. A unit that is late or turned is known by motion alone: until
 /// there is enough of it, a few are taken for a contact.
 TEST_P(ImuFailures, AreNamedStopNothingAndHideNoContact) {
-  const char* const asked = std::getenv("FLINCH_IMU_FAILURES");
-  const std::size_t count = asked == nullptr ? 50 : static_cast<std::size_t>(std::atoi(asked));
+  const auto count = test::wanted<std::size_t>("FLINCH_IMU_FAILURES", 50);
   const auto moving = try_failures(GetParam(), count, fail_in_motion);
   const auto touched = try_failures(GetParam(), count, fail_before_contact);
   fmt::print("{}{}", table_of_failures_head(), line_of(GetParam(), moving, touched));

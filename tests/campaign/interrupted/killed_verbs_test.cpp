@@ -4,13 +4,13 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 
 #include "systems/framework/random.h"
 #include "tests/campaign/interrupted/verb_results.h"
 #include "tests/support/flinch_program.h"
+#include "tests/support/wanted.h"
 
 namespace flinch {
 namespace {
@@ -20,10 +20,7 @@ using test::InterruptedVerb;
 using test::OtherProgram;
 using test::VerbResults;
 
-int wanted_kills() {
-  const char* const wanted = std::getenv("FLINCH_KILLS");
-  return wanted != nullptr ? std::atoi(wanted) : 20;
-}
+int wanted_kills() { return test::wanted("FLINCH_KILLS", 20); }
 
 class KilledVerbs : public testing::Test {
  protected:

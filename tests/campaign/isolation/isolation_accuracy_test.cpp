@@ -16,17 +16,13 @@
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/random.h"
 #include "tests/campaign/isolation/touched_bodies.h"
+#include "tests/support/wanted.h"
 
 namespace flinch {
 namespace {
 
 using test::Balance;
 using test::Touched;
-
-std::string wanted(const char* variable, const char* otherwise) {
-  const char* const given = std::getenv(variable);
-  return given != nullptr ? given : otherwise;
-}
 
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return std::nan("");
@@ -112,9 +108,8 @@ void print_head() {
 }
 
 TEST(IsolationAccuracy, OfRandomCollisionsAndClampings) {
-  const Campaign campaign =
-      read_campaign("apps/campaigns/touched_bodies.yaml",
-                    {.draws = static_cast<std::size_t>(std::stoi(wanted("FLINCH_CONTACTS", "30")))});
+  const Campaign campaign = read_campaign("apps/campaigns/touched_bodies.yaml",
+                                          {.draws = test::wanted<std::size_t>("FLINCH_CONTACTS", 30)});
   print_head();
   std::array<std::array<Findings, 3>, 2> of_point;  // the model, and robots that differ from it
   for (std::size_t run = 0; run < campaign.runs(); ++run) {
@@ -208,7 +203,7 @@ struct PushErrors {
 };
 
 void try_pushes(bool angled) {
-  const int pushes = std::stoi(wanted("FLINCH_PUSHES", "60"));
+  const int pushes = test::wanted("FLINCH_PUSHES", 60);
   constexpr int after[] = {10, 50, 150};
   PushErrors closed_form[3], particles[3];
   Balance body;

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <string>
 
 #include "experiments/simulated/experiment.h"
@@ -14,13 +13,13 @@
 #include "systems/framework/simulator.h"
 #include "tests/fault/lies/false_alarms.h"
 #include "tests/fault/lies/lie_cases.h"
+#include "tests/support/wanted.h"
 
 namespace flinch::test {
 namespace {
 
 std::size_t runs(std::size_t all) {
-  const char* const share = std::getenv("FLINCH_LIES_SHARE");
-  return static_cast<std::size_t>((share == nullptr ? 0.02 : std::atof(share)) * static_cast<double>(all));
+  return static_cast<std::size_t>(test::wanted("FLINCH_LIES_SHARE", 0.02) * static_cast<double>(all));
 }
 
 TEST(Lies, AreAllNamedOrCannotBe) {

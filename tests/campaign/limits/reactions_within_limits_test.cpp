@@ -6,20 +6,17 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <numbers>
 
 #include "experiments/campaign/exact_bounds.h"
+#include "tests/support/wanted.h"
 
 namespace flinch {
 namespace {
 
 using test::ReactionOutcome;
 
-std::size_t runs_of_each_body() {
-  const char* const wanted = std::getenv("FLINCH_RUNS");
-  return wanted != nullptr ? static_cast<std::size_t>(std::atoi(wanted)) : 10;
-}
+std::size_t runs_of_each_body() { return test::wanted<std::size_t>("FLINCH_RUNS", 10); }
 
 std::filesystem::path campaign_file(const char* name) {
   return std::filesystem::path(FLINCH_SOURCE_DIR) / "apps/campaigns" / name;

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <cstdlib>
 
 #include "tests/experiments/simulated/realistic_robots.h"
+#include "tests/support/wanted.h"
 
 namespace flinch {
 namespace {
@@ -16,10 +16,7 @@ using test::FreeMotion;
 using test::FreeMotionErrors;
 using test::RobotTrial;
 
-int wanted_robots() {
-  const char* const wanted = std::getenv("FLINCH_ROBOTS");
-  return wanted != nullptr ? std::atoi(wanted) : 50;
-}
+int wanted_robots() { return test::wanted("FLINCH_ROBOTS", 50); }
 
 TEST(RealisticRobots, MoveWithoutAFaultAndAlignedWithoutAContactThatIsNone) {
   std::printf("%s", test::table_head().c_str());
