@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t stack_to_touch = 256 * 1024;
 
-/// The program's file, for commands to copy; a placeholder where the system does not tell.
+/// The program's file, for commands to copy; words in its place where the system does not tell.
 std::string program() {
   std::error_code error;
   const std::string file = std::filesystem::read_symlink("/proc/self/exe", error).string();
