@@ -204,6 +204,15 @@ void connect(const Path& path, const WatchedImu& imu, const ReactionPorts& given
   builder.connect(monitor.plausibility, safety.monitor.plausibility);
 }
 
+/// The controlled stop, within the limits that the laws' torques keep.
+OutputPort<TorqueCommand> stop_of(const Path& path, const Laws& laws, const Safety& safety) {
+  if (!laws.kept.followed) return laws.stop.torque;
+  const OutputPort<TorqueCommand> commanded = safety.gate.torque_command;
+  path.builder.connect(commanded, *laws.kept.commanded);
+  return add_kept_stop({path.builder, "stop_limits", path.robot, path.settings}, *laws.kept.followed,
+                       {laws.stop.torque, safety.monitor.faults, safety.gate.status, commanded});
+}
+
 Safety add_safety(const Path& path, const ReactionPorts& given, const Laws& laws) {
   DiagramBuilder& builder = path.builder;
   const Safety safety{builder.add<FaultMonitor>("fault_monitor", path.robot, path.settings.faults),
@@ -220,7 +229,7 @@ Safety add_safety(const Path& path, const ReactionPorts& given, const Laws& laws
 
   builder.connect(safety.monitor.faults, safety.gate.faults);
   builder.connect(laws.kept.torque, safety.gate.command);
-  builder.connect(laws.stop.torque, safety.gate.stop);
+  builder.connect(stop_of(path, laws, safety), safety.gate.stop);
   builder.connect(given.reset, safety.gate.reset);
   return safety;
 }

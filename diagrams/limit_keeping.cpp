@@ -6,26 +6,51 @@
 #include "systems/laws/kept_motion.h"
 #include "systems/laws/limit_keeper.h"
 #include "systems/model/robot_model.h"
+#include "systems/safety/stopping_motion.h"
 
 namespace flinch {
+namespace {
+
+/// A keeper with a model of its own: it is evaluated in the ticks in which there is a motion.
+LimitKeeper& add_keeper(const StageSite& site, OutputPort<PlatformMotion> motion,
+                        OutputPort<WrenchEstimate> disturbance, OutputPort<TorqueCommand> requested) {
+  DiagramBuilder& builder = site.builder;
+  auto& model = builder.add<RobotModel>(site.name + "_model", site.robot);
+  auto& keeper = builder.add<LimitKeeper>(site.name, site.robot, site.settings.limits);
+  builder.connect(motion, model.platform);
+  builder.connect(motion, keeper.motion);
+  builder.connect(model.kinematics, keeper.kinematics);
+  builder.connect(model.dynamics, keeper.dynamics);
+  builder.connect(disturbance, keeper.disturbance);
+  builder.connect(requested, keeper.request);
+  return keeper;
+}
+
+}  // namespace
+
 KeptTorques add_limit_keeper(const StageSite& site, const ReactionPorts& given,
                              OutputPort<TorqueCommand> requested) {
   DiagramBuilder& builder = site.builder;
   if (site.settings.limits.use == LimitKeeperSettings::Use::never)
     return {requested, builder.add<Constant<LimitStatus>>(site.name, LimitStatus()).value};
   DisturbanceFilter& filter = add_encoder_filter(part(site, "motion"), given, site.settings.limits_filter);
-  auto& model = builder.add<RobotModel>(site.name + "_model", site.robot);
-  auto& keeper = builder.add<LimitKeeper>(site.name, site.robot, site.settings.limits);
   auto& kept = builder.add<KeptMotion>(site.name + "_kept_motion", site.settings.limits.use);
   builder.connect(filter.followed, kept.motion);
   builder.connect(given.reaction, kept.reaction);
-  builder.connect(kept.kept, model.platform);
-  builder.connect(model.kinematics, keeper.kinematics);
-  builder.connect(model.dynamics, keeper.dynamics);
-  builder.connect(filter.wrench, keeper.disturbance);
-  builder.connect(given.reaction, keeper.reaction);
-  builder.connect(requested, keeper.request);
-  return {keeper.torque, keeper.status};
+  LimitKeeper& keeper = add_keeper(site, kept.kept, filter.wrench, requested);
+  return {keeper.torque, keeper.status, keeper.commanded, FollowedMotion{filter.followed, filter.wrench}};
+}
+
+OutputPort<TorqueCommand> add_kept_stop(const StageSite& site, const FollowedMotion& followed,
+                                        const StopPorts& stop) {
+  DiagramBuilder& builder = site.builder;
+  auto& motion = builder.add<StoppingMotion>(site.name + "_motion");
+  builder.connect(followed.platform, motion.motion);
+  builder.connect(stop.faults, motion.faults);
+  builder.connect(stop.gate, motion.gate);
+  LimitKeeper& keeper = add_keeper(site, motion.trusted, followed.disturbance, stop.torque);
+  builder.connect(stop.commanded, keeper.commanded);
+  return keeper.torque;
 }
 
 }  // namespace flinch

@@ -1,14 +1,27 @@
 #pragma once
 
+#include <optional>
+
 #include "diagrams/control_stages.h"
+#include "systems/signals/gate_fault.h"
+#include "systems/signals/gate_status.h"
 #include "systems/signals/limit_status.h"
 
 namespace flinch {
+
+/// Motion and disturbance with hardly a lag.
+struct FollowedMotion {
+  OutputPort<PlatformMotion> platform;
+  OutputPort<WrenchEstimate> disturbance;
+};
 
 /// Torques within the robot's limits, and what was done for that.
 struct KeptTorques {
   OutputPort<TorqueCommand> torque;
   OutputPort<LimitStatus> status;
+  /// Where limits are kept: what the drives are told, to be connected, and the motion for who keeps them too.
+  std::optional<InputPort<TorqueCommand>> commanded{};
+  std::optional<FollowedMotion> followed{};
 };
 
 /// Adds a LimitKeeper, "limits", for the torques that the laws request, with a filter of its own that follows
@@ -16,5 +29,18 @@ struct KeptTorques {
 /// nothing but a status that says so.
 KeptTorques add_limit_keeper(const StageSite& site, const ReactionPorts& given,
                              OutputPort<TorqueCommand> requested);
+
+/// What is known of a stop.
+struct StopPorts {
+  OutputPort<TorqueCommand> torque;  ///< of the controlled stop
+  OutputPort<FaultReport> faults;
+  OutputPort<GateStatus> gate;
+  OutputPort<TorqueCommand> commanded;  ///< what the drives are told
+};
+
+/// Adds a second keeper for the torques of the controlled stop. It keeps the same limits as long as no fault
+/// calls in doubt what that needs; otherwise the stop's torques are handed on as they are.
+OutputPort<TorqueCommand> add_kept_stop(const StageSite& site, const FollowedMotion& followed,
+                                        const StopPorts& stop);
 
 }  // namespace flinch

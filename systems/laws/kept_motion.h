@@ -3,14 +3,14 @@
 #include "systems/framework/system.h"
 #include "systems/laws/limit_keeper.h"
 #include "systems/signals/platform_motion.h"
+#include "systems/signals/reaction_state.h"
 
 namespace flinch {
 
 /// Whether a LimitKeeper that is used so keeps the limits in this mode.
 bool keeps_limits_in(ReactionMode mode, LimitKeeperSettings::Use use) noexcept;
 
-/// The platform's motion while limits are kept, and otherwise no data: a model that reads it is evaluated in
-/// the ticks in which a LimitKeeper needs it.
+/// The platform's motion in the modes in which limits are kept, and otherwise no data.
 class KeptMotion final : public System {
  public:
   explicit KeptMotion(LimitKeeperSettings::Use use) : use_(use) {}

@@ -9,7 +9,6 @@
 
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
-#include "systems/laws/kept_motion.h"
 
 namespace flinch {
 namespace {
@@ -196,13 +195,12 @@ struct TorqueRange {
 TorqueRange range_after(const TorqueCommand& before, Time now, int drives,
                         const LimitKeeperSettings& settings) {
   const JointVector whole = JointVector::Constant(drives, settings.max_torque);
-  TorqueRange range{-whole, whole};
-  if (!before.valid || before.torque.size() != drives || !before.torque.allFinite()) return range;
+  const bool is_usable = before.valid && before.torque.size() == drives && before.torque.allFinite();
+  if (!is_usable) return {-whole, whole};
   const JointVector from = before.torque.cwiseMin(whole).cwiseMax(-whole);
   const double change = settings.max_torque_rate * to_seconds(now - before.computed);
-  range.least = (from.array() - change).matrix().cwiseMax(-whole);
-  range.most = (from.array() + change).matrix().cwiseMin(whole);
-  return range;
+  return {(from.array() - change).matrix().cwiseMax(-whole),
+          (from.array() + change).matrix().cwiseMin(whole)};
 }
 
 }  // namespace
@@ -231,30 +229,28 @@ LimitKeeper::LimitKeeper(std::shared_ptr<const ParallelRobot> robot, const Limit
   throw_if_any(problems(settings, *robot_));
 }
 
-bool LimitKeeper::keeps_in(ReactionMode mode) const { return keeps_limits_in(mode, settings_.use); }
-
-void LimitKeeper::keep_within(Time now, const Result& last, const TorqueCommand& wanted,
-                              const ReactionState& state, const Kinematics& at, const Dynamics& model,
-                              const WrenchEstimate& pushed, Result& result) const {
-  result.memory = last.memory;
-  result.memory.torque = wanted;
+void LimitKeeper::keep_within(Time now, const Memory& last, const TorqueCommand& told,
+                              const TorqueCommand& wanted, const PlatformMotion& moving, const Kinematics& at,
+                              const Dynamics& model, const WrenchEstimate& pushed, Result& result) const {
+  result.memory = last;
   result.memory.keeping = false;
-  result.status = {.keeping = keeps_in(state.mode)};
+  result.torque = wanted;
+  result.status = {.keeping = moving.status != PlatformMotion::Status::no_data};
   const bool is_usable =
       wanted.valid && wanted.torque.size() == robot_->drives() && wanted.torque.allFinite();
   if (!result.status.keeping || !is_usable) return;
-  const Motion motion = motion_of(at, model, pushed);
+  const Motion response = motion_of(at, model, pushed);
   BarrierList barriers;
-  if (motion.valid) evaluate_barriers(*robot_, at, settings_.limits, settings_.margins, barriers);
+  if (response.valid) evaluate_barriers(*robot_, at, settings_.limits, settings_.margins, barriers);
   if (!barriers.valid) return;
   result.memory.keeping = true;
-  follow_excess(barriers, !last.memory.keeping, result.memory.excess);
+  follow_excess(barriers, !last.keeping, result.memory.excess);
 
-  Programme programme(settings_, at, motion);
+  Programme programme(settings_, at, response);
   for (int i = 0; i < barriers.count; ++i)
     programme.add_barrier(barriers[i], result.memory.excess[static_cast<std::size_t>(i)]);
   programme.add_speeds();
-  const TorqueRange range = range_after(last.memory.torque, now, robot_->drives(), settings_);
+  const TorqueRange range = range_after(told, now, robot_->drives(), settings_);
   programme.add_bounds(range.least, range.most);
 
   ProgrammeVector z_r;
@@ -264,7 +260,7 @@ void LimitKeeper::keep_within(Time now, const Result& last, const TorqueCommand&
   if (solution.steps == 0) return;
   const JointVector found = settings_.max_torque * solution.z.head(robot_->drives());
   if (!found.allFinite()) return;
-  result.memory.torque.torque = found.cwiseMin(range.most).cwiseMax(range.least);
+  result.torque.torque = found.cwiseMin(range.most).cwiseMax(range.least);
   result.status.binding = programme.binding(solution);
   result.status.slack = std::max(0.0, solution.z[robot_->drives()]);
   result.status.correction = (found - wanted.torque).lpNorm<Eigen::Infinity>();

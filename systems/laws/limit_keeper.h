@@ -9,7 +9,7 @@
 #include "systems/robot/parallel_robot.h"
 #include "systems/robot/quadratic_programme.h"
 #include "systems/signals/limit_status.h"
-#include "systems/signals/reaction_state.h"
+#include "systems/signals/platform_motion.h"
 #include "systems/signals/torque_command.h"
 #include "systems/signals/wrench_estimate.h"
 
@@ -65,50 +65,55 @@ struct LimitKeeperSettings {
 /// as little as possible. Where nothing binds, the requested torques are handed on as they are. (Derived.)
 ///
 /// Who stands outside of a limit when keeping begins is not driven back inside, but gets no further out.
-/// Without a model the request is handed on and the status is not valid.
+/// Limits are kept while there is a motion. Without a model the request is handed on and the status is not
+/// valid.
 class LimitKeeper final : public System {
  public:
   /// What is kept from tick to tick.
   struct Memory {
     bool keeping = false;
-    TorqueCommand torque;                            ///< handed on
     std::array<double, BarrierList::most> excess{};  ///< by how much each limit is opened
   };
   /// All that is found at a tick.
   struct Result {
     Memory memory;
+    TorqueCommand torque;  ///< handed on
     LimitStatus status;
   };
 
  private:
-  State<Result> last_ = state<Result>("last");
+  State<Memory> last_ = state<Memory>("last");
+  State<TorqueCommand> told_ = state<TorqueCommand>("told");
 
  public:
   /// Throws SetupError for settings that are not positive, and for limits that the home pose exceeds.
   LimitKeeper(std::shared_ptr<const ParallelRobot> robot, const LimitKeeperSettings& settings);
 
   InputPort<TorqueCommand> request = input<TorqueCommand>("request");
-  InputPort<ReactionState> reaction = input<ReactionState>("reaction");
-  InputPort<Kinematics> kinematics = input<Kinematics>("kinematics");  ///< with a velocity that hardly lags
+  InputPort<PlatformMotion> motion = input<PlatformMotion>("motion");  ///< no data: limits are not kept
+  InputPort<Kinematics> kinematics = input<Kinematics>("kinematics");  ///< there; the velocity hardly lags
   InputPort<Dynamics> dynamics = input<Dynamics>("dynamics");
   InputPort<WrenchEstimate> disturbance = input<WrenchEstimate>("disturbance");  ///< that hardly lags either
+  InputPort<TorqueCommand> commanded = input<TorqueCommand>("commanded");        ///< what the drives are told
 
  private:
   Intermediate<Result> result_ = intermediate<&LimitKeeper::keep_within>(
-      "result", clock, last_, request, reaction, kinematics, dynamics, disturbance);
+      "result", clock, last_, told_, request, motion, kinematics, dynamics, disturbance);
 
  public:
   OutputPort<TorqueCommand> torque = output<&LimitKeeper::torque_of>("torque", result_);
   OutputPort<LimitStatus> status = output<&LimitKeeper::status_of>("status", result_);
 
  private:
-  Update remember_ = keep(last_, result_);
+  Update remember_ = update<&LimitKeeper::memory_of>(last_, result_);
+  Update tell_ = update<&LimitKeeper::as_told>(told_, commanded);
 
-  void keep_within(Time now, const Result& last, const TorqueCommand& wanted, const ReactionState& state,
-                   const Kinematics& at, const Dynamics& model, const WrenchEstimate& pushed,
-                   Result& result) const;
-  bool keeps_in(ReactionMode mode) const;
-  TorqueCommand torque_of(const Result& result) const { return result.memory.torque; }
+  void keep_within(Time now, const Memory& last, const TorqueCommand& told, const TorqueCommand& wanted,
+                   const PlatformMotion& moving, const Kinematics& at, const Dynamics& model,
+                   const WrenchEstimate& pushed, Result& result) const;
+  TorqueCommand as_told(const TorqueCommand& command) const { return command; }
+  Memory memory_of(const Result& result) const { return result.memory; }
+  TorqueCommand torque_of(const Result& result) const { return result.torque; }
   LimitStatus status_of(const Result& result) const { return result.status; }
 
   std::shared_ptr<const ParallelRobot> robot_;

@@ -150,7 +150,9 @@ bool command_stale(const Evidence& e) { return e.command.valid && is_old(e.comma
 
 bool command_not_finite(const Evidence& e) { return e.command.valid && !has_command(e); }
 
+/// Torques that are not let through have changed from those of one mode to those of none.
 bool torque_jump(const Evidence& e) {
+  if (e.reaction.mode == ReactionMode::stopped) return false;
   if (!has_command(e) || !e.last_command.valid || !fits_drives(e.last_command.torque, e.robot)) return false;
   const double range = e.limits.torque_range;
   const auto within = [range](const JointVector& torque) { return torque.cwiseMin(range).cwiseMax(-range); };

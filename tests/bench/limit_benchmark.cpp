@@ -48,7 +48,6 @@ class Kept {
   Kept(const PlatformMotion& motion, const JointVector& torque, bool limits) : ticking_(wire(limits)) {
     ticking_.set(platform_, motion);
     if (!limits) return;
-    ticking_.set(reaction_, ReactionState{ReactionMode::nominal, ReactionMode::stopped, {}});
     ticking_.set(request_, TorqueCommand{.computed = {}, .valid = true, .torque = torque});
     ticking_.set(disturbance_, WrenchEstimate());
   }
@@ -69,13 +68,15 @@ class Kept {
  private:
   DiagramBuilder& wire(bool limits) {
     auto& model = builder_.add<RobotModel>("model", bench());
-    platform_ = builder_.export_input("platform", model.platform);
+    platform_ = builder_.input<PlatformMotion>("platform");
+    builder_.connect(platform_, model.platform);
     if (!limits) return builder_;
     keeper_ = &builder_.add<LimitKeeper>("limits", bench(), strict_settings());
+    builder_.connect(platform_, keeper_->motion);
     builder_.connect(model.kinematics, keeper_->kinematics);
     builder_.connect(model.dynamics, keeper_->dynamics);
     request_ = builder_.export_input("request", keeper_->request);
-    reaction_ = builder_.export_input("reaction", keeper_->reaction);
+    commanded_ = builder_.export_input("commanded", keeper_->commanded);
     disturbance_ = builder_.export_input("disturbance", keeper_->disturbance);
     return builder_;
   }
@@ -84,7 +85,7 @@ class Kept {
   LimitKeeper* keeper_ = nullptr;
   InputPort<PlatformMotion> platform_;
   InputPort<TorqueCommand> request_;
-  InputPort<ReactionState> reaction_;
+  InputPort<TorqueCommand> commanded_;
   InputPort<WrenchEstimate> disturbance_;
   test::Ticking ticking_;
 };

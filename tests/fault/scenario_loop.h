@@ -13,7 +13,7 @@
 
 namespace flinch::test {
 
-/// The closed loop of a scenario, to be looked at tick by tick without a recording. Nobody presses a button.
+/// The closed loop of a scenario, to be looked at tick by tick without a recording.
 struct ScenarioLoop {
   explicit ScenarioLoop(const SimulatedScenario& scenario)
       : station(add_simulated_station(builder, scenario.station)),
@@ -27,6 +27,7 @@ struct ScenarioLoop {
   DiagramBuilder builder{"experiment", 1ms};
   SimulatedStation station;
   ContactControl control;
+  InputPort<OperatorCommand> buttons;  ///< none is pressed until somebody does
   std::unique_ptr<const Diagram> diagram;
   Simulator simulator;
   Context context;
@@ -34,7 +35,7 @@ struct ScenarioLoop {
  private:
   std::unique_ptr<const Diagram> closed() {
     connect(builder, station, control);
-    builder.export_input("operator", control.operator_command);
+    buttons = builder.export_input("operator", control.operator_command);
     const auto& timing = builder.add<Constant<TickTiming>>("tick_timing", TickTiming());
     builder.connect(timing.value, control.tick_timing);
     return builder.build();

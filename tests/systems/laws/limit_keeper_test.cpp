@@ -18,7 +18,6 @@
 namespace flinch {
 namespace {
 
-using enum ReactionMode;
 using Use = LimitKeeperSettings::Use;
 
 constexpr double degree = std::numbers::pi / 180.0;
@@ -47,17 +46,16 @@ LimitKeeperSettings strict_settings() {
   return settings;
 }
 
-/// A keeper before a robot that does what its model says.
+/// A keeper before a robot that does what its model says, and drives that are told what it hands on.
 struct Kept {
-  explicit Kept(const LimitKeeperSettings& settings)
+  explicit Kept(const LimitKeeperSettings& settings, bool obeyed = true)
       : block(builder.add<LimitKeeper>("limits", robot, settings)),
         request(builder.export_input("request", block.request)),
-        reaction(builder.export_input("reaction", block.reaction)),
+        motion(builder.export_input("motion", block.motion)),
         kinematics(builder.export_input("kinematics", block.kinematics)),
         dynamics(builder.export_input("dynamics", block.dynamics)),
-        disturbance(builder.export_input("disturbance", block.disturbance)) {
-    ticking.set(reaction, ReactionState{nominal, stopped, {}});
-  }
+        disturbance(builder.export_input("disturbance", block.disturbance)),
+        commanded(connect_drives(obeyed)) {}
 
   void stand_at(const PlatformVector& where, const PlatformVector& moving) {
     pose = where, velocity = moving;
@@ -68,6 +66,8 @@ struct Kept {
     Dynamics d;
     robot->kinematics(pose, velocity, k);
     robot->dynamics(k, d);
+    ticking.set(motion, PlatformMotion{
+                            .acquired = ticking.now(), .status = status, .pose = pose, .velocity = velocity});
     ticking.set(kinematics, k);
     ticking.set(dynamics, d);
     WrenchEstimate pushed;
@@ -109,18 +109,26 @@ struct Kept {
     return k;
   }
 
+  InputPort<TorqueCommand> connect_drives(bool obeyed) {
+    if (!obeyed) return builder.export_input("commanded", block.commanded);
+    builder.connect(block.torque, block.commanded);
+    return block.commanded;
+  }
+
   std::shared_ptr<const PlanarRrr> robot = test::planar_bench();
   DiagramBuilder builder;
   LimitKeeper& block;
   InputPort<TorqueCommand> request;
-  InputPort<ReactionState> reaction;
+  InputPort<PlatformMotion> motion;
   InputPort<Kinematics> kinematics;
   InputPort<Dynamics> dynamics;
   InputPort<WrenchEstimate> disturbance;
+  InputPort<TorqueCommand> commanded;
   test::Ticking ticking{builder};
   PlatformVector pose = PlatformVector::Zero(3);
   PlatformVector velocity = PlatformVector::Zero(3);
   PlatformVector push = PlatformVector::Zero(3);
+  PlatformMotion::Status status = PlatformMotion::Status::valid;
 };
 
 bool equal(const JointVector& a, const JointVector& b) { return a == b; }
@@ -230,24 +238,32 @@ TEST(LimitKeeper, BoundsTorquesAndTheirRates) {
   EXPECT_LE(kept.ticking.get(kept.block.torque).torque.lpNorm<Eigen::Infinity>(), 50.0);
 }
 
-TEST(LimitKeeper, KeepsLimitsInTheModesThatItIsAskedTo) {
-  const auto keeps = [](Use use, ReactionMode mode) {
-    LimitKeeperSettings settings = strict_settings();
-    settings.use = use;
-    Kept kept(settings);
-    kept.ticking.set(kept.reaction, ReactionState{mode, stopped, {}});
-    kept.ask(Eigen::Vector3d::Zero());
+TEST(LimitKeeper, KeepsLimitsWhileThereIsAMotion) {
+  const Eigen::Vector3d outwards(90.0, -90.0, 90.0);
+  const auto keeps = [&](PlatformMotion::Status status) {
+    Kept kept(strict_settings());
+    kept.stand_at(Eigen::Vector3d(0.28, 0.0, 0.0), Eigen::Vector3d(1.5, 0.0, 0.0));
+    kept.status = status;
+    kept.ask(outwards);
     return kept.ticking.get(kept.block.status).keeping;
   };
-  for (const ReactionMode mode : {react, hold, zero_g}) {
-    EXPECT_FALSE(keeps(Use::never, mode));
-    EXPECT_TRUE(keeps(Use::after_contact, mode));
-    EXPECT_TRUE(keeps(Use::always, mode));
-  }
-  EXPECT_FALSE(keeps(Use::after_contact, nominal));
-  EXPECT_TRUE(keeps(Use::always, nominal));
-  EXPECT_FALSE(keeps(Use::always, recover));
-  EXPECT_FALSE(keeps(Use::always, stopped));
+  EXPECT_FALSE(keeps(PlatformMotion::Status::no_data));
+  EXPECT_TRUE(keeps(PlatformMotion::Status::valid));
+  EXPECT_TRUE(keeps(PlatformMotion::Status::not_converged)) << "it is asked to, and says that it cannot";
+}
+
+TEST(LimitKeeper, ChangesTorquesNoFasterThanFromWhatTheDrivesAreTold) {
+  LimitKeeperSettings settings = strict_settings();
+  settings.max_torque_rate = 20e3;
+  Kept kept(settings, false);
+  kept.stand_at(Eigen::Vector3d(0.27, 0.0, 0.0), Eigen::Vector3d(1.5, 0.0, 0.0));
+  const Eigen::Vector3d told(60.0, -60.0, 60.0);
+  kept.ticking.set(kept.commanded,
+                   TorqueCommand{.computed = kept.ticking.now(), .valid = true, .torque = told});
+  kept.ask(Eigen::Vector3d::Zero());
+  const JointVector next = kept.ask(Eigen::Vector3d::Zero()).torque;
+  EXPECT_GT(next[0], 60.0 - 20.0 - 1e-9);
+  EXPECT_LT(next[1], -60.0 + 20.0 + 1e-9);
 }
 
 TEST(LimitKeeper, HandsOnTheRequestWithoutAModel) {
