@@ -7,11 +7,14 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/campaign/campaign.h"
+#include "experiments/campaign/campaign_run.h"
 #include "experiments/campaign/exact_bounds.h"
 #include "experiments/campaign/page/campaign_page_template.h"
+#include "experiments/campaign/reaction_summary.h"
 #include "experiments/campaign/run_result.h"
 #include "experiments/report/script_data.h"
 #include "systems/foundation/result_file.h"
+#include "systems/motion/constraint_settings.h"
 
 namespace flinch {
 namespace {
@@ -124,6 +127,43 @@ Json runs_to_look_at(const Campaign& campaign, const std::vector<RunResult>& res
   return list;
 }
 
+/// A dot of the pictures.
+Json reaction_of(const RunResult& result) {
+  const std::optional<double> detection = result.estimators.front().detection_time;
+  Json reaction = nullptr;
+  if (detection && result.removal_time) reaction = *result.removal_time - *detection;
+  return {{"run", result.run},
+          {"level", level_of(result.law)},
+          {"body", body_of(result)},
+          {"speed", known(result.speed)},
+          {"peak", known(result.peak_force)},
+          {"detection", known(detection)},
+          {"reaction", reaction},
+          {"kappa", known(result.sigma_kappa_most)},
+          {"sc", known(result.sigma_sc_least)},
+          {"kappa_end", known(result.sigma_kappa_last)},
+          {"sc_end", known(result.sigma_sc_last)}};
+}
+
+/// The limits are those of the first run.
+Json reaction_dots(const Campaign& campaign, const std::vector<RunResult>& results) {
+  Json runs = Json::array(), fits = Json::array();
+  for (const RunResult& result : results) runs.push_back(reaction_of(result));
+  for (const ForceFit& fit : reactions_of(results).fits) {
+    fits.push_back(
+        {{"body", fit.body}, {"slope", fit.slope}, {"intercept", fit.intercept}, {"pearson", fit.pearson}});
+  }
+  const SimulatedScenario scenario = draw_run(campaign, 0).scenario;
+  const ConstraintSettings& constraints = scenario.control.tasks.constraints;
+  return {{"runs", runs},
+          {"fits", fits},
+          {"limits",
+           {{"transient", scenario.force_limits.transient},
+            {"quasi_static", scenario.force_limits.quasi_static},
+            {"sigma_kappa", constraints.sigma_kappa.safety},
+            {"sigma_sc", constraints.sigma_sc.safety}}}};
+}
+
 /// Names in the order in which they first come.
 void add_new(const std::string& name, std::vector<std::string>& names) {
   if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
@@ -163,20 +203,21 @@ std::string campaign_page(const Campaign& campaign, const std::vector<RunResult>
                                  {"File", campaign.file.filename().string()},
                                  {"Seed", std::to_string(campaign.seed)},
                                  {"Call", call}});
-  const Json data = {{"title", campaign.title},
-                     {"description", campaign.description},
-                     {"runs", campaign.runs()},
-                     {"draws", campaign.draws},
-                     {"faults", faults},
-                     {"simulated_h", simulated / 3600.0},
-                     {"missed_after", campaign.missed_after},
-                     {"points", points},
-                     {"estimators", estimators},
-                     {"groups", list},
-                     {"look", runs_to_look_at(campaign, results, places)},
-                     {"call", call},
-                     {"provenance", provenance},
-                     {"texts", texts_of(campaign)}};
+  Json data = {{"title", campaign.title},
+               {"description", campaign.description},
+               {"runs", campaign.runs()},
+               {"draws", campaign.draws},
+               {"faults", faults},
+               {"simulated_h", simulated / 3600.0},
+               {"missed_after", campaign.missed_after},
+               {"points", points},
+               {"estimators", estimators},
+               {"groups", list},
+               {"look", runs_to_look_at(campaign, results, places)},
+               {"call", call},
+               {"provenance", provenance},
+               {"texts", texts_of(campaign)}};
+  if (campaign.summary == Campaign::Summary::reactions) data["reactions"] = reaction_dots(campaign, results);
   return std::string(campaign_page_template_before_data) +
          inside_script(data.dump(-1, ' ', false, Json::error_handler_t::replace)) +
          std::string(campaign_page_template_after_data);

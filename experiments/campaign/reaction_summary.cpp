@@ -15,11 +15,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string level_of(const std::string& law) {
-  const std::string suffix = "_reaction";
-  return law.ends_with(suffix) ? law.substr(0, law.size() - suffix.size()) : law;
-}
-
 /// The smallest value within which at least this share of `count` lies; none where fewer are known.
 std::optional<double> quantile(std::vector<double> values, std::size_t count, double share) {
   const auto place = static_cast<std::size_t>(std::ceil(share * static_cast<double>(count)));
@@ -56,8 +51,6 @@ struct Collected {
   }
 };
 
-std::string body_of(const RunResult& result) { return result.meant.empty() ? result.body : result.meant; }
-
 std::string text_of(std::optional<double> value, double scale) {
   return value ? fmt::format("{:.0f}", scale * *value) : "-";
 }
@@ -67,6 +60,13 @@ Json json_of(std::optional<double> value, double scale = 1.0) {
 }
 
 }  // namespace
+
+std::string level_of(const std::string& law) {
+  const std::string suffix = "_reaction";
+  return law.ends_with(suffix) ? law.substr(0, law.size() - suffix.size()) : law;
+}
+
+std::string body_of(const RunResult& result) { return result.meant.empty() ? result.body : result.meant; }
 
 std::optional<ForceFit> fit_line(const std::vector<double>& x, const std::vector<double>& y) {
   const std::size_t n = std::min(x.size(), y.size());

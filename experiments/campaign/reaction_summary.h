@@ -44,6 +44,12 @@ struct ReactionSummary {
 /// The limits of sigma_kappa and sigma_sc are those of the runs.
 ReactionSummary reactions_of(const std::vector<RunResult>& results);
 
+/// "velocity" of "velocity_reaction"; other laws as they are called.
+std::string level_of(const std::string& law);
+
+/// The body that was meant to be touched, else that was.
+std::string body_of(const RunResult& result);
+
 /// A table for people, and one JSON object on one line.
 std::string reactions_table(const Campaign& campaign, const ReactionSummary& summary);
 std::string reactions_json(const Campaign& campaign, const ReactionSummary& summary,

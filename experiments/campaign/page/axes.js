@@ -17,11 +17,13 @@ function shortKey(key) {
 /** A value as people say it: a number with four digits, no underscores. */
 function shortValue(value) {
   const number = Number(value);
-  return value === "" || Number.isNaN(number) ? value.replaceAll("_", " ") : String(Number(number.toPrecision(4))).replace("-", "−");
+  return value === "" || Number.isNaN(number) ? value.replaceAll(/[[\]]/g, "").replaceAll("_", " ") : String(Number(number.toPrecision(4))).replace("-", "−");
 }
 
+/** A name says itself of what it is one. */
 function listOf(pairs) {
-  return pairs.map(([key, value]) => `${shortKey(key)} ${shortValue(value)}`).join(", ");
+  const isName = (value) => value.startsWith("[") && /[a-z]/.test(value);
+  return pairs.map(([key, value]) => (isName(value) ? shortValue(value) : `${shortKey(key)} ${shortValue(value)}`)).join(", ");
 }
 
 /** Estimator and place in the grid, as far as they differ within this campaign. */

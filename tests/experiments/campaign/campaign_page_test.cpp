@@ -7,6 +7,7 @@
 
 #include "experiments/campaign/campaign.h"
 #include "experiments/campaign/run_result.h"
+#include "tests/experiments/campaign/small_campaign.h"
 
 namespace flinch {
 namespace {
@@ -86,6 +87,34 @@ TEST_F(TheCampaignPage, NamesTheRunsToLookAtTheWorstFirst) {
   EXPECT_EQ(look[2]["run"], 4);
   EXPECT_EQ(look[2]["why"], "missed");
   EXPECT_EQ(look[3]["run"], 11) << "the slowest";
+}
+
+TEST_F(TheCampaignPage, HasADotForEachReactionAndTheLimitsOfTheScenario) {
+  const test::Workplace place;
+  Campaign reactions = test::small_campaign(place);
+  reactions.summary = Campaign::Summary::reactions;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    results[i].values.assign(reactions.grid.size(), {"key", "value"});
+    results[i].law = "torque_reaction";
+    results[i].meant = "link2";
+    results[i].removal_time = 0.1;
+    results[i].speed = 0.1 * static_cast<double>(i);
+    results[i].peak_force = 20.0 + 12.0 * static_cast<double>(i);
+  }
+  const json shown = data_of(campaign_page(reactions, results, {}, ""))["reactions"];
+  ASSERT_EQ(shown["runs"].size(), results.size());
+  const json& dot = shown["runs"][2];
+  EXPECT_EQ(dot["level"], "torque");
+  EXPECT_EQ(dot["body"], "link2");
+  EXPECT_NEAR(dot["detection"], 0.003, 1e-12);
+  EXPECT_NEAR(dot["reaction"], 0.097, 1e-12);
+  EXPECT_TRUE(shown["runs"][4]["reaction"].is_null()) << "it was not noticed";
+  EXPECT_TRUE(dot["kappa"].is_null());
+  EXPECT_NEAR(shown["fits"][0]["slope"], 120.0, 1e-9);
+  EXPECT_EQ(shown["limits"]["transient"], 280.0);
+  EXPECT_EQ(shown["limits"]["quasi_static"], 140.0);
+  EXPECT_EQ(shown["limits"]["sigma_kappa"], 15.0);
+  EXPECT_FALSE(data_of(page).contains("reactions"));
 }
 
 }  // namespace
