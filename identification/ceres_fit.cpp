@@ -3,6 +3,7 @@
 #include <ceres/normal_prior.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <memory>
 
 #include "systems/foundation/setup_error.h"
@@ -62,6 +63,8 @@ LinearFit linearised(ceres::Problem& problem, const std::vector<ceres::ResidualB
     for (std::size_t i = begin; i < end; ++i) fit.jacobian(row, sparse.cols[i]) = sparse.values[i];
   }
   fit.weight.setOnes(fit.residual.size());
+  fit.bend.setZero(fit.residual.size());
+  fit.block.resize(residuals.size());
   const std::unique_ptr<ceres::LossFunction> function(loss_function(loss));
   Eigen::Index row = 0;
   for (const ceres::ResidualBlockId block : blocks) {
@@ -70,6 +73,8 @@ LinearFit linearised(ceres::Problem& problem, const std::vector<ceres::ResidualB
     const double squared = fit.residual.segment(row, size).squaredNorm();
     if (function) function->Evaluate(squared, rho);
     fit.weight.segment(row, size).setConstant(rho[1]);
+    fit.bend.segment(row, size).setConstant(2.0 * rho[2]);
+    std::fill_n(fit.block.begin() + row, size, static_cast<int>(row));
     row += size;
   }
   return fit;

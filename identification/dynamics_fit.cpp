@@ -95,11 +95,13 @@ class Fit {
     fit.linear.prior_information.resize(x_.size() + offset_.size());
     fit.linear.prior_information << belief().cwiseProduct(scale_).cwiseAbs2().cwiseInverse(),
         Eigen::VectorXd::Constant(offset_.size(), 1.0 / (usual_error_ * usual_error_));
+    fit.linear.believed_deviation.setConstant(x_.size() + offset_.size(), usual_error_);
+    fit.linear.believed_deviation.head(x_.size()) = scale_;
     return fit;
   }
 
  private:
-  static constexpr double hold = 1e-6;  // of the belief
+  static constexpr double hold = 1e-3;  // of the belief
 
   const DynamicParameter& of(Eigen::Index j) const { return parameters_[static_cast<std::size_t>(j)]; }
   Eigen::VectorXd belief() const {

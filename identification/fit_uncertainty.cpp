@@ -14,6 +14,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::size_t fewest_clusters = 5;
+constexpr double little_news = 0.9;            // of the belief: what deviation the data leave
 constexpr double least_singular_value = 1e-7;  // of columns of length one
 
 /// H^-1 where H may be singular.
@@ -37,22 +38,34 @@ double student_factor(double freedom) {
   return (z + first + second) / z;
 }
 
-/// Sums over the rows of one group: H_g = A^T A, b_g = A^T r.
+/// Sums over the blocks of one group: H = A^T (rho' 1 + 2 rho'' r r^T) A, b = rho' A^T r.
 struct GroupSum {
   MatrixXd H;
   VectorXd b;
 };
 
+/// Calls act(first row, rows) for each block.
+template <class Act>
+void for_each_block(const LinearFit& fit, const Act& act) {
+  const auto rows = fit.jacobian.rows();
+  const auto block = [&](Eigen::Index row) { return fit.block[static_cast<std::size_t>(row)]; };
+  for (Eigen::Index first = 0, end = 0; first < rows; first = end) {
+    while (end < rows && block(end) == block(first)) ++end;
+    act(first, end - first);
+  }
+}
+
 std::map<int, GroupSum> sums_by(const std::vector<int>& group, const LinearFit& fit) {
   std::map<int, GroupSum> sums;
   const Eigen::Index n = fit.jacobian.cols();
-  for (Eigen::Index row = 0; row < fit.jacobian.rows(); ++row) {
-    GroupSum& sum = sums[group[static_cast<std::size_t>(row)]];
+  for_each_block(fit, [&](Eigen::Index first, Eigen::Index rows) {
+    GroupSum& sum = sums[group[static_cast<std::size_t>(first)]];
     if (sum.H.size() == 0) sum = {MatrixXd::Zero(n, n), VectorXd::Zero(n)};
-    const VectorXd a = fit.jacobian.row(row).transpose();
-    sum.H += fit.weight[row] * a * a.transpose();
-    sum.b += fit.weight[row] * fit.residual[row] * a;
-  }
+    const auto A = fit.jacobian.middleRows(first, rows);
+    const VectorXd gradient = A.transpose() * fit.residual.segment(first, rows);
+    sum.H += fit.weight[first] * A.transpose() * A + fit.bend[first] * gradient * gradient.transpose();
+    sum.b += fit.weight[first] * gradient;
+  });
   return sums;
 }
 
@@ -67,10 +80,25 @@ MatrixXd jackknife(const MatrixXd& H, const std::map<int, GroupSum>& clusters) {
   return (m - 1.0) / m * factor * factor * sum;
 }
 
+/// As if each block were a cluster.
 MatrixXd from_scatter(const LinearFit& fit, const MatrixXd& inverse) {
-  const double rows = fit.weight.sum();
-  const double freedom = std::max(1.0, rows - static_cast<double>(fit.jacobian.cols()));
-  return fit.residual.cwiseAbs2().dot(fit.weight) / freedom * inverse;
+  MatrixXd sum = MatrixXd::Zero(inverse.rows(), inverse.cols());
+  for_each_block(fit, [&](Eigen::Index first, Eigen::Index rows) {
+    const VectorXd b = fit.weight[first] * fit.jacobian.middleRows(first, rows).transpose() *
+                       fit.residual.segment(first, rows);
+    sum += b * b.transpose();
+  });
+  const double all = fit.weight.sum();
+  const double freedom = std::max(1.0, all - static_cast<double>(fit.jacobian.cols()));
+  return all / freedom * inverse * sum * inverse;
+}
+
+/// Variance of P (x - x_believed), by which the belief draws at each parameter: P sigma^2 P, which is P where
+/// it draws as much as it is sure.
+VectorXd from_belief(const LinearFit& fit) {
+  const VectorXd& P = fit.prior_information;
+  if (fit.believed_deviation.size() == 0) return P;
+  return (P.cwiseProduct(fit.believed_deviation)).cwiseAbs2();
 }
 
 /// Rank and condition of the data; returns which parameters take part in a direction that they do not see.
@@ -105,7 +133,7 @@ FitUncertainty fit_uncertainty(const LinearFit& fit) {
 
   FitUncertainty result;
   result.covariance = clusters.size() < fewest_clusters ? from_scatter(fit, inverse) : jackknife(H, clusters);
-  result.covariance += inverse * fit.prior_information.asDiagonal() * inverse;
+  result.covariance += inverse * from_belief(fit).asDiagonal() * inverse;
   result.deviation = result.covariance.diagonal().cwiseSqrt();
   const std::vector<bool> unseen = find_rank(fit, result);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -113,7 +141,7 @@ FitUncertainty fit_uncertainty(const LinearFit& fit) {
     const bool seen = held || !unseen[static_cast<std::size_t>(i)];
     const double believed =
         held ? 1.0 / std::sqrt(fit.prior_information[i]) : std::numeric_limits<double>::infinity();
-    const bool tells = result.deviation[i] < 0.5 * believed && result.deviation[i] > 0.0;
+    const bool tells = result.deviation[i] < little_news * believed && result.deviation[i] > 0.0;
     result.identifiable.push_back(seen && tells);
   }
   const std::map<int, GroupSum> recordings = sums_by(fit.recording, fit);

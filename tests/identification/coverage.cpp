@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -151,6 +152,19 @@ void Coverage::count(const std::string& parameter, double error, double deviatio
   Count& count = of_parameter_[parameter];
   count.covered += std::abs(error) <= 1.96 * deviation ? 1 : 0;
   ++count.all;
+  const double in_deviations = error / deviation;
+  count.sum += in_deviations;
+  count.squares += in_deviations * in_deviations;
+}
+
+void Coverage::print() const {
+  std::printf("  %-28s %12s %12s %10s\n", "error in deviations of", "mean", "deviation", "covered");
+  for (const auto& [name, count] : of_parameter_) {
+    const double mean = count.sum / count.all;
+    const double variance = count.squares / count.all - mean * mean;
+    std::printf("  %-28s %12.2f %12.2f %8.1f %%\n", name.c_str(), mean, std::sqrt(variance),
+                100.0 * count.covered / count.all);
+  }
 }
 
 int Coverage::covered() const {
@@ -163,6 +177,12 @@ int Coverage::intervals() const {
   int sum = 0;
   for (const auto& [name, count] : of_parameter_) sum += count.all;
   return sum;
+}
+
+double Coverage::scatter() const {
+  double squares = 0.0;
+  for (const auto& [name, count] : of_parameter_) squares += count.squares;
+  return std::sqrt(squares / intervals());
 }
 
 double Coverage::share() const { return static_cast<double>(covered()) / intervals(); }
@@ -215,18 +235,32 @@ Coverage cover_imu_poses(int calibrations, std::uint64_t first_seed) {
   return coverage;
 }
 
-Coverage cover_dynamics(int calibrations, std::uint64_t first_seed) {
+namespace {
+
+/// By how much a parameter of a robot is off from what is believed of it.
+double drawn_surplus(const DynamicParameter& parameter, RobotsDrawn drawn, RandomGenerator& random) {
+  if (drawn == RobotsDrawn::near_their_model) {
+    const double size = parameter.name.find("friction") != std::string::npos ? 0.2 : 0.1;
+    return parameter.believed * random.uniform(-size, size);
+  }
+  double surplus;
+  do surplus = parameter.deviation * random.normal();
+  while (parameter.believed + surplus < parameter.least);
+  return surplus;
+}
+
+}  // namespace
+
+Coverage cover_dynamics(int calibrations, std::uint64_t first_seed, RobotsDrawn drawn) {
   const PlanarRrr robot(bench_robot(BenchGeometry::individual, BenchFriction::test_bench));
   const auto parameters = DynamicParameters::of(robot);
   const std::vector<DynamicParameter>& list = parameters->list();
   Coverage coverage;
   for (int trial = 0; trial < calibrations; ++trial) {
     RandomGenerator random(first_seed + static_cast<std::uint64_t>(trial));
-    Eigen::VectorXd surplus = parameters->believed();
-    for (std::size_t j = 0; j < list.size(); ++j) {
-      const double size = list[j].name.find("friction") != std::string::npos ? 0.2 : 0.1;
-      surplus[static_cast<Eigen::Index>(j)] *= random.uniform(-size, size);
-    }
+    Eigen::VectorXd surplus(parameters->believed().size());
+    for (std::size_t j = 0; j < list.size(); ++j)
+      surplus[static_cast<Eigen::Index>(j)] = drawn_surplus(list[j], drawn, random);
     const DynamicsRows rows = random_rows(robot, *parameters, surplus, random);
     std::vector<bool> held(list.size(), false);
     DynamicsFit fit = fit_dynamics(rows, list, 3, 1.0, held);
