@@ -1,6 +1,7 @@
 #include "identification/torque_constant_fit.h"
 
 #include <ceres/ceres.h>
+#include <ceres/normal_prior.h>
 #include <ceres/rotation.h>
 
 #include <Eigen/Cholesky>
@@ -17,10 +18,13 @@
 namespace flinch {
 namespace {
 
-using DriveUnknowns = std::array<double, 7>;  // k_t, o, c, sine and cosine of cogging and ripple
-using Turn = std::array<double, 3>;           // a rotation vector
+constexpr int of_drive_count = 9;
+// k_t, o, c; sine and cosine of the cogging, of the ripple; the rates of both
+using DriveUnknowns = std::array<double, of_drive_count>;
+using Turn = std::array<double, 3>;  // a rotation vector
 
 constexpr double least_explained = 0.1;  // of the scatter, for a wave to be believed
+constexpr double largest_ripple = 0.3;   // of the torque; more is not ripple but another constant
 constexpr double least_slope = 0.01;     // of the usual error, for a parameter of the robot to matter
 constexpr double alike = 0.95;           // the correlation of what cannot be told apart
 
@@ -33,8 +37,6 @@ struct PullResidual {
   int drive;
   double sigma;  ///< of the residual, without the noise of the current [Nm or N]
   double slow;
-  double cogging_rate;
-  double ripple_rate;
 
   /// `surplus`: what the drive must do beyond the model.
   template <class T>
@@ -50,13 +52,13 @@ struct PullResidual {
       const auto at = static_cast<std::size_t>(j);
       pulled += w.force_map(drive, j) * true_force[at] + w.moment_map(drive, j) * true_moment[at];
     }
-    const double phase = ripple_rate * w.position[drive];
-    const T uneven = 1.0 + of_drive[5] * std::sin(phase) + of_drive[6] * std::cos(phase);
+    using std::cos, std::sin, std::sqrt;
+    const T cogging_phase = of_drive[7] * w.position[drive];
+    const T ripple_phase = of_drive[8] * w.position[drive];
+    const T cogging = of_drive[3] * sin(cogging_phase) + of_drive[4] * cos(cogging_phase);
+    const T uneven = 1.0 + of_drive[5] * sin(ripple_phase) + of_drive[6] * cos(ripple_phase);
     const T effort = of_drive[0] * w.current[drive] * uneven - w.model_effort[drive] - surplus[0] + pulled -
-                     of_drive[1] - of_drive[2] * direction(w.rate[drive], slow) -
-                     of_drive[3] * std::sin(cogging_rate * w.position[drive]) -
-                     of_drive[4] * std::cos(cogging_rate * w.position[drive]);
-    using std::sqrt;
+                     of_drive[1] - of_drive[2] * direction(w.rate[drive], slow) - cogging;
     const T of_current = of_drive[0] * w.current_deviation[drive];
     residual[0] = effort / sqrt(sigma * sigma + of_current * of_current);
     return true;
@@ -69,7 +71,7 @@ class RobotPullResidual final : public ceres::CostFunction {
   RobotPullResidual(const PullResidual& pull, Eigen::RowVectorXd slopes)
       : pull_(new PullResidual(pull)), slopes_(std::move(slopes)) {
     set_num_residuals(1);
-    *mutable_parameter_block_sizes() = {7, 3};
+    *mutable_parameter_block_sizes() = {of_drive_count, 3};
     if (slopes_.size() > 0) mutable_parameter_block_sizes()->push_back(static_cast<int>(slopes_.size()));
   }
 
@@ -88,7 +90,7 @@ class RobotPullResidual final : public ceres::CostFunction {
   }
 
  private:
-  ceres::AutoDiffCostFunction<PullResidual, 1, 7, 3, 1> pull_;
+  ceres::AutoDiffCostFunction<PullResidual, 1, of_drive_count, 3, 1> pull_;
   Eigen::RowVectorXd slopes_;
 };
 
@@ -124,9 +126,11 @@ struct WaveSample {
   double position, factor, left;
 };
 
-/// How fast a wave goes on along the way, and the share of the scatter that it explains.
+/// How fast a wave goes on along the way, how well that is known, and what share of the scatter it explains.
 struct Wave {
   double rate = 0.0;
+  double deviation = 0.0;
+  double least = 0.0;  ///< rate: of so few waves over the way that nothing else is like them
   double explained = 0.0;
 };
 
@@ -146,9 +150,9 @@ double explained(const std::vector<WaveSample>& samples, double rate) {
   return 1.0 - (squares - b.dot(H.ldlt().solve(b))) / scatter;
 }
 
-/// The wave that explains most, from half a wave over the range up to where neighbours alternate; none where
-/// it explains little.
-Wave dominant_wave(const std::vector<WaveSample>& samples) {
+/// The wave that explains most, from `fewest` waves over the range up to where neighbours alternate; none
+/// where it explains little.
+Wave dominant_wave(const std::vector<WaveSample>& samples, double fewest) {
   if (samples.size() < 30) return {};
   std::vector<double> steps;
   double low = samples.front().position, high = low;
@@ -160,10 +164,11 @@ Wave dominant_wave(const std::vector<WaveSample>& samples) {
   const double range = high - low;
   const double most = 0.5 * std::numbers::pi / std::max(median(steps), 1e-3 * range);
   // Of n values of noise the best of a thousand waves explains 14 / n.
-  Wave best{0.0, std::max(least_explained, 30.0 / static_cast<double>(samples.size()))};
-  for (double rate = std::numbers::pi / range; rate < most; rate += 0.25 / range) {
+  Wave best{0.0, std::numbers::pi / range, 2.0 * std::numbers::pi * fewest / range,
+            std::max(least_explained, 30.0 / static_cast<double>(samples.size()))};
+  for (double rate = best.least; rate < most; rate += 0.25 / range) {
     const double share = explained(samples, rate);
-    if (share > best.explained) best = {rate, share};
+    if (share > best.explained) best.rate = rate, best.explained = share;
   }
   return best.rate > 0.0 ? best : Wave();
 }
@@ -181,9 +186,9 @@ class Fit {
       : windows_(windows),
         model_(model),
         sigma_(JointVector::Constant(believed.size(), model.usual_error)),
-        rate_(JointVector::Zero(believed.size())),
-        ripple_rate_(JointVector::Zero(believed.size())) {
-    for (const double k : believed) unknowns_.drives.push_back({k, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
+        cogging_(static_cast<std::size_t>(believed.size())),
+        ripple_(cogging_) {
+    for (const double k : believed) unknowns_.drives.push_back({k});
     unknowns_.turns.assign(static_cast<std::size_t>(mountings), Turn{});
     telling_ = parameters_that_tell(windows, model);
     surplus_.setZero(static_cast<Eigen::Index>(telling_.size()));
@@ -211,7 +216,12 @@ class Fit {
     Eigen::Index of_drives = 0;
     for (int i = 0; i < static_cast<int>(sigma_.size()); ++i) {
       fit.column_of_drive.push_back(of_drives);
-      of_drives += 7 - static_cast<Eigen::Index>(held_of(i).size());
+      of_drives += of_drive_count - static_cast<Eigen::Index>(held_of(i).size());
+      Eigen::Index rate = of_drives;
+      for (const Wave* const wave : {&ripple_[index(i)], &cogging_[index(i)]}) {
+        if (wave->rate > 0.0)
+          fit.linear.prior_information[--rate] = 1.0 / (wave->deviation * wave->deviation);
+      }
     }
     const double believed = model_.misalignment_belief;
     const Eigen::Index of_turns = fit.linear.jacobian.cols() - of_drives - surplus_.size();
@@ -238,8 +248,8 @@ class Fit {
         std::vector<double*> of_row = {unknowns_.drives[index(i)].data(),
                                        unknowns_.turns[index(windows_[w].mounting)].data()};
         if (!telling_.empty()) of_row.push_back(surplus_.data());
-        auto* const cost = new RobotPullResidual(
-            {&windows_[w], i, sigma_[i], model_.slow, rate_[i], ripple_rate_[i]}, slopes_of(windows_[w], i));
+        auto* const cost =
+            new RobotPullResidual({&windows_[w], i, sigma_[i], model_.slow}, slopes_of(windows_[w], i));
         blocks_.push_back(problem_->AddResidualBlock(cost, loss_function(loss), of_row));
         rows_.push_back(w);
         drives_of_rows_.push_back(i);
@@ -260,8 +270,8 @@ class Fit {
   std::vector<int> held_of(int drive) const {
     std::vector<int> held;
     if (!model_.coulomb) held.push_back(2);
-    if (rate_[drive] == 0.0) held.insert(held.end(), {3, 4});
-    if (ripple_rate_[drive] == 0.0) held.insert(held.end(), {5, 6});
+    if (cogging_[index(drive)].rate == 0.0) held.insert(held.end(), {3, 4, 7});
+    if (ripple_[index(drive)].rate == 0.0) held.insert(held.end(), {5, 6, 8});
     return held;
   }
 
@@ -278,12 +288,13 @@ class Fit {
         cogging.push_back({window.position[i], 1.0, left});
         ripple.push_back({window.position[i], fit.constant[i] * window.current[i], left});
       }
-      const Wave cogs = rate_[i] > 0.0 ? Wave() : dominant_wave(cogging);
-      const Wave ripples = ripple_rate_[i] > 0.0 ? Wave() : dominant_wave(ripple);
+      const Wave cogs = cogging_[index(i)].rate > 0.0 ? Wave() : dominant_wave(cogging, 0.5);
+      const Wave ripples = ripple_[index(i)].rate > 0.0 ? Wave() : dominant_wave(ripple, 1.0);
+      DriveUnknowns& unknowns = unknowns_.drives[index(i)];
       if (cogs.explained > ripples.explained) {
-        rate_[i] = cogs.rate;
+        cogging_[index(i)] = cogs, unknowns[7] = cogs.rate;
       } else if (ripples.explained > 0.0) {
-        ripple_rate_[i] = ripples.rate;
+        ripple_[index(i)] = ripples, unknowns[8] = ripples.rate;
       }
     }
   }
@@ -294,8 +305,15 @@ class Fit {
       if (!problem_->HasParameterBlock(drive.data())) continue;
       columns_.push_back(drive.data());
       problem_->SetParameterLowerBound(drive.data(), 0, 1e-9);
-      const std::vector<int> held = held_of(static_cast<int>(&drive - unknowns_.drives.data()));
-      if (!held.empty()) problem_->SetManifold(drive.data(), new ceres::SubsetManifold(7, held));
+      for (const int part : {5, 6}) {
+        problem_->SetParameterLowerBound(drive.data(), part, -largest_ripple);
+        problem_->SetParameterUpperBound(drive.data(), part, largest_ripple);
+      }
+      const int i = static_cast<int>(&drive - unknowns_.drives.data());
+      const std::vector<int> held = held_of(i);
+      if (!held.empty()) problem_->SetManifold(drive.data(), new ceres::SubsetManifold(of_drive_count, held));
+      believe_rate(drive, 7, cogging_[index(i)]);
+      believe_rate(drive, 8, ripple_[index(i)]);
     }
     for (Turn& turn : unknowns_.turns) {
       if (!problem_->HasParameterBlock(turn.data())) continue;
@@ -312,6 +330,17 @@ class Fit {
     columns_.push_back(surplus_.data());
     const Eigen::VectorXd one = Eigen::VectorXd::Ones(surplus_.size());
     add_belief(*problem_, surplus_.data(), 0.0 * one, one);
+  }
+
+  /// The rate of a wave is that at which it was found, to within half a wave over the way.
+  void believe_rate(DriveUnknowns& drive, int entry, const Wave& wave) {
+    if (wave.rate == 0.0) return;
+    Eigen::RowVectorXd of_entry = Eigen::RowVectorXd::Zero(of_drive_count);
+    of_entry[entry] = 1.0 / wave.deviation;
+    problem_->SetParameterLowerBound(drive.data(), entry, wave.least);
+    problem_->AddResidualBlock(
+        new ceres::NormalPrior(of_entry, wave.rate * Eigen::VectorXd::Unit(of_drive_count, entry)), nullptr,
+        drive.data());
   }
 
   /// sigma_i of the residuals, without what the noise of the current explains.
@@ -340,6 +369,8 @@ class Fit {
     fit.coulomb.resize(n);
     fit.cogging_parts.setZero(2, n);
     fit.ripple_parts.setZero(2, n);
+    fit.cogging_rate.resize(n);
+    fit.ripple_rate.resize(n);
     for (Eigen::Index i = 0; i < n; ++i) {
       const DriveUnknowns& drive = unknowns_.drives[static_cast<std::size_t>(i)];
       fit.constant[i] = drive[0];
@@ -347,14 +378,14 @@ class Fit {
       fit.coulomb[i] = drive[2];
       fit.cogging_parts.col(i) << drive[3], drive[4];
       fit.ripple_parts.col(i) << drive[5], drive[6];
+      fit.cogging_rate[i] = drive[7];
+      fit.ripple_rate[i] = drive[8];
     }
     for (const Turn& turn : unknowns_.turns) fit.misalignment.emplace_back(turn[0], turn[1], turn[2]);
     if (!telling_.empty()) fit.surplus.setZero(windows_.front().effort_slopes.cols());
     for (Eigen::Index k = 0; k < surplus_.size(); ++k)
       fit.surplus[telling_[static_cast<std::size_t>(k)]] = surplus_[k];
     fit.deviation = sigma_;
-    fit.cogging_rate = rate_;
-    fit.ripple_rate = ripple_rate_;
     fit.cogging = fit.cogging_parts.colwise().norm().transpose();
     return fit;
   }
@@ -364,8 +395,7 @@ class Fit {
   const std::vector<PullWindow>& windows_;
   TorqueConstantModel model_;
   JointVector sigma_;
-  JointVector rate_;         ///< of the cogging; 0: none
-  JointVector ripple_rate_;  ///< likewise
+  std::vector<Wave> cogging_, ripple_;  ///< by drive, as they were found; rate 0: none
   bool planar_ = false;
   std::vector<Eigen::Index> telling_;  ///< dynamic parameters that are looked for
   Eigen::VectorXd surplus_;            ///< theirs

@@ -33,8 +33,8 @@ struct TorqueConstantFit {
   /// By how many deviations of what is believed of it each dynamic parameter is off; nothing: not looked for.
   Eigen::VectorXd surplus;
 
-  /// Columns: k_t, o, c and parts of cogging and ripple of each drive, as far as they were looked for, then
-  /// the misalignments, then those of the surplus that the pulls can tell.
+  /// Columns: k_t, o, c, parts of cogging and ripple and the rates of both of each drive, as far as they were
+  /// looked for, then the misalignments, then those of the surplus that the pulls can tell.
   LinearFit linear;
   std::vector<Eigen::Index> column_of_drive;  ///< that of its k_t
   std::vector<std::size_t> window_of_row;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "tests/identification/synthetic_pulls.h"
 
@@ -76,35 +77,73 @@ TEST(NoiseOfTheCurrent, FlattensTheOrdinarySlopeButNotOurs) {
   EXPECT_LT((ours.array() - 1.0).abs().maxCoeff(), 0.006);
 }
 
+/// Pulls at a robot whose dynamic parameters are off, in every drive another wave.
+std::vector<PullWindow> pulls_of_everything() {
+  const SyntheticPulls truth{
+      .misalignment = 0.03, .current_noise = 0.01, .torque_noise = 0.05, .windows = 40};
+  std::vector<PullWindow> windows = make(truth, 3);
+  RandomGenerator random(4);
+  const Eigen::Vector2d surplus(0.8, -0.5);
+  for (PullWindow& window : windows) {
+    window.effort_slopes.resize(3, 2);
+    for (double& slope : window.effort_slopes.reshaped()) slope = random.normal();
+    window.current += (window.effort_slopes * surplus).cwiseQuotient(truth.constant);
+    window.current[0] -= 0.1 * std::sin(24.0 * window.position[0]);
+    window.current[1] /= 1.0 + 0.1 * std::sin(30.0 * window.position[1]);
+  }
+  return windows;
+}
+
+using Move = std::function<void(TorqueConstantFit&, double)>;
+
+/// What each column of the fit moves.
+std::vector<Move> moves_of(const TorqueConstantFit& fit) {
+  std::vector<Move> moves;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    moves.push_back([i](TorqueConstantFit& at, double step) { at.constant[i] += step; });
+    moves.push_back([i](TorqueConstantFit& at, double step) { at.offset[i] += step; });
+    moves.push_back([i](TorqueConstantFit& at, double step) { at.coulomb[i] += step; });
+    const bool cogs = fit.cogging_rate[i] > 0.0, ripples = fit.ripple_rate[i] > 0.0;
+    for (int part = 0; part < 2 && cogs; ++part)
+      moves.push_back([=](TorqueConstantFit& at, double step) { at.cogging_parts(part, i) += step; });
+    for (int part = 0; part < 2 && ripples; ++part)
+      moves.push_back([=](TorqueConstantFit& at, double step) { at.ripple_parts(part, i) += step; });
+    if (cogs) moves.push_back([i](TorqueConstantFit& at, double step) { at.cogging_rate[i] += step; });
+    if (ripples) moves.push_back([i](TorqueConstantFit& at, double step) { at.ripple_rate[i] += step; });
+  }
+  for (std::size_t m = 0; m < fit.misalignment.size(); ++m)
+    moves.push_back([m](TorqueConstantFit& at, double step) { at.misalignment[m].z() += step; });
+  for (Eigen::Index j = 0; j < fit.surplus.size(); ++j)
+    moves.push_back([j](TorqueConstantFit& at, double step) { at.surplus[j] += step; });
+  return moves;
+}
+
 TEST(ResidualsOfPulls, HaveTheDerivativesThatDifferencesShow) {
-  const SyntheticPulls truth{.misalignment = 0.03, .current_noise = 0.01, .torque_noise = 0.2};
-  const std::vector<PullWindow> windows = make(truth, 3);
+  const std::vector<PullWindow> windows = pulls_of_everything();
   const TorqueConstantModel model;
   const TorqueConstantFit fit = fitted(windows, model);
+  EXPECT_NEAR(fit.cogging_rate[0], 24.0, 1.0);
+  EXPECT_NEAR(fit.ripple_rate[1], 30.0, 1.0);
+  ASSERT_EQ(fit.surplus.size(), 2);
   const auto residual = [&](const TorqueConstantFit& at, std::size_t row) {
     const PullWindow& w = windows[fit.window_of_row[row]];
     const int i = fit.drive_of_row[row];
     return torque_residual(w, i, at, model.slow) /
            std::hypot(at.deviation[i], at.constant[i] * w.current_deviation[i]);
   };
-  const auto moved = [&](Eigen::Index column, double step) {
-    TorqueConstantFit at = fit;
-    const Eigen::Index drive = column / 3;
-    if (column >= 9) {
-      at.misalignment[static_cast<std::size_t>(column - 9)].z() += step;
-    } else {
-      (column % 3 == 0 ? at.constant : column % 3 == 1 ? at.offset : at.coulomb)[drive] += step;
-    }
-    return at;
-  };
-  ASSERT_EQ(fit.linear.jacobian.cols(), 9 + 7);
-  const double largest = fit.linear.jacobian.cwiseAbs().maxCoeff();
-  constexpr double h = 1e-5;
-  for (std::size_t row = 0; row < fit.window_of_row.size(); row += 7) {
-    for (Eigen::Index column = 0; column < fit.linear.jacobian.cols(); ++column) {
-      const double difference =
-          (residual(moved(column, h), row) - residual(moved(column, -h), row)) / (2.0 * h);
-      EXPECT_NEAR(fit.linear.jacobian(static_cast<Eigen::Index>(row), column), difference, 1e-6 * largest);
+  const std::vector<Move> moves = moves_of(fit);
+  ASSERT_EQ(fit.linear.jacobian.cols(), static_cast<Eigen::Index>(moves.size()));
+  for (std::size_t column = 0; column < moves.size(); ++column) {
+    const Eigen::VectorXd got = fit.linear.jacobian.col(static_cast<Eigen::Index>(column));
+    const double largest = got.cwiseAbs().maxCoeff();
+    EXPECT_GT(largest, 0.0) << "column " << column;
+    for (std::size_t row = 0; row < fit.window_of_row.size(); row += 7) {
+      constexpr double h = 1e-5;
+      TorqueConstantFit more = fit, less = fit;
+      moves[column](more, h);
+      moves[column](less, -h);
+      const double difference = (residual(more, row) - residual(less, row)) / (2.0 * h);
+      EXPECT_NEAR(got[static_cast<Eigen::Index>(row)], difference, 1e-6 * largest) << "column " << column;
     }
   }
 }
