@@ -5,6 +5,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "experiments/verdict/recorded_run.h"
 #include "identification/dynamic_parameters.h"
@@ -76,13 +78,42 @@ double correlation(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return scale > 0.0 ? ((a.array() - a.mean()) * (b.array() - b.mean())).mean() / scale : 0.0;
 }
 
-void check(const DynamicsBelief& belief, const DynamicsRows& rows, const char* unit) {
+/// Of the numbers `a` of the drive `i` with the numbers `b` of the drive `j`, at the times that both have.
+double correlation_of_drives(const DynamicsRows& rows, const Eigen::VectorXd& a, int i,
+                             const Eigen::VectorXd& b, int j) {
+  std::map<std::pair<int, double>, double> of_j;
+  for (Eigen::Index row = 0; row < b.size(); ++row) {
+    const auto at = static_cast<std::size_t>(row);
+    if (rows.drive[at] == j) of_j[{rows.recording[at], rows.time[at]}] = b[row];
+  }
+  std::vector<double> x, y;
+  for (Eigen::Index row = 0; row < a.size(); ++row) {
+    const auto at = static_cast<std::size_t>(row);
+    if (rows.drive[at] != i) continue;
+    const auto match = of_j.find({rows.recording[at], rows.time[at]});
+    if (match == of_j.end()) continue;
+    x.push_back(a[row]);
+    y.push_back(match->second);
+  }
+  const auto n = static_cast<Eigen::Index>(x.size());
+  return correlation(Eigen::Map<Eigen::VectorXd>(x.data(), n), Eigen::Map<Eigen::VectorXd>(y.data(), n));
+}
+
+void check(const DynamicsBelief& belief, const DynamicsRows& rows, const char* unit,
+           const std::vector<std::string>& warnings) {
   std::vector<std::string> problems;
   const int drives = belief.robot->drives();
-  const double seconds = rows.time.empty() ? 0.0 : 0.01 * static_cast<double>(rows.surplus.size()) / drives;
-  if (seconds < 4.0) {
-    throw SetupError(fmt::format(
-        "the recordings are too short: {:.1f} s of motion; at least 4 s are needed, 20 s are good", seconds));
+  for (int i = 0; i < drives; ++i) {
+    const double seconds = 0.01 * static_cast<double>(std::count(rows.drive.begin(), rows.drive.end(), i));
+    if (seconds >= 4.0) continue;
+    problems.push_back(
+        fmt::format("the recordings are too short: {:.1f} s of motion with a usable current of drive {}; at "
+                    "least 4 s are needed, 20 s are good",
+                    seconds, i + 1));
+  }
+  if (!problems.empty()) {
+    problems.insert(problems.end(), warnings.begin(), warnings.end());
+    throw SetupError(problems);
   }
   for (int i = 0; i < drives; ++i) {
     const Eigen::VectorXd torque = of_drive(rows, rows.torque, i);
@@ -95,13 +126,13 @@ void check(const DynamicsBelief& belief, const DynamicsRows& rows, const char* u
                     "motion that flinch excite designs",
                     i + 1, range, unit, least, unit));
   }
-  throw_if_any(std::move(problems));
+  throw_if_any(problems);
   // Legs or currents that are swapped answer another drive's model better than their own.
   const Eigen::VectorXd modelled = rows.torque - rows.surplus;
   for (int i = 0; i < drives; ++i) {
-    const double own = correlation(of_drive(rows, modelled, i), of_drive(rows, rows.torque, i));
+    const double own = correlation_of_drives(rows, modelled, i, rows.torque, i);
     for (int j = 0; j < drives; ++j) {
-      const double other = correlation(of_drive(rows, modelled, i), of_drive(rows, rows.torque, j));
+      const double other = correlation_of_drives(rows, modelled, i, rows.torque, j);
       if (j == i || other < 0.8 || own > other - 0.3) continue;
       problems.push_back(
           fmt::format("what drive {} should do is what the current of drive {} does (correlation {:.2f}, own "
@@ -140,8 +171,7 @@ void make_physical(const DynamicParameters& parameters, Solution& solution) {
   }
 }
 
-/// What the data hardly tell is held as believed, and the rest found again.
-
+/// What the data do not tell is held as believed, and the rest found again.
 Solution solve(const DynamicsRows& rows, const DynamicParameters& parameters, int drives,
                double usual_error) {
   Solution solution;
@@ -285,7 +315,7 @@ CalibrationResult calibrate_dynamics(const DynamicsBelief& belief,
   for (const MotionRecording& recording : recordings) result.recordings.push_back(recording.source);
   const auto parameters = DynamicParameters::of(*belief.robot);
   const DynamicsRows rows = rows_of(belief, *parameters, recordings, result.warnings);
-  check(belief, rows, result.residual_unit.c_str());
+  check(belief, rows, result.residual_unit.c_str(), result.warnings);
 
   const int drives = belief.robot->drives();
   const Solution solution = solve(rows, *parameters, drives, 0.01 * belief.drives.max_torque);
@@ -303,9 +333,12 @@ CalibrationResult calibrate_dynamics(const DynamicsBelief& belief,
     result.assumed.push_back(
         {.name = fmt::format("{}[{}]", key, i), .value = belief.constant[i], .unit = turns ? "Nm/A" : "N/A"});
   }
+  const Eigen::Index columns = solution.fit.linear.jacobian.cols();
   result.notes.push_back(
-      fmt::format("rank {} of {}, condition {:.3g}; what is not identifiable is held as believed",
-                  result.rank, solution.fit.linear.jacobian.cols(), result.condition));
+      result.rank == columns
+          ? fmt::format("rank {} of {}, condition {:.3g}", result.rank, columns, result.condition)
+          : fmt::format("rank {} of {}: what this motion does not tell apart follows from what was believed",
+                        result.rank, columns));
   return result;
 }
 

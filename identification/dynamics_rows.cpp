@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identification/clipped.h"
 #include "identification/encoder_motion.h"
+#include "identification/motor_currents.h"
 #include "identification/parameter_variants.h"
 #include "identification/robust_mean.h"
 #include "identification/spikes.h"
 #include "identification/zero_phase.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recorded_values.h"
-#include "systems/signals/drive_reading.h"
 
 namespace flinch {
 namespace {
@@ -22,22 +23,8 @@ constexpr double edge = 0.1;               // [s]
 constexpr double cluster_length = 0.5;     // [s]
 constexpr Time shortest = 1s;
 
-/// Currents of a stretch at the instants of the encoders. A reading is what acted until its tick, so that
-/// what acts at the tick lies between it and the next one.
-Eigen::MatrixXd currents(const Recording& recording, const ValidStretch& stretch, int drives,
-                         bool& complete) {
-  const auto readings = read<DriveReading>(recording, "drives");
-  Eigen::MatrixXd current = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(stretch.count), drives);
-  complete = true;
-  for (std::size_t k = 0; k < stretch.count; ++k) {
-    const DriveReading reading = readings[stretch.first + k];
-    const bool good = reading.valid && reading.current.size() == drives && reading.current.allFinite();
-    complete = complete && good;
-    if (good) current.row(static_cast<Eigen::Index>(k)) = reading.current.transpose();
-  }
-  return current;
-}
-
+/// Currents at the instants of the encoders. A reading is what acted until its tick, so that what acts at the
+/// tick lies between it and the next one.
 Eigen::MatrixXd between_ticks(const Eigen::MatrixXd& current) {
   Eigen::MatrixXd mean = current;
   const Eigen::Index n = current.rows();
@@ -81,7 +68,7 @@ namespace {
 /// The rows of one stretch.
 DynamicsRows rows_of(const Recording& recording, const ParallelRobot& robot,
                      const ParameterVariants& variants, const JointVector& constant,
-                     const ValidStretch& stretch, Eigen::MatrixXd current, int number) {
+                     const ValidStretch& stretch, MotorCurrents currents, int number) {
   const double period = to_seconds(recording.period);
   const EncoderMotion motion = encoder_motion(recording, robot, stretch, motion_cutoff);
   const int drives = robot.drives();
@@ -89,9 +76,11 @@ DynamicsRows rows_of(const Recording& recording, const ParallelRobot& robot,
   const auto p = static_cast<Eigen::Index>(variants.size());
   DynamicsRows out;
   for (int i = 0; i < drives; ++i)
-    out.noise =
-        std::max(out.noise, constant[i] * white_noise(current.col(i)) * noise_gain(period) / std::sqrt(2.0));
-  Eigen::MatrixXd torque = between_ticks(current) * constant.asDiagonal();
+    out.noise = std::max(
+        out.noise, constant[i] * white_noise(currents.current.col(i)) * noise_gain(period) / std::sqrt(2.0));
+  const auto reach = static_cast<std::ptrdiff_t>(1.0 / (cutoff_frequency * period));  // of the filter
+  for (std::vector<char>& usable : currents.usable) widen_unusable(usable, reach);
+  Eigen::MatrixXd torque = between_ticks(currents.current) * constant.asDiagonal();
   Eigen::MatrixXd surplus(n, drives), Y(n, drives * p);
   for (Eigen::Index k = 0; k < n; ++k) {
     Kinematics at;
@@ -112,11 +101,12 @@ DynamicsRows rows_of(const Recording& recording, const ParallelRobot& robot,
   out.regressor.resize(samples * drives, p);
   out.surplus.resize(samples * drives);
   out.torque.resize(samples * drives);
+  Eigen::Index row = 0;
   for (Eigen::Index s = 0; s < samples; ++s) {
     const Eigen::Index k = margin + s * step;
     const double time = to_seconds(Time(recording.time_ns[stretch.first + static_cast<std::size_t>(k)]));
     for (int i = 0; i < drives; ++i) {
-      const Eigen::Index row = s * drives + i;
+      if (currents.usable[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)] == 0) continue;
       for (Eigen::Index j = 0; j < p; ++j) out.regressor(row, j) = Y(k, j * drives + i);
       out.surplus[row] = surplus(k, i);
       out.torque[row] = torque(k, i);
@@ -124,8 +114,12 @@ DynamicsRows rows_of(const Recording& recording, const ParallelRobot& robot,
       out.cluster.push_back(100000 * number + static_cast<int>(time / cluster_length));
       out.recording.push_back(number);
       out.time.push_back(time);
+      ++row;
     }
   }
+  out.regressor.conservativeResize(row, p);
+  out.surplus.conservativeResize(row);
+  out.torque.conservativeResize(row);
   return out;
 }
 
@@ -134,26 +128,27 @@ DynamicsRows rows_of(const Recording& recording, const ParallelRobot& robot,
 DynamicsRows dynamics_rows(const Recording& recording, const ParallelRobot& robot,
                            const DynamicParameters& parameters, const JointVector& constant, int number,
                            std::vector<std::string>& warnings) {
-  if (recording.find("drives") == nullptr)
-    throw SetupError("there is no signal 'drives', the motor currents");
   const ParameterVariants variants(parameters);
   DynamicsRows rows;
-  std::size_t spikes = 0, all = 0;
+  MotorCurrents defects;
+  std::size_t spikes = 0, samples = 0;
   for (const ValidStretch& stretch :
        valid_stretches(recording, static_cast<std::size_t>(shortest / recording.period))) {
-    bool complete = true;
-    Eigen::MatrixXd current = currents(recording, stretch, robot.drives(), complete);
-    if (!complete) {
-      warnings.push_back("a stretch of " + std::to_string(stretch.count) +
-                         " samples has motor currents that are missing, and is left out");
-      continue;
-    }
-    spikes += remove_spikes(current);
-    all += static_cast<std::size_t>(current.size());
-    rows.append(rows_of(recording, robot, variants, constant, stretch, std::move(current), number));
+    MotorCurrents currents = motor_currents(recording, stretch, robot.drives());
+    defects.count(currents);
+    spikes += remove_spikes(currents.current);
+    samples += stretch.count;
+    rows.append(rows_of(recording, robot, variants, constant, stretch, std::move(currents), number));
   }
-  if (rows.surplus.size() == 0)
-    throw SetupError("no second of it is recorded with valid encoders and currents in the nominal motion");
+  if (samples == 0) {
+    throw SetupError(
+        "no second of it is recorded with valid encoders in the nominal motion; check their link, or record "
+        "longer");
+  }
+  const std::vector<std::string> wrong = defects.warnings(samples);
+  if (rows.surplus.size() == 0) throw SetupError(wrong);
+  warnings.insert(warnings.end(), wrong.begin(), wrong.end());
+  const std::size_t all = samples * static_cast<std::size_t>(robot.drives());
   if (static_cast<double>(spikes) > 0.02 * static_cast<double>(all)) {
     warnings.push_back(std::to_string(100 * spikes / all) +
                        " % of the motor currents are spikes, which are smoothed; check the amplifiers");

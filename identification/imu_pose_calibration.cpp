@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "identification/imu_pose_fit.h"
 #include "systems/foundation/setup_error.h"
@@ -12,7 +11,6 @@
 namespace flinch {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
 constexpr double least_acceleration = 2.0;      // [m/s^2]
 constexpr double least_angular_velocity = 0.3;  // [rad/s]
 constexpr double poor = 0.15;                   // NRMSE after the fit: the axes or units are others
@@ -169,28 +167,22 @@ void add_parameters(const ImuPoseFit& fit, const FitUncertainty& sure, const Imu
 
 void add_plots(const ImuResiduals& before, const ImuResiduals& after, CalibrationResult& result) {
   static constexpr const char* axes[] = {"x", "y", "z"};
-  for (Eigen::Index c = 0; c < 3; ++c) {
-    const auto list = [c](const Eigen::MatrixXd& m) {
-      const Eigen::VectorXd column = m.col(c);
-      return std::vector<double>(column.begin(), column.end());
-    };
-    result.plots.push_back({.title = fmt::format("accelerometer {}", axes[c]),
-                            .x_name = "time",
-                            .x_unit = "s",
-                            .y_name = "residual",
-                            .y_unit = "m/s^2",
-                            .x = after.time,
-                            .before = list(before.accelerometer),
-                            .after = list(after.accelerometer)});
-    result.plots.push_back({.title = fmt::format("gyroscope {}", axes[c]),
-                            .x_name = "time",
-                            .x_unit = "s",
-                            .y_name = "residual",
-                            .y_unit = "rad/s",
-                            .x = after.time,
-                            .before = list(before.gyroscope),
-                            .after = list(after.gyroscope)});
-  }
+  const auto add = [&](const char* sensor, const char* unit, const Eigen::MatrixXd& old_residuals,
+                       const Eigen::MatrixXd& residuals) {
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      const Eigen::VectorXd old_column = old_residuals.col(c), column = residuals.col(c);
+      result.plots.push_back({.title = fmt::format("{} {}", sensor, axes[c]),
+                              .x_name = "time",
+                              .x_unit = "s",
+                              .y_name = "residual",
+                              .y_unit = unit,
+                              .x = after.time,
+                              .before = {old_column.begin(), old_column.end()},
+                              .after = {column.begin(), column.end()}});
+    }
+  };
+  add("accelerometer", "m/s^2", before.accelerometer, after.accelerometer);
+  add("gyroscope", "rad/s", before.gyroscope, after.gyroscope);
 }
 
 void tell_agreement(const ImuResiduals& before, const ImuResiduals& after, CalibrationResult& result) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identification/clipped.h"
 #include "identification/encoder_motion.h"
 #include "identification/spikes.h"
 #include "identification/zero_phase.h"
@@ -17,8 +18,6 @@ namespace {
 constexpr double motion_cutoff = 150.0;    // products of what is low-passed are low-passed again below [Hz]
 constexpr double cutoff_frequency = 40.0;  // [Hz]
 constexpr Time shortest = 1s;
-constexpr std::size_t clipped_run = 3;   // samples in a row at the largest value that there is
-constexpr double least_clipped = 0.002;  // of all samples
 
 /// What the platform's own axes see of the motion.
 void add_motion(const Recording& recording, const ParallelRobot& robot, const ValidStretch& stretch,
@@ -39,41 +38,6 @@ void add_motion(const Recording& recording, const ParallelRobot& robot, const Va
   }
   for (Eigen::MatrixXd* signal : {&out.angular_velocity, &out.angular_acceleration, &out.specific_force})
     *signal = zero_phase(*signal, cutoff_frequency, out.period);
-}
-
-/// Rows at which one column stays at its largest value, and others at which it is there too.
-std::size_t mark_clipped(const Eigen::MatrixXd& signal, std::vector<char>& usable) {
-  std::size_t clipped = 0;
-  for (Eigen::Index c = 0; c < signal.cols(); ++c) {
-    const double limit = signal.col(c).cwiseAbs().maxCoeff();
-    const auto at_limit = [&](Eigen::Index k) { return std::abs(signal(k, c)) == limit; };
-    std::size_t run = 0, longest = 0, all = 0;
-    for (Eigen::Index k = 0; k < signal.rows(); ++k) {
-      run = at_limit(k) ? run + 1 : 0;
-      longest = std::max(longest, run);
-      all += at_limit(k) ? 1 : 0;
-    }
-    if (longest < clipped_run ||
-        static_cast<double>(all) < least_clipped * static_cast<double>(signal.rows()))
-      continue;
-    clipped += all;
-    for (Eigen::Index k = 0; k < signal.rows(); ++k) {
-      if (at_limit(k)) usable[static_cast<std::size_t>(k)] = 0;
-    }
-  }
-  return clipped;
-}
-
-/// Nothing within the reach of the filter of a row that is not usable is usable either.
-void widen(std::vector<char>& usable, double period) {
-  const auto reach = static_cast<std::ptrdiff_t>(0.5 / (cutoff_frequency * period));
-  const std::vector<char> before = usable;
-  const auto n = static_cast<std::ptrdiff_t>(usable.size());
-  for (std::ptrdiff_t k = 0; k < n; ++k) {
-    if (before[static_cast<std::size_t>(k)] == 1) continue;
-    const auto from = usable.begin() + std::max<std::ptrdiff_t>(0, k - reach);
-    std::fill(from, usable.begin() + std::min(n, k + reach + 1), char{0});
-  }
 }
 
 /// Readings by the tick at which they arrived; where there is no new one the one before stands.
@@ -121,8 +85,12 @@ std::vector<ImuStretch> imu_stretches(const Recording& recording, const Parallel
     add_readings(recording, stretch, out);
     rows += stretch.count;
     missing += static_cast<std::size_t>(std::count(out.usable.begin(), out.usable.end(), 0));
-    clipped += mark_clipped(out.gyroscope, out.usable) + mark_clipped(out.accelerometer, out.usable);
-    widen(out.usable, out.period);
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      clipped += mark_clipped(out.gyroscope.col(c), out.usable);
+      clipped += mark_clipped(out.accelerometer.col(c), out.usable);
+    }
+    // Nothing within the reach of the filter of a row that is not usable is usable either.
+    widen_unusable(out.usable, static_cast<std::ptrdiff_t>(0.5 / (cutoff_frequency * out.period)));
     spikes += remove_spikes(out.gyroscope) + remove_spikes(out.accelerometer);
     out.gyroscope = zero_phase(out.gyroscope, cutoff_frequency, out.period);
     out.accelerometer = zero_phase(out.accelerometer, cutoff_frequency, out.period);

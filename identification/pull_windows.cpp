@@ -7,11 +7,11 @@
 
 #include "identification/dynamic_parameters.h"
 #include "identification/encoder_motion.h"
+#include "identification/motor_currents.h"
 #include "identification/parameter_variants.h"
 #include "identification/robust_mean.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recorded_values.h"
-#include "systems/signals/drive_reading.h"
 #include "systems/signals/force_torque_reading.h"
 
 namespace flinch {
@@ -70,21 +70,20 @@ class Reader {
         motion_(encoder_motion(recording, robot, stretch, cutoff_frequency)) {
     if (parameters_) variants_.emplace(*parameters_);
     const auto n = static_cast<Eigen::Index>(stretch.count);
-    samples_.current.setZero(n, robot.drives());
     samples_.force.setZero(n, 3);
     samples_.moment.setZero(n, 3);
-    const auto drives = flinch::read<DriveReading>(recording, "drives");
+    currents_ = motor_currents(recording, stretch, robot.drives());
+    samples_.current = currents_.current;
     const auto instrument = flinch::read<ForceTorqueReading>(recording, "force_torque");
     for (std::size_t k = 0; k < stretch.count; ++k) {
       const auto row = static_cast<Eigen::Index>(k);
-      const DriveReading drive = drives[stretch.first + k];
+      const bool loaded = std::all_of(currents_.usable.begin(), currents_.usable.end(),
+                                      [k](const std::vector<char>& usable) { return usable[k] == 1; });
       const ForceTorqueReading reading = instrument[stretch.first + k];
-      const bool finite = reading.force_in_base.allFinite() && reading.moment_in_base.allFinite() &&
-                          drive.current.allFinite();
-      const bool good = drive.valid && reading.valid && finite && drive.current.size() == robot.drives();
+      const bool finite = reading.force_in_base.allFinite() && reading.moment_in_base.allFinite();
+      const bool good = loaded && reading.valid && finite;
       samples_.usable.push_back(good ? 1 : 0);
       if (!good) continue;
-      samples_.current.row(row) = drive.current.transpose();
       samples_.force.row(row) = reading.force_in_base.transpose();
       samples_.moment.row(row) = reading.moment_in_base.transpose();
     }
@@ -116,6 +115,7 @@ class Reader {
   }
 
   const Samples& samples() const { return samples_; }
+  const MotorCurrents& currents() const { return currents_; }
   const ValidStretch& stretch() const { return stretch_; }
 
  private:
@@ -124,6 +124,7 @@ class Reader {
   std::unique_ptr<const DynamicParameters> parameters_;  // none of a robot whose parameters are not known
   std::optional<ParameterVariants> variants_;
   EncoderMotion motion_;
+  MotorCurrents currents_;
   Samples samples_;
 };
 
@@ -270,9 +271,13 @@ std::vector<PullWindow> pull_windows(const Recording& recording, const ParallelR
   std::vector<PullWindow> windows;
   int cluster = 1000 * first_mounting;
   std::vector<Reader> readers;
+  MotorCurrents defects;
+  std::size_t samples = 0;
   for (const ValidStretch& stretch : valid_stretches(recording, 5 * least)) {
-    readers.emplace_back(recording, robot, stretch);
+    defects.count(readers.emplace_back(recording, robot, stretch).currents());
+    samples += stretch.count;
   }
+  if (samples > 0) warnings = defects.warnings(samples);
   for (std::size_t m = 0; m < mountings.size(); ++m) {
     const std::optional<Time> end =
         m + 1 < mountings.size() ? std::optional(mountings[m + 1].start) : std::nullopt;

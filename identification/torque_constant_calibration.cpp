@@ -98,6 +98,7 @@ void check(const Pulls& pulls, const TorqueConstantBelief& belief, const char* u
     problems.push_back(
         fmt::format("the recordings are too short: a rope pulls for {:.1f} s; at least {:.0f} s are needed",
                     0.1 * static_cast<double>(pulled), 0.1 * static_cast<double>(fewest_windows)));
+    problems.insert(problems.end(), pulls.warnings.begin(), pulls.warnings.end());
     throw SetupError(problems);
   }
   for (int i = 0; i < belief.constant.size(); ++i) {

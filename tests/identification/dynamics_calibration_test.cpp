@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "identification/dynamics_fit.h"
 #include "systems/robot/planar_rrr.h"
 #include "systems/signals/drive_reading.h"
@@ -129,7 +133,8 @@ TEST(BadMotions, ThatAreTooShortAreRefused) {
   Simulated run = test::simulated("calibration_excitation.yaml");
   edit<DriveReading>(run.recording, "drives",
                      [](std::size_t k, DriveReading& reading) { reading.valid = k < 3000; });
-  EXPECT_THAT(test::problems_of([&] { calibrated(run); }), Contains(HasSubstr("run.h5: no second of it")));
+  EXPECT_THAT(test::problems_of([&] { calibrated(run); }),
+              Contains(HasSubstr("too short: 2.6 s of motion with a usable current of drive 1")));
 }
 
 TEST(BadMotions, AtStandstillAreRefused) {
@@ -138,6 +143,63 @@ TEST(BadMotions, AtStandstillAreRefused) {
         calibrated(test::simulated("calibration_standstill.yaml", {{"duration_s: 5", "duration_s: 8"}}));
       }),
       Contains(HasSubstr("drive 1 is not excited")));
+}
+
+TEST(BadMotions, WithoutCurrentsAreRefused) {
+  Simulated run = test::simulated("calibration_excitation.yaml");
+  std::erase_if(run.recording.signals, [](const Signal& signal) { return signal.path == "drives"; });
+  EXPECT_THAT(test::problems_of([&] { calibrated(run); }),
+              ElementsAre(HasSubstr("run.h5: there is no signal 'drives', the motor currents; record them")));
+}
+
+TEST(BadMotions, WithoutTheCurrentOfADriveAreRefused) {
+  Simulated run = test::simulated("calibration_excitation.yaml");
+  edit<DriveReading>(run.recording, "drives", [](std::size_t, DriveReading& reading) {
+    reading.current[1] = std::numeric_limits<double>::quiet_NaN();
+  });
+  EXPECT_THAT(
+      test::problems_of([&] { calibrated(run); }),
+      ElementsAre(HasSubstr("0.0 s of motion with a usable current of drive 2"),
+                  HasSubstr("run.h5: the current of drive 2 is missing in 100 % of the samples, which "
+                            "are left out; check its amplifier and the link to it")));
+}
+
+/// No parameter is off by more than its deviation from what it is without the defect.
+void expect_within_deviations(const CalibrationResult& clean, const CalibrationResult& spoilt) {
+  for (std::size_t i = 0; i < clean.parameters.size(); ++i) {
+    if (!clean.parameters[i].identifiable || !spoilt.parameters[i].identifiable) continue;
+    EXPECT_LT(std::abs(spoilt.parameters[i].value - clean.parameters[i].value),
+              *spoilt.parameters[i].deviation)
+        << clean.parameters[i].name;
+  }
+}
+
+TEST(BadMotions, WithGapsInTheCurrentOfADriveAreNamedAndUsedWithoutThem) {
+  Simulated run = test::simulated("calibration_excitation.yaml");
+  const CalibrationResult clean = calibrated(run);
+  edit<DriveReading>(run.recording, "drives", [](std::size_t k, DriveReading& reading) {
+    if (k % 1000 < 50) reading.current[1] = std::numeric_limits<double>::quiet_NaN();
+  });
+  const CalibrationResult spoilt = calibrated(run);
+  EXPECT_THAT(spoilt.warnings,
+              Contains(HasSubstr("the current of drive 2 is missing in 5 % of the samples")));
+  expect_within_deviations(clean, spoilt);
+}
+
+TEST(BadMotions, WithASaturatedCurrentAreNamedAndUsedWithoutIt) {
+  Simulated run = test::simulated("calibration_excitation.yaml");
+  const CalibrationResult clean = calibrated(run);
+  double largest = 0.0;
+  const auto drives = read<DriveReading>(run.recording, "drives");
+  for (std::size_t k = 0; k < run.recording.samples(); ++k)
+    largest = std::max(largest, std::abs(drives[k].current[0]));
+  const double limit = 0.4 * largest;
+  edit<DriveReading>(run.recording, "drives", [limit](std::size_t, DriveReading& reading) {
+    reading.current[0] = std::clamp(reading.current[0], -limit, limit);
+  });
+  const CalibrationResult spoilt = calibrated(run);
+  EXPECT_THAT(spoilt.warnings, Contains(HasSubstr("the current of drive 1 is saturated at")));
+  expect_within_deviations(clean, spoilt);
 }
 
 TEST(BadMotions, WithContactAreRefused) {
@@ -163,12 +225,7 @@ TEST(AFifthOfOutliers, MovesNoDynamicParameterByMoreThanItsDeviation) {
   });
   const CalibrationResult spoilt = calibrated(run);
   EXPECT_THAT(spoilt.warnings, Contains(HasSubstr("are spikes")));
-  for (std::size_t i = 0; i < clean.parameters.size(); ++i) {
-    if (!clean.parameters[i].identifiable || !spoilt.parameters[i].identifiable) continue;
-    EXPECT_LT(std::abs(spoilt.parameters[i].value - clean.parameters[i].value),
-              *spoilt.parameters[i].deviation)
-        << clean.parameters[i].name;
-  }
+  expect_within_deviations(clean, spoilt);
 }
 
 }  // namespace
