@@ -63,8 +63,9 @@ std::string calibration_table(const CalibrationResult& result) {
                         digits(parameter.deviation), digits(parameter.before), parameter.unit,
                         parameter.identifiable ? "" : "   not identifiable: as believed before");
   }
-  text += fmt::format("\nresidual {:.4g} {} before, {:.4g} {} after\n", result.residual_before,
-                      result.residual_unit, result.residual_after, result.residual_unit);
+  const std::string residual_unit = result.residual_unit == "1" ? "" : " " + result.residual_unit;
+  text += fmt::format("\nresidual {:.4g}{} before, {:.4g}{} after\n", result.residual_before, residual_unit,
+                      result.residual_after, residual_unit);
   text += boxes(result);
   for (const std::string& note : result.notes) text += "\n" + note;
   if (!result.notes.empty()) text += "\n";

@@ -12,6 +12,7 @@ namespace flinch {
 namespace {
 
 constexpr std::size_t most_ellipses = 6;
+constexpr double one_and_the_same = 0.99999;  // correlation of what follows from one another
 
 constexpr const char* style = R"css(
 :root{color-scheme:light dark;--paper:#f8f7f3;--panel:#fff;--ink:#1d2328;--soft:#5a646d;--line:#d9dbd6;
@@ -65,7 +66,9 @@ std::string ellipses(const CalibrationResult& result) {
       const auto i = static_cast<Eigen::Index>(a), j = static_cast<Eigen::Index>(b);
       if (std::max(i, j) >= result.covariance.rows()) continue;
       const double scale = std::sqrt(result.covariance(i, i) * result.covariance(j, j));
-      if (scale > 0.0) pairs.push_back({result.covariance(i, j) / scale, a, b});
+      if (!(scale > 0.0)) continue;
+      const double correlation = result.covariance(i, j) / scale;
+      if (std::abs(correlation) < one_and_the_same) pairs.push_back({correlation, a, b});
     }
   }
   std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& p, const Pair& q) {
@@ -84,7 +87,8 @@ std::string influence(const CalibrationResult& result) {
   if (result.influence.cols() < 2 || result.influence.size() == 0) return "";
   std::string html =
       "<h2>Influence of each recording</h2><p class='soft'>By how many standard deviations a parameter "
-      "changes where the recording is left out.</p><div class='scroll'><table><tr><th>parameter</th>";
+      "changes where the recording is left out; by many, where no other tells it.</p><div "
+      "class='scroll'><table><tr><th>parameter</th>";
   for (Eigen::Index g = 0; g < result.influence.cols(); ++g)
     html += fmt::format("<th>recording {}</th>", g + 1);
   html += "</tr>";
@@ -93,8 +97,8 @@ std::string influence(const CalibrationResult& result) {
     if (!parameter.deviation || *parameter.deviation == 0.0) continue;
     html += "<tr>" + cell("<code>" + escaped(parameter.name) + "</code>");
     for (Eigen::Index g = 0; g < result.influence.cols(); ++g) {
-      html += cell(
-          fmt::format("{:+.2f}", result.influence(static_cast<Eigen::Index>(i), g) / *parameter.deviation));
+      const double change = result.influence(static_cast<Eigen::Index>(i), g) / *parameter.deviation;
+      html += cell(fmt::format("{:+.{}f}", change, std::abs(change) < 10.0 ? 2 : 0));
     }
     html += "</tr>";
   }
@@ -127,11 +131,11 @@ std::string calibration_page(const CalibrationResult& result, const std::string&
       "content='width=device-width, initial-scale=1'><link rel='icon' href='data:,'><title>" +
       title + "</title><style>" + style + "</style></head><body>";
   html += "<header><p class='soft'>flinch</p><h1>" + title + "</h1>";
+  const std::string unit = result.residual_unit == "1" ? "" : " " + escaped(result.residual_unit);
   html += fmt::format(
-      "<p>What is left unexplained: <b>{:.4g} {}</b> with what was believed, <b>{:.4g} {}</b> with what "
+      "<p>What is left unexplained: <b>{:.4g}{}</b> with what was believed, <b>{:.4g}{}</b> with what "
       "was found (root mean square).</p></header>",
-      result.residual_before, escaped(result.residual_unit), result.residual_after,
-      escaped(result.residual_unit));
+      result.residual_before, unit, result.residual_after, unit);
   for (const std::string& warning : result.warnings)
     html += "<p class='warning'>" + escaped(warning) + "</p>";
   for (const std::string& note : result.notes) html += "<p>" + escaped(note) + "</p>";

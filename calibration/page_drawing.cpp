@@ -28,6 +28,31 @@ Axis axis(double low, double high, double from, double to) {
   return {low - room, high + room, from, to};
 }
 
+/// Round numbers on the axis, three to seven of them: steps of 1, 2 or 5 times a power of ten.
+std::vector<double> ticks(const Axis& axis) {
+  const double rough = (axis.high - axis.low) / 5.0;
+  const double power = std::pow(10.0, std::floor(std::log10(rough)));
+  double step = 10.0 * power;
+  for (const double factor : {5.0, 2.0, 1.0}) {
+    if (factor * power >= rough) step = factor * power;
+  }
+  std::vector<double> values;
+  for (double k = std::ceil(axis.low / step); k * step <= axis.high; k += 1.0) values.push_back(k * step);
+  return values;
+}
+
+/// A line across and a number for each round value of the upward axis.
+std::string upward_grid(const Axis& y) {
+  std::string svg;
+  for (const double v : ticks(y)) {
+    svg += fmt::format("<line class='grid' y1='{0:.1f}' y2='{0:.1f}' x1='{1}' x2='{2}'/>", y.at(v), left,
+                       width - right);
+    svg += fmt::format("<text class='tick' x='{}' y='{:.1f}' text-anchor='end'>{}</text>", left - 5,
+                       y.at(v) + 3, short_number(v));
+  }
+  return svg;
+}
+
 std::string frame(const std::string& title, const std::string& x_label, const std::string& y_label,
                   const Axis& x, const Axis& y) {
   std::string svg =
@@ -35,18 +60,13 @@ std::string frame(const std::string& title, const std::string& x_label, const st
   svg += fmt::format("<text class='title' x='{}' y='16'>{}</text>", left, escaped(title));
   svg += fmt::format("<rect class='frame' x='{}' y='{}' width='{}' height='{}'/>", left, top,
                      width - left - right, height - top - bottom);
-  for (int i = 0; i <= 4; ++i) {
-    const double u = x.low + (x.high - x.low) * i / 4.0;
-    const double v = y.low + (y.high - y.low) * i / 4.0;
+  for (const double u : ticks(x)) {
     svg += fmt::format("<line class='grid' x1='{0:.1f}' x2='{0:.1f}' y1='{1}' y2='{2}'/>", x.at(u), top,
                        height - bottom);
-    svg += fmt::format("<line class='grid' y1='{0:.1f}' y2='{0:.1f}' x1='{1}' x2='{2}'/>", y.at(v), left,
-                       width - right);
     svg += fmt::format("<text class='tick' x='{:.1f}' y='{}' text-anchor='middle'>{}</text>", x.at(u),
                        height - bottom + 13, short_number(u));
-    svg += fmt::format("<text class='tick' x='{}' y='{:.1f}' text-anchor='end'>{}</text>", left - 5,
-                       y.at(v) + 3, short_number(v));
   }
+  svg += upward_grid(y);
   svg += fmt::format("<text class='label' x='{}' y='{}' text-anchor='end'>{}</text>", width - right,
                      height - 6, escaped(x_label));
   svg += fmt::format("<text class='label' x='{}' y='16' text-anchor='end'>{}</text>", width - right,
@@ -137,13 +157,7 @@ std::string box_drawing(const std::vector<BoxNumbers>& boxes, const std::string&
   const double slot = (width - left - right) / static_cast<double>(boxes.size());
   std::string svg = fmt::format("<svg viewBox='0 0 {} {}' role='img' aria-label='errors'>", width, height);
   svg += fmt::format("<text class='label' x='{}' y='16'>error [{}]</text>", left, escaped(unit));
-  for (int i = 0; i <= 4; ++i) {
-    const double v = y.low + (y.high - y.low) * i / 4.0;
-    svg += fmt::format("<line class='grid' y1='{0:.1f}' y2='{0:.1f}' x1='{1}' x2='{2}'/>", y.at(v), left,
-                       width - right);
-    svg += fmt::format("<text class='tick' x='{}' y='{:.1f}' text-anchor='end'>{}</text>", left - 5,
-                       y.at(v) + 3, short_number(v));
-  }
+  svg += upward_grid(y);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const BoxNumbers& box = boxes[i];
     const double middle = left + (static_cast<double>(i) + 0.5) * slot;
