@@ -8,6 +8,7 @@
 
 #include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/framework/hdf5_chunks.h"
 
 namespace flinch::internal {
 namespace {
@@ -296,40 +297,6 @@ void check_type(hid_t table, const std::string& name, Field::Kind kind) {
   }
 }
 
-/// Throws unless a table lies in this file, in pieces of bounded size that only ordinary filters have packed.
-void check_layout(hid_t table, const std::string& name) {
-  const Hdf5Object creation(H5Dget_create_plist(table), H5Pclose, "reading the layout of '" + name + "'");
-  const H5D_layout_t layout = H5Pget_layout(creation);
-  if (layout == H5D_VIRTUAL || H5Pget_external_count(creation) != 0) refuse(name, "lies in other files");
-  for (int i = 0; i < H5Pget_nfilters(creation); ++i) {
-    unsigned flags = 0;
-    std::size_t values = 0;
-    const H5Z_filter_t filter =
-        H5Pget_filter2(creation, static_cast<unsigned>(i), &flags, &values, nullptr, 0, nullptr, nullptr);
-    if (filter != H5Z_FILTER_SHUFFLE && filter != H5Z_FILTER_DEFLATE && filter != H5Z_FILTER_FLETCHER32) {
-      refuse(name, "is packed by the filter " + std::to_string(filter) + ", which flinch does not use");
-    }
-  }
-  if (layout != H5D_CHUNKED) return;
-  hsize_t chunk[2] = {0, 1};
-  constexpr hsize_t largest = 1 << 23;  // numbers: 4096 rows of 2048
-  const int rank = H5Pget_chunk(creation, 2, chunk);
-  if (rank < 1 || rank > 2 || chunk[0] > largest || chunk[1] > largest || chunk[0] * chunk[1] > largest) {
-    refuse(name, "has chunks of more than " + std::to_string(largest) + " numbers");
-  }
-}
-
-/// Throws where a table claims to hold more than its bytes can be unpacked to.
-void check_storage(hid_t table, const std::string& name, std::size_t rows, std::size_t columns) {
-  constexpr std::size_t most_packed = 1100;  // deflate packs at most 1032 bytes into one
-  constexpr std::size_t slack = 1 << 16;
-  const std::size_t stored = std::min<std::size_t>(H5Dget_storage_size(table), file_size(table));
-  if (rows > (slack + most_packed * stored) / sizeof(Number) / std::max<std::size_t>(columns, 1)) {
-    refuse(name, "claims " + std::to_string(rows) + " samples, more than its " + std::to_string(stored) +
-                     " bytes can hold");
-  }
-}
-
 }  // namespace
 
 Table open_table(Hdf5Object::Id parent, const std::string& name, Field::Kind kind, std::size_t columns) {
@@ -347,28 +314,6 @@ Table open_table(Hdf5Object::Id parent, const std::string& name, Field::Kind kin
   check_storage(table, name, size[0], columns);
   return {std::move(table), size[0]};
 }
-
-namespace {
-
-/// HDF5 allocates for a chunk what the file's index says that it takes there. Of tables with one or two
-/// dimensions.
-void check_chunks(Hdf5Object::Id table, std::size_t first, std::size_t rows, std::size_t columns) {
-  const Hdf5Object creation(H5Dget_create_plist(table), H5Pclose, "reading how a data set was made");
-  hsize_t chunk[2] = {1, 1};
-  if (H5Pget_layout(creation) != H5D_CHUNKED || H5Pget_chunk(creation, 2, chunk) < 1) return;
-  const std::size_t most = file_size(table);
-  for (hsize_t row = first / chunk[0] * chunk[0]; row < first + rows; row += chunk[0]) {
-    for (hsize_t column = 0; column < columns; column += chunk[1]) {
-      const hsize_t place[2] = {row, column};
-      hsize_t bytes = 0;
-      check(H5Dget_chunk_info_by_coord(table, place, nullptr, nullptr, &bytes), "finding a chunk");
-      if (bytes > most)
-        throw SetupError("a chunk claims to take " + std::to_string(bytes) + " bytes, more than the file");
-    }
-  }
-}
-
-}  // namespace
 
 ForeignTable read_foreign_table(Hdf5Object::Id parent, const std::string& name) {
   silence_hdf5();

@@ -1,0 +1,138 @@
+#include "systems/framework/hdf5_chunks.h"
+
+#include <hdf5.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "systems/foundation/setup_error.h"
+
+namespace flinch::internal {
+namespace {
+
+void check(herr_t status, const std::string& doing) {
+  if (status < 0) throw SetupError("HDF5 failed " + doing);
+}
+
+[[noreturn]] void refuse(const std::string& name, const std::string& why) {
+  throw SetupError("the data set '" + name + "' " + why);
+}
+
+/// The filters that have packed a data set, in the order in which they did.
+std::vector<H5Z_filter_t> filters_of(hid_t creation) {
+  std::vector<H5Z_filter_t> filters;
+  for (int i = 0; i < H5Pget_nfilters(creation); ++i) {
+    unsigned flags = 0;
+    std::size_t values = 0;
+    filters.push_back(
+        H5Pget_filter2(creation, static_cast<unsigned>(i), &flags, &values, nullptr, 0, nullptr, nullptr));
+  }
+  return filters;
+}
+
+/// How many bytes there are in a zlib stream; as many as `most` and one where there are more.
+std::size_t inflated_size(const std::vector<unsigned char>& packed, std::size_t bytes, std::size_t most) {
+  z_stream stream{};
+  if (inflateInit(&stream) != Z_OK) throw SetupError("a chunk cannot be unpacked");
+  stream.next_in = const_cast<unsigned char*>(packed.data());  // zlib only reads it
+  stream.avail_in = static_cast<unsigned>(bytes);
+  std::array<unsigned char, 1 << 14> sink;
+  int status = Z_OK;
+  while (status == Z_OK && stream.total_out <= most) {
+    stream.next_out = sink.data();
+    stream.avail_out = sink.size();
+    status = inflate(&stream, Z_NO_FLUSH);
+  }
+  const bool whole = status == Z_STREAM_END;
+  const std::size_t size = std::min<std::size_t>(stream.total_out, most + 1);
+  inflateEnd(&stream);
+  return whole ? size : most + 1;
+}
+
+/// A chunk as it lies in the file.
+struct StoredChunk {
+  hsize_t place[2];  ///< of its first number
+  hsize_t bytes = 0;
+  unsigned skipped = 0;  ///< a bit for each filter that was not applied
+};
+
+/// Throws unless the chunk unpacks to `size` bytes.
+void check_unpacked(Hdf5Object::Id table, const StoredChunk& chunk, const std::vector<H5Z_filter_t>& filters,
+                    std::size_t size) {
+  constexpr std::size_t sum = 4;  // that a filter of checksums appends
+  std::size_t within = size, around = 0;
+  bool is_deflated = false;
+  for (std::size_t i = 0; i < filters.size(); ++i) {
+    if ((chunk.skipped >> i & 1U) != 0) continue;
+    if (filters[i] == H5Z_FILTER_DEFLATE) is_deflated = true;
+    if (filters[i] == H5Z_FILTER_FLETCHER32) (is_deflated ? around : within) += sum;
+  }
+  std::size_t unpacked = chunk.bytes;
+  if (is_deflated && chunk.bytes > around) {
+    std::vector<unsigned char> packed(chunk.bytes);
+    std::uint32_t mask = 0;
+    check(H5Dread_chunk(table, H5P_DEFAULT, chunk.place, &mask, packed.data()), "reading a chunk");
+    unpacked = inflated_size(packed, packed.size() - around, within);
+  }
+  if (unpacked != within)
+    throw SetupError("a chunk does not unpack to the " + std::to_string(within) +
+                     " bytes that it should have");
+}
+
+}  // namespace
+
+void check_layout(Hdf5Object::Id table, const std::string& name) {
+  const Hdf5Object creation(H5Dget_create_plist(table), H5Pclose, "reading the layout of '" + name + "'");
+  const H5D_layout_t layout = H5Pget_layout(creation);
+  if (layout == H5D_VIRTUAL || H5Pget_external_count(creation) != 0) refuse(name, "lies in other files");
+  bool is_deflated = false;
+  for (const H5Z_filter_t filter : filters_of(creation)) {
+    if (filter != H5Z_FILTER_SHUFFLE && filter != H5Z_FILTER_DEFLATE && filter != H5Z_FILTER_FLETCHER32) {
+      refuse(name, "is packed by the filter " + std::to_string(filter) + ", which flinch does not use");
+    }
+    if (is_deflated && filter != H5Z_FILTER_FLETCHER32) refuse(name, "is packed again after it was deflated");
+    is_deflated = is_deflated || filter == H5Z_FILTER_DEFLATE;
+  }
+  if (layout != H5D_CHUNKED) return;
+  hsize_t chunk[2] = {0, 1};
+  constexpr hsize_t largest = 1 << 23;  // numbers: 4096 rows of 2048
+  const int rank = H5Pget_chunk(creation, 2, chunk);
+  if (rank < 1 || rank > 2 || chunk[0] > largest || chunk[1] > largest || chunk[0] * chunk[1] > largest) {
+    refuse(name, "has chunks of more than " + std::to_string(largest) + " numbers");
+  }
+}
+
+void check_storage(Hdf5Object::Id table, const std::string& name, std::size_t rows, std::size_t columns) {
+  constexpr std::size_t most_packed = 1100;  // deflate packs at most 1032 bytes into one
+  constexpr std::size_t slack = 1 << 16;
+  const std::size_t stored = std::min<std::size_t>(H5Dget_storage_size(table), file_size(table));
+  if (rows > (slack + most_packed * stored) / sizeof(Number) / std::max<std::size_t>(columns, 1)) {
+    refuse(name, "claims " + std::to_string(rows) + " samples, more than its " + std::to_string(stored) +
+                     " bytes can hold");
+  }
+}
+
+void check_chunks(Hdf5Object::Id table, std::size_t first, std::size_t rows, std::size_t columns) {
+  const Hdf5Object creation(H5Dget_create_plist(table), H5Pclose, "reading how a data set was made");
+  hsize_t chunk[2] = {1, 1};
+  if (H5Pget_layout(creation) != H5D_CHUNKED || H5Pget_chunk(creation, 2, chunk) < 1) return;
+  const Hdf5Object type(H5Dget_type(table), H5Tclose, "reading the type of a data set");
+  const std::size_t size = chunk[0] * chunk[1] * H5Tget_size(type), most = file_size(table);
+  const std::vector<H5Z_filter_t> filters = filters_of(creation);
+  for (hsize_t row = first / chunk[0] * chunk[0]; row < first + rows; row += chunk[0]) {
+    for (hsize_t column = 0; column < columns; column += chunk[1]) {
+      StoredChunk stored{{row, column}};
+      haddr_t address = HADDR_UNDEF;
+      check(H5Dget_chunk_info_by_coord(table, stored.place, &stored.skipped, &address, &stored.bytes),
+            "finding a chunk");
+      if (stored.bytes > most)
+        throw SetupError("a chunk claims to take " + std::to_string(stored.bytes) +
+                         " bytes, more than the file");
+      if (address != HADDR_UNDEF) check_unpacked(table, stored, filters, size);
+    }
+  }
+}
+
+}  // namespace flinch::internal
