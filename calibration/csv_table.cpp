@@ -4,6 +4,10 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <map>
+#include <optional>
+#include <set>
+#include <string_view>
 
 #include "systems/foundation/nearest_name.h"
 #include "systems/foundation/setup_error.h"
@@ -12,30 +16,116 @@ namespace flinch {
 namespace {
 
 constexpr std::size_t most_problems = 10;
+constexpr std::size_t most_shown = 100;  // letters of a cell
 
-std::string trimmed(std::string text) {
-  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '"'; };
-  while (!text.empty() && blank(text.back())) text.pop_back();
-  std::size_t begin = 0;
-  while (begin < text.size() && blank(text[begin])) ++begin;
-  return text.substr(begin);
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blank = " \t\r\"";
+  const std::size_t begin = text.find_first_not_of(blank);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(blank) + 1 - begin);
 }
 
-std::vector<std::string> split(const std::string& line, char separator) {
-  std::vector<std::string> cells;
-  std::size_t begin = 0;
-  for (std::size_t end; (end = line.find(separator, begin)) != std::string::npos; begin = end + 1)
-    cells.push_back(trimmed(line.substr(begin, end - begin)));
-  cells.push_back(trimmed(line.substr(begin)));
-  return cells;
-}
+/// The cells of a line, one after the other: a row may have millions that nobody wants.
+class Cells {
+ public:
+  Cells(std::string_view line, char separator) : rest_(line), separator_(separator) {}
+
+  /// The next cell; none after the last.
+  std::optional<std::string_view> next() {
+    if (ended_) return std::nullopt;
+    const std::size_t end = rest_.find(separator_);
+    ended_ = end == std::string_view::npos;
+    const std::string_view cell = trimmed(rest_.substr(0, end));
+    if (!ended_) rest_.remove_prefix(end + 1);
+    return cell;
+  }
+
+ private:
+  std::string_view rest_;
+  char separator_;
+  bool ended_ = false;
+};
 
 /// Whether `text` is a finite number, which is then in `value`.
-bool is_number(const std::string& text, double& value) {
+bool is_number(std::string_view text, double& value) {
   const char* const begin = text.starts_with('+') ? text.data() + 1 : text.data();
   const char* const end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(begin, end, value);
   return error == std::errc{} && rest == end && std::isfinite(value);
+}
+
+/// Where a wanted column stands in the file, and in the table.
+struct Place {
+  std::size_t in_file;
+  Eigen::Index in_table;
+};
+
+/// The wanted columns in the order of the file, by its first line. Throws SetupError naming those that are
+/// not there.
+std::vector<Place> places_of(const std::vector<std::string>& wanted, std::string_view line, char separator,
+                             const std::string& file) {
+  constexpr std::size_t most_suggested = 1000;
+  std::vector<std::string> suggested;
+  std::map<std::string_view, std::size_t> first;  // of the names that are wanted
+  for (const std::string& name : wanted) first.emplace(name, std::string::npos);
+  Cells cells(line, separator);
+  std::size_t column = 0;
+  for (auto cell = cells.next(); cell; cell = cells.next(), ++column) {
+    if (suggested.size() < most_suggested) suggested.emplace_back(*cell);
+    const auto found = first.find(*cell);
+    if (found != first.end() && found->second == std::string::npos) found->second = column;
+  }
+  std::vector<std::string> problems;
+  std::vector<Place> places;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    places.push_back({first[wanted[i]], static_cast<Eigen::Index>(i)});
+    if (places.back().in_file != std::string::npos) continue;
+    problems.push_back(file + ":1: there is no column '" + wanted[i] + "'" +
+                       did_you_mean(wanted[i], suggested));
+  }
+  throw_if_any(std::move(problems));
+  std::sort(places.begin(), places.end(),
+            [](const Place& a, const Place& b) { return a.in_file < b.in_file; });
+  return places;
+}
+
+bool is_blank(std::string_view line) { return trimmed(line).empty(); }
+
+/// Rows below the header that are not blank. No more than can have a number and a separator in each of the
+/// wanted columns, and one: where there are more, one of these is too short.
+Eigen::Index rows_of(const std::filesystem::path& file, std::size_t columns) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string line;
+  std::getline(stream, line);
+  std::size_t rows = 0, bytes = 0;
+  while (std::getline(stream, line)) {
+    rows += is_blank(line) ? 0 : 1;
+    bytes += line.size() + 1;
+  }
+  return static_cast<Eigen::Index>(std::min(rows, 1 + bytes / (2 * std::max<std::size_t>(columns, 1))));
+}
+
+/// Reads a row of the file into a row of the table; `place` names it where there are problems.
+void read_row(std::string_view line, char separator, const std::vector<Place>& places, CsvTable& table,
+              Eigen::Index row, const std::string& place, std::vector<std::string>& problems) {
+  Cells cells(line, separator);
+  std::size_t column = 0;
+  std::optional<std::string_view> cell = cells.next();
+  for (const Place& wanted : places) {
+    if (problems.size() >= most_problems) return;
+    for (; cell && column < wanted.in_file; ++column) cell = cells.next();
+    double value = 0.0;
+    const auto told = [&] {
+      return place + ": column '" + table.names[static_cast<std::size_t>(wanted.in_table)] + "'";
+    };
+    if (!cell) {
+      problems.push_back(told() + " is missing; the row has " + std::to_string(column) + " cells");
+    } else if (!is_number(*cell, value)) {
+      problems.push_back(told() + " is '" + std::string(cell->substr(0, most_shown)) +
+                         "'; it must be a number");
+    }
+    table.values(row, wanted.in_table) = value;
+  }
 }
 
 }  // namespace
@@ -45,46 +135,35 @@ int CsvTable::find(const std::string& name) const {
   return found == names.end() ? -1 : static_cast<int>(found - names.begin());
 }
 
+std::vector<std::string> each_once(const std::vector<std::string>& names) {
+  std::vector<std::string> once;
+  std::set<std::string_view> known;
+  for (const std::string& name : names) {
+    if (known.insert(name).second) once.push_back(name);
+  }
+  return once;
+}
+
 CsvTable read_csv(const std::filesystem::path& file, char separator, const std::vector<std::string>& wanted) {
   std::ifstream stream(file, std::ios::binary);
   std::string line;
   if (!stream || !std::getline(stream, line))
     throw SetupError(file.string() + ": the file cannot be read or is empty");
-  const std::vector<std::string> names = split(line, separator);
+  CsvTable table{.names = each_once(wanted), .values = {}};
+  const std::vector<Place> places = places_of(table.names, line, separator, file.string());
+  line = {};  // it may be longer than all that follows
+  table.values.resize(rows_of(file, places.size()), static_cast<Eigen::Index>(places.size()));
   std::vector<std::string> problems;
-  std::vector<std::size_t> columns;
-  for (const std::string& name : wanted) {
-    const auto found = std::find(names.begin(), names.end(), name);
-    columns.push_back(static_cast<std::size_t>(found - names.begin()));
-    if (found == names.end())
-      problems.push_back(file.string() + ":1: there is no column '" + name + "'" + did_you_mean(name, names));
-  }
-  throw_if_any(problems);
-
-  std::vector<double> values;  // row by row, only what is wanted
-  std::size_t row = 1;
-  while (std::getline(stream, line)) {
-    ++row;
-    if (trimmed(line).empty()) continue;
-    const std::vector<std::string> cells = split(line, separator);
-    for (std::size_t i = 0; i < columns.size() && problems.size() < most_problems; ++i) {
-      const std::size_t column = columns[i];
-      double value = 0.0;
-      const std::string place = file.string() + ":" + std::to_string(row) + ": column '" + wanted[i] + "'";
-      if (column >= cells.size()) {
-        problems.push_back(place + " is missing; the row has " + std::to_string(cells.size()) + " cells");
-      } else if (!is_number(cells[column], value)) {
-        problems.push_back(place + " is '" + cells[column] + "'; it must be a number");
-      }
-      values.push_back(value);
-    }
+  std::size_t number = 1;
+  for (Eigen::Index row = 0; row < table.values.rows() && std::getline(stream, line);) {
+    ++number;
+    if (is_blank(line)) continue;
+    read_row(line, separator, places, table, row, file.string() + ":" + std::to_string(number), problems);
     if (problems.size() >= most_problems) break;
+    ++row;
   }
-  throw_if_any(problems);
-  const auto width = static_cast<Eigen::Index>(wanted.size());
-  const auto rows = width == 0 ? 0 : static_cast<Eigen::Index>(values.size()) / width;
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  return {wanted, Eigen::Map<const Rows>(values.data(), rows, width)};
+  throw_if_any(std::move(problems));
+  return table;
 }
 
 }  // namespace flinch

@@ -2,9 +2,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <fstream>
 #include <iomanip>
+#include <iostream>
 #include <numbers>
 
 #include "calibration/csv_table.h"
@@ -109,6 +111,16 @@ void write_hdf5_log(const CsvTable& table, const std::filesystem::path& file) {
   });
 }
 
+/// All numbers of a signal, as integers of the same bits.
+std::vector<std::int64_t> numbers_of(const Recording& recording, std::size_t signal) {
+  const Signal& of = recording.signals[signal];
+  std::vector<internal::Number> rows(recording.samples() * of.layout.numbers);
+  recording.read_rows(of, 0, recording.samples(), rows.data());
+  std::vector<std::int64_t> bits;
+  for (const internal::Number& number : rows) bits.push_back(number.integer);
+  return bits;
+}
+
 TEST(ALog, OfHdf5GivesTheRecordingThatItGivesAsCsv) {
   const test::Simulated run =
       test::simulated("calibration_pulls.yaml", {{"duration_s: 46", "duration_s: 1"}});
@@ -129,13 +141,71 @@ TEST(ALog, OfHdf5GivesTheRecordingThatItGivesAsCsv) {
   ASSERT_EQ(from_hdf5.samples(), from_csv.samples());
   for (std::size_t s = 0; s < from_csv.signals.size(); ++s) {
     ASSERT_EQ(from_hdf5.signals[s].path, from_csv.signals[s].path);
-    for (std::size_t k = 0; k < from_csv.signals[s].rows.size(); ++k)
-      ASSERT_EQ(from_hdf5.signals[s].rows[k].integer, from_csv.signals[s].rows[k].integer);
+    const std::vector<std::int64_t> other = numbers_of(from_hdf5, s), one = numbers_of(from_csv, s);
+    ASSERT_EQ(other, one);
   }
   place.replace("mapping.yaml", "values[3]", "values[30]");
   EXPECT_THAT(
       test::problems_of([&] { read_csv_recording(place / "mapping.yaml"); }),
       Contains(HasSubstr("log.h5: column '/log/values[30]' is not there; the data set has 11 columns")));
+}
+
+/// Forces in the axes of a body need the samples before.
+TEST(ALog, IsReadAlikeWhereverOneBegins) {
+  const test::Simulated run =
+      test::simulated("calibration_pulls.yaml", {{"duration_s: 46", "duration_s: 9"}});
+  const test::Workplace place;
+  write_log(run.recording, place / "log.csv");
+  place.write("mapping.yaml", mapping);
+  for (const char* const force :
+       {"fx, signal: force_torque.force, entry: 0", "fy, signal: force_torque.force, entry: 1"})
+    place.replace("mapping.yaml", force, force + std::string(", frame: body"));
+  const Recording imported = read_csv_recording(place / "mapping.yaml");
+  const auto in_order = read<ForceTorqueReading>(imported, "force_torque");
+  const auto forces = read<ForceTorqueReading>(run.recording, "force_torque");
+  ASSERT_GT(imported.samples(), 2 * Recording::block);
+  double largest_turn = 0.0;
+  for (std::size_t k = 0; k < imported.samples(); ++k)
+    largest_turn = std::max(largest_turn, (in_order[k].force_in_base - forces[k].force_in_base).norm());
+  EXPECT_GT(largest_turn, 0.1);  // the body is turned, so its axes are not those of the base
+  const Signal& signal = imported.signal("force_torque");
+  std::vector<internal::Number> row(signal.layout.numbers);
+  const std::vector<std::int64_t> all =
+      numbers_of(imported, static_cast<std::size_t>(&signal - imported.signals.data()));
+  for (const std::size_t k :
+       {imported.samples() - 1, Recording::block, Recording::block - 1, std::size_t{7}}) {
+    imported.read_rows(signal, k, 1, row.data());
+    for (std::size_t i = 0; i < row.size(); ++i) EXPECT_EQ(row[i].integer, all[k * row.size() + i]) << k;
+  }
+}
+
+/// So much that rows of a recording would not fit into it: 1.2 million of 20 bytes.
+TEST_F(ImportedLog, TakesFourTimesItsSizeInMemoryAtMost) {
+  {
+    std::ofstream log(place / "log.csv");
+    log << "t_ms,q1,q2,q3\n";
+    for (int k = 0; k < 1'200'000; ++k) log << k << ",1.25,-3,0.5\n";
+  }
+  place.write("mapping.yaml",
+              "csv: log.csv\nscenario: scenarios/calibration_pulls.yaml\n"
+              "time: {column: t_ms, unit: ms}\ncolumns:\n"
+              "  - {column: q1, signal: joints.active, entry: 0, unit: deg}\n"
+              "  - {column: q2, signal: joints.active, entry: 1, unit: deg}\n"
+              "  - {column: q3, signal: joints.active, entry: 2, unit: deg}\n");
+  const auto peak_kB = [] {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;
+  };
+  const long before = peak_kB();
+  const Recording imported = read_csv_recording(place / "mapping.yaml");
+  const auto joints = read<JointReading>(imported, "joints");
+  double sum = 0.0;
+  for (std::size_t k = 0; k < imported.samples(); ++k) sum += joints[k].active.sum();
+  EXPECT_NEAR(sum / 1.2e6, -1.25 * std::numbers::pi / 180.0, 1e-9);
+  const long size_kB = static_cast<long>(std::filesystem::file_size(place / "log.csv")) / 1024;
+  std::cout << "a log of " << size_kB << " kB took " << peak_kB() - before << " kB" << std::endl;
+  EXPECT_LT(peak_kB() - before, 4 * size_kB);
 }
 
 TEST_F(ImportedLog, MustHaveAllJointsAndKnownSignals) {
