@@ -5,6 +5,7 @@
 
 #include "experiments/scenario/robot_files.h"
 #include "experiments/scenario/scenario.h"
+#include "systems/config/config_file.h"
 #include "systems/config/config_node.h"
 #include "systems/config/config_reader.h"
 #include "systems/config/parsed.h"
@@ -194,10 +195,10 @@ Campaign read_campaign(const std::filesystem::path& file, const CampaignOverride
   check_size(campaign);
   campaign.robots = std::make_shared<RobotFiles>();
   for (const std::filesystem::path& file_of_scenario : campaign.scenarios) {
-    const Scenario scenario = read_scenario(file_of_scenario);
-    campaign.scenario_texts.push_back(scenario.text);
-    campaign.scenario_nodes.push_back(parse_yaml(scenario.text, file_of_scenario.string()));
-    campaign.robot_texts.push_back(scenario.robot_text);
+    campaign.scenario_texts.push_back(read_config_file(file_of_scenario));
+    campaign.scenario_nodes.push_back(parse_yaml(campaign.scenario_texts.back(), file_of_scenario.string()));
+    campaign.robot_texts.push_back(
+        parse_scenario(campaign.scenario_nodes.back(), file_of_scenario, *campaign.robots).robot_text);
   }
   return campaign;
 }

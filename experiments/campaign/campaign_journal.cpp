@@ -63,14 +63,15 @@ std::ifstream CampaignJournal::rows() const {
 }
 
 void CampaignJournal::read(std::ifstream rows, const std::function<void(RunResult&&)>& take) const {
-  std::string header, line;
+  std::vector<std::string> names;
+  std::string line;
   while (std::getline(rows, line)) {
     const std::string row = unsealed(line);
     if (row.starts_with(first_column)) {
-      header = row;
+      names = csv_cells(row);
       continue;
     }
-    auto result = parse_csv_row(header, row);
+    auto result = parse_csv_row(names, row);
     if (result && result->run < is_done_.size()) take(std::move(*result));
   }
 }

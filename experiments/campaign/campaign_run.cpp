@@ -1,8 +1,10 @@
 #include "experiments/campaign/campaign_run.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "experiments/campaign/campaign.h"
 #include "experiments/campaign/drawn_contact.h"
@@ -153,22 +155,47 @@ bool place_obstacle(RobotFiles& robots, Draft& draft, const std::string& kind, R
   return true;
 }
 
-/// Draws everything once. False, or SetupError, where that is not possible.
-bool draw_once(const Campaign& campaign, RandomGenerator& random, CampaignRun& run) {
-  run.values.clear();
-  std::size_t digits = run.point;
+/// The scenario at a point of the grid before anything is drawn; `digits` is what is left of the point.
+Draft undrawn(const Campaign& campaign, std::size_t& digits, CampaignRun& run) {
   const std::size_t base = next_digit(digits, campaign.scenarios.size());
   Draft draft(campaign, base);
   if (campaign.scenarios.size() > 1) {
     run.values.emplace_back("scenario", campaign.scenarios[base].stem().string());
   }
-  const auto set = [&](const std::string& key, const Node& value) {
-    draft.set(key, value);
-    run.values.emplace_back(key, yaml_line(*value));
-  };
-  for (const CampaignAxis& axis : campaign.grid)
-    set(axis.key, axis.values[next_digit(digits, axis.values.size())]);
-  for (const CampaignDraw& draw : campaign.drawn) set(draw.key, drawn_value(draw, random));
+  for (const CampaignAxis& axis : campaign.grid) {
+    const Node& value = axis.values[next_digit(digits, axis.values.size())];
+    draft.set(axis.key, value);
+    run.values.emplace_back(axis.key, yaml_line(*value));
+  }
+  return draft;
+}
+
+/// What is wrong with that scenario.
+std::vector<std::string> undrawn_problems(const Campaign& campaign, CampaignRun run) {
+  try {
+    std::size_t digits = run.point;
+    const Draft draft = undrawn(campaign, digits, run);
+    parse_simulated_scenario(draft.root(), draft.file(), *campaign.robots);
+    return {};
+  } catch (const SetupError& error) {
+    return error.problems();
+  }
+}
+
+bool have_one_in_common(const std::vector<std::string>& some, const std::vector<std::string>& others) {
+  return std::find_first_of(some.begin(), some.end(), others.begin(), others.end()) != some.end();
+}
+
+/// Draws everything once. False, or SetupError, where that is not possible.
+bool draw_once(const Campaign& campaign, RandomGenerator& random, CampaignRun& run) {
+  run.values.clear();
+  std::size_t digits = run.point;
+  Draft draft = undrawn(campaign, digits, run);
+  for (const CampaignDraw& draw : campaign.drawn) {
+    const Node value = drawn_value(draw, random);
+    draft.set(draw.key, value);
+    run.values.emplace_back(draw.key, yaml_line(*value));
+  }
   draft.set("seed", scalar_node(std::to_string(run.seed)));
   if (campaign.contact) {
     const auto& bodies = campaign.contact->bodies;
@@ -205,6 +232,7 @@ CampaignRun draw_run(const Campaign& campaign, std::size_t number) {
   const std::uint64_t of_draw = derive_seed(campaign.seed, "draw " + std::to_string(run.draw));
   run.seed = derive_seed(of_draw, "noise");
   RandomGenerator random(derive_seed(of_draw, "values"));
+  std::optional<std::vector<std::string>> undrawn_wrong;  // which no draw mends
   const bool draws_again = !campaign.drawn.empty() || campaign.contact;
   for (run.attempts = 1;; ++run.attempts) {
     const bool is_last = !draws_again || run.attempts >= most_attempts;
@@ -212,7 +240,9 @@ CampaignRun draw_run(const Campaign& campaign, std::size_t number) {
       if (draw_once(campaign, random, run)) return run;
       if (is_last) throw SetupError("no body moves as 'contact' asks, in none of the draws");
     } catch (const SetupError& error) {
-      if (is_last) throw SetupError(of_run(run, error.problems()));
+      if (!undrawn_wrong) undrawn_wrong = undrawn_problems(campaign, run);
+      if (is_last || have_one_in_common(error.problems(), *undrawn_wrong))
+        throw SetupError(of_run(run, error.problems()));
     }
   }
 }

@@ -224,17 +224,19 @@ std::vector<std::string> csv_cells(const std::string& line) {
   return quoted ? std::vector<std::string>{} : cells;
 }
 
-std::optional<RunResult> parse_csv_row(const std::string& header, const std::string& row) {
-  const std::vector<std::string> names = csv_cells(header), cells = csv_cells(row);
+std::optional<RunResult> parse_csv_row(const std::vector<std::string>& names, const std::string& row) {
+  static const std::size_t others = csv_cells(csv_header(RunResult())).size();
+  const std::vector<std::string> cells = csv_cells(row);
+  if (cells.size() != names.size()) return std::nullopt;
   RunResult result;
   std::size_t end = names.size();  // of all but the estimators
   for (; end >= columns_an_estimator && names[end - 1].ends_with(last_of_estimator);
        end -= columns_an_estimator) {
     std::string name = names[end - 1].substr(0, names[end - 1].size() - last_of_estimator.size());
-    result.estimators.insert(result.estimators.begin(), EstimatorResult{.name = std::move(name)});
+    result.estimators.push_back({.name = std::move(name)});
   }
-  const std::size_t others = csv_cells(csv_header(RunResult())).size();
-  if (cells.size() != names.size() || end < others) return std::nullopt;
+  if (end < others) return std::nullopt;
+  std::reverse(result.estimators.begin(), result.estimators.end());
   std::size_t next = 0;
   bool is_whole = true;
   const auto take = [&](const char*, auto& value) { is_whole = parse(cells[next++], value) && is_whole; };

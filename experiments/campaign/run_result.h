@@ -66,8 +66,8 @@ RunResult result_of(const CampaignRun& run, const Verdict& verdict);
 std::string csv_header(const RunResult& result);
 std::string csv_row(const RunResult& result);
 
-/// The reverse, for rows below a header. None where `row` is no whole row.
-std::optional<RunResult> parse_csv_row(const std::string& header, const std::string& row);
+/// The reverse, for rows below a header with the cells `names`. None where `row` is no whole row.
+std::optional<RunResult> parse_csv_row(const std::vector<std::string>& names, const std::string& row);
 
 /// A cell of CSV, in quotes where it needs them.
 std::string csv_cell(const std::string& text);

@@ -121,7 +121,7 @@ void CampaignRanks::answer(const NextRun& next, const TakeResult& take) {
   if (status.MPI_TAG == complaint) throw SetupError(lines_of(text));
   if (status.MPI_TAG == table_row) {
     const std::vector<std::string> lines = lines_of(text);
-    const auto result = parse_csv_row(lines.front(), lines.back());
+    const auto result = parse_csv_row(csv_cells(lines.front()), lines.back());
     if (!result) throw SetupError("rank " + std::to_string(status.MPI_SOURCE) + " sent a row that is none");
     return take(*result);
   }

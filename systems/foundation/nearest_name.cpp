@@ -29,6 +29,8 @@ std::string nearest_name(std::string_view name, std::span<const std::string> kno
   std::string nearest;
   std::size_t smallest = std::max<std::size_t>(2, name.size() / 2) + 1;
   for (const std::string& candidate : known) {
+    const auto [shorter, longer] = std::minmax({name.size(), candidate.size()});
+    if (longer - shorter >= smallest) continue;  // so many letters are inserted at least
     const std::size_t distance = edit_distance(name, candidate);
     if (distance < smallest) {
       smallest = distance;

@@ -29,7 +29,7 @@ RunResult some_result() {
 
 TEST(ARowOfTheTable, ReadsBackBitForBit) {
   const RunResult result = some_result();
-  const auto read = parse_csv_row(csv_header(result), csv_row(result));
+  const auto read = parse_csv_row(csv_cells(csv_header(result)), csv_row(result));
   ASSERT_TRUE(read);
   EXPECT_EQ(csv_row(*read), csv_row(result));
   EXPECT_EQ(read->seed, result.seed);
@@ -43,11 +43,12 @@ TEST(ARowOfTheTable, ReadsBackBitForBit) {
 
 TEST(ARowOfTheTable, IsNoneOnceAnyOfItIsMissing) {
   const RunResult result = some_result();
-  const std::string header = csv_header(result), row = csv_row(result);
+  const std::vector<std::string> header = csv_cells(csv_header(result));
+  const std::string row = csv_row(result);
   for (std::size_t length = 0; length < row.rfind(','); ++length)
     EXPECT_FALSE(parse_csv_row(header, row.substr(0, length))) << row.substr(0, length);
   EXPECT_FALSE(parse_csv_row(header, row + ",1"));
-  EXPECT_FALSE(parse_csv_row("", row));
+  EXPECT_FALSE(parse_csv_row({}, row));
 }
 
 TEST(CellsOfCsv, MayHoldCommasAndQuotes) {
