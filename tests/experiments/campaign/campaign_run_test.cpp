@@ -103,6 +103,20 @@ TEST(ARunThatCannotBeMade, NamesItselfAndWhatWasDrawn) {
   EXPECT_THAT(problem, HasSubstr("is not a known key"));
 }
 
+TEST(ARunThatCannotBeMade, IsDrawnOnceWhereNoDrawCanMendIt) {
+  const test::Workplace place;
+  test::small_campaign(place);
+  place.replace("campaigns/small.yaml", "contact: {body: [platform, link2]}", "");
+  place.replace("campaigns/small.yaml", "from: 0, to: 360", "from: 275, to: 285");  // which all can be
+  const auto first_draw = [&] {
+    const CampaignRun run = draw_run(read_campaign(place / "campaigns/small.yaml"), 0);
+    EXPECT_EQ(run.attempts, 1);
+    return "motion.direction_deg = " + value(run, "motion.direction_deg") + ",";
+  }();
+  place.replace("campaigns/small.yaml", "control.momentum_observer.gain", "control.momentum_observer.gian");
+  EXPECT_THAT(problem_of(read_campaign(place / "campaigns/small.yaml"), 0), HasSubstr(first_draw));
+}
+
 TEST(ARunThatCannotBeMade, NamesTheLineOfTheCampaignThatAsksForIt) {
   const test::Workplace place;
   test::small_campaign(place);
