@@ -51,7 +51,7 @@ LawPorts add_reaction_with(const StageSite& site, TaskLevel level, const Constra
   builder.connect(given.reaction, task.reaction);
   builder.connect(given.kinematics, task.kinematics);
   builder.connect(given.dynamics, task.dynamics);
-  builder.connect(given.wrench, task.estimate);
+  builder.connect(given.isolation_wrench, task.estimate);
   builder.connect(given.classification, task.classification);
   builder.connect(given.location, task.location);
   return add_controller(site, level, constraints, ConstraintWatch::Role::reacting, given,

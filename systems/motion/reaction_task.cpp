@@ -68,6 +68,8 @@ std::vector<std::string> problems(const ReactionTaskSettings& settings) {
   found.require(settings.largest_opening >= settings.opening_angle,
                 "largest_opening must be at least opening_angle");
   found.require(settings.force_to_go_by > 0, "force_to_go_by must be positive");
+  found.require(settings.load_to_go_by >= 0, "load_to_go_by must not be negative");
+  found.require(settings.decide_within >= Time::zero(), "decide_within must not be negative");
   found.require(settings.released_force > 0 && settings.released_moment > 0,
                 "thresholds of a release must be positive");
   found.require(settings.released_for >= Time::zero(), "released_for must not be negative");
@@ -99,7 +101,9 @@ void ReactionTask::classify(const Kinematics& at, const WrenchEstimate& contact,
   }
   const BodyId body = ContactClasses::body(touched.most_likely);
   if (body.is_link1()) {
-    plan.kind = contact.drive_torque.size() > plan.leg ? ReactionKind::first_link : ReactionKind::brake;
+    const bool turns = contact.drive_torque.size() > plan.leg &&
+                       std::abs(contact.drive_torque[plan.leg]) >= settings_.load_to_go_by;
+    plan.kind = turns ? ReactionKind::first_link : ReactionKind::brake;
     return;
   }
   if (body.is_link2()) {
@@ -189,17 +193,21 @@ bool ReactionTask::is_released(Time now, const ReactionPlan& plan) const {
 }
 
 bool ReactionTask::has_arrived(Time now, const ReactionPlan& plan) const {
-  return to_seconds(now - plan.begin) >= plan.motion.duration();
+  return to_seconds(now - plan.begin) >= plan.motion.duration() && now >= plan.begin;
 }
 
 void ReactionTask::plan(Time now, const ReactionPlan& last, const ReactionState& state, const Kinematics& at,
                         const Dynamics& model, const WrenchEstimate& contact,
                         const ContactClassification& touched, const ContactLocation& place,
                         ReactionPlan& next) const {
-  if (state.entered(ReactionMode::react, now)) {
+  const Time decided = state.since + settings_.decide_within;
+  const bool is_open =
+      last.kind == ReactionKind::brake && state.mode == ReactionMode::react && now <= decided;
+  if (is_open || state.entered(ReactionMode::react, now)) {
     next = ReactionPlan();
     classify(at, contact, touched, place, next);
     begin(now, at, model, contact, next);
+    if (next.kind == ReactionKind::brake) next.begin = decided;
     return;
   }
   next = last;

@@ -34,9 +34,9 @@ struct ReactionPlan {
   CartesianVector point_in_body;  ///< of a second link
   CartesianVector direction;      ///< of the force; empty where both directions are a task
   SynchronisedMotion motion;      ///< of the task
-  Time begin{};                   ///< of that motion
-  double opened = 0.0;            ///< planned opening of the first link [rad]
-  Time touched{};                 ///< tick at which a force was last felt
+  Time begin{};         ///< of that motion; of braking, when it is decided that nothing else follows
+  double opened = 0.0;  ///< planned opening of the first link [rad]
+  Time touched{};       ///< tick at which a force was last felt
 };
 
 template <>
@@ -48,7 +48,8 @@ inline constexpr bool never_allocates<ReactionPlan> =
 /// from how it moves now. An opening that has arrived goes on by `opening_step` where
 /// a force is still felt, up to the largest opening. [SafePR] IV-B, Alg. 5
 ///
-/// Where the class is not accepted, or the force has no direction, the list has no task: the robot is braked.
+/// Where the class is not accepted, or the force has no direction yet, the list has no task: the robot is
+/// braked. It may still be decided for `decide_within` after the detection.
 /// Displacements of legs are opposite to those printed, which press a first link against what it clamps.
 class ReactionTask final : public System {
   State<ReactionPlan> last_ = state<ReactionPlan>("last");

@@ -16,7 +16,9 @@ struct ReactionTaskSettings {
   double opening_step = 0.1047;     ///< by which it is opened further while it still clamps [rad]
   double largest_opening = 0.6981;  ///< of the first link, in all [rad]
   bool along_force_only = false;    ///< platform and second link: only the direction of the force is a task
-  double force_to_go_by = 3.0;      ///< a weaker force has no reliable direction [N]
+  double force_to_go_by = 3.0;      ///< a weaker force has no reliable direction [N],
+  double load_to_go_by = 1.5;       ///< nor a weaker load of a first link's drive [Nm or N]
+  Time decide_within = 20ms;        ///< of the detection: so long what is not known may still become known
   double released_force = 5.0;      ///< a leg is released where no force component reaches it [N],
   double released_moment = 0.5;     ///< no moment component this [Nm],
   Time released_for = 100ms;        ///< for so long

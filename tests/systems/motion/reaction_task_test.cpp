@@ -205,8 +205,33 @@ TEST(ReactionTask, WhatIsNotKnownIsAnsweredByBraking) {
     EXPECT_TRUE(list.valid);
     EXPECT_EQ(list.count, 0);
     EXPECT_EQ(reaction.ticking.get(reaction.block.kind), ReactionKind::brake);
+    EXPECT_FALSE(reaction.finished());
+    reaction.go_on(20ms);
+    EXPECT_EQ(reaction.ticking.get(reaction.block.kind), ReactionKind::brake);
     EXPECT_TRUE(reaction.finished());
   }
+}
+
+TEST(ReactionTask, WhatBecomesKnownSoonAfterTheDetectionIsStillAnswered) {
+  for (const int late : {0, 1}) {
+    Reaction reaction;
+    reaction.know(platform, {2.0, 0.0, 0.0});
+    reaction.begin();
+    reaction.go_on(late ? 20ms : 15ms);
+    reaction.know(platform, {30, -40, 1});
+    reaction.go_on(1ms);
+    EXPECT_EQ(reaction.ticking.get(reaction.block.kind), late ? ReactionKind::brake : ReactionKind::platform);
+    if (late) continue;
+    reaction.know(platform, {-50, 10, 0});
+    const TaskGoal& goal = reaction.go_on(1000ms).goals[0];
+    EXPECT_LT((goal.reference.error - 0.1 * Eigen::Vector2d(0.6, -0.8)).norm(), 1e-9) << "it stays so";
+  }
+}
+
+TEST(ReactionTask, AFirstLinkThatHardlyAnythingLoadsIsBraked) {
+  Reaction reaction;
+  reaction.know(leg2_link1, {0, 0, 0});
+  EXPECT_EQ(reaction.begin().count, 0);
 }
 
 TEST(ReactionTask, ClassPlaceAndDirectionStayAsTheyWereAtTheDetection) {
