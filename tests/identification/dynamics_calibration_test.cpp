@@ -10,7 +10,7 @@
 #include "identification/dynamics_fit.h"
 #include "systems/robot/planar_rrr.h"
 #include "systems/signals/drive_reading.h"
-#include "tests/identification/calibrated_robot.h"
+#include "tests/identification/free_motion_errors.h"
 #include "tests/identification/recorded.h"
 #include "tests/support/problems_of.h"
 
@@ -23,11 +23,8 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-constexpr const char* realism =
-    "plant: {realism: {like: bench, leg_inertia: 0.1, platform_inertia: 0.1, torque_constant: 0}}";
-/// Parameters that are off, and nothing else of a real robot: what is left is noise.
-constexpr const char* only_parameters =
-    "plant: {realism: {friction: 0.2, leg_inertia: 0.1, platform_inertia: 0.1}}";
+using test::excitation_realism;
+using test::only_parameters;
 
 DynamicsBelief belief(const Simulated& run) {
   return {.robot = run.scenario.robot.robot.get(),
@@ -40,7 +37,8 @@ CalibrationResult calibrated(const Simulated& run) {
 }
 
 TEST(Dynamics, PredictTheTorqueOfAnUnseenMotionToOnePercentBeyondNoise) {
-  const Simulated run = test::simulated("calibration_excitation.yaml", {{realism, only_parameters}});
+  const Simulated run =
+      test::simulated("calibration_excitation.yaml", {{excitation_realism, only_parameters}});
   const Simulated other = test::simulated("random_motion.yaml", {{"plant: {realism: bench}", only_parameters},
                                                                  {"duration_s: 36", "duration_s: 15"}});
   const CalibrationResult got = calibrate_dynamics(belief(run), {{{"run.h5", ""}, &run.recording}},
@@ -57,7 +55,8 @@ TEST(Dynamics, PredictTheTorqueOfAnUnseenMotionToOnePercentBeyondNoise) {
 }
 
 TEST(Dynamics, FindWhatIsTrueWithinTheirDeviations) {
-  const Simulated run = test::simulated("calibration_excitation.yaml", {{realism, only_parameters}});
+  const Simulated run =
+      test::simulated("calibration_excitation.yaml", {{excitation_realism, only_parameters}});
   const CalibrationResult got = calibrated(run);
   const auto& truth = dynamic_cast<const PlanarRrr&>(*run.scenario.station.bench.robot).parameters();
   int found = 0;
@@ -78,24 +77,8 @@ TEST(Dynamics, FindWhatIsTrueWithinTheirDeviations) {
   EXPECT_GE(found, 5);
 }
 
-/// What the observer takes for a contact in a motion that nothing touches and no calibration has used.
-struct FreeMotionErrors {
-  double before, after;  // [N]
-};
-FreeMotionErrors observer_errors(std::uint64_t seed, const char* realism_of_all) {
-  const test::CalibratedRobot::Replacements in_excitation = {{realism, realism_of_all}};
-  const test::CalibratedRobot::Replacements in_motion = {
-      {realism, realism_of_all},
-      {"  drive_torque: {torque_constant_Nm_per_A: [6.1, 6.1, 6.1]}\n", ""},
-      {"duration_s: 36", "duration_s: 10"}};
-  test::CalibratedRobot robot(seed);
-  const double before = robot.judged("calibration_motion.yaml", in_motion).max_observer_error_force;
-  robot.dynamics("calibration_excitation.yaml", in_excitation);
-  return {before, robot.judged("calibration_motion.yaml", in_motion).max_observer_error_force};
-}
-
 TEST(Dynamics, HalveWhatTheObserverTakesForAContact) {
-  const FreeMotionErrors errors = observer_errors(1, only_parameters);
+  const test::FreeMotionErrors errors = test::free_motion_errors(1, test::only_parameters);
   EXPECT_LT(errors.after, 0.5 * errors.before);
 }
 

@@ -123,6 +123,7 @@ class All {
     progress.show(1.0);
     if (results_.empty())
       throw SetupError(options_.folder.string() + ": no recording below it is for a calibration");
+    tell_what_is_left_out();
     return ExitStatus::done;
   }
 
@@ -176,6 +177,18 @@ class All {
     const ParameterFile file = write_calibration(result, scenario, out_);
     calibrations_.push_back(file);
     results_.push_back(std::move(result));
+  }
+
+  void tell_what_is_left_out() {
+    const auto tell = [this](const std::vector<OpenedRecording>& files, const char* kind, const char* need) {
+      if (!files.empty()) return;
+      warnings_.push_back(fmt::format("{}: not calibrated, for no recording below {} is of {}", kind,
+                                      options_.folder.string(), need));
+    };
+    tell(files_.pulls, "torque-constant", "a scenario called calibration_pulls");
+    tell(files_.dynamics, "dynamics", "a scenario called calibration_excitation");
+    tell(files_.imu, "imu-pose", "a scenario called calibration_rectangle");
+    tell(files_.motion, "thresholds", "motion that expects no contact, as calibration_motion");
   }
 
   void torque_constants() {

@@ -74,6 +74,7 @@ TEST_F(Identify, AllThatAFolderAllowsIsCalibratedInOrder) {
   EXPECT_EQ(json["calibrations"][0]["kind"], "torque-constant");
   EXPECT_EQ(json["calibrations"][1]["kind"], "dynamics");
   EXPECT_EQ(json["calibrations"][2]["kind"], "imu-pose");
+  EXPECT_THAT(json["warnings"].dump(), HasSubstr("thresholds: not calibrated, for no recording below"));
   for (const char* const file : {"found/torque_constant.yaml", "found/dynamics.yaml", "found/imu_pose.html"})
     EXPECT_FALSE(test::bytes_of(place / file).empty()) << file;
 }
