@@ -2,6 +2,7 @@
 
 #include <dds/dds.h>
 
+#include "drivers/bus_log.h"
 #include "drivers/bus_threads.h"
 #include "drivers/dds_qos.h"
 #include "drivers/device_binding.h"
@@ -26,6 +27,7 @@ std::int32_t check_participant(std::int32_t result, const BusSettings& settings,
 
 DdsBus::DdsBus(const BusSettings& settings) {
   throw_if_any(problems(settings));
+  tell_bus_log();
   const std::set<pid_t> others = threads_of_program();
   const std::string name = "the bus " + std::to_string(settings.domain) + " on '" + settings.interface + "'";
   domain_ =

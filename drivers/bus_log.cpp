@@ -1,0 +1,48 @@
+#include "drivers/bus_log.h"
+
+#include <dds/dds.h>
+#include <dds/ddsrt/log.h>
+
+#include <cstdio>
+
+namespace flinch {
+namespace {
+
+constexpr long told_each = 3;
+constexpr std::size_t most_letters = 160;
+
+bool is_power_of_ten(long number) {
+  while (number % 10 == 0) number /= 10;
+  return number == 1;
+}
+
+/// Names the vendor in the head of the packet, which is all that can be known of its sender.
+bool is_about_a_packet(std::string_view line) {
+  return line.find("malformed packet") != std::string_view::npos ||
+         line.find("(vendor ") != std::string_view::npos;
+}
+
+}  // namespace
+
+std::string BusLog::shown(std::string_view message) {
+  const std::string_view line = message.substr(0, message.find('\n'));
+  if (!is_about_a_packet(line)) return std::string(message) + (message.ends_with('\n') ? "" : "\n");
+  const long number = ++malformed_;
+  if (number <= told_each) {
+    return std::string(line.substr(0, most_letters)) + (line.size() > most_letters ? " ...\n" : "\n");
+  }
+  return is_power_of_ten(number) ? "malformed packets on the bus so far: " + std::to_string(number) + "\n"
+                                 : "";
+}
+
+void tell_bus_log() {
+  static BusLog log;
+  dds_set_log_sink(
+      [](void* told, const dds_log_data_t* data) {
+        const std::string text = static_cast<BusLog*>(told)->shown({data->message, data->size});
+        std::fwrite(text.data(), 1, text.size(), stderr);
+      },
+      &log);
+}
+
+}  // namespace flinch

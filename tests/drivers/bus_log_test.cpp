@@ -1,0 +1,44 @@
+#include "drivers/bus_log.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace flinch {
+namespace {
+
+using ::testing::EndsWith;
+using ::testing::StartsWith;
+
+const std::string malformed = "recvUC: malformed packet received from vendor 1.16 state parse:DATA <" +
+                              std::string(60'000, 'f') + ">\n";
+
+TEST(TheLogOfTheBus, TellsEverythingButMalformedPackets) {
+  BusLog log;
+  const std::string message = "the keys are no good: " + std::string(5000, 'x') + "\n";
+  for (int k = 0; k < 20; ++k) EXPECT_EQ(log.shown(message), message);
+}
+
+TEST(TheLogOfTheBus, EndsEachLine) {
+  EXPECT_EQ(BusLog().shown("the end of the line is missing"), "the end of the line is missing\n");
+}
+
+TEST(TheLogOfTheBus, TellsMalformedPacketsShortly) {
+  BusLog log;
+  const std::string first = log.shown(malformed);
+  EXPECT_THAT(first, StartsWith("recvUC: malformed packet received from vendor 1.16"));
+  EXPECT_THAT(first, EndsWith(" ...\n"));
+  EXPECT_LT(first.size(), 200U);
+}
+
+TEST(TheLogOfTheBus, CannotBeFilledByMalformedPackets) {
+  BusLog log;
+  std::string all;
+  for (int k = 0; k < 50'000; ++k)
+    all +=
+        log.shown(malformed) + log.shown("plist(vendor 1.16): quickscan: parameter length 1 out of bounds");
+  EXPECT_LT(all.size(), 1000U);
+  EXPECT_THAT(all, EndsWith("malformed packets on the bus so far: 100000\n"));
+}
+
+}  // namespace
+}  // namespace flinch
