@@ -90,17 +90,18 @@ bool jumped(const ImuErrors& errors, std::size_t age, const ImuSpread& rest) noe
   return (turns && is_far).any();
 }
 
-bool jumps(const ImuErrors& errors, const ImuSpread& rest) noexcept {
+bool jumps(const ImuErrors& errors) noexcept {
   constexpr std::size_t watched = 12;
   constexpr int enough = 5;
   int found = 0;
-  for (std::size_t age = 0; age < watched; ++age) found += jumped(errors, age, rest) ? 1 : 0;
+  for (std::size_t age = 0; age < std::min(watched, errors.held()); ++age)
+    found += errors.back(age).jumps ? 1 : 0;
   return found >= enough;
 }
 
-bool lags(const ImuErrors& errors, double significant) noexcept {
+double lag(const ImuErrors& errors) noexcept {
   constexpr double least = 1.2e-3, most = 10e-3;  // [s]
-  if (errors.held() < ImuErrors::most) return false;
+  if (errors.held() < ImuErrors::most) return 0.0;
   double both = 0.0, slopes = 0.0, squares = 0.0;
   for (std::size_t age = 0; age < errors.held(); ++age) {
     const ImuError& each = errors.back(age);
@@ -110,7 +111,8 @@ bool lags(const ImuErrors& errors, double significant) noexcept {
   }
   const double explained = both * both / std::max(slopes, 1e-9);
   const double delay = both / std::max(slopes, 1e-9);
-  return delay > least && delay < most && explained > 0.7 * squares && explained > significant * significant;
+  const bool is_late = delay > least && delay < most && explained > 0.7 * squares;
+  return is_late ? std::sqrt(explained) : 0.0;
 }
 
 ImuDoubt explanation(const ImuErrors& errors, const ImuSpread& spread) noexcept {

@@ -18,6 +18,7 @@ struct ImuError {
   Eigen::Vector3d turning_slope{0.0, 0.0, 0.0};     ///< likewise [rad/s^2]
   Eigen::Vector3d unconfirmed{0.0, 0.0, 0.0};       ///< of `force`, what the encoders do not show [m/s^2]
   bool contradicted = false;                        ///< nothing of the robot explains it
+  bool jumps = false;                               ///< `jumped` was true of it
 };
 
 /// The latest samples in a row, at most 16.
@@ -45,13 +46,13 @@ struct ImuSpread {
 /// sign. A contact bends the error, but one way.
 bool jumped(const ImuErrors& errors, std::size_t age, const ImuSpread& rest) noexcept;
 
-/// Whether it has at five of the last twelve samples.
-bool jumps(const ImuErrors& errors, const ImuSpread& rest) noexcept;
+/// Whether five of the last twelve samples do.
+bool jumps(const ImuErrors& errors) noexcept;
 
-/// Whether what the encoders do not confirm goes with the slope of what is expected, as where the unit is
-/// later than its stamps say: by 1.2 to 10 ms, which explains seven tenths of the squares and at least
-/// `significant` of them, root of the sum [m/s^2].
-bool lags(const ImuErrors& errors, double significant) noexcept;
+/// How much of what the encoders do not confirm goes with the slope of what is expected, as where the unit is
+/// later than its stamps say: root of the sum of squares that it explains [m/s^2]. 0 where it is not later by
+/// 1.2 to 10 ms, or this explains less than seven tenths of all squares.
+double lag(const ImuErrors& errors) noexcept;
 
 /// What explains the contradicted ones best: a constant, a time by which the unit is late, or axes that are
 /// turned; each fitted by least squares, and judged by its squares left plus ln(n) for each parameter (the

@@ -22,7 +22,7 @@ constexpr double jitter = 3e-4;      // of stamps [s]
 constexpr double scale = 0.01;       // share of a rate that may be missing
 constexpr double believed = 2.0;     // times what the encoders show
 constexpr double significant = 3.0;  // deviations
-constexpr double surely_late = 4.6, perhaps_late = 2.5;  // see `lags` [m/s^2]
+constexpr double surely_late = 4.6, perhaps_late = 2.5;  // see `lag` [m/s^2]
 constexpr std::size_t vote = 6;  // ticks over which encoders and unit are compared with the model
 
 /// Takes in what encoders and model say of this tick.
@@ -40,31 +40,48 @@ void take_motion(ImuWatch& watch, const PlausibilityTick& tick) {
       watch.motions > 0 && tick.platform.acquired - watch.back(0).time < 3 * period / 2 && acceleration;
   if (!goes_on) watch.motions = 0;
   if (!acceleration) return;
-  TickMotion motion{tick.platform.acquired, tick.platform.pose, tick.platform.velocity,
-                    PlatformVector::Zero(n), *acceleration};
-  if (goes_on) motion.step = tick.robot.difference(motion.pose, watch.back(0).pose);
+  TickMotion motion{tick.platform.acquired, padded(tick.platform.pose), padded(tick.platform.velocity),
+                    Padded<max_dof>::Zero(), padded(*acceleration)};
+  if (goes_on) {
+    const Configuration before = watch.back(0).pose.head(tick.platform.pose.size());
+    motion.step = padded(tick.robot.difference(tick.platform.pose, before));
+  }
   watch.motion[watch.motions++ % ImuWatch::kept] = motion;
 }
 
 /// Standard deviations of the pose's coordinates, from the noise of the angles.
-PlatformVector pose_deviation(const AngleWatch& angles, const PlausibilityTick& tick) {
+Padded<max_dof> pose_deviation(const AngleWatch& angles, const PlausibilityTick& tick) {
   const PlatformMatrix& J = tick.kinematics.J_x_qa;
   PlatformVector squares = PlatformVector::Zero(J.rows());
   for (Eigen::Index i = 0; i < J.cols(); ++i) {
     const double noise = angles.angle_noise(i, tick.limits);
     squares += noise * noise * J.col(i).cwiseAbs2();
   }
-  return squares.cwiseSqrt();
+  return padded<max_dof>(squares.cwiseSqrt());
 }
+
+constexpr int widest = 6;  // of parabolas
+
+/// parabola_weight(h, i) at [h][|i|].
+constexpr auto parabola_weights = [] {
+  std::array<std::array<double, widest>, widest + 1> weights{};
+  for (int h = 1; h <= widest; ++h) {
+    for (int i = 0; i < h; ++i)
+      weights[static_cast<std::size_t>(h)][static_cast<std::size_t>(i)] = parabola_weight(h, i);
+  }
+  return weights;
+}();
 
 /// Acceleration of the platform beyond the model, around the motion of `age`: what the parabola through 2 h +
 /// 1 poses has more than the model.
-PlatformVector unexplained(const ImuWatch& watch, int age, int h) {
-  PlatformVector sum = PlatformVector::Zero(watch.back(0).acceleration.size());
+Padded<max_dof> unexplained(const ImuWatch& watch, int age, int h) {
+  const auto& weights = parabola_weights[static_cast<std::size_t>(h)];
+  Padded<max_dof> sum = Padded<max_dof>::Zero();
   for (int i = 1 - h; i < h; ++i) {
     const TickMotion& at = watch.back(static_cast<std::size_t>(age - i));
     const TickMotion& after = watch.back(static_cast<std::size_t>(age - i - 1));
-    sum += parabola_weight(h, i) * ((after.step - at.step) / (T * T) - at.acceleration);
+    const double weight = weights[static_cast<std::size_t>(std::abs(i))];
+    sum += weight * ((after.step - at.step) / (T * T) - at.acceleration);
   }
   return sum;
 }
@@ -76,8 +93,8 @@ double parabola_deviation(int h) {
 }
 
 /// Velocity at the motion of `age`: slope of the line through 2 h + 1 poses.
-PlatformVector line_velocity(const ImuWatch& watch, int age, int h) {
-  PlatformVector apart = PlatformVector::Zero(watch.back(0).step.size()), sum = apart;
+Padded<max_dof> line_velocity(const ImuWatch& watch, int age, int h) {
+  Padded<max_dof> apart = Padded<max_dof>::Zero(), sum = apart;
   double squares = 0.0;
   for (int i = 1; i <= h; ++i) {  // x_{+i} - x_{-i}
     apart += watch.back(static_cast<std::size_t>(age - i)).step +
@@ -100,40 +117,44 @@ struct Range {
   double outside(double value) const { return std::max({value - high, low - value, 0.0}); }
 };
 
+using Rows = Eigen::Matrix<double, 3, max_dof>;
+
 /// What a sample can be compared with.
 struct Comparison {
   const ImuWatch& watch;
-  const PlausibilityTick& tick;
-  const ImuReading& reading;
-  int age;    ///< of the motion at its instant
-  int ahead;  ///< motions after it that count
-  ImuOutput expected;
-  PlatformVector deviation;  ///< of the pose
-  ImuSpread noise;           ///< of the unit at rest
-  double limit;              ///< in deviations
+  int age;                      ///< of the motion at its instant
+  int ahead;                    ///< motions after it that count
+  Padded<max_dof> deviation;    ///< of the pose
+  Padded<max_dof> velocity;     ///< line_velocity(watch, age, ahead)
+  ImuSpread noise;              ///< of the unit at rest
+  double limit;                 ///< in deviations
+  Rows turning = Rows::Zero();  ///< how what is expected of the unit changes with velocity
+  Rows force = Rows::Zero();    ///< likewise with acceleration
 };
 
-double row_deviation(const ImuOutput::Jacobian& rows, int row, const PlatformVector& deviation) {
-  return (rows.row(row).transpose().array() * deviation.array()).matrix().norm();
+/// Of what `rows` make of a pose.
+Eigen::Vector3d deviations(const Rows& rows, const Padded<max_dof>& deviation) {
+  return (rows * deviation.asDiagonal()).rowwise().norm();
 }
 
 /// Whether the accelerometer says what the encoders, who show `around` beyond the model, do not confirm.
-bool force_contradicted(const Comparison& at, const PlatformVector& around, const ImuError& error) {
-  constexpr int wide = 6, narrow = 3;
-  const PlatformVector long_since = unexplained(at.watch, at.age - at.ahead + wide, wide);
-  const PlatformVector lately = unexplained(at.watch, at.age - at.ahead + narrow, narrow);
-  const ImuOutput::Jacobian& rows = at.expected.by_acceleration;
+bool force_contradicted(const Comparison& at, const Padded<max_dof>& around, const ImuError& error) {
+  constexpr int wide = widest, narrow = 3;
+  const Eigen::Vector3d ahead = at.force * around;
+  const Eigen::Vector3d long_since = at.force * unexplained(at.watch, at.age - at.ahead + wide, wide);
+  const Eigen::Vector3d lately = at.force * unexplained(at.watch, at.age - at.ahead + narrow, narrow);
+  const Eigen::Vector3d sigma = deviations(at.force, at.deviation);
+  const double of_ahead = parabola_deviation(at.ahead), of_wide = parabola_deviation(wide);
+  const double of_narrow = parabola_deviation(narrow), slope = error.force_slope.norm();
   for (int axis = 0; axis < 3; ++axis) {
-    const int row = 3 + axis;
-    const double sigma = row_deviation(rows, row, at.deviation);
     Range range;
-    range.include(rows.row(row).dot(around), parabola_deviation(at.ahead) * sigma);
-    range.include(rows.row(row).dot(long_since), parabola_deviation(wide) * sigma);
-    range.include(rows.row(row).dot(lately), parabola_deviation(narrow) * sigma);
+    range.include(ahead[axis], of_ahead * sigma[axis]);
+    range.include(long_since[axis], of_wide * sigma[axis]);
+    range.include(lately[axis], of_narrow * sigma[axis]);
     range.low *= believed;
     range.high *= believed;
-    const double limit = at.limit * std::hypot(parabola_deviation(wide) * sigma, at.noise.force) +
-                         at.limit / 5.0 * jitter * error.force_slope.norm();
+    const double limit =
+        at.limit * std::hypot(of_wide * sigma[axis], at.noise.force) + at.limit / 5.0 * jitter * slope;
     if (range.outside(error.force[axis]) > limit) return true;
   }
   return false;
@@ -141,17 +162,17 @@ bool force_contradicted(const Comparison& at, const PlatformVector& around, cons
 
 /// Whether the gyroscope does.
 bool turning_contradicted(const Comparison& at, const ImuError& error) {
-  const auto rows = at.expected.by_velocity.topRows<3>();
-  const Eigen::Vector3d smooth = rows * line_velocity(at.watch, at.age, at.ahead);
+  const Eigen::Vector3d smooth = at.turning * at.velocity;
+  const Eigen::Vector3d short_line = at.turning * line_velocity(at.watch, at.age, 1);
+  const Eigen::Vector3d longer_line = at.turning * line_velocity(at.watch, at.age, 2);
+  const Eigen::Vector3d sigma = deviations(at.turning, at.deviation);
+  const double unsure = scale * smooth.norm() + jitter * error.turning_slope.norm();
   for (int axis = 0; axis < 3; ++axis) {
-    const double sigma = row_deviation(at.expected.by_velocity, axis, at.deviation);
     Range range;
-    for (const int h : {1, 2}) {
-      const double other = rows.row(axis).dot(line_velocity(at.watch, at.age, h));
-      range.include(other - smooth[axis], line_deviation(h) * sigma);
-    }
-    const double limit = at.limit * std::hypot(line_deviation(at.ahead) * sigma, at.noise.turning) +
-                         at.limit / 5.0 * (scale * smooth.norm() + jitter * error.turning_slope.norm());
+    range.include(short_line[axis] - smooth[axis], line_deviation(1) * sigma[axis]);
+    range.include(longer_line[axis] - smooth[axis], line_deviation(2) * sigma[axis]);
+    const double limit = at.limit * std::hypot(line_deviation(at.ahead) * sigma[axis], at.noise.turning) +
+                         at.limit / 5.0 * unsure;
     if (range.outside(error.turning[axis]) > limit) return true;
   }
   return false;
@@ -162,21 +183,19 @@ bool unit_left_model(const Comparison& at, const ImuErrors& errors) {
   if (errors.held() <= vote) return false;
   const Eigen::Vector3d error = errors.back(0).turning;
   if ((error - errors.back(1).turning).norm() > 0.85 * error.norm()) return true;
-  const auto rows = at.expected.by_velocity.topRows<3>();
   const int before = at.age + static_cast<int>(vote);  // with what was wrong with the model until then
-  PlatformVector model = static_cast<double>(vote) * unexplained(at.watch, before + 4, 4);
+  Padded<max_dof> model = static_cast<double>(vote) * unexplained(at.watch, before + 4, 4);
   for (std::size_t k = 0; k < vote; ++k)
     model += at.watch.back(static_cast<std::size_t>(at.age) + k).acceleration;
-  const PlatformVector change =
-      line_velocity(at.watch, at.age, at.ahead) - line_velocity(at.watch, before, at.ahead);
-  const Eigen::Vector3d encoders = rows * (change - T * model);
+  const Padded<max_dof> change = at.velocity - line_velocity(at.watch, before, at.ahead);
+  const Eigen::Vector3d encoders = at.turning * (change - T * model);
   const Eigen::Vector3d unit = encoders + errors.back(0).turning - errors.back(vote).turning;
   return unit.norm() > believed * encoders.norm();
 }
 
 /// Compares the sample with the motion of its instant, where that is known; whether it is contradicted.
 void judge(ImuWatch& watch, const InertialWatch& learned, const AngleWatch& angles,
-           const PlausibilityTick& tick, const ImuReading& reading) {
+           const PlausibilityTick& tick, const ImuReading& reading, const ImuSpread& rest) {
   int age = 0;
   while (age < static_cast<int>(watch.motions) &&
          watch.back(static_cast<std::size_t>(age)).time - reading.acquired > period / 2)
@@ -188,29 +207,32 @@ void judge(ImuWatch& watch, const InertialWatch& learned, const AngleWatch& angl
   }
   const TickMotion& then = watch.back(static_cast<std::size_t>(age));
   const int ahead = std::min(age, 4);
-  Comparison at{
-      watch,
-      tick,
-      reading,
-      age,
-      ahead,
-      imu_output(tick.robot.space(), tick.limits.imu_mount, tick.robot.gravity(), then.pose, then.velocity,
-                 then.acceleration),
-      pose_deviation(angles, tick),
-      {std::max(learned.accelerometer.deviation(), 1e-3), std::max(learned.gyroscope.deviation(), 1e-4)},
-      0.5 * tick.limits.inertial};
-  const auto rows = at.expected.by_velocity.topRows<3>();
+  const ConfigurationSpace space = tick.robot.space();
+  const int n = space.dimension();
+  const ImuOutput output =
+      imu_output(space, tick.limits.imu_mount, tick.robot.gravity(), then.pose.head(space.stored()),
+                 then.velocity.head(n), then.acceleration.head(n));
+  Comparison at{.watch = watch,
+                .age = age,
+                .ahead = ahead,
+                .deviation = pose_deviation(angles, tick),
+                .velocity = line_velocity(watch, age, ahead),
+                .noise = {std::max(rest.force, 1e-3), std::max(rest.turning, 1e-4)},
+                .limit = 0.5 * tick.limits.inertial};
+  at.turning.leftCols(n) = output.by_velocity.topRows<3>();
+  at.force.leftCols(n) = output.by_acceleration.bottomRows<3>();
   ImuError error;
-  error.expected_force = at.expected.value.tail<3>();
-  error.expected_turning = rows * line_velocity(watch, age, ahead);
+  error.expected_force = output.value.tail<3>();
+  error.expected_turning = at.turning * at.velocity;
   error.force = reading.specific_force - learned.accelerometer.mean() - error.expected_force;
   error.turning = reading.angular_velocity - learned.gyroscope.mean() - error.expected_turning;
   if (watch.errors.count > 0)
     error.force_slope = (error.expected_force - watch.errors.back(0).expected_force) / T;
-  error.turning_slope = rows * then.acceleration;
-  const PlatformVector around = unexplained(watch, age, ahead);
-  error.unconfirmed = error.force - at.expected.by_acceleration.bottomRows<3>() * around;
+  error.turning_slope = at.turning * then.acceleration;
+  const Padded<max_dof> around = unexplained(watch, age, ahead);
+  error.unconfirmed = error.force - at.force * around;
   watch.errors.push(error);
+  watch.errors.latest().jumps = jumped(watch.errors, 0, rest);
   if (jumped(watch.errors, 0, at.noise)) at.limit *= 0.5;
   const bool turning = turning_contradicted(at, error);
   watch.blamed = turning && (watch.blamed || unit_left_model(at, watch.errors));
@@ -247,10 +269,10 @@ void count_missing(ImuWatch& watch, bool valid) {
 }
 
 /// Leaves out what has just been contradicted, and what follows soon after two of them, or while the unit may
-/// be late.
-void mask(ImuWatch& watch) {
+/// be late by `late`.
+void mask(ImuWatch& watch, double late) {
   if (watch.errors.count == 0) return;
-  if (lags(watch.errors, perhaps_late)) watch.masked = quarantine;
+  if (late > perhaps_late) watch.masked = quarantine;
   if (!watch.errors.latest().contradicted) return;
   int lately = 0;
   for (std::size_t age = 0; age < std::min<std::size_t>(4, watch.errors.held()); ++age)
@@ -259,13 +281,6 @@ void mask(ImuWatch& watch) {
 }
 
 }  // namespace
-
-double parabola_weight(int h, int i) noexcept {
-  const double square = static_cast<double>(i) * i, inner = static_cast<double>(h) * h;
-  const double outer = (h + 1.0) * (h + 1.0);
-  const double sum = 2.0 * h * (h + 1.0) * (2.0 * h + 1.0) * (4.0 * h * h + 4.0 * h - 3.0) / 15.0;
-  return (inner - square) * (outer - square) / sum;
-}
 
 void advance(ImuWatch& watch, const InertialWatch& learned, const AngleWatch& angles,
              const PlausibilityTick& tick, Plausibility& found) noexcept {
@@ -278,11 +293,12 @@ void advance(ImuWatch& watch, const InertialWatch& learned, const AngleWatch& an
   if (usable_now && reading.acquired > watch.before.acquired && learned.gyroscope.known()) {
     ImuDoubt doubt = repetition(watch, learned, reading);
     if (reading.acquired - watch.before.acquired > 3 * period / 2) watch.errors.count = 0;
-    judge(watch, learned, angles, tick, reading);
-    mask(watch);
     const ImuSpread rest{learned.accelerometer.deviation(), learned.gyroscope.deviation()};
-    if (doubt == ImuDoubt::none && jumps(watch.errors, rest)) doubt = ImuDoubt::noisy;
-    if (doubt == ImuDoubt::none && lags(watch.errors, surely_late)) doubt = ImuDoubt::late;
+    judge(watch, learned, angles, tick, reading, rest);
+    const double late = lag(watch.errors);
+    mask(watch, late);
+    if (doubt == ImuDoubt::none && jumps(watch.errors)) doubt = ImuDoubt::noisy;
+    if (doubt == ImuDoubt::none && late > surely_late) doubt = ImuDoubt::late;
     if (doubt == ImuDoubt::none && watch.errors.contradicted() >= named_after)
       doubt = explanation(watch.errors, {std::max(rest.force, 0.2), std::max(rest.turning, 5e-3)});
     if (watch.doubt == ImuDoubt::none) watch.doubt = doubt;

@@ -11,10 +11,10 @@ namespace flinch {
 /// How the platform moves at a tick, by encoders and model.
 struct TickMotion {
   Time time{};
-  Configuration pose;
-  PlatformVector velocity;
-  PlatformVector step;          ///< of the pose since the tick before
-  PlatformVector acceleration;  ///< as the drives alone make it
+  Padded<max_stored> pose;
+  Padded<max_dof> velocity;
+  Padded<max_dof> step;          ///< of the pose since the tick before
+  Padded<max_dof> acceleration;  ///< as the drives alone make it
 };
 
 /// Whether the inertial measurement unit can be believed, sample by sample.
@@ -51,6 +51,11 @@ void advance(ImuWatch& watch, const InertialWatch& learned, const AngleWatch& an
 /// The mean of second differences over the square of their interval that is the second derivative of the
 /// parabola fitted to 2 h + 1 samples: weights of the differences -(h - 1) ... h - 1 around the middle,
 /// proportional to (h^2 - i^2)((h + 1)^2 - i^2).
-double parabola_weight(int h, int i) noexcept;
+constexpr double parabola_weight(int h, int i) noexcept {
+  const double square = static_cast<double>(i) * i, inner = static_cast<double>(h) * h;
+  const double outer = (h + 1.0) * (h + 1.0);
+  const double sum = 2.0 * h * (h + 1.0) * (2.0 * h + 1.0) * (4.0 * h * h + 4.0 * h - 3.0) / 15.0;
+  return (inner - square) * (outer - square) / sum;
+}
 
 }  // namespace flinch

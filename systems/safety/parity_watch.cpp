@@ -31,8 +31,8 @@ void advance(ParityWatch& watch, const PlausibilityTick& tick, Plausibility& fou
   }
   if (watch.learned < LearnedNoise::enough) return;
   const JointVector left = ParallelRobot::passive_difference(mismatch, watch.offset);
-  watch.mismatch[watch.count++ % watch.mismatch.size()] = left;
-  JointVector mean = JointVector::Zero(left.size());
+  watch.mismatch[watch.count++ % watch.mismatch.size()] = padded(left);
+  Padded<max_dof> mean = Padded<max_dof>::Zero();
   const std::size_t held = std::min(watch.count, watch.mismatch.size());
   for (std::size_t k = 0; k < held; ++k)
     mean += watch.mismatch[k] / static_cast<double>(watch.mismatch.size());

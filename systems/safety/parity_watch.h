@@ -9,8 +9,8 @@ namespace flinch {
 /// Passive encoders against the active ones: by how much they have left what these imply, since they agreed.
 struct ParityWatch {
   int learned = 0;
-  JointVector offset{};                    ///< while the robot was held, mean [rad]
-  std::array<JointVector, 16> mismatch{};  ///< a ring [rad]
+  JointVector offset{};                        ///< while the robot was held, mean [rad]
+  std::array<Padded<max_dof>, 16> mismatch{};  ///< a ring [rad]
   std::size_t count = 0;
 };
 

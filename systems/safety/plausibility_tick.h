@@ -32,6 +32,17 @@ struct PlausibilityTick {
   bool free;  ///< they have been open for some ticks, and the drives obey
 };
 
+/// A vector with zeros below what it has: many of one size are copied at once.
+template <int most>
+using Padded = Eigen::Matrix<double, most, 1>;
+
+template <int most>
+Padded<most> padded(const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most, 1>& vector) noexcept {
+  Padded<most> whole = Padded<most>::Zero();
+  whole.head(vector.size()) = vector;
+  return whole;
+}
+
 /// Mean square of what a sensor says while nothing moves, so much as there is of it.
 struct LearnedNoise {
   static constexpr int enough = 50;

@@ -57,30 +57,30 @@ void judge_brakes(RestWatch& watch, const PlausibilityTick& tick, const JointVec
 
 /// What is `age` ticks younger than the oldest of a full ring.
 template <class Ring>
-const JointVector& aged(const Ring& ring, std::size_t ticks, std::size_t age) {
+const auto& aged(const Ring& ring, std::size_t ticks, std::size_t age) {
   return ring[(ticks + age) % ring.size()];
 }
 
 bool drives_have_stood(const RestWatch& watch, const AngleWatch& angles, const PlausibilityTick& tick) {
   const auto ring = static_cast<double>(watch.angle.size());
   for (Eigen::Index i = 0; i < tick.robot.drives(); ++i) {
-    double low = HUGE_VAL, high = -HUGE_VAL;
-    for (const JointVector& angle : watch.angle) {
-      low = std::min(low, angle[i]);
-      high = std::max(high, angle[i]);
-    }
     const double still =
         std::max(0.1 * tick.limits.resting_rate * period * ring, 10.0 * angles.angle_noise(i, tick.limits));
-    if (high - low > still) return false;
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (const Padded<max_dof>& angle : watch.angle) {
+      low = std::min(low, angle[i]);
+      high = std::max(high, angle[i]);
+      if (high - low > still) return false;
+    }
   }
   return true;
 }
 
 /// By how much each torque has been another one for half the window than when it began [Nm].
-JointVector change_of_torque(const RestWatch& watch) {
+Padded<max_dof> change_of_torque(const RestWatch& watch) {
   const std::size_t ring = watch.torque.size();
-  const JointVector& oldest = aged(watch.torque, watch.ticks, 0);
-  JointVector least = JointVector::Constant(oldest.size(), HUGE_VAL);
+  const Padded<max_dof>& oldest = aged(watch.torque, watch.ticks, 0);
+  Padded<max_dof> least = Padded<max_dof>::Constant(HUGE_VAL);
   for (std::size_t age = ring / 2; age < ring; ++age)
     least = least.cwiseMin((aged(watch.torque, watch.ticks, age) - oldest).cwiseAbs());
   return least;
@@ -89,15 +89,17 @@ JointVector change_of_torque(const RestWatch& watch) {
 /// Acceleration of the drives around an age, and the torque that made it: both weighted as the second
 /// difference of the angles over an arm weighs them.
 struct DrivenMotion {
-  JointVector acceleration, torque;
+  Padded<max_dof> acceleration, torque;
 };
 
 DrivenMotion driven_motion(const RestWatch& watch, std::size_t age) {
-  const auto angle = [&](std::size_t at) { return aged(watch.angle, watch.ticks, at); };
+  const auto angle = [&](std::size_t at) -> const Padded<max_dof>& {
+    return aged(watch.angle, watch.ticks, at);
+  };
   constexpr double area = arm * arm;
   DrivenMotion motion;
   motion.acceleration = (angle(age + arm) - 2.0 * angle(age) + angle(age - arm)) / (area * period * period);
-  motion.torque.setZero(motion.acceleration.size());
+  motion.torque.setZero();
   for (std::size_t away = 0; away < arm; ++away) {
     const double weight = static_cast<double>(arm - away) / area;
     motion.torque += weight * aged(watch.torque, watch.ticks, age + away);
@@ -114,8 +116,9 @@ JointVector idleness(const RestWatch& watch, const AngleWatch& angles, const Pla
   const DrivenMotion last = driven_motion(watch, watch.angle.size() - 1 - arm);
   const PlatformMatrix& J = tick.kinematics.J_x_qa;
   const PlatformMatrix M_qa = J.transpose() * tick.dynamics.M_x * J;
-  const JointVector change = last.torque - first.torque;
-  const JointVector idle = change - M_qa * (last.acceleration - first.acceleration);
+  const Eigen::Index drives = M_qa.rows();
+  const JointVector change = (last.torque - first.torque).head(drives);
+  const JointVector idle = change - M_qa * (last.acceleration - first.acceleration).head(drives);
   JointVector noise(idle.size());  // of that difference of accelerations
   for (Eigen::Index i = 0; i < noise.size(); ++i)
     noise[i] = std::sqrt(12.0) * angles.angle_noise(i, tick.limits) / (arm * arm * period * period);
@@ -130,15 +133,15 @@ void judge_still(RestWatch& watch, const AngleWatch& angles, const PlausibilityT
                  Plausibility& found) {
   const std::size_t ring = watch.angle.size();
   const bool follows = tick.free && tick.limits.commands_act && watch.gate.passes() && angles.readings > 0;
-  if (!follows || watch.torque[watch.ticks % ring].size() != tick.robot.drives()) {
+  if (!follows || watch.commanded != tick.robot.drives()) {
     watch.ticks = 0;
     return;
   }
-  watch.angle[watch.ticks % ring] = angles.angle.back();
+  watch.angle[watch.ticks % ring] = padded(angles.angle.back());
   ++watch.ticks;
   const bool known = watch.ticks >= ring && tick.kinematics.valid && tick.dynamics.valid;
   if (!known || !drives_have_stood(watch, angles, tick)) return;
-  const JointVector changed = change_of_torque(watch) / tick.limits.still_torque;
+  const JointVector changed = change_of_torque(watch).head(tick.robot.drives()) / tick.limits.still_torque;
   note(found, PlausibilityCheck::still, changed.cwiseMin(idleness(watch, angles, tick)).maxCoeff(),
        GateFault::drives_without_effect);
 }
@@ -158,7 +161,8 @@ void remember(RestWatch& watch, Time now, const GateStatus& gate, bool engage,
   if (engage != watch.engage) watch.engaged = now;
   watch.engage = engage;
   watch.gate = gate;
-  watch.torque[watch.ticks % watch.torque.size()] = torque.valid ? torque.torque : JointVector();
+  watch.commanded = torque.valid ? torque.torque.size() : 0;
+  watch.torque[watch.ticks % watch.torque.size()] = padded(torque.valid ? torque.torque : JointVector());
 }
 
 }  // namespace flinch

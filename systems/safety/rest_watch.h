@@ -13,12 +13,13 @@ struct RestWatch {
   GateStatus gate{};  ///< of the tick before
   Time engaged{};     ///< since when the brakes have been told to close
   bool engage = true;
-  std::array<double, 6> energy{};        ///< kinetic, a ring [J]
-  std::size_t energies = 0;              ///< since the controlled stop began
-  bool rested = false;                   ///< it has come to its end
-  std::array<JointVector, 32> angle{};   ///< a ring [rad]
-  std::array<JointVector, 32> torque{};  ///< a ring [Nm]
-  std::size_t ticks = 0;                 ///< in a row with drives that obey
+  std::array<double, 6> energy{};            ///< kinetic, a ring [J]
+  std::size_t energies = 0;                  ///< since the controlled stop began
+  bool rested = false;                       ///< it has come to its end
+  std::array<Padded<max_dof>, 32> angle{};   ///< a ring [rad]
+  std::array<Padded<max_dof>, 32> torque{};  ///< a ring [Nm]
+  std::size_t ticks = 0;                     ///< in a row with drives that obey
+  Eigen::Index commanded = 0;                ///< torques at the tick before
 };
 
 void advance(RestWatch& watch, const AngleWatch& angles, const PlausibilityTick& tick,

@@ -32,6 +32,7 @@ ImuErrors errors_of(const std::function<void(double time, ImuError&)>& failure, 
     error.contradicted = true;
     failure(t, error);
     errors.push(error);
+    errors.latest().jumps = jumped(errors, 0, spread);
   }
   return errors;
 }
@@ -69,12 +70,12 @@ TEST(ImuErrors, CountsThoseThatAreContradicted) {
 
 TEST(ImuErrors, JumpWithTenfoldNoiseOnly) {
   const auto nothing = [](double, ImuError&) {};
-  EXPECT_FALSE(jumps(errors_of(nothing), spread));
-  EXPECT_TRUE(jumps(errors_of(nothing, 10.0), spread));
+  EXPECT_FALSE(jumps(errors_of(nothing)));
+  EXPECT_TRUE(jumps(errors_of(nothing, 10.0)));
   const auto contact = [](double time, ImuError& error) {
     error.force.x() += 100.0 * std::sin(300.0 * time);
   };
-  EXPECT_FALSE(jumps(errors_of(contact), spread)) << "half a sine of 10 ms, as of a hard contact";
+  EXPECT_FALSE(jumps(errors_of(contact))) << "half a sine of 10 ms, as of a hard contact";
 }
 
 }  // namespace
