@@ -4,9 +4,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <utility>
 
+#include "systems/contact/normal_share.h"
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/outline.h"
@@ -15,8 +17,8 @@ namespace flinch {
 namespace {
 
 constexpr double impossible = -1e6;
-constexpr double negligible = 30.0;   // ln of how much smaller what adds nothing to a sum is
-constexpr double surely_free = 37.0;  // softnesses away: what is there leaves a room of 1 to the last bit
+constexpr double negligible = 18.0;   // ln of how much smaller what adds nothing to a sum is
+constexpr double surely_free = 20.0;  // softnesses away: what is there leaves a room of 1, within 2e-9
 
 Eigen::Vector3d in_space(const CartesianVector& v) {
   Eigen::Vector3d spatial = Eigen::Vector3d::Zero();
@@ -32,34 +34,38 @@ Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, max_dof> about_axes(const Cartesi
   return spatial;
 }
 
-double normal_density(double x) { return std::exp(-0.5 * x * x) / std::sqrt(2.0 * std::numbers::pi); }
-double normal_share(double x) { return 0.5 * std::erfc(-x * std::numbers::sqrt2 / 2.0); }
-
 /// E[max(v - w, 0)] for w ~ N(0, sigma^2) [m/s].
-double approach_weight(double v, double sigma) {
-  return sigma * normal_density(v / sigma) + v * normal_share(v / sigma);
+double approach_weight(double v, double sigma) { return sigma * normal_excess(v / sigma); }
+
+constexpr std::array frictions{-2.0, -1.0, 0.0, 1.0, 2.0};  // times the coefficient, along the sliding
+
+/// A direction in which a surface may slide; in the plane there is one, and its opposite.
+Eigen::Vector3d tangent_to(const Eigen::Vector3d& normal, int dimension) {
+  if (dimension == 2) return {-normal.y(), normal.x(), 0.0};
+  return normal.unitOrthogonal();
 }
 
-/// ln of the likelihood of a whitened wrench less that of no contact, for a force a >= 0 along h.
-struct ForceFit {
-  double log_gain = impossible;
-  double force = 0.0;      // posterior mean, not below 0 [N]
-  double explained = 0.0;  // of F^T S^-1 F
+/// A value that changes linearly from place to place: a + b x.
+template <class Value>
+struct Linear {
+  Value a, b;
+  double operator()(double x) const { return a + b * x; }
 };
 
-/// What `ForceFit::log_gain` cannot exceed.
-double most_gain(double explained) { return 0.5 * explained + std::numbers::ln2; }
+template <class Vector, class Direction>
+Linear<double> along(const Linear<Vector>& vector, const Direction& direction) {
+  return {vector.a.dot(direction), vector.b.dot(direction)};
+}
 
-ForceFit fit_force(double hh, double hF, double scale) {
-  const double precision = hh + 1.0 / (scale * scale);
-  const double s = 1.0 / std::sqrt(precision);
-  const double m = hF / precision;
-  ForceFit fit;
-  fit.force = std::max(m, 0.0);
-  if (hF > 0.0 && hh > 0.0) fit.explained = hF * hF / hh;
-  const double share = normal_share(m / s);
-  if (share > 1e-12) fit.log_gain = 0.5 * m * m * precision + std::log(2.0 * s / scale * share);
-  return fit;
+/// a + b x + c x^2
+struct Quadratic {
+  double a, b, c;
+  double operator()(double x) const { return a + (b + c * x) * x; }
+};
+
+template <class Vector>
+Quadratic product(const Linear<Vector>& v, const Linear<Vector>& w) {
+  return {v.a.dot(w.a), v.a.dot(w.b) + v.b.dot(w.a), v.b.dot(w.b)};
 }
 
 /// `count` directions, evenly around the plane or over the sphere.
@@ -84,25 +90,53 @@ struct TouchHypotheses::Scene {
   WhitenedWrench wrench;  // L^-1 F
 };
 
-/// What has been found of one class: a sum of likelihoods that are known by their logarithms.
+/// A place that is touched: whitened wrenches of forces of 1 N along the normal and the sliding there.
+struct TouchHypotheses::Touch {
+  double nn, nt, tt;       // their products
+  double nF, tF;           // with the wrench
+  double speed, sliding;   // [m/s]
+  Eigen::Vector3d arm;     // from the body's origin
+  Eigen::Vector3d normal;  // outwards, in the base frame
+};
+
+/// What has been found of one class: a sum of likelihoods, as multiples of exp(`unit`).
 struct TouchHypotheses::Tally {
-  double top = impossible;  // the largest
-  double sum = 0.0;         // of all, as multiples of it
+  double unit = 0.0;
+  double of_none = 1.0;  // exp(-unit)
+  double sum = 0.0;
+  double largest = 0.0;  // of the terms
+  double marked = 0.0;   // one of the terms, at least half as large
+  double top = -1e300;   // its logarithm
   double explained = 0.0;
-  double location = 0.0, force = 0.0, approach = 0.0;
+  double location = 0.0, force = 0.0, approach = 0.0;  // of that term
 
   bool is_negligible(double logarithm) const { return logarithm < top - negligible; }
-  void add(double weight, const ForceFit& fit, double fraction, double speed) {
-    const double logarithm = std::log(weight) + fit.log_gain;
-    if (!(logarithm > impossible) || is_negligible(logarithm)) return;
-    if (logarithm <= top) {
-      sum += std::exp(logarithm - top);
-      return;
+  /// So that terms of this logarithm are no large numbers.
+  void make_room(double logarithm) {
+    if (logarithm < unit + 5.0) return;
+    const double smaller = std::exp(unit - logarithm);
+    sum *= smaller;
+    largest *= smaller;
+    marked *= smaller;
+    unit = logarithm;
+    of_none = std::exp(-unit);
+  }
+  /// exp(x^2 / 2) times the share of a normal distribution below x.
+  double likelihood(double x) const {
+    if (x < 0.0) return x > -farthest_normal ? of_none * normal_tail(-x) : 0.0;
+    const double pushed = std::exp(0.5 * x * x - unit);
+    return x < farthest_normal ? pushed - of_none * normal_tail(x) : pushed;
+  }
+  void add(double term, double fraction, double newtons, double speed) {
+    sum += term;
+    if (term <= largest) return;
+    largest = term;
+    if (term > 2.0 * marked) {
+      marked = term;
+      top = unit + std::log(term);
     }
-    sum = sum * std::exp(top - logarithm) + 1.0;
-    top = logarithm;
     location = fraction;
-    force = fit.force;
+    force = newtons;
     approach = speed;
   }
 };
@@ -112,7 +146,8 @@ TouchHypotheses::TouchHypotheses(std::shared_ptr<const ParallelRobot> robot,
     : robot_(std::move(robot)),
       settings_(settings),
       classes_(robot_->body_count(), robot_->legs()),
-      places_(static_cast<std::size_t>(robot_->body_count())) {
+      places_(static_cast<std::size_t>(robot_->body_count())),
+      sides_(places_.size()) {
   Findings found("contact hypotheses: ");
   found.positive("force_scale", settings.force_scale, "N");
   found.positive("object_speed", settings.object_speed, "m/s");
@@ -127,19 +162,22 @@ TouchHypotheses::TouchHypotheses(std::shared_ptr<const ParallelRobot> robot,
 
 void TouchHypotheses::add_places(BodyId body) {
   std::vector<Place>& places = places_[static_cast<std::size_t>(body.index())];
+  std::vector<Side>& sides = sides_[static_cast<std::size_t>(body.index())];
+  const auto along = static_cast<std::size_t>(settings_.points_along);
   const int dimension = robot_->space_dimension();
   for (const Shape& shape : robot_->body(body).shapes) {
     if (const auto* capsule = std::get_if<Capsule>(&shape)) {
       const Eigen::Vector3d axis = (capsule->end - capsule->begin).normalized();
       const Eigen::Vector3d across =
           dimension == 2 ? Eigen::Vector3d::UnitZ().cross(axis) : axis.unitOrthogonal();
-      for (int i = 0; i < settings_.points_along; ++i) {
-        const double fraction = (i + 0.5) / settings_.points_along;
-        const Eigen::Vector3d point = capsule->begin + fraction * (capsule->end - capsule->begin);
-        for (const Eigen::Vector3d& turned : directions(2, dimension == 2 ? 2 : 8)) {
-          const Eigen::Vector3d normal = turned.x() * across + turned.y() * axis.cross(across);
+      for (const Eigen::Vector3d& turned : directions(2, dimension == 2 ? 2 : 8)) {
+        const Eigen::Vector3d normal = turned.x() * across + turned.y() * axis.cross(across);
+        for (int i = 0; i < settings_.points_along; ++i) {
+          const double fraction = (i + 0.5) / settings_.points_along;
+          const Eigen::Vector3d point = capsule->begin + fraction * (capsule->end - capsule->begin);
           places.push_back({point + capsule->radius * normal, normal, fraction});
         }
+        sides.push_back({places.size() - along, along});
       }
     } else {
       const Outline outline({shape});
@@ -147,6 +185,7 @@ void TouchHypotheses::add_places(BodyId body) {
         const LinePassage passage = outline.passage(Eigen::Vector3d::Zero(), direction);
         if (!passage.hits) continue;
         const Eigen::Vector3d point = passage.leave * direction;
+        sides.push_back({places.size(), 1});
         places.push_back({point, outline.normal_at(point), 0.0});
       }
     }
@@ -158,57 +197,123 @@ double TouchHypotheses::room(const Scene& scene, int body, int other, const Eige
   for (int i = 0; i < robot_->body_count(); ++i) {
     const Placed& placed = scene.bodies[static_cast<std::size_t>(i)];
     if (i == body || i == other || placed.radius < 0.0) continue;
-    const Eigen::Vector3d axis = placed.end - placed.begin;
-    const double length = axis.squaredNorm();
-    const double fraction =
-        length > 0.0 ? std::clamp((centre - placed.begin).dot(axis) / length, 0.0, 1.0) : 0.0;
-    const double gap =
-        (centre - placed.begin - fraction * axis).norm() - placed.radius - settings_.object_radius;
-    if (gap > surely_free * settings_.softness) continue;
-    room *= 1.0 / (1.0 + std::exp(-gap / settings_.softness));
+    const Eigen::Vector3d apart = centre - placed.begin;
+    const double fraction = std::clamp(apart.dot(placed.by_length), 0.0, 1.0);
+    const double distance = (apart - fraction * (placed.end - placed.begin)).squaredNorm();
+    const double touching = placed.radius + settings_.object_radius;
+    const double free = touching + surely_free * settings_.softness;
+    if (distance > free * free) continue;
+    room *= 1.0 / (1.0 + std::exp((touching - std::sqrt(distance)) / settings_.softness));
   }
   return room;
 }
 
-void TouchHypotheses::weigh_body(const Scene& scene, BodyId body, Tally& tally) const {
+void TouchHypotheses::add(const Scene& scene, BodyId body, const Place& place, const Touch& touch,
+                          Tally& tally) const {
+  const double rare = 1.0 / (settings_.force_scale * settings_.force_scale);
+  std::array<double, frictions.size()> hh, hF;
+  std::array<bool, frictions.size()> matters;
+  for (std::size_t k = 0; k < frictions.size(); ++k) {
+    const double mu = frictions[k] * settings_.friction;  // of the force along -slide
+    const double shrink = 1.0 / (1.0 + mu * mu);
+    hh[k] = (touch.nn + 2.0 * mu * touch.nt + mu * mu * touch.tt) * shrink;
+    hF[k] = -(touch.nF + mu * touch.tF);
+    const double squared = hF[k] > 0.0 ? hF[k] * hF[k] * shrink : 0.0;
+    hF[k] *= std::sqrt(shrink);
+    if (squared > tally.explained * hh[k]) tally.explained = squared / hh[k];
+    matters[k] = squared >= 2.0 * (tally.top - negligible) * (hh[k] + rare);
+  }
+  if (std::none_of(matters.begin(), matters.end(), std::identity())) return;
+  const Placed& placed = scene.bodies[static_cast<std::size_t>(body.index())];
+  const double weight = approach_weight(touch.speed, settings_.object_speed) *
+                        room(scene, body.index(), body.index(),
+                             placed.origin + touch.arm + settings_.object_radius * touch.normal);
+  const double against =
+      normal_share(touch.sliding / settings_.object_speed);  // friction against the sliding
+  for (std::size_t k = 0; k < frictions.size(); ++k) {
+    if (!matters[k]) continue;
+    const double s = 1.0 / std::sqrt(hh[k] + rare);
+    const double x = hF[k] * s;  // m / s of the class's comment
+    if (x > 0.0) tally.make_room(0.5 * x * x);
+    const double share = frictions[k] == 0.0 ? 1.0 : (frictions[k] > 0.0 ? against : 1.0 - against);
+    tally.add(weight * share / 3.0 * s * tally.likelihood(x), place.fraction, std::max(x * s, 0.0),
+              touch.speed);
+  }
+}
+
+/// On a straight side, all of which has one normal, velocities and wrenches are linear in the place.
+void TouchHypotheses::weigh_side(const Scene& scene, BodyId body, const Side& side, Tally& tally) const {
   const auto at = static_cast<std::size_t>(body.index());
   const Placed& placed = scene.bodies[at];
-  const double each = 1.0 / static_cast<double>(std::max<std::size_t>(places_[at].size(), 1));
-  for (const Place& place : places_[at]) {
-    const Eigen::Vector3d arm = placed.axes * place.point;
-    const Eigen::Vector3d normal = placed.axes * place.normal;
-    const Eigen::Vector3d velocity = placed.velocity_at(arm);
-    const double speed = velocity.dot(normal);
-    Eigen::Vector3d slide = velocity - speed * normal;
-    const double sliding = slide.norm();
-    slide = sliding > 1e-9 ? Eigen::Vector3d(slide / sliding) : Eigen::Vector3d(normal.unitOrthogonal());
-    if (robot_->space_dimension() == 2 && sliding <= 1e-9)
-      slide = Eigen::Vector3d(-normal.y(), normal.x(), 0.0);
-    const WhitenedWrench hn = placed.wrench_of(normal, arm);
-    const WhitenedWrench ht = placed.wrench_of(slide, arm);
-    const double nn = hn.squaredNorm(), nt = hn.dot(ht), tt = ht.squaredNorm();
-    const double nF = hn.dot(scene.wrench), tF = ht.dot(scene.wrench);
-    double weight = -1.0, against = 0.0;
-    for (int k = -2; k <= 2; ++k) {
-      const double mu = k * settings_.friction;             // of the force along -slide
-      const double hh = nn + 2.0 * mu * nt + mu * mu * tt;  // times 1 + mu^2
-      const double hF = -(nF + mu * tF);                    // times its root
-      const double explained = hF > 0.0 && hh > 0.0 ? hF * hF / hh : 0.0;
-      tally.explained = std::max(tally.explained, explained);
-      if (tally.is_negligible(most_gain(explained))) continue;
-      const double size = 1.0 / std::sqrt(1.0 + mu * mu);
-      const ForceFit fit = fit_force(hh * size * size, hF * size, settings_.force_scale);
-      if (tally.is_negligible(fit.log_gain)) continue;
-      if (weight < 0.0) {
-        weight =
-            each * approach_weight(speed, settings_.object_speed) *
-            room(scene, body.index(), body.index(), placed.origin + arm + settings_.object_radius * normal);
-        against = normal_share(sliding / settings_.object_speed);  // friction against the sliding
-      }
-      const double share = k == 0 ? 1.0 / 3.0 : (k > 0 ? against : 1.0 - against) / 3.0;
-      tally.add(weight * share, fit, place.fraction, speed);
+  const Place* const places = &places_[at][side.first];
+  const Eigen::Vector3d begin = placed.axes * places[0].point;
+  const Eigen::Vector3d step =
+      (placed.axes * places[side.count - 1].point - begin) / static_cast<double>(side.count - 1);
+  const Eigen::Vector3d normal = placed.axes * places[0].normal;
+  const Eigen::Vector3d tangent = tangent_to(normal, robot_->space_dimension());
+  const std::array<Eigen::Vector3d, 2> tangents{tangent, normal.cross(tangent)};
+  const Linear<Eigen::Vector3d> velocity{placed.velocity_at(begin), placed.angular_velocity.cross(step)};
+  const auto wrench_along = [&](const Eigen::Vector3d& direction) {
+    return Linear<WhitenedWrench>{placed.wrench_of(direction, begin), placed.moment * step.cross(direction)};
+  };
+  const auto hn = wrench_along(normal);
+  const std::array ht{wrench_along(tangents[0]), wrench_along(tangents[1])};
+  const Quadratic nn = product(hn, hn), n0 = product(hn, ht[0]), n1 = product(hn, ht[1]);
+  const Quadratic t00 = product(ht[0], ht[0]), t01 = product(ht[0], ht[1]), t11 = product(ht[1], ht[1]);
+  const auto nF = along(hn, scene.wrench);
+  const std::array tF{along(ht[0], scene.wrench), along(ht[1], scene.wrench)};
+  const auto speed = along(velocity, normal);
+  const std::array slides{along(velocity, tangents[0]), along(velocity, tangents[1])};
+  for (std::size_t i = 0; i < side.count; ++i) {
+    const auto x = static_cast<double>(i);
+    const double slide0 = slides[0](x), slide1 = slides[1](x), sliding = std::hypot(slide0, slide1);
+    const double c0 = sliding > 1e-9 ? slide0 / sliding : 1.0, c1 = sliding > 1e-9 ? slide1 / sliding : 0.0;
+    const Touch touch{.nn = nn(x),
+                      .nt = c0 * n0(x) + c1 * n1(x),
+                      .tt = c0 * c0 * t00(x) + 2.0 * c0 * c1 * t01(x) + c1 * c1 * t11(x),
+                      .nF = nF(x),
+                      .tF = c0 * tF[0](x) + c1 * tF[1](x),
+                      .speed = speed(x),
+                      .sliding = sliding,
+                      .arm = begin + x * step,
+                      .normal = normal};
+    add(scene, body, places[i], touch, tally);
+  }
+}
+
+void TouchHypotheses::weigh_place(const Scene& scene, BodyId body, const Place& place, Tally& tally) const {
+  const Placed& placed = scene.bodies[static_cast<std::size_t>(body.index())];
+  const Eigen::Vector3d arm = placed.axes * place.point;
+  const Eigen::Vector3d normal = placed.axes * place.normal;
+  const Eigen::Vector3d velocity = placed.velocity_at(arm);
+  const double speed = velocity.dot(normal);
+  Eigen::Vector3d slide = velocity - speed * normal;
+  const double sliding = slide.norm();
+  slide = sliding > 1e-9 ? Eigen::Vector3d(slide / sliding) : tangent_to(normal, robot_->space_dimension());
+  const WhitenedWrench hn = placed.wrench_of(normal, arm);
+  const WhitenedWrench ht = placed.wrench_of(slide, arm);
+  const Touch touch{.nn = hn.squaredNorm(),
+                    .nt = hn.dot(ht),
+                    .tt = ht.squaredNorm(),
+                    .nF = hn.dot(scene.wrench),
+                    .tF = ht.dot(scene.wrench),
+                    .speed = speed,
+                    .sliding = sliding,
+                    .arm = arm,
+                    .normal = normal};
+  add(scene, body, place, touch, tally);
+}
+
+void TouchHypotheses::weigh_body(const Scene& scene, BodyId body, Tally& tally) const {
+  const auto at = static_cast<std::size_t>(body.index());
+  for (const Side& side : sides_[at]) {
+    if (side.count > 1) {
+      weigh_side(scene, body, side, tally);
+    } else {
+      weigh_place(scene, body, places_[at][side.first], tally);
     }
   }
+  tally.sum *= 2.0 / (settings_.force_scale * static_cast<double>(places_[at].size()));
 }
 
 void TouchHypotheses::weigh_clamping(const Scene& scene, int leg, Tally& tally) const {
@@ -230,7 +335,6 @@ void TouchHypotheses::weigh_clamping(const Scene& scene, int leg, Tally& tally) 
   const Eigen::Vector3d bisector = (along[0] + along[1]).normalized();
   const double cos_half = bisector.dot(along[0]);
   const std::size_t links[] = {first, second};
-  const double each = 1.0 / settings_.points_along;
   const double scale = settings_.force_scale;
   for (int i = 0; i < settings_.points_along; ++i) {
     const double distance = shorter * (i + 0.5) / settings_.points_along;
@@ -249,20 +353,21 @@ void TouchHypotheses::weigh_clamping(const Scene& scene, int leg, Tally& tally) 
     const Eigen::Vector2d hF(h[0].dot(scene.wrench), h[1].dot(scene.wrench));
     const Eigen::Matrix2d C = P.inverse();
     const Eigen::Vector2d m = C * hF;
+    const bool both_push = m[0] > 0.0 && m[1] > 0.0;
+    const double gain = 0.5 * m.dot(hF);  // where both push: not more than this
+    if (both_push) tally.explained = std::max(tally.explained, 2.0 * gain);
     const double share = normal_share(m[0] / std::sqrt(C(0, 0))) * normal_share(m[1] / std::sqrt(C(1, 1)));
     if (!(share > 1e-12)) continue;
-    ForceFit fit;
-    fit.log_gain = 0.5 * m.dot(hF) + std::log(4.0 * share / (scale * scale) * std::sqrt(C.determinant()));
-    fit.force = std::max(m[1], 0.0);
-    const bool both_push = m[0] > 0.0 && m[1] > 0.0;
-    fit.explained = both_push ? m.dot(hF) : 0.0;
-    tally.explained = std::max(tally.explained, fit.explained);
-    if (tally.is_negligible(fit.log_gain)) continue;
+    const double logarithm = gain + std::log(share);
+    if (tally.is_negligible(logarithm)) continue;
+    tally.make_room(logarithm);
     const Eigen::Vector3d centre = elbow + distance / cos_half * bisector;
-    const double weight = each * approach_weight(closing, settings_.closing_speed) *
+    const double weight = approach_weight(closing, settings_.closing_speed) *
                           room(scene, static_cast<int>(first), static_cast<int>(second), centre);
-    tally.add(weight, fit, distance / lengths[1], closing);
+    tally.add(weight * std::sqrt(C.determinant()) * std::exp(logarithm - tally.unit), distance / lengths[1],
+              std::max(m[1], 0.0), closing);
   }
+  tally.sum *= 4.0 / (scale * scale * settings_.points_along);
 }
 
 double TouchHypotheses::bias(int number) const {
@@ -297,6 +402,8 @@ void TouchHypotheses::place(const Kinematics& kinematics, const Eigen::LLT<Platf
       placed.begin = placed.origin + placed.axes * capsule->begin;
       placed.end = placed.origin + placed.axes * capsule->end;
       placed.radius = capsule->radius;
+      const Eigen::Vector3d axis = placed.end - placed.begin;
+      if (axis.squaredNorm() > 0.0) placed.by_length = axis / axis.squaredNorm();
     } else if (const auto* sphere = std::get_if<Sphere>(&shape)) {
       placed.begin = placed.end = placed.origin + placed.axes * sphere->centre;
       placed.radius = sphere->radius;
@@ -307,9 +414,8 @@ void TouchHypotheses::place(const Kinematics& kinematics, const Eigen::LLT<Platf
 void TouchHypotheses::weigh(const Kinematics& kinematics, const PlatformVector& wrench,
                             const PlatformMatrix& covariance, ContactEvidence& evidence) const noexcept {
   evidence.valid = false;
-  for (ClassVector* entries : {&evidence.residual, &evidence.location, &evidence.force, &evidence.approach}) {
+  for (ClassVector* entries : {&evidence.residual, &evidence.location, &evidence.force, &evidence.approach})
     entries->setZero(classes_.count());
-  }
   evidence.log_evidence.setConstant(classes_.count(), impossible);
   if (!kinematics.valid || !usable(wrench, robot_->dof()) || !usable(kinematics.velocity, robot_->dof()))
     return;
@@ -320,9 +426,8 @@ void TouchHypotheses::weigh(const Kinematics& kinematics, const PlatformVector& 
   scene.legs = &kinematics.legs;
   scene.wrench.setZero();
   scene.wrench.head(robot_->dof()) = S.matrixL().solve(wrench);
-  for (int i = 0; i < robot_->body_count(); ++i) {
+  for (int i = 0; i < robot_->body_count(); ++i)
     place(kinematics, S, BodyId::from_index(i), scene.bodies[static_cast<std::size_t>(i)]);
-  }
   const double whole = scene.wrench.squaredNorm();
   for (int number = 0; number < classes_.count(); ++number) {
     Tally tally;
@@ -333,7 +438,7 @@ void TouchHypotheses::weigh(const Kinematics& kinematics, const PlatformVector& 
     }
     evidence.residual[number] = std::max(whole - tally.explained, 0.0);
     if (tally.sum <= 0.0) continue;
-    evidence.log_evidence[number] = tally.top + std::log(tally.sum) - 0.5 * whole + bias(number);
+    evidence.log_evidence[number] = tally.unit + std::log(tally.sum) - 0.5 * whole + bias(number);
     evidence.location[number] = tally.location;
     evidence.force[number] = tally.force;
     evidence.approach[number] = tally.approach;

@@ -59,6 +59,10 @@ class TouchHypotheses {
     Eigen::Vector3d point, normal;
     double fraction = 0.0;
   };
+  /// `count` places from `first` on: one alone, or evenly on a straight line and with one normal.
+  struct Side {
+    std::size_t first, count;
+  };
   /// A whitened wrench, and what makes one of a force or moment in space. Below the platform's coordinates
   /// are zeros: a size that compilers know saves more than they cost.
   using WhitenedWrench = Eigen::Matrix<double, max_dof, 1>;
@@ -71,6 +75,7 @@ class TouchHypotheses {
     Eigen::Vector3d velocity, angular_velocity;  ///< of its origin
     Whitened force, moment;                      ///< on its origin
     double radius = -1.0;                        ///< negative: of another shape, never in the way
+    Eigen::Vector3d by_length{0.0, 0.0, 0.0};    ///< from begin to end, over the square of that length
 
     /// Of the point at `arm` from the origin.
     Eigen::Vector3d velocity_at(const Eigen::Vector3d& arm) const {
@@ -81,11 +86,15 @@ class TouchHypotheses {
     }
   };
   struct Scene;
+  struct Touch;
   struct Tally;
 
   void add_places(BodyId body);
   void place(const Kinematics& kinematics, const Eigen::LLT<PlatformMatrix>& S, BodyId body,
              Placed& placed) const;
+  void add(const Scene& scene, BodyId body, const Place& place, const Touch& touch, Tally& tally) const;
+  void weigh_side(const Scene& scene, BodyId body, const Side& side, Tally& tally) const;
+  void weigh_place(const Scene& scene, BodyId body, const Place& place, Tally& tally) const;
   void weigh_body(const Scene& scene, BodyId body, Tally& tally) const;
   void weigh_clamping(const Scene& scene, int leg, Tally& tally) const;
   double room(const Scene& scene, int body, int neighbour, const Eigen::Vector3d& centre) const;
@@ -95,6 +104,7 @@ class TouchHypotheses {
   TouchHypothesesSettings settings_;
   ContactClasses classes_;
   std::vector<std::vector<Place>> places_;  ///< of each body
+  std::vector<std::vector<Side>> sides_;    ///< of these
 };
 
 }  // namespace flinch
