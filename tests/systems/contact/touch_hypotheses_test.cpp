@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -61,6 +64,90 @@ TEST(TouchHypotheses, MarginaliseTheForceAsAnIntegralDoes) {
   };
   const double of_the_point = difference(20.0);
   for (const double force : {-3.0, 0.5, 60.0}) EXPECT_NEAR(difference(force), of_the_point, 1e-4) << force;
+}
+
+/// From the platform's or a link's frame to the base.
+Eigen::Vector3d in_base(const ParallelRobot& robot, const Kinematics& k, BodyId body,
+                        const Eigen::Vector3d& point) {
+  const CartesianVector placed = robot.point_on_body(k, body, point.head(robot.space_dimension()));
+  Eigen::Vector3d whole = Eigen::Vector3d::Zero();
+  whole.head(placed.size()) = placed;
+  return whole;
+}
+
+/// Whether the point lies in another body.
+bool is_inside(const ParallelRobot& robot, const Kinematics& k, BodyId of, const Eigen::Vector3d& point) {
+  for (int i = 0; i < robot.body_count(); ++i) {
+    const BodyId body = BodyId::from_index(i);
+    for (const Shape& shape : robot.body(body).shapes) {
+      if (body == of) continue;
+      const auto* sphere = std::get_if<Sphere>(&shape);
+      if (sphere != nullptr && (point - in_base(robot, k, body, sphere->centre)).norm() < sphere->radius)
+        return true;
+      const auto* capsule = std::get_if<Capsule>(&shape);
+      if (capsule == nullptr) continue;
+      const Eigen::Vector3d begin = in_base(robot, k, body, capsule->begin);
+      const Eigen::Vector3d axis = in_base(robot, k, body, capsule->end) - begin;
+      const double along = std::clamp((point - begin).dot(axis) / axis.squaredNorm(), 0.0, 1.0);
+      if ((point - begin - along * axis).norm() < capsule->radius) return true;
+    }
+  }
+  return false;
+}
+
+/// ln of the likelihood of a wrench on a link of a robot at rest, without friction: place by place, by the
+/// contact Jacobian of each.
+double evidence_of_link(const ParallelRobot& robot, const Kinematics& k, BodyId link,
+                        const PlatformVector& wrench, const TouchHypothesesSettings& settings) {
+  const PlatformMatrix inverse = noise(robot).inverse();
+  const auto& capsule = std::get<Capsule>(robot.body(link).shapes.front());
+  const int dimension = robot.space_dimension(), sides = dimension == 2 ? 2 : 8;
+  const Eigen::Vector3d axis = (capsule.end - capsule.begin).normalized();
+  const Eigen::Vector3d across =
+      dimension == 2 ? Eigen::Vector3d::UnitZ().cross(axis) : axis.unitOrthogonal();
+  const double at_rest = settings.object_speed / std::sqrt(2.0 * std::numbers::pi);
+  double sum = 0.0;
+  for (int side = 0; side < sides; ++side) {
+    const Eigen::Vector3d normal =
+        Eigen::AngleAxisd(2.0 * std::numbers::pi * side / sides, axis).toRotationMatrix() * across;
+    for (int i = 0; i < settings.points_along; ++i) {
+      const double fraction = (i + 0.5) / settings.points_along;
+      const Eigen::Vector3d point =
+          capsule.begin + fraction * (capsule.end - capsule.begin) + capsule.radius * normal;
+      if (is_inside(robot, k, link, in_base(robot, k, link, point))) continue;
+      const CartesianVector push =
+          -(in_base(robot, k, link, normal) - in_base(robot, k, link, Eigen::Vector3d::Zero()))
+               .head(dimension);
+      const PlatformVector h =
+          robot.contact_jacobian(k, link, point.head(dimension)).translation.transpose() * push;
+      const double s = 1.0 / std::sqrt(h.dot(inverse * h) + std::pow(settings.force_scale, -2.0));
+      const double m = s * s * h.dot(inverse * wrench);
+      sum += 2.0 * s / settings.force_scale * std::exp(0.5 * m * m / (s * s)) * 0.5 *
+             std::erfc(-m / s / std::numbers::sqrt2);
+    }
+  }
+  return std::log(at_rest * sum / (sides * settings.points_along)) - 0.5 * wrench.dot(inverse * wrench);
+}
+
+TEST(TouchHypotheses, SumOverALinkWhatItsPlacesSay) {
+  const std::shared_ptr<const ParallelRobot> robots[] = {test::touched_bench(),
+                                                         std::make_shared<Hexapod>(hexapod_robot())};
+  const TouchHypothesesSettings settings{
+      .object_radius = 1e-9, .softness = 1e-9, .friction = 0.0, .points_along = 5};
+  for (const auto& robot : robots) {
+    const TouchHypotheses hypotheses(robot, settings);
+    const Kinematics k = test::at_home(*robot);
+    for (const BodyId link : {BodyId::link1(0), BodyId::link2(1)}) {
+      const LinkContactMap map = link_contact_map(*robot, k, link);
+      const PlatformVector wrench =
+          (map.at_joint + 0.7 * map.along) * (8.0 * CartesianVector::Unit(map.axes.cols(), 1));
+      ContactEvidence evidence;
+      hypotheses.weigh(k, wrench, noise(*robot), evidence);
+      EXPECT_NEAR(evidence.log_evidence[ContactClasses::collision(link)],
+                  evidence_of_link(*robot, k, link, wrench, settings), 1e-7)
+          << robot->name();
+    }
+  }
 }
 
 /// Of exact contacts of 40 N in random states, the share whose class has the greatest evidence of all bodies.
