@@ -5,7 +5,9 @@
 #include "diagrams/contact_control_settings.h"
 #include "systems/contact/contact_period.h"
 #include "systems/contact/evidence_estimator.h"
+#include "systems/contact/evidence_features.h"
 #include "systems/contact/particle_locator.h"
+#include "systems/contact/wrench_growth.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/random.h"
 
@@ -76,17 +78,28 @@ std::vector<ContactClassifier> classifier_stages() {
 ContactClassifier learned_classifier_stage(LearnedClassifierSettings settings) {
   return {"learned_classifier",
           [settings = std::move(settings)](const StageSite& site, const ContactPorts& given) {
-            auto& classifier = site.builder.add<LearnedClassifier>(site.name, site.robot, settings);
-            site.builder.connect(given.contact, classifier.phase);
+            DiagramBuilder& builder = site.builder;
+            auto& classifier = builder.add<LearnedClassifier>(site.name, site.robot, settings);
+            auto& growth = builder.add<WrenchGrowth>(site.name + "_growth");
             // The evidence that it was trained with, whatever the model classifier is told.
-            auto& evidence = site.builder.add<EvidenceEstimator>(site.name + "_evidence", site.robot,
-                                                                 TouchHypothesesSettings(),
-                                                                 WrenchUncertainty(), settings.window);
-            site.builder.connect(given.contact, evidence.phase);
-            site.builder.connect(given.kinematics, evidence.kinematics);
-            site.builder.connect(given.isolation_wrench, evidence.wrench);
-            site.builder.connect(evidence.evidence, classifier.evidence);
-            site.builder.connect(given.isolation_wrench, classifier.wrench);
+            const auto evidence_of = [&](const std::string& name, OutputPort<WrenchEstimate> wrench,
+                                         const TouchHypothesesSettings& by) {
+              auto& evidence = builder.add<EvidenceEstimator>(site.name + name, site.robot, by,
+                                                              WrenchUncertainty(), settings.window);
+              builder.connect(given.contact, evidence.phase);
+              builder.connect(given.kinematics, evidence.kinematics);
+              builder.connect(wrench, evidence.wrench);
+              return evidence.evidence;
+            };
+            builder.connect(given.contact, classifier.phase);
+            builder.connect(given.isolation_wrench, growth.wrench);
+            builder.connect(given.isolation_wrench, classifier.wrench);
+            builder.connect(evidence_of("_evidence", given.isolation_wrench, {}), classifier.evidence);
+            builder.connect(evidence_of("_change_evidence", growth.change, hypotheses_of_change()),
+                            classifier.change_evidence);
+            builder.connect(
+                evidence_of("_change_before_evidence", growth.change_before, hypotheses_of_change()),
+                classifier.change_before_evidence);
             return classifier.classification;
           }};
 }

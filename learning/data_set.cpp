@@ -17,7 +17,7 @@ constexpr const char* format = "flinch contacts 1";
 constexpr std::size_t first_columns = 7;
 
 std::size_t columns_of(const ParallelRobot& robot) {
-  return first_columns + static_cast<std::size_t>(robot.home_pose().size() + 2 * robot.dof());
+  return first_columns + static_cast<std::size_t>(robot.home_pose().size() + 4 * robot.dof());
 }
 
 std::string column_names(const ParallelRobot& robot) {
@@ -27,7 +27,7 @@ std::string column_names(const ParallelRobot& robot) {
   };
   add("pose", robot.home_pose().size());
   add("velocity", robot.dof());
-  add("wrench", robot.dof());
+  for (const char* wrench : {"wrench", "change", "change_before"}) add(wrench, robot.dof());
   return names;
 }
 
@@ -44,6 +44,8 @@ void append(const DataSample& sample, std::vector<internal::Number>& row) {
   append(sample.pose, row);
   append(sample.velocity, row);
   append(sample.wrench_in_base, row);
+  append(sample.change, row);
+  append(sample.change_before, row);
 }
 
 /// Takes the numbers of a row one after the other.
@@ -89,7 +91,8 @@ DataSample sample_of(const internal::Number* row, std::size_t number, const Para
   sample.force = reader.real();
   reader.vector(robot.home_pose().size(), sample.pose);
   reader.vector(robot.dof(), sample.velocity);
-  reader.vector(robot.dof(), sample.wrench_in_base);
+  for (PlatformVector* wrench : {&sample.wrench_in_base, &sample.change, &sample.change_before})
+    reader.vector(robot.dof(), *wrench);
   return sample;
 }
 

@@ -32,6 +32,8 @@ struct DataSample {
   Configuration pose;             ///< as the encoders tell it
   PlatformVector velocity;        ///< likewise
   PlatformVector wrench_in_base;  ///< as estimated [N, Nm]
+  PlatformVector change;          ///< of it during the last step of `WrenchGrowth` [N, Nm]
+  PlatformVector change_before;   ///< and during the one before [N, Nm]
 };
 
 /// Contacts of a robot with their labels.

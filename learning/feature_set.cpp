@@ -37,7 +37,8 @@ FeatureSet::FeatureSet(Question question, std::shared_ptr<const ParallelRobot> r
     : question_(question),
       robot_(std::move(robot)),
       touchable_(classes_of(*robot_)),
-      hypotheses_(robot_, TouchHypothesesSettings()) {
+      hypotheses_(robot_, TouchHypothesesSettings()),
+      hypotheses_of_change_(robot_, hypotheses_of_change()) {
   const bool is_all = question == Question::touched;
   for (const FeatureName& feature : is_all ? evidence_feature_names() : feature_names(*robot_)) {
     if (!is_all && !is_told(question, feature.name)) continue;
@@ -78,11 +79,17 @@ bool FeatureSet::inputs(const DataSample& sample, NeuralNetwork::Values& columns
   estimate.drive_torque = drive_torques(now, sample.wrench_in_base);
   if (question_ == Question::touched) {
     const ConfigurationSpace& space = robot_->space();
-    ContactEvidence evidence;
-    hypotheses_.weigh(now, sample.wrench_in_base, uncertainty_.covariance(space, sample.wrench_in_base),
-                      evidence);
-    evidence_features(touchable_, evidence, sample.wrench_in_base.head(space.translations()).norm(), columns);
-    return evidence.valid;
+    ContactEvidence whole, change, change_before;
+    const auto weigh = [&](const TouchHypotheses& by, const PlatformVector& wrench,
+                           ContactEvidence& evidence) {
+      by.weigh(now, wrench, uncertainty_.covariance(space, wrench), evidence);
+    };
+    weigh(hypotheses_, sample.wrench_in_base, whole);
+    weigh(hypotheses_of_change_, sample.change, change);
+    weigh(hypotheses_of_change_, sample.change_before, change_before);
+    const double force = sample.wrench_in_base.head(space.translations()).norm();
+    evidence_features(touchable_, {whole, change, change_before, force}, columns);
+    return whole.valid && change.valid && change_before.valid;
   }
   const ContactFeatures features = contact_features(*robot_, now, estimate, FeatureSettings());
   const FeatureVector all = feature_vector(features);
@@ -100,6 +107,8 @@ std::string FeatureSet::check() const {
   sample.pose = robot_->home_pose();
   sample.velocity = PlatformVector::Constant(robot_->dof(), 0.1);
   sample.wrench_in_base = PlatformVector::LinSpaced(robot_->dof(), 30.0, 2.0);
+  sample.change = PlatformVector::LinSpaced(robot_->dof(), 12.0, 0.5);
+  sample.change_before = PlatformVector::LinSpaced(robot_->dof(), 5.0, 0.8);
   NeuralNetwork::Values columns;
   const bool is_told = inputs(sample, columns);
   double sum = 0.0, weight = 1.0;

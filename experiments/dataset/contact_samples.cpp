@@ -4,6 +4,7 @@
 
 #include "experiments/dataset/data_spec.h"
 #include "experiments/verdict/recorded_estimate.h"
+#include "systems/contact/wrench_growth.h"
 #include "systems/framework/recorded_values.h"
 #include "systems/signals/contact_detection.h"
 #include "systems/signals/platform_motion.h"
@@ -151,9 +152,13 @@ ContactSamples contact_samples(const Recording& recording, const ParallelRobot& 
     if (moments.early && tick == *moments.early && !label.begun())
       return {{}, "noticed before anything touched"};
     if (!moments.early || tick < *moments.early) continue;
+    const auto step = static_cast<std::size_t>(wrench_growth_step / recording.period);
+    if (tick < 2 * step) continue;
     const RecordedEstimate estimate = estimates[tick];
+    const RecordedEstimate last = estimates[tick - step], first = estimates[tick - 2 * step];
     const PlatformMotion motion = motions[tick];
-    if (!estimate.valid || !motion.valid() || label.touched() < 0) continue;
+    const bool is_known = estimate.valid && last.valid && first.valid && motion.valid();
+    if (!is_known || label.touched() < 0) continue;
     const int moment = moments.at(tick);
     const bool is_due = (tick - *moments.early) % static_cast<std::size_t>(choice.every) == 0;
     const double force = estimate.wrench_in_base.head(robot.space().translations()).norm();
@@ -162,7 +167,9 @@ ContactSamples contact_samples(const Recording& recording, const ParallelRobot& 
     if (!is_chosen) continue;
     const double early = static_cast<double>(*moments.early) * period;
     result.samples.push_back({0, 0, moment, label.touched(), time - label.onset(early), time - early,
-                              label.force(), motion.pose, motion.velocity, estimate.wrench_in_base});
+                              label.force(), motion.pose, motion.velocity, estimate.wrench_in_base,
+                              estimate.wrench_in_base - last.wrench_in_base,
+                              last.wrench_in_base - first.wrench_in_base});
   }
   if (result.samples.empty()) result.left_out = label.begun() ? "not noticed" : "nothing touched";
   return result;

@@ -65,6 +65,8 @@ std::string frame_of(std::size_t run, const ContactSamples& samples) {
     put_all(bytes, sample.pose);
     put_all(bytes, sample.velocity);
     put_all(bytes, sample.wrench_in_base);
+    put_all(bytes, sample.change);
+    put_all(bytes, sample.change_before);
   }
   return bytes;
 }
@@ -85,7 +87,8 @@ std::pair<std::size_t, ContactSamples> run_of(const std::string& bytes, const Pa
       *number = frame.take<double>();
     frame.take_all(robot.home_pose().size(), sample.pose);
     frame.take_all(robot.dof(), sample.velocity);
-    frame.take_all(robot.dof(), sample.wrench_in_base);
+    for (PlatformVector* wrench : {&sample.wrench_in_base, &sample.change, &sample.change_before})
+      frame.take_all(robot.dof(), *wrench);
   }
   if (!frame.ended()) throw SetupError("a run has another length than its samples");
   return {run, std::move(samples)};

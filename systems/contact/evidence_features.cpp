@@ -60,37 +60,45 @@ int leg_beside(const ContactClasses& classes, const ContactEvidence& evidence, i
   return best;
 }
 
+/// What one evidence says of a class and of those beside it.
+void add_evidence(const ContactClasses& classes, const ContactEvidence& evidence, int number,
+                  Column& column) {
+  const double all = logarithm_of_sum(evidence.log_evidence);
+  const LegClasses leg = classes_of_leg(classes, leg_beside(classes, evidence, number));
+  for (const int other : {number, leg[0], leg[1], leg[2], 0}) {
+    const Seen of = seen(evidence, all, other);
+    column.add(of.log_share);
+    column.add(of.residual);
+    column.add(of.approach);
+    column.add(of.location);
+    column.add(of.force);
+  }
+  double best = least_log;
+  for (int other = 0; other < classes.count(); ++other) {
+    if (other != number) best = std::max(best, evidence.log_evidence[other] - all);
+  }
+  column.add(best);
+  column.add(std::min(std::sqrt(evidence.residual.minCoeff()), 10.0));
+}
+
 }  // namespace
 
-void evidence_features(const ContactClasses& classes, const ContactEvidence& evidence, double force,
+void evidence_features(const ContactClasses& classes, const GrowthEvidence& seen,
                        NeuralNetwork::Values& columns) noexcept {
   const int count = std::min(classes.count(), NeuralNetwork::max_rows);
+  const std::array all = {&seen.whole, &seen.change, &seen.change_before};
   columns.setZero(evidence_feature_count, count);
-  if (!evidence.valid || evidence.log_evidence.size() != classes.count()) return;
-  const double all = logarithm_of_sum(evidence.log_evidence);
-  const double least_residual = std::min(std::sqrt(evidence.residual.minCoeff()), 10.0);
+  for (const ContactEvidence* each : all) {
+    if (!each->valid || each->log_evidence.size() != classes.count()) return;
+  }
   for (int number = 0; number < count; ++number) {
     Column column(columns, number);
     const bool is_platform = number == 0, is_clamping = classes.is_clamping(number);
     const bool is_link1 = !is_platform && !is_clamping && ContactClasses::body(number).is_link1();
     for (const bool is : {is_platform, is_link1, !is_platform && !is_clamping && !is_link1, is_clamping})
       column.add(is ? 1.0 : 0.0);
-    const LegClasses leg = classes_of_leg(classes, leg_beside(classes, evidence, number));
-    for (const int other : {number, leg[0], leg[1], leg[2], 0}) {
-      const Seen of = seen(evidence, all, other);
-      column.add(of.log_share);
-      column.add(of.residual);
-      column.add(of.approach);
-      column.add(of.location);
-      column.add(of.force);
-    }
-    double best = least_log;
-    for (int other = 0; other < classes.count(); ++other) {
-      if (other != number) best = std::max(best, evidence.log_evidence[other] - all);
-    }
-    column.add(best);
-    column.add(least_residual);
-    column.add(std::asinh(force / 10.0));
+    for (const ContactEvidence* each : all) add_evidence(classes, *each, number, column);
+    column.add(std::asinh(seen.force / 10.0));
   }
 }
 
@@ -98,10 +106,14 @@ std::vector<FeatureName> evidence_feature_names() {
   std::vector<FeatureName> names;
   const auto add = [&names](const std::string& name) { names.push_back({name, "1"}); };
   for (const char* is : {"is_platform", "is_link1", "is_link2", "is_clamping"}) add(is);
-  for (const std::string of : {"own_", "link1_", "link2_", "clamping_", "platform_"}) {
-    for (const char* what : {"log_share", "residual", "approach", "location", "log_force"}) add(of + what);
+  for (const std::string when : {"", "change_", "change_before_"}) {
+    for (const std::string of : {"own_", "link1_", "link2_", "clamping_", "platform_"}) {
+      for (const char* what : {"log_share", "residual", "approach", "location", "log_force"})
+        add(when + of + what);
+    }
+    for (const char* what : {"best_of_others", "least_residual"}) add(when + what);
   }
-  for (const char* what : {"best_of_others", "least_residual", "log_total_force"}) add(what);
+  add("log_total_force");
   return names;
 }
 

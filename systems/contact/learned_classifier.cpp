@@ -29,14 +29,16 @@ LearnedClassifier::LearnedClassifier(const std::shared_ptr<const ParallelRobot>&
 }
 
 void LearnedClassifier::classify(Time now, const ContactPhase& contact, const ContactEvidence& seen,
+                                 const ContactEvidence& change, const ContactEvidence& change_before,
                                  const WrenchEstimate& estimate, const ContactClassification& last,
                                  ContactClassification& result) const {
   result = contact.active && !contact.begins(now) ? last : ContactClassification();
   const bool is_told = contact.active && now - contact.since <= settings_.window && seen.valid &&
-                       estimate.wrench_in_base.size() >= translations_;
+                       change.valid && change_before.valid && estimate.wrench_in_base.size() >= translations_;
   if (!is_told) return;
   NeuralNetwork::Values features, probability;
-  evidence_features(classes_, seen, estimate.wrench_in_base.head(translations_).norm(), features);
+  evidence_features(
+      classes_, {seen, change, change_before, estimate.wrench_in_base.head(translations_).norm()}, features);
   if (!settings_.network->evaluate(features, probability)) return;
   result.acquired = seen.acquired;
   result.valid = true;

@@ -20,8 +20,9 @@ struct LearnedClassifierSettings {
   double largest_residual = 15.0;
 };
 
-/// Classifies the contact by a network that has learned what the evidence of the model is worth. At each tick
-/// of the window it says what the evidence of that tick tells; evidence that is not valid changes nothing.
+/// Classifies the contact by a network that has learned what the evidence of the model is worth: that of the
+/// wrench and of how it has grown. At each tick of the window it says what the evidence of that tick tells;
+/// evidence that is not valid changes nothing.
 class LearnedClassifier final : public System {
   State<ContactClassification> last_ = state<ContactClassification>("last");
 
@@ -31,14 +32,17 @@ class LearnedClassifier final : public System {
 
   InputPort<ContactPhase> phase = input<ContactPhase>("phase");
   InputPort<ContactEvidence> evidence = input<ContactEvidence>("evidence");
+  InputPort<ContactEvidence> change_evidence = input<ContactEvidence>("change_evidence");  ///< of its growth
+  InputPort<ContactEvidence> change_before_evidence = input<ContactEvidence>("change_before_evidence");
   InputPort<WrenchEstimate> wrench = input<WrenchEstimate>("wrench");  ///< that the evidence is of
-  OutputPort<ContactClassification> classification =
-      output<&LearnedClassifier::classify>("classification", clock, phase, evidence, wrench, last_);
+  OutputPort<ContactClassification> classification = output<&LearnedClassifier::classify>(
+      "classification", clock, phase, evidence, change_evidence, change_before_evidence, wrench, last_);
 
  private:
   Update remember_ = keep(last_, classification);
 
   void classify(Time now, const ContactPhase& contact, const ContactEvidence& seen,
+                const ContactEvidence& change, const ContactEvidence& change_before,
                 const WrenchEstimate& estimate, const ContactClassification& last,
                 ContactClassification& result) const;
 

@@ -91,7 +91,7 @@ void scorer_of_all_classes(benchmark::State& state) {
   const NeuralNetwork scorer = network(evidence_feature_count, {24, 24, 1}, NetworkResult::softmax_of_rows);
   NeuralNetwork::Values features, outputs;
   for (auto _ : state) {
-    evidence_features(classes, evidence, 36.0, features);
+    evidence_features(classes, {evidence, evidence, evidence, 36.0}, features);
     benchmark::DoNotOptimize(scorer.evaluate(features, outputs));
   }
 }

@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <optional>
 
+#include "diagrams/isolation_stages.h"
+#include "systems/contact/evidence_features.h"
 #include "systems/framework/constant.h"
 #include "tests/diagrams/contact_bench.h"
 #include "tests/support/allocations.h"
@@ -16,17 +19,26 @@ using test::Bench;
 using test::collision;
 using test::Experiment;
 
-/// `law`, told from the start what will be touched.
+/// `law`, told from the start what will be touched; -1: that nobody knows.
 ControlLaw told(ControlLaw law, int touched) {
   return {law.name, [law, touched](const StageSite& site, const ReactionPorts& given) {
             ContactClassification classification;
-            classification.valid = classification.accepted = true;
+            classification.valid = classification.accepted = touched >= 0;
             classification.most_likely = touched;
             ReactionPorts known = given;
             known.classification =
                 site.builder.add<Constant<ContactClassification>>(site.name + "_told", classification).value;
             return law.add(site, known);
           }};
+}
+
+/// A classifier that takes all ten classes for equally likely, and names the first: the platform.
+ContactClassifier unsure(double accept) {
+  NetworkParameters parameters;
+  parameters.layers.push_back(
+      {Eigen::MatrixXd::Zero(1, evidence_feature_count), Eigen::VectorXd::Zero(1), Activation::none});
+  parameters.result = NetworkResult::softmax_of_rows;
+  return learned_classifier_stage({.network = std::make_shared<NeuralNetwork>(parameters), .accept = accept});
 }
 
 class TaskStages : public ::testing::TestWithParam<int> {
@@ -73,6 +85,29 @@ TEST_P(TaskStages, AContactThatNobodyKnowsIsAnsweredByBraking) {
   bench.run(500ms);
   EXPECT_LT(bench.velocity().norm(), 0.02);
   EXPECT_EQ(bench.gate().phase, GatePhase::open);
+}
+
+// The whole chain with a network in it, which names the right class with a probability of 1/10.
+TEST_P(TaskStages, AClassBelowTheMarginIsAnsweredAsOneThatNobodyKnows) {
+  const auto comes_to_rest_at = [this](std::optional<double> accept) {
+    Experiment doubtful = experiment(0.5);
+    doubtful.control.stages.reaction_laws = {};
+    doubtful.control.stages.reaction_laws.follow(accept ? reaction() : told(reaction(), -1));
+    doubtful.control.stages.classifiers.follow(unsure(accept.value_or(1.0)));
+    Bench bench(doubtful);
+    EXPECT_TRUE(bench.run_until(react, 1500ms));
+    const ContactClassification& said = bench.context.get(bench.control.classification);
+    EXPECT_TRUE(said.valid);
+    EXPECT_EQ(said.most_likely, 0);
+    EXPECT_EQ(said.accepted, accept.value_or(1.0) < 0.1);
+    bench.run(600ms);
+    EXPECT_EQ(bench.gate().phase, GatePhase::open);
+    EXPECT_LT(bench.velocity().norm(), 0.02);
+    return bench.pose();
+  };
+  const Eigen::Vector3d unknown = comes_to_rest_at(std::nullopt);
+  EXPECT_EQ(comes_to_rest_at(0.101), unknown);
+  EXPECT_LT(comes_to_rest_at(0.099).x(), unknown.x() - 0.02) << "gives way along the force";
 }
 
 TEST_P(TaskStages, TheControlPathDoesNotAllocateWhileItReacts) {

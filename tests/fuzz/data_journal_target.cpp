@@ -51,7 +51,7 @@ std::vector<std::string> seeds() {
     sample.touched = i;
     sample.pose = robot().home_pose();
     sample.velocity = PlatformVector::Zero(robot().dof());
-    sample.wrench_in_base = PlatformVector::Ones(robot().dof());
+    sample.wrench_in_base = sample.change = sample.change_before = PlatformVector::Ones(robot().dof());
   }
   return {journal_of(&samples).substr(journal_of(nullptr).size() + 16)};
 }

@@ -77,8 +77,9 @@ DataSet contact_examples(int count, std::uint64_t seed) {
         classes.is_clamping(sample.touched)
             ? clamping(robot, now, classes.leg(sample.touched), sample.force)
             : collision(robot, now, ContactClasses::body(sample.touched), sample.force, random);
-    sample.wrench_in_base +=
-        Eigen::Vector3d(0.5 * random.normal(), 0.5 * random.normal(), 0.05 * random.normal());
+    sample.change = sample.change_before = 0.3 * sample.wrench_in_base;
+    for (PlatformVector* wrench : {&sample.wrench_in_base, &sample.change, &sample.change_before})
+      *wrench += Eigen::Vector3d(0.5 * random.normal(), 0.5 * random.normal(), 0.05 * random.normal());
     data.samples.push_back(sample);
   }
   return data;

@@ -40,6 +40,8 @@ TEST(DataSet, ComesBackBitForBitFromItsFile) {
     EXPECT_EQ(a.pose, b.pose);
     EXPECT_EQ(a.velocity, b.velocity);
     EXPECT_EQ(a.wrench_in_base, b.wrench_in_base);
+    EXPECT_EQ(a.change, b.change);
+    EXPECT_EQ(a.change_before, b.change_before);
   }
   const std::string bytes = bytes_of(file);
   write_data_set(read, file);

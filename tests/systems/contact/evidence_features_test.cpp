@@ -45,8 +45,10 @@ ContactEvidence exchanged(const ContactEvidence& evidence) {
 TEST(EvidenceFeatures, FollowTheLegsWhereverTheyStand) {
   const ContactEvidence evidence = random_evidence(1);
   Values columns, other;
-  evidence_features(classes, evidence, 30.0, columns);
-  evidence_features(classes, exchanged(evidence), 30.0, other);
+  const ContactEvidence change = random_evidence(11), before = random_evidence(12);
+  const ContactEvidence mirrored[] = {exchanged(evidence), exchanged(change), exchanged(before)};
+  evidence_features(classes, {evidence, change, before, 30.0}, columns);
+  evidence_features(classes, {mirrored[0], mirrored[1], mirrored[2], 30.0}, other);
   ASSERT_EQ(columns.cols(), 10);
   EXPECT_EQ(columns.col(0), other.col(0));
   EXPECT_EQ(columns.col(1), other.col(5));
@@ -59,13 +61,18 @@ TEST(EvidenceFeatures, AreNamedOnceEach) {
   const auto names = evidence_feature_names();
   EXPECT_EQ(names.size(), static_cast<std::size_t>(evidence_feature_count));
   Values columns;
-  evidence_features(classes, random_evidence(2), 30.0, columns);
+  const ContactEvidence whole = random_evidence(2), change = random_evidence(5), before = random_evidence(6);
+  evidence_features(classes, {whole, change, before, 30.0}, columns);
   EXPECT_EQ(columns.rows(), evidence_feature_count);
   EXPECT_EQ(names[3].name, "is_clamping");
   EXPECT_EQ(columns(3, 8), 1.0);
   EXPECT_EQ(names[4].name, "own_log_share");
   // ln of each class' share of the likelihood: shares add up to 1.
   EXPECT_NEAR(columns.row(4).array().exp().sum(), 1.0, 1e-9);
+  EXPECT_EQ(names[31].name, "change_own_log_share");
+  EXPECT_NEAR(columns.row(31).array().exp().sum(), 1.0, 1e-9);
+  EXPECT_EQ(names[59].name, "change_before_own_residual");
+  EXPECT_NEAR(columns(59, 7), std::sqrt(before.residual[7]), 1e-12);
   EXPECT_EQ(names.back().name, "log_total_force");
   EXPECT_NEAR(columns(evidence_feature_count - 1, 4), std::asinh(3.0), 1e-15);
 }
@@ -79,11 +86,13 @@ TEST(EvidenceFeatures, AreBoundedWhateverTheEvidence) {
   evidence.approach.setConstant(-1e9);
   evidence.force[1] = std::numeric_limits<double>::infinity();
   evidence.location[1] = std::numeric_limits<double>::quiet_NaN();
-  evidence_features(classes, evidence, 1e300, columns);
+  evidence_features(classes, {evidence, evidence, evidence, 1e300}, columns);
   EXPECT_TRUE(columns.allFinite());
   EXPECT_LT(columns.cwiseAbs().maxCoeff(), 1000.0);
-  evidence.valid = false;
-  evidence_features(classes, evidence, 30.0, columns);
+  const ContactEvidence none;
+  evidence_features(classes, {evidence, evidence, none, 30.0}, columns);
+  EXPECT_TRUE(columns.isZero());
+  evidence_features(classes, {none, evidence, evidence, 30.0}, columns);
   EXPECT_TRUE(columns.isZero());
 }
 
@@ -91,7 +100,7 @@ TEST(EvidenceFeatures, DoNotAllocate) {
   const ContactEvidence evidence = random_evidence(4);
   Values columns;
   const test::AllocationCounter allocations;
-  evidence_features(classes, evidence, 30.0, columns);
+  evidence_features(classes, {evidence, evidence, evidence, 30.0}, columns);
   EXPECT_EQ(allocations.count(), 0);
 }
 

@@ -37,6 +37,8 @@ struct Classifier {
       : block(builder.add<LearnedClassifier>("classifier", bench(), settings)),
         phase(builder.export_input("phase", block.phase)),
         evidence(builder.export_input("evidence", block.evidence)),
+        change(builder.export_input("change_evidence", block.change_evidence)),
+        change_before(builder.export_input("change_before_evidence", block.change_before_evidence)),
         wrench(builder.export_input("wrench", block.wrench)),
         ticking(builder) {}
 
@@ -50,6 +52,8 @@ struct Classifier {
     seen.location = seen.approach = ClassVector::Zero(10);
     seen.force = ClassVector::Constant(10, 30.0);
     ticking.set(evidence, seen);
+    ticking.set(change, seen);
+    ticking.set(change_before, has_grown ? seen : ContactEvidence());
     ticking.set(wrench, WrenchEstimate{.valid = true,
                                        .wrench_in_base = Eigen::Vector3d(30.0, 0.0, 1.0),
                                        .drive_torque = JointVector::Zero(3)});
@@ -63,9 +67,10 @@ struct Classifier {
   DiagramBuilder builder;
   LearnedClassifier& block;
   InputPort<ContactPhase> phase;
-  InputPort<ContactEvidence> evidence;
+  InputPort<ContactEvidence> evidence, change, change_before;
   InputPort<WrenchEstimate> wrench;
   test::Ticking ticking;
+  bool has_grown = true;  ///< it is known how the wrench has grown
 
  private:
   bool active_ = false;
@@ -103,6 +108,8 @@ TEST(LearnedClassifier, LeavesItsAnswerWhereThereIsNoEvidence) {
   EXPECT_FALSE(classifier.see(2, nan).valid);
   EXPECT_EQ(classifier.see(2, 5.0).most_likely, 2);
   EXPECT_EQ(classifier.see(5, nan).most_likely, 2);
+  classifier.has_grown = false;
+  EXPECT_EQ(classifier.see(5, 5.0).most_likely, 2);
 }
 
 TEST(LearnedClassifier, DoesNotAllocate) {
