@@ -88,7 +88,7 @@ void scorer_of_all_classes(benchmark::State& state) {
   TouchHypotheses(bench(), TouchHypothesesSettings())
       .weigh(touched.kinematics, touched.estimate.wrench_in_base,
              WrenchUncertainty().covariance(bench()->space(), touched.estimate.wrench_in_base), evidence);
-  const NeuralNetwork scorer = network(evidence_feature_count, {24, 24, 1}, NetworkResult::softmax_of_rows);
+  const NeuralNetwork scorer = network(evidence_feature_count, {32, 32, 1}, NetworkResult::softmax_of_rows);
   NeuralNetwork::Values features, outputs;
   for (auto _ : state) {
     evidence_features(classes, {evidence, evidence, evidence, 36.0}, features);

@@ -1,5 +1,6 @@
 #include "tests/learning/contact_examples.h"
 
+#include <array>
 #include <cmath>
 #include <fstream>
 
@@ -31,9 +32,23 @@ PlatformVector collision(const ParallelRobot& robot, const Kinematics& now, Body
   return platform_wrench(jacobian, CartesianVector(side * size * normal));
 }
 
-/// Equal forces that push both links apart, as far from the elbow on both.
-PlatformVector clamping(const ParallelRobot& robot, const Kinematics& now, int leg, double size) {
-  PlatformVector wrench = PlatformVector::Zero(robot.dof());
+/// How fast base and coupling joint of the leg move towards one another [m/s].
+double closing_speed(const ParallelRobot& robot, const Kinematics& now, int leg) {
+  const BodyId link = BodyId::link2(leg);
+  const CartesianVector velocity =
+      robot.contact_jacobian(now, link, robot.axis_point(link, 1.0)).translation * now.velocity;
+  const LegPoints& points = now.legs[static_cast<std::size_t>(leg)];
+  return -velocity.dot((points.coupling_joint - points.base_joint).normalized());
+}
+
+/// A wrench now, 5 ms ago and 10 ms ago.
+using Growing = std::array<PlatformVector, 3>;
+
+/// Equal forces that push both links apart, as far from the elbow on both. That on the first link has grown
+/// for 25 ms, that on the second, which came later, for 15 ms.
+Growing clamping(const ParallelRobot& robot, const Kinematics& now, int leg, double size) {
+  Growing wrench;
+  wrench.fill(PlatformVector::Zero(robot.dof()));
   const LegPoints& points = now.legs[static_cast<std::size_t>(leg)];
   const CartesianVector middle = 0.5 * (points.base_joint + points.coupling_joint);
   for (const BodyId link : {BodyId::link1(leg), BodyId::link2(leg)}) {
@@ -41,8 +56,12 @@ PlatformVector clamping(const ParallelRobot& robot, const Kinematics& now, int l
     const Eigen::Vector2d normal = across(robot, now, link);
     const Eigen::Vector2d inwards = middle - robot.point_on_body(now, link, point);
     const double side = inwards.dot(normal) > 0.0 ? -1.0 : 1.0;
-    wrench +=
+    const PlatformVector whole =
         platform_wrench(robot.contact_jacobian(now, link, point), CartesianVector(side * size * normal));
+    for (std::size_t i = 0; i < wrench.size(); ++i) {
+      const double since = (link.is_link1() ? 5.0 : 3.0) - static_cast<double>(i);  // of 5 ms
+      wrench[i] += since / (link.is_link1() ? 5.0 : 3.0) * whole;
+    }
   }
   return wrench;
 }
@@ -68,18 +87,27 @@ DataSet contact_examples(int count, std::uint64_t seed) {
     sample.touched = i % classes.count();
     sample.pose = robot.home_pose();
     for (double& coordinate : sample.pose) coordinate += random.uniform(-0.05, 0.05);
-    const double direction = random.uniform(-M_PI, M_PI);
-    sample.velocity = Eigen::Vector3d(0.5 * std::cos(direction), 0.5 * std::sin(direction), 0.0);
     Kinematics now;
-    robot.kinematics(sample.pose, sample.velocity, now);
+    const int leg = classes.is_clamping(sample.touched) ? classes.leg(sample.touched) : -1;
+    do {
+      const double direction = random.uniform(-M_PI, M_PI);
+      sample.velocity = Eigen::Vector3d(0.5 * std::cos(direction), 0.5 * std::sin(direction), 0.0);
+      robot.kinematics(sample.pose, sample.velocity, now);
+    } while (leg >= 0 && closing_speed(robot, now, leg) < 0.25);
     sample.force = random.uniform(30.0, 80.0);
-    sample.wrench_in_base =
-        classes.is_clamping(sample.touched)
-            ? clamping(robot, now, classes.leg(sample.touched), sample.force)
-            : collision(robot, now, ContactClasses::body(sample.touched), sample.force, random);
-    sample.change = sample.change_before = 0.3 * sample.wrench_in_base;
-    for (PlatformVector* wrench : {&sample.wrench_in_base, &sample.change, &sample.change_before})
-      *wrench += Eigen::Vector3d(0.5 * random.normal(), 0.5 * random.normal(), 0.05 * random.normal());
+    Growing wrench;
+    if (leg >= 0) {
+      wrench = clamping(robot, now, leg, sample.force);
+    } else {
+      wrench[0] = collision(robot, now, ContactClasses::body(sample.touched), sample.force, random);
+      wrench[1] = 2.0 / 3.0 * wrench[0];
+      wrench[2] = 1.0 / 3.0 * wrench[0];
+    }
+    sample.wrench_in_base = wrench[0];
+    sample.change = wrench[0] - wrench[1];
+    sample.change_before = wrench[1] - wrench[2];
+    for (PlatformVector* noisy : {&sample.wrench_in_base, &sample.change, &sample.change_before})
+      *noisy += Eigen::Vector3d(0.5 * random.normal(), 0.5 * random.normal(), 0.05 * random.normal());
     data.samples.push_back(sample);
   }
   return data;
