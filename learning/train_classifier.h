@@ -17,7 +17,7 @@ struct ClassifierTraining {
   SampleFilter filter;
   /// Largest share of wrong answers among those that are believed; from which confidence on that holds is
   /// found in the cross-validation.
-  double wrong_of_accepted = 0.005;
+  double wrong_of_accepted = 0.01;
   std::size_t threads = 0;  ///< 0: one a processor
 };
 
