@@ -2,9 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <vector>
-
 #include "experiments/recorded/robot_as_drawn.h"
 #include "experiments/report/run_folder.h"
 #include "experiments/scenario/scenario.h"
@@ -31,20 +28,6 @@ void tell_if_partial(const Recording& recording, const CommonOptions& common) {
   fmt::print(stderr, "partial:   {}\n", partial->second);
 }
 
-/// Which witnesses of lies a run has lost on its way.
-void tell_what_was_lost(const Recording& recording) {
-  if (recording.find("plausibility") == nullptr) return;
-  const auto tell = [&recording](const char* field, const char* what) {
-    const std::vector<double> lost = recording.column("plausibility", field);
-    const auto first = std::find(lost.begin(), lost.end(), 1.0);
-    if (first == lost.end()) return;
-    const auto tick = static_cast<std::size_t>(first - lost.begin());
-    fmt::print(stderr, "degraded:  {} from {:.3f} s on\n", what,
-               1e-9 * static_cast<double>(recording.time_ns[tick]));
-  };
-  tell("passive_lost", "no passive encoders, so drives may turn half as fast,");
-}
-
 ExitStatus conclude(const Scenario& scenario, double wall, const std::filesystem::path& folder,
                     const CommonOptions& common) {
   const Recording recording = open_recording(recording_in(folder));
@@ -52,7 +35,6 @@ ExitStatus conclude(const Scenario& scenario, double wall, const std::filesystem
   const RunFacts facts{wall, scenario.seed, robot_as_drawn(recording)};
   fmt::print("{}", common.json ? verdict_json(verdict, facts) + "\n" : verdict_table(verdict, facts));
   if (!common.quiet) {
-    tell_what_was_lost(recording);
     fmt::print(stderr, "recording: {}\nreport:    {}\n", recording_in(folder).string(),
                (folder / "report.html").string());
   }

@@ -203,7 +203,7 @@ void LiveRun::finish_recording() {
   attributes["loop.tick"] = attribute(loop.whole);
   if (was_left_) {
     attributes["run.ended"] =
-        fmt::format("the robot has sent nothing for {:.0f} s", to_seconds(settings_.patience));
+        fmt::format("the robot has sent nothing for {:g} s", to_seconds(settings_.patience));
   }
   attributes["link.lost"] = std::to_string(link.lost);
   attributes["link.refused"] = std::to_string(link.refused);

@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "diagrams/link_status.h"
+#include "experiments/verdict/recorded_doubts.h"
 #include "experiments/verdict/recorded_estimate.h"
-#include "experiments/verdict/recorded_imu_doubt.h"
 #include "experiments/verdict/recorded_truth.h"
 #include "systems/framework/recorded_values.h"
 #include "systems/framework/tick_timing.h"
@@ -142,7 +142,7 @@ struct RecordedRun::Signals {
     if (recording.find("location") != nullptr) location.emplace(recording, "location");
     if (recording.find("measures") != nullptr) measures.emplace(recording, "measures");
     if (records(recording, "contact", "self_contact")) self_contact.emplace(recording, "contact");
-    if (records(recording, "plausibility", "imu_doubt")) imu_doubt.emplace(recording, "plausibility");
+    if (records(recording, "plausibility", "imu_doubt")) doubts.emplace(recording, "plausibility");
     if (recording.find("tick_timing") != nullptr) timing.emplace(recording, "tick_timing");
     if (recording.find("joints_link") != nullptr) joints_link.emplace(recording, "joints_link");
     if (witness == Witness::truth) {
@@ -160,7 +160,7 @@ struct RecordedRun::Signals {
   RecordedValues<RecordedEstimate> wrench;
   RecordedValues<PlatformReference> reference;
   RecordedValues<GateStatus> gate;
-  std::optional<RecordedValues<RecordedImuDoubt>> imu_doubt;
+  std::optional<RecordedValues<RecordedDoubts>> doubts;
   std::vector<std::string> class_names;  // of what can be touched
   std::optional<RecordedValues<ContactClassification>> classification;
   std::optional<RecordedValues<ContactLocation>> location;
@@ -205,7 +205,7 @@ RunSample RecordedRun::operator[](std::size_t sample) const {
   }
   now.mode = signals.reaction[sample].mode;
   now.gate = signals.gate[sample];
-  if (signals.imu_doubt) now.imu_doubt = (*signals.imu_doubt)[sample].doubt;
+  if (signals.doubts) now.doubts = (*signals.doubts)[sample];
   if (signals.timing) now.lost_ticks = static_cast<int>((*signals.timing)[sample].lost_periods);
   if (signals.joints_link) now.unread_readings = static_cast<int>((*signals.joints_link)[sample].skipped);
   if (signals.classification) {

@@ -162,10 +162,11 @@ void RunWatch::see(const RunSample& now) {
   so_far.gate = now.gate;
   so_far.gate_opens |= now.gate.phase == GatePhase::open;
   so_far.faults.see(now, verdict);
-  if (verdict.imu_doubt == ImuDoubt::none && now.imu_doubt != ImuDoubt::none) {
-    verdict.imu_doubt = now.imu_doubt;
+  if (verdict.imu_doubt == ImuDoubt::none && now.doubts.imu != ImuDoubt::none) {
+    verdict.imu_doubt = now.doubts.imu;
     verdict.imu_doubted = now.time;
   }
+  if (!verdict.passive_lost && now.doubts.passive_lost) verdict.passive_lost = now.time;
   if (!so_far.first) so_far.first = now.time;
   so_far.last = now.time;
 }

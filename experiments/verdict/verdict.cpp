@@ -63,10 +63,16 @@ void remark_contacts(const Verdict& verdict, std::vector<std::string>& remarks) 
   }
 }
 
-void remark_imu(const Verdict& verdict, std::vector<std::string>& remarks) {
-  if (verdict.imu_doubt == ImuDoubt::none) return;
-  remarks.push_back(
-      fmt::format("the IMU was left out from {:.3f} s on: {}", verdict.imu_doubted, name(verdict.imu_doubt)));
+void remark_lost_sensors(const Verdict& verdict, std::vector<std::string>& remarks) {
+  if (verdict.imu_doubt != ImuDoubt::none) {
+    remarks.push_back(fmt::format("the IMU was left out from {:.3f} s on: {}", verdict.imu_doubted,
+                                  name(verdict.imu_doubt)));
+  }
+  if (verdict.passive_lost) {
+    remarks.push_back(
+        fmt::format("there were no passive encoders from {:.3f} s on: drives might turn half as fast",
+                    *verdict.passive_lost));
+  }
 }
 
 void expect_at_most(const char* what, double value, std::optional<double> bound, const char* unit,
@@ -84,7 +90,7 @@ Verdict judge(const RunWatch& watch, const Expectations& expected) {
   expect_contact(verdict, expected, verdict.failures);
   judge_contacts(verdict, expected, verdict.failures);
   remark_contacts(verdict, verdict.remarks);
-  remark_imu(verdict, verdict.remarks);
+  remark_lost_sensors(verdict, verdict.remarks);
   verdict.failures.insert(verdict.failures.end(), of_the_gate.begin(), of_the_gate.end());
   if (verdict.false_detections > 0) verdict.failures.push_back("a contact was detected where there was none");
   if (!verdict.fault.empty()) verdict.failures.push_back("the torque gate closed: " + verdict.fault);

@@ -109,7 +109,8 @@ struct Verdict {
   /// The first doubt about the IMU, and when it came up [s]; none: it was believed.
   ImuDoubt imu_doubt = ImuDoubt::none;
   double imu_doubted = 0.0;
-  double simulated = 0.0;  ///< [s]
+  std::optional<double> passive_lost;  ///< when the passive encoders were lost [s]; none: they were not
+  double simulated = 0.0;              ///< [s]
 
   std::vector<std::string> failures;  ///< why the verdict is bad, one sentence each; empty: it is good
   std::vector<std::string> remarks;   ///< what a reader must know of a good verdict as well, likewise

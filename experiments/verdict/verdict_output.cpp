@@ -148,23 +148,25 @@ std::string verdict_table(const Verdict& verdict, const RunFacts& facts) {
 std::string verdict_json(const Verdict& verdict, const RunFacts& facts) {
   Json contacts = Json::array();
   for (const ContactVerdict& contact : verdict.contacts) contacts.push_back(contact_json(contact));
-  const Json json = {{"verdict", verdict.good() ? "good" : "bad"},
-                     {"witness", name(verdict.witness)},
-                     {"contacts", contacts},
-                     {"detections_s", verdict.detections},
-                     {"false_detections", verdict.false_detections},
-                     {"max_observer_error_N", verdict.max_observer_error_force},
-                     {"max_observer_error_Nm", verdict.max_observer_error_moment},
-                     {"max_tracking_error_mm", 1e3 * verdict.max_tracking_error},
-                     {"loop_closure_m", verdict.loop_closure ? Json(*verdict.loop_closure) : Json(nullptr)},
-                     {"simulated_s", verdict.simulated},
-                     {"wall_s", facts.wall},
-                     {"seed", facts.seed},
-                     {"robot_drawn", robot_json(facts)},
-                     {"imu_doubt", imu_doubt_json(verdict)},
-                     {"fault", verdict.fault},
-                     {"failures", verdict.failures},
-                     {"remarks", verdict.remarks}};
+  const Json json = {
+      {"verdict", verdict.good() ? "good" : "bad"},
+      {"witness", name(verdict.witness)},
+      {"contacts", contacts},
+      {"detections_s", verdict.detections},
+      {"false_detections", verdict.false_detections},
+      {"max_observer_error_N", verdict.max_observer_error_force},
+      {"max_observer_error_Nm", verdict.max_observer_error_moment},
+      {"max_tracking_error_mm", 1e3 * verdict.max_tracking_error},
+      {"loop_closure_m", verdict.loop_closure ? Json(*verdict.loop_closure) : Json(nullptr)},
+      {"simulated_s", verdict.simulated},
+      {"wall_s", facts.wall},
+      {"seed", facts.seed},
+      {"robot_drawn", robot_json(facts)},
+      {"imu_doubt", imu_doubt_json(verdict)},
+      {"passive_encoders_lost_s", verdict.passive_lost ? Json(*verdict.passive_lost) : Json(nullptr)},
+      {"fault", verdict.fault},
+      {"failures", verdict.failures},
+      {"remarks", verdict.remarks}};
   return json.dump();
 }
 

@@ -59,6 +59,13 @@ TEST(VerdictJson, IsOneLineThatHoldsTheTable) {
   EXPECT_NEAR(json["contacts"][0]["detection_ms"].get<double>(), 12.3, 1e-9);
   EXPECT_TRUE(json["contacts"][0]["removal_ms"].is_null());
   EXPECT_TRUE(json["imu_doubt"].is_null());
+  EXPECT_TRUE(json["passive_encoders_lost_s"].is_null());
+}
+
+TEST(VerdictJson, TellsSinceWhenThereWereNoPassiveEncoders) {
+  Verdict verdict;
+  verdict.passive_lost = 0.25;
+  EXPECT_EQ(nlohmann::json::parse(verdict_json(verdict, {}))["passive_encoders_lost_s"], 0.25);
 }
 
 TEST(VerdictJson, TellsSinceWhenTheImuWasLeftOut) {

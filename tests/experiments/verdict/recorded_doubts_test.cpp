@@ -1,4 +1,4 @@
-#include "experiments/verdict/recorded_imu_doubt.h"
+#include "experiments/verdict/recorded_doubts.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -24,6 +24,18 @@ TEST(ImuDoubt, IsARemarkAndNoFailure) {
   EXPECT_EQ(verdict.imu_doubt, ImuDoubt::biased);
   EXPECT_THAT(verdict.remarks, ElementsAre("the IMU was left out from 0.040 s on: biased"));
   EXPECT_TRUE(judged(SyntheticRun(100)).remarks.empty());
+}
+
+TEST(PassiveEncodersThatAreLost, AreARemarkAndNoFailure) {
+  SyntheticRun run(100);
+  for (int k = 60; k < 100; ++k) run.at(k).plausibility.passive_lost = true;
+  const Verdict verdict = judged(run);
+  EXPECT_TRUE(verdict.good());
+  ASSERT_TRUE(verdict.passive_lost);
+  EXPECT_NEAR(*verdict.passive_lost, 0.06, 1e-12);
+  EXPECT_THAT(verdict.remarks,
+              ElementsAre("there were no passive encoders from 0.060 s on: drives might turn "
+                          "half as fast"));
 }
 
 }  // namespace

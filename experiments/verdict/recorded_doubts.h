@@ -1,0 +1,19 @@
+#pragma once
+
+#include "systems/signals/imu_doubt.h"
+
+namespace flinch {
+
+/// What of the recorded plausibility tells whom the robot did without.
+struct RecordedDoubts {
+  ImuDoubt imu = ImuDoubt::none;
+  bool passive_lost = false;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("imu_doubt", "", self.imu);
+    visit("passive_lost", "", self.passive_lost);
+  }
+};
+
+}  // namespace flinch
