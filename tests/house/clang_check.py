@@ -18,7 +18,8 @@ import sys
 import tree
 
 COMPILER_ONLY = ("tests/",)
-# What tests/CMakeLists.txt precompiles stands before every test, alone or beside others.
+# What tests/CMakeLists.txt precompiles stands before every source of a folder of tests, alone or beside others; a program
+# that is not one of them sees no Eigen.
 PRECOMPILED = ("-include", "gmock/gmock.h", "-include", "gtest/gtest.h", "-include", "Eigen/Dense")
 LARGEST_BUNDLE = 16
 ANONYMOUS = re.compile(r"^namespace \{$(.*?)^\}  // namespace$", re.DOTALL | re.MULTILINE)
@@ -34,7 +35,7 @@ class Source:
         start = next(i for i, word in enumerate(words) if word.endswith(("clang++", "clang++-14")))
         self.compiler = [word for word in words[start:words.index("-o")] if word != "-c"]
         self.by_compiler_only = path.startswith(COMPILER_ONLY)
-        if self.by_compiler_only:
+        if self.by_compiler_only and any("eigen3" in word for word in self.compiler):
             self.compiler += PRECOMPILED
         self.own_names = {}
         self.mark = None
