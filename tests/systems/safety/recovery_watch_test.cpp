@@ -14,11 +14,12 @@ const FaultLimits limits;
 
 struct Place {
   explicit Place(double x, double phi = 0.0)
-      : posture(*test::planar_bench(), Eigen::Vector3d(x, 0.0, phi), PlatformVector::Zero(3), Time{}) {}
+      : posture(*robot, Eigen::Vector3d(x, 0.0, phi), PlatformVector::Zero(3), Time{}) {}
 
   PlaceTick tick() const {
-    return {*test::planar_bench(), limits.workspace, posture.motion, posture.platform, posture.measures};
+    return {*robot, limits.workspace, posture.motion, posture.platform, posture.measures};
   }
+  std::shared_ptr<const PlanarRrr> robot = test::planar_bench();
   test::Posture posture;
 };
 
