@@ -193,7 +193,7 @@ bool ReactionTask::is_released(Time now, const ReactionPlan& plan) const {
 }
 
 bool ReactionTask::has_arrived(Time now, const ReactionPlan& plan) const {
-  return to_seconds(now - plan.begin) >= plan.motion.duration() && now >= plan.begin;
+  return to_seconds(now - plan.begin) >= plan.motion.duration();
 }
 
 void ReactionTask::plan(Time now, const ReactionPlan& last, const ReactionState& state, const Kinematics& at,
