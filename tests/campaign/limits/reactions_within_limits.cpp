@@ -22,10 +22,7 @@ namespace flinch::test {
 namespace {
 
 constexpr double touched = 1.0;         // [N]
-constexpr double at_rest = 0.02;        // [m/s]
 constexpr double released_after = 0.1;  // [s]
-constexpr double sigma_kappa_s = 15.0;
-constexpr double sigma_sc_s = 0.17;  // [m]
 
 std::string value_of(const CampaignRun& run, const std::string& key) {
   for (const auto& [name, value] : run.values) {

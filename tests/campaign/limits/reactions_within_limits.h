@@ -8,6 +8,11 @@
 
 namespace flinch::test {
 
+/// The robot's safety values, and below which speed the platform counts as at rest.
+inline constexpr double sigma_kappa_s = 15.0;
+inline constexpr double sigma_sc_s = 0.17;  // [m]
+inline constexpr double at_rest = 0.02;     // [m/s]
+
 /// What the true robot did in one run of a campaign, from the detection of a contact on.
 struct ReactionOutcome {
   std::string law;   ///< of the reaction

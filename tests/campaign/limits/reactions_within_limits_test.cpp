@@ -44,8 +44,8 @@ struct Group {
     slack += run.slack > 1e-3 ? 1U : 0U;
     if (!run.detected) return;
     ++detected;
-    const bool beyond_kappa = run.sigma_kappa > 15.0 * (1.0 + 1e-6),
-               beyond_sc = run.sigma_sc < 0.17 * (1.0 - 1e-6);
+    const bool beyond_kappa = run.sigma_kappa > test::sigma_kappa_s * (1.0 + 1e-6),
+               beyond_sc = run.sigma_sc < test::sigma_sc_s * (1.0 - 1e-6);
     kappa += beyond_kappa ? 1U : 0U;
     sc += beyond_sc ? 1U : 0U;
     brakeable += run.brakeable ? 1U : 0U;

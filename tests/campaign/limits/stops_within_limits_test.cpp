@@ -15,15 +15,16 @@
 #include "experiments/campaign/campaign.h"
 #include "experiments/campaign/campaign_run.h"
 #include "systems/robot/link_segments.h"
+#include "tests/campaign/limits/reactions_within_limits.h"
 #include "tests/fault/scenario_loop.h"
 #include "tests/support/wanted.h"
 
 namespace flinch {
 namespace {
 
-constexpr double sigma_kappa_s = 15.0;
-constexpr double sigma_sc_s = 0.17;  // [m]
-constexpr double at_rest = 0.02;     // [m/s]
+using test::at_rest;
+using test::sigma_kappa_s;
+using test::sigma_sc_s;
 
 /// From the tick on at which the operator stops the robot.
 struct Stop {
