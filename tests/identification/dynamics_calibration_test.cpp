@@ -172,14 +172,7 @@ TEST(BadMotions, WithGapsInTheCurrentOfADriveAreNamedAndUsedWithoutThem) {
 TEST(BadMotions, WithASaturatedCurrentAreNamedAndUsedWithoutIt) {
   Simulated run = test::simulated("calibration_excitation.yaml");
   const CalibrationResult clean = calibrated(run);
-  double largest = 0.0;
-  const auto drives = read<DriveReading>(run.recording, "drives");
-  for (std::size_t k = 0; k < run.recording.samples(); ++k)
-    largest = std::max(largest, std::abs(drives[k].current[0]));
-  const double limit = 0.4 * largest;
-  edit<DriveReading>(run.recording, "drives", [limit](std::size_t, DriveReading& reading) {
-    reading.current[0] = std::clamp(reading.current[0], -limit, limit);
-  });
+  test::saturate_current(run.recording, 0, 0.4);
   const CalibrationResult spoilt = calibrated(run);
   EXPECT_THAT(spoilt.warnings, Contains(HasSubstr("the current of drive 1 is saturated at")));
   expect_within_deviations(clean, spoilt);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <string>
 
@@ -7,6 +9,7 @@
 #include "experiments/simulated/simulated_scenario.h"
 #include "systems/framework/recorded_values.h"
 #include "systems/framework/recording.h"
+#include "systems/signals/drive_reading.h"
 #include "tests/support/workplace.h"
 
 namespace flinch::test {
@@ -38,6 +41,18 @@ void edit(Recording& recording, const std::string& path, const std::function<voi
       write_row(value, signal.rows.data() + k * signal.layout.numbers);
     }
   }
+}
+
+/// Cuts the current of a drive at a share of its largest, as a sensor at the end of its range does.
+inline void saturate_current(Recording& recording, Eigen::Index drive, double share) {
+  double largest = 0.0;
+  const auto drives = read<DriveReading>(recording, "drives");
+  for (std::size_t k = 0; k < recording.samples(); ++k)
+    largest = std::max(largest, std::abs(drives[k].current[drive]));
+  const double limit = share * largest;
+  edit<DriveReading>(recording, "drives", [drive, limit](std::size_t, DriveReading& reading) {
+    reading.current[drive] = std::clamp(reading.current[drive], -limit, limit);
+  });
 }
 
 }  // namespace flinch::test

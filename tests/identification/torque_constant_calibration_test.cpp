@@ -127,14 +127,7 @@ TEST(BadPulls, OfASaturatedInstrumentAreNamedAndLeftOut) {
 
 TEST(BadPulls, WithASaturatedCurrentAreNamedAndUsedWithoutIt) {
   Simulated run = test::simulated("calibration_pulls.yaml");
-  double largest = 0.0;
-  const auto drives = read<DriveReading>(run.recording, "drives");
-  for (std::size_t k = 0; k < run.recording.samples(); ++k)
-    largest = std::max(largest, std::abs(drives[k].current[1]));
-  const double limit = 0.6 * largest;
-  edit<DriveReading>(run.recording, "drives", [limit](std::size_t, DriveReading& reading) {
-    reading.current[1] = std::clamp(reading.current[1], -limit, limit);
-  });
+  test::saturate_current(run.recording, 1, 0.6);
   const CalibrationResult got = calibrated(run);
   EXPECT_THAT(got.warnings, Contains(HasSubstr("run.h5: the current of drive 2 is saturated at")));
   for (int i = 0; i < 3; ++i) {
