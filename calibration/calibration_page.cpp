@@ -131,7 +131,7 @@ std::string calibration_page(const CalibrationResult& result, const std::string&
       "content='width=device-width, initial-scale=1'><link rel='icon' href='data:,'><title>" +
       title + "</title><style>" + style + "</style></head><body>";
   html += "<header><p class='soft'>flinch</p><h1>" + title + "</h1>";
-  const std::string unit = result.residual_unit == "1" ? "" : " " + escaped(result.residual_unit);
+  const std::string unit = escaped(behind_number(result.residual_unit));
   html += fmt::format(
       "<p>What is left unexplained: <b>{:.4g}{}</b> with what was believed, <b>{:.4g}{}</b> with what "
       "was found (root mean square).</p></header>",

@@ -60,4 +60,7 @@ struct CalibrationResult {
   std::vector<BoxNumbers> validation;  ///< Errors on recordings that were not used.
 };
 
+/// A unit as it stands behind a number: " Nm", and nothing for what has none, "1".
+inline std::string behind_number(const std::string& unit) { return unit == "1" ? "" : " " + unit; }
+
 }  // namespace flinch
