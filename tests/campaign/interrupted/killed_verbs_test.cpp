@@ -1,5 +1,5 @@
 // Verbs that are killed at random moments, into a folder that holds an older result. What is there afterwards
-// is the older result or the new one, whole; what the dead have left goes with the next call. 20 kills of
+// is the older result or the new one, whole; what the dead have left goes with the next call. 10 kills of
 // each verb; FLINCH_KILLS in the environment says how many instead.
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -20,7 +20,7 @@ using test::InterruptedVerb;
 using test::OtherProgram;
 using test::VerbResults;
 
-int wanted_kills() { return test::wanted("FLINCH_KILLS", 20); }
+int wanted_kills() { return test::wanted("FLINCH_KILLS", 10); }
 
 class KilledVerbs : public testing::Test {
  protected:
