@@ -151,9 +151,9 @@ void add_file_verbs(CLI::App& app, Verbs& verbs) {
   graph_verb.add_option("--out", verbs.graph.out, "A .svg or .dot file [DOT on stdout]")->type_name("FILE");
 
   CLI::App& check_verb =
-      verbs.add(app, "check", "Say all that is wrong with a scenario, robot or recording file",
+      verbs.add(app, "check", "Say all that is wrong with a scenario, robot, campaign or recording file",
                 "flinch check apps/robots/planar_3rrr.yaml", verbs.check, &check);
-  check_verb.add_option("file", verbs.check.file, "Scenario (YAML), robot (YAML) or recording (HDF5)")
+  check_verb.add_option("file", verbs.check.file, "Scenario, robot or campaign (YAML), or recording (HDF5)")
       ->required()
       ->type_name("FILE");
 }

@@ -55,6 +55,11 @@ void draw_svg(const std::string& dot, const std::filesystem::path& file) {
                    ": Graphviz could not draw it; is the program 'dot' installed (package graphviz)?");
 }
 
+bool is_campaign_file(const std::filesystem::path& file) {
+  const ConfigReader reader = ConfigReader::open(file);
+  return reader.has("scenarios") || (reader.has("scenario") && !reader.has("csv"));
+}
+
 /// Throws SetupError where there is no folder for `file`.
 void require_folder_of(const std::filesystem::path& file) {
   const std::filesystem::path folder = file.parent_path();
@@ -117,6 +122,9 @@ ExitStatus check(const CheckOptions& options) {
     parse_robot_file(text, options.file.string());
     robot_calibrations(text, options.file.string());
     what = "robot";
+  } else if (is_campaign_file(options.file)) {
+    check_campaign(options.file);
+    what = "campaign";
   } else {
     closed_loop(options.file);
     what = "scenario";

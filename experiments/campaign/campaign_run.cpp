@@ -10,6 +10,7 @@
 #include "experiments/campaign/drawn_contact.h"
 #include "experiments/campaign/drawn_move.h"
 #include "systems/config/config_node.h"
+#include "systems/config/key_error.h"
 #include "systems/config/parsed.h"
 #include "systems/config/yaml_text.h"
 #include "systems/foundation/setup_error.h"
@@ -43,13 +44,26 @@ std::size_t next_digit(std::size_t& index, std::size_t count) {
   return digit;
 }
 
+/// "campaign.yaml:7: " where the campaign gave the value; empty where nobody did.
+std::string place_of(const ConfigNode& value) {
+  if (!value.file) return "";
+  return *value.file + (value.line > 0 ? ":" + std::to_string(value.line) : "") + ": ";
+}
+
 /// A scenario while values are put into it.
 class Draft {
  public:
   Draft(const Campaign& campaign, std::size_t scenario)
       : file_(campaign.scenarios[scenario]), root_(campaign.scenario_nodes[scenario]) {}
 
-  void set(const std::string& key, const Node& value) { root_ = with_value(*root_, key, value); }
+  void set(const std::string& key, const Node& value) {
+    try {
+      root_ = with_value(*root_, key, value);
+    } catch (const SetupError& error) {
+      const std::string problem = place_of(*value) + error.what();
+      throw KeyError({problem}, {problem});
+    }
+  }
   bool has(const std::string& key) const {
     for (const ConfigNode::Entry& entry : root_->entries) {
       if (entry.key == key) return true;
@@ -96,6 +110,12 @@ void move(Draft& draft, const DrawnMove& drawn, int directions, CampaignRun& run
   draft.set("obstacles[0].path", parse_yaml(path_text(drawn.path, directions), "drawn path"));
 }
 
+/// Lets the first obstacle push.
+void make_hand(Draft& draft) {
+  draft.set("obstacles[0].kind", scalar_node("hand"));
+  draft.set("obstacles[0].mount_stiffness_N_per_m", number_node(pushing_stiffness));
+}
+
 /// The robot when a moving obstacle meets it: half-way through its motion, or where it holds still.
 HalfWay meeting_of(const CampaignContact& settings, RobotFiles& robots, const Draft& draft) {
   if (settings.by == CampaignContact::By::pushing) {
@@ -132,8 +152,7 @@ bool move_obstacle(const CampaignContact& settings, RobotFiles& robots, Draft& d
   expect(contact->body, draft, run);
   const int directions = robot.space_dimension();
   if (settings.by == CampaignContact::By::pushing) {
-    draft.set("obstacles[0].kind", scalar_node("hand"));
-    draft.set("obstacles[0].mount_stiffness_N_per_m", number_node(pushing_stiffness));
+    make_hand(draft);
     move(draft, draw_push(settings, *contact, at.time, directions, random), directions, run);
     return true;
   }
@@ -170,6 +189,14 @@ Draft undrawn(const Campaign& campaign, std::size_t& digits, CampaignRun& run) {
   return draft;
 }
 
+void draw_values(const Campaign& campaign, RandomGenerator& random, Draft& draft, CampaignRun& run) {
+  for (const CampaignDraw& draw : campaign.drawn) {
+    const Node value = drawn_value(draw, random);
+    draft.set(draw.key, value);
+    run.values.emplace_back(draw.key, yaml_line(*value));
+  }
+}
+
 /// What is wrong with that scenario.
 std::vector<std::string> undrawn_problems(const Campaign& campaign, CampaignRun run) {
   try {
@@ -191,11 +218,7 @@ bool draw_once(const Campaign& campaign, RandomGenerator& random, CampaignRun& r
   run.values.clear();
   std::size_t digits = run.point;
   Draft draft = undrawn(campaign, digits, run);
-  for (const CampaignDraw& draw : campaign.drawn) {
-    const Node value = drawn_value(draw, random);
-    draft.set(draw.key, value);
-    run.values.emplace_back(draw.key, yaml_line(*value));
-  }
+  draw_values(campaign, random, draft, run);
   draft.set("seed", scalar_node(std::to_string(run.seed)));
   if (campaign.contact) {
     const auto& bodies = campaign.contact->bodies;
@@ -210,21 +233,27 @@ bool draw_once(const Campaign& campaign, RandomGenerator& random, CampaignRun& r
   return true;
 }
 
-/// The problems, each after the run and what was drawn for it.
+/// The problems, each with the run and the first values that were drawn for it.
 std::vector<std::string> of_run(const CampaignRun& run, const std::vector<std::string>& problems) {
+  constexpr std::size_t longest = 120;
   std::string drawn;
-  for (const auto& [key, value] : run.values) drawn += (drawn.empty() ? "" : ", ") + key + " = " + value;
-  std::vector<std::string> result;
-  for (const std::string& problem : problems) {
-    result.push_back("run " + std::to_string(run.number) + (drawn.empty() ? "" : " (" + drawn + ")") + ": " +
-                     problem);
+  std::size_t told = 0;
+  for (const auto& [key, value] : run.values) {
+    const std::string next = (told > 0 ? ", " : ": ") + key + " = " + value;
+    if (drawn.size() + next.size() > longest) break;
+    drawn += next;
+    ++told;
   }
+  if (told < run.values.size()) drawn += " and " + std::to_string(run.values.size() - told) + " more";
+  std::vector<std::string> result;
+  for (const std::string& problem : problems)
+    result.push_back(problem + " (run " + std::to_string(run.number) + drawn + ")");
   return result;
 }
 
 }  // namespace
 
-CampaignRun draw_run(const Campaign& campaign, std::size_t number) {
+CampaignRun draw_run(const Campaign& campaign, std::size_t number, int most_attempts) {
   CampaignRun run;
   run.number = number;
   run.point = number / campaign.draws;
@@ -239,12 +268,33 @@ CampaignRun draw_run(const Campaign& campaign, std::size_t number) {
     try {
       if (draw_once(campaign, random, run)) return run;
       if (is_last) throw SetupError("no body moves as 'contact' asks, in none of the draws");
+    } catch (const KeyError& error) {
+      throw SetupError(of_run(run, error.problems()));
     } catch (const SetupError& error) {
       if (!undrawn_wrong) undrawn_wrong = undrawn_problems(campaign, run);
       if (is_last || have_one_in_common(error.problems(), *undrawn_wrong))
         throw SetupError(of_run(run, error.problems()));
     }
   }
+}
+
+std::vector<std::string> wrong_keys(const Campaign& campaign) {
+  std::vector<std::string> wrong;
+  for (std::size_t scenario = 0; scenario < campaign.scenarios.size(); ++scenario) {
+    try {
+      CampaignRun unused;
+      RandomGenerator random(campaign.seed);
+      std::size_t digits = scenario;
+      Draft draft = undrawn(campaign, digits, unused);
+      draw_values(campaign, random, draft, unused);
+      if (campaign.contact && campaign.contact->by == CampaignContact::By::pushing) make_hand(draft);
+      parse_simulated_scenario(draft.root(), draft.file(), *campaign.robots);
+    } catch (const KeyError& error) {
+      wrong.insert(wrong.end(), error.of_keys().begin(), error.of_keys().end());
+    } catch (const SetupError&) {  // of values, which other draws may mend
+    }
+  }
+  return wrong;
 }
 
 }  // namespace flinch

@@ -26,9 +26,11 @@ struct CampaignRun {
 
 /// Draws run `number` of the campaign. Where what was drawn cannot be (a pose out of reach, a body that does
 /// not move), it is drawn again, up to `most_attempts` times. Throws SetupError with the last reason, the run
-/// and what was drawn for it where none was possible, and for keys that fit no scenario.
-CampaignRun draw_run(const Campaign& campaign, std::size_t number);
+/// and what was drawn for it where none was possible, and at once for keys that fit no scenario.
+CampaignRun draw_run(const Campaign& campaign, std::size_t number, int most_attempts = 200);
 
-inline constexpr int most_attempts = 200;
+/// What is wrong with keys of the grid and of draws, whatever their values, in the first run of each
+/// scenario.
+std::vector<std::string> wrong_keys(const Campaign& campaign);
 
 }  // namespace flinch

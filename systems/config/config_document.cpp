@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "systems/config/key_error.h"
 #include "systems/foundation/nearest_name.h"
 #include "systems/foundation/setup_error.h"
 
@@ -175,9 +176,13 @@ std::vector<ReadValue> ConfigDocument::finish() {
   }
   std::stable_sort(told.begin(), told.end(),
                    [](const Problem& a, const Problem& b) { return a.place.line < b.place.line; });
-  std::vector<std::string> sentences;
-  for (Problem& problem : told) sentences.push_back(std::move(problem.text));
+  std::vector<std::string> sentences, of_keys;
+  for (Problem& problem : told) {
+    if (problem.of_key) of_keys.push_back(problem.text);
+    sentences.push_back(std::move(problem.text));
+  }
   sentences.insert(sentences.end(), foreign_.begin(), foreign_.end());
+  if (!of_keys.empty()) throw KeyError(std::move(sentences), std::move(of_keys));
   throw_if_any(std::move(sentences));
   return std::move(values_);
 }
@@ -189,6 +194,12 @@ void ConfigDocument::add(ConfigPlace place, std::string key, const std::string& 
   std::string text = place.text() + ": ";
   if (!written.empty()) text += written + ": ";
   problems_.push_back({place, std::move(key), text + complaint, consequence});
+}
+
+void ConfigDocument::add_wrong_key(ConfigPlace place, std::string key, const std::string& written,
+                                   const std::string& complaint) {
+  add(place, std::move(key), written, complaint);
+  problems_.back().of_key = true;
 }
 
 void ConfigDocument::report_repeated(ConfigSection& section) {
@@ -214,13 +225,13 @@ void ConfigDocument::report_left_over(ConfigSection& section) {
     WantedKey* meant = meant_by(entry.key, section.wanted);
     if (meant != nullptr) {
       meant->found = true;
-      add(place_of(section, entry), section.path_of(meant->name), written,
-          complaint_about_unit(entry.key, *meant));
+      add_wrong_key(place_of(section, entry), section.path_of(meant->name), written,
+                    complaint_about_unit(entry.key, *meant));
       continue;
     }
     const std::string complaint = complaint_about_key(entry.key, section.wanted);
-    add(place_of(section, entry), section.path_of(mistaken_for(entry.key, section.wanted)), written,
-        complaint);
+    add_wrong_key(place_of(section, entry), section.path_of(mistaken_for(entry.key, section.wanted)), written,
+                  complaint);
   }
 }
 

@@ -75,7 +75,8 @@ class ConfigDocument {
   void add_foreign(const std::vector<std::string>& problems);
 
   bool good() const { return problems_.empty() && !incomplete_; }
-  /// Throws SetupError with all problems in order of lines; otherwise the values in order of reading.
+  /// Throws SetupError with all problems in order of lines, KeyError where keys are among them; otherwise
+  /// the values in order of reading.
   std::vector<ReadValue> finish();
 
  private:
@@ -84,6 +85,7 @@ class ConfigDocument {
     std::string key;   ///< Without unit.
     std::string text;  ///< With place and key.
     bool consequence = false;
+    bool of_key = false;  ///< which no value would mend
   };
   struct Place {
     std::string key;
@@ -93,6 +95,8 @@ class ConfigDocument {
 
   void add(ConfigPlace place, std::string key, const std::string& written, const std::string& complaint,
            bool consequence = false);
+  void add_wrong_key(ConfigPlace place, std::string key, const std::string& written,
+                     const std::string& complaint);
   void report_repeated(ConfigSection& section);
   void report_left_over(ConfigSection& section);
   void report_missing(const ConfigSection& section);

@@ -93,6 +93,10 @@ class Replacement {
     if (key.empty()) complain(path_, "is no path of keys, as in control.contact_detector.reaction_force_N");
     const auto result =
         node != nullptr ? std::make_shared<ConfigNode>(*node) : std::make_shared<ConfigNode>();
+    if (node == nullptr) {  // made for the value, so it stands where that does
+      result->file = value_->file;
+      result->line = value_->line;
+    }
     if (result->kind == Kind::empty) result->kind = Kind::mapping;
     if (result->kind != Kind::mapping) {
       complain(path_, "'" + std::string(path_.substr(0, begin)) + "' has no keys in this file");

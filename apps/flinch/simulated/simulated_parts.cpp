@@ -5,6 +5,8 @@
 #include "apps/flinch/learning_verbs.h"
 #include "apps/flinch/progress.h"
 #include "apps/flinch/stop_watch.h"
+#include "experiments/campaign/campaign.h"
+#include "experiments/campaign/campaign_run.h"
 #include "experiments/report/run_folder.h"
 #include "experiments/simulated/experiment.h"
 #include "experiments/simulated/simulated_scenario.h"
@@ -40,6 +42,8 @@ ExitStatus run_simulated(const RunOptions& options) {
 std::unique_ptr<Diagram> closed_loop(const std::filesystem::path& scenario) {
   return built(read_simulated_scenario(scenario)).diagram;
 }
+
+void check_campaign(const std::filesystem::path& file) { draw_run(read_campaign(file), 0); }
 
 Scenario scenario_of(const Recording& recording, const std::filesystem::path& file,
                      const std::filesystem::path& control) {

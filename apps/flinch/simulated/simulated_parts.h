@@ -17,6 +17,10 @@ ExitStatus run_simulated(const RunOptions& options);
 /// built without the simulation, with a robot outside. Throws SetupError for all that is wrong with the file.
 std::unique_ptr<Diagram> closed_loop(const std::filesystem::path& scenario);
 
+/// Draws the first run of a campaign. Throws SetupError for all that is wrong with the file, and where this
+/// program was built without the simulation.
+void check_campaign(const std::filesystem::path& file);
+
 /// The scenario that a recording was made from, or that of the file `control` if it is named. Where the run
 /// was simulated, and this program can, its parameters are those of the simulation, too. Throws SetupError
 /// naming `file`, where the recording comes from, when it keeps none, and as read_scenario().

@@ -251,6 +251,20 @@ TEST_F(CommandLine, ChecksScenariosRobotsAndRecordings) {
             place.at("out/run.h5") + ": a good recording file\n");
 }
 
+TEST_F(CommandLine, ChecksTheKeysOfACampaign) {
+  const std::string few = "campaigns/few.yaml";
+  place.write(
+      few,
+      "scenario: ../scenarios/platform_collision.yaml\nruns: 2\ndraw:\n  - {key: motion.speed_m_per_s, "
+      "from: 0.5, to: 1}\n");
+  EXPECT_EQ(flinch({"check", place.at(few)}).out, place.at(few) + ": a good campaign file\n");
+  place.replace(few, "motion.speed", "motion.sped");
+  const Outcome outcome = flinch({"check", place.at(few)});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err,
+              HasSubstr(place.at(few) + ":4: motion.sped_m_per_s: is not a known key; did you mean"));
+}
+
 TEST_F(CommandLine, FindsEveryShippedRobotGood) {
   for (const auto& entry : std::filesystem::directory_iterator(place / "robots")) {
     EXPECT_EQ(flinch({"check", entry.path().string()}).out, entry.path().string() + ": a good robot file\n");

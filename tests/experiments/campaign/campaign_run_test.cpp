@@ -13,7 +13,9 @@
 namespace flinch {
 namespace {
 
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 std::string value(const CampaignRun& run, const std::string& key) {
   for (const auto& [name, text] : run.values) {
@@ -85,22 +87,34 @@ TEST(ADrawThatIsImpossible, IsDrawnAgain) {
   EXPECT_GT(attempts, 20) << "the legs do not reach all of these poses";
 }
 
-std::string problem_of(const Campaign& campaign, std::size_t number) {
+std::string problem_of(const Campaign& campaign, std::size_t number, int most_attempts = 200) {
   try {
-    draw_run(campaign, number);
+    draw_run(campaign, number, most_attempts);
   } catch (const SetupError& error) {
     return error.problems().front();
   }
   return "";
 }
 
-TEST(ARunThatCannotBeMade, NamesItselfAndWhatWasDrawn) {
+TEST(ARunThatCannotBeMade, TellsTheCauseThenItselfAndTheFirstValuesThatWereDrawn) {
   const test::Workplace place;
   Campaign campaign = test::small_campaign(place);
-  campaign.drawn.push_back({.key = "motion.sped_m_per_s", .from = 1.0, .to = 1.0});
+  campaign.drawn.push_back({.key = "motion.speed_m_per_s", .from = -1.0, .to = -1.0});
   const std::string problem = problem_of(campaign, 2);
-  EXPECT_THAT(problem, HasSubstr("run 2 (control.momentum_observer.gain_per_s = [20, 20, 20]"));
-  EXPECT_THAT(problem, HasSubstr("is not a known key"));
+  EXPECT_THAT(problem, HasSubstr("motion.speed_m_per_s: is -1; it must be"));
+  EXPECT_THAT(problem,
+              HasSubstr(" (run 2: control.momentum_observer.gain_per_s = [20, 20, 20], motion.direct"));
+  EXPECT_THAT(problem, EndsWith(" more)"));
+  EXPECT_LT(problem.find("must be"), problem.find("(run 2: "));
+}
+
+TEST(ARunThatCannotBeMade, HasAKeyThatNoDrawMendsAndIsDrawnOnce) {
+  const test::Workplace place;
+  Campaign campaign = test::small_campaign(place);
+  campaign.drawn.push_back({.key = "motion.sped_m_per_s", .from = 1.0, .to = 2.0});
+  const std::string first = problem_of(campaign, 0, 1);
+  EXPECT_THAT(first, HasSubstr("motion.sped_m_per_s: is not a known key; did you mean"));
+  EXPECT_EQ(problem_of(campaign, 0, 200), first) << "a second draw has other values";
 }
 
 TEST(ARunThatCannotBeMade, IsDrawnOnceWhereNoDrawCanMendIt) {
@@ -111,21 +125,10 @@ TEST(ARunThatCannotBeMade, IsDrawnOnceWhereNoDrawCanMendIt) {
   const auto first_draw = [&] {
     const CampaignRun run = draw_run(read_campaign(place / "campaigns/small.yaml"), 0);
     EXPECT_EQ(run.attempts, 1);
-    return "motion.direction_deg = " + value(run, "motion.direction_deg") + ",";
+    return "motion.direction_deg = " + value(run, "motion.direction_deg");
   }();
-  place.replace("campaigns/small.yaml", "control.momentum_observer.gain", "control.momentum_observer.gian");
+  place.replace("campaigns/small.yaml", "[20, 20, 20]", "[20, -20, 20]");
   EXPECT_THAT(problem_of(read_campaign(place / "campaigns/small.yaml"), 0), HasSubstr(first_draw));
-}
-
-TEST(ARunThatCannotBeMade, NamesTheLineOfTheCampaignThatAsksForIt) {
-  const test::Workplace place;
-  test::small_campaign(place);
-  place.replace("campaigns/small.yaml", "motion.speed_m_per_s, from: 0.5, to: 1.2",
-                "motion.sped_m_per_s, from: 0.5, to: 1.2");
-  const int line = place.line_of("campaigns/small.yaml", "sped");
-  EXPECT_THAT(problem_of(read_campaign(place / "campaigns/small.yaml"), 2),
-              HasSubstr("): " + place.at("campaigns/small.yaml") + ":" + std::to_string(line) +
-                        ": motion.sped_m_per_s: is not a known key; did you mean"));
 }
 
 TEST(ARunThatCannotBeMade, NamesTheLineOfAValueOfTheGrid) {
@@ -143,7 +146,7 @@ TEST(ARunThatCannotBeMade, NamesTheOptionThatAsksForIt) {
   test::small_campaign(place);
   const std::string option = "control.contact_detector.reaction_force_N=-3";
   EXPECT_THAT(problem_of(read_campaign(place / "campaigns/small.yaml", {.set = {option}}), 0),
-              HasSubstr("): --set " + option + ": control.contact_detector.reaction_force_N: is -3"));
+              StartsWith("--set " + option + ": control.contact_detector.reaction_force_N: is -3"));
 }
 
 }  // namespace

@@ -11,8 +11,12 @@
 namespace flinch {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+using ::testing::UnorderedElementsAre;
 
 std::vector<std::string> problems_of(const std::filesystem::path& file,
                                      const CampaignOverrides& overrides = {}) {
@@ -61,6 +65,40 @@ TEST(ReadingACampaign, RefusesAGridThatIsTooLargeForAnyMachine) {
   place.write("campaigns/endless.yaml", text);
   EXPECT_THAT(problems_of(place / "campaigns/endless.yaml"),
               ElementsAre(HasSubstr("endless.yaml: asks for 1.152921504606847e+25 runs")));
+}
+
+TEST(ReadingACampaign, NamesTheLineOfEachKeyThatTheScenarioDoesNotHave) {
+  const test::Workplace place;
+  test::small_campaign(place);
+  const std::string file = "campaigns/small.yaml";
+  place.replace(file, "control.momentum_observer.gain_per_s", "control.momentum_observer.gian_per_s");
+  place.replace(file, "motion.direction_deg", "motoin.direction_deg");
+  place.replace(file, "motion.speed_m_per_s", "motion.speed_m_per_s2");
+  const auto at = [&](const char* key) {
+    return StartsWith(place.at(file) + ":" + std::to_string(place.line_of(file, key)) + ": ");
+  };
+  EXPECT_THAT(
+      problems_of(place / file),
+      UnorderedElementsAre(
+          AllOf(at("gian"), HasSubstr("gian_per_s: is not a known key; did you mean 'gain_per_s'?")),
+          AllOf(at("motoin"), HasSubstr("motoin: is not a known key; did you mean 'motion'?")),
+          AllOf(at("speed"), HasSubstr("motion.speed_m_per_s2: has the wrong unit, m_per_s2; write"))));
+}
+
+TEST(ReadingACampaign, NamesTheLineOfAKeyWithinAValue) {
+  const test::Workplace place;
+  test::small_campaign(place);
+  const std::string file = "campaigns/small.yaml";
+  place.replace(file, "motion.speed_m_per_s", "motion.speed_m_per_s.x_m");
+  EXPECT_THAT(problems_of(place / file),
+              ElementsAre(AllOf(StartsWith(place.at(file) + ":"), HasSubstr("has no keys in this file"))));
+}
+
+TEST(ReadingACampaign, LeavesValuesToTheRuns) {
+  const test::Workplace place;
+  test::small_campaign(place);
+  place.replace("campaigns/small.yaml", "from: 0.5, to: 1.2", "from: -0.5, to: 1.2");
+  EXPECT_THAT(problems_of(place / "campaigns/small.yaml"), IsEmpty());
 }
 
 TEST(TheCommandLine, AddsAxesAndReplacesWhatTheFileSaysOfAKey) {
