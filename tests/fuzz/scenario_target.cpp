@@ -1,5 +1,7 @@
-// Scenarios, with the robot that they name.
+// Scenarios. The robots that they name are read once, since their reader has a target of its own.
+#include "experiments/scenario/robot_files.h"
 #include "experiments/simulated/simulated_scenario.h"
+#include "systems/config/config_node.h"
 #include "tests/fuzz/fuzz_files.h"
 #include "tests/fuzz/fuzz_target.h"
 
@@ -7,7 +9,9 @@ namespace flinch::test {
 namespace {
 
 void read(std::string_view bytes) {
-  parse_simulated_scenario(std::string(bytes), FLINCH_SOURCE_DIR "/apps/scenarios/fuzzed.yaml");
+  static RobotFiles robots;
+  const std::string file = FLINCH_SOURCE_DIR "/apps/scenarios/fuzzed.yaml";
+  parse_simulated_scenario(parse_yaml(bytes, file), file, robots);
 }
 
 std::vector<std::string> seeds() { return shipped_files("scenarios", ".yaml"); }
