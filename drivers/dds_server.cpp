@@ -199,7 +199,7 @@ class DdsServer::Implementation {
     drives_.send();
     imu_.send();
     if (force_torque_) force_torque_->send();
-    status_.send();
+    status_.send(settings_.longest_silence);  // brakes have closed meanwhile that it may call open
     joints_.send();
   }
 

@@ -4,6 +4,7 @@
 
 #include "drivers/dds_writer.h"
 #include "drivers/wire_header.h"
+#include "systems/framework/time.h"
 #include "systems/framework/triple_buffer.h"
 
 struct flinch_Header;
@@ -24,10 +25,13 @@ class SampleSender {
   /// For the control loop: leaves a sample to be sent; of its header acquired_ns, count and flags.
   void leave(const Sample& sample) noexcept { left_.publish(sample); }
 
-  /// For the sending thread: sends what was left since the last time.
-  void send() noexcept {
+  /// For the sending thread: sends what was left since the last time, unless that was acquired longer than
+  /// `longest_age` ago, as after a program has hung: by the stamps that it would be sent with.
+  void send(Time longest_age = Time::max()) noexcept {
     if (!left_.take(next_)) return;
-    stamp(next_.header, sender_, ++number_);
+    stamp(next_.header, sender_, number_ + 1);
+    if (Time(next_.header.sent_ns - next_.header.acquired_ns) > longest_age) return;
+    ++number_;
     writer_.write(&next_);
   }
 

@@ -28,13 +28,16 @@ class Ticking {
   const Diagram& diagram() const { return *diagram_; }
   const Context& context() const { return context_; }
 
-  /// Runs ticks until `done`, which sees the outputs of each.
-  void run(Exchange& exchange, const std::function<bool()>& done) {
+  /// Runs ticks until `done`, which sees the outputs of each; `before_sending` is called once they are there.
+  void run(
+      Exchange& exchange, const std::function<bool()>& done,
+      const std::function<void()>& before_sending = [] {}) {
     for (Time due = MonotonicClock::now();; due += 1ms) {
       MonotonicClock::sleep_until(due);
       while (MonotonicClock::now() >= due + 1ms) due += 1ms;  // lost periods, as RealtimeRunner counts them
       exchange.set_inputs(context_);
       diagram_->evaluate(context_);
+      before_sending();
       exchange.take_outputs(context_);
       const bool ended = done();
       diagram_->update(context_);
@@ -54,7 +57,10 @@ class FarEnd {
   explicit FarEnd(const DdsBus& bus, std::uint32_t robot = link_robot)
       : ticking_(build()), server_(bus, ticking_.diagram(), station_, {.robot = robot}) {}
 
-  void run(const std::function<bool()>& done) { ticking_.run(server_, done); }
+  void run(
+      const std::function<bool()>& done, const std::function<void()>& before_sending = [] {}) {
+    ticking_.run(server_, done, before_sending);
+  }
   const DdsServer& server() const { return server_; }
   const TorqueCommand& torque() const { return ticking_.context().get(station_.torque_command); }
   bool brake() const { return ticking_.context().get(station_.brake).engage; }
