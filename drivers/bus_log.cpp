@@ -16,10 +16,13 @@ bool is_power_of_ten(long number) {
   return number == 1;
 }
 
-/// Names the vendor in the head of the packet, which is all that can be known of its sender.
+/// Names the vendor in the head of the packet, which is all that can be known of its sender; or a packet that
+/// was empty.
 bool is_about_a_packet(std::string_view line) {
-  return line.find("malformed packet") != std::string_view::npos ||
-         line.find("(vendor ") != std::string_view::npos;
+  for (const char* const words : {"malformed packet", "(vendor ", ", vendor ", "recvmsg sock"}) {
+    if (line.find(words) != std::string_view::npos) return true;
+  }
+  return false;
 }
 
 }  // namespace
