@@ -11,9 +11,6 @@
 #include "tests/support/two_networks.h"
 
 namespace flinch::test {
-namespace {
-
-/// What goes to the first participant of the domain, until there are torque commands in it.
 std::vector<Datagram> overheard(int pipe, std::uint32_t domain) {
   const std::uint32_t discovery = 7410 + 250 * domain, samples = discovery + 1;  // DDSI-RTPS 2.3, 9.6.1.1
   std::vector<Datagram> kept;
@@ -26,8 +23,6 @@ std::vector<Datagram> overheard(int pipe, std::uint32_t domain) {
   }
   return kept;
 }
-
-}  // namespace
 
 Outsider::Outsider() {
   if (::pipe(ends) == 0) ::fcntl(ends[1], F_SETFL, O_NONBLOCK);

@@ -3,10 +3,15 @@
 #include <atomic>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "tests/drivers/spoofer.h"
 
 namespace flinch::test {
+
+/// What goes to the first participant of the domain, as it comes out of `pipe`, until there are 300 torque
+/// commands in it.
+std::vector<Datagram> overheard(int pipe, std::uint32_t domain);
 
 /// Somebody who knows how flinch's programs talk, from having listened to some at home, and sends the same to
 /// a robot of which he has received nothing. Shared by the programs that play the parts.
