@@ -45,7 +45,8 @@ class BenchOf final : public BenchDynamics {
                       const BenchStep& before) const noexcept;
   PlatformVector pulled(const Instant& now, const BenchState& state) const noexcept;
   JointVector drive_torque(const Instant& now, const DriveAction& drives) const noexcept;
-  JointVector braked_at(const Instant& now, const DriveAction& drives, const BenchStep& step) const noexcept;
+  JointVector braked_at(const JointVector& active, const DriveAction& drives,
+                        const BenchStep& step) const noexcept;
   PlatformVector acceleration(const Instant& now, JointVector torque, const DriveAction& drives,
                               const BenchStep& step, const PlatformVector& wrench) const noexcept;
 
@@ -67,6 +68,13 @@ inline Eigen::Vector3d contact_force(const HuntCrossley& law, const SurfaceGap& 
 /// Share of its friction that the brake of a drive puts on it.
 inline double held_share(const DriveAction& drives, int drive) {
   return drives.hold.size() > 0 ? drives.hold[drive] : (drives.braked ? 1.0 : 0.0);
+}
+
+/// Whether anything can touch the robot, or holds it, in a step.
+inline bool can_touch(const BenchStep& step, int obstacles) {
+  if (!step.candidates.none()) return true;
+  return std::any_of(step.held.begin(), step.held.begin() + obstacles,
+                     [](const HeldPoint& held) { return held.body >= 0; });
 }
 
 inline void add(const Touch& touch, ContactForces& out) {
@@ -169,13 +177,12 @@ PlatformVector BenchOf<Robot>::acceleration(const Instant& now, JointVector torq
 }
 
 template <class Robot>
-JointVector BenchOf<Robot>::braked_at(const Instant& now, const DriveAction& drives,
+JointVector BenchOf<Robot>::braked_at(const JointVector& active, const DriveAction& drives,
                                       const BenchStep& step) const noexcept {
-  JointVector next(robot().drives());
+  JointVector next = active;
+  if (step.braked_at.size() == 0) return next;
   for (int i = 0; i < robot().drives(); ++i) {
-    next[i] = robot_.drive_position(now, i);
-    const bool holds = internal::held_share(drives, i) > 0.0 && step.braked_at.size() > 0;
-    if (holds) next[i] = brake_slides_to(i, next[i], step.braked_at[i]);
+    if (internal::held_share(drives, i) > 0.0) next[i] = brake_slides_to(i, next[i], step.braked_at[i]);
   }
   return next;
 }
@@ -189,15 +196,18 @@ void BenchOf<Robot>::rates(const BenchState& state, const DriveAction& drives,
   rates.setZero(state.size());
   Instant now;
   if (!robot_.at(state, step.chart, now)) return;
+  PlatformVector wrench = applied_wrench;
+  if (!settings().pulls.empty()) wrench += pulled(now, state);
   ContactForces contacts(dof());
-  PlacedObstacles obstacles;
-  place_obstacles(state, obstacles);
-  find_forces(now, obstacles, step, step.candidates, contacts);
-  robot_.coordinate_rates(state, step.chart, rates);
-  rates.segment(dof(), dof()) =
-      acceleration(now, drive_torque(now, drives), drives, step,
-                   applied_wrench + pulled(now, state) + contacts.obstacle_wrench + contacts.self_wrench);
+  if (internal::can_touch(step, obstacle_count())) {
+    PlacedObstacles obstacles;
+    place_obstacles(state, obstacles);
+    find_forces(now, obstacles, step, step.candidates, contacts);
+    wrench += contacts.obstacle_wrench + contacts.self_wrench;
+  }
   add_obstacle_rates(state, contacts, rates);
+  robot_.coordinate_rates(state, step.chart, rates);
+  rates.segment(dof(), dof()) = acceleration(now, drive_torque(now, drives), drives, step, wrench);
 }
 
 template <class Robot>
@@ -219,7 +229,7 @@ void BenchOf<Robot>::snapshot(const BenchState& state, const DriveAction& drives
   out.candidates = robot_.candidates(now, out.obstacles, duration);
   find_forces(now, out.obstacles, step, out.candidates, out.contacts);
   out.drive_torque = drive_torque(now, drives);
-  out.braked_at = braked_at(now, drives, step);
+  out.braked_at = braked_at(out.joints.active, drives, step);
   out.acceleration =
       acceleration(now, out.drive_torque, drives, step,
                    out.applied_wrench + out.contacts.obstacle_wrench + out.contacts.self_wrench);

@@ -33,7 +33,8 @@ struct PlanarBox {
   /// Whether a disc comes within `reach` of the box.
   bool is_near(const Disc& disc, double reach) const {
     const double room = disc.radius + reach;
-    return ((disc.centre - high).array() <= room).all() && ((low - disc.centre).array() <= room).all();
+    return disc.centre.x() - high.x() <= room && low.x() - disc.centre.x() <= room &&
+           disc.centre.y() - high.y() <= room && low.y() - disc.centre.y() <= room;
   }
 };
 

@@ -27,7 +27,7 @@ class PlanarBench {
 
   /// The instant of `state`; false where it is out of reach.
   bool at(const BenchState& state, const BenchChart&, Instant& now) const noexcept {
-    now = robot_->motion(state.head<3>(), state.segment<3>(3));
+    robot_->motion(state.head<3>(), state.segment<3>(3), now);
     return now.reachable;
   }
   Configuration pose(const BenchState& state, const BenchChart&) const noexcept { return state.head<3>(); }

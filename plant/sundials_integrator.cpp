@@ -4,6 +4,7 @@
 #include <nvector/nvector_serial.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <sundials/sundials_context.hpp>
@@ -45,10 +46,16 @@ double weighted_rms(N_Vector x, N_Vector weight) {
 
 // combination = sum over k of factors[k] terms[k]; one of the terms may be `combination` itself.
 int linear_combination(int count, double* factors, N_Vector* terms, N_Vector combination) {
-  for (std::size_t i = 0; i < size(combination); ++i) {
-    double sum = 0.0;
-    for (int k = 0; k < count; ++k) sum += factors[k] * data(terms[k])[i];
-    data(combination)[i] = sum;
+  constexpr std::size_t together = 8;
+  for (std::size_t first = 0; first < size(combination); first += together) {
+    const std::size_t some = std::min(together, size(combination) - first);
+    std::array<double, together> sum{};
+    for (int k = 0; k < count; ++k) {
+      const double factor = factors[k];
+      const double* const term = data(terms[k]) + first;
+      for (std::size_t i = 0; i < some; ++i) sum[i] += factor * term[i];
+    }
+    std::copy_n(sum.begin(), some, data(combination) + first);
   }
   return 0;
 }

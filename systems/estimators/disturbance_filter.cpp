@@ -6,7 +6,6 @@
 
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
-#include "systems/robot/forward_dynamics.h"
 
 namespace flinch {
 namespace {
@@ -111,14 +110,9 @@ void DisturbanceFilter::step(const DisturbanceFilterMemory& memory, const JointV
 JointVector DisturbanceFilter::modelled_acceleration(const DisturbanceFilterMemory& memory,
                                                      const JointVector& drive_torque, double T) const {
   const PlatformVector velocity = memory.J_x_qa * memory.velocity;
-  Kinematics middle;
-  Dynamics model;
-  robot_->kinematics(robot_->space().plus(memory.pose, 0.5 * T * velocity), velocity, middle);
-  robot_->dynamics(middle, model);
-  const auto acceleration =
-      forward_dynamics(middle, model, drive_torque, PlatformVector::Zero(robot_->dof()));
-  if (!acceleration) return JointVector::Zero(robot_->drives());
-  return middle.J_qa_x * *acceleration + middle.dJ_qa_x * velocity;
+  const Configuration middle = robot_->space().plus(memory.pose, 0.5 * T * velocity);
+  return robot_->drive_acceleration(middle, velocity, drive_torque)
+      .value_or(JointVector::Zero(robot_->drives()));
 }
 
 void DisturbanceFilter::follow(const DisturbanceFilterMemory& next, const PlatformMotion& measured,

@@ -1,6 +1,7 @@
 #include "systems/robot/mechanism.h"
 
 #include "systems/robot/angles.h"
+#include "systems/robot/forward_dynamics.h"
 
 namespace flinch {
 
@@ -12,6 +13,18 @@ JointVector Mechanism::drive_difference(const JointVector& a, const JointVector&
     if (drive_kind(i) == DriveKind::revolute) difference[i] = wrap_angle(difference[i]);
   }
   return difference;
+}
+
+std::optional<JointVector> Mechanism::drive_acceleration(const Configuration& pose,
+                                                         const PlatformVector& velocity,
+                                                         const JointVector& drive_efforts) const noexcept {
+  Kinematics now;
+  Dynamics model;
+  kinematics(pose, velocity, now);
+  dynamics(now, model);
+  const auto dv = forward_dynamics(now, model, drive_efforts, PlatformVector::Zero(dof()));
+  if (!dv) return std::nullopt;
+  return now.J_qa_x * *dv + now.dJ_qa_x * velocity;
 }
 
 CartesianVector Mechanism::axis_point(BodyId body, double fraction) const noexcept {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -74,6 +75,12 @@ class Mechanism {
 
   /// Equations of motion at the instant that `kinematics` describes.
   virtual void dynamics(const Kinematics& kinematics, Dynamics& out) const noexcept = 0;
+
+  /// How the rates of the drives change under their efforts [Nm or N] while nothing else acts, at `pose` and
+  /// `velocity`: J_qa,x dv + dJ_qa,x v [rad/s^2 or m/s^2]. Nothing where that cannot be said.
+  virtual std::optional<JointVector> drive_acceleration(const Configuration& pose,
+                                                        const PlatformVector& velocity,
+                                                        const JointVector& drive_efforts) const noexcept;
 
   /// A point given in body coordinates, in the base frame [m]. Zero for unreachable kinematics.
   virtual CartesianVector point_on_body(const Kinematics& kinematics, BodyId body,

@@ -67,8 +67,35 @@ PlanarLegGeometry leg_geometry(const PlanarLegParameters& leg, const Eigen::Vect
 
 /// Closes a leg by intersecting the circles of its two links; `elbow_sign` is the sign of sin qp. The
 /// platform has its origin at `origin` and its x axis along the unit vector `axis`.
-PlanarLeg close_leg(const PlanarLegGeometry& geometry, const Eigen::Vector2d& origin,
-                    const Eigen::Vector2d& axis, double elbow_sign) noexcept;
+inline PlanarLeg close_leg(const PlanarLegGeometry& geometry, const Eigen::Vector2d& origin,
+                           const Eigen::Vector2d& axis, double elbow_sign) noexcept {
+  PlanarLeg leg;
+  leg.arm = rotate(axis, geometry.coupling_in_platform);
+  leg.base_joint = geometry.base_joint;
+  leg.coupling_joint = origin + leg.arm;
+
+  // The elbow is at along * w + across * w_perp, w from base to coupling joint.
+  const double l1 = geometry.link1_length;
+  const double l2 = geometry.link2_length;
+  const Eigen::Vector2d w = leg.coupling_joint - leg.base_joint;
+  const double reach_squared = w.squaredNorm();
+  const double per_reach = 1.0 / reach_squared;  // divisions are dear
+  const double along = 0.5 * (reach_squared + l1 * l1 - l2 * l2) * per_reach;
+  const double across_squared = l1 * l1 * per_reach - along * along;
+  // Far away the first condition is lost in rounding.
+  leg.reachable = across_squared > 0.0 && across_squared < HUGE_VAL && reach_squared < (l1 + l2) * (l1 + l2);
+  if (!leg.reachable) return leg;
+
+  const double across = elbow_sign * std::sqrt(across_squared);
+  const Eigen::Vector2d elbow_from_base = along * w - across * normal(w);
+  leg.passive_joint = leg.base_joint + elbow_from_base;
+  const double per_lengths = 1.0 / (l1 * l2);
+  leg.u1 = l2 * per_lengths * elbow_from_base;
+  leg.u2 = l1 * per_lengths * (w - elbow_from_base);
+  leg.sin_qp = across * reach_squared * per_lengths;
+  leg.cos_qp = 0.5 * (reach_squared - l1 * l1 - l2 * l2) * per_lengths;
+  return leg;
+}
 
 /// Angle of the drive of a reachable leg, in (-pi, pi] [rad].
 double active_angle(const PlanarLegGeometry& geometry, const PlanarLeg& leg) noexcept;
@@ -80,8 +107,20 @@ double passive_angle(const PlanarLeg& leg) noexcept;
 Eigen::Vector2d chain_tip(const PlanarLegGeometry& geometry, double active, double passive) noexcept;
 
 /// Jacobian rows and rates of a reachable leg. [SafePR] (1) in closed form.
-PlanarLegMotion leg_motion(const PlanarLegGeometry& geometry, const PlanarLeg& leg,
-                           const Eigen::Vector3d& velocity) noexcept;
+inline PlanarLegMotion leg_motion(const PlanarLegGeometry& geometry, const PlanarLeg& leg,
+                                  const Eigen::Vector3d& velocity) noexcept {
+  const double per_lengths = 1.0 / (geometry.link1_length * geometry.link2_length * leg.sin_qp);
+  const double lever1 = geometry.link2_length * per_lengths;
+  const double lever2 = -geometry.link1_length * per_lengths;
+
+  PlanarLegMotion motion;
+  motion.leg = leg;
+  motion.J_qa << lever1 * leg.u2.x(), lever1 * leg.u2.y(), lever1 * cross(leg.arm, leg.u2);
+  motion.J_theta2 << lever2 * leg.u1.x(), lever2 * leg.u1.y(), lever2 * cross(leg.arm, leg.u1);
+  motion.qa_rate = motion.J_qa.dot(velocity);
+  motion.theta2_rate = motion.J_theta2.dot(velocity);
+  return motion;
+}
 
 /// Time derivatives of the Jacobian rows; `phi_rate` is the platform's [rad/s].
 PlanarLegJacobianRate leg_jacobian_rate(const PlanarLegGeometry& geometry, const PlanarLegMotion& motion,

@@ -65,24 +65,29 @@ WorkingMode PlanarRrr::home_working_mode() const noexcept {
 
 // ---------------------------------------------------------------- legs
 
-PlanarMotion PlanarRrr::motion(const Eigen::Vector3d& pose, const Eigen::Vector3d& velocity,
-                               const ElbowSigns& signs) const noexcept {
-  PlanarMotion motion;
-  motion.pose = pose;
-  motion.velocity = velocity;
-  motion.reachable = true;
+void PlanarRrr::motion(const Eigen::Vector3d& pose, const Eigen::Vector3d& velocity, const ElbowSigns& signs,
+                       PlanarMotion& out) const noexcept {
+  out.pose = pose;
+  out.velocity = velocity;
+  out.reachable = true;
   const Eigen::Vector2d origin = pose.head<2>();
   const Eigen::Vector2d axis = unit_vector(pose.z());
-  for (std::size_t i = 0; i < 3 && motion.reachable; ++i) {
+  for (std::size_t i = 0; i < 3 && out.reachable; ++i) {
     const PlanarLeg leg = close_leg(geometry_[i], origin, axis, signs[i]);
-    motion.reachable = leg.reachable;
-    if (leg.reachable) motion.legs[i] = leg_motion(geometry_[i], leg, velocity);
+    out.reachable = leg.reachable;
+    if (leg.reachable) out.legs[i] = leg_motion(geometry_[i], leg, velocity);
   }
-  return motion;
+}
+
+void PlanarRrr::motion(const Eigen::Vector3d& pose, const Eigen::Vector3d& velocity,
+                       PlanarMotion& out) const noexcept {
+  motion(pose, velocity, home_signs_, out);
 }
 
 PlanarMotion PlanarRrr::motion(const Eigen::Vector3d& pose, const Eigen::Vector3d& velocity) const noexcept {
-  return motion(pose, velocity, home_signs_);
+  PlanarMotion now;
+  motion(pose, velocity, home_signs_, now);
+  return now;
 }
 
 Eigen::Vector3d PlanarRrr::active_error(const JointVector& active,
@@ -109,14 +114,14 @@ std::optional<PlanarRrr::Legs> PlanarRrr::close_legs(const Eigen::Vector3d& pose
 }
 
 JointAngles PlanarRrr::joint_angles(const PlanarMotion& motion) const noexcept {
-  return joint_angles(motion.pose.z(), {motion.legs[0].leg, motion.legs[1].leg, motion.legs[2].leg});
+  return joint_angles(motion.pose.z(), {&motion.legs[0].leg, &motion.legs[1].leg, &motion.legs[2].leg});
 }
 
-JointAngles PlanarRrr::joint_angles(double phi, const Legs& legs) const noexcept {
+JointAngles PlanarRrr::joint_angles(double phi, const std::array<const PlanarLeg*, 3>& legs) const noexcept {
   JointAngles angles{JointVector(3), JointVector(3), JointVector(3)};
   for (int i = 0; i < 3; ++i) {
     const auto index = static_cast<std::size_t>(i);
-    const PlanarLeg& leg = legs[index];
+    const PlanarLeg& leg = *legs[index];
     angles.active[i] = active_angle(geometry_[index], leg);
     angles.passive[i] = passive_angle(leg);
     const double theta2 = geometry_[index].base_angle + angles.active[i] + angles.passive[i];
@@ -135,7 +140,7 @@ InverseSolution PlanarRrr::inverse_kinematics(const Configuration& pose,
   if (!signs || !usable(pose, 3)) return solution;
   const auto legs = close_legs(pose, *signs);
   if (!legs) return solution;
-  return {joint_angles(pose[2], *legs), true};
+  return {joint_angles(pose[2], {legs->data(), legs->data() + 1, legs->data() + 2}), true};
 }
 
 // From a start nearby, the lengths of the second links determine the pose without any inverse kinematics.
@@ -200,7 +205,8 @@ ForwardSolution PlanarRrr::solve_angles(const Eigen::Vector3d& active, Eigen::Ve
   double determinant_at_start = 0.0;
   bool met = false;
   while (!met && solution.iterations < max_iterations) {
-    const PlanarMotion closed = motion(pose, Eigen::Vector3d::Zero(), signs);
+    PlanarMotion closed;
+    motion(pose, Eigen::Vector3d::Zero(), signs, closed);
     if (!closed.reachable) break;
     const Eigen::Matrix3d J_qa = stacked_rows(closed, &PlanarLegMotion::J_qa);
     const double determinant = J_qa.determinant();
@@ -292,7 +298,8 @@ void PlanarRrr::kinematics(const Configuration& pose, const PlatformVector& velo
   constexpr JointCounts joints{.active = 3, .passive = 3, .coupling = 3};
   const auto signs = elbow_signs(mode);
   if (!signs || !usable(pose, 3) || !usable(velocity, 3)) return set_unreachable(space(), joints, out);
-  const PlanarMotion closed = motion(pose, velocity, *signs);
+  PlanarMotion closed;
+  motion(pose, velocity, *signs, closed);
   if (!closed.reachable) return set_unreachable(space(), joints, out);
   out.joints = joint_angles(closed);
   differential_kinematics(geometry_, closed, out);

@@ -38,6 +38,8 @@ class PlanarRrr final : public ParallelRobot {
   void kinematics(const Configuration& pose, const PlatformVector& velocity, const WorkingMode& mode,
                   Kinematics& out) const noexcept override;
   void dynamics(const Kinematics& kinematics, Dynamics& out) const noexcept override;
+  std::optional<JointVector> drive_acceleration(const Configuration& pose, const PlatformVector& velocity,
+                                                const JointVector& drive_torques) const noexcept override;
   CartesianVector point_on_body(const Kinematics& kinematics, BodyId body,
                                 const CartesianVector& point_in_body) const noexcept override;
   ContactJacobian contact_jacobian(const Kinematics& kinematics, BodyId body,
@@ -47,6 +49,7 @@ class PlanarRrr final : public ParallelRobot {
 
   /// Legs closed at a pose, their Jacobians and rates.
   PlanarMotion motion(const Eigen::Vector3d& pose, const Eigen::Vector3d& velocity) const noexcept;
+  void motion(const Eigen::Vector3d& pose, const Eigen::Vector3d& velocity, PlanarMotion& out) const noexcept;
 
   /// All joint angles of a reachable motion.
   JointAngles joint_angles(const PlanarMotion& motion) const noexcept;
@@ -71,14 +74,14 @@ class PlanarRrr final : public ParallelRobot {
   using ElbowSigns = std::array<double, 3>;
   using Legs = std::array<PlanarLeg, 3>;
 
-  PlanarMotion motion(const Eigen::Vector3d& pose, const Eigen::Vector3d& velocity,
-                      const ElbowSigns& signs) const noexcept;
+  void motion(const Eigen::Vector3d& pose, const Eigen::Vector3d& velocity, const ElbowSigns& signs,
+              PlanarMotion& out) const noexcept;
   ForwardSolution solve_lengths(const Eigen::Vector3d& active, Eigen::Vector3d pose,
                                 const ElbowSigns& signs) const noexcept;
   ForwardSolution solve_angles(const Eigen::Vector3d& active, Eigen::Vector3d pose,
                                const ElbowSigns& signs) const noexcept;
   std::optional<Legs> close_legs(const Eigen::Vector3d& pose, const ElbowSigns& signs) const noexcept;
-  JointAngles joint_angles(double phi, const Legs& legs) const noexcept;
+  JointAngles joint_angles(double phi, const std::array<const PlanarLeg*, 3>& legs) const noexcept;
   Eigen::Vector3d active_error(const JointVector& active, const PlanarMotion& motion) const noexcept;
 
   PlanarRrrParameters parameters_;

@@ -16,9 +16,29 @@ Eigen::Vector2d joint_acceleration_bias(const PlanarRrrLeg& geometry, const Plan
   const double along1 = geometry.link1_length * now.qa_rate * now.qa_rate;
   const double along2 = geometry.link2_length * now.theta2_rate * now.theta2_rate;
   const Eigen::Vector2d coupling = phi_rate_squared * leg.arm;
-  return {(along1 * leg.cos_qp + along2 - coupling.dot(leg.u2)) / (geometry.link1_length * leg.sin_qp),
-          (coupling.dot(leg.u1) - along1 - along2 * leg.cos_qp) / (geometry.link2_length * leg.sin_qp)};
+  const double per_lengths = 1.0 / (geometry.link1_length * geometry.link2_length * leg.sin_qp);
+  return {(along1 * leg.cos_qp + along2 - coupling.dot(leg.u2)) * (geometry.link2_length * per_lengths),
+          (coupling.dot(leg.u1) - along1 - along2 * leg.cos_qp) * (geometry.link1_length * per_lengths)};
 }
+
+// M x = b of a mass matrix M, of which the upper half is kept, by its cofactors.
+struct MassEquation {
+  double m00, m01, m02, m11, m12, m22;
+  Eigen::Vector3d b;
+
+  Eigen::Vector3d solve() const {
+    const double c00 = m11 * m22 - m12 * m12;
+    const double c01 = m02 * m12 - m01 * m22;
+    const double c02 = m01 * m12 - m02 * m11;
+    const double c11 = m00 * m22 - m02 * m02;
+    const double c12 = m01 * m02 - m00 * m12;
+    const double c22 = m00 * m11 - m01 * m01;
+    const double of_determinant = 1.0 / (m00 * c00 + m01 * c01 + m02 * c02);
+    return {(c00 * b[0] + c01 * b[1] + c02 * b[2]) * of_determinant,
+            (c01 * b[0] + c11 * b[1] + c12 * b[2]) * of_determinant,
+            (c02 * b[0] + c12 * b[1] + c22 * b[2]) * of_determinant};
+  }
+};
 
 }  // namespace
 
@@ -39,10 +59,8 @@ void PlanarRrr::dynamics(const Kinematics& kinematics, Dynamics& out) const noex
 // each.
 Eigen::Vector3d PlanarRrr::acceleration(const PlanarMotion& motion, const Eigen::Vector3d& drive_torques,
                                         const Eigen::Vector3d& external_wrench) const noexcept {
-  Eigen::Matrix3d M =
-      Eigen::Vector3d(parameters_.platform_mass, parameters_.platform_mass, parameters_.platform_inertia)
-          .asDiagonal();
-  Eigen::Vector3d wrench = external_wrench;
+  const double mass = parameters_.platform_mass;
+  MassEquation sum{mass, 0.0, 0.0, mass, 0.0, parameters_.platform_inertia, external_wrench};
   const double phi_rate_squared = motion.velocity.z() * motion.velocity.z();
 
   for (std::size_t i = 0; i < 3; ++i) {
@@ -66,12 +84,18 @@ Eigen::Vector3d PlanarRrr::acceleration(const PlanarMotion& motion, const Eigen:
     const double torque2 =
         -passive_friction - mixed * bias[0] - second * bias[1] - centrifugal * qa_rate_squared;
 
-    const Eigen::RowVector3d momentum1 = first * now.J_qa + mixed * now.J_theta2;
-    const Eigen::RowVector3d momentum2 = mixed * now.J_qa + second * now.J_theta2;
-    M.noalias() += now.J_qa.transpose() * momentum1 + now.J_theta2.transpose() * momentum2;
-    wrench.noalias() += torque1 * now.J_qa.transpose() + torque2 * now.J_theta2.transpose();
+    const Eigen::RowVector3d &a = now.J_qa, &b = now.J_theta2;
+    const Eigen::RowVector3d momentum1 = first * a + mixed * b;
+    const Eigen::RowVector3d momentum2 = mixed * a + second * b;
+    sum.m00 += a[0] * momentum1[0] + b[0] * momentum2[0];
+    sum.m01 += a[0] * momentum1[1] + b[0] * momentum2[1];
+    sum.m02 += a[0] * momentum1[2] + b[0] * momentum2[2];
+    sum.m11 += a[1] * momentum1[1] + b[1] * momentum2[1];
+    sum.m12 += a[1] * momentum1[2] + b[1] * momentum2[2];
+    sum.m22 += a[2] * momentum1[2] + b[2] * momentum2[2];
+    sum.b += torque1 * a.transpose() + torque2 * b.transpose();
   }
-  return M.inverse() * wrench;
+  return sum.solve();
 }
 
 std::optional<Eigen::Vector3d> PlanarRrr::acceleration(
@@ -82,6 +106,24 @@ std::optional<Eigen::Vector3d> PlanarRrr::acceleration(
   const Eigen::Vector3d result = acceleration(now, drive_torques, external_wrench);
   if (!result.allFinite()) return std::nullopt;
   return result;
+}
+
+std::optional<JointVector> PlanarRrr::drive_acceleration(const Configuration& pose,
+                                                         const PlatformVector& velocity,
+                                                         const JointVector& drive_torques) const noexcept {
+  if (!usable(pose, 3) || !usable(velocity, 3) || !usable(drive_torques, 3)) return std::nullopt;
+  PlanarMotion now;
+  motion(pose.head<3>(), velocity.head<3>(), now);
+  if (!now.reachable) return std::nullopt;
+  const Eigen::Vector3d dv = acceleration(now, drive_torques.head<3>(), Eigen::Vector3d::Zero());
+  Eigen::Vector3d result;
+  for (int i = 0; i < 3; ++i) {
+    const auto leg = static_cast<std::size_t>(i);
+    const PlanarLegJacobianRate rate = leg_jacobian_rate(geometry_[leg], now.legs[leg], now.velocity.z());
+    result[i] = now.legs[leg].J_qa.dot(dv) + rate.dJ_qa.dot(now.velocity);
+  }
+  if (!result.allFinite()) return std::nullopt;
+  return JointVector(result);
 }
 
 double PlanarRrr::kinetic_energy(const PlanarMotion& motion) const noexcept {

@@ -158,6 +158,19 @@ TEST_P(DynamicLaws, AccelerationIsThatOfBodiesHeldTogetherByConstraintForces) {
   }
 }
 
+TEST_P(DynamicLaws, DrivesAccelerateAsTheRatesOfTheirMapAndThePlatformSay) {
+  Residual residual("drive acceleration, relative", tolerances.acceleration);
+  for (const MotionState& state : states) {
+    const Kinematics k = kinematics_at(state.pose, state.velocity);
+    JointVector efforts(robot.drives());
+    for (int i = 0; i < robot.drives(); ++i) efforts[i] = 4.0 - 3.0 * i + 0.7 * i * i;
+    const auto dv = forward_dynamics(k, dynamics_of(k), efforts, PlatformVector::Zero(n));
+    const auto found = robot.drive_acceleration(state.pose, state.velocity, efforts);
+    ASSERT_TRUE(dv && found);
+    compare(residual, *found, JointVector(k.J_qa_x * *dv + k.dJ_qa_x * state.velocity));
+  }
+}
+
 TEST_P(DynamicLaws, MomentumChangesByForcesAndTransposedCoriolisMatrix) {
   Residual residual("d(M v)/dt = A^T tau + F - g - F_fr + C^T v", 10.0 * tolerances.momentum);
   for (const MotionState& state : std::span(states).first(100)) {

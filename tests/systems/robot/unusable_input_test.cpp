@@ -161,6 +161,16 @@ TEST_P(UnusableInput, OfForwardDynamicsHasNoResult) {
   EXPECT_FALSE(forward_dynamics(k, dynamics, efforts, PlatformVector::Constant(n, nan)).has_value());
 }
 
+TEST_P(UnusableInput, OfDriveAccelerationHasNoResult) {
+  const JointVector efforts = JointVector::Zero(robot.drives());
+  EXPECT_TRUE(robot.drive_acceleration(home, still, efforts).has_value());
+  EXPECT_FALSE(robot.drive_acceleration(Configuration(), still, efforts).has_value());
+  EXPECT_FALSE(robot.drive_acceleration(home, PlatformVector(), efforts).has_value());
+  EXPECT_FALSE(robot.drive_acceleration(home, still, JointVector()).has_value());
+  EXPECT_FALSE(robot.drive_acceleration(home, PlatformVector::Constant(n, nan), efforts).has_value());
+  EXPECT_FALSE(robot.drive_acceleration(home, still, JointVector::Constant(robot.drives(), nan)).has_value());
+}
+
 TEST_P(UnusableInput, NeitherItNorGoodInputAllocates) {
   const std::vector<Configuration> bad = spoilt(home);
   const auto all_points = points();
