@@ -80,12 +80,24 @@ void Scheduler::lay_out_outputs() {
 void Scheduler::lay_out_states() {
   for (const Leaf& leaf : leaves_) {
     for (const System::Change& update : leaf.block->updates()) {
-      if (update.function != nullptr) lay_out_state(update.state, true);
+      if (update.function != nullptr) lay_out_state(update.state, is_read_by_updates(update.state));
       if (update.function == nullptr && !root_.layout_.contains(update.state))
         lay_out_state(update.state, false);
     }
     for (const System::Change& derivative : leaf.block->derivatives()) lay_out_state(derivative.state, true);
   }
+}
+
+// All that is due is written at once. What no update reads, not even its own, can as well be written where it
+// lies: so a long history is not copied at each tick.
+bool Scheduler::is_read_by_updates(PortId state) const {
+  return std::any_of(leaves_.begin(), leaves_.end(), [&](const Leaf& leaf) {
+    const auto& updates = leaf.block->updates();
+    return std::any_of(updates.begin(), updates.end(), [&](const System::Change& update) {
+      return std::any_of(update.reads.begin(), update.reads.end(),
+                         [&](const PortId& read) { return source(read) == state; });
+    });
+  });
 }
 
 void Scheduler::lay_out_state(PortId port, bool is_computed) {
@@ -157,8 +169,9 @@ void Scheduler::add_updates() {
       if (group == groups.end()) group = groups.insert(groups.end(), {every, {}, {}, {}});
       const Diagram::StateCell cell = cell_of(update.state);
       if (update.function != nullptr) {
-        group->calls.push_back(make_call(*leaf.block, update.function, update.reads, *cell.next));
-        group->copies.push_back({cell.type, *cell.next, cell.now});
+        group->calls.push_back(
+            make_call(*leaf.block, update.function, update.reads, cell.next.value_or(cell.now)));
+        if (cell.next) group->copies.push_back({cell.type, *cell.next, cell.now});
       } else if (cell.turns) {
         group->kept.push_back(*cell.turns);
       } else {

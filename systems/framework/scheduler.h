@@ -59,6 +59,7 @@ class Scheduler {
   void lay_out_outputs();
   void lay_out_states();
   void lay_out_state(PortId state, bool is_computed);
+  bool is_read_by_updates(PortId state) const;
   void add_outputs();
   void add_updates();
   void add_continuous();

@@ -177,6 +177,75 @@ TEST(Diagram, WritesAllDueUpdatesAtOnceFromTheOldStates) {
   EXPECT_EQ(context.get(second.out), 8.0);
 }
 
+/// A number that counts how often one is copied into another.
+struct Copied {
+  double value = 0.0;
+  Copied() = default;
+  Copied(const Copied&) = default;
+  Copied& operator=(const Copied& other) {
+    value = other.value;
+    ++copies;
+    return *this;
+  }
+  ~Copied() = default;
+  static inline int copies = 0;
+};
+
+}  // namespace
+
+template <>
+inline constexpr bool never_allocates<Copied> = true;
+
+namespace {
+
+/// Sums up ticks in place; `shown` is what an output reads of it.
+class Tally : public System {
+ protected:
+  State<Copied> sum_ = state<Copied>("sum");
+
+ public:
+  OutputPort<double> shown = output<&Tally::read>("shown", sum_);
+
+ private:
+  Update add_ = update<&Tally::add>(sum_, shown);
+  double read(const Copied& sum) const { return sum.value; }
+  void add(double before, Copied& sum) const { sum.value = before + 1.0; }
+};
+
+/// The same, with another update that reads the sum.
+class WatchedTally final : public Tally {
+  State<double> last_ = state<double>("last", 0.0);
+
+ public:
+  OutputPort<double> before = output<&WatchedTally::read_last>("before", last_);
+
+ private:
+  Update follow_ = update<&WatchedTally::follow>(last_, sum_);
+  double follow(const Copied& sum) const { return sum.value; }
+  double read_last(double last) const { return last; }
+};
+
+TEST(Diagram, CopiesNoStateThatNoUpdateReads) {
+  DiagramBuilder builder;
+  auto& alone = builder.add<Tally>("alone");
+  const auto diagram = builder.build();
+  Context context = diagram->make_context();
+  Copied::copies = 0;
+  Simulator(*diagram).advance_to(context, 10ms);
+  EXPECT_EQ(context.get(alone.shown), 10.0);
+  EXPECT_EQ(Copied::copies, 0);
+}
+
+TEST(Diagram, ShowsUpdatesTheOldValueOfAStateThatTheyRead) {
+  DiagramBuilder builder;
+  auto& watched = builder.add<WatchedTally>("watched");
+  const auto diagram = builder.build();
+  Context context = diagram->make_context();
+  Simulator(*diagram).advance_to(context, 10ms);
+  EXPECT_EQ(context.get(watched.shown), 10.0);
+  EXPECT_EQ(context.get(watched.before), 9.0);
+}
+
 TEST(Diagram, RunsUpdatesAtTheirPeriodAndOffset) {
   DiagramBuilder builder;
   auto& counter = builder.add<Counter>("counter");
