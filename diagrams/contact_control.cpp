@@ -221,6 +221,7 @@ Safety add_safety(const Path& path, const ReactionPorts& given, const Laws& laws
   builder.connect(given.drives, safety.monitor.drives);
   builder.connect(given.joint_motion, safety.monitor.motion);
   builder.connect(given.platform, safety.monitor.platform);
+  builder.connect(given.kinematics, safety.monitor.kinematics);
   builder.connect(given.measures, safety.monitor.measures);
   builder.connect(given.detection, safety.monitor.detection);
   builder.connect(given.reaction, safety.monitor.reaction);

@@ -35,7 +35,7 @@ LaglessPorts without_lag(const StageSite& site, const AcceleratedPorts& given) {
       add_encoder_filter(part(site, "velocity"), given, site.settings.disturbance_filter);
   LaglessPorts present{given, filter.wrench};
   present.platform = filter.followed;
-  auto& model = site.builder.add<RobotModel>(site.name + "_model", site.robot);
+  auto& model = site.builder.add<MotionModel>(site.name + "_model", site.robot);
   site.builder.connect(present.platform, model.platform);
   present.kinematics = model.kinematics;
   present.dynamics = model.dynamics;

@@ -15,7 +15,7 @@ namespace {
 LimitKeeper& add_keeper(const StageSite& site, OutputPort<PlatformMotion> motion,
                         OutputPort<WrenchEstimate> disturbance, OutputPort<TorqueCommand> requested) {
   DiagramBuilder& builder = site.builder;
-  auto& model = builder.add<RobotModel>(site.name + "_model", site.robot);
+  auto& model = builder.add<MotionModel>(site.name + "_model", site.robot);
   auto& keeper = builder.add<LimitKeeper>(site.name, site.robot, site.settings.limits);
   builder.connect(motion, model.platform);
   builder.connect(motion, keeper.motion);

@@ -71,6 +71,7 @@ ImuFilterSettings extended_imu_filter() {
 ImuFilter::ImuFilter(std::shared_ptr<const ParallelRobot> robot, const ImuFilterSettings& settings)
     : robot_(std::move(robot)),
       settings_(settings),
+      imu_(settings.mount),
       n_(robot_->dof()),
       states_(3 * n_ + (settings.estimates_biases ? 6 : 0)) {
   throw_if_any(problems(settings));
@@ -229,7 +230,7 @@ ImuFilter::Rows ImuFilter::output_matrix(const ImuOutput& sensed) const {
 }
 
 ImuOutput ImuFilter::output_at(const ImuFilterMemory& states) const {
-  return imu_output(robot_->space(), settings_.mount, robot_->gravity(), states.pose, states.velocity,
+  return imu_output(robot_->space(), imu_, robot_->gravity(), states.pose, states.velocity,
                     states.acceleration);
 }
 

@@ -140,6 +140,7 @@ class ImuFilter final : public System {
 
   std::shared_ptr<const ParallelRobot> robot_;
   ImuFilterSettings settings_;
+  MountedImu imu_;
   int n_, states_;
 };
 

@@ -31,7 +31,7 @@ std::vector<std::string> problems(const ImuResidualSettings& settings) {
 }  // namespace
 
 ImuResidual::ImuResidual(std::shared_ptr<const ParallelRobot> robot, const ImuResidualSettings& settings)
-    : robot_(std::move(robot)), settings_(settings) {
+    : robot_(std::move(robot)), settings_(settings), imu_(settings.mount) {
   throw_if_any(problems(settings));
   keep(Every{settings_.sampling.period}, memory_, next_);
 }
@@ -45,13 +45,13 @@ void ImuResidual::expect(const PlatformMotion& motion, const Kinematics& at, con
   const ConfigurationSpace space = robot_->space();
   const PlatformVector none = PlatformVector::Zero(robot_->dof());
   const ImuOutput moving =
-      imu_output(space, settings_.mount, robot_->gravity(), motion.pose, motion.velocity, *acceleration);
+      imu_output(space, imu_, robot_->gravity(), motion.pose, motion.velocity, *acceleration);
   result.acquired = motion.acquired;
   result.braked = drives.braked;
   result.rests = motion.velocity.head(space.translations()).norm() < settings_.rest_speed &&
                  motion.velocity.tail(space.rotations()).norm() < settings_.rest_rate;
-  result.force_at_rest =
-      imu_output(space, settings_.mount, robot_->gravity(), motion.pose, none, none).value.tail<3>();
+  result.force_at_rest = imu_.to_sensor * specific_force(spatial_motion(space, motion.pose, none, none),
+                                                         imu_.position_in_platform, robot_->gravity());
   result.force = moving.value.tail<3>();
   result.by_acceleration.resize(6, robot_->dof());
   result.by_acceleration << moving.by_velocity.topRows(3), moving.by_acceleration.bottomRows(3);

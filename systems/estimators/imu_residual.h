@@ -117,6 +117,7 @@ class ImuResidual final : public System {
 
   std::shared_ptr<const ParallelRobot> robot_;
   ImuResidualSettings settings_;
+  MountedImu imu_;
 };
 
 }  // namespace flinch

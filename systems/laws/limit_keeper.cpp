@@ -46,13 +46,16 @@ class Programme {
       : settings_(settings), at_(at), motion_(motion), drives_(static_cast<int>(motion.G.cols())) {
     programme_.C.resize(max_constraints, drives_ + 1);
     programme_.d.resize(max_constraints);
-    usual_reach_ = reach_of(PlatformVector::Unit(motion.G.rows(), 0));
+    usual_reach_ = reach_of(by_torque(PlatformVector::Unit(motion.G.rows(), 0)));
   }
 
   /// gradient^T dv >= least, softened by the slack; both count as shares of what the drives can do.
   void accelerate(const PlatformVector& gradient, double least, std::uint32_t name) {
-    const JointVector by_torque = gradient.transpose() * motion_.G;
-    const double reach = reach_of(gradient);
+    accelerate(gradient, by_torque(gradient), least, name);
+  }
+  void accelerate(const PlatformVector& gradient, const JointVector& by_torque, double least,
+                  std::uint32_t name) {
+    const double reach = reach_of(by_torque);
     if (reach < smallest_reach * usual_reach_) return;  // the drives can do nothing about it here
     auto row = programme_.C.row(rows_);
     row.head(drives_) = settings_.max_torque / reach * by_torque.transpose();
@@ -65,12 +68,13 @@ class Programme {
   void add_barrier(const Barrier& barrier, double excess) {
     const double h = barrier.room + excess;
     const double dh = barrier.gradient.dot(at_.velocity);
-    const double a = settings_.braking.of(barrier.kind) * std::max(reach_of(barrier.gradient), usual_reach_);
+    const JointVector along = by_torque(barrier.gradient);
+    const double a = settings_.braking.of(barrier.kind) * std::max(reach_of(along), usual_reach_);
     const double c = a / settings_.approach;
     const double root = std::sqrt(c * c + 2.0 * a * std::max(h, 0.0));
     const double alpha = h > 0.0 ? root - c : settings_.approach * h;
     const double slope = h > 0.0 ? a / root : settings_.approach;
-    accelerate(barrier.gradient, -slope * dh - settings_.correction * (dh + alpha) - barrier.drift,
+    accelerate(barrier.gradient, along, -slope * dh - settings_.correction * (dh + alpha) - barrier.drift,
                1U << static_cast<unsigned>(barrier.kind));
   }
 
@@ -133,10 +137,14 @@ class Programme {
   }
 
  private:
-  /// The largest acceleration along `gradient` that all drives together can cause.
-  double reach_of(const PlatformVector& gradient) const {
-    return settings_.max_torque * (gradient.transpose() * motion_.G).lpNorm<1>();
+  /// What each drive's torque adds to the acceleration along `gradient`.
+  JointVector by_torque(const PlatformVector& gradient) const {
+    JointVector along(motion_.G.cols());
+    for (Eigen::Index i = 0; i < along.size(); ++i) along[i] = gradient.dot(motion_.G.col(i));
+    return along;
   }
+  /// The largest acceleration that all drives together can cause in that direction.
+  double reach_of(const JointVector& by_torque) const { return settings_.max_torque * by_torque.lpNorm<1>(); }
 
   void bound(int variable, double sign, double least) {
     programme_.C.row(rows_).setZero();

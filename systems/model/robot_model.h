@@ -9,23 +9,36 @@
 
 namespace flinch {
 
-/// The robot's model at the measured motion: evaluated once a tick here, read by all who need it. Where the
-/// motion is not valid or the model cannot serve it, the outputs are finite and marked invalid.
-class RobotModel final : public System {
+/// The robot's kinematics and equations of motion at a motion. Where that is not valid or the model cannot
+/// serve it, the outputs are finite and marked invalid.
+class MotionModel : public System {
  public:
-  explicit RobotModel(std::shared_ptr<const ParallelRobot> robot) : robot_(std::move(robot)) {}
+  explicit MotionModel(std::shared_ptr<const ParallelRobot> robot) : robot_(std::move(robot)) {}
 
   InputPort<PlatformMotion> platform = input<PlatformMotion>("platform");
-  OutputPort<Kinematics> kinematics = output<&RobotModel::kinematics_of>("kinematics", platform);
-  OutputPort<Dynamics> dynamics = output<&RobotModel::dynamics_of>("dynamics", kinematics);
-  OutputPort<WorkspaceMeasures> measures = output<&RobotModel::measures_of>("measures", kinematics);
+  OutputPort<Kinematics> kinematics = output<&MotionModel::kinematics_of>("kinematics", platform);
+  OutputPort<Dynamics> dynamics = output<&MotionModel::dynamics_of>("dynamics", kinematics);
+
+ protected:
+  const ParallelRobot& robot() const { return *robot_; }
 
  private:
   void kinematics_of(const PlatformMotion& motion, Kinematics& result) const;
   void dynamics_of(const Kinematics& now, Dynamics& result) const;
-  WorkspaceMeasures measures_of(const Kinematics& now) const;
 
   std::shared_ptr<const ParallelRobot> robot_;
+};
+
+/// The model at the measured motion: evaluated once a tick here, read by all who need it; and how far the
+/// robot is from what it must avoid.
+class RobotModel final : public MotionModel {
+ public:
+  using MotionModel::MotionModel;
+
+  OutputPort<WorkspaceMeasures> measures = output<&RobotModel::measures_of>("measures", kinematics);
+
+ private:
+  WorkspaceMeasures measures_of(const Kinematics& now) const;
 };
 
 }  // namespace flinch

@@ -21,6 +21,15 @@ struct ImuMount {
 /// R_SE: from platform to sensor axes.
 Eigen::Matrix3d platform_to_sensor(const ImuMount& mount) noexcept;
 
+/// A mount whose rotation is worked out once, for those who need it at every tick.
+struct MountedImu {
+  MountedImu(const ImuMount& mount) noexcept  // NOLINT(google-explicit-constructor)
+      : position_in_platform(mount.position_in_platform), to_sensor(platform_to_sensor(mount)) {}
+
+  Eigen::Vector3d position_in_platform;  ///< p_S [m]
+  Eigen::Matrix3d to_sensor;             ///< R_SE
+};
+
 /// Acceleration minus gravity of a point fixed to the platform, in platform axes [m/s^2]. [RAL25] (8)
 Eigen::Vector3d specific_force(const SpatialMotion& now, const Eigen::Vector3d& point_in_platform,
                                const Eigen::Vector3d& gravity) noexcept;

@@ -16,13 +16,14 @@ Eigen::Vector3d axis(ConfigurationSpace space, int coordinate) {
 
 // R turns from platform to base axes. A small rotation by xi in the base frame changes what the platform sees
 // of a vector w, R^T w, by R^T (w x xi).
-ImuOutput imu_output(ConfigurationSpace space, const ImuMount& mount, const Eigen::Vector3d& gravity,
+ImuOutput imu_output(ConfigurationSpace space, const MountedImu& imu, const Eigen::Vector3d& gravity,
                      const Configuration& pose, const PlatformVector& velocity,
                      const PlatformVector& acceleration) noexcept {
   const SpatialMotion now = spatial_motion(space, pose, velocity, acceleration);
   const Eigen::Matrix3d R_t = now.axes.transpose();
-  const Eigen::Matrix3d R_SE = platform_to_sensor(mount);
-  const Eigen::Vector3d& p = mount.position_in_platform;
+  const Eigen::Matrix3d& R_SE = imu.to_sensor;
+  const Eigen::Matrix3d R_S = R_SE * R_t;  // from base to sensor axes
+  const Eigen::Vector3d& p = imu.position_in_platform;
   const Eigen::Vector3d omega = R_t * now.angular_velocity;
   const Eigen::Vector3d force = now.acceleration - gravity;
   const auto centripetal = [&](const Eigen::Vector3d& change) -> Eigen::Vector3d {
@@ -37,14 +38,14 @@ ImuOutput imu_output(ConfigurationSpace space, const ImuMount& mount, const Eige
   for (int j = 0; j < space.dimension(); ++j) {
     const Eigen::Vector3d unit = axis(space, j);
     if (j < space.translations()) {
-      output.by_acceleration.col(j).tail<3>() = R_SE * R_t * unit;
+      output.by_acceleration.col(j).tail<3>() = R_S.col(j);
       continue;
     }
     const Eigen::Vector3d turned_rate = R_t * now.angular_velocity.cross(unit);
     const Eigen::Vector3d turned_acceleration = R_t * now.angular_acceleration.cross(unit);
     output.by_pose.col(j) << R_SE * turned_rate,
         R_SE * (R_t * force.cross(unit) + turned_acceleration.cross(p) + centripetal(turned_rate));
-    output.by_velocity.col(j) << R_SE * R_t * unit, R_SE * centripetal(R_t * unit);
+    output.by_velocity.col(j) << R_S * unit, R_SE * centripetal(R_t * unit);
     output.by_acceleration.col(j).tail<3>() = R_SE * (R_t * unit).cross(p);
   }
   return output;

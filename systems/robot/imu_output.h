@@ -19,7 +19,7 @@ struct ImuOutput {
 };
 
 /// The output at a motion, all of which must have the sizes of `space`. `gravity` in the base frame [m/s^2].
-ImuOutput imu_output(ConfigurationSpace space, const ImuMount& mount, const Eigen::Vector3d& gravity,
+ImuOutput imu_output(ConfigurationSpace space, const MountedImu& imu, const Eigen::Vector3d& gravity,
                      const Configuration& pose, const PlatformVector& velocity,
                      const PlatformVector& acceleration) noexcept;
 

@@ -17,19 +17,6 @@ JointVector acting_current(const EncoderTick& tick) {
   return acts ? tick.drives.current : JointVector();
 }
 
-/// Forward kinematics leaves the pose of the active angles also where the passive ones contradict it.
-JointVector mismatch(const EncoderTick& tick) {
-  using Status = PlatformMotion::Status;
-  const PlatformMotion& platform = tick.platform;
-  const bool solved = platform.valid() || platform.status == Status::implausible;
-  if (!solved || platform.acquired != tick.joints.acquired) return {};
-  if (!tick.joints.passive_valid || !fits(tick.joints.passive, tick.robot.passive_joints())) return {};
-  const InverseSolution implied =
-      tick.robot.inverse_kinematics(platform.pose, tick.robot.home_working_mode());
-  if (!implied.reachable) return {};
-  return ParallelRobot::passive_difference(tick.joints.passive, implied.joints.passive);
-}
-
 void note_current(const EncoderTick& tick, const JointVector& current, int drive, EncoderStandstill& still) {
   if (tick.braked) still.current.reset();
   if (!still.current && current.size() > 0) still.current = current[drive];
@@ -37,7 +24,7 @@ void note_current(const EncoderTick& tick, const JointVector& current, int drive
 
 void take_reading(EncoderWatch& watch, const EncoderTick& tick) {
   const bool first = watch.angle.size() == 0;
-  watch.mismatch = mismatch(tick);
+  watch.mismatch = passive_mismatch(tick.robot, tick.joints, tick.platform, tick.kinematics);
   for (int i = 0; i < tick.robot.drives(); ++i) {
     EncoderStandstill& still = watch.standstill[static_cast<std::size_t>(i)];
     if (first || tick.joints.active[i] != watch.angle[i]) {
@@ -70,6 +57,19 @@ double EncoderWatch::unseen_motion(Eigen::Index drive) const {
 double EncoderWatch::unseen_current(Eigen::Index drive) const {
   const std::optional<double>& before = standstill[static_cast<std::size_t>(drive)].current;
   return before && current.size() > 0 ? std::abs(current[drive] - *before) : 0.0;
+}
+
+// Forward kinematics leaves the pose of the active angles also where the passive ones contradict it.
+JointVector passive_mismatch(const ParallelRobot& robot, const JointReading& joints,
+                             const PlatformMotion& platform, const Kinematics& kinematics) noexcept {
+  const bool solved = platform.valid() || platform.status == PlatformMotion::Status::implausible;
+  if (!solved || platform.acquired != joints.acquired) return {};
+  if (!joints.passive_valid || !fits(joints.passive, robot.passive_joints())) return {};
+  if (platform.valid() && kinematics.reachable)  // that of this pose, evaluated already
+    return ParallelRobot::passive_difference(joints.passive, kinematics.joints.passive);
+  const InverseSolution implied = robot.inverse_kinematics(platform.pose, robot.home_working_mode());
+  if (!implied.reachable) return {};
+  return ParallelRobot::passive_difference(joints.passive, implied.joints.passive);
 }
 
 void advance(EncoderWatch& watch, const EncoderTick& tick) noexcept {

@@ -42,9 +42,15 @@ struct EncoderTick {
   const ParallelRobot& robot;
   const JointReading& joints;
   const PlatformMotion& platform;  ///< from these joints
+  const Kinematics& kinematics;    ///< of that platform
   const DriveReading& drives;
   bool braked;  ///< then no current moves the robot
 };
+
+/// Passive angles minus those that the active ones imply [rad]; empty: not known. `kinematics` is that of the
+/// `platform`, as far as there is one.
+JointVector passive_mismatch(const ParallelRobot& robot, const JointReading& joints,
+                             const PlatformMotion& platform, const Kinematics& kinematics) noexcept;
 
 /// The watch after a tick. Readings that are not valid, of another size, not finite, or not newer than the
 /// last are passed over.

@@ -12,9 +12,9 @@ FaultMonitor::FaultMonitor(std::shared_ptr<const ParallelRobot> robot, const Fau
 
 void FaultMonitor::advance(Time now, const FaultMonitorMemory& last, const StationStatus& status,
                            const JointReading& angles, const DriveReading& currents, const JointMotion& rates,
-                           const PlatformMotion& pose, const WorkspaceMeasures& workspace,
-                           const TorqueCommand& asked, const ReactionState& state,
-                           FaultMonitorMemory& next) const {
+                           const PlatformMotion& pose, const Kinematics& kinematic,
+                           const WorkspaceMeasures& workspace, const TorqueCommand& asked,
+                           const ReactionState& state, FaultMonitorMemory& next) const {
   next = last;
   if (status.valid) next.station = now;
   if (is_usable(angles, *robot_)) next.joints = now;
@@ -24,6 +24,7 @@ void FaultMonitor::advance(Time now, const FaultMonitorMemory& last, const Stati
   flinch::advance(next.encoders, {.robot = *robot_,
                                   .joints = angles,
                                   .platform = pose,
+                                  .kinematics = kinematic,
                                   .drives = currents,
                                   .braked = status.valid && status.braked});
   flinch::advance(next.recovery,

@@ -35,6 +35,7 @@ class FaultMonitor final : public System {
   InputPort<DriveReading> drives = input<DriveReading>("drives");
   InputPort<JointMotion> motion = input<JointMotion>("motion");
   InputPort<PlatformMotion> platform = input<PlatformMotion>("platform");
+  InputPort<Kinematics> kinematics = input<Kinematics>("kinematics");  ///< of that platform
   InputPort<WorkspaceMeasures> measures = input<WorkspaceMeasures>("measures");
   InputPort<ContactDetection> detection = input<ContactDetection>("detection");
   InputPort<PlatformReference> reference = input<PlatformReference>("reference");  ///< that is being followed
@@ -44,8 +45,9 @@ class FaultMonitor final : public System {
   InputPort<Plausibility> plausibility = input<Plausibility>("plausibility");  ///< of these readings
 
  private:
-  Intermediate<FaultMonitorMemory> now_ = intermediate<&FaultMonitor::advance>(
-      "memory", clock, last_, station, joints, drives, motion, platform, measures, command, reaction);
+  Intermediate<FaultMonitorMemory> now_ =
+      intermediate<&FaultMonitor::advance>("memory", clock, last_, station, joints, drives, motion, platform,
+                                           kinematics, measures, command, reaction);
 
  public:
   OutputPort<FaultReport> faults =
@@ -57,8 +59,8 @@ class FaultMonitor final : public System {
 
   void advance(Time now, const FaultMonitorMemory& last, const StationStatus& status,
                const JointReading& angles, const DriveReading& currents, const JointMotion& rates,
-               const PlatformMotion& pose, const WorkspaceMeasures& workspace, const TorqueCommand& asked,
-               const ReactionState& state, FaultMonitorMemory& next) const;
+               const PlatformMotion& pose, const Kinematics& kinematic, const WorkspaceMeasures& workspace,
+               const TorqueCommand& asked, const ReactionState& state, FaultMonitorMemory& next) const;
   FaultReport judge(Time now, const FaultMonitorMemory& memory, const TickTiming& tick,
                     const StationStatus& status, const JointReading& angles, const DriveReading& currents,
                     const JointMotion& rates, const PlatformMotion& pose, const WorkspaceMeasures& workspace,

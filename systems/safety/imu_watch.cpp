@@ -76,14 +76,15 @@ constexpr auto parabola_weights = [] {
 /// 1 poses has more than the model.
 Padded<max_dof> unexplained(const ImuWatch& watch, int age, int h) {
   const auto& weights = parabola_weights[static_cast<std::size_t>(h)];
-  Padded<max_dof> sum = Padded<max_dof>::Zero();
+  Padded<max_dof> steps = Padded<max_dof>::Zero(), model = steps;
   for (int i = 1 - h; i < h; ++i) {
     const TickMotion& at = watch.back(static_cast<std::size_t>(age - i));
     const TickMotion& after = watch.back(static_cast<std::size_t>(age - i - 1));
     const double weight = weights[static_cast<std::size_t>(std::abs(i))];
-    sum += weight * ((after.step - at.step) / (T * T) - at.acceleration);
+    steps += weight * (after.step - at.step);
+    model += weight * at.acceleration;
   }
-  return sum;
+  return steps / (T * T) - model;
 }
 
 /// Deviation of that for a pose of deviation 1, of parabolas: sqrt(720 / (N (N^2 - 1)(N^2 - 4))) / T^2.
@@ -210,7 +211,7 @@ void judge(ImuWatch& watch, const InertialWatch& learned, const AngleWatch& angl
   const ConfigurationSpace space = tick.robot.space();
   const int n = space.dimension();
   const ImuOutput output =
-      imu_output(space, tick.limits.imu_mount, tick.robot.gravity(), then.pose.head(space.stored()),
+      imu_output(space, tick.mounted, tick.robot.gravity(), then.pose.head(space.stored()),
                  then.velocity.head(n), then.acceleration.head(n));
   Comparison at{.watch = watch,
                 .age = age,
@@ -233,7 +234,8 @@ void judge(ImuWatch& watch, const InertialWatch& learned, const AngleWatch& angl
   error.unconfirmed = error.force - at.force * around;
   watch.errors.push(error);
   watch.errors.latest().jumps = jumped(watch.errors, 0, rest);
-  if (jumped(watch.errors, 0, at.noise)) at.limit *= 0.5;
+  const bool is_rest = at.noise.force == rest.force && at.noise.turning == rest.turning;
+  if (is_rest ? watch.errors.latest().jumps : jumped(watch.errors, 0, at.noise)) at.limit *= 0.5;
   const bool turning = turning_contradicted(at, error);
   watch.blamed = turning && (watch.blamed || unit_left_model(at, watch.errors));
   watch.errors.latest().contradicted = force_contradicted(at, around, error) || watch.blamed;

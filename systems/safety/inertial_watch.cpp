@@ -32,10 +32,9 @@ SensorPointMotion told_by_encoders(const AngleWatch& angles, const PlausibilityT
   const ConfigurationSpace space = tick.robot.space();
   const SpatialMotion body =
       spatial_motion(space, kinematics.pose, velocity, PlatformVector::Zero(velocity.size()));
-  const Eigen::Matrix3d to_sensor = platform_to_sensor(tick.limits.imu_mount);
   motion.velocity.head(space.translations()) = velocity.head(space.translations());
-  motion.velocity += body.angular_velocity.cross(body.axes * tick.limits.imu_mount.position_in_platform);
-  motion.axes = body.axes * to_sensor.transpose();
+  motion.velocity += body.angular_velocity.cross(body.axes * tick.mounted.position_in_platform);
+  motion.axes = body.axes * tick.mounted.to_sensor.transpose();
   motion.turning = motion.axes.transpose() * body.angular_velocity;
   motion.known = true;
   return motion;

@@ -2,27 +2,11 @@
 
 #include <algorithm>
 
+#include "systems/safety/encoder_watch.h"
+
 namespace flinch {
-namespace {
-
-/// Forward kinematics leaves the pose of the active angles also where the passive ones contradict it.
-JointVector mismatch_of(const PlausibilityTick& tick) {
-  const bool solved = tick.platform.valid() || tick.platform.status == PlatformMotion::Status::implausible;
-  const JointVector& passive = tick.joints.passive;
-  if (!solved || !tick.joints.passive_valid || tick.platform.acquired != tick.joints.acquired) return {};
-  if (passive.size() != tick.robot.passive_joints() || !passive.allFinite()) return {};
-  if (tick.platform.valid() && tick.kinematics.reachable)  // that of this pose, evaluated already
-    return ParallelRobot::passive_difference(passive, tick.kinematics.joints.passive);
-  const InverseSolution implied =
-      tick.robot.inverse_kinematics(tick.platform.pose, tick.robot.home_working_mode());
-  if (!implied.reachable) return {};
-  return ParallelRobot::passive_difference(passive, implied.joints.passive);
-}
-
-}  // namespace
-
 void advance(ParityWatch& watch, const PlausibilityTick& tick, Plausibility& found) noexcept {
-  const JointVector mismatch = mismatch_of(tick);
+  const JointVector mismatch = passive_mismatch(tick.robot, tick.joints, tick.platform, tick.kinematics);
   if (mismatch.size() == 0) return;
   if (tick.held && watch.learned < LearnedNoise::most) {
     if (watch.learned == 0) watch.offset.setZero(mismatch.size());

@@ -38,7 +38,7 @@ bool is_lost(int seen, int missing) { return seen >= there_after && missing >= l
 
 PlausibilityMonitor::PlausibilityMonitor(std::shared_ptr<const ParallelRobot> robot,
                                          const PlausibilityLimits& limits)
-    : robot_(std::move(robot)), limits_(limits) {
+    : robot_(std::move(robot)), limits_(limits), mounted_(limits.imu_mount) {
   throw_if_any(problems(limits, robot_->drives()));
 }
 
@@ -58,6 +58,7 @@ void PlausibilityMonitor::advance(Time now, const PlausibilityMemory& last, cons
   ImuReading believed = inertial;
   const PlausibilityTick tick{.robot = *robot_,
                               .limits = limits_,
+                              .mounted = mounted_,
                               .now = now,
                               .joints = angles,
                               .drives = currents,

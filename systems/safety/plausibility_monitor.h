@@ -97,6 +97,7 @@ class PlausibilityMonitor final : public System {
 
   std::shared_ptr<const ParallelRobot> robot_;
   PlausibilityLimits limits_;
+  MountedImu mounted_;
 };
 
 }  // namespace flinch

@@ -20,6 +20,7 @@ namespace flinch {
 struct PlausibilityTick {
   const ParallelRobot& robot;
   const PlausibilityLimits& limits;
+  const MountedImu& mounted;  ///< by the limits' mount
   Time now;
   const JointReading& joints;
   const DriveReading& drives;

@@ -49,7 +49,7 @@ const std::vector<Instant>& instants() {
       const PlatformVector acceleration = truth.acceleration;
       const JointVector torque = drive_torques(kinematics, dynamics.M_x * acceleration);
       const auto imu =
-          imu_output(bench()->space(), {}, bench()->gravity(), truth.pose, truth.velocity, acceleration)
+          imu_output(bench()->space(), ImuMount{}, bench()->gravity(), truth.pose, truth.velocity, acceleration)
               .value;
       made[k] = {{{}, true, true, kinematics.joints.active, kinematics.joints.passive},
                  {{}, true, torque},

@@ -76,6 +76,7 @@ struct Safety {
   InputPort<DriveReading> drives = builder.export_input("drives", monitor.drives);
   InputPort<JointMotion> motion = builder.export_input("motion", monitor.motion);
   InputPort<PlatformMotion> platform = builder.export_input("platform", monitor.platform);
+  InputPort<Kinematics> kinematics = builder.export_input("kinematics", monitor.kinematics);
   InputPort<WorkspaceMeasures> measures = builder.export_input("measures", monitor.measures);
   InputPort<ContactDetection> detection = builder.export_input("detection", monitor.detection);
   InputPort<PlatformReference> reference = builder.export_input("reference", monitor.reference);
