@@ -48,9 +48,9 @@ const std::vector<Instant>& instants() {
       bench()->dynamics(kinematics, dynamics);
       const PlatformVector acceleration = truth.acceleration;
       const JointVector torque = drive_torques(kinematics, dynamics.M_x * acceleration);
-      const auto imu =
-          imu_output(bench()->space(), ImuMount{}, bench()->gravity(), truth.pose, truth.velocity, acceleration)
-              .value;
+      const auto imu = imu_output(bench()->space(), ImuMount{}, bench()->gravity(), truth.pose,
+                                  truth.velocity, acceleration)
+                           .value;
       made[k] = {{{}, true, true, kinematics.joints.active, kinematics.joints.passive},
                  {{}, true, torque},
                  {{}, true, torque},

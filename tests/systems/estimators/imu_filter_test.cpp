@@ -57,9 +57,9 @@ class FilterBench {
 
   ImuReading reading(Time acquired) {
     const Motion motion(*robot_, to_seconds(acquired));
-    const auto value =
-        imu_output(robot_->space(), ImuMount{}, robot_->gravity(), motion.pose, motion.velocity, motion.acceleration)
-            .value;
+    const auto value = imu_output(robot_->space(), ImuMount{}, robot_->gravity(), motion.pose,
+                                  motion.velocity, motion.acceleration)
+                           .value;
     ImuReading reading{acquired, true, value.head<3>() + bias.gyroscope,
                        value.tail<3>() + bias.accelerometer};
     for (int i = 0; i < 3; ++i) {

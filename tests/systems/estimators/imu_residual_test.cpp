@@ -27,7 +27,8 @@ class ImuResidualTest : public testing::Test {
     if (moves_) at.platform.velocity[0] = 0.02;  // no rest to learn a bias from
     const PlatformVector acceleration = *forward_dynamics(at.kinematics, at.dynamics, torque, push);
     turned_ += 1e-3 * acceleration[2];
-    const ImuOutput output = imu_output(robot_->space(), ImuMount{}, robot_->gravity(), zero, zero, acceleration);
+    const ImuOutput output =
+        imu_output(robot_->space(), ImuMount{}, robot_->gravity(), zero, zero, acceleration);
     const Eigen::Vector3d rate = output.by_velocity.col(2).head<3>() * turned_;
     underway_.push_back({now, true, rate + rate_bias, output.value.tail<3>() + bias});
     for (int i = 0; i < 3; ++i) {

@@ -49,7 +49,8 @@ class Moving {
         (posture.dynamics.M_x * driven + posture.dynamics.C_x * velocity + posture.dynamics.g_x);
     set_encoders(posture);
     monitor_.ticking.set(monitor_.torque, DriveTorque{monitor_.ticking.now(), true, torque, braked()});
-    set_unit(imu_output(monitor_.robot->space(), ImuMount{}, monitor_.robot->gravity(), pose, velocity, acceleration),
+    set_unit(imu_output(monitor_.robot->space(), ImuMount{}, monitor_.robot->gravity(), pose, velocity,
+                        acceleration),
              failure);
     const bool held = braked();
     monitor_.ticking.set(
