@@ -12,18 +12,6 @@ using Weights = std::array<double, max_particles>;
 /// From the force of a particle, in the axes of its link, to the torques of the drives.
 using TorqueMap = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_dof, 3>;
 
-struct TorqueMaps {
-  TorqueMap at_joint, along;
-
-  TorqueMaps(const LinkContactMap& link, const Kinematics& kinematics)
-      : at_joint(kinematics.J_x_qa.transpose() * link.at_joint),
-        along(kinematics.J_x_qa.transpose() * link.along) {}
-
-  JointVector torque(const LinkParticle& particle) const {  // [SafePR] (22)
-    return (at_joint + particle.fraction * along) * particle.force.head(at_joint.cols());
-  }
-};
-
 bool can_be_used(const LinkContactMap& link, const Kinematics& kinematics, const JointVector& torque) {
   return link.valid && kinematics.valid && usable(torque, drive_count(kinematics));
 }
@@ -35,7 +23,48 @@ double reflected(double fraction) {
   return std::min(folded, 1.0);
 }
 
+/// How likely drives feel `torque` where particles make `made`, without what is the same for all.
+double likelihood(const JointVector& torque, const JointVector& made, const LinkParticleSettings& settings) {
+  return std::exp(-0.5 * (torque - made).squaredNorm() / settings.torque_variance);  // [SafePR] (21)
+}
+
 }  // namespace
+
+struct LinkParticles::TorqueMaps {
+  TorqueMap at_joint, along;
+
+  TorqueMaps(const LinkContactMap& link, const Kinematics& kinematics)
+      : at_joint(kinematics.J_x_qa.transpose() * link.at_joint),
+        along(kinematics.J_x_qa.transpose() * link.along) {}
+
+  JointVector torque(const LinkParticle& particle) const {  // [SafePR] (22)
+    return (at_joint + particle.fraction * along) * particle.force.head(at_joint.cols());
+  }
+
+  /// The particle whose force leans by `lean` to the same side and that explains best what `particle` does:
+  /// torques are linear in the force s across the link and in l s. Not on the link where there is none.
+  LinkParticle leaning(const LinkParticle& particle, double lean) const {
+    constexpr double least_share_apart = 1e-9;  // of one map that the other does not explain
+    LinkParticle other = particle;
+    other.fraction = -1.0;
+    const double across = particle.force.tail<2>().norm();
+    if (!(across > 0.0)) return other;
+    Eigen::Vector3d direction = particle.force / across;
+    direction[0] = lean;
+    const JointVector a = at_joint * direction.head(at_joint.cols());
+    const JointVector b = along * direction.head(along.cols());
+    const JointVector felt = torque(particle);
+    const double aa = a.squaredNorm(), ab = a.dot(b), bb = b.squaredNorm();
+    const double determinant = aa * bb - ab * ab;
+    if (!(determinant > least_share_apart * aa * bb)) return other;
+    const double size = (bb * a.dot(felt) - ab * b.dot(felt)) / determinant;
+    const double lever = (aa * b.dot(felt) - ab * a.dot(felt)) / determinant;
+    if (!(size > 0.0)) return other;
+    other.fraction = lever / size;
+    other.force = size * direction;
+    return other;
+  }
+};
 
 LinkParticle LinkParticles::drawn_about(const LinkPush& push) noexcept {
   const Eigen::Matrix2d root = push.covariance.llt().matrixL();
@@ -103,6 +132,18 @@ void LinkParticles::resample(const Weights& weights, double sum) noexcept {
   std::copy_n(drawn.begin(), count_, particles_.begin());
 }
 
+void LinkParticles::lean_anew(const TorqueMaps& maps, const JointVector& drive_torque,
+                              const LinkParticleSettings& settings) noexcept {
+  for (int i = 0; i < count_; ++i) {
+    LinkParticle& particle = particles_[static_cast<std::size_t>(i)];
+    const LinkParticle other = maps.leaning(particle, settings.leaning * random_.normal());
+    if (!(other.fraction >= 0.0 && other.fraction <= 1.0)) continue;
+    const double gained = likelihood(drive_torque, maps.torque(other), settings);
+    const double had = likelihood(drive_torque, maps.torque(particle), settings);
+    if (gained >= random_.uniform(0.0, 1.0) * had) particle = other;
+  }
+}
+
 LinkParticleEstimate LinkParticles::step(const LinkContactMap& link, const Kinematics& kinematics,
                                          const JointVector& drive_torque,
                                          const LinkParticleSettings& settings) noexcept {
@@ -111,10 +152,8 @@ LinkParticleEstimate LinkParticles::step(const LinkContactMap& link, const Kinem
   move(settings, static_cast<int>(maps.along.cols()));
   Weights weights;
   double sum = 0.0;
-  for (int i = 0; i < count_; ++i) {  // [SafePR] (21)
-    const double missed = (drive_torque - maps.torque((*this)[i])).squaredNorm() / settings.torque_variance;
-    sum += weights[static_cast<std::size_t>(i)] = std::exp(-0.5 * missed);
-  }
+  for (int i = 0; i < count_; ++i)
+    sum += weights[static_cast<std::size_t>(i)] = likelihood(drive_torque, maps.torque((*this)[i]), settings);
   if (!(sum > 1e-300)) {
     std::fill_n(weights.begin(), count_, 1.0);
     sum = count_;
@@ -126,8 +165,9 @@ LinkParticleEstimate LinkParticles::step(const LinkContactMap& link, const Kinem
     estimate.force += share * (*this)[i].force;
   }
   const Eigen::Vector3d across(0.0, estimate.force[1], estimate.force[2]);
+  const bool in_plane = maps.along.cols() == 2;  // where the force across has a sign, not a direction
   const Eigen::Vector3d direction =
-      across.isZero() ? Eigen::Vector3d(Eigen::Vector3d::UnitY()) : across.normalized();
+      in_plane || across.isZero() ? Eigen::Vector3d(Eigen::Vector3d::UnitY()) : across.normalized();
   for (int i = 0; i < count_; ++i) {
     const double share = weights[static_cast<std::size_t>(i)] / sum;
     const Eigen::Vector2d off((*this)[i].fraction - estimate.fraction,
@@ -135,6 +175,7 @@ LinkParticleEstimate LinkParticles::step(const LinkContactMap& link, const Kinem
     estimate.covariance += share * off * off.transpose();
   }
   resample(weights, sum);
+  if (settings.angled) lean_anew(maps, drive_torque, settings);
   return estimate;
 }
 

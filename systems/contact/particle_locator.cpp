@@ -59,6 +59,12 @@ void ParticleLocator::advance(Time now, const ContactPhase& contact, const Conta
     next.body = number;
   }
   next.estimate = next.particles.step(next.link, at, estimate.drive_torque, settings_);
+  if (!next.estimate.valid) return;
+  // Particles take the errors of the torques as new at every tick. Those of the wrench stay, and move all of
+  // them alike.
+  next.estimate.covariance +=
+      push_covariance(next.link, next.estimate.fraction, next.estimate.force.head(next.link.axes.cols()),
+                      uncertainty_.covariance(robot_->space(), estimate.wrench_in_base));
 }
 
 ContactLocation ParticleLocator::read(const Memory& next, const WrenchEstimate& estimate) const {
@@ -67,7 +73,7 @@ ContactLocation ParticleLocator::read(const Memory& next, const WrenchEstimate& 
   found.acquired = estimate.acquired;
   if (!next.estimate.valid || !next.link.valid) return found;
   const LinkParticleEstimate& mean = next.estimate;
-  found.valid = true;
+  found.valid = mean.covariance.allFinite();
   found.body = next.body;
   found.fraction = mean.fraction;
   found.force_in_base = next.link.axes * mean.force.head(next.link.axes.cols());

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <cmath>
+#include <optional>
 
 namespace flinch {
 namespace {
@@ -42,24 +43,38 @@ LinkPush in_the_middle(const PlatformVector& g, const PlatformVector& wrench,
   return push;
 }
 
-/// Both numbers of a push as they follow from the wrench; not valid where they do not.
-LinkPush unconfined_push(const PlatformVector& g0, const PlatformVector& g1, const PlatformVector& wrench,
-                         const Eigen::LLT<PlatformMatrix>& S) {
+/// From the covariance of (f_y, l f_y) that of (l, f_y).
+Eigen::Matrix2d of_place_and_force(const Eigen::Matrix2d& C, double fraction, double force) {
+  Eigen::Matrix2d change;
+  change << -fraction / force, 1.0 / force, 1.0, 0.0;
+  return change * C * change.transpose();
+}
+
+/// Of (f_y, l f_y), for wrenches g0 f_y + g1 (l f_y); h0 and h1 are S^-1 g0 and S^-1 g1. None where these can
+/// hardly be told apart.
+std::optional<Eigen::Matrix2d> lever_covariance(const PlatformVector& g0, const PlatformVector& g1,
+                                                const PlatformVector& h0, const PlatformVector& h1) {
   constexpr double least_share_apart = 1e-9;  // of g0 that g1 does not explain: what rounding leaves is less
-  const PlatformVector h0 = S.solve(g0);
-  const PlatformVector h1 = S.solve(g1);
   Eigen::Matrix2d information;
   information << h0.dot(g0), h0.dot(g1), h1.dot(g0), h1.dot(g1);
   const double determinant = information.determinant();
-  if (!(determinant > least_share_apart * information(0, 0) * information(1, 1))) return {};
-  const Eigen::Matrix2d C = information.inverse();
+  if (!(determinant > least_share_apart * information(0, 0) * information(1, 1))) return std::nullopt;
+  return information.inverse();
+}
+
+/// Both numbers of a push as they follow from the wrench; not valid where they do not.
+LinkPush unconfined_push(const PlatformVector& g0, const PlatformVector& g1, const PlatformVector& wrench,
+                         const Eigen::LLT<PlatformMatrix>& S) {
+  const PlatformVector h0 = S.solve(g0);
+  const PlatformVector h1 = S.solve(g1);
+  const auto levers = lever_covariance(g0, g1, h0, h1);
+  if (!levers) return {};
+  const Eigen::Matrix2d& C = *levers;
   const Eigen::Vector2d best = C * Eigen::Vector2d(h0.dot(wrench), h1.dot(wrench));
   const double force = best[0];
   if (std::abs(force) <= std::sqrt(C(0, 0))) return {};  // its sign is not known: the ratio means nothing
   LinkPush push{.valid = true, .identifiable = true, .fraction = best[1] / force, .force = force};
-  Eigen::Matrix2d change;  // of (l, f_y) with (f_y, l f_y)
-  change << -push.fraction / force, 1.0 / force, 1.0, 0.0;
-  push.covariance = change * C * change.transpose();
+  push.covariance = of_place_and_force(C, push.fraction, force);
   const PlatformVector missed = wrench - g0 * best[0] - g1 * best[1];
   push.residual = missed.dot(S.solve(missed));
   return push;
@@ -143,9 +158,26 @@ LinkPush leaning_link_push(const LinkContactMap& link, const PlatformVector& wre
     mean.residual /= sum;
     const Eigen::Vector2d middle(mean.fraction, mean.force);
     mean.covariance = second_moment / sum - middle * middle.transpose();
-    if (is_identified(mean, largest_deviation)) return mean;
+    mean.identifiable = is_identified(mean, largest_deviation);
+    return mean;
   }
   return in_the_middle((link.at_joint + 0.5 * link.along).col(1), wrench, S);
+}
+
+Eigen::Matrix2d push_covariance(const LinkContactMap& link, double fraction, const CartesianVector& force,
+                                const PlatformMatrix& covariance) noexcept {
+  const Eigen::Matrix2d nothing = Eigen::Matrix2d::Zero();
+  if (!link.valid || force.size() != link.axes.cols()) return nothing;
+  const double across = link.axes.cols() == 2 ? force[1] : force.tail(force.size() - 1).norm();
+  const Eigen::LLT<PlatformMatrix> S(covariance);
+  if (!std::isnormal(across) || S.info() != Eigen::Success) return nothing;
+  const PlatformVector g0 = link.at_joint * force / across;
+  const PlatformVector g1 = link.along * force / across;
+  const PlatformVector h0 = S.solve(g0);
+  const PlatformVector h1 = S.solve(g1);
+  Eigen::Matrix2d found = nothing;
+  if (const auto C = lever_covariance(g0, g1, h0, h1)) found = of_place_and_force(*C, fraction, across);
+  return found(0, 0) > uniform_variance ? Eigen::Matrix2d(found * (uniform_variance / found(0, 0))) : found;
 }
 
 }  // namespace flinch

@@ -49,9 +49,16 @@ LinkPush link_push(const LinkContactMap& link, const PlatformVector& wrench, con
 
 /// The same for a force (lean, 1) f_y that leans along the link by an unknown share of its size, normally
 /// distributed with standard deviation `leaning`, as far as friction lets it: the mean and covariance of what
-/// each lean gives, weighted by how likely it is and by whether it lies on the link.
+/// each lean gives, weighted by how likely it is and by whether it lies on the link, also where that is too
+/// uncertain to be identifiable.
 LinkPush leaning_link_push(const LinkContactMap& link, const PlatformVector& wrench,
                            const PlatformMatrix& covariance, double largest_deviation,
                            double leaning) noexcept;
+
+/// What errors of the wrench with this `covariance` make of place and size of a `force`, in the link's axes,
+/// that is found at `fraction`: the covariance of (fraction, force across the link). Not more of the fraction
+/// than of one that is anywhere on the link. Zero for maps and forces that cannot be used.
+Eigen::Matrix2d push_covariance(const LinkContactMap& link, double fraction, const CartesianVector& force,
+                                const PlatformMatrix& covariance) noexcept;
 
 }  // namespace flinch

@@ -11,9 +11,9 @@ namespace flinch {
 namespace {
 
 struct Block {
-  explicit Block(std::uint64_t seed = 1)
-      : block(builder.add<ParticleLocator>("locator", robot, LinkParticleSettings{}, WrenchUncertainty{},
-                                           seed)),
+  explicit Block(std::uint64_t seed = 1, const LinkParticleSettings& settings = {},
+                 const WrenchUncertainty& uncertainty = {})
+      : block(builder.add<ParticleLocator>("locator", robot, settings, uncertainty, seed)),
         phase(builder.export_input("phase", block.phase)),
         classification(builder.export_input("classification", block.classification)),
         kinematics(builder.export_input("kinematics", block.kinematics)),
@@ -91,6 +91,60 @@ TEST(ParticleLocator, IsTheSameForTheSameSeed) {
     const double of_a = a.see(link2_of_leg2, a.push(1, 0.7)).fraction;
     EXPECT_EQ(of_a, b.see(link2_of_leg2, b.push(1, 0.7)).fraction);
     EXPECT_NE(of_a, c.see(link2_of_leg2, c.push(1, 0.7)).fraction);
+  }
+}
+
+/// How often the covariance covers pushes anywhere on second links, in any pose, whose wrench is wrong by as much
+/// as it is told, and the squared error by that covariance, of which 2 is expected.
+struct Honesty {
+  double covered = 0.0, squared_error = 0.0;
+};
+
+Honesty honesty_of(bool angled, int ticks) {
+  constexpr int pushes = 1000;
+  const WrenchUncertainty uncertainty{.force = 1.5, .moment = 0.12, .share_of_force = 0, .share_of_lever = 0};
+  Block locator(1, {.angled = angled}, uncertainty);
+  RandomGenerator random(8);
+  Honesty honesty;
+  for (const Kinematics& k : test::random_kinematics(*locator.robot, pushes)) {
+    const int leg = static_cast<int>(random() % 3);
+    const double side = random.uniform(-1.0, 1.0) < 0.0 ? -1.0 : 1.0;
+    const double fraction = random.uniform(0.0, 1.0), force = side * random.uniform(40.0, 80.0);
+    const double lean = angled ? LinkParticleSettings().leaning * random.normal() : 0.0;
+    PlatformVector wrench = test::wrench_on_link(*locator.robot, k, BodyId::link2(leg), fraction,
+                                                 force * Eigen::Vector2d(lean, 1.0));
+    wrench += PlatformVector{{uncertainty.force * random.normal(), uncertainty.force * random.normal(),
+                              uncertainty.moment * random.normal()}};
+    locator.k = k;
+    locator.ticking.set(locator.kinematics, k);
+    locator.see(-1, wrench);
+    ContactLocation found;
+    for (int i = 0; i < ticks; ++i)
+      found = locator.see(ContactClasses::collision(BodyId::link2(leg)), wrench);
+    const CartesianVector across = link_contact_map(*locator.robot, k, BodyId::link2(leg)).axes.col(1);
+    const Eigen::Vector2d error(found.fraction - fraction, found.force_in_base.dot(across) - force);
+    const double square = error.dot(found.covariance.llt().solve(error));
+    honesty.squared_error += square / pushes;
+    honesty.covered += square < 5.991 ? 1.0 / pushes : 0.0;  // 95 % of chi-square with two degrees
+  }
+  std::printf("  %s pushes after %d ticks: covered %.1f %%, squared error %.2f of 2\n",
+              angled ? "leaning" : "orthogonal", ticks, 100.0 * honesty.covered, honesty.squared_error);
+  return honesty;
+}
+
+TEST(ParticleLocator, CoversPushesAcrossALink) {
+  for (const int ticks : {10, 50}) {
+    const Honesty honesty = honesty_of(false, ticks);
+    EXPECT_GT(honesty.covered, 0.93);
+    EXPECT_LT(honesty.squared_error, 2.124);  // the 95 % band of chi-square, of 1000
+  }
+}
+
+TEST(ParticleLocator, CoversPushesThatLeanForAsLongAsTheyLast) {
+  for (const int ticks : {10, 50, 150}) {
+    const Honesty honesty = honesty_of(true, ticks);
+    EXPECT_GT(honesty.covered, 0.93);
+    EXPECT_LT(honesty.squared_error, 3.0);  // not normal: where a force may lean bends with its place
   }
 }
 
