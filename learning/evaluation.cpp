@@ -55,6 +55,15 @@ std::vector<int> themselves(std::size_t count) {
   return of;
 }
 
+/// The surest first.
+std::vector<const Answered*> by_confidence(const std::vector<Answered>& answers) {
+  std::vector<const Answered*> order;
+  for (const Answered& answer : answers) order.push_back(&answer);
+  std::stable_sort(order.begin(), order.end(),
+                   [](const Answered* a, const Answered* b) { return a->confidence() > b->confidence(); });
+  return order;
+}
+
 }  // namespace
 
 int Answered::given() const {
@@ -170,17 +179,25 @@ RejectPoint reject_at(const std::vector<Answered>& answers, double accepted_from
   return {accepted_from, 1.0 - accepted / all, accepted > 0.0 ? wrong / accepted : 0.0};
 }
 
+RejectPoint reject_share(const std::vector<Answered>& answers, double rejected) {
+  const std::vector<const Answered*> order = by_confidence(answers);
+  const auto all = static_cast<double>(order.size());
+  const auto accepted = static_cast<std::size_t>(std::ceil((1.0 - rejected) * all - 1e-9));
+  if (accepted == 0) return {1.0, order.empty() ? 0.0 : 1.0, 0.0};
+  double wrong = 0.0;
+  for (std::size_t i = 0; i < accepted; ++i) wrong += is_right(*order[i]) ? 0.0 : 1.0;
+  const auto count = static_cast<double>(accepted);
+  return {order[accepted - 1]->confidence(), 1.0 - count / all, wrong / count};
+}
+
 std::vector<RejectPoint> reject_curve(const std::vector<Answered>& answers) {
   std::vector<RejectPoint> curve;
-  for (int i = 0; i <= 100; ++i) curve.push_back(reject_at(answers, 0.01 * i));
+  for (int i = 0; i < 100; ++i) curve.push_back(reject_share(answers, 0.01 * i));
   return curve;
 }
 
 double acceptance_for(const std::vector<Answered>& answers, double wrong) {
-  std::vector<const Answered*> order;
-  for (const Answered& answer : answers) order.push_back(&answer);
-  std::stable_sort(order.begin(), order.end(),
-                   [](const Answered* a, const Answered* b) { return a->confidence() > b->confidence(); });
+  const std::vector<const Answered*> order = by_confidence(answers);
   double least = 1.0, errors = 0.0;
   for (std::size_t i = 0; i < order.size(); ++i) {
     errors += is_right(*order[i]) ? 0.0 : 1.0;
@@ -207,6 +224,7 @@ Evaluation evaluate(const std::vector<Answered>& answers, const FeatureSet& feat
   result.calibration_error = expected_calibration_error(result.reliability);
   result.rejects = reject_curve(answers);
   result.accepted = reject_at(answers, accepted_from);
+  result.at_tenth = reject_share(answers, 0.1);
   return result;
 }
 

@@ -60,6 +60,9 @@ struct RejectPoint {
   double wrong_of_accepted = 0.0;  ///< 0 where nothing is accepted
 };
 RejectPoint reject_at(const std::vector<Answered>& answers, double accepted_from);
+/// The same where the share `rejected` of the answers is, those that are least sure; at most that share.
+RejectPoint reject_share(const std::vector<Answered>& answers, double rejected);
+/// Nothing, 1, 2, ... 99 % of the answers rejected.
 std::vector<RejectPoint> reject_curve(const std::vector<Answered>& answers);
 
 /// The least confidence from which on at most the share `wrong` of what is accepted is wrong.
@@ -78,6 +81,7 @@ struct Evaluation {
   double calibration_error = 0.0;
   std::vector<RejectPoint> rejects;
   RejectPoint accepted;  ///< at the confidence that the model asks for
+  RejectPoint at_tenth;  ///< where one answer in ten is rejected
 };
 
 Evaluation evaluate(const std::vector<Answered>& answers, const FeatureSet& features, double accepted_from,

@@ -40,6 +40,17 @@ Json confusion_json(const Evaluation& evaluation) {
           {"by_configuration", by_configuration}};
 }
 
+Json curve_json(const Evaluation& evaluation) {
+  Json curve = Json::array();
+  for (const RejectPoint& point : evaluation.rejects) {
+    curve.push_back({{"rejected", point.rejected},
+                     {"accepted_from", point.accepted_from},
+                     {"accuracy_of_accepted", 1.0 - point.wrong_of_accepted},
+                     {"wrong_of_accepted", point.wrong_of_accepted}});
+  }
+  return curve;
+}
+
 std::string percent(const std::optional<double>& share) {
   return share ? fmt::format("{:6.2f} %", 100.0 * *share) : "       -";
 }
@@ -60,15 +71,16 @@ std::string confusion_table(const Confusion& confusion) {
 }  // namespace
 
 std::string evaluation_table(const Evaluation& chosen, const std::vector<Evaluation>& all) {
-  std::string text =
-      fmt::format("{:<10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>12} {:>9} {:>9}\n", "at", "samples", "body",
-                  "collision", "clamping", "chain", "all", "calibration", "rejected", "wrong");
+  std::string text = fmt::format("{:<10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>12} {:>9} {:>9} {:>13}\n",
+                                 "at", "samples", "body", "collision", "clamping", "chain", "all",
+                                 "calibration", "rejected", "wrong", "wrong at 10 %");
   for (const Evaluation& each : all) {
     text +=
-        fmt::format("{:<10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>12.4f} {:>9} {:>9}\n", each.moment,
+        fmt::format("{:<10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>12.4f} {:>9} {:>9} {:>13}\n", each.moment,
                     each.samples, percent(each.body), percent(each.collision), percent(each.clamping),
                     percent(each.chain), percent(each.confusion.balanced_accuracy()), each.calibration_error,
-                    percent(each.accepted.rejected), percent(each.accepted.wrong_of_accepted));
+                    percent(each.accepted.rejected), percent(each.accepted.wrong_of_accepted),
+                    percent(each.at_tenth.wrong_of_accepted));
   }
   text += fmt::format("\nwhat was touched (rows) was told as ({})\n", chosen.moment) +
           confusion_table(chosen.confusion);
@@ -87,7 +99,8 @@ std::string evaluation_json(const Evaluation& chosen, const std::vector<Evaluati
                             {"accuracy", accuracy_of(each)},
                             {"expected_calibration_error", each.calibration_error},
                             {"rejected", each.accepted.rejected},
-                            {"wrong_of_accepted", each.accepted.wrong_of_accepted}};
+                            {"wrong_of_accepted", each.accepted.wrong_of_accepted},
+                            {"wrong_at_tenth_rejected", each.at_tenth.wrong_of_accepted}};
   }
   const Json summary = {{"samples", chosen.samples},
                         {"accuracy", accuracy_of(chosen)},
@@ -96,6 +109,8 @@ std::string evaluation_json(const Evaluation& chosen, const std::vector<Evaluati
                         {"rejected", chosen.accepted.rejected},
                         {"wrong_of_accepted", chosen.accepted.wrong_of_accepted},
                         {"accepted_from", chosen.accepted.accepted_from},
+                        {"wrong_at_tenth_rejected", chosen.at_tenth.wrong_of_accepted},
+                        {"reject_curve", curve_json(chosen)},
                         {"at", chosen.moment},
                         {"moments", moments}};
   return summary.dump();

@@ -52,6 +52,7 @@ std::string figures_of(const Evaluation& chosen) {
   html += figure(fmt::format("{:.4f}", chosen.calibration_error), "expected calibration error");
   html += figure(percent(chosen.accepted.rejected), "rejected");
   html += figure(percent(chosen.accepted.wrong_of_accepted, 2), "wrong of what is acted upon");
+  html += figure(percent(chosen.at_tenth.wrong_of_accepted, 2), "wrong, were one in ten rejected");
   return html + "</div>\n";
 }
 
@@ -60,14 +61,15 @@ std::string moments_table(const std::vector<Evaluation>& all) {
       "<table><thead><tr><th></th><th>samples</th><th>body</th><th>collision</th><th>clamping</th><th>leg</"
       "th>"
       "<th>all classes</th><th>calibration error</th><th>rejected</th><th>wrong of "
-      "accepted</th></tr></thead><tbody>\n";
+      "accepted</th><th>wrong at 10 % rejected</th></tr></thead><tbody>\n";
   for (const Evaluation& each : all) {
     html += fmt::format("<tr><th>{}</th><td>{}</td>", each.moment, each.samples);
     for (const auto& share :
          {each.body, each.collision, each.clamping, each.chain, each.confusion.balanced_accuracy()})
       html += fmt::format("<td>{}</td>", percent(share));
-    html += fmt::format("<td>{:.4f}</td><td>{}</td><td>{}</td></tr>\n", each.calibration_error,
-                        percent(each.accepted.rejected), percent(each.accepted.wrong_of_accepted, 2));
+    html += fmt::format("<td>{:.4f}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", each.calibration_error,
+                        percent(each.accepted.rejected), percent(each.accepted.wrong_of_accepted, 2),
+                        percent(each.at_tenth.wrong_of_accepted, 2));
   }
   return html + "</tbody></table>\n";
 }
@@ -139,12 +141,14 @@ std::string reliability_chart(const Evaluation& chosen) {
 }
 
 std::string reject_chart(const Evaluation& chosen) {
+  // Beyond it there is nothing to see, unless the model itself rejects more.
+  const double widest = chosen.accepted.rejected > 0.4 ? 1.0 : 0.4;
   double highest = 0.01;
   for (const RejectPoint& point : chosen.rejects) highest = std::max(highest, point.wrong_of_accepted);
-  Chart chart(1.0, highest, "Reject curve");
+  Chart chart(widest, highest, "Reject curve");
   std::string path;
   for (const RejectPoint& point : chosen.rejects) {
-    if (point.rejected >= 1.0) break;
+    if (point.rejected > widest) break;
     path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? 'M' : 'L', chart.x(point.rejected),
                         chart.y(point.wrong_of_accepted));
   }

@@ -72,6 +72,29 @@ TEST(Rejection, LeavesOutWhatIsNotSure) {
   EXPECT_EQ(acceptance_for(answers, 0.25), 0.6);
 }
 
+TEST(Rejection, OfAShareTakesTheLeastSure) {
+  std::vector<Answered> answers;
+  for (int i = 0; i < 20; ++i) {  // of 20 answers that get surer the first and the fourth are wrong
+    const double sure = 0.6 + 0.01 * i;
+    answers.push_back(answered(i == 0 || i == 3 ? 1 : 0, {sure, 1.0 - sure}));
+  }
+  const RejectPoint tenth = reject_share(answers, 0.1);
+  EXPECT_DOUBLE_EQ(tenth.rejected, 0.1);
+  EXPECT_EQ(tenth.accepted_from, 0.62);
+  EXPECT_DOUBLE_EQ(tenth.wrong_of_accepted, 1.0 / 18.0);
+  EXPECT_EQ(reject_share(answers, 0.2).wrong_of_accepted, 0.0);
+  EXPECT_DOUBLE_EQ(reject_share(answers, 0.12).rejected, 0.1);  // not more than was allowed
+  const std::vector<RejectPoint> curve = reject_curve(answers);
+  ASSERT_EQ(curve.size(), 100U);
+  EXPECT_DOUBLE_EQ(curve.front().wrong_of_accepted, 0.1);
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    const RejectPoint same = reject_at(answers, curve[i].accepted_from);
+    EXPECT_DOUBLE_EQ(same.rejected, curve[i].rejected);
+    EXPECT_DOUBLE_EQ(same.wrong_of_accepted, curve[i].wrong_of_accepted);
+  }
+  EXPECT_EQ(reject_share({}, 0.1).rejected, 0.0);
+}
+
 TEST(Evaluation, TellsBodiesClampingsAndLegsApart) {
   const FeatureSet features(Question::touched, test::contact_examples(1, 1).robot);
   const auto sure = [](int right, int given) {
@@ -95,6 +118,10 @@ TEST(Evaluation, TellsBodiesClampingsAndLegsApart) {
   EXPECT_EQ(json["samples"], 4);
   EXPECT_EQ(json["rejected"], 0.0);
   EXPECT_EQ(json["wrong_of_accepted"], 0.5);
+  EXPECT_EQ(json["wrong_at_tenth_rejected"], 0.5);
+  EXPECT_EQ(json["moments"]["later"]["wrong_at_tenth_rejected"], 0.5);
+  EXPECT_EQ(json["reject_curve"].size(), 100U);
+  EXPECT_EQ(json["reject_curve"][0]["accuracy_of_accepted"], 0.5);
   EXPECT_NEAR(json["expected_calibration_error"].get<double>(), 0.41, 1e-12);
   EXPECT_EQ(json["confusion"]["classes"][7], "leg1_clamping");
   EXPECT_EQ(json["confusion"]["rows"][7][1], 1.0);
