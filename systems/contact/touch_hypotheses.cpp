@@ -39,6 +39,22 @@ double approach_weight(double v, double sigma) { return sigma * normal_excess(v 
 
 constexpr std::array frictions{-2.0, -1.0, 0.0, 1.0, 2.0};  // times the coefficient, along the sliding
 
+/// Friction that is tried: its coefficient mu, and the share 1 / (1 + mu^2) of the square of a force that is
+/// then along the normal, with its root.
+struct Friction {
+  double mu, share, root;
+};
+using Frictions = std::array<Friction, frictions.size()>;
+
+Frictions frictions_of(double coefficient) {
+  Frictions tried;
+  for (std::size_t k = 0; k < tried.size(); ++k) {
+    const double mu = frictions[k] * coefficient, share = 1.0 / (1.0 + mu * mu);
+    tried[k] = {mu, share, std::sqrt(share)};
+  }
+  return tried;
+}
+
 /// A direction in which a surface may slide; in the plane there is one, and its opposite.
 Eigen::Vector3d tangent_to(const Eigen::Vector3d& normal, int dimension) {
   if (dimension == 2) return {-normal.y(), normal.x(), 0.0};
@@ -88,6 +104,7 @@ struct TouchHypotheses::Scene {
   const std::array<LegPoints, max_dof>* legs = nullptr;
   std::array<Placed, max_bodies> bodies;
   WhitenedWrench wrench;  // L^-1 F
+  Frictions frictions;    // against the sliding
 };
 
 /// A place that is touched: whitened wrenches of forces of 1 N along the normal and the sliding there.
@@ -214,12 +231,11 @@ void TouchHypotheses::add(const Scene& scene, BodyId body, const Place& place, c
   std::array<double, frictions.size()> hh, hF;
   std::array<bool, frictions.size()> matters;
   for (std::size_t k = 0; k < frictions.size(); ++k) {
-    const double mu = frictions[k] * settings_.friction;  // of the force along -slide
-    const double shrink = 1.0 / (1.0 + mu * mu);
+    const auto& [mu, shrink, root] = scene.frictions[k];
     hh[k] = (touch.nn + 2.0 * mu * touch.nt + mu * mu * touch.tt) * shrink;
     hF[k] = -(touch.nF + mu * touch.tF);
     const double squared = hF[k] > 0.0 ? hF[k] * hF[k] * shrink : 0.0;
-    hF[k] *= std::sqrt(shrink);
+    hF[k] *= root;
     if (squared > tally.explained * hh[k]) tally.explained = squared / hh[k];
     matters[k] = squared >= 2.0 * (tally.top - negligible) * (hh[k] + rare);
   }
@@ -424,6 +440,7 @@ void TouchHypotheses::weigh(const Kinematics& kinematics, const PlatformVector& 
 
   Scene scene;
   scene.legs = &kinematics.legs;
+  scene.frictions = frictions_of(settings_.friction);
   scene.wrench.setZero();
   scene.wrench.head(robot_->dof()) = S.matrixL().solve(wrench);
   for (int i = 0; i < robot_->body_count(); ++i)

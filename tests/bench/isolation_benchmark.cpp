@@ -1,13 +1,20 @@
-// What it costs in a tick to say what is touched, where and how hard, of 50 N across a second link at home.
+// What it costs in a tick to say what is touched, where and how hard, of 50 N across a second link at home. The
+// counter `times_the_model` is the ratio to one evaluation of kinematics and dynamics, measured in the same run.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+
 #include "systems/contact/contact_locator.h"
-#include "systems/contact/evidence_estimator.h"
+#include "systems/contact/evidence_features.h"
 #include "systems/contact/feature_extraction.h"
 #include "systems/contact/link_particles.h"
+#include "systems/contact/neural_network.h"
 #include "systems/contact/touch_hypotheses.h"
+#include "systems/contact/wrench_uncertainty.h"
+#include "systems/framework/random.h"
 #include "systems/robot/planar_rrr.h"
 #include "systems/robot/planar_rrr_presets.h"
+#include "tests/support/processor_time.h"
 
 namespace flinch {
 namespace {
@@ -28,48 +35,117 @@ struct Touch {
       .acquired = {}, .valid = true, .wrench_in_base = wrench, .drive_torque = drive_torques(k, wrench)};
 };
 
-void ContactFeaturesOfAWrench(benchmark::State& state) {
-  Touch touch;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(touch.estimate);
-    benchmark::DoNotOptimize(contact_features(*touch.robot, touch.k, touch.estimate, {}));
+/// Seconds that `work` takes: the least of some turns of many.
+double time_of(int turns, auto&& work) {
+  double best = 1.0;
+  for (int turn = 0; turn < 20; ++turn) {
+    const auto begin = test::processor_time();
+    for (int i = 0; i < turns; ++i) work();
+    best = std::min(best, (test::processor_time() - begin).count() / turns);
   }
+  return best;
 }
-BENCHMARK(ContactFeaturesOfAWrench);
 
-void ContactEvidenceOfAWrench(benchmark::State& state) {
-  Touch touch;
+/// Runs `work` as a benchmark and sets it beside one evaluation of the model.
+void compare(benchmark::State& state, const Touch& touch, auto&& work) {
+  for (auto _ : state) work();
+  Kinematics now;
+  Dynamics model;
+  const double evaluation = time_of(2000, [&] {
+    touch.robot->kinematics(touch.robot->home_pose(), touch.k.velocity, now);
+    touch.robot->dynamics(now, model);
+    benchmark::DoNotOptimize(model.valid);
+  });
+  state.counters["times_the_model"] = time_of(100, work) / evaluation;
+}
+
+NeuralNetwork network(int inputs, const std::vector<int>& widths, NetworkResult result) {
+  RandomGenerator random(1);
+  NetworkParameters parameters;
+  parameters.mean = Eigen::VectorXd::Zero(inputs);
+  parameters.scale = Eigen::VectorXd::Ones(inputs);
+  for (const int width : widths) {
+    NetworkLayer& layer = parameters.layers.emplace_back();
+    layer.weights.resize(width, inputs);
+    for (double& weight : layer.weights.reshaped()) weight = 0.3 * random.normal();
+    layer.bias.setZero(width);
+    layer.activation = Activation::tanh;
+    inputs = width;
+  }
+  parameters.layers.back().activation = Activation::none;
+  parameters.result = result;
+  return NeuralNetwork(parameters);
+}
+
+/// [SafePR] III: the features, then clamping or not, which leg, which body.
+void PapersFeaturesAndNetworks(benchmark::State& state) {
+  const Touch touch;
+  const NeuralNetwork body = network(12, {30, 30, 30, 30, 7}, NetworkResult::softmax_of_outputs);
+  const NeuralNetwork clamping = network(6, {30, 30, 30, 30, 30, 2}, NetworkResult::softmax_of_outputs);
+  const NeuralNetwork chain = network(6, {25, 25, 25, 25, 25, 3}, NetworkResult::softmax_of_outputs);
+  NeuralNetwork::Values inputs, few, outputs;
+  compare(state, touch, [&] {
+    inputs = feature_vector(contact_features(*touch.robot, touch.k, touch.estimate, FeatureSettings()));
+    few.resize(6, 1);
+    few << inputs.topRows(3), inputs.middleRows(6, 3);
+    benchmark::DoNotOptimize(clamping.evaluate(few, outputs));
+    benchmark::DoNotOptimize(chain.evaluate(few, outputs));
+    benchmark::DoNotOptimize(body.evaluate(inputs, outputs));
+  });
+}
+BENCHMARK(PapersFeaturesAndNetworks);
+
+void EvidenceOfTheModel(benchmark::State& state) {
+  const Touch touch;
   const TouchHypotheses hypotheses(touch.robot, {});
   ContactEvidence evidence;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(touch.wrench);
+  compare(state, touch, [&] {
     hypotheses.weigh(touch.k, touch.wrench, touch.covariance, evidence);
-    benchmark::DoNotOptimize(evidence);
-  }
+    benchmark::DoNotOptimize(evidence.valid);
+  });
 }
-BENCHMARK(ContactEvidenceOfAWrench);
+BENCHMARK(EvidenceOfTheModel);
+
+/// Evidence of the wrench and of its two changes, features, and the scorer of all classes.
+void LearnedClassifierOfAWrench(benchmark::State& state) {
+  const Touch touch;
+  const TouchHypotheses of_wrench(touch.robot, {}), of_change(touch.robot, hypotheses_of_change());
+  const NeuralNetwork scorer = network(evidence_feature_count, {32, 32, 1}, NetworkResult::softmax_of_rows);
+  const PlatformVector change = 0.3 * touch.wrench;
+  const PlatformMatrix of_small = WrenchUncertainty().covariance(touch.robot->space(), change);
+  ContactEvidence whole, last, before;
+  NeuralNetwork::Values features, outputs;
+  compare(state, touch, [&] {
+    of_wrench.weigh(touch.k, touch.wrench, touch.covariance, whole);
+    of_change.weigh(touch.k, change, of_small, last);
+    of_change.weigh(touch.k, change, of_small, before);
+    evidence_features(of_wrench.classes(), {whole, last, before, 50.0}, features);
+    benchmark::DoNotOptimize(scorer.evaluate(features, outputs));
+  });
+}
+BENCHMARK(LearnedClassifierOfAWrench);
 
 void ClosedFormOnALink(benchmark::State& state) {
-  Touch touch;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(touch.wrench);
+  const Touch touch;
+  compare(state, touch, [&] {
     const LinkContactMap link = link_contact_map(*touch.robot, touch.k, touch.body);
     benchmark::DoNotOptimize(locate_on_link(link, touch.body, touch.wrench, touch.covariance, {}));
-  }
+  });
 }
 BENCHMARK(ClosedFormOnALink);
 
-void LinkParticlesStep(benchmark::State& state) {
-  Touch touch;
-  const LinkParticleSettings settings{.particles = static_cast<int>(state.range(0))};
+/// Of so many particles; of pushes that are orthogonal, or may lean.
+void ParticleFilterStep(benchmark::State& state, bool angled) {
+  const Touch touch;
+  const LinkParticleSettings settings{.particles = static_cast<int>(state.range(0)), .angled = angled};
   LinkParticles particles(1);
   particles.begin(touch.link, touch.k, {}, touch.estimate.drive_torque, settings);
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(touch.estimate);
+  compare(state, touch, [&] {
     benchmark::DoNotOptimize(particles.step(touch.link, touch.k, touch.estimate.drive_torque, settings));
-  }
+  });
 }
-BENCHMARK(LinkParticlesStep)->Arg(50)->Arg(200);
+BENCHMARK_CAPTURE(ParticleFilterStep, orthogonal, false)->Arg(50)->Arg(200);
+BENCHMARK_CAPTURE(ParticleFilterStep, leaning, true)->Arg(50)->Arg(200);
 
 }  // namespace
 }  // namespace flinch
