@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "systems/contact/normal_share.h"
+#include "systems/contact/touch_tally.h"
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/outline.h"
@@ -17,7 +18,6 @@ namespace flinch {
 namespace {
 
 constexpr double impossible = -1e6;
-constexpr double negligible = 18.0;   // ln of how much smaller what adds nothing to a sum is
 constexpr double surely_free = 20.0;  // softnesses away: what is there leaves a room of 1, within 2e-9
 
 Eigen::Vector3d in_space(const CartesianVector& v) {
@@ -116,48 +116,6 @@ struct TouchHypotheses::Touch {
   Eigen::Vector3d normal;  // outwards, in the base frame
 };
 
-/// What has been found of one class: a sum of likelihoods, as multiples of exp(`unit`).
-struct TouchHypotheses::Tally {
-  double unit = 0.0;
-  double of_none = 1.0;  // exp(-unit)
-  double sum = 0.0;
-  double largest = 0.0;  // of the terms
-  double marked = 0.0;   // one of the terms, at least half as large
-  double top = -1e300;   // its logarithm
-  double explained = 0.0;
-  double location = 0.0, force = 0.0, approach = 0.0;  // of that term
-
-  bool is_negligible(double logarithm) const { return logarithm < top - negligible; }
-  /// So that terms of this logarithm are no large numbers.
-  void make_room(double logarithm) {
-    if (logarithm < unit + 5.0) return;
-    const double smaller = std::exp(unit - logarithm);
-    sum *= smaller;
-    largest *= smaller;
-    marked *= smaller;
-    unit = logarithm;
-    of_none = std::exp(-unit);
-  }
-  /// exp(x^2 / 2) times the share of a normal distribution below x.
-  double likelihood(double x) const {
-    if (x < 0.0) return x > -farthest_normal ? of_none * normal_tail(-x) : 0.0;
-    const double pushed = std::exp(0.5 * x * x - unit);
-    return x < farthest_normal ? pushed - of_none * normal_tail(x) : pushed;
-  }
-  void add(double term, double fraction, double newtons, double speed) {
-    sum += term;
-    if (term <= largest) return;
-    largest = term;
-    if (term > 2.0 * marked) {
-      marked = term;
-      top = unit + std::log(term);
-    }
-    location = fraction;
-    force = newtons;
-    approach = speed;
-  }
-};
-
 TouchHypotheses::TouchHypotheses(std::shared_ptr<const ParallelRobot> robot,
                                  const TouchHypothesesSettings& settings)
     : robot_(std::move(robot)),
@@ -226,7 +184,7 @@ double TouchHypotheses::room(const Scene& scene, int body, int other, const Eige
 }
 
 void TouchHypotheses::add(const Scene& scene, BodyId body, const Place& place, const Touch& touch,
-                          Tally& tally) const {
+                          TouchTally& tally) const {
   const double rare = 1.0 / (settings_.force_scale * settings_.force_scale);
   std::array<double, frictions.size()> hh, hF;
   std::array<bool, frictions.size()> matters;
@@ -237,7 +195,7 @@ void TouchHypotheses::add(const Scene& scene, BodyId body, const Place& place, c
     const double squared = hF[k] > 0.0 ? hF[k] * hF[k] * shrink : 0.0;
     hF[k] *= root;
     if (squared > tally.explained * hh[k]) tally.explained = squared / hh[k];
-    matters[k] = squared >= 2.0 * (tally.top - negligible) * (hh[k] + rare);
+    matters[k] = squared >= 2.0 * (tally.top - TouchTally::negligible) * (hh[k] + rare);
   }
   if (std::none_of(matters.begin(), matters.end(), std::identity())) return;
   const Placed& placed = scene.bodies[static_cast<std::size_t>(body.index())];
@@ -258,7 +216,7 @@ void TouchHypotheses::add(const Scene& scene, BodyId body, const Place& place, c
 }
 
 /// On a straight side, all of which has one normal, velocities and wrenches are linear in the place.
-void TouchHypotheses::weigh_side(const Scene& scene, BodyId body, const Side& side, Tally& tally) const {
+void TouchHypotheses::weigh_side(const Scene& scene, BodyId body, const Side& side, TouchTally& tally) const {
   const auto at = static_cast<std::size_t>(body.index());
   const Placed& placed = scene.bodies[at];
   const Place* const places = &places_[at][side.first];
@@ -297,7 +255,8 @@ void TouchHypotheses::weigh_side(const Scene& scene, BodyId body, const Side& si
   }
 }
 
-void TouchHypotheses::weigh_place(const Scene& scene, BodyId body, const Place& place, Tally& tally) const {
+void TouchHypotheses::weigh_place(const Scene& scene, BodyId body, const Place& place,
+                                  TouchTally& tally) const {
   const Placed& placed = scene.bodies[static_cast<std::size_t>(body.index())];
   const Eigen::Vector3d arm = placed.axes * place.point;
   const Eigen::Vector3d normal = placed.axes * place.normal;
@@ -320,7 +279,7 @@ void TouchHypotheses::weigh_place(const Scene& scene, BodyId body, const Place& 
   add(scene, body, place, touch, tally);
 }
 
-void TouchHypotheses::weigh_body(const Scene& scene, BodyId body, Tally& tally) const {
+void TouchHypotheses::weigh_body(const Scene& scene, BodyId body, TouchTally& tally) const {
   const auto at = static_cast<std::size_t>(body.index());
   for (const Side& side : sides_[at]) {
     if (side.count > 1) {
@@ -332,7 +291,7 @@ void TouchHypotheses::weigh_body(const Scene& scene, BodyId body, Tally& tally) 
   tally.sum *= 2.0 / (settings_.force_scale * static_cast<double>(places_[at].size()));
 }
 
-void TouchHypotheses::weigh_clamping(const Scene& scene, int leg, Tally& tally) const {
+void TouchHypotheses::weigh_clamping(const Scene& scene, int leg, TouchTally& tally) const {
   const auto first = static_cast<std::size_t>(BodyId::link1(leg).index());
   const auto second = static_cast<std::size_t>(BodyId::link2(leg).index());
   const LegPoints& points = (*scene.legs)[static_cast<std::size_t>(leg)];
@@ -447,7 +406,7 @@ void TouchHypotheses::weigh(const Kinematics& kinematics, const PlatformVector& 
     place(kinematics, S, BodyId::from_index(i), scene.bodies[static_cast<std::size_t>(i)]);
   const double whole = scene.wrench.squaredNorm();
   for (int number = 0; number < classes_.count(); ++number) {
-    Tally tally;
+    TouchTally tally;
     if (classes_.is_clamping(number)) {
       weigh_clamping(scene, classes_.leg(number), tally);
     } else {

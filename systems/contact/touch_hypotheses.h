@@ -11,6 +11,8 @@
 
 namespace flinch {
 
+struct TouchTally;
+
 struct TouchHypothesesSettings {
   double force_scale = 50.0;    ///< standard deviation of a contact's force before anything is known [N]
   double object_speed = 0.3;    ///< standard deviation of the velocity of what is touched [m/s]
@@ -87,16 +89,15 @@ class TouchHypotheses {
   };
   struct Scene;
   struct Touch;
-  struct Tally;
 
   void add_places(BodyId body);
   void place(const Kinematics& kinematics, const Eigen::LLT<PlatformMatrix>& S, BodyId body,
              Placed& placed) const;
-  void add(const Scene& scene, BodyId body, const Place& place, const Touch& touch, Tally& tally) const;
-  void weigh_side(const Scene& scene, BodyId body, const Side& side, Tally& tally) const;
-  void weigh_place(const Scene& scene, BodyId body, const Place& place, Tally& tally) const;
-  void weigh_body(const Scene& scene, BodyId body, Tally& tally) const;
-  void weigh_clamping(const Scene& scene, int leg, Tally& tally) const;
+  void add(const Scene& scene, BodyId body, const Place& place, const Touch& touch, TouchTally& tally) const;
+  void weigh_side(const Scene& scene, BodyId body, const Side& side, TouchTally& tally) const;
+  void weigh_place(const Scene& scene, BodyId body, const Place& place, TouchTally& tally) const;
+  void weigh_body(const Scene& scene, BodyId body, TouchTally& tally) const;
+  void weigh_clamping(const Scene& scene, int leg, TouchTally& tally) const;
   double room(const Scene& scene, int body, int neighbour, const Eigen::Vector3d& centre) const;
   double bias(int number) const;
 

@@ -1,5 +1,6 @@
-// What it costs in a tick to say what is touched, where and how hard, of 50 N across a second link at home. The
-// counter `times_the_model` is the ratio to one evaluation of kinematics and dynamics, measured in the same run.
+// What it costs in a tick to say what is touched, where and how hard, of 50 N across a second link at home.
+// The counter `times_the_model` is the ratio to one evaluation of kinematics and dynamics, measured in the
+// same run.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

@@ -94,8 +94,8 @@ TEST(ParticleLocator, IsTheSameForTheSameSeed) {
   }
 }
 
-/// How often the covariance covers pushes anywhere on second links, in any pose, whose wrench is wrong by as much
-/// as it is told, and the squared error by that covariance, of which 2 is expected.
+/// How often the covariance covers pushes anywhere on second links, in any pose, whose wrench is wrong by as
+/// much as it is told, and the squared error by that covariance, of which 2 is expected.
 struct Honesty {
   double covered = 0.0, squared_error = 0.0;
 };
