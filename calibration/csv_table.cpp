@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "systems/foundation/nearest_name.h"
+#include "systems/foundation/readable_file.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
@@ -145,10 +146,11 @@ std::vector<std::string> each_once(const std::vector<std::string>& names) {
 }
 
 CsvTable read_csv(const std::filesystem::path& file, char separator, const std::vector<std::string>& wanted) {
+  const std::string problem = problem_with_reading(file);
+  if (!problem.empty()) throw SetupError(file.string() + ": " + problem);
   std::ifstream stream(file, std::ios::binary);
   std::string line;
-  if (!stream || !std::getline(stream, line))
-    throw SetupError(file.string() + ": the file cannot be read or is empty");
+  if (!stream || !std::getline(stream, line)) throw SetupError(file.string() + ": the file cannot be read");
   CsvTable table{.names = each_once(wanted), .values = {}};
   const std::vector<Place> places = places_of(table.names, line, separator, file.string());
   line = {};  // it may be longer than all that follows

@@ -198,7 +198,6 @@ void write_data_set(const DataSet& data, const std::filesystem::path& file) {
 }
 
 DataSet read_data_set(const std::filesystem::path& file) {
-  if (!std::filesystem::is_regular_file(file)) throw SetupError(file.string() + ": there is no such file");
   return out_of(file.string(), [&file] { return read(file); });
 }
 

@@ -11,6 +11,7 @@
 
 #include "learning/onnx_graph.h"
 #include "systems/foundation/problems_of_place.h"
+#include "systems/foundation/readable_file.h"
 #include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
 
@@ -320,10 +321,10 @@ void write_onnx(const ClassifierModel& model, const std::filesystem::path& file)
 }
 
 ClassifierModel read_onnx(const std::filesystem::path& file) {
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(file, error);
-  if (error) throw SetupError(file.string() + ": there is no such file");
-  if (size > largest_file) throw SetupError(file.string() + ": is larger than any network that is served");
+  const std::string problem = problem_with_reading(file);
+  if (!problem.empty()) throw SetupError(file.string() + ": " + problem);
+  if (std::filesystem::file_size(file) > largest_file)
+    throw SetupError(file.string() + ": is larger than any network that is served");
   std::ifstream stream(file, std::ios::binary);
   const std::string bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
   if (!stream) throw SetupError(file.string() + ": the file cannot be read");

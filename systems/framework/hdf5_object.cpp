@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "systems/foundation/readable_file.h"
 #include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/hdf5_chunks.h"
@@ -109,6 +110,8 @@ Hdf5Object create_hdf5_file(const std::filesystem::path& file) {
 }
 
 Hdf5Object open_hdf5_file(const std::filesystem::path& file) {
+  const std::string problem = problem_with_reading(file);
+  if (!problem.empty()) throw SetupError(problem);
   silence_hdf5();
   return {H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose,
           "opening the file: it is no HDF5 file, or its end is missing"};

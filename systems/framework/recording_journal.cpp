@@ -16,6 +16,7 @@
 #include <optional>
 #include <system_error>
 
+#include "systems/foundation/readable_file.h"
 #include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recording_check.h"
@@ -350,6 +351,7 @@ void RecordingJournal::append(const SampleBlock& samples) {
 std::filesystem::path part_name(const std::filesystem::path& file) { return file.string() + ".part"; }
 
 bool is_journal(const std::filesystem::path& file) {
+  if (!problem_with_reading(file).empty()) return false;
   std::uint64_t mark = 0;
   std::ifstream(file, std::ios::binary).read(reinterpret_cast<char*>(&mark), sizeof(mark));
   return mark == description_mark;
@@ -357,6 +359,8 @@ bool is_journal(const std::filesystem::path& file) {
 
 Recording open_journal(const std::filesystem::path& part) {
   try {
+    const std::string problem = problem_with_reading(part);
+    if (!problem.empty()) throw SetupError(problem);
     const auto rows = std::make_shared<JournalRows>(part);
     Recording recording;
     rows->read_frames(recording);

@@ -58,7 +58,9 @@ TEST(Csv, TellsAColumnThatIsNotThere) {
 
 TEST(Csv, ThatIsNotThereIsTold) {
   EXPECT_THAT(test::problems_of([] { read_csv("nowhere.csv", ',', {}); }),
-              ElementsAre(HasSubstr("cannot be read")));
+              ElementsAre("nowhere.csv: there is no such file"));
+  EXPECT_THAT(test::problems_of([] { read_csv("/dev/zero", ',', {}); }),
+              ElementsAre("/dev/zero: is no regular file; it must be one"));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // written or overwritten.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <nlohmann/json.hpp>
 
@@ -168,6 +169,25 @@ TEST_F(BadInput, RecordingThatIsNoRecording) {
               StartsWith("error: " + place.at(collision) + ": this is no whole flinch recording"));
   EXPECT_EQ(complaint({"report", place.at("out/none.h5")}),
             "error: " + place.at("out/none.h5") + ": there is no such file\n");
+}
+
+TEST_F(BadInput, PipeThatNobodyWritesTo) {
+  const test::Workplace pipes;
+  for (const char* const name : {"pipe.yaml", "pipe.h5", "pipe.onnx", "gone.h5.part"})
+    ASSERT_EQ(::mkfifo(pipes.at(name).c_str(), 0600), 0);
+  const std::vector<std::vector<std::string>> calls = {
+      {"check", pipes.at("pipe.yaml")},
+      {"check", pipes.at("pipe.h5")},
+      {"report", pipes.at("pipe.h5")},
+      {"report", pipes.at("gone.h5")},
+      {"run", pipes.at("pipe.yaml")},
+      {"run", pipes.at("pipe.h5"), "--station", "recorded"},
+      {"run", place.at(collision), "--classifier", pipes.at("pipe.onnx")},
+      {"evaluate", pipes.at("pipe.onnx"), pipes.at("pipe.h5")},
+      {"import", pipes.at("pipe.yaml"), "--out", place.at("out/imported.h5")}};
+  for (const std::vector<std::string>& call : calls)
+    EXPECT_THAT(complaint(call), HasSubstr("is no regular file; it must be one"))
+        << call[0] << " " << call[1];
 }
 
 TEST_F(BadInput, RecordingOfAnotherProgram) {

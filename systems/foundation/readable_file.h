@@ -1,0 +1,13 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace flinch {
+
+/// Why a file that somebody has named cannot be read, in words that go after its name; empty if it can.
+/// Whoever opens a pipe or a device may wait for ever, and so may who reads a file of the kernel, which says
+/// that it is empty: these cannot.
+std::string problem_with_reading(const std::filesystem::path& file);
+
+}  // namespace flinch

@@ -1,0 +1,42 @@
+#include "systems/foundation/readable_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+
+namespace flinch {
+namespace {
+
+namespace fs = std::filesystem;
+
+class AFileToBeRead : public testing::Test {
+ protected:
+  AFileToBeRead() { fs::create_directory(folder); }
+  ~AFileToBeRead() override { fs::remove_all(folder); }
+
+  const fs::path folder =
+      fs::temp_directory_path() /
+      (std::string("flinch_readable_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+};
+
+TEST_F(AFileToBeRead, IsThereAndHasBytes) {
+  std::ofstream(folder / "some") << "text";
+  std::ofstream(folder / "empty") << "";
+  EXPECT_EQ(problem_with_reading(folder / "some"), "");
+  EXPECT_EQ(problem_with_reading(folder / "empty"), "is empty");
+  EXPECT_EQ(problem_with_reading(folder / "none"), "there is no such file");
+  EXPECT_EQ(problem_with_reading(folder / "some/below"), "there is no such file");
+  EXPECT_EQ(problem_with_reading(folder), "is a folder; it must be a file");
+}
+
+TEST_F(AFileToBeRead, IsNeitherPipeNorDeviceNorFileOfTheKernel) {
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  fs::create_symlink("pipe", folder / "link");
+  for (const fs::path& file : {folder / "pipe", folder / "link", fs::path("/dev/zero")})
+    EXPECT_EQ(problem_with_reading(file), "is no regular file; it must be one") << file;
+  EXPECT_EQ(problem_with_reading("/proc/version"), "is empty") << "so says it itself";
+}
+
+}  // namespace
+}  // namespace flinch
