@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "learning/page/style.h"
@@ -140,12 +142,20 @@ std::string reliability_chart(const Evaluation& chosen) {
   return chart.finish("probability that it gives; how often it was right");
 }
 
+/// The least of the axes that have four round steps and reach `share`.
+double round_axis(double share) {
+  constexpr std::array steps{0.001, 0.0025, 0.005, 0.0075, 0.01, 0.0125, 0.015, 0.02, 0.025, 0.05, 0.1};
+  for (const double step : steps)
+    if (4.0 * step >= share) return 4.0 * step;
+  return 1.0;
+}
+
 std::string reject_chart(const Evaluation& chosen) {
   // Beyond it there is nothing to see, unless the model itself rejects more.
   const double widest = chosen.accepted.rejected > 0.4 ? 1.0 : 0.4;
-  double highest = 0.01;
+  double highest = 0.0;
   for (const RejectPoint& point : chosen.rejects) highest = std::max(highest, point.wrong_of_accepted);
-  Chart chart(widest, highest, "Reject curve");
+  Chart chart(widest, round_axis(highest), "Reject curve");
   std::string path;
   for (const RejectPoint& point : chosen.rejects) {
     if (point.rejected > widest) break;
