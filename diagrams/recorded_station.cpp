@@ -35,15 +35,17 @@ struct Playback {
   }
 };
 
+Time end_of(const Recording& recording) {
+  return recording.time_ns.empty() ? Time::zero() : Time(recording.time_ns.back()) + recording.period;
+}
+
 }  // namespace
 
 Station add_recorded_station(DiagramBuilder& builder, const Recording& recording, const std::string& prefix,
                              const RequestedFaults& faults) {
-  std::vector<std::string> impossible;
-  for (const RequestedFault& fault : faults.all) {
-    for (std::string& each : problems(fault, FaultPlace::recording)) impossible.push_back(std::move(each));
-  }
-  throw_if_any(std::move(impossible));
+  const bool has_force_torque = has_signal(recording, prefix + "force_torque");
+  require_possible(faults.all,
+                   {.moves = false, .has_force_torque = has_force_torque, .end = end_of(recording)});
   DiagramBuilder inside("station");
   const auto& drives = inside.add<DeafDrives>("deaf_drives");
   const Playback playback{inside, recording, prefix, faults};
@@ -54,9 +56,7 @@ Station add_recorded_station(DiagramBuilder& builder, const Recording& recording
                   .imu = playback.add<ImuReading>("imu"),
                   .status = playback.add<StationStatus>("status"),
                   .force_torque = std::nullopt};
-  if (has_signal(recording, prefix + "force_torque")) {
-    station.force_torque = playback.add<ForceTorqueReading>("force_torque");
-  }
+  if (has_force_torque) station.force_torque = playback.add<ForceTorqueReading>("force_torque");
   builder.add(inside.build());
   return station;
 }

@@ -169,10 +169,25 @@ std::vector<std::string> problems(const RequestedFault& fault, const ParallelRob
   return found.take();
 }
 
-std::vector<std::string> problems(const RequestedFault& fault, FaultPlace place) {
+std::vector<std::string> problems(const RequestedFault& fault, const FaultPlace& place) {
+  Findings found(name_of(fault) + ": ");
   const bool acts = fault.signal == FaultSignal::drive || fault.signal == FaultSignal::brake;
-  if (place == FaultPlace::robot || !acts) return {};
-  return {name_of(fault) + ": a recording does not move; faults of drives and brakes need a simulated robot"};
+  if (acts && !place.moves)
+    found.add("a recording does not move; faults of drives and brakes need a simulated robot");
+  if (fault.signal == FaultSignal::force_torque && !place.has_force_torque)
+    found.add("there is no such sensor; without an obstacle there is none below it");
+  if (fault.begin >= place.end)
+    found.add("it would begin at " + short_number(to_seconds(fault.begin)) + " s, but the run ends at " +
+              short_number(to_seconds(place.end)) + " s");
+  return found.take();
+}
+
+void require_possible(const std::vector<RequestedFault>& faults, const FaultPlace& place) {
+  std::vector<std::string> impossible;
+  for (const RequestedFault& fault : faults) {
+    for (std::string& each : problems(fault, place)) impossible.push_back("fault " + std::move(each));
+  }
+  throw_if_any(std::move(impossible));
 }
 
 void set_signal(RequestedFault& fault, const std::string& text) {

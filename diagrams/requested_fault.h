@@ -58,12 +58,15 @@ inline constexpr Time longest_delay = 60ms;
 std::vector<std::string> problems(const RequestedFault& fault, const ParallelRobot& robot);
 
 /// Where faults are made.
-enum class FaultPlace : std::uint8_t {
-  robot,      ///< of a simulated robot
-  recording,  ///< in what was recorded, which does not answer
+struct FaultPlace {
+  bool moves = true;  ///< As a recording does not: drives and brakes have no effect on it.
+  bool has_force_torque = true;
+  Time end = Time::max();  ///< Of the run.
 };
-/// What cannot be asked for there.
-std::vector<std::string> problems(const RequestedFault& fault, FaultPlace place);
+/// What of it cannot happen there, or would never show.
+std::vector<std::string> problems(const RequestedFault& fault, const FaultPlace& place);
+/// Throws SetupError with all of that.
+void require_possible(const std::vector<RequestedFault>& faults, const FaultPlace& place);
 
 /// The signal with its number, from 1 on, and the kind, as users write them: "encoder2", "drives", "off".
 /// Throws SetupError with the nearest name where there is none called so.

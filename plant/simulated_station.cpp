@@ -1,5 +1,6 @@
 #include "plant/simulated_station.h"
 
+#include "diagrams/requested_fault.h"
 #include "plant/bench_plant.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/random.h"
@@ -92,6 +93,9 @@ SimulatedStationSettings with_ideal_sensors(SimulatedStationSettings settings) {
 
 SimulatedStation add_simulated_station(DiagramBuilder& builder, const SimulatedStationSettings& settings) {
   if (!settings.bench.robot) throw SetupError("a simulated station needs a robot");
+  const bool has_instrument = !settings.instrument.mountings.empty();
+  require_possible(settings.faults,
+                   {.has_force_torque = has_instrument || settings.has_force_torque_sensor()});
   DiagramBuilder inside("station", settings.tick);
   const RequestedFaults faults{settings.faults, settings.tick, settings.seed};
   const Parts parts = add_robot(inside, settings);

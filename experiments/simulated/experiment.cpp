@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "diagrams/contact_control.h"
+#include "diagrams/requested_fault.h"
 #include "experiments/recorded/recorded_signals.h"
 #include "experiments/recorded/robot_as_drawn.h"
 #include "experiments/simulated/contact_teller.h"
@@ -39,6 +40,7 @@ ContactControlSettings judged_control(ContactControlSettings settings) {
 }
 
 Experiment build(const SimulatedScenario& scenario, ContactControlSettings settings) {
+  require_possible(scenario.station.faults, {.end = scenario.duration});
   DiagramBuilder builder("experiment", 1ms);
   const SimulatedStation station = add_simulated_station(builder, scenario.station);
   settings.contact_is_told = !scenario.station.told_contact.empty();

@@ -68,13 +68,25 @@ TEST(RequestedFault, SaysWhatIsWrongWithASentenceAndWhatWouldBeRight) {
 
 TEST(RequestedFault, OfWhatMovesCannotHappenToARecording) {
   const auto refused = [](const char* text) {
-    return problems(parse_fault(text, robot()), FaultPlace::recording);
+    return problems(parse_fault(text, robot()), FaultPlace{.moves = false});
   };
   EXPECT_THAT(refused("drive1:off@1"), ElementsAre(HasSubstr("a recording does not move")));
   EXPECT_THAT(refused("brakes:off@1"), ElementsAre(HasSubstr("a recording does not move")));
   EXPECT_THAT(refused("encoder1:off@1"), IsEmpty());
   EXPECT_THAT(refused("link:off@1"), IsEmpty());
-  EXPECT_THAT(problems(parse_fault("drive1:off@1", robot()), FaultPlace::robot), IsEmpty());
+  EXPECT_THAT(problems(parse_fault("drive1:off@1", robot()), FaultPlace()), IsEmpty());
+}
+
+TEST(RequestedFault, ThatWouldNeverShowIsRefused) {
+  const FaultPlace place{.has_force_torque = false, .end = 3500ms};
+  const auto refused = [&](const char* text) { return problems(parse_fault(text, robot()), place); };
+  EXPECT_THAT(refused("force_torque:off@1"),
+              ElementsAre(HasSubstr("force_torque: there is no such sensor; without an obstacle")));
+  EXPECT_THAT(refused("link:off@3.5"),
+              ElementsAre("link: it would begin at 3.5 s, but the run ends at 3.5 s"));
+  EXPECT_THAT(refused("link:off@3.499"), IsEmpty());
+  EXPECT_THAT(problems(parse_fault("force_torque:off@3600", robot()), FaultPlace()), IsEmpty());
+  EXPECT_THROW(require_possible({parse_fault("force_torque:off@9", robot())}, place), SetupError);
 }
 
 }  // namespace

@@ -101,6 +101,9 @@ TEST(SimulatedStation, HasNoForceTorqueSensorWithoutAPylon) {
   dismounted.force_torque.reset();
   DiagramBuilder other("test", 1ms);
   EXPECT_FALSE(add_simulated_station(other, dismounted).force_torque);
+  dismounted.faults = {{.signal = FaultSignal::force_torque}};
+  DiagramBuilder faulty("test", 1ms);
+  EXPECT_THROW(add_simulated_station(faulty, dismounted), SetupError);
 }
 
 TEST(SimulatedStation, WithIdealSensorsTellsTheTruth) {

@@ -72,6 +72,15 @@ TEST(ScenarioFaults, CanBePutOnTopOfARecordingButForThoseOfWhatMoves) {
       replayed.recording.column("drives", "current", 1)[360] - healthy.column("drives", "current", 1)[360],
       2.0, 1e-12);
   EXPECT_THROW(replay(scenario, healthy, {}, {}, {parse_fault("drives:off@0.1", robot)}), SetupError);
+  EXPECT_THROW(replay(scenario, healthy, {}, {}, {parse_fault("imu:off@0.4", robot)}), SetupError);
+}
+
+TEST(ScenarioFaults, ThatWouldNeverShowAreRefused) {
+  const test::Workplace place;
+  const auto build = [&](const char* fault) { build_experiment(scenario_with(place, fault)); };
+  EXPECT_NO_THROW(build("  - {signal: imu, kind: off, time_s: 0.39}\n"));
+  EXPECT_THROW(build("  - {signal: imu, kind: off, time_s: 0.4}\n"), SetupError);
+  EXPECT_THROW(build("  - {signal: force_torque, kind: off, time_s: 0.1}\n"), SetupError);
 }
 
 }  // namespace
