@@ -1,5 +1,6 @@
 #include "tests/learning/contact_examples.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
@@ -10,60 +11,74 @@
 namespace flinch::test {
 namespace {
 
+constexpr double stiffest = 1e5;  // of what is touched in the data of the shipped models [N/m]
+
 Eigen::Vector2d across(const ParallelRobot& robot, const Kinematics& now, BodyId link) {
   const Eigen::Vector2d axis = robot.point_on_body(now, link, robot.axis_point(link, 1.0)) -
                                robot.point_on_body(now, link, robot.axis_point(link, 0.0));
   return Eigen::Vector2d(-axis.y(), axis.x()).normalized();
 }
 
-/// A force of `size` on a body, against which the point moves that it acts on.
-PlatformVector collision(const ParallelRobot& robot, const Kinematics& now, BodyId body, double size,
-                         RandomGenerator& random) {
-  if (body.is_platform()) {
-    const Eigen::Vector2d velocity = now.velocity.head<2>();
-    const Eigen::Vector2d outwards = velocity.normalized();
-    const ContactJacobian jacobian = robot.contact_jacobian(now, body, 0.05 * outwards);
-    return platform_wrench(jacobian, CartesianVector(-size * outwards));
-  }
-  const CartesianVector point = robot.axis_point(body, random.uniform(0.3, 0.9));
+/// Where a body is touched: the wrench of 1 N there, and how fast the place moves against it [m/s].
+struct Touched {
+  PlatformVector wrench;
+  double speed = 0.0;
+};
+
+Touched touched_at(const ParallelRobot& robot, const Kinematics& now, BodyId body,
+                   const CartesianVector& point, const Eigen::Vector2d& outwards) {
   const ContactJacobian jacobian = robot.contact_jacobian(now, body, point);
-  const Eigen::Vector2d normal = across(robot, now, body);
-  const double side = (jacobian.translation * now.velocity).dot(normal) > 0.0 ? -1.0 : 1.0;
-  return platform_wrench(jacobian, CartesianVector(side * size * normal));
+  return {platform_wrench(jacobian, CartesianVector(-outwards)),
+          (jacobian.translation * now.velocity).dot(outwards)};
 }
 
-/// How fast base and coupling joint of the leg move towards one another [m/s].
+/// The platform in the direction of its motion; a link on the side to which the place moves.
+Touched collision(const ParallelRobot& robot, const Kinematics& now, BodyId body, double fraction) {
+  if (body.is_platform()) {
+    const Eigen::Vector2d outwards = now.velocity.head<2>().normalized();
+    return touched_at(robot, now, body, 0.05 * outwards, outwards);
+  }
+  const Eigen::Vector2d normal = across(robot, now, body);
+  const Touched there = touched_at(robot, now, body, robot.axis_point(body, fraction), normal);
+  return there.speed > 0.0 ? there : touched_at(robot, now, body, robot.axis_point(body, fraction), -normal);
+}
+
+/// How fast the middles of both links of a leg move towards one another: half as fast as its ends [m/s].
 double closing_speed(const ParallelRobot& robot, const Kinematics& now, int leg) {
   const BodyId link = BodyId::link2(leg);
   const CartesianVector velocity =
       robot.contact_jacobian(now, link, robot.axis_point(link, 1.0)).translation * now.velocity;
   const LegPoints& points = now.legs[static_cast<std::size_t>(leg)];
-  return -velocity.dot((points.coupling_joint - points.base_joint).normalized());
+  return -0.5 * velocity.dot((points.coupling_joint - points.base_joint).normalized());
 }
 
-/// A wrench now, 5 ms ago and 10 ms ago.
-using Growing = std::array<PlatformVector, 3>;
-
-/// Equal forces that push both links apart, as far from the elbow on both. That on the first link has grown
-/// for 25 ms, that on the second, which came later, for 15 ms.
-Growing clamping(const ParallelRobot& robot, const Kinematics& now, int leg, double size) {
-  Growing wrench;
-  wrench.fill(PlatformVector::Zero(robot.dof()));
+/// The middles of both links of a leg, on their sides to one another.
+std::array<Touched, 2> clamping(const ParallelRobot& robot, const Kinematics& now, int leg) {
   const LegPoints& points = now.legs[static_cast<std::size_t>(leg)];
-  const CartesianVector middle = 0.5 * (points.base_joint + points.coupling_joint);
-  for (const BodyId link : {BodyId::link1(leg), BodyId::link2(leg)}) {
+  const Eigen::Vector2d middle = 0.5 * (points.base_joint + points.coupling_joint);
+  const auto inside = [&](BodyId link) {
     const CartesianVector point = robot.axis_point(link, 0.5);
     const Eigen::Vector2d normal = across(robot, now, link);
-    const Eigen::Vector2d inwards = middle - robot.point_on_body(now, link, point);
-    const double side = inwards.dot(normal) > 0.0 ? -1.0 : 1.0;
-    const PlatformVector whole =
-        platform_wrench(robot.contact_jacobian(now, link, point), CartesianVector(side * size * normal));
-    for (std::size_t i = 0; i < wrench.size(); ++i) {
-      const double since = (link.is_link1() ? 5.0 : 3.0) - static_cast<double>(i);  // of 5 ms
-      wrench[i] += since / (link.is_link1() ? 5.0 : 3.0) * whole;
-    }
+    const bool is_inwards = (middle - robot.point_on_body(now, link, point)).dot(normal) > 0.0;
+    return touched_at(robot, now, link, point, is_inwards ? normal : Eigen::Vector2d(-normal));
+  };
+  return {inside(BodyId::link1(leg)), inside(BodyId::link2(leg))};
+}
+
+/// The places that are touched, and how fast what touches them is run into [m/s].
+struct Contact {
+  std::array<Touched, 2> places;
+  double speed = 0.0;
+};
+
+Contact contact_of(const ParallelRobot& robot, const Kinematics& now, int touched, double fraction) {
+  const ContactClasses classes = classes_of(robot);
+  if (classes.is_clamping(touched)) {
+    const int leg = classes.leg(touched);
+    return {clamping(robot, now, leg), closing_speed(robot, now, leg)};
   }
-  return wrench;
+  const Touched place = collision(robot, now, ContactClasses::body(touched), fraction);
+  return {{place, {PlatformVector::Zero(robot.dof())}}, place.speed};
 }
 
 }  // namespace
@@ -87,25 +102,28 @@ DataSet contact_examples(int count, std::uint64_t seed) {
     sample.touched = i % classes.count();
     sample.pose = robot.home_pose();
     for (double& coordinate : sample.pose) coordinate += random.uniform(-0.05, 0.05);
-    Kinematics now;
-    const int leg = classes.is_clamping(sample.touched) ? classes.leg(sample.touched) : -1;
+    sample.force = random.uniform(30.0, 80.0);
+    const double fraction = random.uniform(0.3, 0.9);
+    std::array since{random.uniform(3.0, 8.0), random.uniform(3.0, 8.0)};  // of 5 ms
+    if (!classes.is_clamping(sample.touched)) since[1] = since[0];
+    const double least_speed = sample.force / (stiffest * 5e-3 * std::min(since[0], since[1]));
+    Contact contact;
     do {
       const double direction = random.uniform(-M_PI, M_PI);
       sample.velocity = Eigen::Vector3d(0.5 * std::cos(direction), 0.5 * std::sin(direction), 0.0);
+      Kinematics now;
       robot.kinematics(sample.pose, sample.velocity, now);
-    } while (leg >= 0 && closing_speed(robot, now, leg) < 0.25);
-    sample.force = random.uniform(30.0, 80.0);
-    Growing wrench;
-    if (leg >= 0) {
-      wrench = clamping(robot, now, leg, sample.force);
-    } else {
-      wrench[0] = collision(robot, now, ContactClasses::body(sample.touched), sample.force, random);
-      wrench[1] = 2.0 / 3.0 * wrench[0];
-      wrench[2] = 1.0 / 3.0 * wrench[0];
-    }
-    sample.wrench_in_base = wrench[0];
-    sample.change = wrench[0] - wrench[1];
-    sample.change_before = wrench[1] - wrench[2];
+      contact = contact_of(robot, now, sample.touched, fraction);
+    } while (contact.speed < least_speed);
+    const auto wrench_before = [&](int steps) {  // of 5 ms
+      PlatformVector wrench = PlatformVector::Zero(robot.dof());
+      for (std::size_t place = 0; place < since.size(); ++place)
+        wrench += (1.0 - steps / since[place]) * sample.force * contact.places[place].wrench;
+      return wrench;
+    };
+    sample.wrench_in_base = wrench_before(0);
+    sample.change = wrench_before(0) - wrench_before(1);
+    sample.change_before = wrench_before(1) - wrench_before(2);
     for (PlatformVector* noisy : {&sample.wrench_in_base, &sample.change, &sample.change_before})
       *noisy += Eigen::Vector3d(0.5 * random.normal(), 0.5 * random.normal(), 0.05 * random.normal());
     data.samples.push_back(sample);
