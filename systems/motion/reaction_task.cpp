@@ -14,6 +14,8 @@
 namespace flinch {
 namespace {
 
+constexpr double slowest_closing = 0.02;  // of an elbow that bends; slower is noise [rad/s]
+
 bool moves_joints(ReactionKind kind) {
   return kind == ReactionKind::first_link || kind == ReactionKind::opening;
 }
@@ -49,6 +51,29 @@ double platform_speed(const Task& task, const PlatformVector& direction, const K
 
 MotionLimits slowed(const MotionLimits& limits, double share) {
   return {limits.velocity * share, limits.acceleration * share, limits.jerk * share};
+}
+
+/// The elbow of a leg bends: what is between its links gets clamped.
+bool is_closing(const Kinematics& at, int leg) {
+  return at.joints.passive.size() > leg &&
+         std::copysign(1.0, at.joints.passive[leg]) * at.rates.passive[leg] > slowest_closing;
+}
+
+/// A force on the second link comes from between the links.
+bool opens_elbow(const Kinematics& at, int leg, const CartesianVector& force) {
+  const LegPoints& points = at.legs[static_cast<std::size_t>(leg)];
+  return force.dot(points.base_joint - points.passive_joint) < 0.0;
+}
+
+/// How the two joints of a leg move so that it opens, from `rate` on: by (31) the elbow stretches by twice as
+/// much as the first link retreats, and the second link goes back by three times as much. Where the leg still
+/// closes, the first link retreats by no more than it came, for each angle by which the elbow bent: there was
+/// room for what is between the links.
+PlatformVector opening_way(double passive, const PlatformVector& rate) {
+  const double s = std::copysign(1.0, passive);
+  const double bends = s * rate[1];
+  const double retreat = bends > slowest_closing ? std::clamp(2.0 * s * rate[0] / bends, 0.0, 1.0) : 1.0;
+  return Eigen::Vector2d(-s * retreat, -2.0 * s);
 }
 
 /// The force that acts on a second link across its axis; empty where it is too weak to go by.
@@ -101,9 +126,10 @@ void ReactionTask::classify(const Kinematics& at, const WrenchEstimate& contact,
   }
   const BodyId body = ContactClasses::body(touched.most_likely);
   if (body.is_link1()) {
-    const bool turns = contact.drive_torque.size() > plan.leg &&
-                       std::abs(contact.drive_torque[plan.leg]) >= settings_.load_to_go_by;
-    plan.kind = turns ? ReactionKind::first_link : ReactionKind::brake;
+    const double load = contact.drive_torque.size() > plan.leg ? contact.drive_torque[plan.leg] : 0.0;
+    if (!(std::abs(load) >= settings_.load_to_go_by)) return;
+    const bool clamps = is_closing(at, plan.leg) && load * at.joints.passive[plan.leg] < 0.0;
+    plan.kind = clamps ? ReactionKind::opening : ReactionKind::first_link;
     return;
   }
   if (body.is_link2()) {
@@ -114,6 +140,8 @@ void ReactionTask::classify(const Kinematics& at, const WrenchEstimate& contact,
   if (!(force.norm() >= settings_.force_to_go_by)) return;
   plan.kind = body.is_platform() ? ReactionKind::platform : ReactionKind::second_link;
   plan.direction = force.normalized();
+  if (body.is_link2() && is_closing(at, plan.leg) && opens_elbow(at, plan.leg, force))
+    plan.kind = ReactionKind::opening;
 }
 
 Task ReactionTask::task_of(const ReactionPlan& plan, const Kinematics& at) const {
@@ -135,18 +163,12 @@ Task ReactionTask::task_of(const ReactionPlan& plan, const Kinematics& at) const
   return no_task(1, robot_->dof());
 }
 
-// (31): the first link retreats and the elbow stretches, so that the second link goes back with it by three
-// times as much.
-PlatformVector ReactionTask::displacement(const ReactionPlan& plan, const Kinematics& at,
-                                          const WrenchEstimate& contact) const {
+PlatformVector ReactionTask::displacement(const ReactionPlan& plan, const WrenchEstimate& contact) const {
   if (plan.kind == ReactionKind::first_link) {
     const double sign = std::copysign(1.0, contact.drive_torque[plan.leg]);
     return PlatformVector::Constant(1, sign * settings_.first_link_angle);
   }
-  if (plan.kind == ReactionKind::opening) {
-    const double s = std::copysign(1.0, at.joints.passive[plan.leg]);
-    return Eigen::Vector2d(-s * plan.opened, -2.0 * s * plan.opened);
-  }
+  if (plan.kind == ReactionKind::opening) return plan.opened * plan.way;
   if (settings_.along_force_only) return PlatformVector::Constant(1, settings_.displacement);
   return settings_.displacement * plan.direction;
 }
@@ -177,7 +199,9 @@ void ReactionTask::begin(Time now, const Kinematics& at, const Dynamics& model, 
     plan.kind = ReactionKind::brake;
     return;
   }
-  move(now, task, task.rate(at.velocity), displacement(plan, at, contact), at, model, plan);
+  const PlatformVector rate = task.rate(at.velocity);
+  if (plan.kind == ReactionKind::opening) plan.way = opening_way(at.joints.passive[plan.leg], rate);
+  move(now, task, rate, displacement(plan, contact), at, model, plan);
 }
 
 bool ReactionTask::feels(const WrenchEstimate& contact) const {
@@ -201,9 +225,9 @@ void ReactionTask::plan(Time now, const ReactionPlan& last, const ReactionState&
                         const ContactClassification& touched, const ContactLocation& place,
                         ReactionPlan& next) const {
   const Time decided = state.since + settings_.decide_within;
-  const bool is_open =
+  const bool undecided =
       last.kind == ReactionKind::brake && state.mode == ReactionMode::react && now <= decided;
-  if (is_open || state.entered(ReactionMode::react, now)) {
+  if (undecided || state.entered(ReactionMode::react, now)) {
     next = ReactionPlan();
     classify(at, contact, touched, place, next);
     begin(now, at, model, contact, next);
@@ -214,13 +238,17 @@ void ReactionTask::plan(Time now, const ReactionPlan& last, const ReactionState&
   if (next.kind != ReactionKind::opening) return;
   if (feels(contact)) next.touched = now;
   const bool more = has_arrived(now, next) && feels(contact) && state.mode == ReactionMode::react;
-  const double step = std::min(settings_.opening_step, settings_.largest_opening - next.opened);
-  if (!more || !(step > 0.0) || !at.valid || !model.valid) return;
-  next.opened += step;
-  const double s = std::copysign(1.0, at.joints.passive[next.leg]);
-  Task task = task_of(next, at);
-  task.sigma = next.motion.goal();
-  move(now, task, Eigen::Vector2d::Zero(), Eigen::Vector2d(-s * step, -2.0 * s * step), at, model, next);
+  if (more && next.opened < settings_.largest_opening && at.valid && model.valid)
+    open_further(now, at, model, next);
+}
+
+void ReactionTask::open_further(Time now, const Kinematics& at, const Dynamics& model,
+                                ReactionPlan& plan) const {
+  const double step = std::min(settings_.opening_step, settings_.largest_opening - plan.opened);
+  plan.opened += step;
+  Task task = task_of(plan, at);
+  task.sigma = plan.motion.goal();
+  move(now, task, Eigen::Vector2d::Zero(), step * plan.way, at, model, plan);
 }
 
 // ---------------------------------------------------------------- what follows from it at a tick

@@ -33,6 +33,7 @@ struct ReactionPlan {
   int leg = -1;                   ///< of a link or clamping
   CartesianVector point_in_body;  ///< of a second link
   CartesianVector direction;      ///< of the force; empty where both directions are a task
+  PlatformVector way;             ///< of the two joints of a leg that opens, for 1 rad of `opened`
   SynchronisedMotion motion;      ///< of the task
   Time begin{};         ///< of that motion; of braking, when it is decided that nothing else follows
   double opened = 0.0;  ///< planned opening of the first link [rad]
@@ -45,8 +46,10 @@ inline constexpr bool never_allocates<ReactionPlan> =
 
 /// Gives way to a contact as its class asks for: at the tick at which the reaction begins class, place,
 /// direction of the force and leg are frozen, and a jerk-limited motion of the task of that class is planned
-/// from how it moves now. An opening that has arrived goes on by `opening_step` where
-/// a force is still felt, up to the largest opening. [SafePR] IV-B, Alg. 5
+/// from how it moves now. An opening that has arrived goes on by `opening_step` where a force is still felt,
+/// up to the largest opening. [SafePR] IV-B, Alg. 5
+///
+/// A link of a leg that closes, touched from between its links, is answered by opening too. (Derived.)
 ///
 /// Where the class is not accepted, or the force has no direction yet, the list has no task: the robot is
 /// braked. It may still be decided for `decide_within` after the detection.
@@ -96,11 +99,11 @@ class ReactionTask final : public System {
   void move(Time now, const Task& task, const PlatformVector& rate, const PlatformVector& displacement,
             const Kinematics& at, const Dynamics& model, ReactionPlan& plan) const;
   Task task_of(const ReactionPlan& plan, const Kinematics& at) const;
-  PlatformVector displacement(const ReactionPlan& plan, const Kinematics& at,
-                              const WrenchEstimate& contact) const;
+  PlatformVector displacement(const ReactionPlan& plan, const WrenchEstimate& contact) const;
   bool feels(const WrenchEstimate& contact) const;
   bool is_released(Time now, const ReactionPlan& plan) const;
   bool has_arrived(Time now, const ReactionPlan& plan) const;
+  void open_further(Time now, const Kinematics& at, const Dynamics& model, ReactionPlan& plan) const;
   TaskGains gains_of(const ReactionPlan& plan, int rows) const;
 
   std::shared_ptr<const ParallelRobot> robot_;

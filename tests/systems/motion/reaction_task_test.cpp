@@ -6,6 +6,7 @@
 
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/diagram_builder.h"
+#include "systems/robot/reaction_tasks.h"
 #include "tests/support/allocations.h"
 #include "tests/support/planar_bench.h"
 #include "tests/support/ticking.h"
@@ -59,6 +60,24 @@ struct Reaction {
       builder.export_input("classification", block.classification);
   InputPort<ContactLocation> location = builder.export_input("location", block.location);
   test::Ticking ticking{builder};
+};
+
+/// A motion by which the elbow of the second leg bends, its first link half as fast times `advance` towards
+/// what is between the links; and forces of that.
+struct ClosingLeg {
+  ClosingLeg(const PlanarRrr& robot, const Eigen::Vector3d& pose, double advance = 1.0) {
+    const test::Posture still(robot, pose, Eigen::Vector3d::Zero());
+    const Kinematics& at = still.kinematics;
+    const double s = std::copysign(1.0, at.joints.passive[1]);
+    const PlatformMatrix J = stacked(drive_task(at, 1), passive_joint_task(at, 1)).J;
+    twist = J.completeOrthogonalDecomposition().solve(Eigen::Vector2d(0.5 * s * advance, s));
+    force_on_link1 = at.J_qa_x.transpose() * Eigen::Vector3d(0, -10.0 * s, 0);
+    const LegPoints& leg = at.legs[1];
+    force_on_link2.head(2) = 20.0 * (leg.passive_joint - leg.base_joint).normalized();
+  }
+  Eigen::Vector3d twist;
+  Eigen::Vector3d force_on_link1;                            ///< as seen at the platform
+  Eigen::Vector3d force_on_link2 = Eigen::Vector3d::Zero();  ///< likewise
 };
 
 constexpr int platform = 0;
@@ -138,6 +157,39 @@ TEST(ReactionTask, AClampingLegOpensAndItsFirstLinkRetreats) {
   const double s = std::copysign(1.0, reaction.posture->kinematics.joints.passive[1]);
   EXPECT_NEAR(goal.reference.error[0], -s * 0.2094, 1e-9);
   EXPECT_NEAR(goal.reference.error[1], -2.0 * s * 0.2094, 1e-9);
+}
+
+// There was room for what it clamps before the robot came: a first link that hardly moved hardly retreats.
+TEST(ReactionTask, ALegThatClosesOpensTheWayItCame) {
+  const Eigen::Vector3d pose(0.02, 0.01, 0.05);
+  for (const int touched : {leg2_clamping, leg2_link1, leg2_link2}) {
+    for (const double retreat : {-0.5, 0.0, 0.25, 1.0, 3.0}) {
+      Reaction reaction;
+      const ClosingLeg leg(*reaction.robot, pose, retreat);
+      reaction.know(touched, touched == leg2_link2 ? leg.force_on_link2 : leg.force_on_link1, pose,
+                    leg.twist);
+      reaction.begin();
+      reaction.know(touched, {0, 0, 0}, pose);
+      const Eigen::Vector2d goal = reaction.go_on(1000ms).goals[0].reference.error;
+      EXPECT_EQ(reaction.ticking.get(reaction.block.kind), ReactionKind::opening) << touched;
+      const double s = std::copysign(1.0, reaction.posture->kinematics.joints.passive[1]);
+      EXPECT_NEAR(goal[0], -s * 0.2094 * std::clamp(retreat, 0.0, 1.0), 1e-9) << touched;
+      EXPECT_NEAR(goal[1], -2.0 * s * 0.2094, 1e-9) << touched;
+    }
+  }
+}
+
+TEST(ReactionTask, ALinkThatIsTouchedFromOutsideOfAClosingLegDoesNotOpenIt) {
+  const Eigen::Vector3d pose(0.02, 0.01, 0.05);
+  for (const int touched : {leg2_link1, leg2_link2}) {
+    Reaction reaction;
+    const ClosingLeg leg(*reaction.robot, pose);
+    reaction.know(touched, touched == leg2_link2 ? -leg.force_on_link2 : -leg.force_on_link1, pose,
+                  leg.twist);
+    reaction.begin();
+    EXPECT_EQ(reaction.ticking.get(reaction.block.kind),
+              touched == leg2_link1 ? ReactionKind::first_link : ReactionKind::second_link);
+  }
 }
 
 TEST(ReactionTask, AClampingLegOpensFurtherUntilNothingIsFeltForAWhile) {
