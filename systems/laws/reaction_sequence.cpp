@@ -18,7 +18,8 @@ ReactionMode next_mode(ReactionMode mode, const ReactionEvents& events) noexcept
     case react:
       return events.arrived ? hold : react;
     case hold:
-      return events.reset ? nominal : hold;
+      if (events.reset) return nominal;
+      return events.goes_on ? react : hold;
     case zero_g:
       return events.reset && events.quiet ? nominal : zero_g;
   }
@@ -29,14 +30,15 @@ ReactionSequence::ReactionSequence(const ReactionSequenceSettings& settings) : s
   if (!(settings.rest_speed > 0)) throw SetupError("reaction sequence: rest_speed must be positive");
 }
 
-ReactionState ReactionSequence::advance(Time now, const ReactionState& last, bool arrived, GatePhase phase,
-                                        const ContactDetection& contact, const JointMotion& motion,
-                                        const ResetCommand& command) const {
+ReactionState ReactionSequence::advance(Time now, const ReactionState& last, bool arrived, bool goes_on,
+                                        GatePhase phase, const ContactDetection& contact,
+                                        const JointMotion& motion, const ResetCommand& command) const {
   const ContactLevel level = contact.valid ? contact.present_level : ContactLevel::none;
   const ReactionEvents events{.gate_open = phase == GatePhase::open,
                               .touched = level != ContactLevel::none,
                               .struck = level == ContactLevel::hard && settings_.zero_g_when_struck,
                               .arrived = arrived,
+                              .goes_on = goes_on,
                               .quiet = is_quiet(contact, motion),
                               .reset = command.reset,
                               .recovering = phase == GatePhase::recovering};

@@ -16,6 +16,7 @@ struct ReactionEvents {
   bool touched = false;     ///< a contact reaches the reaction threshold now
   bool struck = false;      ///< a contact reaches the hard threshold now
   bool arrived = false;     ///< the reaction motion has come to rest
+  bool goes_on = false;     ///< it moves
   bool quiet = false;       ///< known to be free of contact and nearly at rest
   bool reset = false;       ///< the operator asks for it
   bool recovering = false;  ///< the torque gate lets reduced torques through, for the way back inside
@@ -23,17 +24,17 @@ struct ReactionEvents {
 
 /// The state machine of [SafePR] Alg. 5, extended by what the torque gate does:
 ///
-///   from \ event  recovering  gate closed  struck  touched  arrived  reset            gate open
-///   stopped       recover     .            zero_g  .        .        .                nominal
-///   nominal       recover     stopped      zero_g  react    .        .                .
-///   react         recover     stopped      zero_g  .        hold     .                .
-///   hold          recover     stopped      zero_g  .        .        nominal          .
-///   zero_g        recover     stopped      .       .        .        nominal if quiet .
-///   recover       .           stopped      zero_g  .        .        .                nominal
+///   from \ event  recovering  gate closed  struck  touched  arrived  reset            goes on  gate open
+///   stopped       recover     .            zero_g  .        .        .                .        nominal
+///   nominal       recover     stopped      zero_g  react    .        .                .        .
+///   react         recover     stopped      zero_g  .        hold     .                .        .
+///   hold          recover     stopped      zero_g  .        .        nominal          react    .
+///   zero_g        recover     stopped      .       .        .        nominal if quiet .        .
+///   recover       .           stopped      zero_g  .        .        .                .        nominal
 ///
 /// Columns to the left win. A contact in a recovery is a fault: the estimate may not be good enough there to
 /// give way by it. Nothing resumes by itself: a reaction ends only by reset, and the gate, once it
-/// has closed, opens only by reset. A contact during a reaction changes nothing unless it is hard.
+/// has closed, opens only by reset.
 ReactionMode next_mode(ReactionMode mode, const ReactionEvents& events) noexcept;
 
 struct ReactionSequenceSettings {
@@ -46,6 +47,7 @@ struct ReactionSequenceSettings {
 class ReactionSequence final : public System {
   State<ReactionState> last_ = state<ReactionState>("last");
   State<bool> arrived_ = state<bool>("arrived", false);
+  State<bool> goes_on_ = state<bool>("goes_on", false);
   State<GatePhase> gate_ = state<GatePhase>("gate", GatePhase::waiting);
 
  public:
@@ -58,18 +60,20 @@ class ReactionSequence final : public System {
   InputPort<GateStatus> gate = input<GateStatus>("gate");
   InputPort<ResetCommand> reset = input<ResetCommand>("reset");
 
-  OutputPort<ReactionState> reaction_state =
-      output<&ReactionSequence::advance>("state", clock, last_, arrived_, gate_, detection, joints, reset);
+  OutputPort<ReactionState> reaction_state = output<&ReactionSequence::advance>(
+      "state", clock, last_, arrived_, goes_on_, gate_, detection, joints, reset);
 
  private:
   Update remember_ = keep(last_, reaction_state);
   Update arrive_ = update<&ReactionSequence::has_arrived>(arrived_, reaction);
+  Update go_on_ = update<&ReactionSequence::moves>(goes_on_, reaction);
   Update open_ = update<&ReactionSequence::phase_of>(gate_, gate);
 
-  ReactionState advance(Time now, const ReactionState& last, bool arrived, GatePhase phase,
+  ReactionState advance(Time now, const ReactionState& last, bool arrived, bool goes_on, GatePhase phase,
                         const ContactDetection& contact, const JointMotion& motion,
                         const ResetCommand& command) const;
   bool has_arrived(const PlatformReference& retreat) const { return retreat.valid && retreat.finished; }
+  bool moves(const PlatformReference& retreat) const { return retreat.valid && !retreat.finished; }
   GatePhase phase_of(const GateStatus& status) const { return status.phase; }
   bool is_quiet(const ContactDetection& contact, const JointMotion& motion) const;
 

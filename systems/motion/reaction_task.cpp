@@ -16,8 +16,14 @@ namespace {
 
 constexpr double slowest_closing = 0.02;  // of an elbow that bends; slower is noise [rad/s]
 
+bool is_reacting(ReactionMode mode) { return mode == ReactionMode::react || mode == ReactionMode::hold; }
+
 bool moves_joints(ReactionKind kind) {
   return kind == ReactionKind::first_link || kind == ReactionKind::opening;
+}
+
+PlatformMatrix inverse(const PlatformMatrix& M) {
+  return M.llt().solve(PlatformMatrix(PlatformMatrix::Identity(M.rows(), M.rows())));
 }
 
 // v = W J^T (J W J^T)^-1 d: how the platform moves where the task alone moves along `direction` with a rate
@@ -31,8 +37,7 @@ PlatformVector least_motion(const Task& task, const PlatformVector& direction, c
 // Largest speed of a coupling joint in such a motion, on the torque level and on those of the drives.
 double platform_speed(const Task& task, const PlatformVector& direction, const Kinematics& at,
                       const Dynamics& model, int translations) {
-  const auto n = model.M_x.rows();
-  const PlatformMatrix by_inertia = model.M_x.llt().solve(PlatformMatrix(PlatformMatrix::Identity(n, n)));
+  const PlatformMatrix by_inertia = inverse(model.M_x);
   const PlatformMatrix by_drives = at.J_x_qa * at.J_x_qa.transpose();
   double reach = 0.0;
   for (int leg = 0; leg < drive_count(at); ++leg) {
@@ -97,6 +102,7 @@ std::vector<std::string> problems(const ReactionTaskSettings& settings) {
   found.require(settings.decide_within >= Time::zero(), "decide_within must not be negative");
   found.require(settings.released_force > 0 && settings.released_moment > 0,
                 "thresholds of a release must be positive");
+  found.require(settings.pressed_for >= Time::zero(), "pressed_for must not be negative");
   found.require(settings.released_for >= Time::zero(), "released_for must not be negative");
   found.require(can_be_planned_with(settings.translation), "limits of translation must be positive");
   found.require(can_be_planned_with(settings.joint), "limits of joints must be positive");
@@ -193,14 +199,17 @@ void ReactionTask::begin(Time now, const Kinematics& at, const Dynamics& model, 
                          ReactionPlan& plan) const {
   plan.begin = now;
   plan.touched = now;
-  plan.opened = settings_.opening_angle;
+  plan.unpressed = now;
   const Task task = task_of(plan, at);
   if (!task.valid || !model.valid) {
     plan.kind = ReactionKind::brake;
     return;
   }
   const PlatformVector rate = task.rate(at.velocity);
-  if (plan.kind == ReactionKind::opening) plan.way = opening_way(at.joints.passive[plan.leg], rate);
+  if (plan.kind == ReactionKind::opening) {
+    plan.opened = settings_.opening_angle;
+    plan.way = opening_way(at.joints.passive[plan.leg], rate);
+  }
   move(now, task, rate, displacement(plan, contact), at, model, plan);
 }
 
@@ -227,7 +236,7 @@ void ReactionTask::plan(Time now, const ReactionPlan& last, const ReactionState&
   const Time decided = state.since + settings_.decide_within;
   const bool undecided =
       last.kind == ReactionKind::brake && state.mode == ReactionMode::react && now <= decided;
-  if (undecided || state.entered(ReactionMode::react, now)) {
+  if (undecided || (state.entered(ReactionMode::react, now) && state.previous != ReactionMode::hold)) {
     next = ReactionPlan();
     classify(at, contact, touched, place, next);
     begin(now, at, model, contact, next);
@@ -235,11 +244,48 @@ void ReactionTask::plan(Time now, const ReactionPlan& last, const ReactionState&
     return;
   }
   next = last;
-  if (next.kind != ReactionKind::opening) return;
   if (feels(contact)) next.touched = now;
-  const bool more = has_arrived(now, next) && feels(contact) && state.mode == ReactionMode::react;
-  if (more && next.opened < settings_.largest_opening && at.valid && model.valid)
-    open_further(now, at, model, next);
+  if (!is_reacting(state.mode) || !at.valid || !model.valid) return;
+  const bool opens = next.kind == ReactionKind::opening && next.opened < settings_.largest_opening;
+  if (opens && has_arrived(now, next)) {
+    next.unpressed = now;
+    if (feels(contact)) open_further(now, at, model, next);
+    return;
+  }
+  if (!presses(now, next, at, model, contact)) {
+    next.unpressed = now;
+  } else if (now - next.unpressed >= settings_.pressed_for) {
+    next = decided_anew(now, next, at, model, contact, touched, place);
+  }
+}
+
+ReactionPlan ReactionTask::decided_anew(Time now, const ReactionPlan& last, const Kinematics& at,
+                                        const Dynamics& model, const WrenchEstimate& contact,
+                                        const ContactClassification& touched,
+                                        const ContactLocation& place) const {
+  ReactionPlan next;
+  classify(at, contact, touched, place, next);
+  if (next.kind == ReactionKind::opening && next.leg == last.leg && last.opened > 0.0) {
+    if (last.kind == ReactionKind::opening && !has_arrived(now, last)) {
+      next = last;
+      next.unpressed = now;
+      return next;
+    }
+    next.kind = ReactionKind::brake;
+    next.opened = last.opened;
+  }
+  begin(now, at, model, contact, next);
+  return next;
+}
+
+bool ReactionTask::presses(Time now, const ReactionPlan& plan, const Kinematics& at, const Dynamics& model,
+                           const WrenchEstimate& contact) const {
+  if (!feels(contact)) return false;
+  if (has_arrived(now, plan)) return true;
+  const Task task = task_of(plan, at);
+  if (!task.valid || contact.wrench_in_base.size() != robot_->dof()) return false;
+  const PlatformVector ahead = error_of(plan, task, plan.motion.goal());
+  return least_motion(task, ahead, inverse(model.M_x)).dot(contact.wrench_in_base) < 0.0;
 }
 
 void ReactionTask::open_further(Time now, const Kinematics& at, const Dynamics& model,
@@ -259,11 +305,16 @@ void ReactionTask::lead(Time now, const ReactionPlan& plan, const Kinematics& at
   const Task task = task_of(plan, at);
   const VectorMotion wanted = plan.motion.evaluate(to_seconds(now - plan.begin));
   if (!task.valid || !wanted.valid || wanted.position.size() != task.rows()) return;
-  PlatformVector error = wanted.position - task.sigma;
-  if (moves_joints(plan.kind) && robot_->drive_kind(plan.leg) == DriveKind::revolute) {
-    error = error.unaryExpr([](double angle) { return wrap_angle(angle); });
-  }
-  list.add({task, {error, wanted.velocity, wanted.acceleration}, gains_of(plan, task.rows())});
+  list.add({task,
+            {error_of(plan, task, wanted.position), wanted.velocity, wanted.acceleration},
+            gains_of(plan, task.rows())});
+}
+
+PlatformVector ReactionTask::error_of(const ReactionPlan& plan, const Task& task,
+                                      const PlatformVector& wanted) const {
+  const PlatformVector error = wanted - task.sigma;
+  if (!moves_joints(plan.kind) || robot_->drive_kind(plan.leg) != DriveKind::revolute) return error;
+  return error.unaryExpr([](double angle) { return wrap_angle(angle); });
 }
 
 void ReactionTask::follow(Time now, const ReactionPlan& plan, const Kinematics& at,

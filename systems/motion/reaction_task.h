@@ -38,6 +38,7 @@ struct ReactionPlan {
   Time begin{};         ///< of that motion; of braking, when it is decided that nothing else follows
   double opened = 0.0;  ///< planned opening of the first link [rad]
   Time touched{};       ///< tick at which a force was last felt
+  Time unpressed{};     ///< tick at which the robot last did not press against what it feels
 };
 
 template <>
@@ -49,7 +50,8 @@ inline constexpr bool never_allocates<ReactionPlan> =
 /// from how it moves now. An opening that has arrived goes on by `opening_step` where a force is still felt,
 /// up to the largest opening. [SafePR] IV-B, Alg. 5
 ///
-/// A link of a leg that closes, touched from between its links, is answered by opening too. (Derived.)
+/// A link of a leg that closes, touched from between its links, is answered by opening too. What is still
+/// felt after the motion, or lies on its way, is given way to anew. (Derived.)
 ///
 /// Where the class is not accepted, or the force has no direction yet, the list has no task: the robot is
 /// braked. It may still be decided for `decide_within` after the detection.
@@ -103,7 +105,14 @@ class ReactionTask final : public System {
   bool feels(const WrenchEstimate& contact) const;
   bool is_released(Time now, const ReactionPlan& plan) const;
   bool has_arrived(Time now, const ReactionPlan& plan) const;
+  ReactionPlan decided_anew(Time now, const ReactionPlan& last, const Kinematics& at, const Dynamics& model,
+                            const WrenchEstimate& contact, const ContactClassification& touched,
+                            const ContactLocation& place) const;
+  /// What is felt stays, or the motion leads into it.
+  bool presses(Time now, const ReactionPlan& plan, const Kinematics& at, const Dynamics& model,
+               const WrenchEstimate& contact) const;
   void open_further(Time now, const Kinematics& at, const Dynamics& model, ReactionPlan& plan) const;
+  PlatformVector error_of(const ReactionPlan& plan, const Task& task, const PlatformVector& wanted) const;
   TaskGains gains_of(const ReactionPlan& plan, int rows) const;
 
   std::shared_ptr<const ParallelRobot> robot_;

@@ -42,6 +42,8 @@ const std::map<Transition, Needs> legal{
     {{react, hold}, [](const ReactionEvents& e) { return e.gate_open && !e.struck && e.arrived; }},
     {{react, zero_g}, [](const ReactionEvents& e) { return e.gate_open && e.struck; }},
     {{hold, stopped}, [](const ReactionEvents& e) { return !e.gate_open; }},
+    {{hold, react},
+     [](const ReactionEvents& e) { return e.gate_open && !e.struck && !e.reset && e.goes_on; }},
     {{hold, nominal}, [](const ReactionEvents& e) { return e.gate_open && !e.struck && e.reset; }},
     {{hold, zero_g}, [](const ReactionEvents& e) { return e.gate_open && e.struck; }},
     {{zero_g, stopped}, [](const ReactionEvents& e) { return !e.gate_open; }},
@@ -57,13 +59,14 @@ ReactionEvents events_from_bits(unsigned bits) {
           .touched = (bits & 2U) != 0,
           .struck = (bits & 4U) != 0,
           .arrived = (bits & 8U) != 0,
+          .goes_on = (bits & 32U) != 0,
           .quiet = (bits & 16U) != 0,
-          .reset = (bits & 32U) != 0};
+          .reset = (bits & 64U) != 0};
 }
 
 TEST(NextMode, MakesEveryLegalTransitionAndNoOther) {
   for (const ReactionMode from : modes) {
-    for (unsigned bits = 0; bits < 64; ++bits) {
+    for (unsigned bits = 0; bits < 128; ++bits) {
       const ReactionEvents events = events_from_bits(bits);
       const ReactionMode next = next_mode(from, events);
       for (const ReactionMode to : modes) {
@@ -78,7 +81,7 @@ TEST(NextMode, MakesEveryLegalTransitionAndNoOther) {
 
 TEST(NextMode, RecoversWhateverElseHappens) {
   for (const ReactionMode from : modes) {
-    for (unsigned bits = 0; bits < 64; ++bits) {
+    for (unsigned bits = 0; bits < 128; ++bits) {
       ReactionEvents events = events_from_bits(bits);
       events.recovering = true;
       EXPECT_EQ(next_mode(from, events), recover);
@@ -87,7 +90,7 @@ TEST(NextMode, RecoversWhateverElseHappens) {
 }
 
 TEST(NextMode, LeavesAReactionOnlyByReset) {
-  for (unsigned bits = 0; bits < 32; ++bits) {
+  for (unsigned bits = 0; bits < 64; ++bits) {
     for (const ReactionMode from : {react, hold, zero_g}) {
       EXPECT_NE(next_mode(from, events_from_bits(bits)), nominal);
     }
@@ -120,9 +123,9 @@ struct Sequence {
         joints,
         {.valid = true, .position = Eigen::Vector3d::Zero(), .velocity = Eigen::Vector3d(0, -speed, 0)});
   }
-  void set_finished(bool finished) {
+  void set_finished(bool finished, bool valid = true) {
     ticking.set(reaction,
-                {.valid = true, .finished = finished, .pose = {}, .velocity = {}, .acceleration = {}});
+                {.valid = valid, .finished = finished, .pose = {}, .velocity = {}, .acceleration = {}});
   }
   const ReactionState& tick(bool reset_now = false) {
     ticking.set(reset, {.reset = reset_now});
@@ -206,6 +209,27 @@ TEST(ReactionSequence, StaysInHoldThroughFurtherContactsUntilReset) {
   sequence.set_level(ContactLevel::none);
   EXPECT_EQ(sequence.tick().mode, hold);
   EXPECT_EQ(sequence.tick(true).mode, nominal);
+}
+
+TEST(ReactionSequence, StaysInHoldWhenNothingIsKnownOfTheReaction) {
+  Sequence sequence;
+  sequence.go_to_hold();
+  sequence.set_finished(false, false);
+  sequence.tick();
+  EXPECT_EQ(sequence.tick().mode, hold);
+}
+
+TEST(ReactionSequence, GivesWayAgainATickAfterTheReactionGoesOn) {
+  Sequence sequence;
+  sequence.go_to_hold();
+  sequence.set_finished(false);
+  EXPECT_EQ(sequence.tick().mode, hold);
+  const ReactionState& state = sequence.tick();
+  EXPECT_EQ(state.mode, react);
+  EXPECT_EQ(state.previous, hold);
+  sequence.set_finished(true);
+  sequence.tick();
+  EXPECT_EQ(sequence.tick().mode, hold);
 }
 
 TEST(ReactionSequence, LeavesZeroGravityOnlyWhenFreeOfContactAndAtRest) {
