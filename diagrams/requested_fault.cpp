@@ -174,6 +174,8 @@ std::vector<std::string> problems(const RequestedFault& fault, const FaultPlace&
   const bool acts = fault.signal == FaultSignal::drive || fault.signal == FaultSignal::brake;
   if (acts && !place.moves)
     found.add("a recording does not move; faults of drives and brakes need a simulated robot");
+  if (fault.signal == FaultSignal::passive_encoder && !place.has_passive_encoders)
+    found.add("there are no passive encoders");
   if (fault.signal == FaultSignal::force_torque && !place.has_force_torque)
     found.add("there is no such sensor; without an obstacle there is none below it");
   if (fault.begin >= place.end)

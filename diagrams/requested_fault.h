@@ -60,6 +60,7 @@ std::vector<std::string> problems(const RequestedFault& fault, const ParallelRob
 /// Where faults are made.
 struct FaultPlace {
   bool moves = true;  ///< As a recording does not: drives and brakes have no effect on it.
+  bool has_passive_encoders = true;
   bool has_force_torque = true;
   Time end = Time::max();  ///< Of the run.
 };

@@ -95,7 +95,8 @@ SimulatedStation add_simulated_station(DiagramBuilder& builder, const SimulatedS
   if (!settings.bench.robot) throw SetupError("a simulated station needs a robot");
   const bool has_instrument = !settings.instrument.mountings.empty();
   require_possible(settings.faults,
-                   {.has_force_torque = has_instrument || settings.has_force_torque_sensor()});
+                   {.has_passive_encoders = settings.encoders.passive_mounted,
+                    .has_force_torque = has_instrument || settings.has_force_torque_sensor()});
   DiagramBuilder inside("station", settings.tick);
   const RequestedFaults faults{settings.faults, settings.tick, settings.seed};
   const Parts parts = add_robot(inside, settings);

@@ -82,6 +82,8 @@ TEST(RequestedFault, ThatWouldNeverShowIsRefused) {
   const auto refused = [&](const char* text) { return problems(parse_fault(text, robot()), place); };
   EXPECT_THAT(refused("force_torque:off@1"),
               ElementsAre(HasSubstr("force_torque: there is no such sensor; without an obstacle")));
+  EXPECT_THAT(problems(parse_fault("passive_encoder2:off@1", robot()), {.has_passive_encoders = false}),
+              ElementsAre("passive_encoder2: there are no passive encoders"));
   EXPECT_THAT(refused("link:off@3.5"),
               ElementsAre("link: it would begin at 3.5 s, but the run ends at 3.5 s"));
   EXPECT_THAT(refused("link:off@3.499"), IsEmpty());

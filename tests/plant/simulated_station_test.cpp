@@ -106,6 +106,16 @@ TEST(SimulatedStation, HasNoForceTorqueSensorWithoutAPylon) {
   EXPECT_THROW(add_simulated_station(faulty, dismounted), SetupError);
 }
 
+TEST(SimulatedStation, RefusesFaultsOfPassiveEncodersThatAreNotMounted) {
+  SimulatedStationSettings settings = noisy_station();
+  settings.faults = {{.signal = FaultSignal::passive_encoder}};
+  DiagramBuilder mounted("test", 1ms);
+  EXPECT_NO_THROW(add_simulated_station(mounted, settings));
+  settings.encoders.passive_mounted = false;
+  DiagramBuilder dismounted("test", 1ms);
+  EXPECT_THROW(add_simulated_station(dismounted, settings), SetupError);
+}
+
 TEST(SimulatedStation, WithIdealSensorsTellsTheTruth) {
   const SimulatedStationSettings settings = with_ideal_sensors(noisy_station());
   test::ServoedStation station(settings);
