@@ -151,6 +151,9 @@ std::string short_number(double value) {
   return error == std::errc{} ? std::string(text.data(), end) : std::string();
 }
 
+// By a quotient, which is the nearest number to what users wrote; a product with 1e-9 is not.
+std::string seconds_text(Time time) { return short_number(static_cast<double>(time.count()) / 1e9); }
+
 }  // namespace
 
 std::vector<std::string> problems(const RequestedFault& fault, const ParallelRobot& robot) {
@@ -179,8 +182,8 @@ std::vector<std::string> problems(const RequestedFault& fault, const FaultPlace&
   if (fault.signal == FaultSignal::force_torque && !place.has_force_torque)
     found.add("there is no such sensor; without an obstacle there is none below it");
   if (fault.begin >= place.end)
-    found.add("it would begin at " + short_number(to_seconds(fault.begin)) + " s, but the run ends at " +
-              short_number(to_seconds(place.end)) + " s");
+    found.add("it would begin at " + seconds_text(fault.begin) + " s, but the run ends at " +
+              seconds_text(place.end) + " s");
   return found.take();
 }
 
@@ -243,8 +246,8 @@ RequestedFault parse_fault(const std::string& text, const ParallelRobot& robot) 
 }
 
 std::string text_of(const RequestedFault& fault) {
-  std::string text = name_of(fault) + ":" + std::string(words_of(fault.kind).name) + "@" +
-                     short_number(static_cast<double>(fault.begin.count()) / 1e9);
+  std::string text =
+      name_of(fault) + ":" + std::string(words_of(fault.kind).name) + "@" + seconds_text(fault.begin);
   if (fault.size) text += ":" + short_number(*fault.size);
   return text;
 }
