@@ -17,6 +17,7 @@
 #include "systems/signals/gate_status.h"
 #include "systems/signals/limit_status.h"
 #include "systems/signals/reaction_state.h"
+#include "tests/campaign/limits/unavoidable_force.h"
 
 namespace flinch::test {
 namespace {
@@ -29,6 +30,11 @@ std::string value_of(const CampaignRun& run, const std::string& key) {
     if (name == key) return value;
   }
   return "";
+}
+
+double number_of(const CampaignRun& run, const std::string& key) {
+  const std::string text = value_of(run, key);
+  return text.empty() ? 0.0 : std::stod(text);
 }
 
 std::string kind_of(const std::string& body) {
@@ -92,8 +98,22 @@ bool can_stop_inside(const Mechanism& robot, const RecordedTruth& truth) {
   return true;
 }
 
+/// At the first tick of the contact.
+void measure_unavoidable(const CampaignRun& run, const RecordedTruth& truth, const RecordedContact& contact,
+                         ReactionOutcome& outcome) {
+  constexpr double next_tick = 1e-3, later = 5e-3;
+  outcome.touched = true;
+  const double stiffness = number_of(run, "pylon.stiffness_N_per_m");
+  if (stiffness <= 0.0) return;
+  const Mechanism& robot = *run.scenario.robot.robot;
+  outcome.unavoidable = unavoidable_force(robot, truth, contact, stiffness, {.begins_after = next_tick});
+  outcome.unavoidable_later =
+      unavoidable_force(robot, truth, contact, stiffness, {.begins_after = next_tick + later});
+}
+
 ReactionOutcome outcome_of(const CampaignRun& run) {
   ReactionOutcome outcome;
+  outcome.number = run.number;
   outcome.law = followed_name(run.scenario.control.stages.reaction_laws);
   outcome.body = kind_of(value_of(run, "contact"));
   const Recording recording =
@@ -105,17 +125,20 @@ ReactionOutcome outcome_of(const CampaignRun& run) {
   const RecordedValues<ReactionState> modes(recording, "reaction");
   const RecordedValues<LimitStatus> limits(recording, "limits");
   const Mechanism& robot = *run.scenario.robot.robot;
+  outcome.speed = number_of(run, "motion.speed_m_per_s");
   Touching touching;
   double detected = 0.0;
   for (std::size_t k = 0; k < recording.samples(); ++k) {
     const double time = to_seconds(Time(recording.time_ns[k]));
-    touching.see(time, contacts[k].strongest.force_in_base.norm(), outcome);
+    const RecordedContact contact = contacts[k];
+    touching.see(time, contact.strongest.force_in_base.norm(), outcome);
     if (const GateStatus gate = gates[k]; gate.fault != GateFault::none && outcome.fault.empty())
       outcome.fault = fault_table()[static_cast<std::size_t>(gate.fault) - 1].description;
     const LimitStatus limit = limits[k];
     outcome.slack = std::max(outcome.slack, limit.slack);
     outcome.steps = std::max(outcome.steps, static_cast<int>(limit.steps));
     const RecordedTruth truth = truths[k];
+    if (contact.in_contact && !outcome.touched) measure_unavoidable(run, truth, contact, outcome);
     if (k == 0) {
       measure_place(robot, truth, outcome);
       outcome.starts_inside = outcome.sigma_kappa <= sigma_kappa_s && outcome.sigma_sc >= sigma_sc_s;
@@ -144,10 +167,11 @@ ReactionOutcome outcome_of(const CampaignRun& run) {
 
 }  // namespace
 
-std::vector<ReactionOutcome> run_reactions(const std::filesystem::path& file, std::size_t draws,
-                                           int threads) {
+std::vector<ReactionOutcome> run_reactions(const std::filesystem::path& file, std::size_t draws, int threads,
+                                           const std::vector<std::string>& set) {
   CampaignOverrides overrides;
   overrides.draws = draws;
+  overrides.set = set;
   const Campaign campaign = read_campaign(file, overrides);
   std::vector<ReactionOutcome> outcomes(campaign.runs());
   std::atomic<std::size_t> next = 0;

@@ -15,8 +15,10 @@ inline constexpr double at_rest = 0.02;     // [m/s]
 
 /// What the true robot did in one run of a campaign, from the detection of a contact on.
 struct ReactionOutcome {
-  std::string law;   ///< of the reaction
-  std::string body;  ///< that was to be touched
+  std::size_t number = 0;  ///< of the run
+  std::string law;         ///< of the reaction
+  std::string body;        ///< that was to be touched
+  bool touched = false;
   bool detected = false;
   bool starts_inside = false;     ///< at the start both measures are within their safety values
   bool struck = false;            ///< a contact got hard: zero gravity
@@ -26,7 +28,12 @@ struct ReactionOutcome {
   /// After the detection or, where the contact got hard, after that: until the platform stays below 0.02 m/s
   /// [s].
   std::optional<double> rest;
-  double peak_force = 0.0;   ///< [N]
+  double speed = 0.0;       ///< that was asked of the platform [m/s]; 0 where that is not drawn
+  double peak_force = 0.0;  ///< [N]
+  /// What no reaction could have kept the contact below, see unavoidable_force(): one that begins with the
+  /// next tick, and one 5 ms later [N]. 0 where the stiffness of what is touched is not drawn, and where two
+  /// bodies touch first.
+  double unavoidable = 0.0, unavoidable_later = 0.0;
   double sigma_kappa = 0.0;  ///< the largest
   double sigma_sc = 1.0;     ///< the smallest [m]
   double det_A = 1.0;        ///< the smallest, without sign
@@ -37,9 +44,10 @@ struct ReactionOutcome {
   bool reclosed = false;     ///< touched again after a release of 100 ms
 };
 
-/// Runs every run of a campaign file, `draws` at each point of its grid, in `threads` threads.
+/// Runs every run of a campaign file, `draws` at each point of its grid, in `threads` threads; `set` as of
+/// `flinch campaign --set`.
 std::vector<ReactionOutcome> run_reactions(const std::filesystem::path& campaign, std::size_t draws,
-                                           int threads);
+                                           int threads, const std::vector<std::string>& set = {});
 
 /// The value below which this share lies; not a number where there is none.
 double quantile(std::vector<double> values, double share);

@@ -1,14 +1,20 @@
 // What becomes of the robot's limits in random reactions, by default and on each level, on robots that differ
-// from their model. FLINCH_RUNS in the environment says how many of each body: 200 and 250 are all.
+// from their model, and which forces no reaction could have avoided. FLINCH_RUNS in the environment says how
+// many of each body: 200 and 250 are all.
 #include "tests/campaign/limits/reactions_within_limits.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numbers>
 
 #include "experiments/campaign/exact_bounds.h"
+#include "experiments/verdict/verdict.h"
+#include "tests/campaign/limits/unavoidable_force.h"
+#include "tests/support/planar_bench.h"
 #include "tests/support/wanted.h"
 
 namespace flinch {
@@ -108,6 +114,75 @@ TEST(TheStrictReaction, KeepsTheLimits) {
   EXPECT_EQ(strict.kappa, 0U);
   EXPECT_EQ(strict.sc, 0U);
   EXPECT_EQ(strict.faults, 0U);
+}
+
+TEST(UnavoidableForce, IsThatOfAMassAgainstASpringWhereDrivesDoNothing) {
+  // f^2 / k + m v^2 stays what it is.
+  const auto robot = test::planar_bench();
+  Kinematics at;
+  Dynamics dynamics;
+  RecordedTruth moving;
+  moving.pose = Eigen::Vector3d(0.03, -0.02, 0.1);
+  moving.velocity = Eigen::Vector3d(-0.8, 0.3, 0.5);
+  robot->kinematics(moving.pose, moving.velocity, at);
+  robot->dynamics(at, dynamics);
+  RecordedContact touched;
+  touched.in_contact = true;
+  touched.strongest.body = 0;
+  touched.strongest.force_in_base = Eigen::Vector2d(12.0, 5.0);  // 13 N
+  touched.wrench_in_base = Eigen::Vector3d(12.0, 5.0, 1.3);
+  const Eigen::Vector3d g = Eigen::Vector3d(12.0, 5.0, 1.3) / 13.0;
+  const Eigen::Matrix3d M = dynamics.M_x;
+  const double m = 1.0 / g.dot(M.inverse() * g), v = g.dot(Eigen::Vector3d(moving.velocity)), k = 2e4;
+  const double closed_form = std::sqrt(13.0 * 13.0 + k * m * v * v);
+  EXPECT_NEAR(test::unavoidable_force(*robot, moving, touched, k, {.max_torque = 0.0}), closed_form,
+              1e-3 * closed_form);
+  EXPECT_LT(test::unavoidable_force(*robot, moving, touched, k, {}), closed_form);
+  touched.second.body = 6;
+  EXPECT_EQ(test::unavoidable_force(*robot, moving, touched, k, {}), 0.0) << "two touch";
+}
+
+/// Contacts above the transient limit of the hand, and which of them nothing could have kept below.
+struct Above {
+  std::size_t n = 0, above = 0, at_once = 0, later = 0;
+
+  void add(const ReactionOutcome& run) {
+    const double limit = ForceLimits().transient;
+    ++n;
+    if (run.peak_force <= limit) return;
+    ++above;
+    at_once += run.unavoidable > limit ? 1U : 0U;
+    later += run.unavoidable_later > limit ? 1U : 0U;
+  }
+};
+
+TEST(TheForceOfAContact, IsNeverBelowWhatNoReactionCouldHaveAvoided) {
+  constexpr double fastest = 1.5;  // [m/s]
+  std::map<std::string, Above> groups;
+  double nearest = std::numeric_limits<double>::infinity();
+  std::size_t bounded = 0;
+  for (const ReactionOutcome& run :
+       test::run_reactions(campaign_file("reaction_1000_fused.yaml"), runs_of_each_body(), 2,
+                           {"control.reaction_laws=[strict_reaction]"})) {
+    if (!run.touched) continue;
+    EXPECT_GE(run.peak_force, run.unavoidable) << run.body << " number " << run.number;
+    EXPECT_GE(run.unavoidable_later, run.unavoidable) << run.body;
+    if (run.unavoidable > 0.0) {
+      ++bounded;
+      nearest = std::min(nearest, run.peak_force / run.unavoidable);
+    }
+    if (run.speed > fastest) continue;
+    groups["all"].add(run);
+    groups[run.body].add(run);
+  }
+  for (const auto& [name, group] : groups) {
+    std::printf(
+        "%-10s %3zu contacts at up to %.1f m/s, %2zu above %.0f N; unavoidable at once %2zu, 5 ms later "
+        "%2zu\n",
+        name.c_str(), group.n, fastest, group.above, ForceLimits().transient, group.at_once, group.later);
+  }
+  std::printf("no peak of %zu below %.3f times what no reaction could have avoided\n", bounded, nearest);
+  EXPECT_GT(bounded, 0U);
 }
 
 }  // namespace
