@@ -129,7 +129,7 @@ class DdsStation::Implementation {
     link.lost = joints_.receiver().lost();
     link.deadlines_missed = joints_.receiver().broken_promises().deadlines;
     const ReceivedSample<flinch_StatusSample>& last = status_.last();
-    link.enabled = last.sample.enabled != 0;
+    link.enabled = (last.sample.header.flags & flag_valid) != 0 && last.sample.enabled != 0;
     link.drive_state = static_cast<DriveState>(last.sample.drive_state);
     link.commands_obeyed = obeys_us();
     if (link.commands_obeyed) link.round_trip = round_trip(last);

@@ -25,13 +25,13 @@ class SampleSender {
   /// For the control loop: leaves a sample to be sent; of its header acquired_ns, count and flags.
   void leave(const Sample& sample) noexcept { left_.publish(sample); }
 
-  /// For the sending thread: sends what was left since the last time, unless that was acquired longer than
-  /// `longest_age` ago, as after a program has hung: by the stamps that it would be sent with.
+  /// For the sending thread: sends what was left since the last time; as invalid where it was acquired longer
+  /// than `longest_age` ago, as after a program has hung.
   void send(Time longest_age = Time::max()) noexcept {
     if (!left_.take(next_)) return;
-    stamp(next_.header, sender_, number_ + 1);
-    if (Time(next_.header.sent_ns - next_.header.acquired_ns) > longest_age) return;
-    ++number_;
+    stamp(next_.header, sender_, ++number_);
+    const bool is_old = Time(next_.header.sent_ns - next_.header.acquired_ns) > longest_age;
+    if (is_old) next_.header.flags &= static_cast<std::uint8_t>(~flag_valid);
     writer_.write(&next_);
   }
 

@@ -8,6 +8,7 @@
 
 #include "drivers/dds_reader.h"
 #include "drivers/topics.h"
+#include "drivers/wire_header.h"
 #include "systems/framework/monotonic_clock.h"
 #include "tests/drivers/link_ends.h"
 #include "tests/support/free_domain.h"
@@ -29,11 +30,12 @@ class StatusLog {
     const std::lock_guard lock(mutex_);
     return samples_.size();
   }
-  /// How many tell of open brakes as they were longer ago than that.
+  /// How many tell of open brakes as they were longer ago than that, and call it valid.
   std::ptrdiff_t open_before(Time age) const {
     const std::lock_guard lock(mutex_);
     return std::count_if(samples_.begin(), samples_.end(), [&](const flinch_StatusSample& sample) {
-      return sample.braked == 0 && Time(sample.header.sent_ns - sample.header.acquired_ns) > age;
+      const bool is_valid = (sample.header.flags & flag_valid) != 0;
+      return is_valid && sample.braked == 0 && Time(sample.header.sent_ns - sample.header.acquired_ns) > age;
     });
   }
 
