@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/campaign/campaign_run.h"
 #include "experiments/scenario/robot_files.h"
 #include "experiments/scenario/scenario.h"
 #include "systems/config/config_file.h"
@@ -201,7 +200,6 @@ Campaign read_campaign(const std::filesystem::path& file, const CampaignOverride
     campaign.robot_texts.push_back(
         parse_scenario(campaign.scenario_nodes.back(), file_of_scenario, *campaign.robots).robot_text);
   }
-  throw_if_any(wrong_keys(campaign));
   return campaign;
 }
 

@@ -278,7 +278,7 @@ CampaignRun draw_run(const Campaign& campaign, std::size_t number, int most_atte
   }
 }
 
-std::vector<std::string> wrong_keys(const Campaign& campaign) {
+void check_keys(const Campaign& campaign) {
   std::vector<std::string> wrong;
   for (std::size_t scenario = 0; scenario < campaign.scenarios.size(); ++scenario) {
     try {
@@ -294,7 +294,7 @@ std::vector<std::string> wrong_keys(const Campaign& campaign) {
     } catch (const SetupError&) {  // of values, which other draws may mend
     }
   }
-  return wrong;
+  throw_if_any(std::move(wrong));
 }
 
 }  // namespace flinch

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "experiments/campaign/campaign_run.h"
 #include "systems/config/config_reader.h"
 #include "systems/config/parsed.h"
 #include "systems/foundation/setup_error.h"
@@ -19,6 +20,7 @@ DataPart read_part(ConfigReader& reader) {
   if (campaign.empty()) return part;
   try {
     part.campaign = read_campaign(campaign);
+    check_keys(part.campaign);
   } catch (const SetupError& error) {
     reader.add_problems(error.problems());
     return part;

@@ -28,6 +28,7 @@ void write_scenario() {
 void read(std::string_view bytes) {
   [[maybe_unused]] static const bool written = (write_scenario(), true);
   const Campaign campaign = read_campaign(fuzz_file("campaign.yaml", bytes));
+  check_keys(campaign);
   campaign.identity();
   if (campaign.runs() == 0) return;
   try {

@@ -94,7 +94,8 @@ ExitStatus campaign(const CampaignOptions& options) {
     helpers->work(campaign);
     return ExitStatus::done;
   }
-  draw_run(campaign, 0);  // before anything is written
+  check_keys(campaign);  // before anything is written
+  draw_run(campaign, 0);
   const RunFolder folder = campaign_folder(options, campaign);
   const StopWatch watch;
   std::vector<RunResult> results;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "experiments/campaign/campaign_run.h"
 #include "systems/config/config_node.h"
 #include "systems/config/yaml_text.h"
 #include "systems/foundation/setup_error.h"
@@ -21,7 +22,7 @@ using ::testing::UnorderedElementsAre;
 std::vector<std::string> problems_of(const std::filesystem::path& file,
                                      const CampaignOverrides& overrides = {}) {
   try {
-    read_campaign(file, overrides);
+    check_keys(read_campaign(file, overrides));
   } catch (const SetupError& error) {
     return error.problems();
   }
