@@ -29,8 +29,8 @@ struct CampaignRun {
 /// and what was drawn for it where none was possible, and at once for keys that fit no scenario.
 CampaignRun draw_run(const Campaign& campaign, std::size_t number, int most_attempts = 200);
 
-/// Throws SetupError with what is wrong with keys of the grid and of draws, whatever their values, in the first
-/// run of each scenario.
+/// Throws SetupError with what is wrong with keys of the grid and of draws, whatever their values, in the
+/// first run of each scenario.
 void check_keys(const Campaign& campaign);
 
 }  // namespace flinch
