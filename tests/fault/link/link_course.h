@@ -27,7 +27,8 @@ std::uint32_t present_commander(const BusLog& log);
 Course course(const BusLog& log, const LogEnd& begin, std::uint32_t session);
 
 /// Expects that a robot in motion goes on undisturbed and obeys nobody else. A trial in which the machine was
-/// late by a tick is no evidence: it is told, and made again, twice at most.
+/// late by a tick is no evidence: it is told, and made again, twice at most. Throws TooBusy where it was late
+/// each time.
 void expect_undisturbed(const std::function<Course()>& trial);
 
 }  // namespace flinch::test

@@ -137,4 +137,12 @@ void LinkTrial::get_moving() {
   throw TooBusy("no run has got going: " + commander_->output());
 }
 
+void LinkTrial::get_moving_again() {
+  for (int attempt = 0; attempt < 5; ++attempt) {
+    start_commander();
+    if (wait_for_motion()) return;
+  }
+  throw TooBusy("no further run has got going: " + commander_->output());
+}
+
 }  // namespace flinch::test

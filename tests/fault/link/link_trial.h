@@ -60,6 +60,8 @@ class LinkTrial {
   /// Starts both, and waits until the robot has been moving for 0.3 s. Begins anew, four times at most,
   /// where the machine is too busy for a run to get so far. Throws TooBusy where it never gets there.
   void get_moving();
+  /// The same with another commander for the robot that is there.
+  void get_moving_again();
   /// Waits until the brakes have been open for 0.3 s since the commander was started; false where they close
   /// before.
   bool wait_for_motion();
