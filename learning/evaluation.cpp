@@ -64,6 +64,23 @@ std::vector<const Answered*> by_confidence(const std::vector<Answered>& answers)
   return order;
 }
 
+/// How many of the first 0, 1, 2, ... are wrong.
+std::vector<double> errors_among(const std::vector<const Answered*>& order) {
+  std::vector<double> errors(order.size() + 1, 0.0);
+  for (std::size_t i = 0; i < order.size(); ++i)
+    errors[i + 1] = errors[i] + (is_right(*order[i]) ? 0.0 : 1.0);
+  return errors;
+}
+
+RejectPoint reject_last(const std::vector<const Answered*>& order, const std::vector<double>& errors,
+                        double rejected) {
+  const auto all = static_cast<double>(order.size());
+  const auto accepted = static_cast<std::size_t>(std::ceil((1.0 - rejected) * all - 1e-9));
+  if (accepted == 0) return {1.0, order.empty() ? 0.0 : 1.0, 0.0};
+  const auto count = static_cast<double>(accepted);
+  return {order[accepted - 1]->confidence(), 1.0 - count / all, errors[accepted] / count};
+}
+
 }  // namespace
 
 int Answered::given() const {
@@ -181,27 +198,23 @@ RejectPoint reject_at(const std::vector<Answered>& answers, double accepted_from
 
 RejectPoint reject_share(const std::vector<Answered>& answers, double rejected) {
   const std::vector<const Answered*> order = by_confidence(answers);
-  const auto all = static_cast<double>(order.size());
-  const auto accepted = static_cast<std::size_t>(std::ceil((1.0 - rejected) * all - 1e-9));
-  if (accepted == 0) return {1.0, order.empty() ? 0.0 : 1.0, 0.0};
-  double wrong = 0.0;
-  for (std::size_t i = 0; i < accepted; ++i) wrong += is_right(*order[i]) ? 0.0 : 1.0;
-  const auto count = static_cast<double>(accepted);
-  return {order[accepted - 1]->confidence(), 1.0 - count / all, wrong / count};
+  return reject_last(order, errors_among(order), rejected);
 }
 
 std::vector<RejectPoint> reject_curve(const std::vector<Answered>& answers) {
+  const std::vector<const Answered*> order = by_confidence(answers);
+  const std::vector<double> errors = errors_among(order);
   std::vector<RejectPoint> curve;
-  for (int i = 0; i < 100; ++i) curve.push_back(reject_share(answers, 0.01 * i));
+  for (int i = 0; i < 100; ++i) curve.push_back(reject_last(order, errors, 0.01 * i));
   return curve;
 }
 
 double acceptance_for(const std::vector<Answered>& answers, double wrong) {
   const std::vector<const Answered*> order = by_confidence(answers);
-  double least = 1.0, errors = 0.0;
+  const std::vector<double> errors = errors_among(order);
+  double least = 1.0;
   for (std::size_t i = 0; i < order.size(); ++i) {
-    errors += is_right(*order[i]) ? 0.0 : 1.0;
-    if (errors <= wrong * static_cast<double>(i + 1)) least = order[i]->confidence();
+    if (errors[i + 1] <= wrong * static_cast<double>(i + 1)) least = order[i]->confidence();
   }
   return least;
 }
