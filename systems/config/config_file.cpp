@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "systems/foundation/nearest_name.h"
+#include "systems/foundation/readable_file.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
@@ -60,8 +61,7 @@ std::string problem_with_file(const fs::path& file) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (status.type() == fs::file_type::not_found) return missing(file);
-  if (status.type() == fs::file_type::directory) return "is a folder; it must be a file";
-  if (status.type() != fs::file_type::regular) return "is no regular file; it must be one";
+  if (std::string problem = problem_with_kind(status); !problem.empty()) return problem;
   if (!std::ifstream(file)) return "cannot be opened; reading it must be permitted";
   return "";
 }

@@ -6,13 +6,17 @@
 namespace flinch {
 namespace fs = std::filesystem;
 
+std::string problem_with_kind(const fs::file_status& status) {
+  if (status.type() == fs::file_type::directory) return "is a folder; it must be a file";
+  return status.type() == fs::file_type::regular ? "" : "is no regular file; it must be one";
+}
+
 std::string problem_with_reading(const fs::path& file) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (status.type() == fs::file_type::not_found) return "there is no such file";
   if (error) return "cannot be read: " + error.message();
-  if (status.type() == fs::file_type::directory) return "is a folder; it must be a file";
-  if (status.type() != fs::file_type::regular) return "is no regular file; it must be one";
+  if (std::string problem = problem_with_kind(status); !problem.empty()) return problem;
   const std::uintmax_t size = fs::file_size(file, error);
   if (error) return "cannot be read: " + error.message();
   return size == 0 ? "is empty" : "";

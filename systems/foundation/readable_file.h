@@ -10,4 +10,7 @@ namespace flinch {
 /// that it is empty: these cannot.
 std::string problem_with_reading(const std::filesystem::path& file);
 
+/// The part of it that the kind of what is there tells: empty for a regular file.
+std::string problem_with_kind(const std::filesystem::file_status& status);
+
 }  // namespace flinch
