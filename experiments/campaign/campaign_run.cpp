@@ -9,6 +9,7 @@
 #include "experiments/campaign/campaign.h"
 #include "experiments/campaign/drawn_contact.h"
 #include "experiments/campaign/drawn_move.h"
+#include "systems/config/config_document.h"
 #include "systems/config/config_node.h"
 #include "systems/config/key_error.h"
 #include "systems/config/parsed.h"
@@ -46,8 +47,7 @@ std::size_t next_digit(std::size_t& index, std::size_t count) {
 
 /// "campaign.yaml:7: " where the campaign gave the value; empty where nobody did.
 std::string place_of(const ConfigNode& value) {
-  if (!value.file) return "";
-  return *value.file + (value.line > 0 ? ":" + std::to_string(value.line) : "") + ": ";
+  return value.file ? ConfigPlace{value.file.get(), value.line}.text() + ": " : "";
 }
 
 /// A scenario while values are put into it.
