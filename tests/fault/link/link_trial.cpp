@@ -128,21 +128,17 @@ bool LinkTrial::wait_for_motion() {
   return !stopped && moving >= moving_ticks;
 }
 
-void LinkTrial::get_moving() {
+void LinkTrial::get_moving() { get_moving_with(true); }
+
+void LinkTrial::get_moving_again() { get_moving_with(false); }
+
+void LinkTrial::get_moving_with(bool new_robot) {
   for (int attempt = 0; attempt < 5; ++attempt) {
-    start_robot();
+    if (new_robot) start_robot();
     start_commander();
     if (wait_for_motion()) return;
   }
   throw TooBusy("no run has got going: " + commander_->output());
-}
-
-void LinkTrial::get_moving_again() {
-  for (int attempt = 0; attempt < 5; ++attempt) {
-    start_commander();
-    if (wait_for_motion()) return;
-  }
-  throw TooBusy("no further run has got going: " + commander_->output());
 }
 
 }  // namespace flinch::test

@@ -79,6 +79,7 @@ class LinkTrial {
  private:
   LinkTrial(OwnRobot robot, const TwoNetworks* networks);
   std::vector<std::string> bus_arguments() const;
+  void get_moving_with(bool new_robot);
   /// The flinch that is tested, in a network namespace or ours.
   std::unique_ptr<OtherProgram> start(const std::vector<std::string>& arguments,
                                       const std::string& network) const;
