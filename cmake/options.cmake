@@ -33,10 +33,6 @@ endif()
 
 # No contraction into fused multiply-add: results are the same bits whichever compiler built them.
 add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)
-# A vector of bounded size is copied by its own size, some numbers: a call of the library costs more than they.
-if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-  add_compile_options($<$<AND:$<COMPILE_LANG_AND_ID:CXX,GNU>,$<CONFIG:Release>>:-minline-stringops-dynamically>)
-endif()
 if(FLINCH_DEVELOPER)
   # No errors in a release: users build it with compilers that warn of other things than ours.
   add_compile_options(-Wall -Wextra -Wconversion -Wshadow $<$<NOT:$<CONFIG:Release>>:-Werror>)
