@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "diagrams/added_stages.h"
 #include "diagrams/isolation_stages.h"
 #include "diagrams/lagless_motion.h"
 #include "diagrams/limit_keeping.h"
@@ -19,27 +20,6 @@ namespace {
 
 using Robot = std::shared_ptr<const ParallelRobot>;
 
-/// Every stage of one kind in place.
-template <class Port>
-struct Added {
-  std::vector<Named<Port>> all;
-  std::string followed;
-
-  const Port& port() const {
-    for (const Named<Port>& each : all) {
-      if (each.name == followed) return each.port;
-    }
-    return all.front().port;
-  }
-  std::vector<Named<Port>> others() const {
-    std::vector<Named<Port>> rest;
-    for (const Named<Port>& each : all) {
-      if (each.name != followed) rest.push_back(each);
-    }
-    return rest;
-  }
-};
-
 /// The control path while it is wired.
 struct Path {
   DiagramBuilder& builder;
@@ -50,8 +30,8 @@ struct Path {
       std::make_shared<std::vector<Named<OutputPort<DriveLoad>>>>();
 
   template <class Given, class Port>
-  Added<Port> add(const Stages<Stage<Given, Port>>& stages, const Given& given) const {
-    Added<Port> added;
+  AddedStages<Port> add(const Stages<Stage<Given, Port>>& stages, const Given& given) const {
+    AddedStages<Port> added;
     for (const Stage<Given, Port>& stage : stages.all) {
       const StageSite site{builder, stage.name, robot, settings, loads.get()};
       added.all.push_back({stage.name, stage.add(site, given)});
@@ -63,7 +43,7 @@ struct Path {
   /// Shows what the stages that are not followed offer, as `prefix` + "_" + their names.
   template <class T>
   std::vector<Named<OutputPort<T>>> show_others(const std::string& prefix,
-                                                const Added<OutputPort<T>>& added) const {
+                                                const AddedStages<OutputPort<T>>& added) const {
     std::vector<Named<OutputPort<T>>> shown = added.others();
     for (Named<OutputPort<T>>& each : shown) {
       each.name = prefix + "_" + each.name;
@@ -82,8 +62,8 @@ struct Operator {
 
 /// Torques that are ready for every mode.
 struct Laws {
-  Added<LawPorts> nominal;
-  Added<LawPorts> reaction;
+  AddedStages<LawPorts> nominal;
+  AddedStages<LawPorts> reaction;
   ZeroGravity& zero_gravity;
   ControlledStop& stop;
   ModeSelector& selector;
@@ -130,7 +110,7 @@ MotionPorts add_motion(const Path& path, const SensedPorts& sensed, OutputPort<J
 }
 
 OutputPort<PlatformAcceleration> followed_acceleration(
-    const Path& path, const Added<OutputPort<PlatformAcceleration>>& sources) {
+    const Path& path, const AddedStages<OutputPort<PlatformAcceleration>>& sources) {
   if (!sources.all.empty()) return sources.port();
   return path.builder.add<Constant<PlatformAcceleration>>("no_acceleration", PlatformAcceleration()).value;
 }
@@ -248,7 +228,8 @@ InputPort<OperatorCommand> connect_back(DiagramBuilder& builder, const SensedPor
 
 /// Lets a contact detector follow each estimator that the others do not follow, for comparison.
 std::vector<Named<OutputPort<ContactDetection>>> show_detections_by(
-    const Path& path, const Added<OutputPort<WrenchEstimate>>& estimators, OutputPort<ResetCommand> reset) {
+    const Path& path, const AddedStages<OutputPort<WrenchEstimate>>& estimators,
+    OutputPort<ResetCommand> reset) {
   std::vector<Named<OutputPort<ContactDetection>>> shown;
   for (const Named<OutputPort<WrenchEstimate>>& estimator : estimators.others()) {
     const std::string name = "detection_by_" + estimator.name;
@@ -263,7 +244,7 @@ std::vector<Named<OutputPort<ContactDetection>>> show_detections_by(
 
 /// That of the followed source is "acceleration".
 std::vector<Named<OutputPort<PlatformAcceleration>>> show_accelerations(
-    const Path& path, const Added<OutputPort<PlatformAcceleration>>& sources) {
+    const Path& path, const AddedStages<OutputPort<PlatformAcceleration>>& sources) {
   auto shown = path.show_others("acceleration", sources);
   if (!sources.all.empty()) {
     shown.push_back({"acceleration", path.builder.export_output("acceleration", sources.port())});
@@ -283,7 +264,7 @@ std::vector<Named<OutputPort<DriveLoad>>> show_loads(const Path& path) {
 /// The torques of laws that are not followed.
 std::vector<Named<OutputPort<TorqueCommand>>> show_torques(const Path& path, const Laws& laws) {
   std::vector<Named<OutputPort<TorqueCommand>>> shown;
-  for (const Added<LawPorts>* kind : {&laws.nominal, &laws.reaction}) {
+  for (const AddedStages<LawPorts>* kind : {&laws.nominal, &laws.reaction}) {
     for (const Named<LawPorts>& law : kind->others()) {
       const std::string name = "torque_" + law.name;
       shown.push_back({name, path.builder.export_output(name, law.port.torque)});
@@ -295,8 +276,8 @@ std::vector<Named<OutputPort<TorqueCommand>>> show_torques(const Path& path, con
 /// What classifiers and locators say.
 struct Isolation {
   ContactPorts contact;
-  Added<OutputPort<ContactClassification>> classifiers;
-  Added<LocatorPorts> locators;
+  AddedStages<OutputPort<ContactClassification>> classifiers;
+  AddedStages<LocatorPorts> locators;
 
   ClassifiedPorts classified() const { return {contact, classifiers.port()}; }
 };
@@ -310,9 +291,10 @@ Isolation add_isolation(const Path& path, const EstimatePorts& given,
   return isolation;
 }
 
-OtherStages show_others(const Path& path, const Added<OutputPort<JointMotion>>& velocities,
-                        const Added<OutputPort<PlatformAcceleration>>& accelerations,
-                        const Added<OutputPort<WrenchEstimate>>& estimators, OutputPort<ResetCommand> reset) {
+OtherStages show_others(const Path& path, const AddedStages<OutputPort<JointMotion>>& velocities,
+                        const AddedStages<OutputPort<PlatformAcceleration>>& accelerations,
+                        const AddedStages<OutputPort<WrenchEstimate>>& estimators,
+                        OutputPort<ResetCommand> reset) {
   OtherStages shown;
   shown.joint_motions = path.show_others("joint_motion", velocities);
   shown.accelerations = show_accelerations(path, accelerations);
@@ -339,7 +321,7 @@ void show_isolation(const Path& path, const Isolation& isolation, OtherStages& s
 /// The torques of laws that are not followed, and the constraints of all.
 void show_laws(const Path& path, const Laws& laws, OtherStages& shown) {
   shown.torques = show_torques(path, laws);
-  for (const Added<LawPorts>* kind : {&laws.nominal, &laws.reaction}) {
+  for (const AddedStages<LawPorts>* kind : {&laws.nominal, &laws.reaction}) {
     for (const Named<LawPorts>& law : kind->all) {
       if (!law.port.constraints) continue;
       const std::string name = "constraints_" + law.name;
@@ -348,7 +330,9 @@ void show_laws(const Path& path, const Laws& laws, OtherStages& shown) {
   }
 }
 
-void show(const Path& path, const Isolation& isolation, const Laws& laws, OtherStages& shown) {
+void show(const Path& path, const AddedStages<OutputPort<ContactDetection>>& detectors,
+          const Isolation& isolation, const Laws& laws, OtherStages& shown) {
+  shown.detections = path.show_others("detection", detectors);
   show_isolation(path, isolation, shown);
   show_laws(path, laws, shown);
 }
@@ -399,8 +383,7 @@ ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
   const Safety safety = add_safety(path, reaction, laws);
   connect(path, imu, reaction, safety);
   OtherStages others = show_others(path, velocities, accelerations, estimators, buttons.reset);
-  others.detections = path.show_others("detection", detectors);
-  show(path, isolation, laws, others);
+  show(path, detectors, isolation, laws, others);
   const ContactControl control{
       .joints = sensed.joints,
       .drives = sensed.drives,
@@ -429,6 +412,7 @@ ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
       .reference = builder.export_output("reference", laws.selector.reference),
       .requested_torque = builder.export_output("requested_torque", laws.selector.torque),
       .limits = builder.export_output("limits", laws.kept.status),
+      .braking = builder.export_output("braking", laws.kept.braking),
       .plausibility = builder.export_output("plausibility", imu.monitor.plausibility),
       .faults = builder.export_output("faults", safety.monitor.faults),
       .gate = builder.export_output("gate", safety.gate.status),

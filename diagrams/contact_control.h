@@ -7,6 +7,7 @@
 #include "diagrams/station.h"
 #include "systems/framework/diagram_builder.h"
 #include "systems/framework/tick_timing.h"
+#include "systems/signals/braking_status.h"
 #include "systems/signals/limit_status.h"
 #include "systems/signals/operator_command.h"
 #include "systems/signals/plausibility.h"
@@ -68,6 +69,7 @@ struct ContactControl {
   OutputPort<PlatformReference> reference;     ///< that is being followed
   OutputPort<TorqueCommand> requested_torque;  ///< what the laws ask for, before limits and gate
   OutputPort<LimitStatus> limits;
+  OutputPort<BrakingStatus> braking;
   OutputPort<Plausibility> plausibility;
   OutputPort<FaultReport> faults;
   OutputPort<GateStatus> gate;

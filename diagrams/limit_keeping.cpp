@@ -3,6 +3,7 @@
 #include "diagrams/contact_control_settings.h"
 #include "diagrams/lagless_motion.h"
 #include "systems/framework/constant.h"
+#include "systems/laws/braking_watch.h"
 #include "systems/laws/kept_motion.h"
 #include "systems/laws/limit_keeper.h"
 #include "systems/model/robot_model.h"
@@ -26,19 +27,32 @@ LimitKeeper& add_keeper(const StageSite& site, OutputPort<PlatformMotion> motion
   return keeper;
 }
 
+/// With a share of the torques: the rest is for what pushes, and for what the model does not know.
+OutputPort<BrakingStatus> add_braking_watch(const StageSite& site, OutputPort<PlatformMotion> motion,
+                                            OutputPort<ReactionState> reaction) {
+  constexpr double share = 0.7;
+  const LimitKeeperSettings& kept = site.settings.limits;
+  auto& watch = site.builder.add<BrakingWatch>("braking", site.robot, kept.limits, share * kept.max_torque);
+  site.builder.connect(motion, watch.motion);
+  site.builder.connect(reaction, watch.reaction);
+  return watch.status;
+}
+
 }  // namespace
 
 KeptTorques add_limit_keeper(const StageSite& site, const ReactionPorts& given,
                              OutputPort<TorqueCommand> requested) {
   DiagramBuilder& builder = site.builder;
   if (site.settings.limits.use == LimitKeeperSettings::Use::never)
-    return {requested, builder.add<Constant<LimitStatus>>(site.name, LimitStatus()).value};
+    return {requested, builder.add<Constant<LimitStatus>>(site.name, LimitStatus()).value,
+            builder.add<Constant<BrakingStatus>>("braking", BrakingStatus()).value};
   DisturbanceFilter& filter = add_encoder_filter(part(site, "motion"), given, site.settings.limits_filter);
   auto& kept = builder.add<KeptMotion>(site.name + "_kept_motion", site.settings.limits.use);
   builder.connect(filter.followed, kept.motion);
   builder.connect(given.reaction, kept.reaction);
   LimitKeeper& keeper = add_keeper(site, kept.kept, filter.wrench, requested);
-  return {keeper.torque, keeper.status, keeper.commanded, FollowedMotion{filter.followed, filter.wrench}};
+  return {keeper.torque, keeper.status, add_braking_watch(site, filter.followed, given.reaction),
+          keeper.commanded, FollowedMotion{filter.followed, filter.wrench}};
 }
 
 OutputPort<TorqueCommand> add_kept_stop(const StageSite& site, const FollowedMotion& followed,

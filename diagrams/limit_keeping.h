@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "diagrams/control_stages.h"
+#include "systems/signals/braking_status.h"
 #include "systems/signals/gate_fault.h"
 #include "systems/signals/gate_status.h"
 #include "systems/signals/limit_status.h"
@@ -19,14 +20,15 @@ struct FollowedMotion {
 struct KeptTorques {
   OutputPort<TorqueCommand> torque;
   OutputPort<LimitStatus> status;
+  OutputPort<BrakingStatus> braking;  ///< whether they could be kept when a contact was noticed
   /// Where limits are kept: what the drives are told, to be connected, and the motion for who keeps them too.
   std::optional<InputPort<TorqueCommand>> commanded{};
   std::optional<FollowedMotion> followed{};
 };
 
 /// Adds a LimitKeeper, "limits", for the torques that the laws request, with a filter of its own that follows
-/// motion and disturbance with hardly a lag, and the model there. Where limits are never to be kept it adds
-/// nothing but a status that says so.
+/// motion and disturbance with hardly a lag, and the model there; and "braking", which judges whether the
+/// robot could stop within them. Where limits are never to be kept it adds nothing but statuses that say so.
 KeptTorques add_limit_keeper(const StageSite& site, const ReactionPorts& given,
                              OutputPort<TorqueCommand> requested);
 

@@ -37,6 +37,9 @@ struct Collected {
     group.violations_sigma_kappa += result.violates_sigma_kappa ? 1U : 0U;
     group.violations_sigma_sc += result.violates_sigma_sc ? 1U : 0U;
     group.final_inside += result.ends_inside ? 1U : 0U;
+    if (result.could_stop) ++(*result.could_stop ? group.could_stop : group.could_not_stop);
+    const bool violates = result.violates_sigma_kappa || result.violates_sigma_sc;
+    group.violations_could_stop += violates && result.could_stop.value_or(false) ? 1U : 0U;
     group.self_collisions += result.self_contact ? 1U : 0U;
     group.gate_faults += result.fault.empty() ? 0U : 1U;
   }
@@ -57,6 +60,19 @@ std::string text_of(std::optional<double> value, double scale) {
 
 Json json_of(std::optional<double> value, double scale = 1.0) {
   return value ? Json(scale * *value) : Json(nullptr);
+}
+
+/// Of the levels that keep limits.
+std::string could_stop_lines(const ReactionSummary& summary) {
+  std::string text;
+  for (const ReactionGroup& group : summary.groups) {
+    if (group.could_stop + group.could_not_stop == 0) continue;
+    text += fmt::format("{:<14} {:<10} {:>5} {:>10} {:>13}\n", group.level, group.body, group.could_stop,
+                        group.could_not_stop, group.violations_could_stop);
+  }
+  if (text.empty()) return "";
+  return fmt::format("\nwhen noticed, within the limits\n{:<14} {:<10} {:>5} {:>10} {:>13}\n{}", "level",
+                     "body", "could", "could not", "could, beyond", text);
 }
 
 }  // namespace
@@ -132,7 +148,7 @@ std::string reactions_table(const Campaign& campaign, const ReactionSummary& sum
                         group.over_limit, group.violations_sigma_kappa, group.violations_sigma_sc,
                         group.final_inside, group.self_collisions, group.gate_faults);
   }
-  text += "\npeak force over speed\n";
+  text += could_stop_lines(summary) + "\npeak force over speed\n";
   for (const ForceFit& fit : summary.fits) {
     text += fmt::format("{:<10} {:>4} runs  {:>6.0f} N + {:>4.0f} N/(m/s)  r = {:.3f}\n", fit.body, fit.n,
                         fit.intercept, fit.slope, fit.pearson);
@@ -159,6 +175,9 @@ std::string reactions_json(const Campaign& campaign, const ReactionSummary& summ
                       {"violations_sigma_kappa", group.violations_sigma_kappa},
                       {"violations_sigma_sc", group.violations_sigma_sc},
                       {"final_inside", group.final_inside},
+                      {"could_stop", group.could_stop},
+                      {"could_not_stop", group.could_not_stop},
+                      {"violations_could_stop", group.violations_could_stop},
                       {"self_collisions", group.self_collisions},
                       {"gate_faults", group.gate_faults}});
   }

@@ -23,6 +23,9 @@ struct ReactionGroup {
   std::size_t violations_sigma_kappa = 0;             ///< beyond the safety value at any time
   std::size_t violations_sigma_sc = 0;
   std::size_t final_inside = 0;  ///< runs that ended within 5 % of sigma_kappa's and 5 mm of sigma_sc's limit
+  /// Runs whose robot could, and could not, stop within its limits when it noticed the contact, and how many
+  /// of the former went beyond a safety value nevertheless.
+  std::size_t could_stop = 0, could_not_stop = 0, violations_could_stop = 0;
   std::size_t self_collisions = 0;
   std::size_t gate_faults = 0;
 };

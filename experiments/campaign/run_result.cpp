@@ -41,7 +41,10 @@ std::string text_of(const std::string& value) { return value; }
 std::string text_of(double value) { return exact_text(value); }
 std::string text_of(bool value) { return value ? "1" : "0"; }
 std::string text_of(std::integral auto value) { return std::to_string(value); }
-std::string text_of(const std::optional<double>& value) { return value ? exact_text(*value) : ""; }
+template <class Value>
+std::string text_of(const std::optional<Value>& value) {
+  return value ? text_of(*value) : "";
+}
 
 bool parse(const std::string& text, std::string& value) {
   value = text;
@@ -58,7 +61,8 @@ bool parse(const std::string& text, Number& value) {
   const auto [rest, error] = std::from_chars(text.data(), end, value);
   return error == std::errc{} && rest == end;
 }
-bool parse(const std::string& text, std::optional<double>& value) {
+template <class Value>
+bool parse(const std::string& text, std::optional<Value>& value) {
   value.reset();
   return text.empty() || parse(text, value.emplace());
 }
@@ -100,6 +104,7 @@ void columns(Result& result, Visit&& visit, VisitValues&& visit_values) {
   visit("violates_sigma_sc", result.violates_sigma_sc);
   visit("ends_inside", result.ends_inside);
   visit("self_contact", result.self_contact);
+  visit("could_stop", result.could_stop);
   visit("observer_error_force_N", result.observer_error_force);
   visit("observer_error_moment_Nm", result.observer_error_moment);
   visit("tracking_error_m", result.tracking_error);
@@ -154,6 +159,7 @@ RunResult result_of(const CampaignRun& run, const Verdict& verdict) {
   if (!verdict.contacts.empty()) {
     const ContactVerdict& first = verdict.contacts.front();
     result.body = first.is_push ? "push" : kind_of(first.body);
+    result.could_stop = first.could_stop;
     if (first.removed) result.removal_time = *first.removed - first.onset;
     result.speed = first.speed;
     result.peak_force = first.peak_force;

@@ -50,6 +50,8 @@ struct RunResult {
   bool violates_sigma_sc = false;                       ///< likewise
   bool ends_inside = false;  ///< at the end within 5 % of sigma_kappa's and 5 mm of sigma_sc's safety value
   bool self_contact = false;
+  /// Whether the robot could stop within its limits when it noticed the first contact; none: not judged.
+  std::optional<bool> could_stop;
   double observer_error_force = 0.0;   ///< as in Verdict [N]
   double observer_error_moment = 0.0;  ///< [Nm]
   double tracking_error = 0.0;         ///< [m]

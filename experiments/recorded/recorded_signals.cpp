@@ -43,6 +43,7 @@ void export_control(DiagramBuilder& builder, const ContactControl& control) {
   builder.export_output("reference", control.reference);
   builder.export_output("requested_torque", control.requested_torque);
   builder.export_output("limits", control.limits);
+  builder.export_output("braking", control.braking);
   builder.export_output("torque_command", control.torque_command);
   builder.export_output("brake", control.brake);
   builder.export_output("plausibility", control.plausibility);

@@ -45,6 +45,7 @@ ReportContact report_contact(const ContactVerdict& contact, const std::vector<Sc
   if (contact.detected_by.size() > 1) {
     for (const DetectionBy& by : contact.detected_by) row.detected_by.emplace_back(by.estimator, by.detected);
   }
+  row.could_stop = contact.could_stop;
   row.removed = contact.removed;
   row.speed = contact.speed;
   row.peak_force = contact.peak_force;

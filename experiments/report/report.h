@@ -26,6 +26,8 @@ struct ReportContact {
   std::optional<double> detected;  ///< t_det: first tick with the detector's flag [s].
   /// When the detector of each estimator noticed it [s]; empty: only one ran.
   std::vector<std::pair<std::string, std::optional<double>>> detected_by;
+  /// It could still stop within its limits when it noticed the contact; none: nobody judged that.
+  std::optional<bool> could_stop;
   std::optional<double> removed;      ///< t_rem: the contact is over [s].
   std::optional<double> speed;        ///< Of the platform when it touched [m/s].
   double peak_force = 0.0;            ///< f_c,max: largest true contact force [N].

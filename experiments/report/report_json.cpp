@@ -43,6 +43,7 @@ json encode(const ReportContact& contact) {
                                [](const auto& by) {
                                  return json::array({by.first, rounded(by.second)});
                                })},
+          {"could_stop", contact.could_stop ? json(*contact.could_stop) : json(nullptr)},
           {"removed", rounded(contact.removed)},
           {"speed", rounded(contact.speed)},
           {"peak_force", rounded(contact.peak_force)},

@@ -17,6 +17,7 @@ void ContactWatch::see(const RunSample& now, double period) {
     if (touches) extend(now, period);
     if (now.time < last_ + Verdict::same_contact) note_detections(now);
     if (now.time < last_ + Verdict::same_contact) note_classification(now);
+    if (now.time < last_ + Verdict::same_contact) note_braking(now);
   }
   before_ = now;
 }
@@ -42,6 +43,14 @@ void ContactWatch::note_classification(const RunSample& now) {
   if (found.point_in_base.size() != now.touched_point.size() || now.touched_point.size() == 0) return;
   contact.location_error = (found.point_in_base - now.touched_point).norm();
   contact.force_error = (found.force_in_base - now.touched_force).norm();
+}
+
+void ContactWatch::note_braking(const RunSample& now) {
+  ContactVerdict& contact = contacts_.back();
+  const BrakingStatus& found = now.braking;
+  if (contact.could_stop || !found.valid || to_seconds(found.judged) < contact.onset) return;
+  contact.could_stop = found.stays_inside;
+  contact.stop_duration = found.duration;
 }
 
 std::vector<ContactVerdict> ContactWatch::contacts() const {

@@ -27,6 +27,7 @@ class ContactWatch {
   void begin(const RunSample& now);
   void note_detections(const RunSample& now);
   void note_classification(const RunSample& now);
+  void note_braking(const RunSample& now);
   double onset_share(const RunSample& now) const;
   void extend(const RunSample& now, double period);
   void name_body(const RunSample& now, ContactVerdict& contact);

@@ -113,9 +113,9 @@ void compare_motion(const Configuration& pose, const PlatformVector& velocity, c
 }  // namespace
 
 bool is_judged(const std::string& path) {
-  static constexpr std::array judged = {"detection",      "reaction", "wrench",      "reference",
-                                        "gate",           "truth",    "contact",     "location",
-                                        "classification", "measures", "plausibility"};
+  static constexpr std::array judged = {"detection",      "reaction", "wrench",       "reference",
+                                        "gate",           "truth",    "contact",      "location",
+                                        "classification", "measures", "plausibility", "braking"};
   return path.starts_with(detection_of) || std::find(judged.begin(), judged.end(), path) != judged.end();
 }
 
@@ -141,6 +141,7 @@ struct RecordedRun::Signals {
     if (recording.find("classification") != nullptr) classification.emplace(recording, "classification");
     if (recording.find("location") != nullptr) location.emplace(recording, "location");
     if (recording.find("measures") != nullptr) measures.emplace(recording, "measures");
+    if (recording.find("braking") != nullptr) braking.emplace(recording, "braking");
     if (records(recording, "contact", "self_contact")) self_contact.emplace(recording, "contact");
     if (records(recording, "plausibility", "imu_doubt")) doubts.emplace(recording, "plausibility");
     if (recording.find("tick_timing") != nullptr) timing.emplace(recording, "tick_timing");
@@ -165,6 +166,7 @@ struct RecordedRun::Signals {
   std::optional<RecordedValues<ContactClassification>> classification;
   std::optional<RecordedValues<ContactLocation>> location;
   std::optional<RecordedValues<WorkspaceMeasures>> measures;
+  std::optional<RecordedValues<BrakingStatus>> braking;
   std::optional<RecordedValues<RecordedSelfContact>> self_contact;
   std::optional<RecordedValues<RecordedContact>> contact;
   std::optional<RecordedValues<RecordedTruth>> truth;
@@ -205,6 +207,8 @@ RunSample RecordedRun::operator[](std::size_t sample) const {
   }
   now.mode = signals.reaction[sample].mode;
   now.gate = signals.gate[sample];
+  const bool is_noticed = now.detection.level != ContactLevel::none;
+  if (signals.braking && is_noticed) now.braking = (*signals.braking)[sample];
   if (signals.doubts) now.doubts = (*signals.doubts)[sample];
   if (signals.timing) now.lost_ticks = static_cast<int>((*signals.timing)[sample].lost_periods);
   if (signals.joints_link) now.unread_readings = static_cast<int>((*signals.joints_link)[sample].skipped);

@@ -10,6 +10,7 @@
 #include "experiments/verdict/recorded_doubts.h"
 #include "experiments/verdict/verdict.h"
 #include "systems/robot/configuration_space.h"
+#include "systems/signals/braking_status.h"
 #include "systems/signals/contact_detection.h"
 #include "systems/signals/contact_location.h"
 #include "systems/signals/gate_status.h"
@@ -54,6 +55,7 @@ struct RunSample {
   std::vector<bool> noticed_by;
   ReactionMode mode = ReactionMode::stopped;
   GateStatus gate;
+  BrakingStatus braking;
   RecordedDoubts doubts;
   int lost_ticks = 0;       ///< periods without a tick before this one
   int unread_readings = 0;  ///< of the joints, that no tick has seen, since the start of the link

@@ -56,10 +56,14 @@ struct ContactVerdict {
   double probability = 0.0;              ///< that it gave to this
   std::optional<double> location_error;  ///< of where it placed the contact then [m]; none: it did not know
   std::optional<double> force_error;     ///< of the force there [N], likewise
-  std::optional<double> removed;         ///< t_rem; none: still touching at the end [s]
-  double speed = 0.0;                    ///< of the platform at the onset [m/s]
-  double peak_force = 0.0;               ///< of one touching body [N]
-  double peak_time = 0.0;                ///< [s]
+  /// Whether the robot could still stop within the limits that it keeps when it noticed the contact; none: it
+  /// was not in its nominal motion, or keeps none.
+  std::optional<bool> could_stop;
+  double stop_duration = 0.0;           ///< of the shortest straight stop from there [s]
+  std::optional<double> removed;        ///< t_rem; none: still touching at the end [s]
+  double speed = 0.0;                   ///< of the platform at the onset [m/s]
+  double peak_force = 0.0;              ///< of one touching body [N]
+  double peak_time = 0.0;               ///< [s]
   std::optional<double> lasting_force;  ///< the largest after the transient duration, if it lasts so long [N]
   /// Of the peak force: transient, or quasi-static where only the lasting force fails [N].
   double limit = 0.0;

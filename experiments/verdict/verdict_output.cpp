@@ -39,6 +39,8 @@ Json contact_json(const ContactVerdict& contact) {
           {"probability", contact.classified_at ? Json(contact.probability) : Json(nullptr)},
           {"location_error_mm", contact.location_error ? Json(1e3 * *contact.location_error) : Json(nullptr)},
           {"force_error_N", contact.force_error ? Json(*contact.force_error) : Json(nullptr)},
+          {"could_stop_within_limits", contact.could_stop ? Json(*contact.could_stop) : Json(nullptr)},
+          {"stop_ms", contact.could_stop ? Json(1e3 * contact.stop_duration) : Json(nullptr)},
           {"removal_ms", milliseconds(contact.onset, contact.removed)},
           {"peak_force_N", contact.peak_force},
           {"limit_N", contact.limit},
@@ -85,6 +87,15 @@ std::string classified_line(const ContactVerdict& contact) {
   return line + "\n";
 }
 
+/// Whether the limits could still be kept.
+std::string braking_line(const ContactVerdict& contact) {
+  if (!contact.could_stop) return "";
+  if (!*contact.could_stop)
+    return "  when noticed too fast to stop straight within the limits that it keeps\n";
+  return fmt::format("  when noticed it could stop within the limits that it keeps, in {:.0f} ms\n",
+                     1e3 * contact.stop_duration);
+}
+
 std::string no_contact_line(const Verdict& verdict) {
   if (!verdict.contacts.empty()) return "";
   if (verdict.witness != Witness::none) return "nothing was touched\n";
@@ -123,7 +134,8 @@ std::string verdict_table(const Verdict& verdict, const RunFacts& facts) {
   std::string text = fmt::format("{:<15} {:>8} {:>6} {:>10} {:>10} {:>8} {:>8}  {}\n", "contact with", "at s",
                                  "m/s", "noticed ms", "removed ms", "peak N", "limit N", "within");
   for (const ContactVerdict& contact : verdict.contacts) {
-    text += contact_line(contact) + by_estimator_lines(contact) + classified_line(contact);
+    text += contact_line(contact) + by_estimator_lines(contact) + classified_line(contact) +
+            braking_line(contact);
   }
   text += no_contact_line(verdict);
   text += fmt::format(

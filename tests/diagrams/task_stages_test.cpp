@@ -119,6 +119,25 @@ TEST_P(TaskStages, TheControlPathDoesNotAllocateWhileItReacts) {
   EXPECT_EQ(bench.state().mode, hold);
 }
 
+TEST_P(TaskStages, WhetherTheRobotCouldStopIsJudgedAtTheDetectionAndKept) {
+  Bench bench(experiment(0.5));
+  ASSERT_TRUE(bench.run_until(react, 1500ms));
+  const BrakingStatus judged = bench.context.get(bench.control.braking);
+  EXPECT_TRUE(judged.valid && judged.stays_inside);
+  EXPECT_EQ(judged.judged, bench.state().since);
+  EXPECT_GT(judged.duration, 0.0);
+  ASSERT_TRUE(bench.run_until(hold, 1000ms));
+  EXPECT_EQ(bench.context.get(bench.control.braking).judged, judged.judged);
+}
+
+TEST(BrakingWatch, JudgesNothingWhereLimitsAreNeverKept) {
+  Experiment experiment = collision(0.5);
+  experiment.control.limits.use = LimitKeeperSettings::Use::never;
+  Bench bench(experiment);
+  ASSERT_TRUE(bench.run_until(react, 1500ms));
+  EXPECT_FALSE(bench.context.get(bench.control.braking).valid);
+}
+
 // No switch of the sequence makes a step in the torques that the laws ask for.
 TEST_P(TaskStages, TorquesNeverChangeFasterThanTheGateLetsThem) {
   Bench bench(experiment(0.5));

@@ -21,7 +21,8 @@ function contactEvents(contact) {
 
 function detection(contact) {
   const taken = contact.isolated_body ? ` and takes it for a contact of the ${contact.isolated_body}` : "";
-  return `The robot notices${taken}.`;
+  const late = contact.could_stop === false ? " It is too fast to stop within its limits." : "";
+  return `The robot notices${taken}.${late}`;
 }
 
 function removal(contact) {

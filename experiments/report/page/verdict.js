@@ -100,7 +100,7 @@ function contactRow(contact) {
     element("td", { class: "n" }, go),
     element("td", { class: "n" }, contact.speed === null ? none : `${fixed(contact.speed, 2)} m/s`),
     element("td", { class: contact.detected === null ? "n bad" : "n" },
-      contact.detected === null ? "not detected" : since(contact.detected), ...timesByEstimator(contact)),
+      contact.detected === null ? "not detected" : since(contact.detected), ...timesByEstimator(contact), braking(contact)),
     element("td", { class: contact.removed === null ? "n bad" : "n" },
       contact.removed === null ? "not removed" : since(contact.removed)),
     element("td", {}, forceBar(contact)),
@@ -111,6 +111,13 @@ function contactRow(contact) {
 function timesByEstimator(contact) {
   return contact.detected_by.map(([name, time]) => element("small", { class: time === null ? "by bad" : "by" },
     `${name.replaceAll("_", " ")} ${time === null ? "never" : `${fixed(1000 * (time - contact.start), 1)} ms`}`));
+}
+
+/** Whether the limits that the robot keeps could still be kept when it noticed the contact. */
+function braking(contact) {
+  if (contact.could_stop === null) return "";
+  return element("small", { class: contact.could_stop ? "by" : "by bad" },
+    contact.could_stop ? "could stop within its limits" : "too fast to stop within its limits");
 }
 
 /** What the robot took the body for, where it said so. */

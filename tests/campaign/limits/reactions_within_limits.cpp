@@ -13,6 +13,7 @@
 #include "systems/robot/contact_jacobian.h"
 #include "systems/robot/link_segments.h"
 #include "systems/safety/fault_table.h"
+#include "systems/signals/braking_status.h"
 #include "systems/signals/contact_detection.h"
 #include "systems/signals/gate_status.h"
 #include "systems/signals/limit_status.h"
@@ -74,30 +75,6 @@ void measure_place(const Mechanism& robot, const RecordedTruth& truth, ReactionO
   outcome.rotation = std::max(outcome.rotation, robot.space().rotation_angle(truth.pose));
 }
 
-/// Whether the robot can stop within the safety values from here: straight, in the shortest time that 70 Nm
-/// allow at the beginning, looked at in ten places.
-bool can_stop_inside(const Mechanism& robot, const RecordedTruth& truth) {
-  constexpr double most_torque = 70.0;
-  Kinematics at;
-  Dynamics dynamics;
-  robot.kinematics(truth.pose, truth.velocity, at);
-  robot.dynamics(at, dynamics);
-  if (!at.valid || !dynamics.valid) return false;
-  double stop = 5e-3;
-  for (; stop < 1.0; stop *= 1.05) {
-    const PlatformVector wrench = dynamics.M_x * (-truth.velocity / stop) + dynamics.C_x * truth.velocity +
-                                  dynamics.g_x + dynamics.F_fr_x;
-    if (drive_torques(at, wrench).lpNorm<Eigen::Infinity>() <= most_torque) break;
-  }
-  for (int k = 0; k <= 10; ++k) {
-    const double t = 0.1 * k * stop;
-    const PlatformVector way = truth.velocity * (t - 0.5 * t * t / stop);
-    robot.kinematics(robot.space().plus(truth.pose, way), PlatformVector::Zero(robot.dof()), at);
-    if (!(at.sigma_kappa <= sigma_kappa_s && self_collision_distance(robot, at) >= sigma_sc_s)) return false;
-  }
-  return true;
-}
-
 /// At the first tick of the contact.
 void measure_unavoidable(const CampaignRun& run, const RecordedTruth& truth, const RecordedContact& contact,
                          ReactionOutcome& outcome) {
@@ -116,14 +93,15 @@ ReactionOutcome outcome_of(const CampaignRun& run) {
   outcome.number = run.number;
   outcome.law = followed_name(run.scenario.control.stages.reaction_laws);
   outcome.body = kind_of(value_of(run, "contact"));
-  const Recording recording =
-      run_for_signals(run.scenario, {"truth", "contact", "gate", "detection", "reaction", "limits"});
+  const Recording recording = run_for_signals(
+      run.scenario, {"truth", "contact", "gate", "detection", "reaction", "limits", "braking"});
   const RecordedValues<RecordedTruth> truths(recording, "truth");
   const RecordedValues<RecordedContact> contacts(recording, "contact");
   const RecordedValues<GateStatus> gates(recording, "gate");
   const RecordedValues<ContactDetection> detections(recording, "detection");
   const RecordedValues<ReactionState> modes(recording, "reaction");
   const RecordedValues<LimitStatus> limits(recording, "limits");
+  const RecordedValues<BrakingStatus> brakings(recording, "braking");
   const Mechanism& robot = *run.scenario.robot.robot;
   outcome.speed = number_of(run, "motion.speed_m_per_s");
   Touching touching;
@@ -150,11 +128,10 @@ ReactionOutcome outcome_of(const CampaignRun& run) {
       detected = time;
       outcome.rest.reset();
     }
-    if (!outcome.detected) {
-      detected = time;
-      outcome.brakeable = can_stop_inside(robot, truth);
-    }
+    if (!outcome.detected) detected = time;
     outcome.detected = true;
+    if (const BrakingStatus braking = brakings[k]; braking.valid && !outcome.brakeable)
+      outcome.brakeable = braking.stays_inside;
     if (truth.velocity.head(robot.space().translations()).norm() > at_rest) {
       outcome.rest.reset();
     } else if (!outcome.rest) {

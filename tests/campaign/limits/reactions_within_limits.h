@@ -20,9 +20,11 @@ struct ReactionOutcome {
   std::string body;        ///< that was to be touched
   bool touched = false;
   bool detected = false;
-  bool starts_inside = false;     ///< at the start both measures are within their safety values
-  bool struck = false;            ///< a contact got hard: zero gravity
-  bool brakeable = false;         ///< at the detection it could still stop within both safety values
+  bool starts_inside = false;  ///< at the start both measures are within their safety values
+  bool struck = false;         ///< a contact got hard: zero gravity
+  /// At the detection it could still stop within the limits that it keeps, as the robot itself judges; none:
+  /// it keeps none, or noticed nothing.
+  std::optional<bool> brakeable;
   std::string fault;              ///< why the gate closed, "" if it did not
   std::optional<double> removed;  ///< after the onset of the contact [s]
   /// After the detection or, where the contact got hard, after that: until the platform stays below 0.02 m/s

@@ -34,7 +34,7 @@ constexpr double hardest = 800.0;
 /// The runs of one group, added up.
 struct Group {
   /// `faults`: not in harder contacts than that.
-  std::size_t n = 0, detected = 0, brakeable = 0, faults = 0, reclosed = 0, slack = 0;
+  std::size_t n = 0, detected = 0, judged = 0, brakeable = 0, faults = 0, reclosed = 0, slack = 0;
   std::size_t kappa = 0, sc = 0;  ///< beyond the safety values
   std::size_t kappa_brakeable = 0,
               sc_brakeable = 0;  ///< of runs that could still stop within them at the detection
@@ -54,9 +54,11 @@ struct Group {
                beyond_sc = run.sigma_sc < test::sigma_sc_s * (1.0 - 1e-6);
     kappa += beyond_kappa ? 1U : 0U;
     sc += beyond_sc ? 1U : 0U;
-    brakeable += run.brakeable ? 1U : 0U;
-    kappa_brakeable += run.brakeable && beyond_kappa ? 1U : 0U;
-    sc_brakeable += run.brakeable && beyond_sc ? 1U : 0U;
+    judged += run.brakeable ? 1U : 0U;
+    const bool could_stop = run.brakeable.value_or(false);
+    brakeable += could_stop ? 1U : 0U;
+    kappa_brakeable += could_stop && beyond_kappa ? 1U : 0U;
+    sc_brakeable += could_stop && beyond_sc ? 1U : 0U;
     reclosed += run.reclosed ? 1U : 0U;
     if (run.removed) removed.push_back(*run.removed);
     if (run.struck) rest.push_back(run.rest.value_or(9.0));
@@ -72,13 +74,14 @@ struct Group {
         "%-26s %4zu runs, %4zu detected, %3zu faults, removed %3.0f/%3.0f ms, rest %3.0f/%3.0f/%4.0f ms, "
         "again "
         "%zu\n"
-        "  beyond kappa %zu, sc %zu; of %zu brakeable at the detection %zu, %zu; worst kappa %.2f, sc %.4f "
+        "  beyond kappa %zu, sc %zu; of %zu (of %zu) brakeable at the detection %zu, %zu; worst kappa %.2f, "
+        "sc %.4f "
         "m, "
         "det A %.3f, %.4f m, %.1f deg; slack in %zu runs (%.3f), %d steps\n",
         name.c_str(), n, detected, faults, 1e3 * test::quantile(removed, 0.5),
         1e3 * test::quantile(removed, 0.95), 1e3 * test::quantile(rest, 0.5),
         1e3 * test::quantile(rest, 0.95), 1e3 * test::quantile(rest, 1.0), reclosed, kappa, sc, brakeable,
-        kappa_brakeable, sc_brakeable, sigma_kappa, sigma_sc, det_A, distance,
+        judged, kappa_brakeable, sc_brakeable, sigma_kappa, sigma_sc, det_A, distance,
         rotation * 180.0 / std::numbers::pi, slack, largest_slack, steps);
   }
 };
@@ -114,6 +117,20 @@ TEST(TheStrictReaction, KeepsTheLimits) {
   EXPECT_EQ(strict.kappa, 0U);
   EXPECT_EQ(strict.sc, 0U);
   EXPECT_EQ(strict.faults, 0U);
+}
+
+// Whoever stands within the limits at the detection and could stop there stays there.
+TEST(TheStrictReaction, KeepsTheLimitsFromTheDetectionOnWhereItCouldStopWithinThem) {
+  Group strict;
+  for (const ReactionOutcome& run : test::run_reactions(
+           campaign_file("reaction_1000.yaml"), runs_of_each_body(), 2,
+           {"control.reaction_laws=[strict_reaction]", "control.limits.keep=after_contact"})) {
+    if (run.starts_inside) strict.add(run);
+  }
+  strict.print("strict, after contact");
+  EXPECT_GT(strict.brakeable, 0U);
+  EXPECT_EQ(strict.kappa_brakeable, 0U);
+  EXPECT_EQ(strict.sc_brakeable, 0U);
 }
 
 TEST(UnavoidableForce, IsThatOfAMassAgainstASpringWhereDrivesDoNothing) {

@@ -57,6 +57,19 @@ TEST(ReactionSummary, CountsWhatRunsShow) {
   EXPECT_EQ(group.peak_largest, 300.0);
 }
 
+TEST(ReactionSummary, CountsWhoCouldStopAndWentBeyondALimitNevertheless) {
+  RunResult could = run("strict_reaction", "platform", 0.1, 1.0, 100.0), could_not = could, nobody = could;
+  could.could_stop = true;
+  could_not.could_stop = false;
+  could_not.violates_sigma_sc = true;
+  RunResult beyond = could;
+  beyond.violates_sigma_kappa = beyond.violates_sigma_sc = true;
+  const ReactionGroup group = reactions_of({could, could, beyond, could_not, nobody}).groups.at(0);
+  EXPECT_EQ(group.could_stop, 3U);
+  EXPECT_EQ(group.could_not_stop, 1U);
+  EXPECT_EQ(group.violations_could_stop, 1U);
+}
+
 // A contact that is not over at the end has no time of removal: it counts as longer than all others.
 TEST(ReactionSummary, AContactThatStaysIsLongerThanAllOthers) {
   RunResult stays = run("torque_reaction", "platform", 0.0, 1.0, 100.0);

@@ -83,6 +83,15 @@ TEST(AResult, CountsFromTheOnsetOfTheFirstContact) {
   EXPECT_EQ(result.estimators[0].contact_free, 0.5);
 }
 
+TEST(AResult, TellsWhetherTheRobotCouldStopWhenItNoticedTheFirstContact) {
+  Verdict verdict = verdict_with(0.5, {0.51, 0.52}, {0.51, 0.52});
+  EXPECT_EQ(result_of(CampaignRun(), verdict).could_stop, std::nullopt);
+  verdict.contacts[0].could_stop = false;
+  const RunResult result = result_of(CampaignRun(), verdict);
+  EXPECT_EQ(result.could_stop, false);
+  EXPECT_EQ(parse_csv_row(csv_cells(csv_header(result)), csv_row(result))->could_stop, false);
+}
+
 TEST(AResult, IsAFalseAlarmWhereSomethingWasDetectedBeforeAnythingTouched) {
   const RunResult result = result_of(CampaignRun(), verdict_with(0.5, {std::nullopt, 0.2}, {0.51, 0.51}));
   EXPECT_FALSE(result.estimators[0].false_alarm);

@@ -9,6 +9,7 @@
 #include "systems/framework/recording.h"
 #include "systems/framework/tick_timing.h"
 #include "systems/robot/body_id.h"
+#include "systems/signals/braking_status.h"
 #include "systems/signals/contact_detection.h"
 #include "systems/signals/gate_status.h"
 #include "systems/signals/platform_reference.h"
@@ -30,6 +31,7 @@ struct Moment {
   TickTiming timing;
   LinkStatus joints_link;
   Plausibility plausibility;
+  BrakingStatus braking;
 };
 
 /// A recording made up tick by tick: the robot rests where it shall, nothing touches it and nothing is
@@ -81,7 +83,8 @@ class SyntheticRun {
                          signal("gate", &Moment::gate),
                          signal("tick_timing", &Moment::timing),
                          signal("joints_link", &Moment::joints_link),
-                         signal("plausibility", &Moment::plausibility)};
+                         signal("plausibility", &Moment::plausibility),
+                         signal("braking", &Moment::braking)};
     return recording;
   }
 

@@ -50,6 +50,18 @@ TEST(VerdictTable, SaysNothingOfContactsThatNobodyCouldSee) {
               ::testing::AllOf(HasSubstr("noticed at: 0.250 s"), Not(HasSubstr("nothing was touched"))));
 }
 
+TEST(VerdictTable, TellsWhetherTheRobotCouldStopWithinItsLimits) {
+  Verdict verdict = verdict_with_contact();
+  EXPECT_THAT(verdict_table(verdict, {}), Not(HasSubstr("the limits that it keeps")));
+  EXPECT_THAT(verdict_json(verdict, {}), HasSubstr(R"("could_stop_within_limits":null,"stop_ms":null)"));
+  verdict.contacts[0].could_stop = true;
+  verdict.contacts[0].stop_duration = 0.043;
+  EXPECT_THAT(verdict_table(verdict, {}), HasSubstr("could stop within the limits that it keeps, in 43 ms"));
+  EXPECT_THAT(verdict_json(verdict, {}), HasSubstr(R"("could_stop_within_limits":true,"stop_ms":43.0)"));
+  verdict.contacts[0].could_stop = false;
+  EXPECT_THAT(verdict_table(verdict, {}), HasSubstr("too fast to stop"));
+}
+
 TEST(VerdictJson, IsOneLineThatHoldsTheTable) {
   const std::string text = verdict_json(verdict_with_contact(), {.wall = 0.5, .seed = 7});
   EXPECT_EQ(text.find('\n'), std::string::npos);

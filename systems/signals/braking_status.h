@@ -1,0 +1,23 @@
+#pragma once
+
+#include "systems/framework/time.h"
+
+namespace flinch {
+
+/// Whether the robot could stop within the limits that it keeps when a contact was last noticed.
+struct BrakingStatus {
+  bool valid = false;         ///< a contact was noticed, and motion and model were there
+  Time judged{};              ///< tick at which it was noticed
+  bool stays_inside = false;  ///< It could: limits that are kept from then on need not be exceeded.
+  double duration = 0.0;      ///< of the shortest straight stop from there [s]
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("valid", "", self.valid);
+    visit("judged", "ns", self.judged);
+    visit("stays_inside", "", self.stays_inside);
+    visit("duration", "s", self.duration);
+  }
+};
+
+}  // namespace flinch

@@ -1,0 +1,53 @@
+#include "experiments/verdict/contact_watch.h"
+
+#include <gtest/gtest.h>
+
+#include "experiments/verdict/verdict.h"
+#include "systems/robot/configuration_space.h"
+#include "tests/experiments/verdict/synthetic_run.h"
+
+namespace flinch::test {
+namespace {
+
+constexpr ConfigurationSpace planar = ConfigurationSpace::Kind::planar_pose;
+
+Verdict judged(const SyntheticRun& run) { return judge(run.recording(), planar, {}, {}); }
+
+/// Touched at 100 ms and 400 ms, noticed 10 ms later.
+SyntheticRun touched_twice() {
+  SyntheticRun run(700);
+  run.touch(BodyId::platform(), 100, 150, 50.0).touch(BodyId::platform(), 400, 450, 50.0);
+  run.notice(110, 150).notice(410, 450);
+  return run;
+}
+
+void judge_from(SyntheticRun& run, int tick, bool stays_inside) {
+  for (int k = tick; k < 700; ++k)
+    run.at(k).braking = {.valid = true, .judged = tick * 1ms, .stays_inside = stays_inside, .duration = 0.04};
+}
+
+TEST(ContactWatch, TellsOfEachContactWhetherTheRobotCouldStopWhenItNoticed) {
+  SyntheticRun run = touched_twice();
+  judge_from(run, 110, true);
+  judge_from(run, 410, false);
+  const Verdict verdict = judged(run);
+  ASSERT_EQ(verdict.contacts.size(), 2U);
+  EXPECT_EQ(verdict.contacts[0].could_stop, true);
+  EXPECT_EQ(verdict.contacts[0].stop_duration, 0.04);
+  EXPECT_EQ(verdict.contacts[1].could_stop, false);
+}
+
+TEST(ContactWatch, TakesNoOldAnswerForThatOfANewContact) {
+  SyntheticRun run = touched_twice();
+  judge_from(run, 110, true);
+  const Verdict verdict = judged(run);
+  EXPECT_EQ(verdict.contacts.at(0).could_stop, true);
+  EXPECT_EQ(verdict.contacts.at(1).could_stop, std::nullopt);
+}
+
+TEST(ContactWatch, SaysNothingOfAStopThatNobodyJudged) {
+  EXPECT_EQ(judged(touched_twice()).contacts.at(0).could_stop, std::nullopt);
+}
+
+}  // namespace
+}  // namespace flinch::test
