@@ -7,10 +7,13 @@
 
 #include "experiments/simulated/experiment.h"
 #include "experiments/simulated/simulated_scenario.h"
+#include "experiments/verdict/recorded_truth.h"
 #include "experiments/verdict/verdict.h"
 #include "systems/config/config_file.h"
 #include "systems/framework/recorded_values.h"
+#include "systems/robot/link_segments.h"
 #include "systems/signals/constraint_state.h"
+#include "systems/signals/contact_detection.h"
 #include "systems/signals/gate_status.h"
 #include "systems/signals/torque_command.h"
 #include "systems/signals/workspace_measures.h"
@@ -101,6 +104,91 @@ TEST(TaskReaction, WithConstraintsLegsStayApart) {
   EXPECT_NEAR(shown.last_distance, 0.17, 0.002);
   EXPECT_LT(shown.last_kappa, 15.15);
   EXPECT_LE(shown.largest_torque_step, 20.0 + 1e-9);
+}
+
+/// How the retreats of V-D end on a true robot, which need not be what its controller believes.
+struct TrueRetreat {
+  double first_distance = 0.0;  ///< between links, at the start [m]
+  double largest_kappa = 0.0;   ///< from the detection on, as the next
+  double least_distance = 1.0;  ///< [m]
+  double last_speed = 0.0;      ///< of the platform [m/s]
+  bool detected = false;
+  std::string fault;
+};
+
+TrueRetreat retreat(const std::string& name, const std::string& law, const std::string& limits,
+                    const std::string& plant, int seed) {
+  const std::filesystem::path file = FLINCH_SOURCE_DIR "/apps/scenarios/" + name + ".yaml";
+  std::string text = read_config_file(file);
+  const auto replace = [&text](const std::string& from, const std::string& to) {
+    ASSERT_NE(text.find(from), std::string::npos) << from;
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace("[torque_reaction]", "[" + law + "]");
+  replace("limits: {keep: never}", limits);
+  replace("kept: after_contact", "kept: never");
+  replace("plant: {classification: truth}", "plant: {classification: truth" + plant + "}");
+  replace("seed: 1", "seed: " + std::to_string(seed));
+  const SimulatedScenario scenario = parse_simulated_scenario(text, file);
+  const Recording recording = run_experiment(scenario);
+  TrueRetreat shown;
+  const auto truths = read<RecordedTruth>(recording, "truth");
+  const auto detections = read<ContactDetection>(recording, "detection");
+  const Mechanism& robot = *scenario.robot.robot;
+  for (std::size_t k = 0; k < recording.samples(); ++k) {
+    const RecordedTruth truth = truths[k];
+    Kinematics at;
+    robot.kinematics(truth.pose, truth.velocity, at);
+    if (k == 0) shown.first_distance = self_collision_distance(robot, at);
+    shown.detected |= detections[k].level != ContactLevel::none;
+    if (!shown.detected) continue;
+    shown.largest_kappa = std::max(shown.largest_kappa, at.sigma_kappa);
+    shown.least_distance = std::min(shown.least_distance, self_collision_distance(robot, at));
+    shown.last_speed = truth.velocity.norm();
+  }
+  shown.fault =
+      judge(recording, scenario.robot.robot->space(), scenario.expected, scenario.force_limits).fault;
+  return shown;
+}
+
+constexpr int drawn_robots = 12;
+const std::string ideal, realistic = ", realism: bench";
+
+// [SafePR] V-D on the strict level: neither a singularity nor a self-collision, and no limit is overshot. One
+// of the scenarios starts beyond that of self-collision, and gets no further.
+TEST(TheStrictReaction, RetreatsWithinBothLimits) {
+  for (const std::string name : {"reaction_near_singularity", "reaction_near_itself"}) {
+    for (const std::string& plant : {ideal, realistic}) {
+      TrueRetreat worst;
+      for (int seed = 1; seed <= (plant.empty() ? 1 : drawn_robots); ++seed) {
+        const TrueRetreat shown = retreat(name, "strict_reaction", "limits: {keep: always}", plant, seed);
+        EXPECT_TRUE(shown.detected) << name << plant << " " << seed;
+        EXPECT_EQ(shown.fault, "") << name << plant << " " << seed;
+        EXPECT_LE(shown.largest_kappa, 15.0) << name << plant << " " << seed;
+        EXPECT_GE(shown.least_distance, std::min(0.17, shown.first_distance)) << name << plant << " " << seed;
+        EXPECT_LT(shown.last_speed, 0.02) << name << plant << " " << seed;
+        worst.largest_kappa = std::max(worst.largest_kappa, shown.largest_kappa);
+        worst.least_distance = std::min(worst.least_distance, shown.least_distance);
+      }
+      std::printf("  %s%s: sigma_kappa up to %.2f, sigma_sc down to %.4f m\n", name.c_str(), plant.c_str(),
+                  worst.largest_kappa, worst.least_distance);
+    }
+  }
+}
+TEST(TheStrictReaction, WouldEndInASingularityOrInItselfWithoutLimitsOnRealisticRobotsToo) {
+  int lost_hold = 0, collided = 0;
+  for (int seed = 1; seed <= drawn_robots; ++seed) {
+    const std::string none = "limits: {keep: never}";
+    lost_hold +=
+        retreat("reaction_near_singularity", "torque_reaction", none, realistic, seed).fault.empty() ? 0 : 1;
+    collided +=
+        retreat("reaction_near_itself", "torque_reaction", none, realistic, seed).least_distance < 0.06 ? 1
+                                                                                                        : 0;
+  }
+  EXPECT_EQ(lost_hold, drawn_robots);
+  std::printf("  without limits %d of %d robots get lost, %d of %d come nearer than 60 mm\n", lost_hold,
+              drawn_robots, collided, drawn_robots);
+  EXPECT_GE(collided, drawn_robots / 2);
 }
 
 // [SafePR] V-E: overshoot is short, and the position is reached all the same.
