@@ -1,6 +1,7 @@
 """What ctest's results say: how long the tests of each folder ran, what was left out and why, and what failed.
 
-Usage: test_results.py RESULT.xml...     as 'ctest --output-junit' writes them
+Usage: test_results.py RESULT.xml...     as 'ctest --output-junit' writes them; of a test that is in repeated-PRESET.xml
+                                         too, that result counts, if it comes after ctest-PRESET.xml
 """
 import collections
 import itertools
@@ -30,7 +31,7 @@ def name_of(test):
 
 
 def main():
-    failed = []
+    failed = {}
     for file in sys.argv[1:]:
         tests = list(xml.etree.ElementTree.parse(file).getroot().iter("testcase"))
         print(f"\n{pathlib.Path(file).stem}: seconds from start to end of all tests of a folder, added up")
@@ -43,9 +44,10 @@ def main():
         for test in tests:
             if test.find("skipped") is not None:
                 print(f"  left out: {name_of(test)}: {reason_of(test)}")
-        failed += [f"{pathlib.Path(file).stem}: {name_of(test)}" for test in tests if test.get("status") == "fail"]
+        preset = pathlib.Path(file).stem.removeprefix("ctest-").removeprefix("repeated-")
+        failed.update({f"{preset}: {name_of(test)}": test.get("status") == "fail" for test in tests})
     print()
-    for name in failed:
+    for name in filter(failed.get, failed):
         print(f"FAILED: {name}")
 
 
