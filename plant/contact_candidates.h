@@ -22,7 +22,11 @@ class ContactCandidates {
 
   constexpr void add(std::size_t pair) { pairs_[pair / 64] |= std::uint64_t{1} << (pair % 64); }
   constexpr bool contains(std::size_t pair) const { return (pairs_[pair / 64] >> (pair % 64) & 1U) != 0; }
-  constexpr bool none() const { return *this == ContactCandidates(); }
+  constexpr bool none() const {
+    std::uint64_t any = 0;
+    for (const std::uint64_t word : pairs_) any |= word;
+    return any == 0;
+  }
   constexpr int count() const {
     int sum = 0;
     for (const std::uint64_t word : pairs_) sum += std::popcount(word);

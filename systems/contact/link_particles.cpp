@@ -18,6 +18,7 @@ bool can_be_used(const LinkContactMap& link, const Kinematics& kinematics, const
 
 /// A fraction that has left the link comes back by as much.
 double reflected(double fraction) {
+  if (fraction >= 0.0 && fraction <= 1.0) return fraction;
   if (!std::isfinite(fraction)) return 0.5;
   const double folded = std::abs(std::remainder(fraction, 2.0));
   return std::min(folded, 1.0);
@@ -38,7 +39,7 @@ struct LinkParticles::TorqueMaps {
         along(kinematics.J_x_qa.transpose() * link.along) {}
 
   JointVector torque(const LinkParticle& particle) const {  // [SafePR] (22)
-    return (at_joint + particle.fraction * along) * particle.force.head(at_joint.cols());
+    return (at_joint + particle.fraction * along).lazyProduct(particle.force.head(at_joint.cols()));
   }
 
   /// The particle whose force leans by `lean` to the same side and that explains best what `particle` does:

@@ -68,9 +68,9 @@ bool encoder_frozen(const Evidence& e) {
   if (contradicted(e, GateFault::encoder_frozen)) return true;
   if (e.encoders.step.size() == 0) return false;  // no reading, which is another fault
   for (Eigen::Index i = 0; i < e.encoders.angle.size(); ++i) {
-    const bool should_have_moved = e.encoders.unseen_motion(i) > e.limits.max_unseen_motion ||
-                                   e.encoders.unseen_current(i) > e.limits.max_unseen_current;
-    if (should_have_moved && e.encoders.repeated(i) > e.limits.longest_repetition) return true;
+    if (e.encoders.repeated(i) <= e.limits.longest_repetition) continue;
+    if (e.encoders.unseen_motion(i) > e.limits.max_unseen_motion) return true;
+    if (e.encoders.unseen_current(i) > e.limits.max_unseen_current) return true;
   }
   return false;
 }

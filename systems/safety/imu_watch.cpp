@@ -197,11 +197,11 @@ bool unit_left_model(const Comparison& at, const ImuErrors& errors) {
 /// Compares the sample with the motion of its instant, where that is known; whether it is contradicted.
 void judge(ImuWatch& watch, const InertialWatch& learned, const AngleWatch& angles,
            const PlausibilityTick& tick, const ImuReading& reading, const ImuSpread& rest) {
+  constexpr int youngest = 2, oldest = 9;  // so that there is enough after and before it
   int age = 0;
-  while (age < static_cast<int>(watch.motions) &&
+  while (age <= oldest && age < static_cast<int>(watch.motions) &&
          watch.back(static_cast<std::size_t>(age)).time - reading.acquired > period / 2)
     ++age;
-  constexpr int youngest = 2, oldest = 9;  // so that there is enough after and before it
   if (age < youngest || age > oldest || watch.motions < ImuWatch::kept) {
     watch.errors.count = 0;
     return;

@@ -82,12 +82,20 @@ void judge_turning(InertialWatch& watch, const PlausibilityTick& tick, const Imu
        GateFault::motion_contradicted);
 }
 
+void take_acceleration(InertialWatch& watch, const Eigen::Vector3d& acceleration) {
+  constexpr std::size_t window = InertialWatch::window;
+  const Eigen::Vector3d& before = watch.acceleration[(watch.accelerations + window - 1) % window];
+  const std::size_t place = watch.accelerations++ % window;
+  watch.change[place] = (acceleration - before).norm();
+  watch.acceleration[place] = acceleration;
+}
+
 /// The change of velocity over a window, as the encoders tell it and as the accelerometer sums it up. Where
 /// the acceleration changes, a sample is a value at an instant, not a mean: hence its total variation.
 void judge_velocity(InertialWatch& watch, const PlausibilityTick& tick, const ImuReading& imu,
                     const Spread& spread, const SensorPointMotion& now, Plausibility& found) {
-  const Eigen::Vector3d force = imu.specific_force - watch.accelerometer.mean();
-  watch.acceleration[watch.accelerations++ % InertialWatch::window] = now.axes * force + tick.robot.gravity();
+  take_acceleration(watch,
+                    now.axes * (imu.specific_force - watch.accelerometer.mean()) + tick.robot.gravity());
   if (!tick.free) watch.accelerations = 0;
   double ratio = 0.0;
   const SensorPointMotion* const before =
@@ -101,7 +109,7 @@ void judge_velocity(InertialWatch& watch, const PlausibilityTick& tick, const Im
     Eigen::Vector3d sum = 0.5 * (first + last);  // trapezoids
     double variation = first.norm() + last.norm();
     for (std::size_t k = 1; k < InertialWatch::window; ++k) {
-      variation += (at(k) - at(k - 1)).norm();
+      variation += watch.change[(watch.accelerations + k) % InertialWatch::window];
       if (k + 1 < InertialWatch::window) sum += at(k);
     }
     const double noise =

@@ -38,6 +38,7 @@ struct InertialWatch {
   std::array<ImuReading, 4> waiting{};                 ///< samples of the unit, the latest last
   Time acquired = -24h;                                ///< of the last one that was compared
   std::array<Eigen::Vector3d, window> acceleration{};  ///< in the base frame, a ring [m/s^2]
+  std::array<double, window> change{};                 ///< |a - a of the one before|, likewise
   std::size_t accelerations = 0;                       ///< in a row without a gap
   std::array<Eigen::Vector3d, 4> turning{};            ///< differences of rates, a ring [rad/s]
   std::size_t turnings = 0;
