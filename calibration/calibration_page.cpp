@@ -7,6 +7,7 @@
 
 #include "calibration/calibration_result.h"
 #include "calibration/page_drawing.h"
+#include "systems/foundation/html_page.h"
 
 namespace flinch {
 namespace {
@@ -123,14 +124,9 @@ std::string sources(const CalibrationResult& result, const std::string& date) {
 }  // namespace
 
 std::string calibration_page(const CalibrationResult& result, const std::string& date) {
-  const std::string title = "Calibration: " + escaped(result.kind);
-  std::string html =
-      "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'><meta "
-      "http-equiv='Content-Security-Policy' "
-      "content=\"default-src 'none'; style-src 'unsafe-inline'; img-src data:\"><meta name='viewport' "
-      "content='width=device-width, initial-scale=1'><link rel='icon' href='data:,'><title>" +
-      title + "</title><style>" + style + "</style></head><body>";
-  html += "<header><p class='soft'>flinch</p><h1>" + title + "</h1>";
+  const std::string title = "Calibration: " + result.kind;
+  std::string html = page_head(title, style);
+  html += "<header><p class='soft'>flinch</p><h1>" + escaped(title) + "</h1>";
   const std::string unit = escaped(behind_number(result.residual_unit));
   html += fmt::format(
       "<p>What is left unexplained: <b>{:.4g}{}</b> with what was believed, <b>{:.4g}{}</b> with what "

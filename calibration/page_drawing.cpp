@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "calibration/calibration_result.h"
+#include "systems/foundation/html_page.h"
 
 namespace flinch {
 namespace {
@@ -97,32 +98,6 @@ std::string ellipse(double correlation, double radius, const Axis& x, const Axis
 }
 
 }  // namespace
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char letter : text) {
-    switch (letter) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '\'':
-        result += "&#39;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += letter;
-    }
-  }
-  return result;
-}
 
 std::string short_number(double value) {
   return fmt::format("{:.4g}", std::abs(value) < 1e-12 ? 0.0 : value);

@@ -8,9 +8,6 @@ namespace flinch {
 struct BoxNumbers;
 struct CalibrationPlot;
 
-/// `text` as it may stand in HTML.
-std::string escaped(const std::string& text);
-
 /// A number with four digits, as people write it.
 std::string short_number(double value);
 

@@ -7,34 +7,11 @@
 #include <cmath>
 
 #include "learning/page/style.h"
+#include "systems/foundation/html_page.h"
 #include "systems/foundation/result_file.h"
 
 namespace flinch {
 namespace {
-
-/// Text that means nothing in HTML.
-std::string plain(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '&':
-        safe += "&amp;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe += c;
-    }
-  }
-  return safe;
-}
 
 std::string percent(const std::optional<double>& share, int digits = 1) {
   return share ? fmt::format("{:.{}f} %", 100.0 * *share, digits) : "–";
@@ -78,11 +55,11 @@ std::string moments_table(const std::vector<Evaluation>& all) {
 
 std::string confusion_html(const Confusion& confusion) {
   std::string html = "<div class=\"scroll\"><table><thead><tr><th>touched \\ told as</th>";
-  for (const std::string& name : confusion.classes) html += "<th>" + plain(name) + "</th>";
+  for (const std::string& name : confusion.classes) html += "<th>" + escaped(name) + "</th>";
   html += "<th>samples</th></tr></thead><tbody>\n";
   const Eigen::MatrixXd shares = confusion.row_normalised();
   for (Eigen::Index row = 0; row < shares.rows(); ++row) {
-    html += "<tr><th>" + plain(confusion.classes[static_cast<std::size_t>(row)]) + "</th>";
+    html += "<tr><th>" + escaped(confusion.classes[static_cast<std::size_t>(row)]) + "</th>";
     for (Eigen::Index column = 0; column < shares.cols(); ++column) {
       const double share = shares(row, column);
       const char* const colour = row == column ? "--estimate" : "--true";
@@ -175,7 +152,7 @@ std::string card_of(const std::map<std::string, std::string>& values) {
   std::string html = "<dl class=\"made\">";
   for (const auto& [key, value] : values) {
     if (key == "counts" || value.empty()) continue;
-    html += "<dt>" + plain(key) + "</dt><dd>" + plain(value) + "</dd>\n";
+    html += "<dt>" + escaped(key) + "</dt><dd>" + escaped(value) + "</dd>\n";
   }
   return html + "</dl>\n";
 }
@@ -198,20 +175,13 @@ std::string confusions(const Evaluation& chosen) {
 std::string evaluation_page(const EvaluationPage& page) {
   const auto title = page.data.card.find("title");
   const std::string name = title == page.data.card.end() ? page.data.robot_file : title->second;
-  std::string html =
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
-      "img-src "
-      "data:\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<meta name=\"color-scheme\" content=\"light dark\"><link rel=\"icon\" href=\"data:,\">\n"
-      "<title>flinch evaluation</title>\n<style>\n";
-  html += evaluation_page_style;
+  std::string html = page_head("flinch evaluation", evaluation_page_style);
   html +=
-      "</style></head><body>\n<header><div class=\"headline\"><p class=\"overline\">flinch · evaluation of a "
+      "<header><div class=\"headline\"><p class=\"overline\">flinch · evaluation of a "
       "classifier</p><h1>";
-  html += plain(name) + "</h1><p class=\"soft\">" +
-          plain(fmt::format("{} samples of {}; decided {}", page.chosen.samples, page.data.robot->name(),
-                            page.chosen.moment == "all" ? "at every sample" : page.chosen.moment)) +
+  html += escaped(name) + "</h1><p class=\"soft\">" +
+          escaped(fmt::format("{} samples of {}; decided {}", page.chosen.samples, page.data.robot->name(),
+                              page.chosen.moment == "all" ? "at every sample" : page.chosen.moment)) +
           "</p></div></header>\n<main>\n<section>" + figures_of(page.chosen) + "<div class=\"scroll\">" +
           moments_table(page.all) +
           "</div><p class=\"soft\">Accuracies are means over the classes. Early: when a detector notices the "
