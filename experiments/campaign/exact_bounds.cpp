@@ -47,6 +47,10 @@ double upper_rate(std::size_t events, double exposure, double confidence) {
          exposure;
 }
 
+double lower_rate(std::size_t events, double exposure, double confidence) {
+  return events == 0 ? 0.0 : upper_rate(events - 1, exposure, 1.0 - confidence);
+}
+
 double upper_share(std::size_t events, std::size_t trials, double confidence) {
   if (events >= trials) return 1.0;
   return solve_falling(0.0, 1.0, 1.0 - confidence,

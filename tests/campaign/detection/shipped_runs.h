@@ -11,17 +11,24 @@
 
 namespace flinch::test {
 
-/// So many draws of a campaign that ships, at each point of its grid.
-inline std::vector<RunResult> shipped_runs(const std::string& name, std::size_t draws) {
+/// A campaign that ships, with so many draws at each point of its grid.
+inline Campaign shipped(const std::string& name, std::size_t draws) {
   CampaignOverrides fewer;
   fewer.draws = draws;
-  const Campaign campaign =
-      read_campaign(std::string(FLINCH_SOURCE_DIR "/apps/campaigns/") + name + ".yaml", fewer);
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / name;
+  return read_campaign(std::string(FLINCH_SOURCE_DIR "/apps/campaigns/") + name + ".yaml", fewer);
+}
+
+inline std::vector<RunResult> runs_of(const Campaign& campaign) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) /
+                                       testing::UnitTest::GetInstance()->current_test_info()->name();
   std::filesystem::create_directories(folder);
   const std::vector<RunResult> results = run_campaign(campaign, folder, 2);
   std::filesystem::remove_all(folder);
   return results;
+}
+
+inline std::vector<RunResult> shipped_runs(const std::string& name, std::size_t draws) {
+  return runs_of(shipped(name, draws));
 }
 
 }  // namespace flinch::test

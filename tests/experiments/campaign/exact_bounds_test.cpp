@@ -30,6 +30,13 @@ TEST(UpperRate, CoversTheTrueRateAsOftenAsItSays) {
 
 TEST(UpperRate, IsInfiniteWithoutExposure) { EXPECT_TRUE(std::isinf(upper_rate(0, 0.0))); }
 
+TEST(LowerRate, IsHalfTheQuantileOfChiSquareToo) {
+  EXPECT_NEAR(lower_rate(3, 1.0), 0.817691, 1e-6);  // chi-square of 6 degrees of freedom, 0.05: 1.635383
+  EXPECT_NEAR(lower_rate(1, 2.0), -std::log(0.95) / 2.0, 1e-12);
+}
+
+TEST(LowerRate, IsZeroWithoutEvents) { EXPECT_EQ(lower_rate(0, 3.0), 0.0); }
+
 TEST(UpperShare, IsThatOfNoneAndOfAllButOneInClosedForm) {
   EXPECT_NEAR(upper_share(0, 100), 1.0 - std::pow(0.05, 0.01), 1e-12);
   EXPECT_NEAR(upper_share(9, 10), std::pow(0.95, 0.1), 1e-12);
