@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "systems/robot/link_segments.h"
+#include "systems/robot/planar_place.h"
 
 namespace flinch {
 namespace {
@@ -76,16 +77,16 @@ double log_smooth_condition_number(const PlatformVector& lambda, int p) {
   return 0.5 * (std::log(largest / lambda[0]) + std::log(sum) / p);
 }
 
-double log_smooth_condition_number(const Mechanism& mechanism, const Kinematics& kinematics, int p) {
-  const PlatformMatrix J = scaled(mechanism, kinematics.J_qa_x);
+double log_smooth_condition_number(const Mechanism& mechanism, const PlaceKinematics& place, int p) {
+  const PlatformMatrix J = scaled(mechanism, place.J_qa_x);
   return log_smooth_condition_number(Eigensystem(J.transpose() * J, Eigen::EigenvaluesOnly).eigenvalues(), p);
 }
 
 // ---------------------------------------------------------------- self-collision
 
-double distance_of(const Kinematics& kinematics, const BodyPair& pair) {
-  return segment_distance(link_segment(kinematics, BodyId::from_index(pair.a)),
-                          link_segment(kinematics, BodyId::from_index(pair.b)))
+double distance_of(const PlaceKinematics& place, const BodyPair& pair) {
+  return segment_distance(link_segment(place.legs, BodyId::from_index(pair.a)),
+                          link_segment(place.legs, BodyId::from_index(pair.b)))
       .distance;
 }
 
@@ -150,6 +151,13 @@ PlatformVector shortest_between(const std::array<PlatformVector, max_nearest_lin
   return shortest;
 }
 
+void evaluate_place(const Mechanism& mechanism, const Configuration& pose, PlaceKinematics& out) {
+  if (evaluate_planar_place(mechanism, pose, out)) return;
+  Kinematics at_rest;
+  mechanism.kinematics(pose, PlatformVector::Zero(mechanism.dof()), at_rest);
+  out = {at_rest.legs, at_rest.J_qa_x, at_rest.det_A, at_rest.det_B, at_rest.sigma_kappa, at_rest.valid};
+}
+
 }  // namespace
 
 void evaluate_nearby(const Mechanism& mechanism, const Kinematics& kinematics,
@@ -157,10 +165,10 @@ void evaluate_nearby(const Mechanism& mechanism, const Kinematics& kinematics,
   const double speed = kinematics.velocity.norm();
   out.step = 0.0;
   if (!kinematics.reachable || !(speed > 0.0)) return;
-  const PlatformVector at_rest = PlatformVector::Zero(mechanism.dof());
   const PlatformVector moved = distance_of_differences / speed * kinematics.velocity;
-  mechanism.kinematics(mechanism.space().plus(kinematics.pose, moved), at_rest, out.after);
-  mechanism.kinematics(mechanism.space().plus(kinematics.pose, -moved), at_rest, out.before);
+  const ConfigurationSpace space = mechanism.space();
+  evaluate_place(mechanism, space.plus(kinematics.pose, moved), out.after);
+  evaluate_place(mechanism, space.plus(kinematics.pose, -moved), out.before);
   if (out.before.valid && out.after.valid) out.step = distance_of_differences / speed;
 }
 

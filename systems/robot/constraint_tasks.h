@@ -1,6 +1,7 @@
 #pragma once
 
 #include "systems/robot/mechanism.h"
+#include "systems/robot/place_kinematics.h"
 #include "systems/robot/task.h"
 
 /// The measures that a reaction must keep within limits, as tasks: sigma_kappa and sigma_sc of [SafePR] IV-F.
@@ -8,15 +9,15 @@
 /// contact Jacobians; the drift is a second difference along the motion.
 namespace flinch {
 
-/// The kinematics a little before and after an instant along its velocity, for second differences: pose (+)
-/// +- step v, at rest. At rest there is nothing before and after: step = 0.
+/// The places a little before and after an instant along its velocity, for second differences: pose (+)
+/// +- step v. At rest there is nothing before and after: step = 0.
 struct NearbyKinematics {
   double step = 0.0;  ///< [s]
-  Kinematics before;
-  Kinematics after;
+  PlaceKinematics before;
+  PlaceKinematics after;
 };
 
-/// The kinematics at +- 2e-4 m or rad from `kinematics` along its velocity.
+/// The places at +- 2e-4 m or rad from `kinematics` along its velocity.
 void evaluate_nearby(const Mechanism& mechanism, const Kinematics& kinematics,
                      NearbyKinematics& out) noexcept;
 

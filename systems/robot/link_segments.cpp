@@ -58,7 +58,11 @@ SegmentDistance segment_distance(const Segment& a, const Segment& b) noexcept {
 }
 
 Segment link_segment(const Kinematics& kinematics, BodyId link) noexcept {
-  const LegPoints& leg = kinematics.legs[static_cast<std::size_t>(link.leg())];
+  return link_segment(kinematics.legs, link);
+}
+
+Segment link_segment(const std::array<LegPoints, max_dof>& legs, BodyId link) noexcept {
+  const LegPoints& leg = legs[static_cast<std::size_t>(link.leg())];
   if (link.is_link1()) return {leg.base_joint, leg.passive_joint};
   return {leg.passive_joint, leg.coupling_joint};
 }

@@ -29,6 +29,7 @@ struct SegmentDistance {
 SegmentDistance segment_distance(const Segment& a, const Segment& b) noexcept;
 
 /// Axis of `link`, which must not be the platform.
+Segment link_segment(const std::array<LegPoints, max_dof>& legs, BodyId link) noexcept;
 Segment link_segment(const Kinematics& kinematics, BodyId link) noexcept;
 
 /// Two links and where they are nearest to one another.

@@ -32,10 +32,10 @@ class Builder {
     const DeterminantGradients gradients = closed_form ? *closed_form : by_differences();
     if (least_B > 0.0)
       add(BarrierKind::type_1_singularity, log_ratio(kinematics_.det_B, least_B), gradients.log_B,
-          log_drift(&Kinematics::det_B));
+          log_drift(kinematics_.det_B, &PlaceKinematics::det_B));
     if (least_A > 0.0)
       add(BarrierKind::type_2_singularity, log_ratio(kinematics_.det_A, least_A), gradients.log_A,
-          log_drift(&Kinematics::det_A));
+          log_drift(kinematics_.det_A, &PlaceKinematics::det_A));
   }
 
   void self_collision(double least, const LimitMargins& margins) {
@@ -123,9 +123,8 @@ class Builder {
                           PlatformVector::Zero(mechanism_.dof()), out);
   }
   static double log_ratio(double a, double b) { return std::log(std::abs(a / b)); }
-  double log_drift(double Kinematics::*det) const {
+  double log_drift(double now, double PlaceKinematics::*det) const {
     if (!(nearby_.step > 0.0)) return 0.0;
-    const double now = kinematics_.*det;
     return (log_ratio(nearby_.after.*det, now) + log_ratio(nearby_.before.*det, now)) /
            (nearby_.step * nearby_.step);
   }

@@ -29,6 +29,13 @@ double condition_number(const Eigen::Matrix3d& J, const Eigen::Matrix3d& inverse
   return condition < 1e8 ? condition : std::numeric_limits<double>::infinity();
 }
 
+void set_points(const PlanarMotion& motion, std::array<LegPoints, max_dof>& out) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const PlanarLeg& leg = motion.legs[i].leg;
+    out[i] = {leg.base_joint, leg.passive_joint, leg.coupling_joint};
+  }
+}
+
 void set_points_and_rates(const PlanarMotion& motion, Kinematics& out) {
   out.rates.active.resize(3);
   out.rates.passive.resize(3);
@@ -38,14 +45,14 @@ void set_points_and_rates(const PlanarMotion& motion, Kinematics& out) {
     out.rates.active[i] = leg.qa_rate;
     out.rates.passive[i] = leg.theta2_rate - leg.qa_rate;
     out.rates.coupling[i] = motion.velocity.z() - leg.theta2_rate;
-    out.legs[static_cast<std::size_t>(i)] = {leg.leg.base_joint, leg.leg.passive_joint,
-                                             leg.leg.coupling_joint};
   }
+  set_points(motion, out.legs);
 }
 
 // delta_red,i = |c_i - elbow_i|^2 - l2^2: rows 2 l2 [e^T, d x e] by pose and -2 l1 l2 sin qp by drive angle.
+template <class Out>
 void set_determinants(const std::array<PlanarLegGeometry, 3>& geometry, const PlanarMotion& motion,
-                      const Eigen::Matrix3d& J_qa, Kinematics& out) {
+                      const Eigen::Matrix3d& J_qa, Out& out) {
   out.det_B = 1.0;
   for (std::size_t i = 0; i < 3; ++i) {
     out.det_B *= -2.0 * geometry[i].link1_length * geometry[i].link2_length * motion.legs[i].leg.sin_qp;
@@ -100,6 +107,16 @@ void differential_kinematics(const std::array<PlanarLegGeometry, 3>& geometry, c
   const Eigen::Matrix3d J_x = out.valid ? inverse : Eigen::Matrix3d::Zero();
   out.J_x_qa = J_x;
   out.dJ_x_qa = -J_x * dJ_qa * J_x;
+}
+
+void place_kinematics(const std::array<PlanarLegGeometry, 3>& geometry, const PlanarMotion& motion,
+                      PlaceKinematics& out) noexcept {
+  const Eigen::Matrix3d J_qa = stacked_rows(motion, &PlanarLegMotion::J_qa);
+  set_points(motion, out.legs);
+  set_determinants(geometry, motion, J_qa, out);
+  out.J_qa_x = J_qa;
+  out.sigma_kappa = condition_number(J_qa, J_qa.inverse());
+  out.valid = out.sigma_kappa < largest_condition_number;
 }
 
 }  // namespace flinch

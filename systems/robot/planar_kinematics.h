@@ -5,6 +5,7 @@
 #include <array>
 
 #include "systems/robot/kinematics.h"
+#include "systems/robot/place_kinematics.h"
 #include "systems/robot/planar_leg.h"
 #include "systems/robot/planar_motion.h"
 
@@ -27,5 +28,9 @@ bool is_regular(const Eigen::Matrix3d& J, const Eigen::Matrix3d& inverse) noexce
 /// Fills all of `out` but the joint angles from a reachable motion. [SafePR] (1), (2)
 void differential_kinematics(const std::array<PlanarLegGeometry, 3>& geometry, const PlanarMotion& motion,
                              Kinematics& out) noexcept;
+
+/// The same of the place of a reachable motion alone.
+void place_kinematics(const std::array<PlanarLegGeometry, 3>& geometry, const PlanarMotion& motion,
+                      PlaceKinematics& out) noexcept;
 
 }  // namespace flinch

@@ -306,6 +306,14 @@ void PlanarRrr::kinematics(const Configuration& pose, const PlatformVector& velo
   if (!all_finite(out)) set_unreachable(space(), joints, out);
 }
 
+void PlanarRrr::place(const Configuration& pose, PlaceKinematics& out) const noexcept {
+  out.valid = false;
+  if (!usable(pose, 3)) return;
+  PlanarMotion closed;
+  motion(pose.head<3>(), Eigen::Vector3d::Zero(), closed);
+  if (closed.reachable) place_kinematics(geometry_, closed, out);
+}
+
 CartesianVector PlanarRrr::point_on_body(const Kinematics& kinematics, BodyId body,
                                          const CartesianVector& point_in_body) const noexcept {
   return planar_point_on_body<3>(kinematics, 3, body, point_in_body);

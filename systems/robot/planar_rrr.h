@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "systems/robot/parallel_robot.h"
+#include "systems/robot/place_kinematics.h"
 #include "systems/robot/planar_motion.h"
 #include "systems/robot/planar_rrr_parameters.h"
 
@@ -44,6 +45,9 @@ class PlanarRrr final : public ParallelRobot {
                                 const CartesianVector& point_in_body) const noexcept override;
   ContactJacobian contact_jacobian(const Kinematics& kinematics, BodyId body,
                                    const CartesianVector& point_in_body) const noexcept override;
+
+  /// That part of the kinematics which limits of the place need, a third of the whole; home working mode.
+  void place(const Configuration& pose, PlaceKinematics& out) const noexcept;
 
   // ------------------------------------------------ fixed-size path for simulation, home working mode
 
