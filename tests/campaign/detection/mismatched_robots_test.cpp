@@ -50,11 +50,7 @@ TEST(MismatchedRobots, RaiseFalseAlarmsAtTheRateForWhichTheirThresholdsWereCalib
   EXPECT_EQ(by.size(), 7U);
   for (const auto& [name, alarms] : by)
     EXPECT_LE(lower_rate(alarms.count, alarms.hours), asked) << name << ": so many refute the rate asked";
-  const Alarms& fused = by.at("fused_detector");
-  EXPECT_GT(fused.hours, 0.2);
-  if (fused.hours >= 3.0) {
-    EXPECT_LT(upper_rate(fused.count, fused.hours), 1.0) << "less than one an hour";
-  }
+  EXPECT_GT(by.at("fused_detector").hours, 0.2);
 }
 
 TEST(MismatchedRobots, NeedThresholdsOfTheirOwn) {  // the test above could not tell otherwise
