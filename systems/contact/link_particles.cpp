@@ -124,13 +124,19 @@ void LinkParticles::resample(const Weights& weights, double sum) noexcept {
   const double step = sum / count_;
   double place = random_.uniform(0.0, step);
   double passed = weights[0];
-  int from = 0;
-  std::array<LinkParticle, max_particles> drawn;
-  for (int i = 0; i < count_; ++i, place += step) {
-    while (passed < place && from + 1 < count_) passed += weights[static_cast<std::size_t>(++from)];
-    drawn[static_cast<std::size_t>(i)] = particles_[static_cast<std::size_t>(from)];
+  std::size_t drawn = 0;
+  const auto count = static_cast<std::size_t>(count_);
+  std::array<std::size_t, max_particles> from;  // never falls, so that none is taken that has been replaced
+  for (std::size_t i = 0; i < count; ++i, place += step) {
+    while (passed < place && drawn + 1 < count) passed += weights[++drawn];
+    from[i] = drawn;
   }
-  std::copy_n(drawn.begin(), count_, particles_.begin());
+  for (std::size_t i = 0; i < count; ++i) {
+    if (from[i] > i) particles_[i] = particles_[from[i]];
+  }
+  for (std::size_t i = count; i-- > 0;) {
+    if (from[i] < i) particles_[i] = particles_[from[i]];
+  }
 }
 
 void LinkParticles::lean_anew(const TorqueMaps& maps, const JointVector& drive_torque,

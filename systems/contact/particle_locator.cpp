@@ -85,15 +85,16 @@ ContactLocation ParticleLocator::read(const Memory& next, const WrenchEstimate& 
   return found;
 }
 
-ParticleCloud ParticleLocator::show(const Memory& next) const {
-  ParticleCloud shown;
+void ParticleLocator::show(const Memory& next, ParticleCloud& shown) const {
+  const bool shows_none_already = shown.body == next.body && shown.count == 0;
+  if (next.particles.count() == 0 && shows_none_already) return;
+  shown = ParticleCloud();
   shown.body = next.body;
   shown.count = std::min(next.particles.count(), ParticleCloud::most);
   for (int i = 0; i < shown.count; ++i) {
     shown.fraction[i] = next.particles[i].fraction;
     shown.force[i] = next.particles[i].force[1];
   }
-  return shown;
 }
 
 }  // namespace flinch

@@ -51,7 +51,7 @@ class ParticleLocator final : public System {
                const Kinematics& at, const WrenchEstimate& estimate, const Memory& memory,
                Memory& next) const;
   ContactLocation read(const Memory& next, const WrenchEstimate& estimate) const;
-  ParticleCloud show(const Memory& next) const;
+  void show(const Memory& next, ParticleCloud& shown) const;
 
   std::shared_ptr<const ParallelRobot> robot_;
   ContactClasses classes_;
