@@ -62,5 +62,18 @@ TEST(Icra23, FindsTheSlidingModeFastestOnClampings) {
   EXPECT_LT(clamping("momentum_kalman_filter"), clamping("momentum_observer"));
 }
 
+TEST(Icra23,
+     FindsAllWithinTwoMillisecondsOnThePlatform) {  // where the sliding mode is no faster than it was there
+  const Medians medians = medians_of("detection_icra23", 5);
+  constexpr std::size_t platform = 4, clamping = 7;  // of the second point of the grid: 700 N/s
+  std::vector<double> times;
+  for (const auto& [estimator, each] : medians) times.push_back(each.at(platform));
+  EXPECT_EQ(times.size(), 3U);
+  const auto [first, last] = std::minmax_element(times.begin(), times.end());
+  EXPECT_LE(*last - *first, 2.0);
+  EXPECT_LT(medians.at("sliding_mode_observer").at(clamping),
+            medians.at("momentum_kalman_filter").at(clamping));
+}
+
 }  // namespace
 }  // namespace flinch
