@@ -318,14 +318,17 @@ void show_isolation(const Path& path, const Isolation& isolation, OtherStages& s
   }
 }
 
-/// The torques of laws that are not followed, and the constraints of all.
+/// The torques of laws that are not followed, and the constraints and energies of all.
 void show_laws(const Path& path, const Laws& laws, OtherStages& shown) {
   shown.torques = show_torques(path, laws);
   for (const AddedStages<LawPorts>* kind : {&laws.nominal, &laws.reaction}) {
     for (const Named<LawPorts>& law : kind->all) {
-      if (!law.port.constraints) continue;
-      const std::string name = "constraints_" + law.name;
-      shown.constraints.push_back({name, path.builder.export_output(name, *law.port.constraints)});
+      const std::string constraints = "constraints_" + law.name, energies = "energies_" + law.name;
+      if (law.port.constraints)
+        shown.constraints.push_back(
+            {constraints, path.builder.export_output(constraints, *law.port.constraints)});
+      if (law.port.energies)
+        shown.energies.push_back({energies, path.builder.export_output(energies, *law.port.energies)});
     }
   }
 }

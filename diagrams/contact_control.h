@@ -32,6 +32,8 @@ struct OtherStages {
   std::vector<Named<OutputPort<ParticleCloud>>> clouds;
   /// Of every law that keeps some, whether it is followed or not: "constraints_" + its name.
   std::vector<Named<OutputPort<ConstraintState>>> constraints;
+  /// Likewise of every law that serves tasks by torques: "energies_" + its name.
+  std::vector<Named<OutputPort<TaskEnergies>>> energies;
   /// What detectors take for the loads of the drives, "load_" + their name.
   std::vector<Named<OutputPort<DriveLoad>>> loads;
 };

@@ -23,6 +23,7 @@
 #include "systems/signals/reaction_state.h"
 #include "systems/signals/reset_command.h"
 #include "systems/signals/station_status.h"
+#include "systems/signals/task_energies.h"
 #include "systems/signals/torque_command.h"
 #include "systems/signals/workspace_measures.h"
 #include "systems/signals/wrench_estimate.h"
@@ -94,6 +95,7 @@ struct LawPorts {
   /// Of a reaction: `finished` ends it. Not valid where there is nothing to be followed.
   OutputPort<PlatformReference> reference;
   std::optional<OutputPort<ConstraintState>> constraints{};  ///< of a law that keeps some
+  std::optional<OutputPort<TaskEnergies>> energies{};        ///< of a law that serves tasks by torques
 };
 
 using VelocitySource = Stage<SensedPorts, OutputPort<JointMotion>>;

@@ -5,6 +5,7 @@
 #include "diagrams/contact_control_settings.h"
 #include "systems/laws/pose_goals.h"
 #include "systems/laws/task_controller.h"
+#include "systems/laws/task_energy.h"
 #include "systems/motion/constraint_watch.h"
 #include "systems/motion/reaction_task.h"
 
@@ -33,7 +34,16 @@ LawPorts add_controller(const StageSite& site, TaskLevel level, const Constraint
   builder.connect(watch.constraints, controller.constraints);
   builder.connect(given.kinematics, controller.kinematics);
   builder.connect(given.dynamics, controller.dynamics);
-  return {.torque = controller.torque, .reference = led.reference, .constraints = watch.constraints};
+  LawPorts law{.torque = controller.torque, .reference = led.reference, .constraints = watch.constraints};
+  if (level != TaskLevel::torque) return law;
+  auto& energy = builder.add<TaskEnergyWatch>(site.name + "_energies");
+  builder.connect(led.goals, energy.tasks);
+  builder.connect(watch.goals, energy.constraint_goals);
+  builder.connect(watch.constraints, energy.constraints);
+  builder.connect(given.kinematics, energy.kinematics);
+  builder.connect(given.dynamics, energy.dynamics);
+  law.energies = energy.energies;
+  return law;
 }
 
 LawPorts add_tracking(const StageSite& site, TaskLevel level, const ReactionPorts& given) {

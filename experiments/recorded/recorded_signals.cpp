@@ -61,6 +61,7 @@ void export_control(DiagramBuilder& builder, const ContactControl& control) {
   show(control.others.locations);
   show(control.others.clouds);
   show(control.others.constraints);
+  show(control.others.energies);
   show(control.others.loads);
 }
 

@@ -21,6 +21,8 @@ const Names charts{"contact_force",
                    "torque",
                    "sigma_kappa",
                    "sigma_sc",
+                   "energy",
+                   "energy_rate",
                    "probability",
                    "location_error",
                    "force_error"};
@@ -49,6 +51,10 @@ Names column_names() {
   const auto add = [&names](const std::string& prefix) {
     for (const char* const axis : {"x", "y", "z"}) names.push_back(prefix + axis);
   };
+  for (const std::string task : {"sigma_kappa", "sigma_sc", "task_1", "task_2"}) {
+    names.push_back("energy_" + task);
+    names.push_back("energy_rate_" + task);
+  }
   for (const std::string contact : {"contact_1_", "contact_2_"}) {
     add(contact);
     add(contact + "force_");

@@ -10,6 +10,7 @@
 
 #include "experiments/report/drawn_robot.h"
 #include "experiments/report/page_samples.h"
+#include "experiments/report/task_energy_columns.h"
 #include "experiments/report/vector_columns.h"
 #include "experiments/verdict/recorded_estimate.h"
 #include "experiments/verdict/recorded_run.h"
@@ -418,6 +419,7 @@ void add_samples(const ParallelRobot& robot, const Recording& recording, Report&
   EstimatesSideBySide estimates(robot.space(), recording, page, report);
   Drives drives(robot, recording, simulated, page);
   Constraints constraints(recording, page);
+  TaskEnergyColumns energies(recording, page);
   Isolation isolation(robot, recording, simulated, page);
   ObstacleMotion obstacles(recording, report.obstacles.size(), robot.space().translations(), page);
   std::optional<RecordedTruths> truths;
@@ -434,6 +436,7 @@ void add_samples(const ParallelRobot& robot, const Recording& recording, Report&
     estimates.show(k);
     drives.show(k, truth);
     constraints.show(k);
+    energies.show(k, now.mode);
     isolation.show(k, now, truth, hardness);
     obstacles.show(k, hardness);
   }

@@ -29,17 +29,8 @@ PlatformVector compliant_acceleration(const TaskGains& gains, const PlatformMatr
     const double root = std::sqrt(gains.force[0] * mobility(0, 0));
     return mobility * gains.force.cwiseProduct(error.e) + 2.0 * gains.damping_ratio[0] * root * error.de;
   }
-  // A direction in which the task cannot be moved has no inertia to design a damping for.
-  const auto n = mobility.rows();
-  PlatformMatrix movable = mobility;
-  const double size = mobility.trace();
-  if (movable.determinant() <
-      std::pow(least_conditioned, static_cast<double>(n - 1)) * std::pow(size, static_cast<double>(n))) {
-    movable.diagonal().array() += 1e-6 * size;
-  }
-  const PlatformMatrix M = movable.inverse();
   const PlatformMatrix K = gains.force.asDiagonal();
-  const PlatformMatrix D = impedance_damping(0.5 * (M + M.transpose()), K, gains.damping_ratio).D;
+  const PlatformMatrix D = impedance_damping(task_inertia(mobility), K, gains.damping_ratio).D;
   return mobility * (K * error.e + D * error.de);  // [SafePR] (44b), (46)
 }
 
@@ -127,6 +118,20 @@ JointVector task_torque(TaskLevel level, const PlatformVector& reference, const 
   const JointVector wanted =
       settings.velocity_feedforward * reference + settings.velocity_gain * (reference - dq);  // (32e)
   return saturated(b, wanted, settings.largest_torque);
+}
+
+// A direction in which the task cannot be moved has no inertia.
+PlatformMatrix task_inertia(const PlatformMatrix& mobility) noexcept {
+  if (mobility.rows() == 1) return mobility.cwiseInverse();
+  const auto n = mobility.rows();
+  PlatformMatrix movable = mobility;
+  const double size = mobility.trace();
+  if (movable.determinant() <
+      std::pow(least_conditioned, static_cast<double>(n - 1)) * std::pow(size, static_cast<double>(n))) {
+    movable.diagonal().array() += 1e-6 * size;
+  }
+  const PlatformMatrix M = movable.inverse();
+  return 0.5 * (M + M.transpose());
 }
 
 JointVector saturated(const JointVector& known, const JointVector& wanted, double largest) noexcept {

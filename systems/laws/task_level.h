@@ -54,6 +54,10 @@ PlatformVector task_reference(TaskLevel level, const TaskList& list, const Kinem
 JointVector task_torque(TaskLevel level, const PlatformVector& reference, const Kinematics& kinematics,
                         const Dynamics& dynamics, const TaskLevelSettings& settings) noexcept;
 
+/// M_i of a task with the mobility M_i^-1 = J_i M_x^-1 J_i^T. Directions in which the task can hardly be
+/// moved count as a little mobile.
+PlatformMatrix task_inertia(const PlatformMatrix& mobility) noexcept;
+
 /// `wanted` made shorter, in its direction, so that no entry of known + wanted exceeds `largest`; where that
 /// of `known` alone does, known + wanted clamped.
 JointVector saturated(const JointVector& known, const JointVector& wanted, double largest) noexcept;

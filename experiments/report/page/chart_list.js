@@ -50,6 +50,14 @@ function decimalsFor(values) {
   return largest > 0 ? Math.min(6, Math.max(1, 2 - Math.floor(Math.log10(largest)))) : 1;
 }
 
+/** What the law serves, where it ever does. */
+function energies(prefix) {
+  const served = [["task_1", "first task", "--plain"], ["task_2", "second task", "--estimate"],
+    ["sigma_kappa", "condition number", "--leg-1"], ["sigma_sc", "self-collision", "--leg-2"]];
+  return served.filter(([name]) => has(`energy_${name}`) && report.columns[`energy_${name}`].some((value) => value !== null))
+    .flatMap(([name, label, colour]) => one(`${prefix}_${name}`, label, colour));
+}
+
 function chartList() {
   const list = [
     { id: "contact_force", title: "Contact force", unit: "N", least: 20, reach: true, fromZero: true, series: [
@@ -84,6 +92,9 @@ function chartList() {
       ...one("sigma_kappa", "σκ", "--plain"), ...one("sigma_kappa_reference", "led to", "--estimate")] },
     { id: "sigma_sc", title: "Self-collision distance", symbol: ["σ", "sc"], unit: "mm", scale: 1000, least: 2,
       series: [...one("sigma_sc", "σsc", "--plain"), ...one("sigma_sc_reference", "led to", "--estimate")] },
+    { id: "energy", title: "Lyapunov functions of the tasks", symbol: ["V", "i"], unit: "mJ", scale: 1000, least: 1, fromZero: true,
+      series: energies("energy") },
+    { id: "energy_rate", title: "How fast they change", unit: "W", least: 0.1, series: energies("energy_rate") },
   ];
   for (const chart of list) {
     chart.scale ??= 1;

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "experiments/report/experiment_report.h"
@@ -46,6 +47,20 @@ TEST(ExperimentPage, TellsWhereObstaclesAreThatMove) {
   EXPECT_NEAR(moving.at("obstacle_1_y").at(300), 0.01, 1e-12);
   EXPECT_NEAR(moving.at("obstacle_1_x").back(), -0.05, 1e-12);
   EXPECT_EQ(moving.count("obstacle_1_z"), 0U) << "in a plane";
+}
+
+TEST(ExperimentPage, DrawsTheLyapunovFunctionOfWhatTheLawOfTheModeServes) {
+  const Report report = report_of(FLINCH_SOURCE_DIR "/apps/scenarios/platform_reaction.yaml");
+  const std::vector<double>& V = report.columns.at("energy_task_1");
+  const std::vector<double>& rate = report.columns.at("energy_rate_task_1");
+  EXPECT_NEAR(rate.at(700), (V.at(700) - V.at(699)) / 1e-3, 1e-9);
+  const std::vector<double>& orientation = report.columns.at("energy_task_2");
+  EXPECT_GE(orientation.at(400), 0.0) << "of the nominal law";
+  EXPECT_TRUE(std::isnan(orientation.at(700))) << "a reaction of the platform has one task";
+  EXPECT_EQ(
+      report_of(FLINCH_SOURCE_DIR "/apps/scenarios/platform_collision.yaml").columns.count("energy_task_1"),
+      0U)
+      << "its laws serve no tasks";
 }
 
 TEST(ExperimentPage, WorksInChromium) {
