@@ -46,7 +46,9 @@ struct LimitKeeperSettings {
 
   BrakingShares braking;
   double approach = 100.0;    ///< gamma: how fast a limit may be approached, for each unit of room [1/s]
-  double correction = 300.0;  ///< a_2: how fast a speed towards a limit comes down to that [1/s]
+  /// a_2: how fast a speed towards a limit comes down to that; slower than the drives build up their torque,
+  /// which takes them max_torque / max_torque_rate [1/s].
+  double correction = 150.0;
   double speed_rate = 100.0;  ///< how fast a speed comes down to its limit [1/s]
 };
 

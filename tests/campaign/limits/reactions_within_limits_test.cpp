@@ -117,6 +117,7 @@ TEST(TheStrictReaction, KeepsTheLimits) {
   EXPECT_EQ(strict.kappa, 0U);
   EXPECT_EQ(strict.sc, 0U);
   EXPECT_EQ(strict.faults, 0U);
+  EXPECT_GE(upper_share(strict.n - strict.slack, strict.n, 0.999), 0.99) << "slack in at most 1 %";
 }
 
 // Whoever stands within the limits at the detection and could stop there stays there.
