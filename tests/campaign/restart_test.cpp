@@ -96,8 +96,9 @@ class Restarts : public testing::Test {
   /// Only the robot that is there now: the last samples of one that was killed may come after a mark.
   void watch_joints(const Mark& mark, Time released) {
     const std::uint32_t count = log().joints.count;
-    const std::uint32_t robot = log().joints[count - 1].header.session;
     std::uint32_t begin = mark.joints;
+    ASSERT_LT(begin, count) << "the robot sends nothing";
+    const std::uint32_t robot = log().joints[count - 1].header.session;
     while (log().joints[begin].header.session != robot) ++begin;
     const flinch_JointSample& first = log().joints[begin];
     for (std::uint32_t i = begin; i < count; ++i) {

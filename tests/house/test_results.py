@@ -8,7 +8,8 @@ import itertools
 import pathlib
 import re
 import sys
-import xml.etree.ElementTree
+
+from ctest_results import is_failed, is_skipped, results_of
 
 REASON = re.compile(r"^(not measured: .*|(?:\S+: )?Skipped\n.*)$", re.MULTILINE)
 
@@ -26,27 +27,27 @@ def reason_of(test):
     return found[-1].split("\n")[-1] if found else "see the log"
 
 
-def name_of(test):
-    return test.get("name").split("  #")[0]
-
-
 def main():
-    failed = {}
+    failed, repeated = {}, []
     for file in sys.argv[1:]:
-        tests = list(xml.etree.ElementTree.parse(file).getroot().iter("testcase"))
+        tests = results_of(file)
         print(f"\n{pathlib.Path(file).stem}: seconds from start to end of all tests of a folder, added up")
         seconds, count = collections.Counter(), collections.Counter()
-        for test in tests:
-            seconds[folder_of(name_of(test))] += float(test.get("time"))
-            count[folder_of(name_of(test))] += 1
+        for name, test in tests.items():
+            seconds[folder_of(name)] += float(test.get("time"))
+            count[folder_of(name)] += 1
         for folder, sum_of_times in seconds.most_common():
             print(f"  {sum_of_times:8.1f} s  {count[folder]:5d} tests  {folder}")
-        for test in tests:
-            if test.find("skipped") is not None:
-                print(f"  left out: {name_of(test)}: {reason_of(test)}")
         preset = pathlib.Path(file).stem.removeprefix("ctest-").removeprefix("repeated-")
-        failed.update({f"{preset}: {name_of(test)}": test.get("status") == "fail" for test in tests})
+        for name, test in tests.items():
+            if is_skipped(test):
+                print(f"  left out: {name}: {reason_of(test)}")
+            if failed.get(f"{preset}: {name}"):
+                repeated.append(f"{preset}: {name}")
+            failed[f"{preset}: {name}"] = is_failed(test)
     print()
+    for name in repeated:
+        print(f"FAILED while the machine stalled, and was repeated: {name}")
     for name in filter(failed.get, failed):
         print(f"FAILED: {name}")
 
