@@ -87,7 +87,7 @@ bool ConstraintWatch::watches(const ReactionState& state) const {
 }
 
 void ConstraintWatch::measure(const Kinematics& now, Measures& measures) const {
-  NearbyKinematics nearby;
+  NearbyPlaces nearby;
   evaluate_nearby(*robot_, now, nearby);
   measures.sigma_kappa = condition_number_task(*robot_, now, nearby);
   measures.sigma_sc = self_collision_task(*robot_, now, nearby);

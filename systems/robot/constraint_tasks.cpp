@@ -160,8 +160,7 @@ void evaluate_place(const Mechanism& mechanism, const Configuration& pose, Place
 
 }  // namespace
 
-void evaluate_nearby(const Mechanism& mechanism, const Kinematics& kinematics,
-                     NearbyKinematics& out) noexcept {
+void evaluate_nearby(const Mechanism& mechanism, const Kinematics& kinematics, NearbyPlaces& out) noexcept {
   const double speed = kinematics.velocity.norm();
   out.step = 0.0;
   if (!kinematics.reachable || !(speed > 0.0)) return;
@@ -173,7 +172,7 @@ void evaluate_nearby(const Mechanism& mechanism, const Kinematics& kinematics,
 }
 
 Task condition_number_task(const Mechanism& mechanism, const Kinematics& kinematics,
-                           const NearbyKinematics& nearby) noexcept {
+                           const NearbyPlaces& nearby) noexcept {
   Task task = no_task(1, mechanism.dof());
   if (!kinematics.valid) return task;
   const Spectrum spectrum = spectrum_of(mechanism, kinematics);
@@ -192,7 +191,7 @@ Task condition_number_task(const Mechanism& mechanism, const Kinematics& kinemat
 }
 
 Task smooth_condition_number_task(const Mechanism& mechanism, const Kinematics& kinematics,
-                                  const NearbyKinematics& nearby, int p) noexcept {
+                                  const NearbyPlaces& nearby, int p) noexcept {
   Task task = no_task(1, mechanism.dof());
   if (!kinematics.valid) return task;
   const Spectrum spectrum = spectrum_of(mechanism, kinematics);
@@ -218,7 +217,7 @@ Task smooth_condition_number_task(const Mechanism& mechanism, const Kinematics& 
 
 // The drift is that of one pair of links: the distance of a pair has no kinks.
 Task self_collision_task(const Mechanism& mechanism, const Kinematics& kinematics,
-                         const NearbyKinematics& nearby) noexcept {
+                         const NearbyPlaces& nearby) noexcept {
   Task task = no_task(1, mechanism.dof());
   const NearestLinksList nearest = nearest_links(mechanism, kinematics, same_distance);
   if (nearest.count == 0) return task;

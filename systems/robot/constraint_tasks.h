@@ -11,32 +11,31 @@ namespace flinch {
 
 /// The places a little before and after an instant along its velocity, for second differences: pose (+)
 /// +- step v. At rest there is nothing before and after: step = 0.
-struct NearbyKinematics {
+struct NearbyPlaces {
   double step = 0.0;  ///< [s]
   PlaceKinematics before;
   PlaceKinematics after;
 };
 
 /// The places at +- 2e-4 m or rad from `kinematics` along its velocity.
-void evaluate_nearby(const Mechanism& mechanism, const Kinematics& kinematics,
-                     NearbyKinematics& out) noexcept;
+void evaluate_nearby(const Mechanism& mechanism, const Kinematics& kinematics, NearbyPlaces& out) noexcept;
 
 /// sigma = sigma_kappa = cond_2(J_x,qa). Where several singular values are the largest, or the smallest, it
 /// has no gradient; J is then the mean of theirs. Not valid at a singularity.
 Task condition_number_task(const Mechanism& mechanism, const Kinematics& kinematics,
-                           const NearbyKinematics& nearby) noexcept;
+                           const NearbyPlaces& nearby) noexcept;
 
 /// ln kappa_p of a bound on sigma_kappa that is smooth wherever the smallest singular value is single:
 ///   kappa_p^2 = (sum lambda_i^p)^(1/p) / lambda_min,   lambda_i the other eigenvalues of J_qa,x^T J_qa,x.
 /// kappa <= kappa_p <= (n - 1)^(1 / 2p) kappa. Not valid at a singularity.
 Task smooth_condition_number_task(const Mechanism& mechanism, const Kinematics& kinematics,
-                                  const NearbyKinematics& nearby, int p = 8) noexcept;
+                                  const NearbyPlaces& nearby, int p = 8) noexcept;
 
 /// sigma = sigma_sc: smallest distance of links of different legs [m]. On its plateau, where two points fixed
 /// to the platform are nearest, J and drift are zero. Where several pairs of links are equally near, J is the
 /// steepest ascent: the shortest of what lies between their gradients, along which all of them move apart.
 /// Zero where links cross. Not valid for a mechanism without pairs.
 Task self_collision_task(const Mechanism& mechanism, const Kinematics& kinematics,
-                         const NearbyKinematics& nearby) noexcept;
+                         const NearbyPlaces& nearby) noexcept;
 
 }  // namespace flinch

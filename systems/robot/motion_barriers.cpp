@@ -132,7 +132,7 @@ class Builder {
   const Mechanism& mechanism_;
   const Kinematics& kinematics_;
   BarrierList& list_;
-  NearbyKinematics nearby_;
+  NearbyPlaces nearby_;
 };
 
 }  // namespace

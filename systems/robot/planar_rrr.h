@@ -46,7 +46,7 @@ class PlanarRrr final : public ParallelRobot {
   ContactJacobian contact_jacobian(const Kinematics& kinematics, BodyId body,
                                    const CartesianVector& point_in_body) const noexcept override;
 
-  /// That part of the kinematics which limits of the place need, a third of the whole; home working mode.
+  /// That part of the kinematics which limits of the place need; home working mode.
   void place(const Configuration& pose, PlaceKinematics& out) const noexcept;
 
   // ------------------------------------------------ fixed-size path for simulation, home working mode

@@ -31,7 +31,7 @@ struct Controller {
               TaskGains::uniform(2, 30, 2000, 50, 2000, 1)});
     ticking.set(tasks, list);
     TaskList kept;
-    const NearbyKinematics nearby;
+    const NearbyPlaces nearby;
     kept.add({condition_number_task(*robot, posture.kinematics, nearby),
               {one(1.0), one(0.0), one(0.0)},
               TaskGains::uniform(1, 20, 1500, 62.5, 1, 2)});

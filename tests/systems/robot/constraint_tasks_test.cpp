@@ -12,8 +12,8 @@
 namespace flinch::testing {
 namespace {
 
-NearbyKinematics nearby_of(const Mechanism& mechanism, const Kinematics& k) {
-  NearbyKinematics nearby;
+NearbyPlaces nearby_of(const Mechanism& mechanism, const Kinematics& k) {
+  NearbyPlaces nearby;
   evaluate_nearby(mechanism, k, nearby);
   return nearby;
 }
@@ -95,7 +95,7 @@ TEST_P(ConstraintTaskLaws, SmoothConditionNumberBoundsTheConditionNumberAndHasIt
     EXPECT_GE(task.sigma[0], std::log(k.sigma_kappa) - 1e-9);
     EXPECT_LE(task.sigma[0], std::log(k.sigma_kappa) + std::log(std::max(n - 1, 1)) / 16.0 + 1e-9);
     const PlatformVector expected = gradient_by_differences(state.pose, [this](const Kinematics& at) {
-      return smooth_condition_number_task(robot, at, NearbyKinematics()).sigma[0];
+      return smooth_condition_number_task(robot, at, NearbyPlaces()).sigma[0];
     });
     compare(residual, PlatformVector(task.J.transpose()), expected);
   }
@@ -135,7 +135,7 @@ TEST_P(ConstraintTaskLaws, GradientOfTheSelfCollisionDistanceAgreesWithDifferenc
     const double drift = derivative(
         [&](double time) {
           const Kinematics at = kinematics_after(state, time);
-          return self_collision_task(robot, at, NearbyKinematics()).rate(state.velocity)[0];
+          return self_collision_task(robot, at, NearbyPlaces()).rate(state.velocity)[0];
         },
         1e-4);
     const double scale = std::max(std::abs(drift), state.velocity.squaredNorm());
@@ -146,7 +146,7 @@ TEST_P(ConstraintTaskLaws, GradientOfTheSelfCollisionDistanceAgreesWithDifferenc
 TEST_P(ConstraintTaskLaws, NothingOfThemAllocates) {
   const MotionState& state = states.front();
   const Kinematics k = kinematics_at(state.pose, state.velocity);
-  NearbyKinematics nearby;
+  NearbyPlaces nearby;
   const test::AllocationCounter counter;
   evaluate_nearby(robot, k, nearby);
   const bool valid = condition_number_task(robot, k, nearby).valid &&
@@ -158,7 +158,7 @@ TEST_P(ConstraintTaskLaws, NothingOfThemAllocates) {
 
 TEST_P(ConstraintTaskLaws, OutOfReachNoneIsValid) {
   const Kinematics nowhere = kinematics_at(Configuration(), PlatformVector());
-  const NearbyKinematics nearby = nearby_of(robot, nowhere);
+  const NearbyPlaces nearby = nearby_of(robot, nowhere);
   EXPECT_EQ(nearby.step, 0.0);
   EXPECT_FALSE(condition_number_task(robot, nowhere, nearby).valid);
   EXPECT_FALSE(smooth_condition_number_task(robot, nowhere, nearby).valid);
@@ -174,7 +174,7 @@ class PlanarConstraints : public ::testing::Test {
     robot.kinematics(Eigen::Vector3d(x, y, phi), PlatformVector::Zero(3), k);
     return k;
   }
-  Task self_collision(const Kinematics& k) const { return self_collision_task(robot, k, NearbyKinematics()); }
+  Task self_collision(const Kinematics& k) const { return self_collision_task(robot, k, NearbyPlaces()); }
 
   PlanarRrr robot{bench_robot(BenchGeometry::nominal, BenchFriction::none)};
 };
@@ -219,7 +219,7 @@ TEST_F(PlanarConstraints, BetweenTwoPairsThatMoveApartTheGradientLiesBetweenThei
 // At the centre the two larger singular values are equal.
 TEST_F(PlanarConstraints, AtATieOfSingularValuesTheGradientLiesBetweenTheOneSidedSlopes) {
   const Kinematics k = at(0.0, 0.0, 0.3);
-  const Task task = condition_number_task(robot, k, NearbyKinematics());
+  const Task task = condition_number_task(robot, k, NearbyPlaces());
   ASSERT_TRUE(task.valid);
   for (int axis = 0; axis < 3; ++axis) {
     const Eigen::Vector3d e = Eigen::Vector3d::Unit(axis);
