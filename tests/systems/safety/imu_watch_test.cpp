@@ -202,6 +202,62 @@ TEST(ImuWatch, BelievesAUnitThatComesBackAfterItDroppedOut) {
   EXPECT_EQ(moving.tick().imu_doubt, ImuDoubt::none);
 }
 
+TEST(ImuWatch, DoesNotJudgeAReadingOfLongAgo) {
+  const auto robot = test::planar_bench();
+  const PlausibilityLimits limits;
+  const MountedImu mounted(limits.imu_mount);
+  InertialWatch learned;
+  for (const double off : {1.0, -1.0}) {
+    for (int k = 0; k < LearnedNoise::enough; ++k) {
+      learned.gyroscope.add(Eigen::Vector3d::Constant(off * turning_noise));
+      learned.accelerometer.add(Eigen::Vector3d::Constant(off * force_noise));
+    }
+  }
+  const AngleWatch angles;
+  ImuWatch watch;
+  Plausibility found;
+  Time now = 24h;
+  const auto tick = [&](const ImuReading& imu) {  // of a robot at rest
+    test::Posture posture(*robot, PlatformVector::Zero(3), PlatformVector::Zero(3), now);
+    const JointVector holding = posture.kinematics.J_x_qa.transpose() * posture.dynamics.g_x;
+    const DriveTorque torque{now, true, holding, false};
+    const DriveReading drives;
+    found = {};
+    advance(watch, learned, angles,
+            {.robot = *robot,
+             .limits = limits,
+             .mounted = mounted,
+             .now = now,
+             .joints = posture.joints,
+             .drives = drives,
+             .torque = torque,
+             .imu = imu,
+             .platform = posture.platform,
+             .kinematics = posture.kinematics,
+             .dynamics = posture.dynamics,
+             .held = false,
+             .free = true},
+            found);
+    now += 1ms;
+  };
+  for (int k = 0; k < 20000; ++k) tick({});
+  double absurd = 1.0;  // other values each time, which are not frozen
+  const auto reading = [&absurd](Time acquired) {
+    absurd += 1.0;
+    return ImuReading{acquired, true, absurd * Eigen::Vector3d(1.0, 2.0, 3.0),
+                      absurd * Eigen::Vector3d(20.0, 10.0, 30.0)};
+  };
+  for (const Time ago : {Time(1h), Time(15s), Time(10ms)}) {
+    tick(reading(now - ago));
+    EXPECT_EQ(watch.errors.count, 0U) << to_seconds(ago) << " s ago";
+    EXPECT_FALSE(found.imu_left_out) << to_seconds(ago) << " s ago";
+  }
+  tick(reading(now - 4ms));
+  ASSERT_EQ(watch.errors.count, 1U) << "of now, it is judged";
+  EXPECT_TRUE(watch.errors.latest().contradicted);
+  EXPECT_TRUE(found.imu_left_out);
+}
+
 /// Against a parabola fitted to the samples by least squares.
 TEST(ParabolaWeights, GiveTheSecondDerivativeOfTheFittedParabola) {
   RandomGenerator random(2);
