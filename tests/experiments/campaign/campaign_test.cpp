@@ -16,6 +16,7 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::SizeIs;
 using ::testing::StartsWith;
 using ::testing::UnorderedElementsAre;
 
@@ -126,6 +127,20 @@ TEST(TheCommandLine, IsToldWhatIsNoKeyWithValues) {
       problems_of(file, {.set = {"gain", "a="}}),
       ElementsAre(HasSubstr("--set gain: is not of the form KEY=VALUE"), HasSubstr("--set a=: is not")));
   EXPECT_THAT(problems_of(file, {.set = {"a=[1"}}), ElementsAre(HasSubstr("is not valid YAML")));
+}
+
+TEST(DetectionAndFalseAlarmsOverRates, HaveTheSameThresholds) {
+  const auto controls = [](const char* name) {
+    const Campaign campaign = read_campaign(std::string(FLINCH_SOURCE_DIR "/apps/campaigns/") + name);
+    EXPECT_EQ(campaign.grid.at(0).key, "control") << name;
+    std::vector<std::string> lines;
+    for (const auto& value : campaign.grid.at(0).values) lines.push_back(yaml_line(*value));
+    return lines;
+  };
+  const std::vector<std::string> detection = controls("detection_rates.yaml");
+  EXPECT_THAT(detection, SizeIs(3));
+  EXPECT_EQ(detection, controls("false_alarms_rates.yaml"))
+      << "else a time and its false alarms do not belong together";
 }
 
 TEST(TheIdentityOfACampaign, ChangesWithWhateverDecidesAboutItsResults) {
