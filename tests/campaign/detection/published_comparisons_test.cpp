@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <map>
 
@@ -55,24 +56,26 @@ TEST(Ral25TableII, HasItsOrderInEveryRowAndColumn) {
   EXPECT_GT(observer[4 * bodies + 3], observer[1 * bodies + 3]);
 }
 
-TEST(Icra23, FindsTheSlidingModeFastestOnClampings) {
+// The paper's gains of the sliding mode are not printed. With our default it is by more than 2 ms faster on
+// the platform than the others; with those of 700 N/s it is within 2 ms of them, as in the paper.
+TEST(Icra23, FindsTheSlidingModeFastestOnClampingsEvenWhereItIsAsSlowAsTheOthersOnThePlatform) {
   const Medians medians = medians_of("detection_icra23", 5);
-  const auto clamping = [&](const char* estimator) { return medians.at(estimator).at(3); };
-  EXPECT_LT(clamping("sliding_mode_observer"), clamping("momentum_kalman_filter"));
-  EXPECT_LT(clamping("momentum_kalman_filter"), clamping("momentum_observer"));
-}
-
-TEST(Icra23,
-     FindsAllWithinTwoMillisecondsOnThePlatform) {  // where the sliding mode is no faster than it was there
-  const Medians medians = medians_of("detection_icra23", 5);
-  constexpr std::size_t platform = 4, clamping = 7;  // of the second point of the grid: 700 N/s
-  std::vector<double> times;
-  for (const auto& [estimator, each] : medians) times.push_back(each.at(platform));
-  EXPECT_EQ(times.size(), 3U);
-  const auto [first, last] = std::minmax_element(times.begin(), times.end());
-  EXPECT_LE(*last - *first, 2.0);
-  EXPECT_LT(medians.at("sliding_mode_observer").at(clamping),
-            medians.at("momentum_kalman_filter").at(clamping));
+  ASSERT_EQ(medians.size(), 3U);
+  constexpr std::size_t platform = 0, clamping = 3, bodies = 4;
+  const auto times = [&](std::size_t point) {
+    return std::array{medians.at("momentum_observer").at(point),
+                      medians.at("momentum_kalman_filter").at(point),
+                      medians.at("sliding_mode_observer").at(point)};
+  };
+  for (const std::size_t gains : {std::size_t{0}, bodies}) {  // of the sliding mode: 3000 N/s, 700 N/s
+    const auto [observer, kalman, sliding] = times(gains + clamping);
+    EXPECT_LT(sliding, kalman);
+    EXPECT_LT(kalman, observer);
+  }
+  const auto [observer, kalman, sliding] = times(platform);
+  EXPECT_GT(std::min(observer, kalman) - sliding, 2.0);
+  const auto slow = times(bodies + platform);
+  EXPECT_LE(*std::max_element(slow.begin(), slow.end()) - *std::min_element(slow.begin(), slow.end()), 2.0);
 }
 
 }  // namespace

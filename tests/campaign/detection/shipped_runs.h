@@ -19,8 +19,9 @@ inline Campaign shipped(const std::string& name, std::size_t draws) {
 }
 
 inline std::vector<RunResult> runs_of(const Campaign& campaign) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) /
-                                       testing::UnitTest::GetInstance()->current_test_info()->name();
+  const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
+  const std::filesystem::path folder =
+      std::filesystem::path(testing::TempDir()) / (std::string(test.test_suite_name()) + "." + test.name());
   std::filesystem::create_directories(folder);
   const std::vector<RunResult> results = run_campaign(campaign, folder, 2);
   std::filesystem::remove_all(folder);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <string>
@@ -31,8 +32,10 @@ struct Error {
   double rate = 0.0;   ///< of the fastest drive [rad/s]
 };
 
-/// By estimator, of each robot one sample after the other.
-using Errors = std::map<std::string, std::vector<Error>>;
+/// One sample after the other.
+using OfRobot = std::vector<Error>;
+/// By estimator, of each robot.
+using Errors = std::map<std::string, std::vector<OfRobot>>;
 
 Errors errors_of(int robots) {
   Errors errors;
@@ -44,23 +47,27 @@ Errors errors_of(int robots) {
     const auto motions = read<PlatformMotion>(recording, "motion");
     for (const auto& [estimator, path] : estimates_of(recording)) {
       const auto estimates = read<RecordedEstimate>(recording, path);
+      OfRobot& of_robot = errors[estimator].emplace_back();
       for (std::size_t k = 0; k < estimates.size(); ++k) {
         const RecordedEstimate estimate = estimates[k];
         if (!estimate.valid || !loads[k].valid) continue;
-        errors[estimator].push_back({.force = largest_component(estimate.wrench_in_base.head(2)),
-                                     .speed = motions[k].velocity.head(2).norm(),
-                                     .rate = largest_component(loads[k].rate)});
+        of_robot.push_back({.force = largest_component(estimate.wrench_in_base.head(2)),
+                            .speed = motions[k].velocity.head(2).norm(),
+                            .rate = largest_component(loads[k].rate)});
       }
     }
   }
   return errors;
 }
 
-/// What one sample in a thousand exceeds between two speeds [N].
-double force_exceeded(const std::vector<Error>& errors, double slow, double fast) {
+/// What one sample in a thousand exceeds between two speeds [N]; NaN, and a failure, without any.
+double force_exceeded(const std::vector<OfRobot>& robots, double slow, double fast) {
   std::vector<double> forces;
-  for (const Error& error : errors)
-    if (error.speed >= slow && error.speed < fast) forces.push_back(error.force);
+  for (const OfRobot& errors : robots)
+    for (const Error& error : errors)
+      if (error.speed >= slow && error.speed < fast) forces.push_back(error.force);
+  EXPECT_FALSE(forces.empty()) << "no robot moves at " << slow << " to " << fast << " m/s";
+  if (forces.empty()) return std::nan("");
   const auto place = forces.begin() + static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(forces.size()));
   std::nth_element(forces.begin(), place, forces.end());
   return *place;
@@ -68,21 +75,24 @@ double force_exceeded(const std::vector<Error>& errors, double slow, double fast
 
 /// The threshold of half a false alarm an hour for a robot at rest, if it grows by this share for each rad/s
 /// of the fastest drive [N].
-double threshold_at_rest(const std::vector<Error>& errors, double share_of_rate) {
-  constexpr std::size_t stretch = 500;
-  std::vector<double> peaks;
-  for (std::size_t first = 0; first + stretch <= errors.size(); first += stretch) {
-    double peak = 0.0;
-    for (std::size_t k = first; k < first + stretch; ++k)
-      peak = std::max(peak, errors[k].force / (1.0 + share_of_rate * errors[k].rate));
-    peaks.push_back(peak);
-  }
+double threshold_at_rest(const std::vector<OfRobot>& robots, double share_of_rate) {
   const ThresholdGoal goal;
+  const auto stretch = static_cast<std::size_t>(goal.stretch / 1ms);
+  std::vector<double> peaks;
+  for (const OfRobot& errors : robots) {
+    for (std::size_t first = 0; first + stretch <= errors.size(); first += stretch) {
+      double peak = 0.0;
+      for (std::size_t k = first; k < first + stretch; ++k)
+        peak = std::max(peak, errors[k].force / (1.0 + share_of_rate * errors[k].rate));
+      peaks.push_back(peak);
+    }
+  }
   const double alarms_a_stretch = goal.false_alarms_per_hour / 3600.0 * to_seconds(goal.stretch);
-  return calibrated_threshold(peaks, 0.5 * alarms_a_stretch, goal).value;
+  constexpr double share_of_force = 0.5;  // the moment may make the other half of the alarms
+  return calibrated_threshold(peaks, share_of_force * alarms_a_stretch, goal).value;
 }
 
-TEST(ErrorsOfEstimators, HardlyGrowWithTheSpeedAndNoThresholdGainsByIt) {
+TEST(ErrorsOfEstimators, HardlyGrowWithTheSpeedAndThresholdsThatDoAreLessThanAFifthLowerAtRest) {
   const Errors errors = errors_of(test::wanted("FLINCH_ROBOTS", 3));
   constexpr double bounds[] = {0.0, 0.1, 0.3, 0.6, 0.9, 1.2};
   std::printf("one sample in a thousand exceeds [N], below 0.1, 0.3, 0.6, 0.9 and 1.2 m/s:\n");
@@ -90,8 +100,8 @@ TEST(ErrorsOfEstimators, HardlyGrowWithTheSpeedAndNoThresholdGainsByIt) {
     std::printf("  %-26s", estimator.c_str());
     for (int i = 0; i < 5; ++i) std::printf(" %5.2f", force_exceeded(each, bounds[i], bounds[i + 1]));
     const double same = threshold_at_rest(each, 0.0), growing = threshold_at_rest(each, growth);
-    std::printf("; threshold %5.2f N, or %5.2f N and %4.2f N for each rad/s\n", same, growing,
-                growth * growing);
+    std::printf("; threshold %5.2f N, or %5.2f N and %4.2f N for each rad/s: higher beyond %.1f rad/s\n",
+                same, growing, growth * growing, (same / growing - 1.0) / growth);
     EXPECT_LT(force_exceeded(each, 0.9, 1.2), 1.5 * force_exceeded(each, 0.0, 0.1)) << estimator;
     EXPECT_GT(growing, 0.8 * same) << estimator << ": a robot at rest gains less than a fifth";
   }
