@@ -62,11 +62,18 @@ Json json_of(std::optional<double> value, double scale = 1.0) {
   return value ? Json(scale * *value) : Json(nullptr);
 }
 
+bool is_judged(const ReactionGroup& group) { return group.could_stop + group.could_not_stop > 0; }
+
+/// Null for levels that keep no limits, which nobody judged.
+Json could_stop_json(const ReactionGroup& group, std::size_t count) {
+  return is_judged(group) ? Json(count) : Json(nullptr);
+}
+
 /// Of the levels that keep limits.
 std::string could_stop_lines(const ReactionSummary& summary) {
   std::string text;
   for (const ReactionGroup& group : summary.groups) {
-    if (group.could_stop + group.could_not_stop == 0) continue;
+    if (!is_judged(group)) continue;
     text += fmt::format("{:<14} {:<10} {:>5} {:>10} {:>13}\n", group.level, group.body, group.could_stop,
                         group.could_not_stop, group.violations_could_stop);
   }
@@ -175,9 +182,9 @@ std::string reactions_json(const Campaign& campaign, const ReactionSummary& summ
                       {"violations_sigma_kappa", group.violations_sigma_kappa},
                       {"violations_sigma_sc", group.violations_sigma_sc},
                       {"final_inside", group.final_inside},
-                      {"could_stop", group.could_stop},
-                      {"could_not_stop", group.could_not_stop},
-                      {"violations_could_stop", group.violations_could_stop},
+                      {"could_stop", could_stop_json(group, group.could_stop)},
+                      {"could_not_stop", could_stop_json(group, group.could_not_stop)},
+                      {"violations_could_stop", could_stop_json(group, group.violations_could_stop)},
                       {"self_collisions", group.self_collisions},
                       {"gate_faults", group.gate_faults}});
   }

@@ -50,7 +50,7 @@ void ContactWatch::note_braking(const RunSample& now) {
   const BrakingStatus& found = now.braking;
   if (contact.could_stop || !found.valid || to_seconds(found.judged) < contact.onset) return;
   contact.could_stop = found.stays_inside;
-  contact.stop_duration = found.duration;
+  if (std::isfinite(found.duration)) contact.stop_duration = found.duration;
 }
 
 std::vector<ContactVerdict> ContactWatch::contacts() const {

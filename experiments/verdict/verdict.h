@@ -59,7 +59,7 @@ struct ContactVerdict {
   /// Whether the robot could still stop within the limits that it keeps when it noticed the contact; none: it
   /// was not in its nominal motion, or keeps none.
   std::optional<bool> could_stop;
-  double stop_duration = 0.0;           ///< of the shortest straight stop from there [s]
+  std::optional<double> stop_duration;  ///< of the shortest straight stop from there [s]; none: none possible
   std::optional<double> removed;        ///< t_rem; none: still touching at the end [s]
   double speed = 0.0;                   ///< of the platform at the onset [m/s]
   double peak_force = 0.0;              ///< of one touching body [N]

@@ -40,7 +40,7 @@ Json contact_json(const ContactVerdict& contact) {
           {"location_error_mm", contact.location_error ? Json(1e3 * *contact.location_error) : Json(nullptr)},
           {"force_error_N", contact.force_error ? Json(*contact.force_error) : Json(nullptr)},
           {"could_stop_within_limits", contact.could_stop ? Json(*contact.could_stop) : Json(nullptr)},
-          {"stop_ms", contact.could_stop ? Json(1e3 * contact.stop_duration) : Json(nullptr)},
+          {"stop_ms", milliseconds(0.0, contact.stop_duration)},
           {"removal_ms", milliseconds(contact.onset, contact.removed)},
           {"peak_force_N", contact.peak_force},
           {"limit_N", contact.limit},
@@ -90,10 +90,10 @@ std::string classified_line(const ContactVerdict& contact) {
 /// Whether the limits could still be kept.
 std::string braking_line(const ContactVerdict& contact) {
   if (!contact.could_stop) return "";
-  if (!*contact.could_stop)
+  if (!*contact.could_stop || !contact.stop_duration)
     return "  when noticed too fast to stop straight within the limits that it keeps\n";
   return fmt::format("  when noticed it could stop within the limits that it keeps, in {:.0f} ms\n",
-                     1e3 * contact.stop_duration);
+                     1e3 * *contact.stop_duration);
 }
 
 std::string no_contact_line(const Verdict& verdict) {

@@ -19,7 +19,8 @@ bool BrakingWatch::begins(Time now, const ReactionState& state) const {
 }
 
 BrakingStatus BrakingWatch::judge(Time now, bool begins, const PlatformMotion& moving) const {
-  BrakingStatus found{.valid = false, .judged = now, .stays_inside = false, .duration = 0.0};
+  BrakingStatus found;
+  found.judged = now;
   if (!begins || !moving.valid()) return found;
   Kinematics at;
   Dynamics dynamics;

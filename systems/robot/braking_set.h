@@ -1,13 +1,15 @@
 #pragma once
 
+#include <limits>
+
 #include "systems/robot/motion_barriers.h"
 
 namespace flinch {
 
 /// The shortest straight stop from one motion.
 struct StraightStop {
-  double duration = 0.0;      ///< [s]
-  bool is_possible = false;   ///< the drives can begin it
+  double duration = std::numeric_limits<double>::infinity();  ///< [s]; infinite: none is possible
+  bool is_possible = false;                                   ///< the drives can begin it
   bool stays_inside = false;  ///< and the robot stays within its limits on the way
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "systems/framework/time.h"
 
 namespace flinch {
@@ -9,7 +11,8 @@ struct BrakingStatus {
   bool valid = false;         ///< a contact was noticed, and motion and model were there
   Time judged{};              ///< tick at which it was noticed
   bool stays_inside = false;  ///< It could: limits that are kept from then on need not be exceeded.
-  double duration = 0.0;      ///< of the shortest straight stop from there [s]
+  /// Of the shortest straight stop from there [s]; infinite: none is possible.
+  double duration = std::numeric_limits<double>::infinity();
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {

@@ -70,6 +70,18 @@ TEST(ReactionSummary, CountsWhoCouldStopAndWentBeyondALimitNevertheless) {
   EXPECT_EQ(group.violations_could_stop, 1U);
 }
 
+TEST(ReactionSummary, CountsNoStopsWhereNobodyJudgedThem) {
+  RunResult judged = run("strict_reaction", "platform", 0.1, 1.0, 100.0);
+  judged.could_stop = true;
+  const auto groups = nlohmann::json::parse(reactions_json(
+      {}, reactions_of({judged, run("torque_reaction", "platform", 0.1, 1.0, 100.0)}), {}))["groups"];
+  EXPECT_EQ(groups[0]["could_stop"], 1);
+  EXPECT_EQ(groups[0]["could_not_stop"], 0);
+  EXPECT_EQ(groups[0]["violations_could_stop"], 0);
+  for (const char* key : {"could_stop", "could_not_stop", "violations_could_stop"})
+    EXPECT_TRUE(groups[1][key].is_null()) << key;
+}
+
 // A contact that is not over at the end has no time of removal: it counts as longer than all others.
 TEST(ReactionSummary, AContactThatStaysIsLongerThanAllOthers) {
   RunResult stays = run("torque_reaction", "platform", 0.0, 1.0, 100.0);

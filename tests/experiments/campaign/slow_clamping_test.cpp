@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "experiments/campaign/campaign.h"
 #include "experiments/campaign/campaign_run.h"

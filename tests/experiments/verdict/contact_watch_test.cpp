@@ -45,6 +45,17 @@ TEST(ContactWatch, TakesNoOldAnswerForThatOfANewContact) {
   EXPECT_EQ(verdict.contacts.at(1).could_stop, std::nullopt);
 }
 
+TEST(ContactWatch, KnowsNoDurationOfAStopThatIsNotPossible) {
+  SyntheticRun run = touched_twice();
+  for (int k = 110; k < 700; ++k) {
+    run.at(k).braking.valid = true;
+    run.at(k).braking.judged = 110ms;
+  }
+  const ContactVerdict contact = judged(run).contacts.at(0);
+  EXPECT_EQ(contact.could_stop, false);
+  EXPECT_EQ(contact.stop_duration, std::nullopt);
+}
+
 TEST(ContactWatch, SaysNothingOfAStopThatNobodyJudged) {
   EXPECT_EQ(judged(touched_twice()).contacts.at(0).could_stop, std::nullopt);
 }

@@ -59,7 +59,9 @@ TEST(VerdictTable, TellsWhetherTheRobotCouldStopWithinItsLimits) {
   EXPECT_THAT(verdict_table(verdict, {}), HasSubstr("could stop within the limits that it keeps, in 43 ms"));
   EXPECT_THAT(verdict_json(verdict, {}), HasSubstr(R"("could_stop_within_limits":true,"stop_ms":43.0)"));
   verdict.contacts[0].could_stop = false;
+  verdict.contacts[0].stop_duration.reset();
   EXPECT_THAT(verdict_table(verdict, {}), HasSubstr("too fast to stop"));
+  EXPECT_THAT(verdict_json(verdict, {}), HasSubstr(R"("could_stop_within_limits":false,"stop_ms":null)"));
 }
 
 TEST(VerdictJson, IsOneLineThatHoldsTheTable) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/diagram_builder.h"
 #include "tests/support/allocations.h"
@@ -12,10 +14,10 @@ namespace flinch {
 namespace {
 
 struct Watch {
-  Watch() {
+  explicit Watch(double max_torque = 70.0) {
     PlaceLimits limits;
     limits.max_condition_number = 15.0;
-    block = &builder.add<BrakingWatch>("braking", test::planar_bench(), limits, 70.0);
+    block = &builder.add<BrakingWatch>("braking", test::planar_bench(), limits, max_torque);
     reaction = builder.export_input("reaction", block->reaction);
     motion = builder.export_input("motion", block->motion);
     ticking.emplace(builder);
@@ -62,6 +64,16 @@ TEST(BrakingWatch, TellsARobotThatIsTooFastToStopInside) {
   const BrakingStatus& judged = watch.tick();
   EXPECT_TRUE(judged.valid);
   EXPECT_FALSE(judged.stays_inside);
+}
+
+TEST(BrakingWatch, TellsNoDurationWhereNoStopIsPossible) {
+  Watch watch(1e-6);
+  watch.tick();
+  watch.be(ReactionMode::react, ReactionMode::nominal);
+  const BrakingStatus& judged = watch.tick();
+  EXPECT_TRUE(judged.valid);
+  EXPECT_FALSE(judged.stays_inside);
+  EXPECT_EQ(judged.duration, std::numeric_limits<double>::infinity());
 }
 
 TEST(BrakingWatch, SaysNothingWithoutAMotion) {

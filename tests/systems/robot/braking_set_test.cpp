@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 
 #include "systems/robot/link_segments.h"
@@ -95,7 +96,9 @@ TEST(AStraightStop, OfARobotAtRestIsOver) {
 TEST(AStraightStop, IsNotPossibleWithoutTorquesOrWithoutAModel) {
   const auto robot = test::planar_bench();
   const State state(*robot, {0, 0, 0}, {2.0, 0, 0});
-  EXPECT_FALSE(straight_stop(*robot, state.at, state.dynamics, tight_limits(), 1e-6).is_possible);
+  const StraightStop stop = straight_stop(*robot, state.at, state.dynamics, tight_limits(), 1e-6);
+  EXPECT_FALSE(stop.is_possible || stop.stays_inside);
+  EXPECT_EQ(stop.duration, std::numeric_limits<double>::infinity());
   EXPECT_FALSE(straight_stop(*robot, Kinematics(), state.dynamics, tight_limits(), 70.0).is_possible);
   EXPECT_FALSE(straight_stop(*robot, state.at, Dynamics(), tight_limits(), 70.0).is_possible);
 }
