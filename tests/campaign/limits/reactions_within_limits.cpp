@@ -68,11 +68,44 @@ class Touching {
 void measure_place(const Mechanism& robot, const RecordedTruth& truth, ReactionOutcome& outcome) {
   Kinematics at;
   robot.kinematics(truth.pose, truth.velocity, at);
+  if (!at.valid) outcome.is_lost = true;
   outcome.sigma_kappa = std::max(outcome.sigma_kappa, at.sigma_kappa);
   outcome.sigma_sc = std::min(outcome.sigma_sc, self_collision_distance(robot, at));
   outcome.det_A = std::min(outcome.det_A, std::abs(at.det_A));
   outcome.distance = std::max(outcome.distance, truth.pose.head(robot.space().translations()).norm());
   outcome.rotation = std::max(outcome.rotation, robot.space().rotation_angle(truth.pose));
+}
+
+/// Whether the true robot can stop within the safety values from here: straight, in the shortest time that 70
+/// Nm allow at the beginning, looked at in ten places. (Its own lines, and not those of the braking set.)
+bool can_stop_inside(const Mechanism& robot, const RecordedTruth& truth) {
+  constexpr double most_torque = 70.0;
+  Kinematics at;
+  Dynamics dynamics;
+  robot.kinematics(truth.pose, truth.velocity, at);
+  robot.dynamics(at, dynamics);
+  if (!at.valid || !dynamics.valid) return false;
+  double stop = 5e-3;
+  for (; stop < 1.0; stop *= 1.05) {
+    const PlatformVector wrench = dynamics.M_x * (-truth.velocity / stop) + dynamics.C_x * truth.velocity +
+                                  dynamics.g_x + dynamics.F_fr_x;
+    if (drive_torques(at, wrench).lpNorm<Eigen::Infinity>() <= most_torque) break;
+  }
+  for (int k = 0; k <= 10; ++k) {
+    const double t = 0.1 * k * stop;
+    const PlatformVector way = truth.velocity * (t - 0.5 * t * t / stop);
+    robot.kinematics(robot.space().plus(truth.pose, way), PlatformVector::Zero(robot.dof()), at);
+    if (!(at.sigma_kappa <= sigma_kappa_s && self_collision_distance(robot, at) >= sigma_sc_s)) return false;
+  }
+  return true;
+}
+
+/// At the first tick at which the robot has judged.
+void note_stop(const Mechanism& robot, const RecordedTruth& truth, const BrakingStatus& braking,
+               ReactionOutcome& outcome) {
+  if (!braking.valid || outcome.says_it_could_stop) return;
+  outcome.says_it_could_stop = braking.stays_inside;
+  outcome.could_stop = can_stop_inside(robot, truth);
 }
 
 /// At the first tick of the contact.
@@ -130,8 +163,7 @@ ReactionOutcome outcome_of(const CampaignRun& run) {
     }
     if (!outcome.detected) detected = time;
     outcome.detected = true;
-    if (const BrakingStatus braking = brakings[k]; braking.valid && !outcome.brakeable)
-      outcome.brakeable = braking.stays_inside;
+    note_stop(robot, truth, brakings[k], outcome);
     if (truth.velocity.head(robot.space().translations()).norm() > at_rest) {
       outcome.rest.reset();
     } else if (!outcome.rest) {

@@ -24,7 +24,9 @@ struct ReactionOutcome {
   bool struck = false;         ///< a contact got hard: zero gravity
   /// At the detection it could still stop within the limits that it keeps, as the robot itself judges; none:
   /// it keeps none, or noticed nothing.
-  std::optional<bool> brakeable;
+  std::optional<bool> says_it_could_stop;
+  bool could_stop = false;        ///< the same of the true robot then; means nothing where that one is none
+  bool is_lost = false;           ///< at a tick the true robot had no kinematics: the measures leave that out
   std::string fault;              ///< why the gate closed, "" if it did not
   std::optional<double> removed;  ///< after the onset of the contact [s]
   /// After the detection or, where the contact got hard, after that: until the platform stays below 0.02 m/s

@@ -113,6 +113,7 @@ struct TrueRetreat {
   double least_distance = 1.0;  ///< [m]
   double last_speed = 0.0;      ///< of the platform [m/s]
   bool detected = false;
+  bool is_lost = false;  ///< at a tick the true robot had no kinematics: what is above leaves that out
   std::string fault;
 };
 
@@ -139,6 +140,7 @@ TrueRetreat retreat(const std::string& name, const std::string& law, const std::
     const RecordedTruth truth = truths[k];
     Kinematics at;
     robot.kinematics(truth.pose, truth.velocity, at);
+    if (!at.valid) shown.is_lost = true;
     if (k == 0) shown.first_distance = self_collision_distance(robot, at);
     shown.detected |= detections[k].level != ContactLevel::none;
     if (!shown.detected) continue;
@@ -163,6 +165,7 @@ TEST(TheStrictReaction, RetreatsWithinBothLimits) {
       for (int seed = 1; seed <= (plant.empty() ? 1 : drawn_robots); ++seed) {
         const TrueRetreat shown = retreat(name, "strict_reaction", "limits: {keep: always}", plant, seed);
         EXPECT_TRUE(shown.detected) << name << plant << " " << seed;
+        EXPECT_FALSE(shown.is_lost) << name << plant << " " << seed;
         EXPECT_EQ(shown.fault, "") << name << plant << " " << seed;
         EXPECT_LE(shown.largest_kappa, 15.0) << name << plant << " " << seed;
         EXPECT_GE(shown.least_distance, std::min(0.17, shown.first_distance)) << name << plant << " " << seed;
