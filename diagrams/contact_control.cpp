@@ -318,18 +318,18 @@ void show_isolation(const Path& path, const Isolation& isolation, OtherStages& s
   }
 }
 
-/// The torques of laws that are not followed, and the constraints and energies of all.
+/// The torques of laws that are not followed, the constraints of all, and the energies of the followed ones.
 void show_laws(const Path& path, const Laws& laws, OtherStages& shown) {
   shown.torques = show_torques(path, laws);
   for (const AddedStages<LawPorts>* kind : {&laws.nominal, &laws.reaction}) {
     for (const Named<LawPorts>& law : kind->all) {
-      const std::string constraints = "constraints_" + law.name, energies = "energies_" + law.name;
+      const std::string name = "constraints_" + law.name;
       if (law.port.constraints)
-        shown.constraints.push_back(
-            {constraints, path.builder.export_output(constraints, *law.port.constraints)});
-      if (law.port.energies)
-        shown.energies.push_back({energies, path.builder.export_output(energies, *law.port.energies)});
+        shown.constraints.push_back({name, path.builder.export_output(name, *law.port.constraints)});
     }
+    const std::string name = kind == &laws.nominal ? "energies_nominal" : "energies_reaction";
+    if (!kind->all.empty() && kind->port().energies)
+      shown.energies.push_back({name, path.builder.export_output(name, *kind->port().energies)});
   }
 }
 

@@ -32,7 +32,7 @@ struct OtherStages {
   std::vector<Named<OutputPort<ParticleCloud>>> clouds;
   /// Of every law that keeps some, whether it is followed or not: "constraints_" + its name.
   std::vector<Named<OutputPort<ConstraintState>>> constraints;
-  /// Likewise of every law that serves tasks by torques: "energies_" + its name.
+  /// Of the followed laws, where they serve tasks by torques: "energies_nominal" and "energies_reaction".
   std::vector<Named<OutputPort<TaskEnergies>>> energies;
   /// What detectors take for the loads of the drives, "load_" + their name.
   std::vector<Named<OutputPort<DriveLoad>>> loads;

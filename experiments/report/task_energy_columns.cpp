@@ -13,12 +13,9 @@ constexpr std::array<const char*, TaskEnergies::most> names{"sigma_kappa", "sigm
 
 TaskEnergyColumns::TaskEnergyColumns(const Recording& recording, PageSamples& page)
     : page_(page), period_(to_seconds(recording.period)) {
-  for (const Signal& signal : recording.signals) {
-    if (!signal.path.starts_with("energies_")) continue;
-    names_.push_back(signal.path);
-    laws_.emplace_back(recording, signal.path);
-  }
-  if (laws_.empty()) return;
+  if (recording.find("energies_nominal") != nullptr) nominal_.emplace(recording, "energies_nominal");
+  if (recording.find("energies_reaction") != nullptr) reaction_.emplace(recording, "energies_reaction");
+  if (!is_there()) return;
   for (std::size_t i = 0; i < names.size(); ++i) {
     energy_[i] = page.column(std::string("energy_") + names[i]);
     rate_[i] = page.column(std::string("energy_rate_") + names[i]);
@@ -27,23 +24,18 @@ TaskEnergyColumns::TaskEnergyColumns(const Recording& recording, PageSamples& pa
 
 TaskEnergyColumns::Served TaskEnergyColumns::served_at(std::size_t sample, ReactionMode mode) const {
   const bool reacts = mode == ReactionMode::react || mode == ReactionMode::hold;
-  Served served;
-  if (!reacts && mode != ReactionMode::nominal) return served;
-  for (std::size_t law = 0; law < laws_.size(); ++law) {
-    if (names_[law].ends_with("_reaction") != reacts) continue;
-    const TaskEnergies energies = laws_[law][sample];
-    if (energies.valid) served = {law, energies};
-  }
-  return served;
+  if (reacts && reaction_) return {reacts, (*reaction_)[sample]};
+  if (mode == ReactionMode::nominal && nominal_) return {reacts, (*nominal_)[sample]};
+  return {};
 }
 
 void TaskEnergyColumns::show(std::size_t sample, ReactionMode mode) {
-  if (laws_.empty()) return;
+  if (!is_there()) return;
   const Served now = served_at(sample, mode);
   for (int i = 0; i < TaskEnergies::most; ++i) {
     const auto place = static_cast<std::size_t>(i);
     const bool is_served = now.energies.serves(i);
-    const bool goes_on = is_served && before_.law == now.law && before_.energies.serves(i);
+    const bool goes_on = is_served && before_.reacts == now.reacts && before_.energies.serves(i);
     const double change = now.energies.energy[place] - before_.energies.energy[place];
     page_.set(energy_[place], is_served ? now.energies.energy[place] : no_value);
     page_.set(rate_[place], goes_on ? change / period_ : no_value);

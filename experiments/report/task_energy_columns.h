@@ -2,8 +2,7 @@
 
 #include <array>
 #include <cstddef>
-#include <string>
-#include <vector>
+#include <optional>
 
 #include "experiments/report/page_samples.h"
 #include "systems/framework/recorded_values.h"
@@ -22,17 +21,17 @@ class TaskEnergyColumns {
   void show(std::size_t sample, ReactionMode mode);
 
  private:
-  /// The law whose tasks are served at a sample, and their energies; none: not valid.
+  /// What is served at a sample by the followed law of the mode; nothing: not valid.
   struct Served {
-    std::size_t law = 0;
+    bool reacts = false;
     TaskEnergies energies;
   };
+  bool is_there() const { return nominal_ || reaction_; }
   Served served_at(std::size_t sample, ReactionMode mode) const;
 
   PageSamples& page_;
-  double period_;  ///< [s]
-  std::vector<std::string> names_;  ///< of the signals
-  std::vector<RecordedValues<TaskEnergies>> laws_;
+  double period_;                                                   ///< [s]
+  std::optional<RecordedValues<TaskEnergies>> nominal_, reaction_;  ///< of the followed laws
   Served before_;
   std::array<std::size_t, TaskEnergies::most> energy_{}, rate_{};  ///< columns
 };
