@@ -14,8 +14,9 @@ namespace flinch {
 namespace {
 
 constexpr double slack_price = 1e4;  // above every multiplier: the slack is used where nothing else is left
-constexpr double smallest_reach = 1e-3;    // share of the reach along a direction
-constexpr double slowest_direction = 0.1;  // share of a speed limit below which it cannot bind
+constexpr double share_of_torque_rate = 0.75;  // that a_2 may ask for
+constexpr double smallest_reach = 1e-3;        // share of the reach along a direction
+constexpr double slowest_direction = 0.1;      // share of a speed limit below which it cannot bind
 constexpr std::uint32_t platform_speed_bit = 1U << 16U;
 constexpr std::uint32_t drive_speed_bit = 1U << 17U;
 
@@ -235,6 +236,8 @@ double BrakingShares::of(BarrierKind kind) const {
 LimitKeeper::LimitKeeper(std::shared_ptr<const ParallelRobot> robot, const LimitKeeperSettings& settings)
     : robot_(std::move(robot)), settings_(settings) {
   throw_if_any(problems(settings, *robot_));
+  settings_.correction =
+      std::min(settings.correction, share_of_torque_rate * settings.max_torque_rate / settings.max_torque);
 }
 
 void LimitKeeper::keep_within(Time now, const Memory& last, const TorqueCommand& told,

@@ -45,9 +45,9 @@ struct LimitKeeperSettings {
   double max_torque_rate = 20e3;                                        ///< [Nm/s or N/s]
 
   BrakingShares braking;
-  double approach = 100.0;    ///< gamma: how fast a limit may be approached, for each unit of room [1/s]
-  /// a_2: how fast a speed towards a limit comes down to that; slower than the drives build up their torque,
-  /// which takes them max_torque / max_torque_rate [1/s].
+  double approach = 100.0;  ///< gamma: how fast a limit may be approached, for each unit of room [1/s]
+  /// a_2: how fast a speed towards a limit comes down to that [1/s]; used is at most 3/4 of max_torque_rate /
+  /// max_torque, since torques that the drives cannot build up in time leave slack.
   double correction = 150.0;
   double speed_rate = 100.0;  ///< how fast a speed comes down to its limit [1/s]
 };

@@ -238,6 +238,22 @@ TEST(LimitKeeper, BoundsTorquesAndTheirRates) {
   EXPECT_LE(kept.ticking.get(kept.block.torque).torque.lpNorm<Eigen::Infinity>(), 50.0);
 }
 
+// Three quarters of max_torque_rate / max_torque: 150 1/s for these drives, 37.5 1/s for slow ones.
+TEST(LimitKeeper, CountsOnNoDriveBeingFasterThanItIs) {
+  const auto asked = [](double torque_rate, double correction) {
+    LimitKeeperSettings settings = strict_settings();
+    settings.max_torque = 100.0;
+    settings.max_torque_rate = torque_rate;
+    settings.correction = correction;
+    Kept kept(settings);
+    kept.stand_at(Eigen::Vector3d(0.28, 0.0, 0.0), Eigen::Vector3d(1.5, 0.0, 0.0));
+    return JointVector(kept.ask(Eigen::Vector3d::Zero()).torque);
+  };
+  EXPECT_EQ(asked(5e3, 1e6), asked(5e3, 37.5));
+  EXPECT_EQ(asked(20e3, 1e6), asked(20e3, 150.0));
+  EXPECT_NE(asked(20e3, 150.0), asked(20e3, 37.5));
+}
+
 TEST(LimitKeeper, KeepsLimitsWhileThereIsAMotion) {
   const Eigen::Vector3d outwards(90.0, -90.0, 90.0);
   const auto keeps = [&](PlatformMotion::Status status) {
