@@ -1,6 +1,7 @@
 // What it costs to keep the robot within its limits for a tick, as a multiple of one evaluation of the
 // model's kinematics and dynamics: far from all limits, and in a corner of them, where the quadratic
-// programme has most to do.
+// programme has most to do. Likewise what is computed to be told alone: whether the robot could stop, at the
+// tick of a detection, and the Lyapunov function of a task, at every tick.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -9,9 +10,12 @@
 
 #include "systems/framework/diagram_builder.h"
 #include "systems/laws/limit_keeper.h"
+#include "systems/laws/task_energy.h"
 #include "systems/model/robot_model.h"
+#include "systems/robot/braking_set.h"
 #include "systems/robot/planar_rrr.h"
 #include "systems/robot/planar_rrr_presets.h"
+#include "systems/robot/reaction_tasks.h"
 #include "tests/support/processor_time.h"
 #include "tests/support/ticking.h"
 
@@ -106,6 +110,63 @@ BENCHMARK_CAPTURE(LimitTick, far_from_all, moving({0.02, 0.01, 0.02}, {0.1, 0.1,
                   Eigen::Vector3d(1.0, -1.0, 1.0));
 BENCHMARK_CAPTURE(LimitTick, in_a_corner, moving({0.33, 0.0, 0.0}, {1.9, 0.4, 3.0}),
                   Eigen::Vector3d(100.0, -100.0, 100.0));
+
+/// The best of several times of `work` [s].
+template <class Work>
+double time_of(Work work) {
+  double best = 1.0;
+  for (int run = 0; run < 20; ++run) {
+    const auto begin = test::processor_time();
+    for (int k = 0; k < 200; ++k) work();
+    best = std::min(best, (test::processor_time() - begin).count() / 200.0);
+  }
+  return best;
+}
+
+/// The model at one motion.
+struct Modelled {
+  Modelled(const Eigen::Vector3d& there, const Eigen::Vector3d& moving) : pose(there), velocity(moving) {
+    evaluate();
+  }
+  void evaluate() {
+    bench()->kinematics(pose, velocity, kinematics);
+    bench()->dynamics(kinematics, dynamics);
+  }
+  double time_of_the_model() {
+    return time_of([this] { evaluate(), benchmark::ClobberMemory(); });
+  }
+
+  PlatformVector pose, velocity;
+  Kinematics kinematics;
+  Dynamics dynamics;
+};
+
+void StraightStopOfLimits(benchmark::State& state) {
+  Modelled at({0.02, 0.01, 0.02}, {0.5, 0.5, 0.5});
+  const auto judge = [&at] {
+    const StraightStop stop =
+        straight_stop(*bench(), at.kinematics, at.dynamics, strict_settings().limits, 70.0);
+    benchmark::DoNotOptimize(stop.stays_inside);
+    return stop.stays_inside;
+  };
+  for (auto unused : state) judge();
+  state.counters["times_the_model"] = time_of(judge) / at.time_of_the_model();
+  state.counters["stays_inside"] = judge() ? 1.0 : 0.0;  // then every place has been looked at
+}
+BENCHMARK(StraightStopOfLimits);
+
+void LyapunovFunctionOfATask(benchmark::State& state) {
+  Modelled at({0.02, 0.01, 0.02}, {0.5, 0.5, 0.5});
+  const Task task = platform_position_task(*bench(), at.kinematics);
+  const PlatformVector error = PlatformVector::Constant(2, 0.01), rest = PlatformVector::Zero(2);
+  const TaskGoal goal{task, {error, rest, rest}, TaskGains::uniform(2, 0, 0, 0, 2000.0, 1.0)};
+  const auto measure = [&at, &goal] {
+    benchmark::DoNotOptimize(energy_of(goal, at.kinematics, at.dynamics));
+  };
+  for (auto unused : state) measure();
+  state.counters["times_the_model"] = time_of(measure) / at.time_of_the_model();
+}
+BENCHMARK(LyapunovFunctionOfATask);
 
 }  // namespace
 }  // namespace flinch
