@@ -91,7 +91,7 @@ std::string classified_line(const ContactVerdict& contact) {
 std::string braking_line(const ContactVerdict& contact) {
   if (!contact.could_stop) return "";
   if (!*contact.could_stop || !contact.stop_duration)
-    return "  when noticed too fast to stop straight within the limits that it keeps\n";
+    return "  when noticed it could not stop straight within the limits that it keeps\n";
   return fmt::format("  when noticed it could stop within the limits that it keeps, in {:.0f} ms\n",
                      1e3 * *contact.stop_duration);
 }

@@ -21,7 +21,7 @@ function contactEvents(contact) {
 
 function detection(contact) {
   const taken = contact.isolated_body ? ` and takes it for a contact of the ${contact.isolated_body}` : "";
-  const late = contact.could_stop === false ? " It is too fast to stop within its limits." : "";
+  const late = contact.could_stop === false ? " It could not stop within its limits any more." : "";
   return `The robot notices${taken}.${late}`;
 }
 

@@ -117,7 +117,7 @@ function timesByEstimator(contact) {
 function braking(contact) {
   if (contact.could_stop === null) return "";
   return element("small", { class: contact.could_stop ? "by" : "by bad" },
-    contact.could_stop ? "could stop within its limits" : "too fast to stop within its limits");
+    contact.could_stop ? "could stop within its limits" : "could not stop within its limits");
 }
 
 /** What the robot took the body for, where it said so. */

@@ -60,7 +60,7 @@ TEST(VerdictTable, TellsWhetherTheRobotCouldStopWithinItsLimits) {
   EXPECT_THAT(verdict_json(verdict, {}), HasSubstr(R"("could_stop_within_limits":true,"stop_ms":43.0)"));
   verdict.contacts[0].could_stop = false;
   verdict.contacts[0].stop_duration.reset();
-  EXPECT_THAT(verdict_table(verdict, {}), HasSubstr("too fast to stop"));
+  EXPECT_THAT(verdict_table(verdict, {}), HasSubstr("could not stop straight"));
   EXPECT_THAT(verdict_json(verdict, {}), HasSubstr(R"("could_stop_within_limits":false,"stop_ms":null)"));
 }
 
