@@ -55,7 +55,7 @@ class Reservation {
 }  // namespace
 
 std::uint32_t free_domain() {
-  constexpr std::uint32_t domains = 100;  // above, the ports are those that the kernel hands out
+  constexpr std::uint32_t domains = 100;  // 101 is never in use; above, ports are those that the kernel gives
   static std::list<Reservation> ours;
   constexpr std::size_t most = 4;  // of one test; those of earlier tests of this program are given back
   if (ours.size() == most) ours.pop_front();
