@@ -297,4 +297,9 @@ void check_keys(const Campaign& campaign) {
   throw_if_any(std::move(wrong));
 }
 
+void check_campaign(const Campaign& campaign) {
+  check_keys(campaign);
+  draw_run(campaign, 0);
+}
+
 }  // namespace flinch

@@ -33,4 +33,7 @@ CampaignRun draw_run(const Campaign& campaign, std::size_t number, int most_atte
 /// first run of each scenario.
 void check_keys(const Campaign& campaign);
 
+/// All that can be told of a campaign before its runs: check_keys(), and whether a first run can be drawn.
+void check_campaign(const Campaign& campaign);
+
 }  // namespace flinch

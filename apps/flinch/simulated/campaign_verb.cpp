@@ -94,8 +94,7 @@ ExitStatus campaign(const CampaignOptions& options) {
     helpers->work(campaign);
     return ExitStatus::done;
   }
-  check_keys(campaign);  // before anything is written
-  draw_run(campaign, 0);
+  check_campaign(campaign);  // before anything is written
   const RunFolder folder = campaign_folder(options, campaign);
   const StopWatch watch;
   std::vector<RunResult> results;

@@ -43,11 +43,7 @@ std::unique_ptr<Diagram> closed_loop(const std::filesystem::path& scenario) {
   return built(read_simulated_scenario(scenario)).diagram;
 }
 
-void check_campaign(const std::filesystem::path& file) {
-  const Campaign campaign = read_campaign(file);
-  check_keys(campaign);
-  draw_run(campaign, 0);
-}
+void check_campaign(const std::filesystem::path& file) { check_campaign(read_campaign(file)); }
 
 Scenario scenario_of(const Recording& recording, const std::filesystem::path& file,
                      const std::filesystem::path& control) {
