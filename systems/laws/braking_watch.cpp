@@ -29,7 +29,7 @@ BrakingStatus BrakingWatch::judge(Time now, bool begins, const PlatformMotion& m
   if (!at.valid || !dynamics.valid) return found;
   const StraightStop stop = straight_stop(*robot_, at, dynamics, limits_, max_torque_);
   found.valid = true;
-  found.stays_inside = stop.is_possible && stop.stays_inside;
+  found.stays_inside = stop.stays_inside;
   found.duration = stop.duration;
   return found;
 }

@@ -48,7 +48,6 @@ StraightStop straight_stop(const Mechanism& robot, const Kinematics& at, const D
   const double rate = largest_rate(at.J_x_qa.transpose() * known,
                                    at.J_x_qa.transpose() * PlatformVector(-dynamics.M_x * v), max_torque);
   if (!(rate > 0.0)) return stop;
-  stop.is_possible = true;
   stop.duration = 1.0 / rate;
   stop.stays_inside = is_inside(robot, at, limits);
   const PlatformVector rest = PlatformVector::Zero(v.size());

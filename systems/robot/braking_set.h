@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <limits>
 
 #include "systems/robot/motion_barriers.h"
@@ -9,8 +10,10 @@ namespace flinch {
 /// The shortest straight stop from one motion.
 struct StraightStop {
   double duration = std::numeric_limits<double>::infinity();  ///< [s]; infinite: none is possible
-  bool is_possible = false;                                   ///< the drives can begin it
-  bool stays_inside = false;  ///< and the robot stays within its limits on the way
+  bool stays_inside = false;  ///< it is possible, and the robot stays within its limits on the way
+
+  /// Whether the drives can begin it.
+  bool is_possible() const { return std::isfinite(duration); }
 };
 
 /// How the robot would stop straight in the space of poses, dv = -v / T, with the smallest T whose begin no

@@ -44,7 +44,7 @@ TEST(AStraightStop, IsAsShortAsTheDrivesAllow) {
     const State state(*robot, {0.06 * any(random), 0.06 * any(random), 0.15 * any(random)},
                       {1.5 * any(random), 1.5 * any(random), 4.0 * any(random)});
     const StraightStop stop = straight_stop(*robot, state.at, state.dynamics, {}, 70.0);
-    ASSERT_TRUE(stop.is_possible);
+    ASSERT_TRUE(stop.is_possible());
     EXPECT_NEAR(largest_torque(state, stop.duration), 70.0, 1e-6);
     EXPECT_GT(largest_torque(state, 0.9 * stop.duration), 70.0);
   }
@@ -89,7 +89,7 @@ TEST(AStraightStop, OfARobotAtRestIsOver) {
   const auto robot = test::planar_bench();
   const State state(*robot, {0, 0, 0}, {0, 0, 0});
   const StraightStop stop = straight_stop(*robot, state.at, state.dynamics, tight_limits(), 70.0);
-  EXPECT_TRUE(stop.is_possible && stop.stays_inside);
+  EXPECT_TRUE(stop.is_possible() && stop.stays_inside);
   EXPECT_EQ(stop.duration, 0.0);
 }
 
@@ -97,10 +97,10 @@ TEST(AStraightStop, IsNotPossibleWithoutTorquesOrWithoutAModel) {
   const auto robot = test::planar_bench();
   const State state(*robot, {0, 0, 0}, {2.0, 0, 0});
   const StraightStop stop = straight_stop(*robot, state.at, state.dynamics, tight_limits(), 1e-6);
-  EXPECT_FALSE(stop.is_possible || stop.stays_inside);
+  EXPECT_FALSE(stop.is_possible() || stop.stays_inside);
   EXPECT_EQ(stop.duration, std::numeric_limits<double>::infinity());
-  EXPECT_FALSE(straight_stop(*robot, Kinematics(), state.dynamics, tight_limits(), 70.0).is_possible);
-  EXPECT_FALSE(straight_stop(*robot, state.at, Dynamics(), tight_limits(), 70.0).is_possible);
+  EXPECT_FALSE(straight_stop(*robot, Kinematics(), state.dynamics, tight_limits(), 70.0).is_possible());
+  EXPECT_FALSE(straight_stop(*robot, state.at, Dynamics(), tight_limits(), 70.0).is_possible());
 }
 
 TEST(AStraightStop, DoesNotAllocate) {
