@@ -9,10 +9,20 @@
 namespace flinch {
 namespace {
 
-void note(const TaskGoal& goal, int number, const Kinematics& at, const Dynamics& model,
-          TaskEnergies& found) {
+using Inertia = Eigen::LLT<PlatformMatrix>;  // M_x
+
+double energy_with(const Inertia& M_x, const TaskGoal& goal, const Kinematics& at) {
+  if (!goal.task.valid) return std::numeric_limits<double>::quiet_NaN();
+  const PlatformMatrix& J = goal.task.J;
+  const PlatformMatrix M = task_inertia(J * M_x.solve(PlatformMatrix(J.transpose())));
+  const PlatformVector& e = goal.reference.error;
+  const PlatformVector de = goal.reference.rate - goal.task.rate(at.velocity);
+  return 0.5 * de.dot(M * de) + 0.5 * e.dot(goal.gains.force.cwiseProduct(e));
+}
+
+void note(const TaskGoal& goal, int number, const Kinematics& at, const Inertia& M_x, TaskEnergies& found) {
   if (number >= TaskEnergies::most) return;
-  const double energy = energy_of(goal, at, model);
+  const double energy = energy_with(M_x, goal, at);
   if (!std::isfinite(energy)) return;
   found.served |= 1U << static_cast<unsigned>(number);
   found.energy[static_cast<std::size_t>(number)] = energy;
@@ -21,13 +31,7 @@ void note(const TaskGoal& goal, int number, const Kinematics& at, const Dynamics
 }  // namespace
 
 double energy_of(const TaskGoal& goal, const Kinematics& kinematics, const Dynamics& dynamics) noexcept {
-  if (!goal.task.valid) return std::numeric_limits<double>::quiet_NaN();
-  const PlatformMatrix& J = goal.task.J;
-  const Eigen::LLT<PlatformMatrix> M_x(dynamics.M_x);
-  const PlatformMatrix M = task_inertia(J * M_x.solve(PlatformMatrix(J.transpose())));
-  const PlatformVector& e = goal.reference.error;
-  const PlatformVector de = goal.reference.rate - goal.task.rate(kinematics.velocity);
-  return 0.5 * de.dot(M * de) + 0.5 * e.dot(goal.gains.force.cwiseProduct(e));
+  return energy_with(Inertia(dynamics.M_x), goal, kinematics);
 }
 
 void TaskEnergyWatch::measure(const TaskList& list, const TaskList& kept, const ConstraintState& state,
@@ -35,10 +39,11 @@ void TaskEnergyWatch::measure(const TaskList& list, const TaskList& kept, const 
   found = {};
   if (!list.valid || !at.valid || !model.valid) return;
   found.valid = true;
-  if (kept.count >= 2 && state.sigma_kappa.active) note(kept.goals[0], 0, at, model, found);
-  if (kept.count >= 2 && state.sigma_sc.active) note(kept.goals[1], 1, at, model, found);
+  const Inertia M_x(model.M_x);
+  if (kept.count >= 2 && state.sigma_kappa.active) note(kept.goals[0], 0, at, M_x, found);
+  if (kept.count >= 2 && state.sigma_sc.active) note(kept.goals[1], 1, at, M_x, found);
   int number = 2;
-  for (const TaskGoal& goal : list) note(goal, number++, at, model, found);
+  for (const TaskGoal& goal : list) note(goal, number++, at, M_x, found);
 }
 
 }  // namespace flinch
