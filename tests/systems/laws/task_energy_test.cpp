@@ -14,6 +14,7 @@
 #include "tests/support/allocations.h"
 #include "tests/support/planar_bench.h"
 #include "tests/support/ticking.h"
+#include "tests/systems/laws/task_level_trial.h"
 #include "tests/systems/robot/residual.h"
 
 namespace flinch {
@@ -21,12 +22,9 @@ namespace {
 
 using testing::Residual;
 
-class TaskEnergyOf : public ::testing::Test {
+class TaskEnergyOf : public test::TaskLevelTrial {
  protected:
-  Eigen::Vector3d any(double length, double angle) {
-    return {random.uniform(-length, length), random.uniform(-length, length), random.uniform(-angle, angle)};
-  }
-  test::Posture any_posture() { return test::Posture(*robot, any(0.1, 0.2), any(1.0, 3.0)); }
+  TaskEnergyOf() : TaskLevelTrial(11) {}
   /// The platform's position, or one drive, which shall stand still where the errors say.
   TaskGoal goal_at(const test::Posture& at, int sort, const PlatformVector& sigma_d) const {
     const Task task =
@@ -42,15 +40,6 @@ class TaskEnergyOf : public ::testing::Test {
     const PlatformMatrix mobility = J * at.dynamics.M_x.inverse() * J.transpose();
     return mobility.inverse();
   }
-
-  RandomGenerator random{11};
-  std::shared_ptr<const PlanarRrr> robot = test::planar_bench(BenchFriction::test_bench);
-  TaskLevelSettings settings{.inverse = {},
-                             .free_damping = 20.0,
-                             .velocity_feedforward = 1.0,
-                             .velocity_gain = 60.0,
-                             .largest_acceleration = 1e9,
-                             .largest_torque = 1e9};
 };
 
 // M_i is what moves with the task where as little moves as can: no motion that moves it so has less kinetic

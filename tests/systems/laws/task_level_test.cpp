@@ -10,6 +10,7 @@
 #include "systems/robot/reaction_tasks.h"
 #include "tests/support/allocations.h"
 #include "tests/support/planar_bench.h"
+#include "tests/systems/laws/task_level_trial.h"
 #include "tests/systems/robot/residual.h"
 
 namespace flinch {
@@ -19,14 +20,9 @@ using testing::Residual;
 
 constexpr std::array levels{TaskLevel::velocity, TaskLevel::acceleration, TaskLevel::torque};
 
-class TaskLevels : public ::testing::Test {
+class TaskLevels : public test::TaskLevelTrial {
  protected:
-  test::Posture any_posture() {
-    const Eigen::Vector3d pose(random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1),
-                               random.uniform(-0.2, 0.2));
-    const Eigen::Vector3d velocity(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-3, 3));
-    return test::Posture(*robot, pose, velocity);
-  }
+  TaskLevels() : TaskLevelTrial(7) {}
   PlatformVector any(int rows, double bound) {
     PlatformVector v(rows);
     for (double& entry : v) entry = random.uniform(-bound, bound);
@@ -45,15 +41,6 @@ class TaskLevels : public ::testing::Test {
     const Eigen::Vector3d velocity = at.kinematics.velocity;
     return *robot->acceleration(pose, velocity, Eigen::Vector3d(torque), Eigen::Vector3d::Zero());
   }
-
-  RandomGenerator random{7};
-  std::shared_ptr<const PlanarRrr> robot = test::planar_bench(BenchFriction::test_bench);
-  TaskLevelSettings settings{.inverse = {},
-                             .free_damping = 20.0,
-                             .velocity_feedforward = 1.0,
-                             .velocity_gain = 60.0,
-                             .largest_acceleration = 1e9,
-                             .largest_torque = 1e9};
 };
 
 // The impedance law written out, [SafePR] (7).
