@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "systems/contact/rational_tanh.h"
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
 
@@ -14,9 +15,8 @@ void activate(Activation activation, Values& values) {
   switch (activation) {
     case Activation::none:
       return;
-    // tanh(x), and so written one that the compiler can do for several numbers at once.
     case Activation::tanh:
-      values = (1.0 - 2.0 / ((2.0 * values.array()).exp() + 1.0)).matrix();
+      for (double& value : values.reshaped()) value = rational_tanh(value);
       return;
     case Activation::relu:
       values = values.cwiseMax(0.0);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "systems/contact/rational_tanh.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/random.h"
 #include "tests/support/allocations.h"
@@ -40,7 +41,7 @@ NetworkParameters random_network(const std::vector<int>& widths, Activation acti
 double activated(Activation activation, double x) {
   switch (activation) {
     case Activation::tanh:
-      return std::tanh(x);
+      return rational_tanh(x);
     case Activation::relu:
       return x > 0.0 ? x : 0.0;
     case Activation::sigmoid:
