@@ -44,19 +44,26 @@ double weighted_rms(N_Vector x, N_Vector weight) {
   return std::sqrt(sum / static_cast<double>(size(x)));
 }
 
+/// `together` numbers of a sum over k of factors[k] terms[k], from `first` on. Their count is a constant, so
+/// that they stay in registers.
+template <std::size_t together>
+void combine(int count, const double* factors, N_Vector* terms, std::size_t first, N_Vector combination) {
+  std::array<double, together> sum{};
+  for (int k = 0; k < count; ++k) {
+    const double factor = factors[k];
+    const double* const term = data(terms[k]) + first;
+    for (std::size_t i = 0; i < together; ++i) sum[i] += factor * term[i];
+  }
+  std::copy_n(sum.begin(), together, data(combination) + first);
+}
+
 // combination = sum over k of factors[k] terms[k]; one of the terms may be `combination` itself.
 int linear_combination(int count, double* factors, N_Vector* terms, N_Vector combination) {
-  constexpr std::size_t together = 8;
-  for (std::size_t first = 0; first < size(combination); first += together) {
-    const std::size_t some = std::min(together, size(combination) - first);
-    std::array<double, together> sum{};
-    for (int k = 0; k < count; ++k) {
-      const double factor = factors[k];
-      const double* const term = data(terms[k]) + first;
-      for (std::size_t i = 0; i < some; ++i) sum[i] += factor * term[i];
-    }
-    std::copy_n(sum.begin(), some, data(combination) + first);
-  }
+  constexpr std::size_t together = 6;  // the state of a planar robot
+  std::size_t done = 0;
+  for (; done + together <= size(combination); done += together)
+    combine<together>(count, factors, terms, done, combination);
+  for (; done < size(combination); ++done) combine<1>(count, factors, terms, done, combination);
   return 0;
 }
 
