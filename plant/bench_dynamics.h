@@ -38,6 +38,8 @@ struct BenchStep {
   std::array<HeldPoint, max_obstacles> held;
   /// Positions of the drives at which their closed brakes bear nothing [rad or m]; empty: where they are.
   JointVector braked_at;
+  /// Its brakes hold the robot, and nothing moves it: so it stays as long as both is so.
+  bool at_rest = false;
 };
 
 /// Everything about the bench at one instant. Wrenches and forces in the base frame.
@@ -51,6 +53,7 @@ struct BenchSnapshot {
   double kinetic_energy = 0.0;      ///< [J]
   JointVector drive_torque;         ///< That acts, without the brakes' [Nm or N].
   JointVector braked_at;            ///< As in BenchStep, from now on.
+  bool at_rest = false;             ///< Likewise.
   PlatformVector acceleration;
   PlatformVector applied_wrench;
   ContactForces contacts;

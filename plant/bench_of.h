@@ -44,6 +44,8 @@ class BenchOf final : public BenchDynamics {
   HeldPoint next_held(std::size_t obstacle, const BenchState& state, double t, const BenchSnapshot& snapshot,
                       const BenchStep& before) const noexcept;
   PlatformVector pulled(const Instant& now, const BenchState& state) const noexcept;
+  bool rests(const BenchSnapshot& now, const DriveAction& drives, const BenchStep& step,
+             double duration) const noexcept;
   JointVector drive_torque(const Instant& now, const DriveAction& drives) const noexcept;
   JointVector braked_at(const JointVector& active, const DriveAction& drives,
                         const BenchStep& step) const noexcept;
@@ -70,9 +72,17 @@ inline double held_share(const DriveAction& drives, int drive) {
   return drives.hold.size() > 0 ? drives.hold[drive] : (drives.braked ? 1.0 : 0.0);
 }
 
+/// Slower than this the robot rests: its brakes stop it within what the integrator may err. [m/s, rad/s]
+inline constexpr double resting_velocity = 1e-8;
+
+/// Whether all brakes are closed, and neither a torque nor a wrench acts against them.
+inline bool only_brakes_act(const DriveAction& drives, const PlatformVector& applied_wrench) {
+  return drives.braked && drives.hold.size() == 0 && drives.torque.isZero(0.0) && applied_wrench.isZero(0.0);
+}
+
 /// Whether anything can touch the robot, or holds it, in a step.
-inline bool can_touch(const BenchStep& step, int obstacles) {
-  if (!step.candidates.none()) return true;
+inline bool can_touch(const ContactCandidates& candidates, const BenchStep& step, int obstacles) {
+  if (!candidates.none()) return true;
   return std::any_of(step.held.begin(), step.held.begin() + obstacles,
                      [](const HeldPoint& held) { return held.body >= 0; });
 }
@@ -187,6 +197,16 @@ JointVector BenchOf<Robot>::braked_at(const JointVector& active, const DriveActi
   return next;
 }
 
+/// Whether the robot neither moves nor will within `duration`, as long as nothing but its brakes acts on it.
+template <class Robot>
+bool BenchOf<Robot>::rests(const BenchSnapshot& now, const DriveAction& drives, const BenchStep& step,
+                           double duration) const noexcept {
+  if (!internal::only_brakes_act(drives, now.applied_wrench) || !settings().pulls.empty()) return false;
+  if (internal::can_touch(now.candidates, step, obstacle_count())) return false;
+  const PlatformVector soon = now.velocity.cwiseAbs() + duration * now.acceleration.cwiseAbs();
+  return soon.maxCoeff() < internal::resting_velocity;
+}
+
 // ---------------------------------------------------------------- motion
 
 template <class Robot>
@@ -194,12 +214,14 @@ void BenchOf<Robot>::rates(const BenchState& state, const DriveAction& drives,
                            const PlatformVector& applied_wrench, const BenchStep& step,
                            BenchState& rates) const noexcept {
   rates.setZero(state.size());
+  ContactForces contacts(dof());
+  if (step.at_rest && internal::only_brakes_act(drives, applied_wrench))
+    return add_obstacle_rates(state, contacts, rates);
   Instant now;
   if (!robot_.at(state, step.chart, now)) return;
   PlatformVector wrench = applied_wrench;
   if (!settings().pulls.empty()) wrench += pulled(now, state);
-  ContactForces contacts(dof());
-  if (internal::can_touch(step, obstacle_count())) {
+  if (internal::can_touch(step.candidates, step, obstacle_count())) {
     PlacedObstacles obstacles;
     place_obstacles(state, obstacles);
     find_forces(now, obstacles, step, step.candidates, contacts);
@@ -222,6 +244,7 @@ void BenchOf<Robot>::snapshot(const BenchState& state, const DriveAction& drives
   out.obstacle_count = obstacle_count();
   out.contacts.clear(dof());
   out.near_pairs.count = 0;
+  out.at_rest = false;
   if (!out.reachable) return;
   out.applied_wrench += pulled(now, state);
   robot_.describe(now, out);
@@ -233,6 +256,7 @@ void BenchOf<Robot>::snapshot(const BenchState& state, const DriveAction& drives
   out.acceleration =
       acceleration(now, out.drive_torque, drives, step,
                    out.applied_wrench + out.contacts.obstacle_wrench + out.contacts.self_wrench);
+  out.at_rest = rests(out, drives, step, duration);
   robot_.find_near_pairs(now, out.obstacles, out.near_pairs);
   for (std::size_t i = 0; i < settings().obstacles.size(); ++i) {
     out.force_on_mount[i] =
@@ -253,6 +277,7 @@ void BenchOf<Robot>::next_step(const BenchState& state, double t, const BenchSna
   out.chart.xi = state.head(dof());
   out.candidates = snapshot.candidates;
   out.braked_at = snapshot.braked_at;
+  out.at_rest = snapshot.at_rest;
   for (std::size_t i = 0; i < settings().obstacles.size(); ++i) {
     out.held[i] = next_held(i, state, t, snapshot, before);
   }

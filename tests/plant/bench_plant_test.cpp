@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iostream>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "systems/foundation/setup_error.h"
@@ -241,8 +244,12 @@ SimulatedStationSettings leaned_upon(double force, Time hold) {
   return settings;
 }
 
-/// How far the drive that moved most has moved after each tick [rad].
-std::vector<double> ways_of_braked(const SimulatedStationSettings& settings, Time end) {
+struct BrakedRun {
+  std::vector<double> ways;  ///< how far the drive that moved most has moved after each tick [rad]
+  std::vector<std::int64_t> evaluations;  ///< right-hand sides until then
+};
+
+BrakedRun run_braked(const SimulatedStationSettings& settings, Time end) {
   DiagramBuilder builder("test", 1ms);
   const SimulatedStation station = add_simulated_station(builder, settings);
   builder.connect(builder.add<Constant<TorqueCommand>>("torque", TorqueCommand()).value,
@@ -250,16 +257,23 @@ std::vector<double> ways_of_braked(const SimulatedStationSettings& settings, Tim
   builder.connect(builder.add<Constant<BrakeCommand>>("brake", BrakeCommand()).value, station.brake);
   const auto diagram = builder.build();
   Context context = diagram->make_context();
-  Simulator simulator(*diagram, std::make_unique<SundialsIntegrator>());
+  auto integrator = std::make_unique<SundialsIntegrator>();
+  const SundialsIntegrator& counting = *integrator;
+  Simulator simulator(*diagram, std::move(integrator));
   simulator.step(context);
   const JointVector start = context.get(station.plant_truth).active;
-  std::vector<double> ways;
+  BrakedRun run;
   for (Time now = 1ms; now < end; now += 1ms) {
     simulator.step(context);
     const JointVector way = context.get(station.plant_truth).active - start;
-    ways.push_back(way.lpNorm<Eigen::Infinity>());
+    run.ways.push_back(way.lpNorm<Eigen::Infinity>());
+    run.evaluations.push_back(counting.evaluations());
   }
-  return ways;
+  return run;
+}
+
+std::vector<double> ways_of_braked(const SimulatedStationSettings& settings, Time end) {
+  return run_braked(settings, end).ways;
 }
 
 TEST(ClosedBrakes, HoldARobotThatIsLeanedUponWhereItIs) {
@@ -278,6 +292,32 @@ TEST(ClosedBrakes, SlideUnderMoreThanTheyHold) {
   EXPECT_NEAR(way.back(), way[way.size() - 500], 1e-9);
   EXPECT_GT(*std::max_element(way.begin(), way.end()), way.back());         // it springs back, ...
   EXPECT_LT(*std::max_element(way.begin(), way.end()) - way.back(), 4e-4);  // ... by no more than its give
+}
+
+/// Cogging motors pull at the brakes, after half a second so does a push of 200 N, and always `whisper` [N].
+SimulatedStationSettings pulled_at(double whisper) {
+  SimulatedStationSettings settings = leaned_upon(200.0, 100ms);
+  settings.applied_wrench.front().start = 500ms;
+  settings.applied_wrench.push_back(
+      {.peak_in_base = PlatformVector{{whisper, 0.0, 0.0}}, .start = 0s, .rise = 0s, .hold = 2s, .fall = 0s});
+  settings.bench.uneven_torque.assign(
+      3, {.cogging = {.amplitude = 0.5, .rate = 24.0, .phase = 1.0}, .ripple = {}});
+  return settings;
+}
+
+// Where anything acts, however small, the stiff motion within the brakes is integrated.
+TEST(ClosedBrakes, LetARobotRestWhereItWouldStayAnyway) {
+  const BrakedRun resting = run_braked(pulled_at(0.0), 1s), followed = run_braked(pulled_at(1e-30), 1s);
+  double apart = 0.0;
+  for (std::size_t k = 0; k < resting.ways.size(); ++k)
+    apart = std::max(apart, std::abs(resting.ways[k] - followed.ways[k]));
+  const auto last_rest = [](const BrakedRun& run) { return run.evaluations[490] - run.evaluations[390]; };
+  std::cout << "apart by " << apart << " rad; evaluations in 100 ms: " << last_rest(resting) << ", followed "
+            << last_rest(followed) << "\n";
+  EXPECT_LT(apart, 1e-10);
+  EXPECT_GT(resting.ways[600] - resting.ways[490], 1e-6);  // it yields to the push
+  EXPECT_EQ(last_rest(resting), 100 * 6);
+  EXPECT_GT(last_rest(followed), 100 * 20);
 }
 
 // ---------------------------------------------------------------- set-up
