@@ -12,7 +12,7 @@
 namespace flinch {
 
 /// Looks at the tick at which the robot leaves its nominal motion for a contact whether it could stop within
-/// its limits from there, see braking_set.h: that tick alone costs some 70 evaluations of the model.
+/// its limits from there, see braking_set.h: that tick alone costs some 13 evaluations of the model.
 class BrakingWatch final : public System {
  public:
   /// `max_torque` of a drive [Nm or N]. Throws SetupError where it is not positive.

@@ -5,7 +5,6 @@
 
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/random.h"
-#include "systems/robot/link_segments.h"
 
 namespace flinch {
 namespace {
@@ -24,17 +23,22 @@ void draw_in_ball(double radius, RandomGenerator& random, Part part) {
   part *= radius;
 }
 
-bool is_inside(const ParallelRobot& robot, const Kinematics& k, const RandomPathSettings& settings) {
-  const WorkspaceLimits& limits = settings.workspace;
+/// `limits`, by `spare` of each inside of them.
+WorkspaceLimits spared(WorkspaceLimits limits) {
   const double room = spare * (limits.max_active - limits.min_active) / 2.0;
-  const auto& drives = k.joints.active;
-  return k.valid && std::abs(k.det_A) >= (1.0 + spare) * limits.min_abs_det_A &&
-         std::abs(k.det_B) >= (1.0 + spare) * limits.min_abs_det_B &&
-         self_collision_distance(robot, k) >= (1.0 + spare) * limits.min_self_collision_distance &&
-         distance_from_centre(limits, robot, k.pose) <= (1.0 - spare) * limits.max_distance &&
-         robot.space().rotation_angle(k.pose) <= (1.0 - spare) * limits.max_rotation &&
-         (std::isinf(room) ||
-          (drives.minCoeff() >= limits.min_active + room && drives.maxCoeff() <= limits.max_active - room)) &&
+  limits.min_abs_det_A *= 1.0 + spare;
+  limits.min_abs_det_B *= 1.0 + spare;
+  limits.min_self_collision_distance *= 1.0 + spare;
+  limits.max_distance *= 1.0 - spare;
+  limits.max_rotation *= 1.0 - spare;
+  if (std::isinf(room)) return limits;
+  limits.min_active += room;
+  limits.max_active -= room;
+  return limits;
+}
+
+bool is_inside(const ParallelRobot& robot, const Kinematics& k, const RandomPathSettings& settings) {
+  return is_within(spared(settings.workspace), robot, k) &&
          k.rates.active.cwiseAbs().maxCoeff() <= (1.0 - spare) * settings.max_drive_speed;
 }
 

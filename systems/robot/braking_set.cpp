@@ -8,8 +8,6 @@ namespace flinch {
 namespace {
 
 constexpr int places = 10;
-constexpr LimitMargins no_margins{
-    .condition_number = 0.0, .angle = 0.0, .distance = 0.0, .share = 0.0, .range = 0.0};
 
 /// The largest u >= 0 for which every |known + u per_rate| is at most `most`; negative where there is none.
 double largest_rate(const JointVector& known, const JointVector& per_rate, double most) {
@@ -29,12 +27,7 @@ double largest_rate(const JointVector& known, const JointVector& per_rate, doubl
 }
 
 bool is_inside(const Mechanism& robot, const Kinematics& at, const PlaceLimits& limits) {
-  BarrierList barriers;
-  evaluate_barriers(robot, at, limits, no_margins, barriers);
-  for (int i = 0; i < barriers.count; ++i) {
-    if (!(barriers[i].room >= 0.0)) return false;
-  }
-  return barriers.valid;
+  return at.sigma_kappa <= limits.max_condition_number && is_within(limits.workspace, robot, at);
 }
 
 }  // namespace

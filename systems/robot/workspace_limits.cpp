@@ -40,6 +40,17 @@ double distance_from_centre(const WorkspaceLimits& limits, const Mechanism& mech
   return limits.centre.size() == translations ? (position - limits.centre).norm() : position.norm();
 }
 
+bool is_within(const WorkspaceLimits& limits, const Mechanism& mechanism,
+               const Kinematics& kinematics) noexcept {
+  const JointVector& drives = kinematics.joints.active;
+  return kinematics.valid && std::abs(kinematics.det_A) >= limits.min_abs_det_A &&
+         std::abs(kinematics.det_B) >= limits.min_abs_det_B &&
+         distance_from_centre(limits, mechanism, kinematics.pose) <= limits.max_distance &&
+         mechanism.space().rotation_angle(kinematics.pose) <= limits.max_rotation &&
+         drives.minCoeff() >= limits.min_active && drives.maxCoeff() <= limits.max_active &&
+         self_collision_distance(mechanism, kinematics) >= limits.min_self_collision_distance;
+}
+
 std::vector<std::string> problems(const WorkspaceLimits& limits, const ParallelRobot& robot) {
   const Configuration& pose = robot.home_pose();
   Kinematics home;

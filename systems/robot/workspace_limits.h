@@ -10,6 +10,7 @@ namespace flinch {
 
 class Mechanism;
 class ParallelRobot;
+struct Kinematics;
 
 /// Where a robot may be; outside it must be brought to rest. The defaults allow everything.
 struct WorkspaceLimits {
@@ -30,6 +31,10 @@ struct WorkspaceLimits {
 /// Distance of a pose from the centre of `limits` [m].
 double distance_from_centre(const WorkspaceLimits& limits, const Mechanism& mechanism,
                             const Configuration& pose) noexcept;
+
+/// Whether a robot is within `limits` where it is; not where its kinematics is not valid.
+bool is_within(const WorkspaceLimits& limits, const Mechanism& mechanism,
+               const Kinematics& kinematics) noexcept;
 
 /// All that is wrong with `limits`, one sentence each that begins with the field, such as
 /// "max_distance is 0 m; it must be positive". A robot at rest at its home pose must be within them.

@@ -53,5 +53,38 @@ TEST(WorkspaceLimits, MustNotExcludeTheHomePose) {
           HasSubstr("min_active_angle is 0.4256 rad;"), HasSubstr("max_active_angle is 0.4531 rad;")));
 }
 
+Kinematics at_home() {
+  Kinematics home;
+  bench.kinematics(bench.home_pose(), PlatformVector::Zero(3), home);
+  return home;
+}
+
+TEST(WorkspaceLimits, AreKeptWhereNoneIsExceeded) {
+  EXPECT_TRUE(is_within({}, bench, at_home()));
+  const WorkspaceLimits narrow{.centre = {},
+                               .max_distance = 0.0,
+                               .max_rotation = 0.0,
+                               .min_abs_det_A = 0.4518,
+                               .min_abs_det_B = 0.2215,
+                               .min_self_collision_distance = 0.1853,
+                               .min_active = 0.4254,
+                               .max_active = 0.4532};
+  EXPECT_TRUE(is_within(narrow, bench, at_home()));
+  EXPECT_FALSE(is_within({}, bench, Kinematics()));
+}
+
+TEST(WorkspaceLimits, AreEachExceededAlone) {
+  std::vector<WorkspaceLimits> narrow(7);
+  narrow[0].centre = Eigen::Vector2d(0.011, 0.0);
+  narrow[0].max_distance = 0.01;
+  narrow[1].max_rotation = -1e-3;
+  narrow[2].min_abs_det_A = 0.4520;
+  narrow[3].min_abs_det_B = 0.2217;
+  narrow[4].min_self_collision_distance = 0.1854;
+  narrow[5].min_active = 0.4256;
+  narrow[6].max_active = 0.4531;
+  for (const WorkspaceLimits& one : narrow) EXPECT_FALSE(is_within(one, bench, at_home()));
+}
+
 }  // namespace
 }  // namespace flinch
