@@ -153,6 +153,7 @@ void describe(const DataSet& data, const ClassifierTraining& training, const Fea
                       {"temperature", fmt::format("{:.4f}", result.temperature)},
                       {"cross_validated_accuracy",
                        fmt::format("{:.4f}", result.expected.confusion.balanced_accuracy().value_or(0.0))}};
+  if (settings.least_scale > 0.0) model.provenance["least_scale"] = fmt::format("{}", settings.least_scale);
 }
 
 }  // namespace

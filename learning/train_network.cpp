@@ -140,12 +140,13 @@ struct Standardisation {
   Eigen::VectorXf mean, scale;
 };
 
-Standardisation standardisation_of(const Eigen::MatrixXf& inputs) {
+Standardisation standardisation_of(const Eigen::MatrixXf& inputs, double least_scale) {
   const Eigen::VectorXd mean = inputs.cast<double>().rowwise().mean();
   const Eigen::VectorXd variance =
       (inputs.cast<double>().colwise() - mean).rowwise().squaredNorm() / static_cast<double>(inputs.cols());
   // An input that never changes says nothing; it is not blown up.
-  const Eigen::VectorXd scale = (variance.array() > 1e-12).select(variance.array().sqrt(), 1.0);
+  const Eigen::VectorXd scale =
+      (variance.array() > 1e-12).select(variance.array().sqrt(), 1.0).max(least_scale);
   return {mean.cast<float>(), scale.cast<float>()};
 }
 
@@ -163,7 +164,7 @@ class Training {
       : set_(set),
         settings_(settings),
         random_(derive_seed(settings.seed, "training")),
-        standardisation_(standardisation_of(set.inputs)),
+        standardisation_(standardisation_of(set.inputs, settings.least_scale)),
         solvers_(Net<layers>::num_computational_layers, dlib::adam(0.0F, 0.9F, 0.999F)) {
     net_.loss_details().rows = set.rows;
     const std::vector<Dense*> dense = dense_layers(net_);
@@ -282,6 +283,7 @@ std::vector<std::string> problems_with(const TrainingSettings& settings) {
                       std::to_string(NeuralNetwork::max_width));
   }
   found.not_negative("l2", settings.l2);
+  found.not_negative("least_scale", settings.least_scale);
   found.positive("learning_rate", settings.learning_rate);
   found.require(settings.epochs >= 1, "has no epoch");
   found.require(settings.batch >= 1, "has empty batches");

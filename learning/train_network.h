@@ -29,6 +29,9 @@ struct TrainingSettings {
   std::vector<int> hidden = {24, 24};  ///< widths of the tanh layers, 1 to 5 of them
   /// Of the weights, not of the biases: half of it times the sum of their squares is added to the loss.
   double l2 = 1e-5;
+  /// Inputs are divided by their standard deviations, but not by less than this: where all was learned in one
+  /// pose, what hardly varied there would elsewhere be larger than anything that was seen.
+  double least_scale = 0.0;
   double learning_rate = 3e-3;  ///< at first; it falls to 0 as half a cosine
   int epochs = 40;
   int batch = 256;

@@ -39,6 +39,10 @@ void add_train_verb(CLI::App& app, Verbs& verbs) {
       ->delimiter(',')
       ->type_name("N,N...");
   verb.add_option("--l2", options.l2, "Weight of the squared weights [of the question]")->type_name("X");
+  verb.add_option(
+          "--least-scale", options.least_scale,
+          "Least number that inputs are divided by; large: what hardly varied in the data counts little [0]")
+      ->type_name("X");
   verb.add_option("--learning-rate", options.learning_rate, "Of Adam, at first [of the question]")
       ->type_name("X");
   verb.add_option("--epochs", options.epochs, "Passes through the data [40]")->type_name("N");

@@ -29,6 +29,7 @@ struct TrainOptions {
   std::string question = "touched";
   std::vector<int> hidden;
   std::optional<double> l2;
+  std::optional<double> least_scale;
   std::optional<double> learning_rate;
   std::optional<int> epochs;
   std::optional<std::uint64_t> seed;

@@ -106,6 +106,26 @@ TEST(TrainNetwork, KeepsWeightsSmallWhereItIsToldTo) {
   EXPECT_LT(size(0.1), 0.5 * size(0.0));
 }
 
+// As where all is learned in one pose: a number that hardly varied there is another one elsewhere.
+TEST(TrainNetwork, IsNotThrownOffByWhatHardlyVariedWhereTheLeastScaleIsLarge) {
+  const auto in_place = [](TrainingSet set, std::uint64_t seed, float place) {
+    RandomGenerator random(seed);
+    set.inputs.conservativeResize(3, Eigen::NoChange);
+    for (Eigen::Index i = 0; i < set.inputs.cols(); ++i) {
+      set.inputs(0, i) = 0.01F * (set.inputs(0, i) - 500.0F);
+      set.inputs(2, i) = place + static_cast<float>(1e-4 * random.normal());
+    }
+    return set;
+  };
+  const TrainingSet here = in_place(two_classes(2000, 1), 1, 0.1F);
+  const TrainingSet elsewhere = in_place(two_classes(2000, 2), 2, 0.2F);
+  TrainingSettings settings = quick;
+  settings.l2 = 1e-4;
+  EXPECT_LT(accuracy(train_network(here, 2, settings), elsewhere), 0.9);
+  settings.least_scale = 1.0;
+  EXPECT_GT(accuracy(train_network(here, 2, settings), elsewhere), 0.97);
+}
+
 TEST(TrainNetwork, ServesOneToFiveHiddenLayers) {
   const TrainingSet set = two_classes(200, 1);
   for (std::size_t layers = 1; layers <= 5; ++layers) {
@@ -120,8 +140,11 @@ TEST(TrainNetwork, SaysWhatItCannotTrainWith) {
   TrainingSettings settings = quick;
   settings.hidden = {};
   settings.l2 = -1.0;
-  EXPECT_THAT(problems_with(settings), testing::ElementsAre("training has 0 hidden layers; it must be 1 to 5",
-                                                            "training l2 is -1; it must not be negative"));
+  settings.least_scale = -2.0;
+  EXPECT_THAT(problems_with(settings),
+              testing::ElementsAre("training has 0 hidden layers; it must be 1 to 5",
+                                   "training l2 is -1; it must not be negative",
+                                   "training least_scale is -2; it must not be negative"));
   TrainingSet set = two_classes(10, 1);
   set.answers[3] = 2;
   EXPECT_THAT(test::problems_of([&] { train_network(set, 2, quick); }),

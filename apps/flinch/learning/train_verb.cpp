@@ -25,6 +25,7 @@ ClassifierTraining training_of(const TrainOptions& options) {
   TrainingSettings settings = standard_settings(training.question);
   if (!options.hidden.empty()) settings.hidden = options.hidden;
   settings.l2 = options.l2.value_or(settings.l2);
+  settings.least_scale = options.least_scale.value_or(settings.least_scale);
   settings.learning_rate = options.learning_rate.value_or(settings.learning_rate);
   settings.epochs = options.epochs.value_or(settings.epochs);
   settings.seed = options.seed.value_or(settings.seed);
