@@ -244,10 +244,11 @@ void ReactionTask::plan(Time now, const ReactionPlan& last, const ReactionState&
     return;
   }
   next = last;
-  if (feels(contact)) next.touched = now;
+  if (feels(contact) && !is_released(now, last)) next.touched = now;
   if (!is_reacting(state.mode) || !at.valid || !model.valid) return;
   const bool opens = next.kind == ReactionKind::opening && next.opened < settings_.largest_opening;
-  if (opens && has_arrived(now, next)) {
+  if (opens && has_arrived(now, next) && !is_released(now, next) &&
+      !opposes(task_of(next, at), next.way, model, contact)) {
     next.unpressed = now;
     if (feels(contact)) open_further(now, at, model, next);
     return;
@@ -283,8 +284,12 @@ bool ReactionTask::presses(Time now, const ReactionPlan& plan, const Kinematics&
   if (!feels(contact)) return false;
   if (has_arrived(now, plan)) return true;
   const Task task = task_of(plan, at);
+  return opposes(task, error_of(plan, task, plan.motion.goal()), model, contact);
+}
+
+bool ReactionTask::opposes(const Task& task, const PlatformVector& ahead, const Dynamics& model,
+                           const WrenchEstimate& contact) const {
   if (!task.valid || contact.wrench_in_base.size() != robot_->dof()) return false;
-  const PlatformVector ahead = error_of(plan, task, plan.motion.goal());
   return least_motion(task, ahead, inverse(model.M_x)).dot(contact.wrench_in_base) < 0.0;
 }
 

@@ -47,8 +47,8 @@ inline constexpr bool never_allocates<ReactionPlan> =
 
 /// Gives way to a contact as its class asks for: at the tick at which the reaction begins class, place,
 /// direction of the force and leg are frozen, and a jerk-limited motion of the task of that class is planned
-/// from how it moves now. An opening that has arrived goes on by `opening_step` where a force is still felt,
-/// up to the largest opening. [SafePR] IV-B, Alg. 5
+/// from how it moves now. An opening that has arrived goes on by `opening_step` where a force is still felt
+/// that does not oppose it, up to the largest opening; once released, it is over. [SafePR] IV-B, Alg. 5
 ///
 /// A link of a leg that closes, touched from between its links, is answered by opening too. What is still
 /// felt after the motion, or lies on its way, is given way to anew. (Derived.)
@@ -110,6 +110,9 @@ class ReactionTask final : public System {
                             const ContactLocation& place) const;
   /// What is felt stays, or the motion leads into it.
   bool presses(Time now, const ReactionPlan& plan, const Kinematics& at, const Dynamics& model,
+               const WrenchEstimate& contact) const;
+  /// What is felt does negative work where the task moves along `ahead`.
+  bool opposes(const Task& task, const PlatformVector& ahead, const Dynamics& model,
                const WrenchEstimate& contact) const;
   void open_further(Time now, const Kinematics& at, const Dynamics& model, ReactionPlan& plan) const;
   PlatformVector error_of(const ReactionPlan& plan, const Task& task, const PlatformVector& wanted) const;

@@ -84,6 +84,7 @@ constexpr int platform = 0;
 constexpr int leg2_link1 = 3;
 constexpr int leg2_link2 = 4;
 constexpr int leg2_clamping = 8;
+const Eigen::Vector3d pushing_apart(-20, -5, 0);  // the links of the second leg
 
 TEST(ReactionTask, ThePlatformMovesAlongTheForceFromHowItMovesNow) {
   Reaction reaction;
@@ -239,7 +240,7 @@ TEST(ReactionTask, NothingIsDecidedAnewInOtherModes) {
 
 TEST(ReactionTask, AClampingLegOpensFurtherUntilNothingIsFeltForAWhile) {
   Reaction reaction;
-  reaction.know(leg2_clamping, {20, 5, 0});
+  reaction.know(leg2_clamping, pushing_apart);
   reaction.begin();
   reaction.go_on(400ms);
   EXPECT_FALSE(reaction.finished());
@@ -252,9 +253,47 @@ TEST(ReactionTask, AClampingLegOpensFurtherUntilNothingIsFeltForAWhile) {
   EXPECT_NEAR(std::abs(reaction.go_on(1000ms).goals[0].reference.error[0]), opened, 1e-12);
 }
 
-TEST(ReactionTask, AnOpeningEndsAtTheLargestWhateverIsFeltAndThenYields) {
+// What an opening meets when it has long let go of what it clamped is not clamped by it.
+TEST(ReactionTask, AReleasedLegDoesNotOpenFurtherForWhatIsFeltLater) {
   Reaction reaction;
   reaction.know(leg2_clamping, {20, 5, 0});
+  reaction.begin();
+  reaction.know(leg2_clamping, {0, 0, 0});
+  const double opened = std::abs(reaction.go_on(1000ms).goals[0].reference.error[0]);
+  EXPECT_NEAR(opened, 0.2094, 1e-9);
+  for (const double sign : {1.0, -1.0}) {
+    reaction.know(leg2_clamping, {20 * sign, 5 * sign, 0});
+    reaction.go_on(1000ms);
+    EXPECT_EQ(reaction.ticking.get(reaction.block.kind), ReactionKind::brake) << "it yields";
+  }
+}
+
+// Of two forces on the leg, one helps it to open and one stands in its way.
+TEST(ReactionTask, AnOpeningGoesOnOnlyWhereWhatIsFeltDoesNotOpposeIt) {
+  int furthered = 0, yielded = 0;
+  for (const double sign : {1.0, -1.0}) {
+    Reaction reaction;
+    reaction.know(leg2_clamping, {20 * sign, 5 * sign, 0});
+    const TaskList& begins = reaction.begin();
+    ASSERT_EQ(begins.count, 1);
+    const Kinematics& at = reaction.posture->kinematics;
+    const double s = std::copysign(1.0, at.joints.passive[1]);
+    const PlatformMatrix J = stacked(drive_task(at, 1), passive_joint_task(at, 1)).J;
+    const Eigen::Vector3d opening = J.completeOrthogonalDecomposition().solve(Eigen::Vector2d(-s, -2.0 * s));
+    const bool helps = opening.dot(Eigen::Vector3d(20 * sign, 5 * sign, 0)) > 0.0;
+    reaction.go_on(400ms);
+    const bool opens = reaction.ticking.get(reaction.block.kind) == ReactionKind::opening;
+    EXPECT_EQ(opens, helps);
+    furthered += opens ? 1 : 0;
+    yielded += opens ? 0 : 1;
+  }
+  EXPECT_EQ(furthered, 1);
+  EXPECT_EQ(yielded, 1);
+}
+
+TEST(ReactionTask, AnOpeningEndsAtTheLargestThoughItIsNotReleasedAndThenYields) {
+  Reaction reaction;
+  reaction.know(leg2_clamping, pushing_apart);
   reaction.begin();
   double largest = 0.0;
   for (int tick = 0; tick < 10000; ++tick) {
