@@ -48,6 +48,8 @@ ContactControlSettings settings_for(const ParallelRobot& robot, const DriveParam
   settings.limits.limits.workspace = limits;
   settings.limits.max_torque = drives.max_torque;
   settings.limits.max_torque_rate = drives.max_torque_rate;
+  settings.tasks.reaction.max_torque = drives.max_torque;
+  settings.tasks.reaction.max_torque_rate = drives.max_torque_rate;
   settings.limits.max_drive_speed = 0.95 * drives.max_speed;
   settings.yielding->damping = settings.controlled_stop.damping;
   settings.yielding->whole_from = drives.max_speed / 4.0;

@@ -55,9 +55,9 @@ LawPorts add_tracking(const StageSite& site, TaskLevel level, const ReactionPort
 }
 
 LawPorts add_reaction_with(const StageSite& site, TaskLevel level, const ConstraintSettings& constraints,
-                           const ReactionPorts& given) {
+                           const ReactionTaskSettings& reaction, const ReactionPorts& given) {
   DiagramBuilder& builder = site.builder;
-  auto& task = builder.add<ReactionTask>(site.name + "_task", site.robot, site.settings.tasks.reaction);
+  auto& task = builder.add<ReactionTask>(site.name + "_task", site.robot, reaction);
   builder.connect(given.reaction, task.reaction);
   builder.connect(given.kinematics, task.kinematics);
   builder.connect(given.dynamics, task.dynamics);
@@ -69,14 +69,18 @@ LawPorts add_reaction_with(const StageSite& site, TaskLevel level, const Constra
 }
 
 LawPorts add_reaction(const StageSite& site, TaskLevel level, const ReactionPorts& given) {
-  return add_reaction_with(site, level, site.settings.tasks.constraints, given);
+  const TaskSettings& settings = site.settings.tasks;
+  return add_reaction_with(site, level, settings.constraints, settings.reaction, given);
 }
 
-/// The limit keeper holds the constraints: none becomes a task.
+/// The limit keeper holds the constraints: none becomes a task, and motions may take what the drives have.
+/// 70 % of it, as for a stop: the rest is for what pushes and for what the model does not know.
 LawPorts add_strict_reaction(const StageSite& site, TaskLevel level, const ReactionPorts& given) {
   ConstraintSettings watched = site.settings.tasks.constraints;
   watched.kept = ConstraintsKept::never;
-  return add_reaction_with(site, level, watched, given);
+  ReactionTaskSettings reaction = site.settings.tasks.reaction;
+  reaction.drive_share = 0.7;
+  return add_reaction_with(site, level, watched, reaction, given);
 }
 
 template <auto add>

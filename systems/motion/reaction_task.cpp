@@ -58,6 +58,13 @@ MotionLimits slowed(const MotionLimits& limits, double share) {
   return {limits.velocity * share, limits.acceleration * share, limits.jerk * share};
 }
 
+// The largest acceleration of the task along `direction` that all drives together can cause.
+double reach(const Task& task, const PlatformVector& direction, const Kinematics& at, const Dynamics& model,
+             double max_torque) {
+  const PlatformVector along = task.J.transpose() * direction;
+  return max_torque * (at.J_qa_x * (inverse(model.M_x) * along)).lpNorm<1>();
+}
+
 /// The elbow of a leg bends: what is between its links gets clamped.
 bool is_closing(const Kinematics& at, int leg) {
   return at.joints.passive.size() > leg &&
@@ -107,6 +114,10 @@ std::vector<std::string> problems(const ReactionTaskSettings& settings) {
   found.require(can_be_planned_with(settings.translation), "limits of translation must be positive");
   found.require(can_be_planned_with(settings.joint), "limits of joints must be positive");
   found.require(settings.largest_platform_speed > 0, "largest_platform_speed must be positive");
+  const double share = settings.drive_share.value_or(1.0);
+  found.require(share > 0 && share <= 1, "drive_share must be above 0 and at most 1");
+  found.require(settings.max_torque > 0, "max_torque must be positive");
+  found.require(settings.max_torque_rate > 0, "max_torque_rate must be positive");
   return found.take();
 }
 
@@ -184,12 +195,17 @@ PlatformVector ReactionTask::displacement(const ReactionPlan& plan, const Wrench
 void ReactionTask::move(Time now, const Task& task, const PlatformVector& rate,
                         const PlatformVector& displacement, const Kinematics& at, const Dynamics& model,
                         ReactionPlan& plan) const {
+  const PlatformVector direction = displacement.normalized();
   MotionLimits limits = settings_.translation;
   if (moves_joints(plan.kind)) {
     limits = settings_.joint;
-    const double fastest = limits.velocity * platform_speed(task, displacement.normalized(), at, model,
-                                                            robot_->space().translations());
+    const double fastest =
+        limits.velocity * platform_speed(task, direction, at, model, robot_->space().translations());
     limits = slowed(limits, std::min(1.0, settings_.largest_platform_speed / std::max(fastest, 1e-9)));
+  }
+  if (settings_.drive_share) {
+    limits.acceleration = *settings_.drive_share * reach(task, direction, at, model, settings_.max_torque);
+    limits.jerk = limits.acceleration * settings_.max_torque_rate / settings_.max_torque;
   }
   plan.begin = now;
   plan.motion = SynchronisedMotion::plan(task.sigma, rate, task.sigma + displacement, limits);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,11 @@ struct ReactionTaskSettings {
   MotionLimits joint{.velocity = 4.0, .acceleration = 80.0, .jerk = 8000.0};
   /// Of its coupling joints, to which motions of joints are slowed down [m/s].
   double largest_platform_speed = 2.0;
+  /// Motions are planned with this share of what all drives together can do about them, in the place of the
+  /// accelerations and jerks above; none: with those.
+  std::optional<double> drive_share;
+  double max_torque = 100.0;      ///< of a drive [Nm or N]
+  double max_torque_rate = 20e3;  ///< [Nm/s or N/s]
 
   /// [SafePR] Table III, the same for every row.
   TaskGains platform = TaskGains::uniform(1, 30.0, 2000.0, 50.0, 2000.0, 1.0);

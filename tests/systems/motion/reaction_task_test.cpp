@@ -291,6 +291,36 @@ TEST(ReactionTask, AnOpeningGoesOnOnlyWhereWhatIsFeltDoesNotOpposeIt) {
   EXPECT_EQ(yielded, 1);
 }
 
+TEST(ReactionTask, TakesItsShareOfWhatAllDrivesTogetherCanDo) {
+  for (const int touched : {platform, leg2_link1, leg2_link2, leg2_clamping}) {
+    ReactionTaskSettings settings;
+    settings.drive_share = 0.7;
+    settings.translation.velocity = settings.joint.velocity = settings.largest_platform_speed = 50.0;
+    Reaction reaction(settings);
+    reaction.know(touched, {30, -40, 1});
+    reaction.begin();
+    reaction.know(touched, {0, 0, 0});
+    const TaskGoal last = reaction.go_on(1ms).goals[0];
+    double largest = 0.0;
+    PlatformVector way;
+    for (int tick = 0; tick < 200; ++tick) {
+      const TaskGoal& goal = reaction.go_on().goals[0];
+      const PlatformVector& a = goal.reference.acceleration;
+      if (a.norm() > largest) way = a.normalized();
+      largest = std::max(largest, a.norm());
+    }
+    // By torques at their limits, each with the sign that accelerates the task along its way.
+    const Kinematics& at = reaction.posture->kinematics;
+    const PlatformMatrix M_inverse = reaction.posture->dynamics.M_x.inverse();
+    double together = 0.0;
+    for (int drive = 0; drive < 3; ++drive) {
+      const PlatformVector dv = M_inverse * (100.0 * at.J_qa_x.row(drive).transpose());
+      together += std::abs(way.dot(last.task.J * dv));
+    }
+    EXPECT_NEAR(largest, 0.7 * together, 0.02 * together) << touched;
+  }
+}
+
 TEST(ReactionTask, AnOpeningEndsAtTheLargestThoughItIsNotReleasedAndThenYields) {
   Reaction reaction;
   reaction.know(leg2_clamping, pushing_apart);
@@ -396,6 +426,9 @@ TEST(ReactionTask, RefusesSettingsThatMakeNoSense) {
   settings = {};
   settings.translation.jerk = 0.0;
   EXPECT_THROW(builder.add<ReactionTask>("b", test::planar_bench(), settings), SetupError);
+  settings = {};
+  settings.drive_share = 1.5;
+  EXPECT_THROW(builder.add<ReactionTask>("c", test::planar_bench(), settings), SetupError);
 }
 
 TEST(ReactionTask, DoesNotAllocate) {
