@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "systems/robot/link_segments.h"
-#include "systems/robot/planar_place.h"
 
 namespace flinch {
 namespace {
@@ -151,13 +150,6 @@ PlatformVector shortest_between(const std::array<PlatformVector, max_nearest_lin
   return shortest;
 }
 
-void evaluate_place(const Mechanism& mechanism, const Configuration& pose, PlaceKinematics& out) {
-  if (evaluate_planar_place(mechanism, pose, out)) return;
-  Kinematics at_rest;
-  mechanism.kinematics(pose, PlatformVector::Zero(mechanism.dof()), at_rest);
-  out = {at_rest.legs, at_rest.J_qa_x, at_rest.det_A, at_rest.det_B, at_rest.sigma_kappa, at_rest.valid};
-}
-
 }  // namespace
 
 void evaluate_nearby(const Mechanism& mechanism, const Kinematics& kinematics, NearbyPlaces& out) noexcept {
@@ -166,8 +158,8 @@ void evaluate_nearby(const Mechanism& mechanism, const Kinematics& kinematics, N
   if (!kinematics.reachable || !(speed > 0.0)) return;
   const PlatformVector moved = distance_of_differences / speed * kinematics.velocity;
   const ConfigurationSpace space = mechanism.space();
-  evaluate_place(mechanism, space.plus(kinematics.pose, moved), out.after);
-  evaluate_place(mechanism, space.plus(kinematics.pose, -moved), out.before);
+  mechanism.place(space.plus(kinematics.pose, moved), out.after);
+  mechanism.place(space.plus(kinematics.pose, -moved), out.before);
   if (out.before.valid && out.after.valid) out.step = distance_of_differences / speed;
 }
 

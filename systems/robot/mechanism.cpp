@@ -27,6 +27,18 @@ std::optional<JointVector> Mechanism::drive_acceleration(const Configuration& po
   return now.J_qa_x * *dv + now.dJ_qa_x * velocity;
 }
 
+void Mechanism::place(const Configuration& pose, PlaceKinematics& out) const noexcept {
+  Kinematics at_rest;
+  kinematics(pose, PlatformVector::Zero(dof()), at_rest);
+  out = {at_rest.legs, at_rest.J_qa_x, at_rest.det_A, at_rest.det_B, at_rest.sigma_kappa, at_rest.valid};
+}
+
+std::optional<DeterminantGradients> Mechanism::determinant_gradients(const Kinematics&) const noexcept {
+  return std::nullopt;
+}
+
+SelfCollisionTasks Mechanism::self_collision_tasks(const Kinematics&, double) const noexcept { return {}; }
+
 CartesianVector Mechanism::axis_point(BodyId body, double fraction) const noexcept {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   for (const Shape& shape : description_.bodies[static_cast<std::size_t>(body.index())].shapes) {

@@ -9,8 +9,11 @@
 #include "systems/robot/body_id.h"
 #include "systems/robot/configuration_space.h"
 #include "systems/robot/contact_jacobian.h"
+#include "systems/robot/determinant_gradients.h"
 #include "systems/robot/dynamics.h"
 #include "systems/robot/kinematics.h"
+#include "systems/robot/place_kinematics.h"
+#include "systems/robot/self_collision_tasks.h"
 #include "systems/robot/vectors.h"
 
 namespace flinch {
@@ -88,6 +91,15 @@ class Mechanism {
   /// Velocity map of that point. [SafePR] (3), [ICRA23] (4)-(6)
   virtual ContactJacobian contact_jacobian(const Kinematics& kinematics, BodyId body,
                                            const CartesianVector& point_in_body) const noexcept = 0;
+
+  /// That part of the kinematics which limits of the place need, assembled as at home.
+  virtual void place(const Configuration& pose, PlaceKinematics& out) const noexcept;
+  /// In closed form; nothing where there is none, or where `kinematics` is not valid.
+  virtual std::optional<DeterminantGradients> determinant_gradients(
+      const Kinematics& kinematics) const noexcept;
+  /// What keeps links `distance` [m] apart; none where it has no such form.
+  virtual SelfCollisionTasks self_collision_tasks(const Kinematics& kinematics,
+                                                  double distance) const noexcept;
 
   /// Body coordinates of the point at `fraction` of the axis of a body's first capsule; the origin for a body
   /// that is none.

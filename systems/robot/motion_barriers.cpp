@@ -4,8 +4,6 @@
 #include <limits>
 
 #include "systems/robot/constraint_tasks.h"
-#include "systems/robot/planar_determinants.h"
-#include "systems/robot/planar_self_collision.h"
 #include "systems/robot/reaction_tasks.h"
 
 namespace flinch {
@@ -28,7 +26,7 @@ class Builder {
 
   void determinants(double least_A, double least_B) {
     if (!(least_A > 0.0) && !(least_B > 0.0)) return;
-    const auto closed_form = planar_determinant_gradients(mechanism_, kinematics_);
+    const auto closed_form = mechanism_.determinant_gradients(kinematics_);
     const DeterminantGradients gradients = closed_form ? *closed_form : by_differences();
     if (least_B > 0.0)
       add(BarrierKind::type_1_singularity, log_ratio(kinematics_.det_B, least_B), gradients.log_B,
@@ -39,12 +37,12 @@ class Builder {
   }
 
   void self_collision(double least, const LimitMargins& margins) {
-    const CouplingAngles angles = coupling_angles(mechanism_, kinematics_, least);
-    for (int i = 0; i < angles.count; ++i) {
-      below(BarrierKind::self_collision, angles.tasks[static_cast<std::size_t>(i)],
-            angles.largest - margins.angle);
+    const SelfCollisionTasks smooth = mechanism_.self_collision_tasks(kinematics_, least);
+    for (int i = 0; i < smooth.count; ++i) {
+      below(BarrierKind::self_collision, smooth.tasks[static_cast<std::size_t>(i)],
+            smooth.largest - margins.angle);
     }
-    if (angles.count > 0 || mechanism_.description().self_collision_pairs.empty()) return;
+    if (smooth.count > 0 || mechanism_.description().self_collision_pairs.empty()) return;
     above(BarrierKind::self_collision, self_collision_task(mechanism_, kinematics_, nearby_),
           (1.0 + margins.share) * least);
   }
@@ -108,19 +106,15 @@ class Builder {
   DeterminantGradients by_differences() const {
     const int n = mechanism_.dof();
     DeterminantGradients gradients{PlatformVector::Zero(n), PlatformVector::Zero(n)};
-    Kinematics before, after;
+    PlaceKinematics before, after;
     for (int axis = 0; axis < n; ++axis) {
       const PlatformVector moved = step_of_differences * PlatformVector::Unit(n, axis);
-      at_rest(-moved, before);
-      at_rest(moved, after);
+      mechanism_.place(mechanism_.space().plus(kinematics_.pose, -moved), before);
+      mechanism_.place(mechanism_.space().plus(kinematics_.pose, moved), after);
       gradients.log_A[axis] = log_ratio(after.det_A, before.det_A) / (2.0 * step_of_differences);
       gradients.log_B[axis] = log_ratio(after.det_B, before.det_B) / (2.0 * step_of_differences);
     }
     return gradients;
-  }
-  void at_rest(const PlatformVector& moved, Kinematics& out) const {
-    mechanism_.kinematics(mechanism_.space().plus(kinematics_.pose, moved),
-                          PlatformVector::Zero(mechanism_.dof()), out);
   }
   static double log_ratio(double a, double b) { return std::log(std::abs(a / b)); }
   double log_drift(double now, double PlaceKinematics::*det) const {

@@ -3,20 +3,16 @@
 #include <cmath>
 #include <cstddef>
 
-#include "systems/robot/planar_rrr.h"
-
 namespace flinch {
 
 // d ln |det A| = sum over i of (d row_i) A^-1 e_i, and A^-1 e_i is J_x,qa e_i to the factor by which rows of
 // A and of J_qa,x differ: 1 / (l1 sin q_p).
-std::optional<DeterminantGradients> planar_determinant_gradients(const Mechanism& mechanism,
-                                                                 const Kinematics& kinematics) noexcept {
-  const auto* const robot = dynamic_cast<const PlanarRrr*>(&mechanism);
-  if (robot == nullptr || !kinematics.valid) return std::nullopt;
+DeterminantGradients planar_determinant_gradients(const PlanarRrr& robot,
+                                                  const Kinematics& kinematics) noexcept {
   Eigen::Vector3d log_A = Eigen::Vector3d::Zero(), log_B = Eigen::Vector3d::Zero();
   const Eigen::Vector2d origin = kinematics.pose.head<2>();
-  for (int i = 0; i < robot->legs(); ++i) {
-    const PlanarRrrLeg& leg = robot->parameters().legs[static_cast<std::size_t>(i)];
+  for (int i = 0; i < robot.legs(); ++i) {
+    const PlanarRrrLeg& leg = robot.parameters().legs[static_cast<std::size_t>(i)];
     const LegPoints& points = kinematics.legs[static_cast<std::size_t>(i)];
     const Eigen::Vector2d coupling = points.coupling_joint.head<2>();
     const Eigen::Vector2d e = (coupling - points.passive_joint.head<2>()) / leg.link2_length;
@@ -31,7 +27,7 @@ std::optional<DeterminantGradients> planar_determinant_gradients(const Mechanism
     log_A.z() -= d.dot(e) * column.z() / (leg.link1_length * sine);
     log_B += std::cos(kinematics.joints.passive[i]) / sine * qp_by_x;
   }
-  return DeterminantGradients{log_A, log_B};
+  return {log_A, log_B};
 }
 
 }  // namespace flinch

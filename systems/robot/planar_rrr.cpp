@@ -9,7 +9,9 @@
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/angles.h"
 #include "systems/robot/planar_contact.h"
+#include "systems/robot/planar_determinants.h"
 #include "systems/robot/planar_kinematics.h"
+#include "systems/robot/planar_self_collision.h"
 
 namespace flinch {
 namespace {
@@ -312,6 +314,17 @@ void PlanarRrr::place(const Configuration& pose, PlaceKinematics& out) const noe
   PlanarMotion closed;
   motion(pose.head<3>(), Eigen::Vector3d::Zero(), closed);
   if (closed.reachable) place_kinematics(geometry_, closed, out);
+}
+
+std::optional<DeterminantGradients> PlanarRrr::determinant_gradients(
+    const Kinematics& kinematics) const noexcept {
+  if (!kinematics.valid) return std::nullopt;
+  return planar_determinant_gradients(*this, kinematics);
+}
+
+SelfCollisionTasks PlanarRrr::self_collision_tasks(const Kinematics& kinematics,
+                                                   double distance) const noexcept {
+  return coupling_angles(*this, kinematics, distance);
 }
 
 CartesianVector PlanarRrr::point_on_body(const Kinematics& kinematics, BodyId body,

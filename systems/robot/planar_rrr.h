@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "systems/robot/parallel_robot.h"
-#include "systems/robot/place_kinematics.h"
 #include "systems/robot/planar_motion.h"
 #include "systems/robot/planar_rrr_parameters.h"
 
@@ -46,8 +45,11 @@ class PlanarRrr final : public ParallelRobot {
   ContactJacobian contact_jacobian(const Kinematics& kinematics, BodyId body,
                                    const CartesianVector& point_in_body) const noexcept override;
 
-  /// That part of the kinematics which limits of the place need; home working mode.
-  void place(const Configuration& pose, PlaceKinematics& out) const noexcept;
+  void place(const Configuration& pose, PlaceKinematics& out) const noexcept override;
+  std::optional<DeterminantGradients> determinant_gradients(
+      const Kinematics& kinematics) const noexcept override;
+  SelfCollisionTasks self_collision_tasks(const Kinematics& kinematics,
+                                          double distance) const noexcept override;
 
   // ------------------------------------------------ fixed-size path for simulation, home working mode
 

@@ -26,16 +26,15 @@ double largest_coupling_angle(const PlanarRrr& robot, double distance) noexcept 
   return std::numbers::pi / 3.0 + std::acos(std::clamp(distance / plateau, 0.0, 1.0));
 }
 
-CouplingAngles coupling_angles(const Mechanism& mechanism, const Kinematics& kinematics,
-                               double distance) noexcept {
+SelfCollisionTasks coupling_angles(const PlanarRrr& robot, const Kinematics& kinematics,
+                                   double distance) noexcept {
   constexpr double exact_from = 0.1;  // [m]
-  CouplingAngles angles;
-  const auto* const robot = dynamic_cast<const PlanarRrr*>(&mechanism);
-  if (robot == nullptr || distance < exact_from) return angles;
-  angles.count = robot->legs();
-  angles.largest = largest_coupling_angle(*robot, distance);
+  SelfCollisionTasks angles;
+  if (distance < exact_from) return angles;
+  angles.count = robot.legs();
+  angles.largest = largest_coupling_angle(robot, distance);
   for (int leg = 0; leg < angles.count; ++leg)
-    angles.tasks[static_cast<std::size_t>(leg)] = coupling_angle_task(*robot, kinematics, leg);
+    angles.tasks[static_cast<std::size_t>(leg)] = coupling_angle_task(robot, kinematics, leg);
   return angles;
 }
 

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <array>
-
 #include "systems/robot/planar_rrr.h"
-#include "systems/robot/task.h"
 
 /// sigma_sc of a planar 3-RRR in closed form. With omega_j the angle of the second link of leg j away from
 /// the radius of its coupling joint, and coupling joints 120 degrees apart at r_c:
@@ -22,15 +19,9 @@ Task coupling_angle_task(const PlanarRrr& robot, const Kinematics& kinematics, i
 /// large. `distance` must not be negative [m].
 double largest_coupling_angle(const PlanarRrr& robot, double distance) noexcept;
 
-/// What keeps links apart where sigma_sc follows from the coupling angles: all omega_j and the largest one at
-/// which sigma_sc is `distance` [m]. None for mechanisms without this closed form, or where it is not exact:
-/// below 0.1 m.
-struct CouplingAngles {
-  std::array<Task, max_dof> tasks;
-  int count = 0;
-  double largest = 0.0;  ///< [rad]
-};
-CouplingAngles coupling_angles(const Mechanism& mechanism, const Kinematics& kinematics,
-                               double distance) noexcept;
+/// All omega_j, and the largest one at which sigma_sc is `distance` [m]; none where that is not exact, below
+/// 0.1 m.
+SelfCollisionTasks coupling_angles(const PlanarRrr& robot, const Kinematics& kinematics,
+                                   double distance) noexcept;
 
 }  // namespace flinch

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "systems/robot/link_segments.h"
-#include "systems/robot/planar_self_collision.h"
 #include "tests/support/allocations.h"
 #include "tests/systems/robot/mechanism_laws.h"
 
@@ -44,7 +43,7 @@ FLINCH_FOR_ALL_MECHANISMS(MotionBarrierLaws);
 
 /// sigma_sc by the distance of links has kinks; tests of its task are elsewhere.
 bool has_kinks(const Barrier& barrier, const Mechanism& robot, const Kinematics& k) {
-  return barrier.kind == BarrierKind::self_collision && coupling_angles(robot, k, 0.11).count == 0;
+  return barrier.kind == BarrierKind::self_collision && robot.self_collision_tasks(k, 0.11).count == 0;
 }
 
 TEST_P(MotionBarrierLaws, GradientsAreThoseOfTheRoom) {

@@ -32,7 +32,7 @@ TEST(PlanarDeterminants, ChangeAsTheirDifferencesDo) {
                                  random.uniform(-0.4, 0.4));
       const Kinematics now = at(robot, pose);
       if (!now.valid || std::abs(now.det_A) < 0.02 || std::abs(now.det_B) < 0.02) continue;
-      const auto gradients = planar_determinant_gradients(robot, now);
+      const auto gradients = robot.determinant_gradients(now);
       ASSERT_TRUE(gradients.has_value());
       for (int axis = 0; axis < 3; ++axis) {
         const Kinematics before = at(robot, pose - step * Eigen::Vector3d::Unit(axis));
@@ -54,10 +54,10 @@ TEST(PlanarDeterminants, HaveNoClosedFormOfOtherMechanismsNorOutOfReach) {
     Kinematics home;
     each.robot->kinematics(each.robot->home_pose(), PlatformVector::Zero(each.robot->dof()), home);
     const bool is_planar = dynamic_cast<const PlanarRrr*>(each.robot.get()) != nullptr;
-    EXPECT_EQ(planar_determinant_gradients(*each.robot, home).has_value(), is_planar) << each.name;
+    EXPECT_EQ(each.robot->determinant_gradients(home).has_value(), is_planar) << each.name;
   }
   const PlanarRrr robot(bench_robot(BenchGeometry::nominal, BenchFriction::none));
-  EXPECT_FALSE(planar_determinant_gradients(robot, at(robot, Eigen::Vector3d(9.0, 0.0, 0.0))).has_value());
+  EXPECT_FALSE(robot.determinant_gradients(at(robot, Eigen::Vector3d(9.0, 0.0, 0.0))).has_value());
 }
 
 }  // namespace
