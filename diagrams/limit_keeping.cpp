@@ -27,12 +27,11 @@ LimitKeeper& add_keeper(const StageSite& site, OutputPort<PlatformMotion> motion
   return keeper;
 }
 
-/// With a share of the torques: the rest is for what pushes, and for what the model does not know.
 OutputPort<BrakingStatus> add_braking_watch(const StageSite& site, OutputPort<PlatformMotion> motion,
                                             OutputPort<ReactionState> reaction) {
-  constexpr double share = 0.7;
   const LimitKeeperSettings& kept = site.settings.limits;
-  auto& watch = site.builder.add<BrakingWatch>("braking", site.robot, kept.limits, share * kept.max_torque);
+  auto& watch = site.builder.add<BrakingWatch>("braking", site.robot, kept.limits,
+                                               planned_torque_share * kept.max_torque);
   site.builder.connect(motion, watch.motion);
   site.builder.connect(reaction, watch.reaction);
   return watch.status;

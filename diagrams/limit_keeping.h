@@ -10,6 +10,10 @@
 
 namespace flinch {
 
+/// What of the drives' torques motions and stops are planned with: the rest is for what pushes, and for what
+/// the model does not know.
+inline constexpr double planned_torque_share = 0.7;
+
 /// Motion and disturbance with hardly a lag.
 struct FollowedMotion {
   OutputPort<PlatformMotion> platform;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "diagrams/contact_control_settings.h"
+#include "diagrams/limit_keeping.h"
 #include "systems/laws/pose_goals.h"
 #include "systems/laws/task_controller.h"
 #include "systems/laws/task_energy.h"
@@ -74,12 +75,11 @@ LawPorts add_reaction(const StageSite& site, TaskLevel level, const ReactionPort
 }
 
 /// The limit keeper holds the constraints: none becomes a task, and motions may take what the drives have.
-/// 70 % of it, as for a stop: the rest is for what pushes and for what the model does not know.
 LawPorts add_strict_reaction(const StageSite& site, TaskLevel level, const ReactionPorts& given) {
   ConstraintSettings watched = site.settings.tasks.constraints;
   watched.kept = ConstraintsKept::never;
   ReactionTaskSettings reaction = site.settings.tasks.reaction;
-  reaction.drive_share = 0.7;
+  reaction.drive_share = reaction.drive_share.value_or(planned_torque_share);
   return add_reaction_with(site, level, watched, reaction, given);
 }
 

@@ -59,8 +59,8 @@ MotionLimits slowed(const MotionLimits& limits, double share) {
 }
 
 // The largest acceleration of the task along `direction` that all drives together can cause.
-double reach(const Task& task, const PlatformVector& direction, const Kinematics& at, const Dynamics& model,
-             double max_torque) {
+double largest_acceleration(const Task& task, const PlatformVector& direction, const Kinematics& at,
+                            const Dynamics& model, double max_torque) {
   const PlatformVector along = task.J.transpose() * direction;
   return max_torque * (at.J_qa_x * (inverse(model.M_x) * along)).lpNorm<1>();
 }
@@ -204,7 +204,8 @@ void ReactionTask::move(Time now, const Task& task, const PlatformVector& rate,
     limits = slowed(limits, std::min(1.0, settings_.largest_platform_speed / std::max(fastest, 1e-9)));
   }
   if (settings_.drive_share) {
-    limits.acceleration = *settings_.drive_share * reach(task, direction, at, model, settings_.max_torque);
+    limits.acceleration =
+        *settings_.drive_share * largest_acceleration(task, direction, at, model, settings_.max_torque);
     limits.jerk = limits.acceleration * settings_.max_torque_rate / settings_.max_torque;
   }
   plan.begin = now;
@@ -237,10 +238,6 @@ bool ReactionTask::feels(const WrenchEstimate& contact) const {
   return (forces >= settings_.released_force).any() || (moments >= settings_.released_moment).any();
 }
 
-bool ReactionTask::is_released(Time now, const ReactionPlan& plan) const {
-  return now - plan.touched >= settings_.released_for;
-}
-
 bool ReactionTask::has_arrived(Time now, const ReactionPlan& plan) const {
   return to_seconds(now - plan.begin) >= plan.motion.duration();
 }
@@ -260,10 +257,11 @@ void ReactionTask::plan(Time now, const ReactionPlan& last, const ReactionState&
     return;
   }
   next = last;
-  if (feels(contact) && !is_released(now, last)) next.touched = now;
+  next.released = last.released || (!feels(contact) && now - last.touched >= settings_.released_for);
+  if (feels(contact)) next.touched = now;
   if (!is_reacting(state.mode) || !at.valid || !model.valid) return;
   const bool opens = next.kind == ReactionKind::opening && next.opened < settings_.largest_opening;
-  if (opens && has_arrived(now, next) && !is_released(now, next) &&
+  if (opens && has_arrived(now, next) && !next.released &&
       !opposes(task_of(next, at), next.way, model, contact)) {
     next.unpressed = now;
     if (feels(contact)) open_further(now, at, model, next);
@@ -305,7 +303,7 @@ bool ReactionTask::presses(Time now, const ReactionPlan& plan, const Kinematics&
 
 bool ReactionTask::opposes(const Task& task, const PlatformVector& ahead, const Dynamics& model,
                            const WrenchEstimate& contact) const {
-  if (!task.valid || contact.wrench_in_base.size() != robot_->dof()) return false;
+  if (!task.valid || !contact.valid || contact.wrench_in_base.size() != robot_->dof()) return false;
   return least_motion(task, ahead, inverse(model.M_x)).dot(contact.wrench_in_base) < 0.0;
 }
 
@@ -340,8 +338,8 @@ PlatformVector ReactionTask::error_of(const ReactionPlan& plan, const Task& task
 
 void ReactionTask::follow(Time now, const ReactionPlan& plan, const Kinematics& at,
                           PlatformReference& followed) const {
-  const bool done = plan.kind != ReactionKind::opening || is_released(now, plan) ||
-                    plan.opened >= settings_.largest_opening;
+  const bool done =
+      plan.kind != ReactionKind::opening || plan.released || plan.opened >= settings_.largest_opening;
   const PlatformVector rest = PlatformVector::Zero(robot_->dof());
   followed = {at.valid, at.valid && done && has_arrived(now, plan), at.pose, rest, rest};
 }

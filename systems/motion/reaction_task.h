@@ -35,10 +35,11 @@ struct ReactionPlan {
   CartesianVector direction;      ///< of the force; empty where both directions are a task
   PlatformVector way;             ///< of the two joints of a leg that opens, for 1 rad of `opened`
   SynchronisedMotion motion;      ///< of the task
-  Time begin{};         ///< of that motion; of braking, when it is decided that nothing else follows
-  double opened = 0.0;  ///< planned opening of the first link [rad]
-  Time touched{};       ///< tick at which a force was last felt
-  Time unpressed{};     ///< tick at which the robot last did not press against what it feels
+  Time begin{};           ///< of that motion; of braking, when it is decided that nothing else follows
+  double opened = 0.0;    ///< planned opening of the first link [rad]
+  Time touched{};         ///< tick at which a force was last felt
+  bool released = false;  ///< an opening: nothing was felt for long enough, once
+  Time unpressed{};       ///< tick at which the robot last did not press against what it feels
 };
 
 template <>
@@ -103,7 +104,6 @@ class ReactionTask final : public System {
   Task task_of(const ReactionPlan& plan, const Kinematics& at) const;
   PlatformVector displacement(const ReactionPlan& plan, const WrenchEstimate& contact) const;
   bool feels(const WrenchEstimate& contact) const;
-  bool is_released(Time now, const ReactionPlan& plan) const;
   bool has_arrived(Time now, const ReactionPlan& plan) const;
   ReactionPlan decided_anew(Time now, const ReactionPlan& last, const Kinematics& at, const Dynamics& model,
                             const WrenchEstimate& contact, const ContactClassification& touched,

@@ -2,89 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
-
 #include "systems/foundation/setup_error.h"
-#include "systems/framework/diagram_builder.h"
 #include "systems/robot/reaction_tasks.h"
 #include "tests/support/allocations.h"
-#include "tests/support/planar_bench.h"
-#include "tests/support/ticking.h"
+#include "tests/systems/motion/reaction_bench.h"
 
-namespace flinch {
+namespace flinch::test {
 namespace {
-
-struct Reaction {
-  explicit Reaction(const ReactionTaskSettings& settings = {})
-      : block(builder.add<ReactionTask>("reaction", robot, settings)) {}
-
-  /// What the robot knows at the next tick. `touched`: a number in `classes`; -1: nobody knows.
-  void know(int touched, const Eigen::Vector3d& wrench, const Eigen::Vector3d& pose = {0.02, 0.01, 0.05},
-            const Eigen::Vector3d& velocity = {0, 0, 0}) {
-    posture.emplace(*robot, pose, velocity);
-    ticking.set(kinematics, posture->kinematics);
-    ticking.set(dynamics, posture->dynamics);
-    WrenchEstimate felt;
-    felt.valid = true;
-    felt.wrench_in_base = wrench;
-    felt.drive_torque = posture->kinematics.J_x_qa.transpose() * wrench;
-    ticking.set(estimate, felt);
-    ContactClassification told;
-    told.valid = told.accepted = touched >= 0;
-    told.most_likely = touched;
-    ticking.set(classification, told);
-    ticking.set(location, place);
-  }
-  const TaskList& begin() {
-    ticking.set(reaction, ReactionState{ReactionMode::react, ReactionMode::nominal, ticking.now()});
-    ticking.tick();
-    return ticking.get(block.goals);
-  }
-  const TaskList& go_on(Time for_time = 1ms) {
-    for (Time t{}; t < for_time; t += 1ms) ticking.tick();
-    return ticking.get(block.goals);
-  }
-  bool finished() const { return ticking.get(block.reference).finished; }
-
-  std::shared_ptr<const PlanarRrr> robot = test::planar_bench();
-  ContactClasses classes{7, 3};
-  ContactLocation place;
-  std::optional<test::Posture> posture;
-  DiagramBuilder builder{"test", 1ms};
-  ReactionTask& block;
-  InputPort<ReactionState> reaction = builder.export_input("reaction", block.reaction);
-  InputPort<Kinematics> kinematics = builder.export_input("kinematics", block.kinematics);
-  InputPort<Dynamics> dynamics = builder.export_input("dynamics", block.dynamics);
-  InputPort<WrenchEstimate> estimate = builder.export_input("estimate", block.estimate);
-  InputPort<ContactClassification> classification =
-      builder.export_input("classification", block.classification);
-  InputPort<ContactLocation> location = builder.export_input("location", block.location);
-  test::Ticking ticking{builder};
-};
-
-/// A motion by which the elbow of the second leg bends, its first link half as fast times `advance` towards
-/// what is between the links; and forces of that.
-struct ClosingLeg {
-  ClosingLeg(const PlanarRrr& robot, const Eigen::Vector3d& pose, double advance = 1.0) {
-    const test::Posture still(robot, pose, Eigen::Vector3d::Zero());
-    const Kinematics& at = still.kinematics;
-    const double s = std::copysign(1.0, at.joints.passive[1]);
-    const PlatformMatrix J = stacked(drive_task(at, 1), passive_joint_task(at, 1)).J;
-    twist = J.completeOrthogonalDecomposition().solve(Eigen::Vector2d(0.5 * s * advance, s));
-    force_on_link1 = at.J_qa_x.transpose() * Eigen::Vector3d(0, -10.0 * s, 0);
-    const LegPoints& leg = at.legs[1];
-    force_on_link2.head(2) = 20.0 * (leg.passive_joint - leg.base_joint).normalized();
-  }
-  Eigen::Vector3d twist;
-  Eigen::Vector3d force_on_link1;                            ///< as seen at the platform
-  Eigen::Vector3d force_on_link2 = Eigen::Vector3d::Zero();  ///< likewise
-};
-
-constexpr int platform = 0;
-constexpr int leg2_link1 = 3;
-constexpr int leg2_link2 = 4;
-constexpr int leg2_clamping = 8;
-const Eigen::Vector3d pushing_apart(-20, -5, 0);  // the links of the second leg
 
 TEST(ReactionTask, ThePlatformMovesAlongTheForceFromHowItMovesNow) {
   Reaction reaction;
@@ -148,52 +72,6 @@ TEST(ReactionTask, ASecondLinkThatNobodyHasLocatedMovesAcrossItsAxis) {
   EXPECT_GT(goal.reference.error.dot(Eigen::Vector2d(5, 20)), 0.0);
 }
 
-// The gap between the links is the elbow's angle against a stretched leg: |q_p| falls.
-TEST(ReactionTask, AClampingLegOpensAndItsFirstLinkRetreats) {
-  Reaction reaction;
-  reaction.know(leg2_clamping, {20, 5, 0});
-  reaction.begin();
-  reaction.know(leg2_clamping, {0, 0, 0});
-  const TaskGoal& goal = reaction.go_on(1000ms).goals[0];
-  ASSERT_EQ(goal.task.rows(), 2);
-  const double s = std::copysign(1.0, reaction.posture->kinematics.joints.passive[1]);
-  EXPECT_NEAR(goal.reference.error[0], -s * 0.2094, 1e-9);
-  EXPECT_NEAR(goal.reference.error[1], -2.0 * s * 0.2094, 1e-9);
-}
-
-// There was room for what it clamps before the robot came: a first link that hardly moved hardly retreats.
-TEST(ReactionTask, ALegThatClosesOpensTheWayItCame) {
-  const Eigen::Vector3d pose(0.02, 0.01, 0.05);
-  for (const int touched : {leg2_clamping, leg2_link1, leg2_link2}) {
-    for (const double retreat : {-0.5, 0.0, 0.25, 1.0, 3.0}) {
-      Reaction reaction;
-      const ClosingLeg leg(*reaction.robot, pose, retreat);
-      reaction.know(touched, touched == leg2_link2 ? leg.force_on_link2 : leg.force_on_link1, pose,
-                    leg.twist);
-      reaction.begin();
-      reaction.know(touched, {0, 0, 0}, pose);
-      const Eigen::Vector2d goal = reaction.go_on(1000ms).goals[0].reference.error;
-      EXPECT_EQ(reaction.ticking.get(reaction.block.kind), ReactionKind::opening) << touched;
-      const double s = std::copysign(1.0, reaction.posture->kinematics.joints.passive[1]);
-      EXPECT_NEAR(goal[0], -s * 0.2094 * std::clamp(retreat, 0.0, 1.0), 1e-9) << touched;
-      EXPECT_NEAR(goal[1], -2.0 * s * 0.2094, 1e-9) << touched;
-    }
-  }
-}
-
-TEST(ReactionTask, ALinkThatIsTouchedFromOutsideOfAClosingLegDoesNotOpenIt) {
-  const Eigen::Vector3d pose(0.02, 0.01, 0.05);
-  for (const int touched : {leg2_link1, leg2_link2}) {
-    Reaction reaction;
-    const ClosingLeg leg(*reaction.robot, pose);
-    reaction.know(touched, touched == leg2_link2 ? -leg.force_on_link2 : -leg.force_on_link1, pose,
-                  leg.twist);
-    reaction.begin();
-    EXPECT_EQ(reaction.ticking.get(reaction.block.kind),
-              touched == leg2_link1 ? ReactionKind::first_link : ReactionKind::second_link);
-  }
-}
-
 TEST(ReactionTask, WhatStaysAfterTheMotionIsGivenWayToAnew) {
   Reaction reaction;
   reaction.know(platform, {30, -40, 1});
@@ -238,59 +116,6 @@ TEST(ReactionTask, NothingIsDecidedAnewInOtherModes) {
   EXPECT_TRUE(reaction.finished());
 }
 
-TEST(ReactionTask, AClampingLegOpensFurtherUntilNothingIsFeltForAWhile) {
-  Reaction reaction;
-  reaction.know(leg2_clamping, pushing_apart);
-  reaction.begin();
-  reaction.go_on(400ms);
-  EXPECT_FALSE(reaction.finished());
-  reaction.know(leg2_clamping, {1, 1, 0.1});
-  reaction.go_on(99ms);
-  EXPECT_FALSE(reaction.finished());
-  const double opened = std::abs(reaction.go_on(1000ms).goals[0].reference.error[0]);
-  EXPECT_TRUE(reaction.finished());
-  EXPECT_GT(opened, 0.2094 + 0.1047 - 1e-9);
-  EXPECT_NEAR(std::abs(reaction.go_on(1000ms).goals[0].reference.error[0]), opened, 1e-12);
-}
-
-// What an opening meets when it has long let go of what it clamped is not clamped by it.
-TEST(ReactionTask, AReleasedLegDoesNotOpenFurtherForWhatIsFeltLater) {
-  Reaction reaction;
-  reaction.know(leg2_clamping, {20, 5, 0});
-  reaction.begin();
-  reaction.know(leg2_clamping, {0, 0, 0});
-  const double opened = std::abs(reaction.go_on(1000ms).goals[0].reference.error[0]);
-  EXPECT_NEAR(opened, 0.2094, 1e-9);
-  for (const double sign : {1.0, -1.0}) {
-    reaction.know(leg2_clamping, {20 * sign, 5 * sign, 0});
-    reaction.go_on(1000ms);
-    EXPECT_EQ(reaction.ticking.get(reaction.block.kind), ReactionKind::brake) << "it yields";
-  }
-}
-
-// Of two forces on the leg, one helps it to open and one stands in its way.
-TEST(ReactionTask, AnOpeningGoesOnOnlyWhereWhatIsFeltDoesNotOpposeIt) {
-  int furthered = 0, yielded = 0;
-  for (const double sign : {1.0, -1.0}) {
-    Reaction reaction;
-    reaction.know(leg2_clamping, {20 * sign, 5 * sign, 0});
-    const TaskList& begins = reaction.begin();
-    ASSERT_EQ(begins.count, 1);
-    const Kinematics& at = reaction.posture->kinematics;
-    const double s = std::copysign(1.0, at.joints.passive[1]);
-    const PlatformMatrix J = stacked(drive_task(at, 1), passive_joint_task(at, 1)).J;
-    const Eigen::Vector3d opening = J.completeOrthogonalDecomposition().solve(Eigen::Vector2d(-s, -2.0 * s));
-    const bool helps = opening.dot(Eigen::Vector3d(20 * sign, 5 * sign, 0)) > 0.0;
-    reaction.go_on(400ms);
-    const bool opens = reaction.ticking.get(reaction.block.kind) == ReactionKind::opening;
-    EXPECT_EQ(opens, helps);
-    furthered += opens ? 1 : 0;
-    yielded += opens ? 0 : 1;
-  }
-  EXPECT_EQ(furthered, 1);
-  EXPECT_EQ(yielded, 1);
-}
-
 TEST(ReactionTask, TakesItsShareOfWhatAllDrivesTogetherCanDo) {
   for (const int touched : {platform, leg2_link1, leg2_link2, leg2_clamping}) {
     ReactionTaskSettings settings;
@@ -319,20 +144,6 @@ TEST(ReactionTask, TakesItsShareOfWhatAllDrivesTogetherCanDo) {
     }
     EXPECT_NEAR(largest, 0.7 * together, 0.02 * together) << touched;
   }
-}
-
-TEST(ReactionTask, AnOpeningEndsAtTheLargestThoughItIsNotReleasedAndThenYields) {
-  Reaction reaction;
-  reaction.know(leg2_clamping, pushing_apart);
-  reaction.begin();
-  double largest = 0.0;
-  for (int tick = 0; tick < 10000; ++tick) {
-    const TaskList& list = reaction.go_on();
-    if (list.count > 0) largest = std::max(largest, std::abs(list.goals[0].reference.error[0]));
-  }
-  EXPECT_NEAR(largest, 0.6981, 1e-9);
-  EXPECT_EQ(reaction.ticking.get(reaction.block.kind), ReactionKind::brake);
-  EXPECT_TRUE(reaction.finished());
 }
 
 TEST(ReactionTask, MotionsOfJointsLeaveThePlatformBelowItsLargestSpeed) {
@@ -422,13 +233,19 @@ TEST(ReactionTask, RefusesSettingsThatMakeNoSense) {
   DiagramBuilder builder("test", 1ms);
   ReactionTaskSettings settings;
   settings.largest_opening = 0.1;
-  EXPECT_THROW(builder.add<ReactionTask>("a", test::planar_bench(), settings), SetupError);
+  EXPECT_THROW(builder.add<ReactionTask>("a", planar_bench(), settings), SetupError);
   settings = {};
   settings.translation.jerk = 0.0;
-  EXPECT_THROW(builder.add<ReactionTask>("b", test::planar_bench(), settings), SetupError);
+  EXPECT_THROW(builder.add<ReactionTask>("b", planar_bench(), settings), SetupError);
   settings = {};
   settings.drive_share = 1.5;
-  EXPECT_THROW(builder.add<ReactionTask>("c", test::planar_bench(), settings), SetupError);
+  EXPECT_THROW(builder.add<ReactionTask>("c", planar_bench(), settings), SetupError);
+  settings = {};
+  settings.max_torque = 0.0;
+  EXPECT_THROW(builder.add<ReactionTask>("d", planar_bench(), settings), SetupError);
+  settings = {};
+  settings.max_torque_rate = -1.0;
+  EXPECT_THROW(builder.add<ReactionTask>("e", planar_bench(), settings), SetupError);
 }
 
 TEST(ReactionTask, DoesNotAllocate) {
@@ -439,11 +256,11 @@ TEST(ReactionTask, DoesNotAllocate) {
     reaction.ticking.tick();
     reaction.ticking.set(reaction.reaction,
                          ReactionState{ReactionMode::react, ReactionMode::nominal, reaction.ticking.now()});
-    const test::AllocationCounter counter;
+    const AllocationCounter counter;
     for (int tick = 0; tick < 200; ++tick) reaction.ticking.tick();
     EXPECT_EQ(counter.count(), 0);
   }
 }
 
 }  // namespace
-}  // namespace flinch
+}  // namespace flinch::test
