@@ -38,7 +38,7 @@ struct BenchStep {
   std::array<HeldPoint, max_obstacles> held;
   /// Positions of the drives at which their closed brakes bear nothing [rad or m]; empty: where they are.
   JointVector braked_at;
-  /// Its brakes hold the robot, and nothing moves it: so it stays as long as both is so.
+  /// Its brakes hold the robot, and nothing moves it: it stays at rest while both hold.
   bool at_rest = false;
 };
 

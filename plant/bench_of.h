@@ -72,7 +72,7 @@ inline double held_share(const DriveAction& drives, int drive) {
   return drives.hold.size() > 0 ? drives.hold[drive] : (drives.braked ? 1.0 : 0.0);
 }
 
-/// Slower than this the robot rests: its brakes stop it within what the integrator may err. [m/s, rad/s]
+/// Slower than this the robot rests [m/s, rad/s]: in a tick it moves by less than the integrator may err.
 inline constexpr double resting_velocity = 1e-8;
 
 /// Whether all brakes are closed, and neither a torque nor a wrench acts against them.
@@ -204,7 +204,7 @@ bool BenchOf<Robot>::rests(const BenchSnapshot& now, const DriveAction& drives, 
   if (!internal::only_brakes_act(drives, now.applied_wrench) || !settings().pulls.empty()) return false;
   if (internal::can_touch(now.candidates, step, obstacle_count())) return false;
   const PlatformVector soon = now.velocity.cwiseAbs() + duration * now.acceleration.cwiseAbs();
-  return soon.maxCoeff() < internal::resting_velocity;
+  return (soon.array() < internal::resting_velocity).all();
 }
 
 // ---------------------------------------------------------------- motion

@@ -59,7 +59,7 @@ void combine(int count, const double* factors, N_Vector* terms, std::size_t firs
 
 // combination = sum over k of factors[k] terms[k]; one of the terms may be `combination` itself.
 int linear_combination(int count, double* factors, N_Vector* terms, N_Vector combination) {
-  constexpr std::size_t together = 6;  // the state of a planar robot
+  constexpr std::size_t together = 6;  // divides the states of robots with 3 and with 6 coordinates
   std::size_t done = 0;
   for (; done + together <= size(combination); done += together)
     combine<together>(count, factors, terms, done, combination);

@@ -4,8 +4,8 @@
 
 namespace flinch {
 
-/// tanh(x), within 6e-11 of its value and never beyond -1 or 1; NaN for NaN. A third of the time of one by
-/// exp, because compilers do it for several numbers at once, and the same bits by every compiler.
+/// tanh(x), within 6e-11 of its value and never beyond -1 or 1; NaN for NaN. Compilers do it for
+/// several numbers at once, all with the same bits.
 /// tanh(x / 2) is p / q, the continued fraction of Lambert (1768) down to its ninth term, and
 /// tanh(x) = 2 p q / (p^2 + q^2). From 12.5 on tanh is 1 within 3e-11, and so is what it is here.
 inline double rational_tanh(double x) noexcept {

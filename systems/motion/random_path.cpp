@@ -31,7 +31,7 @@ WorkspaceLimits spared(WorkspaceLimits limits) {
   limits.min_self_collision_distance *= 1.0 + spare;
   limits.max_distance *= 1.0 - spare;
   limits.max_rotation *= 1.0 - spare;
-  if (std::isinf(room)) return limits;
+  if (std::isinf(room)) return limits;  // where one end is open, nothing says how much that is
   limits.min_active += room;
   limits.max_active -= room;
   return limits;

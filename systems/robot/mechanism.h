@@ -97,7 +97,7 @@ class Mechanism {
   /// In closed form; nothing where there is none, or where `kinematics` is not valid.
   virtual std::optional<DeterminantGradients> determinant_gradients(
       const Kinematics& kinematics) const noexcept;
-  /// What keeps links `distance` [m] apart; none where it has no such form.
+  /// What keeps links `distance` [m] apart; none where there is no such form, or it is not exact.
   virtual SelfCollisionTasks self_collision_tasks(const Kinematics& kinematics,
                                                   double distance) const noexcept;
 

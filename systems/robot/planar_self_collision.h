@@ -1,6 +1,8 @@
 #pragma once
 
 #include "systems/robot/planar_rrr.h"
+#include "systems/robot/self_collision_tasks.h"
+#include "systems/robot/task.h"
 
 /// sigma_sc of a planar 3-RRR in closed form. With omega_j the angle of the second link of leg j away from
 /// the radius of its coupling joint, and coupling joints 120 degrees apart at r_c:

@@ -316,7 +316,7 @@ TEST(ClosedBrakes, LetARobotRestWhereItWouldStayAnyway) {
             << last_rest(followed) << "\n";
   EXPECT_LT(apart, 1e-10);
   EXPECT_GT(resting.ways[600] - resting.ways[490], 1e-6);  // it yields to the push
-  EXPECT_EQ(last_rest(resting), 100 * 6);
+  EXPECT_EQ(last_rest(resting), 100 * 6);                  // the stages of one step a tick
   EXPECT_GT(last_rest(followed), 100 * 20);
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,7 @@ constexpr double needed = 5.13;
 struct Trace {
   std::vector<JointVector> angle;  // of the drives
   std::vector<PlatformVector> velocity, acceleration;
-  std::optional<double> onset, noticed;  // [ms], of a force above 1 N, by the fused detector
+  std::optional<double> onset, noticed;  // [ms], of a force above 1 N, by the fused detector (latched)
 };
 
 /// As far as `watched` after the onset, or `most` ticks.
@@ -37,6 +38,7 @@ Trace follow(const SimulatedScenario& scenario, std::size_t most) {
   const auto& detections = loop.control.others.detections;
   const auto fused = std::find_if(detections.begin(), detections.end(),
                                   [](const auto& each) { return each.name == "detection_fused_detector"; });
+  if (fused == detections.end()) throw std::runtime_error("there is no fused detector");
   Trace trace;
   double before = 0.0;
   for (std::size_t k = 0; k < most; ++k) {
@@ -51,15 +53,15 @@ Trace follow(const SimulatedScenario& scenario, std::size_t most) {
     if (!trace.onset && force > 1.0) trace.onset = tick - (force - 1.0) / (force - before);
     before = force;
     const bool says = context.get(fused->port).level != ContactLevel::none;
-    if (trace.onset && !trace.noticed && says) trace.noticed = tick;
+    if (says && !trace.noticed) trace.noticed = tick;
     if (trace.onset && tick > *trace.onset + static_cast<double>(watched / 1ms)) break;
   }
   return trace;
 }
 
 /// When the likelihood ratio of "this contact" against "none" can be sure, of someone who knows how the robot
-/// would move without the contact and how it moves with it, and lacks only the noise of encoders and IMU. No
-/// detector is earlier. [ms after the onset]
+/// would move without the contact and how it moves with it, and lacks only the noise of the drives' encoders
+/// and the IMU. No detector that goes by these is earlier. [ms after the onset]
 double floor_of(const Trace& touched, const Trace& free, const SimulatedStationSettings& station) {
   const auto deviation = [](double density) { return density * std::sqrt(0.5 / 1e-3); };  // of a sample
   const double pushing = deviation(station.imu.accelerometer_density);
@@ -99,7 +101,7 @@ TEST(TheFusedDetector, NoticesContactsShortlyAfterTheFirstInstantAtWhichItsSenso
     for (std::size_t i = 0; i < contacts; ++i) {
       const SimulatedScenario scenario = draw_run(campaign, sort * contacts + i).scenario;
       const Trace touched = follow(scenario, static_cast<std::size_t>(scenario.duration / 1ms));
-      if (!touched.onset) continue;
+      if (!touched.onset || (touched.noticed && *touched.noticed < *touched.onset)) continue;
       const Trace free = follow(without_obstacles(scenario), touched.angle.size());
       floor.push_back(floor_of(touched, free, scenario.station));
       fused.push_back(touched.noticed ? *touched.noticed - *touched.onset : never);

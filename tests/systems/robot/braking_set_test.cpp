@@ -73,7 +73,8 @@ TEST(AStraightStop, StaysInsideWhereEveryPoseOnItsWayDoes) {
       pose += 0.5 * stop.duration / steps * (velocity + next);
       velocity = next;
     }
-    const bool clearly_inside = sigma_kappa < 14.0 && sigma_sc > 0.171;
+    // What all of 2000 places keep, the ten that are asked keep too; what few of 2000 exceed, they may miss.
+    const bool clearly_inside = sigma_kappa < 15.0 - 1e-6 && sigma_sc > 0.17 + 1e-9;
     const bool clearly_outside = sigma_kappa > 15.5 || sigma_sc < 0.168;
     if (clearly_inside || clearly_outside) {
       EXPECT_EQ(stop.stays_inside, clearly_inside) << sigma_kappa << " " << sigma_sc;

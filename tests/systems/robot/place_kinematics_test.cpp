@@ -6,6 +6,8 @@
 namespace flinch::testing {
 namespace {
 
+// Of mechanisms with a place of their own; the others take it out of the whole, which the test of invalid
+// poses is left to try.
 class PlaceLaws : public MechanismLaws {
  protected:
   PlaceKinematics place_at(const Configuration& pose) const {
