@@ -21,6 +21,8 @@ std::vector<std::string> problems(const ImuResidualSettings& settings) {
   found.not_negative("jitter", to_seconds(settings.jitter), "s");
   found.positive("rest_speed", settings.rest_speed, "m/s");
   found.positive("rest_rate", settings.rest_rate, "rad/s");
+  found.positive("rest_in_a_row", settings.rest_in_a_row);
+  found.positive("leaving_rest", settings.leaving_rest);
   found.positive("rest_samples", settings.rest_samples);
   found.positive("largest_innovation", settings.largest_innovation);
   found.finite("mount.position_in_platform", settings.mount.position_in_platform, "m");
@@ -48,8 +50,8 @@ void ImuResidual::expect(const PlatformMotion& motion, const Kinematics& at, con
       imu_output(space, imu_, robot_->gravity(), motion.pose, motion.velocity, *acceleration);
   result.acquired = motion.acquired;
   result.braked = drives.braked;
-  result.rests = motion.velocity.head(space.translations()).norm() < settings_.rest_speed &&
-                 motion.velocity.tail(space.rotations()).norm() < settings_.rest_rate;
+  result.is_slow = motion.velocity.head(space.translations()).norm() < settings_.rest_speed &&
+                   motion.velocity.tail(space.rotations()).norm() < settings_.rest_rate;
   result.force_at_rest = imu_.to_sensor * specific_force(spatial_motion(space, motion.pose, none, none),
                                                          imu_.position_in_platform, robot_->gravity());
   result.force = moving.value.tail<3>();
@@ -89,6 +91,7 @@ void ImuResidual::advance(const ImuReading& reading, const ExpectedMotion& fresh
     next.angular_velocity = reading.angular_velocity;
     next.expected_force = then->force;
     next.innovation = 1.0;
+    next.slow = 0;
   }
   learn_bias(reading, *then, next);
   if (continued) turn(reading, *then, T, next);
@@ -101,13 +104,23 @@ void ImuResidual::advance(const ImuReading& reading, const ExpectedMotion& fresh
   next.expected_force = then->force;
 }
 
-/// The mean of the last samples at rest, of which none counts more than another at first.
+/// The mean of the last samples at rest, of which none counts more than another at first. It counts when the
+/// platform has rested for `leaving_rest` samples more.
 void ImuResidual::learn_bias(const ImuReading& reading, const ExpectedMotion& then,
                              ImuResidualMemory& next) const {
-  if (!then.rests) return;
-  if (next.rested < 2 * settings_.rest_samples) ++next.rested;
-  const Eigen::Vector3d seen = reading.specific_force - then.force_at_rest;
-  next.accelerometer_bias += (seen - next.accelerometer_bias) / next.rested;
+  if (!then.is_slow) {
+    next.slow = 0;
+    next.latest = next.earlier = next.bias;
+    return;
+  }
+  if (++next.slow < settings_.rest_in_a_row) return;
+  AccelerometerBias& latest = next.latest;
+  if (latest.samples < 2 * settings_.rest_samples) ++latest.samples;
+  latest.value += (reading.specific_force - then.force_at_rest - latest.value) / latest.samples;
+  if (next.slow < settings_.rest_in_a_row + settings_.leaving_rest) return;
+  next.slow = settings_.rest_in_a_row;
+  next.bias = next.earlier;
+  next.earlier = next.latest;
 }
 
 void ImuResidual::turn(const ImuReading& reading, const ExpectedMotion& then, double T,
@@ -121,7 +134,7 @@ void ImuResidual::turn(const ImuReading& reading, const ExpectedMotion& then, do
 void ImuResidual::estimate(const ImuReading& reading, const ExpectedMotion& then, double T,
                            ImuResidualMemory& next) const {
   Eigen::Matrix<double, 6, 1> residual, weight;
-  residual << next.rotation_residual, reading.specific_force - next.accelerometer_bias - then.force;
+  residual << next.rotation_residual, reading.specific_force - next.bias.value - then.force;
   // The change of white noise through the observer has the variance 2 (1 - a)^2 / (1 + a) of it, over T^2.
   const double a = std::exp(-settings_.gyroscope_gain * T);
   const double turning = settings_.gyroscope_deviation * (1.0 - a) * std::sqrt(2.0 / (1.0 + a)) / T;
@@ -152,7 +165,7 @@ void ImuResidual::read(const ImuResidualMemory& next, const ExpectedMotion& fres
   result.acquired = next.started ? next.acquired : Time::zero();
   result.wrench_in_base.setZero(robot_->dof());
   result.drive_torque.setZero(robot_->drives());
-  const bool knows = next.started && next.rested >= settings_.rest_samples && next.wrench.allFinite();
+  const bool knows = next.started && next.bias.samples >= settings_.rest_samples && next.wrench.allFinite();
   const bool is_monitored = robot_->dof() < 6;
   const bool agrees = !is_monitored || next.innovation <= settings_.largest_innovation;
   result.valid = knows && agrees && next.sees_imu && fresh.valid && at.valid;

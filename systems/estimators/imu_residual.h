@@ -23,7 +23,10 @@ struct ImuResidualSettings {
   Time jitter = 300us;                      ///< deviation of the times at which the IMU says that it measured
   double rest_speed = 0.01;                 ///< below which the platform rests [m/s]
   double rest_rate = 0.05;                  ///< likewise [rad/s]
-  int rest_samples = 100;                   ///< at rest, before the biases are known
+  /// As slow in so many samples in a row, it rests: a platform that turns back is slow for fewer.
+  int rest_in_a_row = 50;
+  int leaving_rest = 25;  ///< the last samples of a rest may be a start, and do not count
+  int rest_samples = 50;  ///< at rest, before the biases are known
   /// Above this mean innovation something is wrong with the IMU, and the estimate is not valid.
   double largest_innovation = 10.0;
   Sampling sampling;
@@ -34,7 +37,7 @@ struct ExpectedMotion {
   Time acquired{};
   bool valid = false;
   bool braked = false;
-  bool rests = false;
+  bool is_slow = false;                          ///< as if it rested
   Eigen::Vector3d force_at_rest{0.0, 0.0, 0.0};  ///< what the accelerometer measures of gravity [m/s^2]
   Eigen::Vector3d force{0.0, 0.0, 0.0};          ///< and under the acceleration of the model [m/s^2]
   Eigen::Vector3d rotation{0.0, 0.0, 0.0};       ///< dw/dt under it, sensor axes [rad/s^2]
@@ -42,17 +45,23 @@ struct ExpectedMotion {
   PlatformMatrix M_x;
 };
 
+/// What an accelerometer measures beside gravity, as a mean over samples at rest.
+struct AccelerometerBias {
+  int samples = 0;
+  Eigen::Vector3d value{0.0, 0.0, 0.0};  ///< Sensor axes [m/s^2].
+};
+
 /// What the residual of the IMU remembers.
 struct ImuResidualMemory {
   bool started = false;
-  bool sees_imu = false;                              ///< in the last tick
-  Time acquired = Time::min();                        ///< of the last reading
-  Time arrived{};                                     ///< tick at which it was read
-  int rested = 0;                                     ///< samples from which the bias was learned
-  Eigen::Vector3d accelerometer_bias{0.0, 0.0, 0.0};  ///< [m/s^2]
-  Eigen::Vector3d angular_velocity{0.0, 0.0, 0.0};    ///< last reading [rad/s]
-  Eigen::Vector3d expected_force{0.0, 0.0, 0.0};      ///< last expectation [m/s^2]
-  Eigen::Vector3d rotation_residual{0.0, 0.0, 0.0};   ///< dw/dt that nothing explains [rad/s^2]
+  bool sees_imu = false;                             ///< in the last tick
+  Time acquired = Time::min();                       ///< of the last reading
+  Time arrived{};                                    ///< tick at which it was read
+  int slow = 0;                                      ///< samples in a row in which the platform was slow
+  AccelerometerBias bias, earlier, latest;           ///< that counts, and as learned since
+  Eigen::Vector3d angular_velocity{0.0, 0.0, 0.0};   ///< last reading [rad/s]
+  Eigen::Vector3d expected_force{0.0, 0.0, 0.0};     ///< last expectation [m/s^2]
+  Eigen::Vector3d rotation_residual{0.0, 0.0, 0.0};  ///< dw/dt that nothing explains [rad/s^2]
   bool braked = false;
   PlatformVector wrench;
   PlatformVector standard_deviation;

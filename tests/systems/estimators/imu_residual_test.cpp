@@ -49,7 +49,7 @@ class ImuResidualTest : public testing::Test {
     const JointVector against = drive_torques(at.kinematics, -push);
     for (int k = 0; k < 150; ++k) {
       const bool valid = see(against, push).valid;
-      ASSERT_EQ(valid, k >= 99) << k;
+      ASSERT_EQ(valid, k >= 49 + 3 * 25) << k << ": two times 25 samples at rest, and 25 more";
     }
     moves_ = true;
   }
@@ -70,6 +70,29 @@ class ImuResidualTest : public testing::Test {
 };
 
 const PlatformVector push{{25.0, -40.0, 3.0}};
+
+TEST_F(ImuResidualTest, LearnsNoBiasWhereThePlatformOnlyTurnsBack) {
+  rest();
+  for (int k = 0; k < 2000; ++k) {  // slow for 9 of 100 ticks, while it accelerates
+    moves_ = k % 100 < 91;
+    see(drive_torques(test::Posture(*robot_, zero, zero).kinematics, PlatformVector{{10.0, 0.0, 0.0}}), zero);
+  }
+  // The model knows of that acceleration, so that what is left is what the bias is wrong by.
+  EXPECT_LT(see(JointVector::Zero(3), zero).wrench_in_base.norm(), 1e-6);
+}
+
+TEST_F(ImuResidualTest, LearnsNoBiasFromAStart) {
+  for (const int rested : {150, 160, 170}) {
+    moves_ = false;
+    for (int k = 0; k < rested; ++k)
+      see(drive_torques(test::Posture(*robot_, zero, zero).kinematics, zero), zero);
+    for (int k = 0; k < 9; ++k)  // slow still, but it accelerates
+      see(drive_torques(test::Posture(*robot_, zero, zero).kinematics, PlatformVector{{10.0, 0.0, 0.0}}),
+          zero);
+    moves_ = true;
+    EXPECT_LT(see(JointVector::Zero(3), zero).wrench_in_base.norm(), 1e-6) << rested;
+  }
+}
 
 // Pushed so that nothing turns, the accelerometer says it all; so that nothing but turns, the gyroscope,
 // whose observer answers by 1 - exp(-gain t).
