@@ -43,6 +43,7 @@ TorqueCommand mixed(const JointVector& old, double weight, const TorqueCommand& 
 
 ModeSelector::ModeSelector(const ModeSelectorSettings& settings) : settings_(settings) {
   if (settings.blend < Time::zero()) throw SetupError("mode selector: blend must not be negative");
+  if (!(settings.max_torque_rate > 0)) throw SetupError("mode selector: max_torque_rate must be positive");
 }
 
 ModeSelector::Blend ModeSelector::advanced(Time now, const Blend& last, Law wanted) const {
@@ -82,6 +83,20 @@ void ModeSelector::blend(Time now, const Blend& last, const ReactionState& state
   if (!next.frozen && !torque_of(next.from).valid) freeze(next, last.torque);
   const JointVector& old = next.frozen ? next.held : torque_of(next.from).torque;
   next.torque = mixed(old, next.weight, torque_of(next.to));
+  hold_back(last, next);
+}
+
+void ModeSelector::hold_back(const Blend& last, Blend& next) const {
+  next.behind = false;
+  const bool blends = next.weight < 1.0 || last.weight < 1.0 || last.behind;
+  const JointVector& before = last.torque.torque;
+  if (!blends || !last.torque.valid || before.size() != next.torque.torque.size()) return;
+  const JointVector change = next.torque.torque - before;
+  const double largest = change.lpNorm<Eigen::Infinity>();
+  const double most = settings_.max_torque_rate * to_seconds(next.tick - last.tick);
+  if (!(largest > most)) return;
+  next.behind = true;
+  next.torque.torque = before + most / largest * change;
 }
 
 PlatformReference ModeSelector::select(const ReactionState& state, const PlatformReference& nominal_motion,

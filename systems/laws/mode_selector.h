@@ -11,6 +11,8 @@ namespace flinch {
 
 struct ModeSelectorSettings {
   Time blend = 10ms;  ///< from one law to the next, 0 for none
+  /// By which the torque of a drive changes at most in a blend [Nm/s or N/s].
+  double max_torque_rate = 20e3;
 };
 
 /// Hands on the torques of the mode that the reaction sequence is in:
@@ -22,8 +24,9 @@ struct ModeSelectorSettings {
 ///
 /// At a change of the law it blends, tau = (1 - w) tau_old + w tau_new, where w grows by tick / blend at
 /// every tick and is one such step at the first. The old law goes on being evaluated, unless it has no valid
-/// torques or was itself still being blended in: then its last torques are frozen. Not valid where the new
-/// law is not.
+/// torques or was itself still being blended in: then its last torques are frozen. Torques that would change
+/// too fast in a blend follow by the largest rate, in the direction of the change, until they have caught up.
+/// Not valid where the new law is not.
 class ModeSelector final : public System {
  public:
   enum class Law : std::uint8_t { zero_gravity, nominal, reacting, yielding };
@@ -38,13 +41,14 @@ class ModeSelector final : public System {
     bool frozen = false;   ///< blending from `held` instead of the torques of `from`
     JointVector held;      ///< [Nm]; empty for no torques
     TorqueCommand torque;  ///< what is handed on
+    bool behind = false;   ///< what was blended, as it would have changed too fast
   };
 
  private:
   State<Blend> last_ = state<Blend>("last");
 
  public:
-  /// Throws SetupError for a negative time.
+  /// Throws SetupError for a negative time, or a rate that is not positive.
   explicit ModeSelector(const ModeSelectorSettings& settings = {});
 
   InputPort<ReactionState> reaction = input<ReactionState>("reaction");
@@ -69,6 +73,7 @@ class ModeSelector final : public System {
   Update remember_ = keep(last_, blend_);
 
   Blend advanced(Time now, const Blend& last, Law wanted) const;
+  void hold_back(const Blend& last, Blend& next) const;
   void blend(Time now, const Blend& last, const ReactionState& state, const TorqueCommand& nominal_law,
              const TorqueCommand& reaction_law, const TorqueCommand& yielding_law,
              const TorqueCommand& gravity_law, Blend& next) const;

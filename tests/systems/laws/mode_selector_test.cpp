@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "systems/foundation/setup_error.h"
@@ -100,7 +102,7 @@ TEST(ModeSelector, BlendsInTenEqualSteps) {
 }
 
 TEST(ModeSelector, EvaluatesTheOldLawWhileItBlends) {
-  Selector selector;
+  Selector selector({.max_torque_rate = 100e3});
   selector.settle(nominal);
   selector.tick(react);
   selector.ticking.set(selector.nominal_law, torque(200.0));
@@ -177,6 +179,30 @@ TEST(ModeSelector, NeverAllocates) {
 }
 
 TEST(ModeSelector, RefusesANegativeBlend) { EXPECT_THROW(ModeSelector({.blend = -1ms}), SetupError); }
+
+// The new law may move while it is blended in.
+TEST(ModeSelector, NoBlendChangesTorquesFasterThanDrivesMay) {
+  Selector selector({.max_torque_rate = 12e3});
+  selector.settle(nominal);
+  double before = 100.0, largest = 0.0;
+  for (int k = 1; k <= 30; ++k) {
+    const double law = std::max(-100.0, 100.0 - 12.0 * k);
+    selector.ticking.set(selector.reaction_law, torque(law));
+    const double now = selector.tick(react).torque[0];
+    largest = std::max(largest, std::abs(now - before));
+    before = now;
+  }
+  EXPECT_NEAR(largest, 12.0, 1e-9);
+  EXPECT_NEAR(before, -100.0, 1e-9) << "it catches up";
+  selector.ticking.set(selector.reaction_law, torque(100.0));
+  EXPECT_EQ(selector.tick(react).torque[0], 100.0) << "afterwards a law is handed on as it is";
+}
+
+TEST(ModeSelector, RefusesARateThatIsNotPositive) {
+  DiagramBuilder builder("test", 1ms);
+  EXPECT_THROW(builder.add<ModeSelector>("selector", ModeSelectorSettings{.max_torque_rate = 0.0}),
+               SetupError);
+}
 
 }  // namespace
 }  // namespace flinch
