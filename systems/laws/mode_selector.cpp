@@ -1,8 +1,7 @@
 #include "systems/laws/mode_selector.h"
 
-#include <algorithm>
-
 #include "systems/foundation/setup_error.h"
+#include "systems/laws/share_within.h"
 
 namespace flinch {
 namespace {
@@ -92,11 +91,10 @@ void ModeSelector::hold_back(const Blend& last, Blend& next) const {
   const JointVector& before = last.torque.torque;
   if (!blends || !last.torque.valid || before.size() != next.torque.torque.size()) return;
   const JointVector change = next.torque.torque - before;
-  const double largest = change.lpNorm<Eigen::Infinity>();
-  const double most = settings_.max_torque_rate * to_seconds(next.tick - last.tick);
-  if (!(largest > most)) return;
+  const double share = share_within(change, settings_.max_torque_rate * to_seconds(next.tick - last.tick));
+  if (!(share < 1.0)) return;
   next.behind = true;
-  next.torque.torque = before + most / largest * change;
+  next.torque.torque = before + share * change;
 }
 
 PlatformReference ModeSelector::select(const ReactionState& state, const PlatformReference& nominal_motion,

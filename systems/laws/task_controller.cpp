@@ -1,12 +1,12 @@
 #include "systems/laws/task_controller.h"
 
-#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/laws/share_within.h"
 
 namespace flinch {
 namespace {
@@ -87,7 +87,7 @@ void TaskController::drive(Time now, const TorqueCommand& last, const Blend& wan
   if (last.valid && last.computed < now) {
     const JointVector change = command.torque - last.torque;
     const double most = settings_.levels.largest_torque_rate * to_seconds(now - last.computed);
-    command.torque = last.torque + change * std::min(1.0, most / change.lpNorm<Eigen::Infinity>());
+    command.torque = last.torque + change * share_within(change, most);
   }
   command.valid = command.torque.allFinite();
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "systems/laws/share_within.h"
 #include "systems/robot/impedance_damping.h"
 
 namespace flinch {
@@ -60,8 +61,7 @@ PlatformVector acceleration_reference(const TaskList& list, const Kinematics& ki
   }
   priority.add(PlatformMatrix::Identity(drives, drives), -settings.free_damping * kinematics.rates.active);
   const PlatformVector& wanted = priority.solution();
-  const double largest = wanted.lpNorm<Eigen::Infinity>();
-  return wanted * std::min(1.0, settings.largest_acceleration / std::max(largest, 1e-300));
+  return wanted * share_within(wanted, settings.largest_acceleration);
 }
 
 // With M_x = L L^T and u = L^T ddx the dynamically consistent projections are orthogonal ones of J L^-T.
