@@ -257,14 +257,15 @@ void ReactionTask::plan(Time now, const ReactionPlan& last, const ReactionState&
     return;
   }
   next = last;
-  next.released = last.released || (!feels(contact) && now - last.touched >= settings_.released_for);
-  if (feels(contact)) next.touched = now;
+  const bool felt = feels(contact);
+  next.released = last.released || (!felt && now - last.touched >= settings_.released_for);
+  if (felt) next.touched = now;
   if (!is_reacting(state.mode) || !at.valid || !model.valid) return;
   const bool opens = next.kind == ReactionKind::opening && next.opened < settings_.largest_opening;
   if (opens && has_arrived(now, next) && !next.released &&
       !opposes(task_of(next, at), next.way, model, contact)) {
     next.unpressed = now;
-    if (feels(contact)) open_further(now, at, model, next);
+    if (felt) open_further(now, at, model, next);
     return;
   }
   if (!presses(now, next, at, model, contact)) {
