@@ -15,8 +15,8 @@ namespace flinch {
 
 /// Ticks of a contact that its classification is judged by. One tick may be several of them.
 struct Moment {
-  static constexpr int early = 1;     ///< a detector notices the contact that follows the estimate in use
-  static constexpr int detected = 2;  ///< the detector notices it that the robot follows
+  static constexpr int early = 1;     ///< a detector on the estimator `early_by` notices the contact
+  static constexpr int detected = 2;  ///< the detector that the robot follows notices it
   static constexpr int later = 4;     ///< 10 ms after that
 };
 

@@ -184,10 +184,9 @@ std::string evaluation_page(const EvaluationPage& page) {
                               page.chosen.moment == "all" ? "at every sample" : page.chosen.moment)) +
           "</p></div></header>\n<main>\n<section>" + figures_of(page.chosen) + "<div class=\"scroll\">" +
           moments_table(page.all) +
-          "</div><p class=\"soft\">Accuracies are means over the classes. Early: when a detector notices the "
-          "contact that follows the "
-          "estimate in use; detected: when the robot's does; later: 10 ms after that; all: every "
-          "sample.</p></section>\n";
+          "</div><p class=\"soft\">Accuracies are means over the classes. Early: when a detector on the "
+          "estimator <code>samples.early_by</code> notices the contact; detected: when the robot's does; "
+          "later: 10 ms after that; all: every sample.</p></section>\n";
   html += confusions(page.chosen);
   html +=
       "<section class=\"pair\"><figure><figcaption>Reliability: right answers by the probability that they "

@@ -19,9 +19,10 @@ struct ModelClassifierSettings {
   double largest_residual = 15.0;
 };
 
-/// Classifies the contact by the evidence of the model: probabilities of all classes, before which all are
-/// equally likely. The evidence of the ticks since the detection is averaged, each with the weight of the
-/// square of its force, for it is the growing force that tells.
+/// Classifies the contact by the evidence of the model: probabilities of all classes, weighted before by how
+/// often each is touched (the biases of `TouchHypothesesSettings`). The evidence of the ticks since the
+/// detection is averaged, each with the weight of the square of its force, for it is the growing force that
+/// tells.
 class ModelClassifier final : public System {
  public:
   /// What has come together since the contact began.

@@ -43,8 +43,8 @@ struct TouchHypothesesSettings {
 /// leg is touched at both links, as far from the elbow on both, with two forces; it is as likely as the gap
 /// closes there.
 ///
-/// Nothing is trained. Legs and bodies may be any number, in the plane or in space; without links that can
-/// close on something a leg cannot clamp.
+/// Nothing is trained but the biases of the settings. Legs and bodies may be any number, in the plane or in
+/// space; without links that can close on something a leg cannot clamp.
 class TouchHypotheses {
  public:
   TouchHypotheses(std::shared_ptr<const ParallelRobot> robot, const TouchHypothesesSettings& settings);

@@ -25,20 +25,21 @@ struct TwoKinds {
 /// Variances that a filter of IMU and encoders believes in; those of sensors are for each sample, those of
 /// motions and biases are added in each sampling period.
 struct ImuFilterNoise {
-  TwoKinds encoder_pose;  ///< [m^2, rad^2]
-  double gyroscope;       ///< [rad^2/s^2]
-  double accelerometer;   ///< [m^2/s^4]
-  TwoKinds pose;          ///< [m^2, rad^2]
-  TwoKinds velocity;
-  TwoKinds acceleration;
-  double gyroscope_bias;      ///< not used where biases are not estimated
-  double accelerometer_bias;  ///< likewise
+  TwoKinds encoder_pose;      ///< [m^2, rad^2]
+  double gyroscope;           ///< [rad^2/s^2]
+  double accelerometer;       ///< [m^2/s^4]
+  TwoKinds pose;              ///< [m^2, rad^2]
+  TwoKinds velocity;          ///< [m^2/s^2, rad^2/s^2]
+  TwoKinds acceleration;      ///< [m^2/s^4, rad^2/s^4]
+  double gyroscope_bias;      ///< not used where biases are not estimated [rad^2/s^2]
+  double accelerometer_bias;  ///< likewise [m^2/s^4]
 };
 
 struct ImuFilterSettings {
   ImuMount mount;
   ImuFilterNoise noise;
-  TwoKinds initial_pose, initial_velocity, initial_acceleration;  ///< variances at the beginning
+  /// Variances at the beginning, in the units of `ImuFilterNoise`.
+  TwoKinds initial_pose, initial_velocity, initial_acceleration;
   double initial_gyroscope_bias = 0.0, initial_accelerometer_bias = 0.0;
   /// Whether the IMU has biases that wander.
   bool estimates_biases = false;
