@@ -4,7 +4,9 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
 namespace flinch {
 namespace {
@@ -57,6 +59,73 @@ class RotationFit {
   double squares_ = 0.0;
 };
 
+constexpr double T = 1e-3;  // between samples [s]
+
+/// Sums of the samples so far: of what the encoders do not show, and of the motion itself, whose rate the
+/// encoders tell with less noise.
+struct SummedAxes {
+  explicit SummedAxes(const ImuError& oldest) : first(oldest.force + oldest.expected_force) {}
+
+  void add(const ImuError& each) {
+    speed_unseen += T * each.force_unseen;
+    position_unseen += T * speed_unseen;
+    angle_unseen += T * each.turning_unseen;
+    speed += T * (each.force + each.expected_force - first);
+    rate = each.expected_turning;
+  }
+
+  Eigen::Vector3d first;
+  Eigen::Vector3d speed_unseen{0.0, 0.0, 0.0}, position_unseen{0.0, 0.0, 0.0}, angle_unseen{0.0, 0.0, 0.0};
+  Eigen::Vector3d speed{0.0, 0.0, 0.0}, rate{0.0, 0.0, 0.0};
+};
+
+/// Products of two signals of three axes each, less what a constant explains of them, or a straight line.
+class Products {
+ public:
+  void add(const Eigen::Array3d& y, const Eigen::Array3d& x, double at) {
+    yy_ += y * y, yx_ += y * x, xx_ += x * x;
+    y_ += y, x_ += x, yt_ += at * y, xt_ += at * x;
+    count_ += 1.0, tt_ += at * at;
+  }
+  /// Of y with y, y with x and x with x; `line`: a straight one is free.
+  std::array<Eigen::Array3d, 3> left(bool line) const {
+    const double slope = line ? 1.0 / tt_ : 0.0;
+    return {yy_ - y_ * y_ / count_ - slope * yt_ * yt_, yx_ - y_ * x_ / count_ - slope * yt_ * xt_,
+            xx_ - x_ * x_ / count_ - slope * xt_ * xt_};
+  }
+
+ private:
+  using Axes = Eigen::Array3d;
+  Axes yy_ = Axes::Zero(), yx_ = Axes::Zero(), xx_ = Axes::Zero();
+  Axes y_ = Axes::Zero(), x_ = Axes::Zero(), yt_ = Axes::Zero(), xt_ = Axes::Zero();
+  double count_ = 0.0, tt_ = 0.0;
+};
+
+/// Least squares for the time by which all axes are late.
+class LatenessFit {
+ public:
+  explicit LatenessFit(std::size_t samples) : middle_(0.5 * (static_cast<double>(samples) - 1.0)) {}
+
+  void add(const SummedAxes& sums, std::size_t k) {
+    const double at = static_cast<double>(k) - middle_;
+    positions_.add(sums.position_unseen.array(), -sums.speed.array(), at);
+    angles_.add(sums.angle_unseen.array(), -sums.rate.array(), at);
+  }
+  Lateness solve(const Eigen::Array3d& position_variance, const Eigen::Array3d& angle_variance) const {
+    const auto positions = positions_.left(true), angles = angles_.left(false);
+    std::array<double, 3> sums{};
+    for (std::size_t i = 0; i < sums.size(); ++i)
+      sums[i] = (positions[i] / position_variance + angles[i] / angle_variance).sum();
+    const auto [squares, right, information] = sums;
+    if (!(information > 0.0)) return {};
+    return {right / information, 1.0 / std::sqrt(information), right * right / (information * squares)};
+  }
+
+ private:
+  double middle_;
+  Products positions_, angles_;
+};
+
 Six second_difference(const ImuErrors& errors, std::size_t age, const ImuSpread& rest) {
   const ImuError &a = errors.back(age), &b = errors.back(age + 1), &c = errors.back(age + 2);
   return weighed(a.force - 2.0 * b.force + c.force, a.turning - 2.0 * b.turning + c.turning, rest);
@@ -77,7 +146,7 @@ const double far = 4.0 * std::sqrt(6.0);
 
 int ImuErrors::contradicted() const noexcept {
   int sum = 0;
-  for (std::size_t age = 0; age < held(); ++age) sum += back(age).contradicted ? 1 : 0;
+  for (std::size_t age = 0; age < std::min(held(), judged); ++age) sum += back(age).contradicted ? 1 : 0;
   return sum;
 }
 
@@ -99,20 +168,31 @@ bool jumps(const ImuErrors& errors) noexcept {
   return found >= enough;
 }
 
-double lag(const ImuErrors& errors) noexcept {
-  constexpr double least = 1.2e-3, most = 10e-3;  // [s]
-  if (errors.held() < ImuErrors::most) return 0.0;
-  double both = 0.0, slopes = 0.0, squares = 0.0;
-  for (std::size_t age = 0; age < errors.held(); ++age) {
-    const ImuError& each = errors.back(age);
-    both -= each.unconfirmed.dot(each.force_slope);
-    slopes += each.force_slope.squaredNorm();
-    squares += each.unconfirmed.squaredNorm();
+Lateness lateness(const ImuErrors& errors, std::size_t samples, const EncoderSpread& encoders,
+                  const ImuSpread& unit) noexcept {
+  if (errors.held() < samples) return {};
+  SummedAxes sums(errors.back(samples - 1));
+  LatenessFit fit(samples);
+  for (std::size_t k = 0; k < samples; ++k) {
+    sums.add(errors.back(samples - 1 - k));
+    fit.add(sums, k);
   }
-  const double explained = both * both / std::max(slopes, 1e-9);
-  const double delay = both / std::max(slopes, 1e-9);
-  const bool is_late = delay > least && delay < most && explained > 0.7 * squares;
-  return is_late ? std::sqrt(explained) : 0.0;
+  // What is slow weighs most: of white noise that is summed up, half a period in all the samples.
+  const double slow = T * static_cast<double>(samples) / std::numbers::pi;
+  const double turned = unit.turning * slow, moved = unit.force * slow * slow;
+  return fit.solve(encoders.position.array().square() + moved * moved,
+                   encoders.angle.array().square() + turned * turned);
+}
+
+bool is_late(const ImuErrors& errors, const EncoderSpread& encoders, const ImuSpread& unit) noexcept {
+  constexpr double least = 0.7e-3, most = 10e-3;  // [s]
+  for (const std::size_t samples : {std::size_t{10}, ImuErrors::most}) {
+    const Lateness found = lateness(errors, samples, encoders, unit);
+    if (found.deviation > 0.0 && found.time > least + 5.0 * found.deviation && found.time < most &&
+        found.explained > 0.7)
+      return true;
+  }
+  return false;
 }
 
 ImuDoubt explanation(const ImuErrors& errors, const ImuSpread& spread) noexcept {
@@ -120,7 +200,7 @@ ImuDoubt explanation(const ImuErrors& errors, const ImuSpread& spread) noexcept 
   Fit<1> delay;
   RotationFit rotation;
   int samples = 0;
-  for (std::size_t age = 0; age < errors.held(); ++age) {
+  for (std::size_t age = 0; age < std::min(errors.held(), ImuErrors::judged); ++age) {
     const ImuError& each = errors.back(age);
     if (!each.contradicted) continue;
     ++samples;

@@ -16,14 +16,15 @@ struct ImuError {
   Eigen::Vector3d expected_turning{0.0, 0.0, 0.0};  ///< [rad/s]
   Eigen::Vector3d force_slope{0.0, 0.0, 0.0};       ///< d/dt of what is expected [m/s^3]
   Eigen::Vector3d turning_slope{0.0, 0.0, 0.0};     ///< likewise [rad/s^2]
-  Eigen::Vector3d unconfirmed{0.0, 0.0, 0.0};       ///< of `force`, what the encoders do not show [m/s^2]
+  Eigen::Vector3d force_unseen{0.0, 0.0, 0.0};      ///< what steps of the encoders do not show [m/s^2]
+  Eigen::Vector3d turning_unseen{0.0, 0.0, 0.0};    ///< likewise [rad/s]
   bool contradicted = false;                        ///< nothing of the robot explains it
   bool jumps = false;                               ///< `jumped` was true of it
 };
 
-/// The latest samples in a row, at most 16.
+/// The latest samples in a row.
 struct ImuErrors {
-  static constexpr std::size_t most = 16;
+  static constexpr std::size_t most = 20, judged = 16;
   std::array<ImuError, most> ring{};
   std::size_t count = 0;
 
@@ -32,7 +33,7 @@ struct ImuErrors {
   /// Of 0 the latest.
   const ImuError& back(std::size_t age) const noexcept { return ring[(count - 1 - age) % most]; }
   ImuError& latest() noexcept { return ring[(count - 1) % most]; }
-  int contradicted() const noexcept;
+  int contradicted() const noexcept;  ///< of the last `judged`
 };
 
 /// Standard deviations that errors of an honest unit have.
@@ -49,10 +50,29 @@ bool jumped(const ImuErrors& errors, std::size_t age, const ImuSpread& rest) noe
 /// Whether five of the last twelve samples do.
 bool jumps(const ImuErrors& errors) noexcept;
 
-/// How much of what the encoders do not confirm goes with the slope of what is expected, as where the unit is
-/// later than its stamps say: root of the sum of squares that it explains [m/s^2]. 0 where it is not later by
-/// 1.2 to 10 ms, or this explains less than seven tenths of all squares.
-double lag(const ImuErrors& errors) noexcept;
+/// Standard deviations of what the encoders tell of the unit, by axes.
+struct EncoderSpread {
+  Eigen::Vector3d position{0.0, 0.0, 0.0};  ///< [m]
+  Eigen::Vector3d angle{0.0, 0.0, 0.0};     ///< [rad]
+};
+
+/// By how much the unit is later than its stamps say.
+struct Lateness {
+  double time = 0.0;       ///< [s]
+  double deviation = 0.0;  ///< of it, by noise [s]; 0: not known
+  double explained = 0.0;  ///< share of all squares that it explains
+};
+
+/// The time by which the last `samples` are late. Summed up twice, what an accelerometer that is late by
+/// tau says beyond the encoders is -tau times the velocity, but for a constant and a slope; what a gyroscope
+/// says, summed up once, is -tau times its rate, but for a constant. No model is needed, so nothing that
+/// moves the platform can be taken for it. By least squares, each axis weighed by its noise. (Derived.)
+Lateness lateness(const ImuErrors& errors, std::size_t samples, const EncoderSpread& encoders,
+                  const ImuSpread& unit) noexcept;
+
+/// Whether the last 10 or 20 samples are surely late: by more than 0.7 ms and five deviations, which
+/// explains seven tenths of all squares.
+bool is_late(const ImuErrors& errors, const EncoderSpread& encoders, const ImuSpread& unit) noexcept;
 
 /// What explains the contradicted ones best: a constant, a time by which the unit is late, or axes that are
 /// turned; each fitted by least squares, and judged by its squares left plus ln(n) for each parameter (the

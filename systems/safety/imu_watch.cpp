@@ -22,8 +22,7 @@ constexpr double jitter = 3e-4;      // of stamps [s]
 constexpr double scale = 0.01;       // share of a rate that may be missing
 constexpr double believed = 2.0;     // times what the encoders show
 constexpr double significant = 3.0;  // deviations
-constexpr double surely_late = 4.6, perhaps_late = 2.5;  // see `lag` [m/s^2]
-constexpr std::size_t vote = 6;  // ticks over which encoders and unit are compared with the model
+constexpr std::size_t vote = 6;      // ticks over which encoders and unit are compared with the model
 
 /// Takes in what encoders and model say of this tick.
 void take_motion(ImuWatch& watch, const PlausibilityTick& tick) {
@@ -138,15 +137,23 @@ Eigen::Vector3d deviations(const Rows& rows, const Padded<max_dof>& deviation) {
   return (rows * deviation.asDiagonal()).rowwise().norm();
 }
 
-/// Whether the accelerometer says what the encoders, who show `around` beyond the model, do not confirm.
-bool force_contradicted(const Comparison& at, const Padded<max_dof>& around, const ImuError& error) {
+/// What a sensor says of the acceleration beyond the model, in its axes.
+struct Claim {
+  const Rows& rows;        ///< from the platform's acceleration
+  Eigen::Vector3d beyond;  ///< what the model expects
+  Eigen::Vector3d slope;   ///< d/dt of what it expects
+  double noise;            ///< deviation of a sample
+};
+
+/// Whether a sensor claims what the encoders, who show `around` beyond the model, do not confirm.
+bool contradicted(const Comparison& at, const Padded<max_dof>& around, const Claim& claim) {
   constexpr int wide = widest, narrow = 3;
-  const Eigen::Vector3d ahead = at.force * around;
-  const Eigen::Vector3d long_since = at.force * unexplained(at.watch, at.age - at.ahead + wide, wide);
-  const Eigen::Vector3d lately = at.force * unexplained(at.watch, at.age - at.ahead + narrow, narrow);
-  const Eigen::Vector3d sigma = deviations(at.force, at.deviation);
+  const Eigen::Vector3d ahead = claim.rows * around;
+  const Eigen::Vector3d long_since = claim.rows * unexplained(at.watch, at.age - at.ahead + wide, wide);
+  const Eigen::Vector3d lately = claim.rows * unexplained(at.watch, at.age - at.ahead + narrow, narrow);
+  const Eigen::Vector3d sigma = deviations(claim.rows, at.deviation);
   const double of_ahead = parabola_deviation(at.ahead), of_wide = parabola_deviation(wide);
-  const double of_narrow = parabola_deviation(narrow), slope = error.force_slope.norm();
+  const double of_narrow = parabola_deviation(narrow), slope = claim.slope.norm();
   for (int axis = 0; axis < 3; ++axis) {
     Range range;
     range.include(ahead[axis], of_ahead * sigma[axis]);
@@ -155,10 +162,29 @@ bool force_contradicted(const Comparison& at, const Padded<max_dof>& around, con
     range.low *= believed;
     range.high *= believed;
     const double limit =
-        at.limit * std::hypot(of_wide * sigma[axis], at.noise.force) + at.limit / 5.0 * jitter * slope;
-    if (range.outside(error.force[axis]) > limit) return true;
+        at.limit * std::hypot(of_wide * sigma[axis], claim.noise) + at.limit / 5.0 * jitter * slope;
+    if (range.outside(claim.beyond[axis]) > limit) return true;
   }
   return false;
+}
+
+/// What the accelerometer claims in the latest sample.
+Claim force_claim(const Comparison& at, const ImuErrors& errors) {
+  const ImuError& now = errors.back(0);
+  return {at.force, now.force, now.force_slope, at.noise.force};
+}
+
+/// What the gyroscope claims by its change from the sample before; nothing in a first sample.
+Claim turning_claim(const Comparison& at, const ImuErrors& errors) {
+  Claim claim{at.turning, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
+              std::sqrt(2.0) * at.noise.turning / T};
+  if (errors.held() < 2) return claim;
+  const ImuError &now = errors.back(0), &before = errors.back(1);
+  const Eigen::Vector3d change =
+      now.turning + now.expected_turning - before.turning - before.expected_turning;
+  claim.beyond = change / T - now.turning_slope;
+  claim.slope = (now.turning_slope - before.turning_slope) / T;
+  return claim;
 }
 
 /// Whether the gyroscope does.
@@ -204,6 +230,7 @@ void judge(ImuWatch& watch, const InertialWatch& learned, const AngleWatch& angl
     ++age;
   if (age < youngest || age > oldest || watch.motions < ImuWatch::kept) {
     watch.errors.count = 0;
+    watch.late = false;
     return;
   }
   const TickMotion& then = watch.back(static_cast<std::size_t>(age));
@@ -231,14 +258,21 @@ void judge(ImuWatch& watch, const InertialWatch& learned, const AngleWatch& angl
     error.force_slope = (error.expected_force - watch.errors.back(0).expected_force) / T;
   error.turning_slope = at.turning * then.acceleration;
   const Padded<max_dof> around = unexplained(watch, age, ahead);
-  error.unconfirmed = error.force - at.force * around;
+  const TickMotion& after = watch.back(static_cast<std::size_t>(age - 1));
+  error.force_unseen = error.force + at.force * (then.acceleration - (after.step - then.step) / (T * T));
+  error.turning_unseen =
+      error.turning + error.expected_turning - at.turning * (after.step + then.step) / (2.0 * T);
   watch.errors.push(error);
   watch.errors.latest().jumps = jumped(watch.errors, 0, rest);
   const bool is_rest = at.noise.force == rest.force && at.noise.turning == rest.turning;
   if (is_rest ? watch.errors.latest().jumps : jumped(watch.errors, 0, at.noise)) at.limit *= 0.5;
   const bool turning = turning_contradicted(at, error);
   watch.blamed = turning && (watch.blamed || unit_left_model(at, watch.errors));
-  watch.errors.latest().contradicted = force_contradicted(at, around, error) || watch.blamed;
+  watch.errors.latest().contradicted = contradicted(at, around, force_claim(at, watch.errors)) ||
+                                       contradicted(at, around, turning_claim(at, watch.errors)) ||
+                                       watch.blamed;
+  watch.late = is_late(watch.errors,
+                       {deviations(at.force, at.deviation), deviations(at.turning, at.deviation)}, at.noise);
 }
 
 /// How often each axis has said the same, and whether that is more than chance makes.
@@ -270,16 +304,18 @@ void count_missing(ImuWatch& watch, bool valid) {
   if (watch.doubt == ImuDoubt::dropped_out && watch.seen >= back_after) watch.doubt = ImuDoubt::none;
 }
 
-/// Leaves out what has just been contradicted, and what follows soon after two of them, or while the unit may
-/// be late by `late`.
-void mask(ImuWatch& watch, double late) {
-  if (watch.errors.count == 0) return;
-  if (late > perhaps_late) watch.masked = quarantine;
-  if (!watch.errors.latest().contradicted) return;
+int lately_contradicted(const ImuWatch& watch) {
   int lately = 0;
   for (std::size_t age = 0; age < std::min<std::size_t>(4, watch.errors.held()); ++age)
     lately += watch.errors.back(age).contradicted ? 1 : 0;
-  watch.masked = std::max(watch.masked, lately > 1 ? quarantine : 1);
+  return lately;
+}
+
+/// Leaves out what has just been contradicted, and what follows soon after two of them.
+void mask(ImuWatch& watch) {
+  if (watch.errors.count == 0) return;
+  if (!watch.errors.latest().contradicted) return;
+  watch.masked = std::max(watch.masked, lately_contradicted(watch) > 1 ? quarantine : 1);
 }
 
 }  // namespace
@@ -297,12 +333,13 @@ void advance(ImuWatch& watch, const InertialWatch& learned, const AngleWatch& an
     if (reading.acquired - watch.before.acquired > 3 * period / 2) watch.errors.count = 0;
     const ImuSpread rest{learned.accelerometer.deviation(), learned.gyroscope.deviation()};
     judge(watch, learned, angles, tick, reading, rest);
-    const double late = lag(watch.errors);
-    mask(watch, late);
+    mask(watch);
     if (doubt == ImuDoubt::none && jumps(watch.errors)) doubt = ImuDoubt::noisy;
-    if (doubt == ImuDoubt::none && late > surely_late) doubt = ImuDoubt::late;
     if (doubt == ImuDoubt::none && watch.errors.contradicted() >= named_after)
-      doubt = explanation(watch.errors, {std::max(rest.force, 0.2), std::max(rest.turning, 5e-3)});
+      doubt = watch.late
+                  ? ImuDoubt::late
+                  : explanation(watch.errors, {std::max(rest.force, 0.2), std::max(rest.turning, 5e-3)});
+    if (doubt == ImuDoubt::none && watch.late && lately_contradicted(watch) < 2) doubt = ImuDoubt::late;
     if (watch.doubt == ImuDoubt::none) watch.doubt = doubt;
   }
   if (usable_now) watch.before = reading;

@@ -38,6 +38,7 @@ struct ImuWatch {
   std::array<int, 6> repeats{};  ///< of each axis, to the last bit
   Eigen::Matrix<double, 6, 1> largest = Eigen::Matrix<double, 6, 1>::Zero();  ///< of late, of each axis
   bool blamed = false;  ///< for a rate that is not that of the encoders
+  bool late = false;    ///< by its last samples
   int masked = 0;       ///< ticks that the unit is left out
   ImuDoubt doubt = ImuDoubt::none;
 

@@ -12,7 +12,9 @@
 #include "experiments/campaign/campaign.h"
 #include "experiments/campaign/campaign_run.h"
 #include "systems/framework/random.h"
+#include "systems/robot/imu_mount.h"
 #include "tests/fault/scenario_loop.h"
+#include "tests/support/wanted.h"
 
 namespace flinch::test {
 namespace {
@@ -24,6 +26,7 @@ constexpr Time patience = 100ms;  // after a contact
 struct ImuRun {
   std::vector<double> speed;
   std::vector<Eigen::Vector3d> force;  // of the unit
+  std::vector<Eigen::Vector3d> truth;  // what it should say of the tick, without noise and bias
   std::optional<std::size_t> touched, stopped, named;
   ImuDoubt doubt = ImuDoubt::none;
   std::map<std::string, std::size_t> detected;
@@ -38,11 +41,16 @@ ImuRun run(SimulatedScenario scenario, const std::vector<std::string>& faults, T
   const Context& context = loop.context;
   std::vector<Named<OutputPort<ContactDetection>>> detectors = control.others.detections;
   for (const auto& each : control.others.detections_by_estimator) detectors.push_back(each);
+  const auto& robot = *scenario.robot.robot;
   ImuRun result;
   while (context.time() < end) {
     const std::size_t tick = result.speed.size();
     loop.tick();
-    result.speed.push_back(context.get(station.plant_truth).velocity.head(2).norm());
+    const PlantTruth& truth = context.get(station.plant_truth);
+    result.speed.push_back(truth.velocity.head(2).norm());
+    result.truth.push_back(
+        specific_force(spatial_motion(robot.space(), truth.pose, truth.velocity, truth.acceleration),
+                       ImuMount().position_in_platform, robot.gravity()));
     result.force.push_back(context.get(station.imu).specific_force);
     const Plausibility& found = context.get(control.plausibility);
     if (!result.named && found.imu_doubt != ImuDoubt::none) {
@@ -83,7 +91,8 @@ std::vector<std::string> faults_of(const std::string& kind, double at, RandomGen
 
 Campaign campaign(const std::string& name) {
   CampaignOverrides overrides;
-  overrides.seed = 271828;  // other robots than those by which the rule was chosen
+  overrides.seed = wanted<std::uint64_t>("FLINCH_IMU_SEED",
+                                         271828);  // other robots than those by which the rule was chosen
   overrides.draws = 1000;
   return read_campaign(std::string(FLINCH_SOURCE_DIR "/apps/campaigns/") + name + ".yaml", overrides);
 }
@@ -94,6 +103,15 @@ std::optional<std::size_t> first_wrong(const ImuFailure& failure, const ImuRun& 
     const bool shows =
         failure.right != ImuDoubt::saturated || honest.force[k].lpNorm<Eigen::Infinity>() > 10.5;
     if (honest.speed[k] > 0.3 && shows) return k;
+  }
+  return std::nullopt;
+}
+
+/// The first tick from `begin` on at which a unit that is 2 ms late tells of something else than it should.
+std::optional<std::size_t> first_shown(const ImuRun& honest, std::size_t begin) {
+  constexpr std::size_t delay = 4, late = 2;  // ticks
+  for (std::size_t k = begin; k < honest.truth.size(); ++k) {
+    if ((honest.truth[k - delay - late] - honest.truth[k - delay]).norm() > 0.3) return k;
   }
   return std::nullopt;
 }
@@ -143,7 +161,10 @@ ImuOutcome fail_in_motion(const ImuFailure& failure, std::size_t number) {
     fmt::print("honest motion {}: doubt {} at {}, stopped at {}\n", number, name(honest.doubt),
                honest.named.value_or(0), honest.stopped.value_or(0));
   const ImuRun failed = run(scenario, faults, Time(1ms) * static_cast<Time::rep>(*begin) + watched);
-  return outcome_of(failed, *begin, faults);
+  ImuOutcome outcome = outcome_of(failed, *begin, faults);
+  const auto shown = failure.right == ImuDoubt::late ? first_shown(honest, *begin) : std::nullopt;
+  if (shown) outcome.shown = Time(1ms) * static_cast<Time::rep>(*shown - *begin);
+  return outcome;
 }
 
 ImuOutcome fail_before_contact(const ImuFailure& failure, std::size_t number) {
@@ -183,6 +204,14 @@ std::vector<ImuOutcome> try_failures(const ImuFailure& failure, std::size_t coun
   work();
   other.get();
   return outcomes;
+}
+
+std::size_t named_late_since_shown(const std::vector<ImuOutcome>& outcomes) {
+  std::size_t count = 0;
+  for (const ImuOutcome& each : outcomes) {
+    if (each.shown && (!each.named || *each.named > *each.shown + 20ms)) ++count;
+  }
+  return count;
 }
 
 std::string table_of_failures_head() {

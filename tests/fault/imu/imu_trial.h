@@ -22,6 +22,7 @@ std::vector<ImuFailure> imu_failures();
 struct ImuOutcome {
   bool stopped = false;         ///< the gate closed for a fault
   std::optional<Time> named{};  ///< from the first wrong sample
+  std::optional<Time> shown{};  ///< from there to the first that errs by more than 0.3 m/s^2, if it is late
   ImuDoubt doubt = ImuDoubt::none;
   std::vector<std::string> false_contacts{};  ///< detectors that noticed one before there was any
   std::vector<std::string> missed{};  ///< that did not within 100 ms of a contact, but do without the failure
@@ -37,6 +38,10 @@ ImuOutcome fail_before_contact(const ImuFailure& failure, std::size_t number);
 /// All outcomes of `count` failures of a kind.
 std::vector<ImuOutcome> try_failures(const ImuFailure& failure, std::size_t count,
                                      ImuOutcome (*trial)(const ImuFailure&, std::size_t));
+
+/// Of `outcomes` in motion, those that were not named within 20 ms of the first sample that errs by more
+/// than 0.3 m/s^2, 1 N of the platform's mass.
+std::size_t named_late_since_shown(const std::vector<ImuOutcome>& outcomes);
 
 /// The outcomes of a kind in a line of the table.
 std::string table_of_failures_head();

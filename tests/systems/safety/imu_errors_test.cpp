@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <functional>
+#include <vector>
 
 #include "systems/framework/random.h"
 
@@ -76,6 +78,66 @@ TEST(ImuErrors, JumpWithTenfoldNoiseOnly) {
     error.force.x() += 100.0 * std::sin(300.0 * time);
   };
   EXPECT_FALSE(jumps(errors_of(contact))) << "half a sine of 10 ms, as of a hard contact";
+}
+
+constexpr double position_noise = 3e-6, angle_noise = 1e-5;  // of the encoders [m, rad]
+const EncoderSpread encoders{Eigen::Vector3d::Constant(position_noise),
+                             Eigen::Vector3d::Constant(angle_noise)};
+
+/// Samples of a platform that swings by `amplitude` [m, rad]; its unit is late by `delay`.
+ImuErrors swinging(double amplitude, double delay, std::uint64_t seed) {
+  RandomGenerator random(seed);
+  const double w = 40.0, T = 1e-3;
+  const Eigen::Vector3d along(1.0, -0.5, 0.0), about(0.0, 0.0, 3.0);
+  std::vector<Eigen::Vector3d> positions, angles;
+  for (int k = 0; k < 42; ++k) {
+    positions.push_back(amplitude * std::sin(w * T * k) * along + noise(random, position_noise));
+    angles.push_back(amplitude * std::cos(w * T * k) * about + noise(random, angle_noise));
+  }
+  ImuErrors errors;
+  for (std::size_t k = 1; k < 41; ++k) {
+    const double now = T * static_cast<double>(k), then = now - delay;
+    ImuError error;  // of a model that expects no acceleration
+    error.force = -amplitude * w * w * std::sin(w * then) * along + noise(random, spread.force);
+    error.expected_turning = -amplitude * w * std::sin(w * now) * about;
+    const Eigen::Vector3d turning =
+        -amplitude * w * std::sin(w * then) * about + noise(random, spread.turning);
+    error.turning = turning - error.expected_turning;
+    error.force_unseen = error.force - (positions[k + 1] - 2.0 * positions[k] + positions[k - 1]) / (T * T);
+    error.turning_unseen = turning - (angles[k + 1] - angles[k - 1]) / (2.0 * T);
+    errors.push(error);
+  }
+  return errors;
+}
+
+TEST(Lateness, IsFoundWithTheDeviationThatItTells) {
+  for (const double delay : {0.0, 0.5e-3, 2e-3}) {
+    double squares = 0.0, sum = 0.0;
+    constexpr int trials = 400;
+    for (int i = 0; i < trials; ++i) {
+      const auto errors = swinging(1e-3, delay, 100 + static_cast<std::uint64_t>(i));
+      const Lateness found = lateness(errors, 20, encoders, spread);
+      sum += (found.time - delay) / trials;
+      squares += std::pow((found.time - delay) / found.deviation, 2) / trials;
+    }
+    EXPECT_NEAR(sum, 0.0, 0.1e-3) << delay;
+    EXPECT_NEAR(squares, 1.0, 0.4) << delay;
+    EXPECT_LT(lateness(swinging(1e-3, delay, 1), 20, encoders, spread).deviation, 0.6e-3);
+  }
+}
+
+TEST(Lateness, IsSureOnlyOfAUnitThatIsLateInMotion) {
+  EXPECT_TRUE(is_late(swinging(5e-3, 2e-3, 1), encoders, spread));
+  EXPECT_FALSE(is_late(swinging(5e-3, 0.0, 1), encoders, spread));
+  EXPECT_FALSE(is_late(swinging(5e-3, 0.5e-3, 1), encoders, spread));
+  EXPECT_FALSE(is_late(swinging(0.0, 2e-3, 1), encoders, spread)) << "at rest nobody can tell";
+}
+
+TEST(Lateness, IsNotKnownFromFewSamples) {
+  ImuErrors errors;
+  for (int k = 0; k < 9; ++k) errors.push({});
+  EXPECT_EQ(lateness(errors, 10, encoders, spread).deviation, 0.0);
+  EXPECT_FALSE(is_late(errors, encoders, spread));
 }
 
 }  // namespace

@@ -182,6 +182,29 @@ TEST(ImuWatch, LeavesOutTheFirstSampleThatClaimsAContactWhichTheEncodersDoNotSho
   EXPECT_FALSE(moving.believed().valid);
 }
 
+TEST(ImuWatch, LeavesOutTheFirstSampleWhoseRateJumpsAsTheEncodersDoNot) {
+  Moving moving;
+  const auto off = [](int, ImuReading& imu) { imu.angular_velocity.z() += 0.06; };
+  EXPECT_TRUE(moving.tick(off).imu_left_out);
+}
+
+TEST(ImuWatch, NamesAUnitThatIsLate) {
+  Moving moving;
+  std::vector<ImuReading> held;
+  const auto late = [&held](int, ImuReading& imu) {
+    held.push_back(imu);
+    const ImuReading& then = held[held.size() < 3 ? 0 : held.size() - 3];
+    imu.specific_force = then.specific_force;
+    imu.angular_velocity = then.angular_velocity;
+  };
+  for (int k = 0; k < 5; ++k) {  // a unit that is on time, to have something to be late with
+    moving.tick([&held](int, ImuReading& imu) { held.push_back(imu); });
+  }
+  const auto found = ticks_until(moving, ImuDoubt::late, late);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_LE(*found, 20);
+}
+
 TEST(ImuWatch, BelievesAgainOnceTheOperatorResets) {
   Moving moving;
   const auto off = [](int, ImuReading& imu) { imu.specific_force.x() += 5.0; };
