@@ -56,15 +56,15 @@ bool is_number(std::string_view text, double& value) {
 }
 
 /// Where a wanted column stands in the file, and in the table.
-struct Place {
+struct FoundColumn {
   std::size_t in_file;
   Eigen::Index in_table;
 };
 
 /// The wanted columns in the order of the file, by its first line. Throws SetupError naming those that are
 /// not there.
-std::vector<Place> places_of(const std::vector<std::string>& wanted, std::string_view line, char separator,
-                             const std::string& file) {
+std::vector<FoundColumn> places_of(const std::vector<std::string>& wanted, std::string_view line,
+                                   char separator, const std::string& file) {
   constexpr std::size_t most_suggested = 1000;
   std::vector<std::string> suggested;
   std::map<std::string_view, std::size_t> first;  // of the names that are wanted
@@ -77,7 +77,7 @@ std::vector<Place> places_of(const std::vector<std::string>& wanted, std::string
     if (found != first.end() && found->second == std::string::npos) found->second = column;
   }
   std::vector<std::string> problems;
-  std::vector<Place> places;
+  std::vector<FoundColumn> places;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     places.push_back({first[wanted[i]], static_cast<Eigen::Index>(i)});
     if (places.back().in_file != std::string::npos) continue;
@@ -86,7 +86,7 @@ std::vector<Place> places_of(const std::vector<std::string>& wanted, std::string
   }
   throw_if_any(std::move(problems));
   std::sort(places.begin(), places.end(),
-            [](const Place& a, const Place& b) { return a.in_file < b.in_file; });
+            [](const FoundColumn& a, const FoundColumn& b) { return a.in_file < b.in_file; });
   return places;
 }
 
@@ -107,12 +107,12 @@ Eigen::Index rows_of(const std::filesystem::path& file, std::size_t columns) {
 }
 
 /// Reads a row of the file into a row of the table; `place` names it where there are problems.
-void read_row(std::string_view line, char separator, const std::vector<Place>& places, CsvTable& table,
+void read_row(std::string_view line, char separator, const std::vector<FoundColumn>& places, CsvTable& table,
               Eigen::Index row, const std::string& place, std::vector<std::string>& problems) {
   Cells cells(line, separator);
   std::size_t column = 0;
   std::optional<std::string_view> cell = cells.next();
-  for (const Place& wanted : places) {
+  for (const FoundColumn& wanted : places) {
     if (problems.size() >= most_problems) return;
     for (; cell && column < wanted.in_file; ++column) cell = cells.next();
     double value = 0.0;
@@ -152,7 +152,7 @@ CsvTable read_csv(const std::filesystem::path& file, char separator, const std::
   std::string line;
   if (!stream || !std::getline(stream, line)) throw SetupError(file.string() + ": the file cannot be read");
   CsvTable table{.names = each_once(wanted), .values = {}};
-  const std::vector<Place> places = places_of(table.names, line, separator, file.string());
+  const std::vector<FoundColumn> places = places_of(table.names, line, separator, file.string());
   line = {};  // it may be longer than all that follows
   table.values.resize(rows_of(file, places.size()), static_cast<Eigen::Index>(places.size()));
   std::vector<std::string> problems;

@@ -42,19 +42,19 @@ double capsule_radius(const Body& body) {
 }
 
 /// The hull of `points`, grown by `radius`.
-struct Outline {
+struct DrawnOutline {
   std::vector<Eigen::Vector3d> points;
   double radius = 0.0;
 };
 
-Outline outline_of(const Shape& shape) {
+DrawnOutline outline_of(const Shape& shape) {
   if (const auto* const sphere = std::get_if<Sphere>(&shape)) return {{sphere->centre}, sphere->radius};
   if (const auto* const capsule = std::get_if<Capsule>(&shape)) {
     return {{capsule->begin, capsule->end}, capsule->radius};
   }
   if (const auto* const hull = std::get_if<ConvexHull>(&shape)) return {hull->points, hull->margin};
   const Box& box = std::get<Box>(shape);
-  Outline outline;
+  DrawnOutline outline;
   for (int corner = 0; corner < 8; ++corner) {
     const Eigen::Vector3d signs(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
     outline.points.emplace_back(box.centre + box.axes * signs.cwiseProduct(box.half_lengths));
@@ -87,7 +87,7 @@ ReportRobot drawn_robot(const ParallelRobot& robot) {
     drawn.link_radius = std::max(drawn.link_radius, capsule_radius(robot.body(BodyId::from_index(i))));
   }
   for (const Shape& shape : robot.body(BodyId::platform()).shapes) {
-    const Outline outline = outline_of(shape);
+    const DrawnOutline outline = outline_of(shape);
     for (const Eigen::Vector3d& point : outline.points) drawn.platform.push_back(in_space(point));
     drawn.platform_radius = std::max(drawn.platform_radius, outline.radius);
   }
@@ -96,7 +96,7 @@ ReportRobot drawn_robot(const ParallelRobot& robot) {
 }
 
 ReportObstacle drawn_obstacle(const std::string& name, const Shape& shape, const Eigen::Vector3d& position) {
-  const Outline outline = outline_of(shape);
+  const DrawnOutline outline = outline_of(shape);
   ReportObstacle drawn{.name = name, .points = {}, .radius = outline.radius};
   for (const Eigen::Vector3d& point : outline.points) {
     drawn.points.push_back(in_space(Eigen::Vector3d(position + point)));

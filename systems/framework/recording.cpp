@@ -11,12 +11,12 @@ namespace flinch {
 namespace {
 
 /// Where a field lies in a row.
-struct Place {
+struct FieldPlace {
   const Field& field;
   std::size_t first;  ///< number of the row, its rows and columns included where it is resizable
 };
 
-Place place_of(const Signal& signal, const std::string& name) {
+FieldPlace place_of(const Signal& signal, const std::string& name) {
   std::size_t first = 0;
   std::vector<std::string> names;
   for (const Field& field : signal.layout.fields) {
@@ -29,7 +29,7 @@ Place place_of(const Signal& signal, const std::string& name) {
 }
 
 /// One number of a row as a real number; NaN where the field is shorter.
-double number_at(const internal::Number* row, const Place& place, int element) {
+double number_at(const internal::Number* row, const FieldPlace& place, int element) {
   const internal::Number* const numbers = row + place.first;
   const std::int64_t size = place.field.resizable
                                 ? internal::checked_size(numbers[0].integer, numbers[1].integer,
@@ -66,7 +66,7 @@ void Recording::read_rows(const Signal& signal, std::size_t first, std::size_t c
 
 std::vector<double> Recording::column(const std::string& path, const std::string& field, int element) const {
   const Signal& found = signal(path);
-  const Place place = place_of(found, field);
+  const FieldPlace place = place_of(found, field);
   std::vector<double> values;
   values.reserve(samples());
   std::vector<internal::Number> rows(std::min(block, samples()) * found.layout.numbers);

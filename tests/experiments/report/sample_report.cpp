@@ -48,9 +48,9 @@ Vector2d contact_force(const Vector3d& pose, const Vector3d& velocity) {
 }
 
 /// The fabricated experiment, one tick after the other.
-class Experiment {
+class SampleExperiment {
  public:
-  Experiment() {
+  SampleExperiment() {
     report_.lanes = {{"contact (true)", {"none", "platform"}, {}},
                      {"detector", {"quiet", "contact"}, {}},
                      {"mode", {"nominal", "reaction", "hold"}, {}},
@@ -178,7 +178,7 @@ ReportRobot drawn_robot() {
   return robot;
 }
 
-void add_verdict(const Experiment& experiment, Report& report) {
+void add_verdict(const SampleExperiment& experiment, Report& report) {
   ReportContact contact;
   contact.body = contact.isolated_body = "platform";
   contact.object = "pylon";
@@ -247,7 +247,7 @@ void add_background(Report& report) {
 }  // namespace
 
 Report sample_report() {
-  Experiment experiment;
+  SampleExperiment experiment;
   Report report = experiment.run();
   report.title = "Platform runs into a pylon";
   report.subtitle = "Momentum observer from encoders and motor currents; the reaction is a retraction.";
