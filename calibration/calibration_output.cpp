@@ -8,6 +8,7 @@
 
 #include "calibration/calibration_result.h"
 #include "systems/config/parameter_file.h"
+#include "systems/foundation/json_text.h"
 
 namespace flinch {
 namespace {
@@ -87,19 +88,18 @@ std::string calibration_json(const CalibrationResult& result) {
                      {"quartile3", box.quartile3},
                      {"high", box.high}});
   }
-  return Json{{"kind", result.kind},
-              {"recordings", recordings},
-              {"parameters", parameters},
-              {"residual_before", number(result.residual_before)},
-              {"residual_after", number(result.residual_after)},
-              {"warnings", result.warnings},
-              {"notes", result.notes},
-              {"residual_unit", result.residual_unit},
-              {"sha256", hashes},
-              {"rank", result.rank},
-              {"condition", number(result.condition)},
-              {"validation", boxes}}
-      .dump();
+  return json_text(Json{{"kind", result.kind},
+                        {"recordings", recordings},
+                        {"parameters", parameters},
+                        {"residual_before", number(result.residual_before)},
+                        {"residual_after", number(result.residual_after)},
+                        {"warnings", result.warnings},
+                        {"notes", result.notes},
+                        {"residual_unit", result.residual_unit},
+                        {"sha256", hashes},
+                        {"rank", result.rank},
+                        {"condition", number(result.condition)},
+                        {"validation", boxes}});
 }
 
 std::string calibration_yaml(const CalibrationResult& result, const std::string& date) {

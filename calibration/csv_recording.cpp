@@ -424,4 +424,10 @@ Recording read_csv_recording(const std::filesystem::path& file,
   return recording;
 }
 
+std::vector<std::filesystem::path> files_of_mapping(const std::filesystem::path& file) {
+  std::optional<Scenario> scenario;
+  const Mapping mapping = read_mapping(file, scenario);
+  return {file, mapping.log, mapping.scenario};
+}
+
 }  // namespace flinch

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "systems/framework/recording.h"
 
@@ -14,5 +15,8 @@ namespace flinch {
 /// either, by row and column.
 Recording read_csv_recording(const std::filesystem::path& mapping,
                              const std::map<std::string, std::string>& provenance = {});
+
+/// The files that it is made of: the mapping, the log and the scenario that it names. Throws likewise.
+std::vector<std::filesystem::path> files_of_mapping(const std::filesystem::path& mapping);
 
 }  // namespace flinch

@@ -1,4 +1,5 @@
 #include "calibration/thresholds_output.h"
+#include "systems/foundation/json_text.h"
 
 #include <fmt/core.h>
 
@@ -114,12 +115,11 @@ std::string thresholds_json(const ThresholdFindings& found) {
                          {"level", json_of(residual.level)},
                          {"change", json_of(residual.change)}});
   }
-  return Json{{"false_alarms_per_h", goal.false_alarms_per_hour},
-              {"confidence", goal.confidence},
-              {"safety_factor", goal.safety_factor},
-              {"thresholds", list},
-              {"fused_detector", residuals}}
-      .dump();
+  return json_text(Json{{"false_alarms_per_h", goal.false_alarms_per_hour},
+                        {"confidence", goal.confidence},
+                        {"safety_factor", goal.safety_factor},
+                        {"thresholds", list},
+                        {"fused_detector", residuals}});
 }
 
 std::string thresholds_yaml(const ThresholdFindings& found) {

@@ -1,4 +1,5 @@
 #include "learning/evaluation_output.h"
+#include "systems/foundation/json_text.h"
 
 #include <fmt/core.h>
 
@@ -113,7 +114,7 @@ std::string evaluation_json(const Evaluation& chosen, const std::vector<Evaluati
                         {"reject_curve", curve_json(chosen)},
                         {"at", chosen.moment},
                         {"moments", moments}};
-  return summary.dump();
+  return json_text(summary);
 }
 
 }  // namespace flinch

@@ -285,7 +285,8 @@ std::vector<std::string> problems_with(const TrainingSettings& settings) {
   found.not_negative("l2", settings.l2);
   found.not_negative("least_scale", settings.least_scale);
   found.positive("learning_rate", settings.learning_rate);
-  found.require(settings.epochs >= 1, "has no epoch");
+  found.require(settings.epochs >= 1,
+                "has " + std::to_string(settings.epochs) + " epochs; it must be 1 or more");
   found.require(settings.batch >= 1, "has empty batches");
   return found.take();
 }

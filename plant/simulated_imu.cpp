@@ -19,7 +19,8 @@ std::vector<std::string> problems(const SimulatedImuSettings& settings) {
   found.positive("period", to_seconds(settings.period), "s");
   found.not_negative("delay", to_seconds(settings.delay), "s");
   found.require(DelayLine<ImuReading>::can_delay(settings.delay, settings.period),
-                "delay is longer than the delay line; make it shorter or imu.period longer");
+                "delay must be shorter than " + std::to_string(DelayLine<ImuReading>::longest_delay) +
+                    " times the period");
   return found.take();
 }
 

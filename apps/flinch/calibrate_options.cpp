@@ -52,7 +52,7 @@ void add_fits(CLI::App& calibrate, Verbs& verbs) {
       ->type_name("DIR");
   verb.add_option("--out", all.out, "Folder for the parameter files [DIR/calibration]")->type_name("DIR");
   verb.add_option("--rate", all.rate, "False alarms an hour, of each estimator, for thresholds [0.5]")
-      ->check(CLI::Range(1e-6, 1e6).description(""))
+      ->check(within(1e-6, 1e6))
       ->type_name("N");
 }
 
@@ -69,15 +69,15 @@ void add_thresholds(CLI::App& calibrate, Verbs& verbs) {
       ->required()
       ->type_name("RUN.h5...");
   verb.add_option("--rate", options.rate, "False alarms an hour, of each estimator [0.5]")
-      ->check(CLI::Range(1e-6, 1e6).description(""))
+      ->check(within(1e-6, 1e6))
       ->type_name("N");
   verb.add_option("--confidence", options.confidence, "With which the rate is kept, 0.5 to 0.9999 [0.95]")
-      ->check(CLI::Range(0.5, 0.9999).description(""))
+      ->check(within(0.5, 0.9999))
       ->type_name("P");
   verb.add_option(
           "--safety-factor", options.safety_factor,
           "Of the papers' rule, a multiple of the largest value seen, which is told for comparison [2]")
-      ->check(CLI::Range(1.0, 100.0).description(""))
+      ->check(within(1.0, 100.0))
       ->type_name("K");
   verb.add_option("--out", options.out, "Write the thresholds as a section of scenario files")
       ->type_name("FILE.yaml");
@@ -99,7 +99,7 @@ void add_excite_verb(CLI::App& app, Verbs& verbs) {
   CLI::App& verb =
       verbs.add(app, "excite", "Design a motion from which the dynamics of a robot can be told",
                 "flinch excite apps/robots/planar_3rrr.yaml --out excitation.yaml", options, &excite);
-  const auto above_zero = CLI::Range(1e-3, 1e4).description("");
+  const auto above_zero = within(1e-3, 1e4);
   verb.add_option("robot", options.robot, "Robot file (YAML), with its limits")
       ->required()
       ->type_name("ROBOT.yaml");
@@ -113,12 +113,12 @@ void add_excite_verb(CLI::App& app, Verbs& verbs) {
       ->check(above_zero)
       ->type_name("M");
   verb.add_option("--rotation", options.rotation_deg, "Degrees of poses against home [20]")
-      ->check(CLI::Range(0.0, 90.0).description(""))
+      ->check(within(0.0, 90.0))
       ->type_name("DEG");
   verb.add_option("--velocity", options.velocity, "Of the platform [1.5 m/s]")
       ->check(above_zero)
       ->type_name("V");
-  verb.add_option("--acceleration", options.acceleration, "Of the platform [12]")
+  verb.add_option("--acceleration", options.acceleration, "Of the platform [12 m/s^2]")
       ->check(above_zero)
       ->type_name("A");
   verb.add_option("--trials", options.trials, "Poses that are tried in the place of others [2000]")

@@ -61,6 +61,7 @@ std::vector<CalibratedResidual> residuals_of(const FreeMotions& motions, const T
 }  // namespace
 
 ExitStatus calibrate_thresholds(const CalibrateThresholdsOptions& options) {
+  require_place(options.out, options.recordings);
   ThresholdFindings found;
   found.goal.false_alarms_per_hour = options.rate;
   found.goal.confidence = options.confidence;

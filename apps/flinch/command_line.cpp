@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/flinch/verbs.h"
+#include "systems/foundation/json_text.h"
 #include "systems/foundation/nearest_name.h"
 #include "systems/foundation/setup_error.h"
 
@@ -27,6 +28,7 @@ std::string problem_with_seconds(const std::string& text) {
 void add_bus(CLI::App& verb, BusOptions& bus) {
   verb.add_option("--domain", bus.domain,
                   "Number of the bus; programs with the same number hear each other [0]")
+      ->check(between(0, 230))
       ->type_name("N")
       ->group("Bus");
   verb.add_option(
@@ -70,7 +72,7 @@ std::string typed(int argc, const char* const* argv) {
 }
 
 int complain(const std::vector<std::string>& problems, bool json) {
-  if (json) fmt::print("{}\n", nlohmann::ordered_json{{"error", problems}}.dump());
+  if (json) fmt::print("{}\n", json_text(nlohmann::ordered_json{{"error", problems}}));
   constexpr std::size_t most_shown = 50;
   for (std::size_t i = 0; i < std::min(problems.size(), most_shown); ++i) {
     fmt::print(stderr, "error: {}\n", problems[i]);
@@ -237,19 +239,36 @@ std::vector<std::string> subcommands_of(const CLI::App& app) {
   return names;
 }
 
+/// "" where all options of `verb` are known.
+std::string problem_with_options(const CLI::App& verb) {
+  const std::vector<std::string> extra = verb.remaining();
+  const auto unknown =
+      std::find_if(extra.begin(), extra.end(), [](const std::string& text) { return text.starts_with('-'); });
+  if (unknown == extra.end()) return "";
+  std::vector<std::string> names;
+  for (const CLI::Option* option : verb.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  const std::string name = unknown->substr(0, unknown->find('='));
+  return "'" + name + "' is no option of 'flinch " + verb.get_name() + "'" + did_you_mean(name, names);
+}
+
 /// The error of the parser, with the way out.
 std::string usage_problem(const CLI::App& app, const CLI::ParseError& error, const std::string& first) {
-  const auto chosen = app.get_subcommands();
-  if (!chosen.empty()) {
-    const CLI::App& verb = *chosen.front();
-    const bool is_not_told_what = verb.get_subcommands().empty() && !subcommands_of(verb).empty();
-    if (is_not_told_what)
-      return "'" + verb.get_name() + "' must be told what" + did_you_mean("", subcommands_of(verb));
-    return fmt::format("{}; 'flinch {} --help' shows how", error.what(), verb.get_name());
+  if (app.get_subcommands().empty()) {
+    const std::vector<std::string> verbs = subcommands_of(app);
+    if (first.empty() || first.starts_with('-')) return "there is no verb" + did_you_mean(first, verbs);
+    return "'" + first + "' is no verb" + did_you_mean(first, verbs);
   }
-  const std::vector<std::string> verbs = subcommands_of(app);
-  if (first.empty() || first.starts_with('-')) return "there is no verb" + did_you_mean(first, verbs);
-  return "'" + first + "' is no verb" + did_you_mean(first, verbs);
+  std::string path = "flinch";
+  const CLI::App* verb = &app;
+  while (!verb->get_subcommands().empty()) {
+    verb = verb->get_subcommands().front();
+    path += " " + verb->get_name();
+  }
+  if (!subcommands_of(*verb).empty())
+    return "'" + verb->get_name() + "' must be told what" + did_you_mean("", subcommands_of(*verb));
+  const std::string unknown = problem_with_options(*verb);
+  return unknown.empty() ? fmt::format("{}; '{} --help' shows how", error.what(), path) : unknown;
 }
 
 }  // namespace

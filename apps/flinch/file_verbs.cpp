@@ -15,6 +15,7 @@
 #include "systems/config/config_reader.h"
 #include "systems/config/parameter_file.h"
 #include "systems/config/robot_file.h"
+#include "systems/foundation/json_text.h"
 #include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
@@ -60,24 +61,15 @@ bool is_campaign_file(const std::filesystem::path& file) {
   return reader.has("scenarios") || (reader.has("scenario") && !reader.has("csv"));
 }
 
-/// Throws SetupError where there is no folder for `file`.
-void require_folder_of(const std::filesystem::path& file) {
-  const std::filesystem::path folder = file.parent_path();
-  std::error_code error;
-  if (folder.empty() || std::filesystem::is_directory(folder, error)) return;
-  throw SetupError(file.string() + ": cannot be written, for there is no folder " + folder.string() +
-                   "; make it first");
-}
-
 }  // namespace
 
 ExitStatus report(const ReportOptions& options) {
   const std::filesystem::path page =
       options.out.empty() ? options.recording.parent_path() / "report.html" : options.out;
-  require_folder_of(page);
+  require_place(page, {options.recording});
   write_report_page(recorded_report(options.recording, options.common), page);
   if (options.common.json) {
-    fmt::print("{}\n", Json{{"report", page.string()}}.dump());
+    fmt::print("{}\n", json_text(Json{{"report", page.string()}}));
   } else if (!options.common.quiet) {
     fmt::print("report: {}\n", page.string());
   }
@@ -90,10 +82,10 @@ ExitStatus graph(const GraphOptions& options) {
     throw SetupError(options.out.string() + ": a graph is written as .svg or .dot, not as '" + extension +
                      "'");
   }
-  require_folder_of(options.out);
+  require_place(options.out, {options.scenario});
   const std::string dot = closed_loop(options.scenario)->graphviz();
   if (options.out.empty()) {
-    fmt::print("{}", options.common.json ? Json{{"dot", dot}}.dump() + "\n" : dot);
+    fmt::print("{}", options.common.json ? json_text(Json{{"dot", dot}}) + "\n" : dot);
     return ExitStatus::done;
   }
   if (extension == ".svg") {
@@ -102,7 +94,7 @@ ExitStatus graph(const GraphOptions& options) {
     write_result(options.out, dot);
   }
   if (options.common.json) {
-    fmt::print("{}\n", Json{{"graph", options.out.string()}}.dump());
+    fmt::print("{}\n", json_text(Json{{"graph", options.out.string()}}));
   } else if (!options.common.quiet) {
     fmt::print("graph: {}\n", options.out.string());
   }
@@ -130,7 +122,7 @@ ExitStatus check(const CheckOptions& options) {
     what = "scenario";
   }
   if (options.common.json) {
-    fmt::print("{}\n", Json{{"file", options.file.string()}, {"kind", what}, {"good", true}}.dump());
+    fmt::print("{}\n", json_text(Json{{"file", options.file.string()}, {"kind", what}, {"good", true}}));
   } else if (!options.common.quiet) {
     fmt::print("{}: a good {} file\n", options.file.string(), what);
   }

@@ -35,23 +35,35 @@ void add_train_verb(CLI::App& app, Verbs& verbs) {
           "--question", options.question,
           "What it tells: touched (which body or gap), or as in the papers body, clamping, chain [touched]")
       ->type_name("NAME");
-  verb.add_option("--hidden", options.hidden, "Widths of the tanh layers, such as 30,30 [of the question]")
-      ->delimiter(',')
-      ->type_name("N,N...");
-  verb.add_option("--l2", options.l2, "Weight of the squared weights [of the question]")->type_name("X");
+  CLI::Option* hidden = verb.add_option("--hidden", options.hidden,
+                                        "Widths of the tanh layers, such as 30,30 [of the question]")
+                            ->delimiter(',')
+                            ->allow_extra_args(false)
+                            ->check(between(1, 1000))
+                            ->type_name("N,N...");
+  CLI::Option* l2 = verb.add_option("--l2", options.l2, "Weight of the squared weights [of the question]")
+                        ->check(within(0.0, 1e6))
+                        ->type_name("X");
   verb.add_option(
           "--least-scale", options.least_scale,
           "Least number that inputs are divided by; large: what hardly varied in the data counts little [0]")
+      ->check(within(0.0, 1e6))
       ->type_name("X");
   verb.add_option("--learning-rate", options.learning_rate, "Of Adam, at first [of the question]")
+      ->check(within(1e-12, 1e3))
       ->type_name("X");
-  verb.add_option("--epochs", options.epochs, "Passes through the data [40]")->type_name("N");
-  verb.add_flag("--grid", options.grid, "Search the papers' grid of layers, widths and L2 (80 networks)");
+  verb.add_option("--epochs", options.epochs, "Passes through the data [40]")
+      ->check(between(1, 1'000'000))
+      ->type_name("N");
+  verb.add_flag("--grid", options.grid, "Search the papers' grid of layers, widths and L2 (80 networks)")
+      ->excludes(hidden)
+      ->excludes(l2);
   verb.add_option("--folds", options.folds, "Of the cross-validation [5]")
       ->check(between(2, 100))
       ->type_name("N");
   verb.add_option("--configurations", options.configurations, "Only samples of these, such as 0,1 [all]")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->type_name("N,N...");
   verb.add_option("--seed", options.seed, "Of weights and folds [1]")
       ->check(problem_with_seed)
@@ -76,6 +88,7 @@ void add_evaluate_verb(CLI::App& app, Verbs& verbs) {
       ->type_name("MOMENT");
   verb.add_option("--configurations", options.configurations, "Only samples of these, such as 1,2 [all]")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->type_name("N,N...");
   verb.add_option("--out", options.out, "The page [DATA_MODEL.html beside the data]")->type_name("PAGE.html");
   add_threads(verb, options.threads, "At once [one a processor]");

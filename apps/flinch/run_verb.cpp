@@ -29,10 +29,27 @@ void tell_what_differs(const Replay& replayed, const CommonOptions& common) {
   fmt::print(stderr, "replay:    differs from the recording in: {}\n", list);
 }
 
+std::vector<std::string> body_names(const Scenario& scenario) {
+  std::vector<std::string> names;
+  for (const Body& body : scenario.robot.robot->description().bodies) names.push_back(body.name);
+  return names;
+}
+
+/// The scenario whose control path shall run: that of the recording, or another one for such a robot.
+Scenario scenario_to_replay(const Recording& recorded, const RunOptions& options) {
+  Scenario of_recording = scenario_of(recorded, options.input);
+  if (options.control.empty()) return of_recording;
+  Scenario scenario = scenario_of(recorded, options.input, options.control);
+  if (body_names(scenario) == body_names(of_recording)) return scenario;
+  throw SetupError(options.control.string() + ": is for the robot '" + scenario.robot.robot->name() +
+                   "', but " + options.input.string() + " was recorded of '" +
+                   of_recording.robot.robot->name() + "', which has other bodies");
+}
+
 ExitStatus run_recorded(const RunOptions& options) {
   const Recording recorded = read_recording(options.input);
   tell_if_partial(recorded, options.common);
-  Scenario scenario = scenario_of(recorded, options.input, options.control);
+  Scenario scenario = scenario_to_replay(recorded, options);
   if (!options.classifier.empty()) follow_classifier(options.classifier, scenario);
   std::vector<RequestedFault> faults;
   add_faults(options.faults, *scenario.robot.robot, faults);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "diagrams/external_station.h"
+#include "systems/foundation/json_text.h"
 
 namespace flinch {
 namespace {
@@ -101,7 +102,7 @@ std::string LinkReport::json() const {
       {"platform", json_of(pose.platform.has_value(), pose.platform.value_or(Configuration()))},
       {"closure_error_m", pose.closure_error ? Json(*pose.closure_error) : Json(nullptr)},
       {"objections", against}};
-  return json.dump();
+  return json_text(json);
 }
 
 }  // namespace flinch

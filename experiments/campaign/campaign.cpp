@@ -26,11 +26,25 @@ void read_scenarios(ConfigReader& reader, Campaign& campaign) {
   }
 }
 
+/// What is wrong with a key of the scenario that is to be varied; "" if nothing is.
+std::string problem_with_key(const std::string& key) {
+  if (key == "seed")
+    return "is 'seed', but each run has a seed of its own; 'seed' of the campaign draws others";
+  if (key == "title" || key == "description") return "is '" + key + "', which changes nothing of a run";
+  return "";
+}
+
+void check_key(ConfigReader& reader, const std::string& key) {
+  const std::string problem = problem_with_key(key);
+  if (!problem.empty()) reader.problem("key", problem);
+}
+
 CampaignDraw read_draw(ConfigReader& reader, const std::shared_ptr<const std::string>& file) {
   CampaignDraw draw;
   draw.file = file;
   draw.line = reader.line();
   reader.required().text("key", draw.key);
+  check_key(reader, draw.key);
   const std::string_view given = reader.one_of({"of", "from"});
   if (given == "of") reader.required().nodes("of", draw.of);
   if (given != "from") return draw;
@@ -48,6 +62,7 @@ CampaignDraw read_draw(ConfigReader& reader, const std::shared_ptr<const std::st
 CampaignAxis read_axis(ConfigReader& reader) {
   CampaignAxis axis;
   reader.required().text("key", axis.key);
+  check_key(reader, axis.key);
   reader.required().nodes("values", axis.values);
   return axis;
 }
@@ -73,6 +88,8 @@ CampaignAxis parsed_axis(const std::string& text) {
   }
   const std::shared_ptr<const ConfigNode> list = parse_yaml("[" + text.substr(equals + 1) + "]", place);
   CampaignAxis axis{text.substr(0, equals), {}};
+  const std::string problem = problem_with_key(axis.key);
+  if (!problem.empty()) throw SetupError(place + ": the key " + problem);
   for (const auto& value : list->items) axis.values.push_back(without_lines(*value));
   return axis;
 }

@@ -13,6 +13,7 @@
 #include "experiments/campaign/reaction_summary.h"
 #include "experiments/campaign/run_result.h"
 #include "experiments/report/script_data.h"
+#include "systems/foundation/json_text.h"
 #include "systems/foundation/result_file.h"
 #include "systems/motion/constraint_settings.h"
 
@@ -218,8 +219,7 @@ std::string campaign_page(const Campaign& campaign, const std::vector<RunResult>
                {"provenance", provenance},
                {"texts", texts_of(campaign)}};
   if (campaign.summary == Campaign::Summary::reactions) data["reactions"] = reaction_dots(campaign, results);
-  return std::string(campaign_page_template_before_data) +
-         inside_script(data.dump(-1, ' ', false, Json::error_handler_t::replace)) +
+  return std::string(campaign_page_template_before_data) + inside_script(json_text(data)) +
          std::string(campaign_page_template_after_data);
 }
 

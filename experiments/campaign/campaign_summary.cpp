@@ -10,6 +10,7 @@
 
 #include "experiments/campaign/campaign.h"
 #include "experiments/campaign/exact_bounds.h"
+#include "systems/foundation/json_text.h"
 
 namespace flinch {
 namespace {
@@ -171,9 +172,12 @@ std::string campaign_json(const Campaign& campaign, const std::vector<CampaignGr
          {"tracking_error_m", group.largest_tracking_error}});
   }
   const double rate = pace.wall > 0.0 ? static_cast<double>(pace.runs_now) / pace.wall : 0.0;
-  return Json{{"campaign", campaign.name}, {"runs", campaign.runs()}, {"failed", failed},
-              {"wall_s", pace.wall},       {"runs_per_s", rate},      {"groups", list}}
-      .dump();
+  return json_text(Json{{"campaign", campaign.name},
+                        {"runs", campaign.runs()},
+                        {"failed", failed},
+                        {"wall_s", pace.wall},
+                        {"runs_per_s", rate},
+                        {"groups", list}});
 }
 
 }  // namespace flinch

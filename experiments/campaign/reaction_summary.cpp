@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "experiments/campaign/campaign.h"
+#include "systems/foundation/json_text.h"
 
 namespace flinch {
 namespace {
@@ -196,10 +197,13 @@ std::string reactions_json(const Campaign& campaign, const ReactionSummary& summ
                     {"pearson", fit.pearson}});
   }
   const double rate = pace.wall > 0.0 ? static_cast<double>(pace.runs_now) / pace.wall : 0.0;
-  return Json{
-      {"campaign", campaign.name}, {"runs", campaign.runs()}, {"failed", failed}, {"wall_s", pace.wall},
-      {"runs_per_s", rate},        {"groups", groups},        {"fits", fits}}
-      .dump();
+  return json_text(Json{{"campaign", campaign.name},
+                        {"runs", campaign.runs()},
+                        {"failed", failed},
+                        {"wall_s", pace.wall},
+                        {"runs_per_s", rate},
+                        {"groups", groups},
+                        {"fits", fits}});
 }
 
 }  // namespace flinch

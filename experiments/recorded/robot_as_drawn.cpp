@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "systems/foundation/json_text.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recording.h"
 
@@ -18,7 +19,7 @@ void note_robot(const DrawnValues& values, std::map<std::string, std::string>& a
   if (values.empty()) return;
   Json json = Json::object();
   for (const auto& [key, numbers] : values) json[key] = numbers;
-  attributes[attribute] = json.dump();
+  attributes[attribute] = json_text(json);
 }
 
 DrawnValues robot_as_drawn(const Recording& recording) {

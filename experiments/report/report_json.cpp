@@ -1,4 +1,5 @@
 #include "experiments/report/report_json.h"
+#include "systems/foundation/json_text.h"
 
 #include <array>
 #include <charconv>
@@ -138,7 +139,7 @@ std::string report_json(const Report& report) {
                      {"parameters", encode_all(report.parameters)},
                      {"provenance", encode_all(report.provenance)},
                      {"texts", encode_all(report.texts)}};
-  return data.dump(-1, ' ', false, json::error_handler_t::replace);
+  return json_text(data);
 }
 
 }  // namespace flinch

@@ -15,6 +15,7 @@
 #include "experiments/scenario/scenario_stages.h"
 #include "experiments/scenario/scenario_tasks.h"
 #include "systems/config/config_reader.h"
+#include "systems/config/parsed.h"
 #include "systems/config/robot_file.h"
 #include "systems/foundation/nearest_name.h"
 #include "systems/foundation/setup_error.h"
@@ -52,6 +53,15 @@ void read_sensing(ConfigReader& control, const ParallelRobot& robot, ContactCont
   settings.drive_torque.low_pass = aligned ? std::optional(settings.velocity_filter.low_pass) : std::nullopt;
 }
 
+/// A threshold of a hard contact against that of a reaction. `unit`: as a person writes it.
+void check_hard(ConfigReader& detector, const std::string& quantity, double hard, double reaction,
+                const std::string& unit) {
+  if (hard >= reaction) return;
+  detector.problem("hard_" + quantity, "is " + exact_text(hard) + " " + unit +
+                                           "; it must be at least reaction_" + quantity + ", which is " +
+                                           exact_text(reaction) + " " + unit);
+}
+
 /// `estimators`: all that a file may name, whether they run or not.
 void read_detection(ConfigReader& control, const std::vector<std::string>& estimators,
                     ContactControlSettings& settings) {
@@ -60,6 +70,9 @@ void read_detection(ConfigReader& control, const std::vector<std::string>& estim
   detector.number("reaction_moment", unit::Nm, settings.contact_detector.reaction.moment, positive);
   detector.number("hard_force", unit::N, settings.contact_detector.hard.force, positive);
   detector.number("hard_moment", unit::Nm, settings.contact_detector.hard.moment, positive);
+  const auto& [reaction, hard, period] = settings.contact_detector;
+  check_hard(detector, "force", hard.force, reaction.force, "N");
+  check_hard(detector, "moment", hard.moment, reaction.moment, "Nm");
   for (ConfigReader& own : detector.sections("by_estimator")) {
     std::string estimator;
     WrenchThreshold threshold = settings.contact_detector.reaction;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/verdict/verdict.h"
+#include "systems/foundation/json_text.h"
 
 namespace flinch {
 namespace {
@@ -179,7 +180,7 @@ std::string verdict_json(const Verdict& verdict, const RunFacts& facts) {
       {"fault", verdict.fault},
       {"failures", verdict.failures},
       {"remarks", verdict.remarks}};
-  return json.dump();
+  return json_text(json);
 }
 
 }  // namespace flinch

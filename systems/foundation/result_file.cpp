@@ -149,6 +149,20 @@ void remove_link(const fs::path& file) {
   if (fs::is_symlink(file, ignored)) fs::remove(file, ignored);
 }
 
+void require_place(const fs::path& file, const std::vector<fs::path>& inputs) {
+  if (file.empty()) return;
+  std::error_code error;
+  for (const fs::path& input : inputs) {
+    if (fs::equivalent(file, input, error))
+      throw SetupError(file.string() + ": is read by this call, which would replace it; choose another name");
+  }
+  if (!fs::is_directory(folder_of(file), error)) {
+    throw SetupError(file.string() + ": cannot be written, for there is no folder " +
+                     folder_of(file).string() + "; make it first");
+  }
+  const ResultFile tried(file);
+}
+
 void write_result(const fs::path& file, std::string_view text) {
   ResultFile result(file);
   result.write(text);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace flinch {
 
@@ -48,6 +49,10 @@ class ResultFile {
 
 /// Removes a symbolic link where somebody is to write a file by its name: it is replaced, not followed.
 void remove_link(const std::filesystem::path& file);
+
+/// Throws SetupError where no result can be written to `file`, or where it would replace one of `inputs`, so
+/// that this is known before anything is computed. An empty name stands for no result; nothing is wrong then.
+void require_place(const std::filesystem::path& file, const std::vector<std::filesystem::path>& inputs);
 
 /// Writes a whole file so.
 void write_result(const std::filesystem::path& file, std::string_view text);

@@ -5,6 +5,7 @@
 
 #include "apps/flinch/bus/bus_verbs.h"
 #include "drivers/bus_keys.h"
+#include "systems/foundation/json_text.h"
 
 namespace flinch {
 namespace {
@@ -14,7 +15,7 @@ std::string utc_day(std::time_t time) { return fmt::format("{:%Y-%m-%d}", fmt::g
 void print_json(const std::filesystem::path& folder, const std::string& end) {
   nlohmann::ordered_json roles;
   for (const BusRole role : all_bus_roles) roles[name(role)] = (folder / name(role)).string();
-  fmt::print("{}\n", nlohmann::ordered_json{{"keys", roles}, {"good_until", end}}.dump());
+  fmt::print("{}\n", json_text(nlohmann::ordered_json{{"keys", roles}, {"good_until", end}}));
 }
 
 }  // namespace

@@ -11,6 +11,8 @@
 #include "experiments/dataset/data_spec.h"
 #include "experiments/dataset/make_data_set.h"
 #include "experiments/report/run_folder.h"
+#include "systems/foundation/json_text.h"
+#include "systems/foundation/result_file.h"
 
 namespace flinch {
 namespace {
@@ -25,6 +27,7 @@ ExitStatus dataset(const DatasetOptions& options) {
       options.out.empty() ? std::filesystem::path("out") / (options.spec.stem().string() + ".h5")
                           : options.out;
   const RunFolder folder = make_run_folder(file.has_parent_path() ? file.parent_path() : ".");
+  require_place(file, {options.spec});
   if (options.fresh) std::filesystem::remove(file.string() + ".part");
   const StopWatch watch;
   DataSet data;
@@ -43,7 +46,7 @@ ExitStatus dataset(const DatasetOptions& options) {
                                             {"samples", data.samples.size()},
                                             {"seed", spec.seed},
                                             {"wall_s", watch.seconds()}};
-    fmt::print("{}\n", summary.dump());
+    fmt::print("{}\n", json_text(summary));
     return ExitStatus::done;
   }
   fmt::print("{}: {} runs, {} samples, {:.1f} s\n\n{}", spec.title, spec.runs, data.samples.size(),

@@ -16,6 +16,7 @@
 #include "identification/dynamics_calibration.h"
 #include "identification/imu_pose_calibration.h"
 #include "identification/torque_constant_calibration.h"
+#include "systems/foundation/json_text.h"
 #include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
 
@@ -149,7 +150,7 @@ class All {
                 {"calibrations", calibrations}};
     all["thresholds_before"] = threshold_json(before_);
     all["thresholds_after"] = threshold_json(after_);
-    return all.dump();
+    return json_text(all);
   }
 
   std::string table() const {

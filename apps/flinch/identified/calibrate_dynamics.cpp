@@ -14,6 +14,7 @@ std::vector<MotionRecording> motions_of(const std::vector<OpenedRecording>& file
 }  // namespace
 
 ExitStatus calibrate_dynamics(const CalibrateOptions& options) {
+  require_places(options);
   const std::vector<OpenedRecording> used = open_recordings(options.recordings, options.common);
   const std::vector<OpenedRecording> unseen = open_recordings(options.unseen, options.common);
   const Scenario& scenario = used.front().scenario;

@@ -5,6 +5,7 @@
 namespace flinch {
 
 ExitStatus calibrate_imu_pose(const CalibrateOptions& options) {
+  require_places(options);
   const std::vector<OpenedRecording> used = open_recordings(options.recordings, options.common);
   std::vector<ImuRecording> recordings;
   for (const OpenedRecording& file : used) recordings.push_back({file.source, &file.recording});

@@ -18,6 +18,7 @@ std::vector<PullRecording> pulls_of(const std::vector<OpenedRecording>& files) {
 }  // namespace
 
 ExitStatus calibrate_torque_constant(const CalibrateOptions& options) {
+  require_places(options);
   const std::vector<OpenedRecording> used = open_recordings(options.recordings, options.common);
   const std::vector<OpenedRecording> unseen = open_recordings(options.unseen, options.common);
   const Scenario& scenario = used.front().scenario;

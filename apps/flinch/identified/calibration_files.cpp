@@ -64,15 +64,30 @@ std::vector<OpenedRecording> open_recordings(const std::vector<std::filesystem::
 
 namespace {
 
+std::filesystem::path page_beside(const std::filesystem::path& file) {
+  return std::filesystem::path(file).replace_extension(".html");
+}
+
 /// The parameter file, and beside it the page of the same name, which is returned.
 std::filesystem::path write_files(const CalibrationResult& result, const std::filesystem::path& file) {
-  const std::filesystem::path page = std::filesystem::path(file).replace_extension(".html");
+  const std::filesystem::path page = page_beside(file);
   write_result(file, calibration_yaml(result, today()));
   write_result(page, calibration_page(result, today()));
   return page;
 }
 
 }  // namespace
+
+void require_places(const CalibrateOptions& options) {
+  if (options.out.empty()) return;
+  if (options.out.extension() == ".html")
+    throw SetupError(options.out.string() + ": is the name of the page; call the parameter file .yaml");
+  std::vector<std::filesystem::path> inputs = options.recordings;
+  inputs.insert(inputs.end(), options.unseen.begin(), options.unseen.end());
+  inputs.insert(inputs.end(), options.with.begin(), options.with.end());
+  require_place(options.out, inputs);
+  require_place(page_beside(options.out), inputs);
+}
 
 JointVector calibrated_constants(const Scenario& scenario, const std::vector<std::filesystem::path>& files) {
   if (files.empty()) return scenario.control.drive_torque.torque_constant;

@@ -22,6 +22,10 @@ struct OpenedRecording {
 std::vector<OpenedRecording> open_recordings(const std::vector<std::filesystem::path>& files,
                                              const CommonOptions& common);
 
+/// Throws SetupError where the parameter file and the page beside it cannot be written, or would replace what
+/// the call reads.
+void require_places(const CalibrateOptions& options);
+
 /// The torque constants with which the scenario ran, or those of parameter files that hold already.
 JointVector calibrated_constants(const Scenario& scenario, const std::vector<std::filesystem::path>& files);
 

@@ -8,6 +8,7 @@
 #include "apps/flinch/progress.h"
 #include "identification/excitation.h"
 #include "systems/config/robot_file.h"
+#include "systems/foundation/json_text.h"
 #include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/result_file.h"
 #include "systems/robot/rotation.h"
@@ -66,6 +67,7 @@ std::string scenario_text(const Excitation& motion, const ExcitationSettings& se
 }  // namespace
 
 ExitStatus excite(const ExciteOptions& options) {
+  require_place(options.out, {options.robot});
   const RobotFile file = read_robot_file(options.robot);
   ExcitationSettings settings;
   settings.path.duration = options.duration;
@@ -92,15 +94,14 @@ ExitStatus excite(const ExciteOptions& options) {
       std::filesystem::relative(std::filesystem::absolute(options.robot), folder).string();
   write_result(options.out, scenario_text(motion, settings, *file.robot, robot, options));
   if (options.common.json) {
-    fmt::print("{}\n", nlohmann::ordered_json{{"scenario", options.out.string()},
-                                              {"poses", motion.poses.size()},
-                                              {"duration_s", motion.duration},
-                                              {"condition", motion.condition},
-                                              {"first_condition", motion.first_condition},
-                                              {"rank", motion.rank},
-                                              {"parameters", motion.parameters},
-                                              {"peak_torque", motion.peak_torque}}
-                           .dump());
+    fmt::print("{}\n", json_text(nlohmann::ordered_json{{"scenario", options.out.string()},
+                                                        {"poses", motion.poses.size()},
+                                                        {"duration_s", motion.duration},
+                                                        {"condition", motion.condition},
+                                                        {"first_condition", motion.first_condition},
+                                                        {"rank", motion.rank},
+                                                        {"parameters", motion.parameters},
+                                                        {"peak_torque", motion.peak_torque}}));
   } else {
     fmt::print("condition {:.4g}, of the random motion before {:.4g}; rank {} of {} parameters\n",
                motion.condition, motion.first_condition, motion.rank, motion.parameters);

@@ -11,6 +11,7 @@
 #include "learning/onnx_file.h"
 #include "systems/foundation/nearest_name.h"
 #include "systems/foundation/problems_of_place.h"
+#include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
@@ -36,9 +37,18 @@ void check_moment(const std::string& name) {
     throw SetupError("--at " + name + ": there is no such moment" + did_you_mean(name, names));
 }
 
+std::filesystem::path page_of(const EvaluateOptions& options) {
+  if (!options.out.empty()) return options.out;
+  return std::filesystem::path(options.data)
+      .replace_extension()
+      .concat("_" + options.model.stem().string() + ".html");
+}
+
 }  // namespace
 
 ExitStatus evaluate(const EvaluateOptions& options) {
+  const std::filesystem::path page = page_of(options);
+  require_place(page, {options.model, options.data});
   const ClassifierModel model = read_onnx(options.model);
   const DataSet data = read_data_set(options.data);
   const FeatureSet features = out_of(options.model.string(), [&] { return features_for(model, data); });
@@ -64,11 +74,6 @@ ExitStatus evaluate(const EvaluateOptions& options) {
   }
   fmt::print("{}",
              options.common.json ? evaluation_json(*chosen, all) + "\n" : evaluation_table(*chosen, all));
-  const std::filesystem::path page = options.out.empty()
-                                         ? std::filesystem::path(options.data)
-                                               .replace_extension()
-                                               .concat("_" + options.model.stem().string() + ".html")
-                                         : options.out;
   write_evaluation_page({.model = model, .data = data, .chosen = *chosen, .all = all}, page);
   if (!options.common.quiet) fmt::print(stderr, "report:    {}\n", page.string());
   return ExitStatus::done;

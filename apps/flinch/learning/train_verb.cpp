@@ -11,7 +11,9 @@
 #include "apps/flinch/stop_watch.h"
 #include "learning/onnx_file.h"
 #include "learning/train_classifier.h"
+#include "systems/foundation/json_text.h"
 #include "systems/foundation/problems_of_place.h"
+#include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
@@ -61,6 +63,7 @@ void print_table(const TrainedClassifier& trained, const ClassifierTraining& tra
 }  // namespace
 
 ExitStatus train(const TrainOptions& options) {
+  require_place(options.out, {options.data});
   const ClassifierTraining training = training_of(options);
   const DataSet data = read_data_set(options.data);
   const StopWatch watch;
@@ -89,7 +92,7 @@ ExitStatus train(const TrainOptions& options) {
         {"expected_calibration_error", expected.calibration_error},
         {"accepted_from", trained.model.accepted_from},
         {"wall_s", watch.seconds()}};
-    fmt::print("{}\n", summary.dump());
+    fmt::print("{}\n", json_text(summary));
     return ExitStatus::done;
   }
   print_table(trained, training);

@@ -14,6 +14,7 @@
 #include "experiments/served/served_bench.h"
 #include "experiments/simulated/simulated_scenario.h"
 #include "plant/sundials_integrator.h"
+#include "systems/foundation/json_text.h"
 #include "systems/foundation/problems_of_place.h"
 #include "systems/framework/exchange_list.h"
 #include "systems/framework/realtime_runner.h"
@@ -82,7 +83,7 @@ void tell_the_end(const DdsCommander& commander, const TickStatistics& ticks, co
                                          {"overruns", ticks.overruns},   {"lost_periods", ticks.lost_periods},
                                          {"tick", json_of(ticks.whole)}, {"commands", commander.received},
                                          {"refused", commander.refused}, {"silences", commander.silences}};
-    fmt::print("{}\n", json.dump());
+    fmt::print("{}\n", json_text(json));
   } else if (!common.quiet) {
     fmt::print(
         "served {} ticks: {} late starts, {} overruns, {} lost; {} commands, {} refused, {} silences\n",

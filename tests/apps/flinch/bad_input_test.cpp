@@ -16,6 +16,7 @@ namespace {
 using test::flinch;
 using test::Outcome;
 using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
 using ::testing::StartsWith;
 
 constexpr const char* collision = "scenarios/platform_collision.yaml";
@@ -97,9 +98,10 @@ TEST_F(BadInput, ExpectationAboutAnUnknownBody) {
 
 TEST_F(BadInput, SettingsThatDoNotFitTogether) {
   place.replace(collision, "reaction_force_N: 10", "reaction_force_N: 100");
-  const std::string said = complaint_of_run();
-  EXPECT_THAT(said, StartsWith("error: " + place.at(collision) + ": "));
-  EXPECT_THAT(said, HasSubstr("hard has a threshold below that of reaction"));
+  EXPECT_THAT(
+      complaint_of_run(),
+      MatchesRegex("error: .*platform_collision.yaml:[0-9]+: control.contact_detector.hard_force: is .* N; "
+                   "it must be at least reaction_force, which is 100 N\n"));
 }
 
 TEST_F(BadInput, ScenarioThatIsNotThere) {
@@ -202,6 +204,17 @@ TEST_F(BadInput, RecordingOfAnotherProgram) {
   }
 }
 
+TEST_F(BadInput, ControlOfAnotherRobotThanTheRecorded) {
+  ASSERT_EQ(flinch({"run", place.at(collision), "--out", place.at("whole")}).status, 0);
+  for (const std::string other :
+       {"apps/scenarios/hexapod_collision.yaml", "apps/scenarios/five_bar_collision.yaml"}) {
+    EXPECT_THAT(complaint({"run", place.at("whole/run.h5"), "--station", "recorded", "--control", other,
+                           "--out", place.at("out")}),
+                AllOf(StartsWith("error: " + other + ": is for the robot '"),
+                      HasSubstr(place.at("whole/run.h5") + " was recorded of '")));
+  }
+}
+
 TEST_F(BadInput, RecordingThatLacksASignalOrItsSeed) {
   ASSERT_EQ(flinch({"run", place.at(collision), "--out", place.at("out")}).status, 0);
   const Recording whole = read_recording(place / "out/run.h5");
@@ -241,6 +254,42 @@ TEST_F(BadInput, PlaceForAPageOrGraphThatIsNotThere) {
             "error: " + folder + "/page.html" + complaint_end);
 }
 
+TEST_F(BadInput, ResultThatWouldReplaceWhatItIsMadeFrom) {
+  const std::string recording = place.at("out/run.h5"), same_recording = place.at("out/../out/run.h5");
+  const std::string page = place.at("out/report.html");
+  const std::vector<std::vector<std::string>> calls = {
+      {"report", recording, "--out", same_recording},
+      {"calibrate", "thresholds", page, recording, "--out", same_recording},
+      {"calibrate", "dynamics", recording, "--out", same_recording},
+      {"calibrate", "torque-constant", page, "--validate", recording, "--out", same_recording},
+      {"train", recording, "--out", same_recording},
+      {"evaluate", page, recording, "--out", same_recording}};
+  for (const std::vector<std::string>& call : calls) {
+    EXPECT_EQ(complaint(call), "error: " + same_recording +
+                                   ": is read by this call, which would replace it; choose another name\n")
+        << testing::PrintToString(call);
+  }
+  EXPECT_THAT(complaint({"excite", place.at(robot), "--out", place.at(robot)}),
+              HasSubstr("would replace it"));
+  EXPECT_THAT(complaint({"calibrate", "dynamics", page, "--out", place.at("out/report.yaml")}),
+              HasSubstr("report.html: is read by this call"))
+      << "the page beside it";
+}
+
+TEST_F(BadInput, PlaceOfAResultIsTriedBeforeAnythingIsComputed) {
+  const std::string there = place.at("nowhere/result.yaml");
+  const std::string recording = place.at("out/run.h5");
+  for (const std::vector<std::string>& call : std::vector<std::vector<std::string>>{
+           {"train", recording, "-o", there},
+           {"excite", place.at(robot), "--out", there},
+           {"calibrate", "thresholds", recording, "--out", there},
+           {"calibrate", "imu-pose", recording, "--out", there},
+           {"evaluate", place.at("out/report.html"), recording, "--out", there}}) {
+    EXPECT_EQ(complaint(call), "error: " + there + ": cannot be written, for there is no folder " +
+                                   place.at("nowhere") + "; make it first\n");
+  }
+}
+
 TEST_F(BadInput, GraphThatIsNeitherSvgNorDot) {
   EXPECT_EQ(complaint({"graph", place.at(collision), "--out", place.at("out/loop.png")}),
             "error: " + place.at("out/loop.png") + ": a graph is written as .svg or .dot, not as '.png'\n");
@@ -254,9 +303,24 @@ TEST_F(BadInput, VerbThatNobodyKnows) {
 
 TEST_F(BadInput, ArgumentThatIsMissingOrTooMuch) {
   EXPECT_EQ(complaint({"run"}), "error: input is required; 'flinch run --help' shows how\n");
-  const std::string said = complaint({"check", place.at(collision), "--jason"});
-  EXPECT_THAT(said, HasSubstr("--jason"));
-  EXPECT_THAT(said, HasSubstr("; 'flinch check --help' shows how"));
+  EXPECT_EQ(complaint({"check", place.at(collision), "--jason"}),
+            "error: '--jason' is no option of 'flinch check'; did you mean '--json'?\n");
+  EXPECT_EQ(complaint({"run", place.at(collision), "--sation=dds"}),
+            "error: '--sation' is no option of 'flinch run'; did you mean '--station'?\n");
+  EXPECT_THAT(complaint({"calibrate", "thresholds"}),
+              HasSubstr("; 'flinch calibrate thresholds --help' shows how"));
+}
+
+TEST_F(BadInput, NumberOfAnOptionThatIsNone) {
+  for (const std::string number : {"nan", "inf", "0", "-3", "many"}) {
+    EXPECT_EQ(
+        complaint({"calibrate", "thresholds", place.at("out/run.h5"), "--rate", number}),
+        "error: --rate: is '" + number +
+            "'; it must be a number from 1e-06 to 1e+06; 'flinch calibrate thresholds --help' shows how\n");
+    EXPECT_THAT(
+        complaint({"excite", place.at(robot), "--out", place.at("out/a.yaml"), "--duration", number}),
+        StartsWith("error: --duration: is '" + number + "'; it must be a number from 0.001 to 10000"));
+  }
 }
 
 TEST_F(BadInput, SeedThatIsNoWholeNumber) {
@@ -277,6 +341,13 @@ TEST_F(BadInput, IsToldAsOneJsonObjectToPrograms) {
     ASSERT_EQ(said["error"].size(), 1U);
     EXPECT_EQ("error: " + said["error"][0].get<std::string>() + "\n", outcome.err);
   }
+}
+
+TEST_F(BadInput, NamesThatAreNoUtf8AreToldToProgramsToo) {
+  const Outcome outcome = flinch({"check", place.at("caf\xe9.yaml"), "--json"});
+  EXPECT_EQ(outcome.status, 2);
+  const auto said = nlohmann::json::parse(outcome.out);
+  EXPECT_THAT(said["error"][0].get<std::string>(), HasSubstr("caf\xef\xbf\xbd.yaml: no such file"));
 }
 
 }  // namespace

@@ -59,6 +59,20 @@ TEST(ReadingACampaign, TellsAllThatIsWrong) {
                   HasSubstr("bad.yaml:7: draw[2]: has none of of, from")));
 }
 
+TEST(ReadingACampaign, RefusesKeysThatChangeNothingOfARun) {
+  const test::Workplace place;
+  test::small_campaign(place);
+  place.write("campaigns/bad.yaml",
+              "scenario: ../scenarios/platform_collision.yaml\n"
+              "grid: [{key: seed, values: [7, 8]}]\n"
+              "draw: [{key: title, of: [a, b]}]\n");
+  EXPECT_THAT(problems_of(place / "campaigns/bad.yaml"),
+              ElementsAre(HasSubstr("bad.yaml:2: grid[0].key: is 'seed', but each run has a seed of its own"),
+                          HasSubstr("bad.yaml:3: draw[0].key: is 'title', which changes nothing of a run")));
+  EXPECT_THAT(problems_of(place / "campaigns/small.yaml", {.set = {"seed=1,2"}}),
+              ElementsAre(HasSubstr("--set seed=1,2: the key is 'seed', but each run")));
+}
+
 TEST(ReadingACampaign, RefusesAGridThatIsTooLargeForAnyMachine) {
   const test::Workplace place;
   std::string text = "scenario: ../scenarios/platform_collision.yaml\nruns: 10000000\ngrid:\n";

@@ -126,6 +126,18 @@ TEST_F(ResultFiles, SayAtOnceWhatCannotBeWritten) {
   EXPECT_EQ(files(), 0);
 }
 
+TEST_F(ResultFiles, HaveTheirPlaceTriedWithoutATrace) {
+  require_place("", {file()});
+  require_place(file(), {file("input.txt"), file("no/input.txt")});
+  EXPECT_EQ(files(), 0);
+  write_result(file("input.txt"), "old");
+  fs::create_hard_link(file("input.txt"), file("link.txt"));
+  for (const std::string name : {"input.txt", "link.txt", "no/folder.txt", ""})
+    EXPECT_THROW(require_place(file(name), {file("other.txt"), file("input.txt")}), SetupError) << name;
+  EXPECT_EQ(text("input.txt"), "old");
+  EXPECT_EQ(files(), 2);
+}
+
 TEST_F(ResultFiles, KeepTheOlderOneAtWhateverSizeTheDiskIsFull) {
   write_result(file(), "old");
   const std::string text_of_ten(10'000, 'x');
