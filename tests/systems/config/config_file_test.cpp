@@ -10,11 +10,11 @@
 namespace flinch {
 namespace {
 
+using test::Problems;
+using test::problems_of;
+using test::TemporaryFolder;
 using ::testing::ElementsAre;
 using ::testing::EndsWith;
-using testing::Problems;
-using testing::problems_of;
-using testing::TemporaryFolder;
 
 Problems problems_of_file(const std::filesystem::path& file) {
   return problems_of([&] { read_config_file(file); });

@@ -10,10 +10,10 @@
 namespace flinch {
 namespace {
 
+using test::Problems;
+using test::problems_of;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using testing::Problems;
-using testing::problems_of;
 using ::testing::StartsWith;
 using Kind = ConfigNode::Kind;
 

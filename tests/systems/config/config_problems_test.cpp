@@ -11,10 +11,10 @@
 namespace flinch {
 namespace {
 
+using test::Problems;
+using test::problems_of;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-using testing::Problems;
-using testing::problems_of;
 
 Problems problems_with_number(const std::string& text, const Unit& unit = unit::kg,
                               const Range& range = any_number) {

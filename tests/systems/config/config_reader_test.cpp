@@ -16,8 +16,8 @@ namespace {
 
 using ::testing::ElementsAre;
 using namespace std::chrono_literals;
-using testing::problems_of;
-using testing::TemporaryFolder;
+using test::problems_of;
+using test::TemporaryFolder;
 
 ConfigReader reader_of(const std::string& text) { return ConfigReader::parse(text, "a.yaml"); }
 

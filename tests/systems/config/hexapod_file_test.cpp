@@ -14,9 +14,9 @@
 namespace flinch {
 namespace {
 
+using test::problems_of;
 using ::testing::Contains;
 using ::testing::ElementsAre;
-using testing::problems_of;
 
 const std::filesystem::path shipped =
     std::filesystem::path(FLINCH_SOURCE_DIR) / "apps/robots/hexapod_6ups.yaml";

@@ -9,7 +9,7 @@
 #include "systems/config/config_reader.h"
 #include "tests/support/problems_of.h"
 
-namespace flinch::testing {
+namespace flinch::test {
 
 using Problems = std::vector<std::string>;
 
@@ -46,4 +46,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace flinch::testing
+}  // namespace flinch::test

@@ -20,12 +20,12 @@
 namespace flinch {
 namespace {
 
+using test::Problems;
+using test::problems_of;
+using test::TemporaryFolder;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-using testing::Problems;
-using testing::problems_of;
-using testing::TemporaryFolder;
 
 const std::filesystem::path robots = std::filesystem::path(FLINCH_SOURCE_DIR) / "apps/robots";
 

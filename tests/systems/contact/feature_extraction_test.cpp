@@ -41,7 +41,7 @@ template <class See>
 void for_each_push(BodyId body, double fraction, const Eigen::Vector2d& force_along_and_across,
                    const See& see) {
   const auto robot = bench();
-  for (const auto& [pose, velocity] : testing::random_motions(*robot, 100)) {
+  for (const auto& [pose, velocity] : test::random_motions(*robot, 100)) {
     Kinematics k;
     robot->kinematics(pose, velocity, k);
     const LegPoints& leg = k.legs[static_cast<std::size_t>(body.leg())];

@@ -35,7 +35,7 @@ inline Kinematics at_home(const ParallelRobot& robot) {
 inline std::vector<Kinematics> random_kinematics(const PlanarRrr& robot, int count,
                                                  double share_of_velocity = 1.0, unsigned seed = 1) {
   std::vector<Kinematics> all;
-  for (const auto& [pose, velocity] : flinch::testing::random_motions(robot, count, seed)) {
+  for (const auto& [pose, velocity] : flinch::test::random_motions(robot, count, seed)) {
     all.push_back(kinematics_of(robot, pose, share_of_velocity * velocity));
   }
   return all;

@@ -20,7 +20,7 @@
 namespace flinch {
 namespace {
 
-using testing::Residual;
+using test::Residual;
 
 class TaskEnergyOf : public test::TaskLevelTrial {
  protected:

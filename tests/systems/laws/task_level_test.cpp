@@ -16,7 +16,7 @@
 namespace flinch {
 namespace {
 
-using testing::Residual;
+using test::Residual;
 
 constexpr std::array levels{TaskLevel::velocity, TaskLevel::acceleration, TaskLevel::torque};
 

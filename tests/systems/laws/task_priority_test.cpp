@@ -8,7 +8,7 @@
 namespace flinch {
 namespace {
 
-using testing::Residual;
+using test::Residual;
 
 PlatformMatrix random_matrix(int rows, int columns) { return PlatformMatrix::Random(rows, columns); }
 

@@ -10,7 +10,7 @@
 #include "systems/robot/rotation.h"
 #include "tests/systems/robot/residual.h"
 
-namespace flinch::testing {
+namespace flinch::test {
 namespace {
 
 using Kind = ConfigurationSpace::Kind;
@@ -115,4 +115,4 @@ TEST(SpatialPose, IsTheSameForBothQuaternions) {
 }
 
 }  // namespace
-}  // namespace flinch::testing
+}  // namespace flinch::test

@@ -1,6 +1,6 @@
 #include "tests/systems/robot/constrained_bodies.h"
 
-namespace flinch::testing {
+namespace flinch::test {
 
 using Vector = Eigen::Vector3d;
 
@@ -172,4 +172,4 @@ void ConstrainedBodies::solve() {
   accelerations_ = system.completeOrthogonalDecomposition().solve(right).head(n);
 }
 
-}  // namespace flinch::testing
+}  // namespace flinch::test

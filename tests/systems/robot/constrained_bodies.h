@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
-namespace flinch::testing {
+namespace flinch::test {
 
 /// Forward dynamics by Newton and Euler in maximal coordinates: free bodies in space, held together by joints
 /// that are equations of constraint, solved for accelerations and constraint forces at once. It knows nothing
@@ -86,4 +86,4 @@ class ConstrainedBodies {
   Vector gravity_{0.0, 0.0, 0.0};
 };
 
-}  // namespace flinch::testing
+}  // namespace flinch::test

@@ -9,7 +9,7 @@
 #include "tests/support/allocations.h"
 #include "tests/systems/robot/mechanism_laws.h"
 
-namespace flinch::testing {
+namespace flinch::test {
 namespace {
 
 NearbyPlaces nearby_of(const Mechanism& mechanism, const Kinematics& k) {
@@ -232,4 +232,4 @@ TEST_F(PlanarConstraints, AtATieOfSingularValuesTheGradientLiesBetweenTheOneSide
 }
 
 }  // namespace
-}  // namespace flinch::testing
+}  // namespace flinch::test

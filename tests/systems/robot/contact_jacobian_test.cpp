@@ -4,7 +4,7 @@
 #include "tests/systems/robot/reference_3rrr.h"
 #include "tests/systems/robot/residual.h"
 
-namespace flinch::testing {
+namespace flinch::test {
 namespace {
 
 constexpr std::array<BodyId, 7> all_bodies = {BodyId::platform(), BodyId::link1(0), BodyId::link2(0),
@@ -141,4 +141,4 @@ TEST(BodyNames, CountLegsFromOne) {
 }
 
 }  // namespace
-}  // namespace flinch::testing
+}  // namespace flinch::test

@@ -2,7 +2,7 @@
 
 #include <type_traits>
 
-namespace flinch::testing {
+namespace flinch::test {
 
 /// Derivative of `f` at 0 by fourth-order central differences.
 template <class F>
@@ -11,4 +11,4 @@ auto derivative(F f, double step = 1e-3) {
   return Value((8.0 * (f(step) - f(-step)) - (f(2.0 * step) - f(-2.0 * step))) / (12.0 * step));
 }
 
-}  // namespace flinch::testing
+}  // namespace flinch::test

@@ -7,7 +7,7 @@
 #include "tests/systems/robot/mechanism_laws.h"
 
 // What holds for the equations of motion of every mechanism.
-namespace flinch::testing {
+namespace flinch::test {
 namespace {
 
 class DynamicLaws : public MechanismLaws {
@@ -221,4 +221,4 @@ TEST_P(DynamicLaws, JointSpaceFormHasTheSameSolution) {
 }
 
 }  // namespace
-}  // namespace flinch::testing
+}  // namespace flinch::test

@@ -2,7 +2,7 @@
 #include "tests/systems/robot/random_motion.h"
 #include "tests/systems/robot/residual.h"
 
-namespace flinch::testing {
+namespace flinch::test {
 namespace {
 
 class EquationsOfMotion : public BothGeometries {};
@@ -54,4 +54,4 @@ TEST(EquationsOfMotionAtHome, HaveThePublishedValues) {
 }
 
 }  // namespace
-}  // namespace flinch::testing
+}  // namespace flinch::test

@@ -9,7 +9,7 @@
 #include "systems/robot/link_segments.h"
 
 // Numbers of an independent implementation, at home and at one state.
-namespace flinch::testing {
+namespace flinch::test {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
@@ -134,4 +134,4 @@ TEST(FiveBarParameters, AreReportedByTheirPathWhereTheyAreWrong) {
 }
 
 }  // namespace
-}  // namespace flinch::testing
+}  // namespace flinch::test

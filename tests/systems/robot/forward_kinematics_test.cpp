@@ -3,7 +3,7 @@
 #include "tests/systems/robot/reference_3rrr.h"
 #include "tests/systems/robot/residual.h"
 
-namespace flinch::testing {
+namespace flinch::test {
 namespace {
 
 class ForwardKinematics : public BothGeometries {
@@ -143,4 +143,4 @@ TEST_P(ForwardKinematics, WorkingModeIsTheSignOfThePassiveAngles) {
 }
 
 }  // namespace
-}  // namespace flinch::testing
+}  // namespace flinch::test

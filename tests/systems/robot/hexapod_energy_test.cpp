@@ -6,7 +6,7 @@
 #include "systems/robot/rotation.h"
 #include "tests/systems/robot/residual.h"
 
-namespace flinch::testing {
+namespace flinch::test {
 namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -99,4 +99,4 @@ TEST(HexapodOnSprings, KeepsItsEnergyForFiveSeconds) {
 }
 
 }  // namespace
-}  // namespace flinch::testing
+}  // namespace flinch::test

@@ -11,7 +11,7 @@
 #include "systems/robot/link_segments.h"
 
 // Numbers of an independent implementation, at home and at one state.
-namespace flinch::testing {
+namespace flinch::test {
 namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -197,4 +197,4 @@ TEST(HexapodParameters, AreReportedByTheirPathWhereTheyAreWrong) {
 }
 
 }  // namespace
-}  // namespace flinch::testing
+}  // namespace flinch::test

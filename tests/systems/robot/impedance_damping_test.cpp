@@ -5,7 +5,7 @@
 #include "tests/systems/robot/random_motion.h"
 #include "tests/systems/robot/residual.h"
 
-namespace flinch::testing {
+namespace flinch::test {
 namespace {
 
 double smallest_eigenvalue(const Eigen::Matrix3d& matrix) {
@@ -115,4 +115,4 @@ TEST(DampingWithoutSolution, NoStiffnessNeedsNoDamping) {
 }
 
 }  // namespace
-}  // namespace flinch::testing
+}  // namespace flinch::test

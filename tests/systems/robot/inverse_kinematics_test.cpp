@@ -2,7 +2,7 @@
 #include "tests/systems/robot/reference_3rrr.h"
 #include "tests/systems/robot/residual.h"
 
-namespace flinch::testing {
+namespace flinch::test {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
@@ -88,4 +88,4 @@ TEST(InverseKinematicsOutOfReach, EndsExactlyWhereALegIsStretched) {
 }
 
 }  // namespace
-}  // namespace flinch::testing
+}  // namespace flinch::test

@@ -4,7 +4,7 @@
 #include "tests/systems/robot/reference_3rrr.h"
 #include "tests/systems/robot/residual.h"
 
-namespace flinch::testing {
+namespace flinch::test {
 namespace {
 
 class DifferentialKinematics : public BothGeometries {};
@@ -153,4 +153,4 @@ TEST(SingularPose, LeavesNothingOfAnEarlierEvaluation) {
 }
 
 }  // namespace
-}  // namespace flinch::testing
+}  // namespace flinch::test

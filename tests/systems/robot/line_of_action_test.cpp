@@ -8,7 +8,7 @@
 
 #include "tests/systems/robot/mechanism_laws.h"
 
-namespace flinch::testing {
+namespace flinch::test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -127,4 +127,4 @@ TEST(AngleBetween, CountsFromZeroToPiAndIsExactAtBothEnds) {
 }
 
 }  // namespace
-}  // namespace flinch::testing
+}  // namespace flinch::test

@@ -9,7 +9,7 @@
 #include "tests/systems/robot/mechanism_laws.h"
 #include "tests/systems/robot/random_motion.h"
 
-namespace flinch::testing {
+namespace flinch::test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -170,4 +170,4 @@ TEST_P(LinkPushes, OfUnusableInputAreNotValid) {
 }
 
 }  // namespace
-}  // namespace flinch::testing
+}  // namespace flinch::test

@@ -5,7 +5,7 @@
 #include "tests/systems/robot/reference_3rrr.h"
 #include "tests/systems/robot/residual.h"
 
-namespace flinch::testing {
+namespace flinch::test {
 namespace {
 
 template <class Point>
@@ -148,4 +148,4 @@ TEST(SelfCollisionAtHome, OutOfReachCountsAsCollision) {
 }
 
 }  // namespace
-}  // namespace flinch::testing
+}  // namespace flinch::test

@@ -9,7 +9,7 @@
 #include "tests/systems/robot/constrained_bodies.h"
 #include "tests/systems/robot/planar_cases.h"
 
-namespace flinch::testing {
+namespace flinch::test {
 namespace {
 
 using Vector = Eigen::Vector3d;
@@ -165,4 +165,4 @@ std::vector<MotionState> random_states(const MechanismCase& mechanism, int count
   return states;
 }
 
-}  // namespace flinch::testing
+}  // namespace flinch::test

@@ -10,7 +10,7 @@
 #include "systems/robot/body_dynamics.h"
 #include "systems/robot/parallel_robot.h"
 
-namespace flinch::testing {
+namespace flinch::test {
 
 /// A robot at one instant.
 struct MotionState {
@@ -69,4 +69,4 @@ std::vector<MotionState> random_states(const MechanismCase& mechanism, int count
 inline std::string case_name(const ::testing::TestParamInfo<MechanismCase>& info) { return info.param.name; }
 inline void PrintTo(const MechanismCase& mechanism, std::ostream* out) { *out << mechanism.name; }
 
-}  // namespace flinch::testing
+}  // namespace flinch::test

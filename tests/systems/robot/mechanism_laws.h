@@ -7,7 +7,7 @@
 #include "tests/systems/robot/mechanism_cases.h"
 #include "tests/systems/robot/residual.h"
 
-namespace flinch::testing {
+namespace flinch::test {
 
 /// What the suites of laws have in common: a mechanism and 300 of its states.
 class MechanismLaws : public ::testing::TestWithParam<MechanismCase> {
@@ -62,7 +62,7 @@ class MechanismLaws : public ::testing::TestWithParam<MechanismCase> {
   }
 };
 
-}  // namespace flinch::testing
+}  // namespace flinch::test
 
 #define FLINCH_FOR_ALL_MECHANISMS(suite) \
   INSTANTIATE_TEST_SUITE_P(All, suite, ::testing::ValuesIn(mechanism_cases()), case_name)

@@ -8,7 +8,7 @@
 #include "systems/robot/joint_space_dynamics.h"
 
 // What holds for the motion of every mechanism, whatever its joints.
-namespace flinch::testing {
+namespace flinch::test {
 namespace {
 
 class KinematicLaws : public MechanismLaws {
@@ -266,4 +266,4 @@ TEST_P(KinematicLaws, LegsJoinBaseAndPlatform) {
 }
 
 }  // namespace
-}  // namespace flinch::testing
+}  // namespace flinch::test

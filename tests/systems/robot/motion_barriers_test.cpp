@@ -7,7 +7,7 @@
 #include "tests/support/allocations.h"
 #include "tests/systems/robot/mechanism_laws.h"
 
-namespace flinch::testing {
+namespace flinch::test {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
@@ -158,4 +158,4 @@ TEST_P(MotionBarrierLaws, NeedNoHeap) {
 }
 
 }  // namespace
-}  // namespace flinch::testing
+}  // namespace flinch::test

@@ -3,7 +3,7 @@
 #include "systems/framework/random.h"
 #include "tests/systems/robot/mechanism_laws.h"
 
-namespace flinch::testing {
+namespace flinch::test {
 namespace {
 
 // Of mechanisms with a place of their own; the others take it out of the whole, which the test of invalid
@@ -63,4 +63,4 @@ TEST_P(PlaceLaws, OfWhatIsNoPoseIsNotValid) {
 }
 
 }  // namespace
-}  // namespace flinch::testing
+}  // namespace flinch::test

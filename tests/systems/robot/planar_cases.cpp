@@ -7,7 +7,7 @@
 #include "systems/robot/planar_rrr.h"
 #include "tests/systems/robot/constrained_bodies.h"
 
-namespace flinch::testing {
+namespace flinch::test {
 namespace {
 
 using Vector = Eigen::Vector3d;
@@ -180,4 +180,4 @@ MechanismCase five_bar_case(const std::string& name, FiveBarElbows elbows) {
                          .momentum = 1e-7}};
 }
 
-}  // namespace flinch::testing
+}  // namespace flinch::test

@@ -6,10 +6,10 @@
 #include "systems/robot/planar_rrr_presets.h"
 #include "tests/systems/robot/mechanism_cases.h"
 
-namespace flinch::testing {
+namespace flinch::test {
 
 /// Planar robots whose legs differ in inertia, rotors and friction, and their bodies.
 MechanismCase planar_rrr_case(const std::string& name, BenchGeometry geometry);
 MechanismCase five_bar_case(const std::string& name, FiveBarElbows elbows);
 
-}  // namespace flinch::testing
+}  // namespace flinch::test

@@ -50,7 +50,7 @@ TEST(PlanarDeterminants, ChangeAsTheirDifferencesDo) {
 }
 
 TEST(PlanarDeterminants, HaveNoClosedFormOfOtherMechanismsNorOutOfReach) {
-  for (const testing::MechanismCase& each : testing::mechanism_cases()) {
+  for (const test::MechanismCase& each : test::mechanism_cases()) {
     Kinematics home;
     each.robot->kinematics(each.robot->home_pose(), PlatformVector::Zero(each.robot->dof()), home);
     const bool is_planar = dynamic_cast<const PlanarRrr*>(each.robot.get()) != nullptr;

@@ -5,7 +5,7 @@
 #include "tests/systems/robot/random_motion.h"
 #include "tests/systems/robot/residual.h"
 
-namespace flinch::testing {
+namespace flinch::test {
 namespace {
 
 // What simulations of the planar 3-RRR call in their inner loop says the same as the general path.
@@ -98,4 +98,4 @@ TEST_P(PlanarMotionPath, HasNoResultOutOfReachOrForNumbersThatAreNone) {
 }
 
 }  // namespace
-}  // namespace flinch::testing
+}  // namespace flinch::test

@@ -9,7 +9,7 @@
 #include "systems/robot/planar_rrr.h"
 #include "systems/robot/planar_rrr_presets.h"
 
-namespace flinch::testing {
+namespace flinch::test {
 namespace {
 
 PlanarRrrParameters good() { return bench_robot(BenchGeometry::individual, BenchFriction::test_bench); }
@@ -115,4 +115,4 @@ TEST(BenchFrictionPreset, IsRescaledToTheTorqueConstantsOfToday) {
 }
 
 }  // namespace
-}  // namespace flinch::testing
+}  // namespace flinch::test

@@ -8,7 +8,7 @@
 #include "tests/systems/robot/reference_3rrr.h"
 #include "tests/systems/robot/residual.h"
 
-namespace flinch::testing {
+namespace flinch::test {
 namespace {
 
 class CouplingAngle : public BothGeometries {};
@@ -65,4 +65,4 @@ TEST_P(CouplingAngle, OutOfReachOrOfALegThatThereIsNotIsNotValid) {
 }
 
 }  // namespace
-}  // namespace flinch::testing
+}  // namespace flinch::test

@@ -10,7 +10,7 @@
 #include "systems/robot/planar_rrr_presets.h"
 #include "tests/systems/robot/differences.h"
 
-namespace flinch::testing {
+namespace flinch::test {
 
 struct PoseAndVelocity {
   Eigen::Vector3d pose;
@@ -58,7 +58,7 @@ inline std::string geometry_name(const ::testing::TestParamInfo<BenchGeometry>& 
   return info.param == BenchGeometry::individual ? "Individual" : "Nominal";
 }
 
-}  // namespace flinch::testing
+}  // namespace flinch::test
 
 #define FLINCH_FOR_BOTH_GEOMETRIES(suite) \
   INSTANTIATE_TEST_SUITE_P(               \

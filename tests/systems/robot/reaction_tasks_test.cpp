@@ -2,7 +2,7 @@
 
 #include "tests/systems/robot/mechanism_laws.h"
 
-namespace flinch::testing {
+namespace flinch::test {
 namespace {
 
 class ReactionTaskLaws : public MechanismLaws {
@@ -119,4 +119,4 @@ TEST_P(ReactionTaskLaws, OutOfReachNoTaskIsValid) {
 }
 
 }  // namespace
-}  // namespace flinch::testing
+}  // namespace flinch::test

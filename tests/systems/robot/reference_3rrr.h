@@ -5,7 +5,7 @@
 
 #include "systems/robot/planar_rrr_presets.h"
 
-namespace flinch::testing {
+namespace flinch::test {
 
 /// The 3-RRR once more, written straight from its loop closure with the law of cosines and absolute angles;
 /// shares no code with the robot under test.
@@ -47,4 +47,4 @@ inline std::vector<ReferenceLeg> reference_legs(BenchGeometry geometry) {
           {330.4901 * degree, 0.6666, 240.0 * degree, 0.107, 0.58215, 0.61975}};
 }
 
-}  // namespace flinch::testing
+}  // namespace flinch::test

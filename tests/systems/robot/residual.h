@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <string>
 
-namespace flinch::testing {
+namespace flinch::test {
 
 /// Largest residual of an identity over many samples. When it goes out of scope it prints the residual,
 /// records it as a property of the test, and fails the test if it exceeds the tolerance or was never added
@@ -48,4 +48,4 @@ class Residual {
   int count_ = 0;
 };
 
-}  // namespace flinch::testing
+}  // namespace flinch::test

@@ -9,7 +9,7 @@
 #include "tests/systems/robot/differences.h"
 #include "tests/systems/robot/residual.h"
 
-namespace flinch::testing {
+namespace flinch::test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -104,4 +104,4 @@ TEST(Rotation, RightJacobianGivesTheMomentOfARotationalSpring) {
 }
 
 }  // namespace
-}  // namespace flinch::testing
+}  // namespace flinch::test

@@ -3,7 +3,7 @@
 #include "systems/robot/reaction_tasks.h"
 #include "tests/systems/robot/mechanism_laws.h"
 
-namespace flinch::testing {
+namespace flinch::test {
 namespace {
 
 class TaskLaws : public MechanismLaws {};
@@ -62,4 +62,4 @@ TEST_P(TaskLaws, WhatIsNotValidStaysSoAndIsZero) {
 }
 
 }  // namespace
-}  // namespace flinch::testing
+}  // namespace flinch::test

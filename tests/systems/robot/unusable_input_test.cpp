@@ -9,7 +9,7 @@
 
 // Whatever a mechanism is asked, it answers with finite numbers, says whether they mean anything, and
 // allocates nothing.
-namespace flinch::testing {
+namespace flinch::test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -198,4 +198,4 @@ TEST_P(UnusableInput, NeitherItNorGoodInputAllocates) {
 }
 
 }  // namespace
-}  // namespace flinch::testing
+}  // namespace flinch::test
