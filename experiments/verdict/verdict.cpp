@@ -56,10 +56,21 @@ void judge_contacts(const Verdict& verdict, const Expectations& expected,
   }
 }
 
-void remark_contacts(const Verdict& verdict, std::vector<std::string>& remarks) {
+/// What was touched, as somebody saw or as was expected; "": nobody knows.
+std::string body_of(const ContactVerdict& contact, const Expectations& expected) {
+  return contact.body.empty() && expected.contact != "none" ? expected.contact.value_or("") : contact.body;
+}
+
+void remark_contacts(const Verdict& verdict, const Expectations& expected,
+                     std::vector<std::string>& remarks) {
   for (const ContactVerdict& contact : verdict.contacts) {
     if (!contact.removed)
       remarks.push_back("the contact with " + name_of(contact) + " was not over at the end");
+    const std::string body = body_of(contact, expected);
+    if (contact.classified.empty() || body.empty() || contact.classified == body) continue;
+    remarks.push_back(
+        fmt::format("the contact with {} was taken for one with {}, sure by {:.1f} %; see control.isolation",
+                    body, contact.classified, 100.0 * contact.probability));
   }
 }
 
@@ -89,7 +100,7 @@ Verdict judge(const RunWatch& watch, const Expectations& expected) {
   const std::vector<std::string> of_the_gate = std::exchange(verdict.failures, {});
   expect_contact(verdict, expected, verdict.failures);
   judge_contacts(verdict, expected, verdict.failures);
-  remark_contacts(verdict, verdict.remarks);
+  remark_contacts(verdict, expected, verdict.remarks);
   remark_lost_sensors(verdict, verdict.remarks);
   verdict.failures.insert(verdict.failures.end(), of_the_gate.begin(), of_the_gate.end());
   if (verdict.false_detections > 0) verdict.failures.push_back("a contact was detected where there was none");

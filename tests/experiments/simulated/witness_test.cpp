@@ -48,6 +48,15 @@ TEST(Witness, IsTheForceTorqueSensorWhereNobodyKnowsTheTruth) {
   EXPECT_NO_THROW(check_report(experiment_report(run.scenario, run.recording, measured)));
 }
 
+TEST(Witness, ThatDoesNotSeeTheBodyLeavesItToWhatWasExpected) {
+  SimulatedRun run;
+  run.scenario.expected.contact = "leg2_link2";
+  run.forget("truth");
+  run.forget("contact");
+  EXPECT_THAT(run.judged().remarks,
+              testing::ElementsAre(testing::HasSubstr("leg2_link2 was taken for one with platform")));
+}
+
 TEST(Witness, DoesNotTakeAMissingMeasurementForAForceOfZero) {
   SimulatedRun run;
   run.forget("truth");

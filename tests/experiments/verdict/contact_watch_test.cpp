@@ -1,5 +1,6 @@
 #include "experiments/verdict/contact_watch.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "experiments/verdict/verdict.h"
@@ -58,6 +59,20 @@ TEST(ContactWatch, KnowsNoDurationOfAStopThatIsNotPossible) {
 
 TEST(ContactWatch, SaysNothingOfAStopThatNobodyJudged) {
   EXPECT_EQ(judged(touched_twice()).contacts.at(0).could_stop, std::nullopt);
+}
+
+TEST(ContactWatch, LetsAContactThatIsTakenForAnotherBeRemarked) {
+  SyntheticRun run(500);
+  run.touch(BodyId::platform(), 100, 150, 20.0).notice(110, 180).classify(112, BodyId::link2(0).index());
+  EXPECT_TRUE(judged(run).good());
+  EXPECT_THAT(judged(run).remarks,
+              ::testing::ElementsAre(
+                  "the contact with platform was taken for one with leg1_link2, sure by 97.0 %; see "
+                  "control.isolation"));
+
+  SyntheticRun right(500);
+  right.touch(BodyId::platform(), 100, 150, 20.0).notice(110, 180).classify(112, BodyId::platform().index());
+  EXPECT_THAT(judged(right).remarks, ::testing::IsEmpty());
 }
 
 }  // namespace

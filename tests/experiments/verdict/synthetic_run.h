@@ -10,6 +10,7 @@
 #include "systems/framework/tick_timing.h"
 #include "systems/robot/body_id.h"
 #include "systems/signals/braking_status.h"
+#include "systems/signals/contact_classes.h"
 #include "systems/signals/contact_detection.h"
 #include "systems/signals/gate_status.h"
 #include "systems/signals/platform_reference.h"
@@ -32,6 +33,7 @@ struct Moment {
   LinkStatus joints_link;
   Plausibility plausibility;
   BrakingStatus braking;
+  ContactClassification classification;
 };
 
 /// A recording made up tick by tick: the robot rests where it shall, nothing touches it and nothing is
@@ -68,9 +70,23 @@ class SyntheticRun {
     return *this;
   }
 
+  /// From the first tick on the robot takes what touches it for this class, and is sure by 0.97.
+  SyntheticRun& classify(int first, int number) {
+    for (int k = first; k < static_cast<int>(moments_.size()); ++k) {
+      ContactClassification& said = at(k).classification;
+      said.valid = said.accepted = true;
+      said.most_likely = number;
+      said.probability = ClassVector::Zero(classes.count());
+      said.probability[number] = 0.97;
+    }
+    return *this;
+  }
+
   Recording recording() const {
     Recording recording;
     recording.period = 1ms;
+    for (int i = 0; i < classes.count(); ++i)
+      recording.attributes["contact.classes"] += classes.name(i) + " ";
     for (std::size_t k = 0; k < moments_.size(); ++k) {
       recording.time_ns.push_back(1'000'000 * static_cast<std::int64_t>(k));
     }
@@ -84,11 +100,14 @@ class SyntheticRun {
                          signal("tick_timing", &Moment::timing),
                          signal("joints_link", &Moment::joints_link),
                          signal("plausibility", &Moment::plausibility),
-                         signal("braking", &Moment::braking)};
+                         signal("braking", &Moment::braking),
+                         signal("classification", &Moment::classification)};
     return recording;
   }
 
  private:
+  static constexpr ContactClasses classes{7, 3};
+
   static Moment quiet() {
     const PlatformVector zero = PlatformVector::Zero(3);
     Moment moment;
