@@ -38,6 +38,7 @@ std::string object_of(const ContactVerdict& contact, const std::vector<ScenarioO
 ReportContact report_contact(const ContactVerdict& contact, const std::vector<ScenarioObstacle>& obstacles) {
   ReportContact row;
   row.body = spoken(contact.body);
+  if (contact.body.ends_with("clamping")) row.clamping_leg = "leg " + contact.body.substr(3, 1);
   if (!contact.classified.empty()) row.isolated_body = spoken(contact.classified);
   row.object = object_of(contact, obstacles);
   row.start = contact.onset;

@@ -20,6 +20,7 @@ inline constexpr int most_page_particles = 12;
 /// What did not happen or was not measured has no value: a contact that was never noticed has no `detected`.
 struct ReportContact {
   std::string body;                ///< Touched body as a reader says it: "platform", "second link of leg 1".
+  std::string clamping_leg;        ///< "leg 1", whose links clamp the object; empty: it was a collision.
   std::string isolated_body;       ///< Body that the robot took it for; empty: it did not say.
   std::string object;              ///< What it touched: "pylon"; "push": it was pushed without a touch.
   double start = 0.0;              ///< t_c: true contact force leaves zero [s].

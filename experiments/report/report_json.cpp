@@ -36,6 +36,7 @@ json list(const Values& values, Encode encode) {
 
 json encode(const ReportContact& contact) {
   return {{"body", contact.body},
+          {"clamping_leg", contact.clamping_leg},
           {"isolated_body", contact.isolated_body},
           {"object", contact.object},
           {"start", rounded(contact.start)},

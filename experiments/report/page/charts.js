@@ -46,7 +46,7 @@ const charts = {
       axisLabelFontSize: 11,
       xRangePad: 0,
       axes: {
-        x: { axisLabelFormatter: (time) => String(Number(time.toFixed(4))), pixelsPerLabel: 70, axisLabelWidth: 64 },
+        x: { axisLabelFormatter: (time) => `${Number(time.toFixed(4))} s`, pixelsPerLabel: 70, axisLabelWidth: 64 },
         y: { axisLabelFormatter: (value) => String(Number(value.toPrecision(6))).replace("-", "−"), pixelsPerLabel: 24, axisLabelWidth: axisWidth - 6 },
       },
       underlayCallback: (canvas, area, graph) => drawUnderlay(canvas, area, graph, chart),

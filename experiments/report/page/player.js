@@ -1,6 +1,8 @@
 "use strict";
 // Slider, buttons and keys that move the clock.
 
+const leastOverview = 1; // newtons behind the slider at its full height; less is noise
+
 const player = {
   start() {
     byId("player").hidden = lastSample === 0;
@@ -74,7 +76,7 @@ const player = {
       const bucket = Math.min(buckets - 1, Math.floor((sample / (lastSample + 1)) * buckets));
       peaks[bucket] = Math.max(peaks[bucket], value ?? 0);
     });
-    const largest = Math.max(...peaks, 1e-9);
+    const largest = Math.max(...peaks, leastOverview);
     const outline = peaks.map((value, i) => [i, 30 - (28 * value) / largest]);
     set(byId("overview"), { viewBox: `0 0 ${buckets} 30` });
     shape(byId("overview"), "path", { d: `M0 30${polyline(outline).replace("M", "L")}L${buckets} 30Z` });

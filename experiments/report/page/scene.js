@@ -17,6 +17,7 @@ const scene = {
     byId("robot").hidden = !this.available() && lastSample === 0;
     this.svg.closest(".stage").hidden = !this.available();
     if (!this.available()) return;
+    byId("key-true").hidden = !has("contact_1_force_x");
     set(this.svg, { viewBox: `0 0 ${sceneWidth} ${sceneHeight}` });
     byId("seen-from").textContent = isSpatial ? "Above, front, side" : "From above";
     this.views = isSpatial ? spatialViews(this.svg) : [new View(this.svg, "", 0, 1, panel(0, 0, 1, 1))];

@@ -5,6 +5,7 @@
 function storyEvents() {
   const events = report.contacts.flatMap(contactEvents);
   for (const lane of report.lanes.filter((each) => each.name === "mode")) events.push(...laneEvents(lane));
+  for (const lane of report.lanes.filter((each) => each.name === "torque gate")) events.push(...closings(lane));
   events.sort((a, b) => a.time - b.time);
   return events;
 }
@@ -20,7 +21,7 @@ function contactEvents(contact) {
 }
 
 function detection(contact) {
-  const taken = contact.isolated_body ? ` and takes it for a contact of the ${contact.isolated_body}` : "";
+  const taken = contact.isolated_body ? ` and takes it for a contact of ${withArticle(contact.isolated_body)}` : "";
   const late = contact.could_stop === false ? " It could not stop within its limits any more." : "";
   return `The robot notices${taken}.${late}`;
 }
@@ -33,6 +34,13 @@ function removal(contact) {
 function laneEvents(lane) {
   return laneSpans(lane).slice(1).filter((span) => span.state >= 0).map((span) =>
     ({ time: span.from, kind: "state", text: `${capitalised(lane.name)}: ${lane.states[span.state]}.` }));
+}
+
+/** The torque gate closes: why is known of the first time. */
+function closings(lane) {
+  const closed = lane.states.indexOf("closed");
+  return laneSpans(lane).filter((span) => span.state === closed).map((span, i) =>
+    ({ time: span.from, kind: "state", text: i === 0 && report.fault ? `The torque gate closes: ${report.fault}.` : "The torque gate closes." }));
 }
 
 /** Time since the contact that the event belongs to, as a reader says it. */

@@ -38,7 +38,14 @@ function touched(contact) {
   if (contact.object === "push") return `The ${contact.body} was pushed.`;
   const how = contact.body === "platform" ? " at" : ", the platform moving at";
   const speed = contact.speed === null ? "" : `${how} ${fixed(contact.speed, 2)} m/s`;
-  return `The ${contact.body} ran into the ${contact.object || "obstacle"}${speed}.`;
+  const object = contact.object || "obstacle";
+  if (contact.clamping_leg) return `${capitalised(contact.clamping_leg)} clamped the ${object} between its links${speed}.`;
+  return `The ${contact.body} ran into the ${object}${speed}.`;
+}
+
+/** A body within a sentence. */
+function withArticle(body) {
+  return body.startsWith("both ") ? body : `the ${body}`;
 }
 
 function noticed(contact) {
@@ -124,7 +131,7 @@ function braking(contact) {
 function isolation(contact) {
   if (!contact.isolated_body) return "";
   const right = contact.isolated_body === contact.body;
-  return element("small", { class: right ? "" : "bad" }, right ? "isolated correctly" : `taken for the ${contact.isolated_body}`);
+  return element("small", { class: right ? "" : "bad" }, right ? "isolated correctly" : `taken for ${withArticle(contact.isolated_body)}`);
 }
 
 /** Peak force as a bar against the limit, which is a tick at a fixed place. */

@@ -8,11 +8,12 @@ class View {
     this.svg = shape(svg, "svg", { ...box, viewBox: `0 0 ${box.width} ${box.height}`, class: "view" });
     this.build();
     shape(this.svg, "text", { x: 18, y: 24, class: "view-name" }).textContent = name;
+    this.head = name ? 34 : 0;
   }
 
   /** Pixels a metre at which the rectangle {left, right, bottom, top} [m] of the view's plane fits. */
   scaleOf(box) {
-    return Math.min(this.width / (box.right - box.left), this.height / (box.top - box.bottom));
+    return Math.min(this.width / (box.right - box.left), (this.height - this.head) / (box.top - box.bottom));
   }
 
   /** Shows what is around the middle of that rectangle. */
@@ -32,7 +33,8 @@ class View {
 
   project(point) {
     const [right, up] = this.flat(point);
-    return [this.width / 2 + (right - this.centre[0]) * this.scale, this.height / 2 - (up - this.centre[1]) * this.scale];
+    return [this.width / 2 + (right - this.centre[0]) * this.scale,
+      (this.height + this.head) / 2 - (up - this.centre[1]) * this.scale];
   }
 
   /** Layers from the floor up. */
@@ -239,7 +241,7 @@ class View {
     ]).filter((mark) => mark !== null);
   }
 
-  /** A ring where the platform was, with its name to the left (-1) or right (1). */
+  /** A ring where the platform was, with its name to the left (-1) or right (1); one that does not fit stands below the line. */
   mark(contact, time, kind, text, side) {
     const pose = time === null ? null : poseAt(sampleAt(time));
     if (!pose) return null;
@@ -250,6 +252,8 @@ class View {
     shape(group, "circle", { cx: x, cy: y, r: 5 });
     const label = shape(group, "text", { x: x + reach + side * 6, y: y + 4, "text-anchor": side < 0 ? "end" : "start" });
     label.textContent = text;
+    const room = side < 0 ? x + reach - 6 : this.width - x - reach - 6;
+    if (label.getComputedTextLength() > room) set(label, { x: side < 0 ? 6 : this.width - 6, y: y + 18, "text-anchor": side < 0 ? "start" : "end" });
     return { group, contact, sample: sampleAt(time) };
   }
 }

@@ -67,7 +67,13 @@ def tells_the_verdict(page):
         rows = page.value(f"document.querySelectorAll({table!r}).length")
         page.expect(rows == page.value(f"report.{entries}.length"), f"{rows} rows for the {entries} of the report")
     text = page.value("document.body.innerText")
-    wrong = re.findall(r"\b(?:NaN|undefined|null|Infinity|\[object \w+\])", text)
+    clamped = page.value("report.contacts.map(c => c.clamping_leg && `${capitalised(c.clamping_leg)} clamped the ${c.object}`)"
+                         ".filter(sentence => !byId('events').textContent.includes(sentence))")
+    page.expect(clamped == [], f"what happened lacks {clamped}")
+    closes = page.value("report.lanes.some(lane => lane.name === 'torque gate' && laneSpans(lane).some(span => lane.states[span.state] === 'closed'))")
+    page.expect(not closes or page.value("byId('events').textContent.includes(`The torque gate closes: ${report.fault}`)"),
+                "what happened does not tell that the gate closed")
+    wrong = re.findall(r"\b(?:the both|NaN|undefined|null|Infinity|\[object \w+\])", text)
     page.expect(not wrong, f"the text of the page contains {wrong}")
 
 
@@ -112,6 +118,17 @@ def obstacles_are_where_they_are(page):
         }).map((drawn) => drawn.textContent);
     })""")
     page.expect(wrong == [], f"obstacles are drawn at the wrong place: {wrong}")
+
+
+def labels_are_inside(page):
+    """What stands in the robot's views is not cut by their frames."""
+    cut = page.value("""[...document.querySelectorAll('#scene .view')].flatMap((view) => {
+        const frame = view.getBoundingClientRect();
+        return [...view.querySelectorAll('.layer-marks text')].filter((text) => {
+          const box = text.getBoundingClientRect();
+          return box.left < frame.left - 1 || box.right > frame.right + 1;
+        }).map((text) => text.textContent); })""")
+    page.expect(cut == [], f"these labels are cut: {cut}")
 
 
 def keys_step(page):
@@ -247,6 +264,7 @@ def use(page, pictures):
     if page.value("lastSample") > 100:
         slider_moves_everything(page)
         obstacles_are_where_they_are(page)
+        labels_are_inside(page)
         keys_step(page)
         charts_read_under_the_mouse(page)
         charts_zoom_together(page)

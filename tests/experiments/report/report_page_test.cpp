@@ -166,6 +166,22 @@ TEST(ReportPage, TellsInChromiumWhyARunIsNotGood) {
   std::filesystem::remove(path);
 }
 
+/// As a clamping whose gate closed at last.
+TEST(ReportPage, TellsInChromiumOfAClampingAndOfTheGateThatCloses) {
+  Report report = small_report();
+  report.contacts.emplace_back();
+  report.contacts[0].body = report.contacts[0].isolated_body = "both links of leg 1 (clamping)";
+  report.contacts[0].clamping_leg = "leg 1";
+  report.contacts[0].object = "pylon";
+  report.contacts[0].detected = 1e-3;
+  report.fault = "the encoders are silent";
+  report.lanes = {{"torque gate", {"waiting", "open", "closed"}, {1, 1, 2}}};
+  const std::filesystem::path path = page_file("clamping");
+  write_report_page(report, path);
+  expect_works_in_chromium(path);
+  std::filesystem::remove(path);
+}
+
 TEST(ReportPage, WorksInChromiumWithTheLeastOfData) {
   const std::filesystem::path path = page_file("least");
   write_report_page(small_report(), path);

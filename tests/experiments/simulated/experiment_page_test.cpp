@@ -71,6 +71,14 @@ TEST(ExperimentPage, WorksInChromium) {
   std::filesystem::remove(page);
 }
 
+TEST(ExperimentPage, OfAHexapodWorksInChromium) {
+  const std::filesystem::path page =
+      std::filesystem::temp_directory_path() / ("flinch_hexapod_" + std::to_string(getpid()) + ".html");
+  write_report_page(report_of(FLINCH_SOURCE_DIR "/apps/scenarios/hexapod_collision.yaml"), page);
+  expect_works_in_chromium(page);
+  std::filesystem::remove(page);
+}
+
 /// Every scenario that ships has a page that the check of its names and lengths lets pass.
 TEST(ExperimentPage, FitsEveryScenario) {
   for (const auto& entry : std::filesystem::directory_iterator(FLINCH_SOURCE_DIR "/apps/scenarios")) {
