@@ -26,10 +26,14 @@ function listOf(pairs) {
   return pairs.map(([key, value]) => (isName(value) ? shortValue(value) : `${shortKey(key)} ${shortValue(value)}`)).join(", ");
 }
 
+function estimatorOf(group) {
+  return group.estimator.replaceAll("_", " ");
+}
+
 /** Estimator and place in the grid, as far as they differ within this campaign. */
 function nameOf(group) {
   const parts = [];
-  if (campaign.estimators.length > 1 || campaign.points.length === 1) parts.push(group.estimator.replaceAll("_", " "));
+  if (campaign.estimators.length > 1 || campaign.points.length === 1) parts.push(estimatorOf(group));
   if (campaign.points.length > 1) parts.push(listOf(campaign.points[group.point]));
   return parts.join(" · ");
 }

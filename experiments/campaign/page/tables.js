@@ -15,8 +15,10 @@ function share(value) {
 }
 
 function showGroups() {
+  const hasGrid = campaign.points.length > 1;
   const rows = campaign.groups.map((group) => element("tr", {},
-    element("th", { scope: "row" }, nameOf(group)),
+    ...(hasGrid ? [element("th", { scope: "row" }, listOf(campaign.points[group.point]))] : []),
+    hasGrid ? cell(estimatorOf(group), "") : element("th", { scope: "row" }, estimatorOf(group)),
     cell(group.body, ""),
     cell(String(group.n)),
     cell(inMs(group.quantiles[2])),
@@ -29,8 +31,9 @@ function showGroups() {
     cell(number(group.rate_at_most, 2), "n soft"),
     cell(String(group.faults), group.faults > 0 ? "n bad" : "n")));
   byId("group-table").replaceChildren(
-    head([["Noticed by"], ["Touched"], ["Runs", "n"], ["Median, ms", "n"], ["Nine tenths, ms", "n"], ["Missed", "n"],
-      ["at most", "n"], ["False alarms", "n"], ["in hours", "n"], ["per hour", "n"], ["at most", "n"], ["Faults", "n"]]),
+    head([...(hasGrid ? [["Grid point"]] : []), ["Noticed by"], ["Touched"], ["Runs", "n"], ["Median, ms", "n"],
+      ["Nine tenths, ms", "n"], ["Missed", "n"], ["Missed at most", "n"], ["False alarms", "n"], ["in hours", "n"],
+      ["per hour", "n"], ["False alarms at most, 1/h", "n"], ["Faults", "n"]]),
     element("tbody", {}, ...rows));
 }
 

@@ -77,6 +77,12 @@ TEST_F(TheCampaignPage, TellsTheGroupsWithTheirBounds) {
   EXPECT_NEAR(group["alarm_rate_at_most"], groups[0].false_alarms_per_hour_at_most, 1e-9);
 }
 
+TEST_F(TheCampaignPage, HasAColumnForTheGridAndOneForTheEstimator) {
+  for (const char* const heading :
+       {"Grid point", "Noticed by", "Missed at most", "False alarms at most, 1/h"})
+    EXPECT_THAT(page, HasSubstr("[\"" + std::string(heading) + "\""));
+}
+
 TEST_F(TheCampaignPage, NamesTheRunsToLookAtTheWorstFirst) {
   const json look = data_of(page)["look"];
   ASSERT_GE(look.size(), 4U);
