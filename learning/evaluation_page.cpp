@@ -78,7 +78,7 @@ std::string confusion_html(const Confusion& confusion) {
 class Chart {
  public:
   Chart(double width, double height, const std::string& label) : width_(width), height_(height) {
-    svg_ = fmt::format("<svg viewBox=\"0 0 460 380\" role=\"img\" aria-label=\"{}\">\n", label);
+    svg_ = fmt::format("<svg viewBox=\"-20 0 480 380\" role=\"img\" aria-label=\"{}\">\n", label);
     svg_ += "<path class=\"axis\" d=\"M60 20V330H440\"/>\n";
     for (int i = 0; i <= 4; ++i) {
       text(x(width_ * i / 4), 350, "middle", fmt::format("{:.3g} %", 100.0 * width_ * i / 4));
@@ -92,8 +92,10 @@ class Chart {
                         words);
   }
   void add(const std::string& element) { svg_ += element + "\n"; }
-  std::string finish(const std::string& along) {
+  std::string finish(const std::string& along, const std::string& up) {
     text(250, 374, "middle", along);
+    add(fmt::format("<text transform=\"translate(-8 175) rotate(-90)\" text-anchor=\"middle\">{}</text>",
+                    up));
     return svg_ + "</svg>\n";
   }
 
@@ -116,7 +118,7 @@ std::string reliability_chart(const Evaluation& chosen) {
   }
   chart.add(fmt::format("<path class=\"ideal\" d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\"/>", chart.x(0), chart.y(0),
                         chart.x(1), chart.y(1)));
-  return chart.finish("probability that it gives; how often it was right");
+  return chart.finish("probability that it gives", "how often it was right");
 }
 
 /// The least of the axes that have four round steps and reach `share`.
@@ -145,7 +147,7 @@ std::string reject_chart(const Evaluation& chosen) {
                   "{:.3f}</title></circle>",
                   chart.x(chosen.accepted.rejected), chart.y(chosen.accepted.wrong_of_accepted),
                   chosen.accepted.accepted_from));
-  return chart.finish("rejected; wrong of what is accepted");
+  return chart.finish("rejected", "wrong of what is accepted");
 }
 
 std::string card_of(const std::map<std::string, std::string>& values) {
@@ -161,6 +163,10 @@ std::string confusions(const Evaluation& chosen) {
   std::string html =
       "<section><h2>What was touched, and what it was told as</h2>\n" + confusion_html(chosen.confusion);
   if (chosen.by_configuration.size() > 1) {
+    html +=
+        "<p class=\"soft\">Configurations have the numbers that the specification of the data gives them: "
+        "places on "
+        "the axis of a campaign that <code>configuration</code> names, from 0, or those of recordings.</p>\n";
     for (const auto& [configuration, confusion] : chosen.by_configuration) {
       html += fmt::format("<h2>Configuration {}: {}</h2>\n", configuration,
                           percent(confusion.balanced_accuracy()));

@@ -141,5 +141,15 @@ TEST(EvaluationPage, KeepsNamesFromBecomingMarkup) {
   EXPECT_NE(page.find("100.0 %"), std::string::npos);
 }
 
+TEST(EvaluationPage, CaptionsEachAxis) {
+  const DataSet data = test::contact_examples(1, 1);
+  const FeatureSet features(Question::clamping, data.robot);
+  const Evaluation evaluation = evaluate({answered(0, {0.9, 0.1})}, features, 0.5, "later");
+  const std::string page = evaluation_page({ClassifierModel(), data, evaluation, {evaluation}});
+  for (const char* const caption : {">probability that it gives<", ">how often it was right<", ">rejected<",
+                                    ">wrong of what is accepted<"})
+    EXPECT_NE(page.find(caption), std::string::npos) << caption;
+}
+
 }  // namespace
 }  // namespace flinch
