@@ -9,6 +9,8 @@
 //
 //   example_04_drive_your_robot [SECONDS [DOMAIN [ROBOT.yaml]]]
 #include <atomic>
+#include <charconv>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <string>
@@ -38,6 +40,24 @@ struct Arguments {
   std::uint32_t domain = 101;  // who shares the number shares the bus; 0 where nothing else is given
   std::string robot = "apps/robots/planar_3rrr.yaml";
 };
+
+/// The whole text as a number.
+template <class Number>
+bool reads(const std::string& text, Number& number) {
+  const char* const end = text.data() + text.size();
+  const auto [stopped, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc() && stopped == end;
+}
+
+Arguments arguments(int argc, char** argv) {
+  Arguments given;
+  if (argc > 1 && (!reads(argv[1], given.seconds) || !std::isfinite(given.seconds) || given.seconds <= 0.0))
+    throw SetupError("SECONDS: is '" + std::string(argv[1]) + "'; it must be a number above 0");
+  if (argc > 2 && !reads(argv[2], given.domain))
+    throw SetupError("DOMAIN: is '" + std::string(argv[2]) + "'; it must be a whole number from 0 on");
+  if (argc > 3) given.robot = argv[3];
+  return given;
+}
 
 bool drive(const Arguments& given) {
   const RobotFile robot = read_robot_file(given.robot);
@@ -84,11 +104,7 @@ bool drive(const Arguments& given) {
 
 int main(int argc, char** argv) {
   try {
-    Arguments given;
-    if (argc > 1) given.seconds = std::stod(argv[1]);
-    if (argc > 2) given.domain = static_cast<std::uint32_t>(std::stoul(argv[2]));
-    if (argc > 3) given.robot = argv[3];
-    return drive(given) ? 0 : 1;
+    return drive(arguments(argc, argv)) ? 0 : 1;
   } catch (const std::exception& error) {  // a SetupError says all that is wrong
     std::fprintf(stderr, "error: %s\n", error.what());
     return 2;

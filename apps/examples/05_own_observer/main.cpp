@@ -1,5 +1,5 @@
 // An observer of your own in a whole experiment: it stands beside flinch's, detector and reaction follow it,
-// and recording, verdict and report come as from 'flinch run'.
+// and recording, verdict and report come as from 'flinch run'. Start it in the root of the tree.
 #include <cstdio>
 
 #include "apps/examples/05_own_observer/my_observer.h"
@@ -7,10 +7,13 @@
 #include "experiments/simulated/experiment.h"
 #include "experiments/simulated/simulated_scenario.h"
 #include "experiments/verdict/verdict_output.h"
+#include "systems/foundation/setup_error.h"
 
 using namespace flinch;
 
-int main() {
+namespace {
+
+bool compare() {
   SimulatedScenario scenario = read_simulated_scenario("apps/scenarios/platform_collision.yaml");
   scenario.control.stages.estimators.follow(my_observer(40.0));  // twice as fast as flinch's of this scenario
 
@@ -26,5 +29,16 @@ int main() {
     return contact.detected.value_or(1.0) - contact.onset;
   };
   std::printf("my observer: %.1f ms, flinch's: %.1f ms\n", 1e3 * delay(verdict), 1e3 * delay(flinchs_own));
-  return verdict.good() && delay(verdict) < delay(flinchs_own) ? 0 : 1;
+  return verdict.good() && delay(verdict) < delay(flinchs_own);
+}
+
+}  // namespace
+
+int main() {
+  try {
+    return compare() ? 0 : 1;
+  } catch (const SetupError& error) {  // says all that is wrong
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return 2;
+  }
 }

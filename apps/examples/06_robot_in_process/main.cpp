@@ -3,7 +3,8 @@
 //
 //   MyRobot --readings--> guards --> control path --torque, brake--> MyRobot
 //
-// The scenario is one of those that flinch ships; the platform runs into MyRobot's wall.
+// The scenario is one of those that flinch ships; the platform runs into MyRobot's wall. Start it in the root
+// of the tree.
 #include <cstdio>
 
 #include "apps/examples/06_robot_in_process/my_robot.h"
@@ -11,12 +12,15 @@
 #include "experiments/recorded/recorded_signals.h"
 #include "experiments/report/run_folder.h"
 #include "experiments/scenario/scenario.h"
+#include "systems/foundation/setup_error.h"
 #include "systems/framework/exchange.h"
 #include "systems/framework/realtime_runner.h"
 #include "systems/framework/recorder.h"
 #include "systems/robot/quantity_units.h"
 
 using namespace flinch;
+
+namespace {
 
 class MyExchange final : public Exchange {
  public:
@@ -52,7 +56,7 @@ class MyExchange final : public Exchange {
   std::uint32_t number_ = 0;
 };
 
-int main() {
+bool run_into_the_wall() {
   const Scenario scenario = read_scenario("apps/scenarios/platform_collision.yaml");
   const LiveExperiment experiment = build_live_experiment(scenario);
   MyRobot robot(scenario.robot.robot, scenario.control.trajectory.path->start(),
@@ -77,5 +81,16 @@ int main() {
   std::printf("touched at %.3f s, noticed %.0f ms later, %s; fault: %s\n", touched, 1e3 * (noticed - touched),
               robot.touches() ? "still touching" : "removed", verdict.fault.empty() ? "none" : "yes");
   const bool soon = noticed >= touched && noticed < touched + 0.020;
-  return robot.touched() && soon && !robot.touches() && verdict.fault.empty() ? 0 : 1;
+  return robot.touched() && soon && !robot.touches() && verdict.fault.empty();
+}
+
+}  // namespace
+
+int main() {
+  try {
+    return run_into_the_wall() ? 0 : 1;
+  } catch (const SetupError& error) {  // says all that is wrong
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return 2;
+  }
 }
