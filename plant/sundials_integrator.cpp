@@ -1,5 +1,6 @@
 #include "plant/sundials_integrator.h"
 
+#include <arkode/arkode_butcher_erk.h>
 #include <arkode/arkode_erkstep.h>
 #include <nvector/nvector_serial.h>
 
@@ -11,6 +12,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "plant/whole_step.h"
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/runge_kutta.h"
@@ -81,6 +83,31 @@ ARKODE_ERKTableID table(SundialsOptions::Tableau tableau) {
                                                         : ARKODE_DORMAND_PRINCE_7_4_5;
 }
 
+/// y' = 0
+class Rest final : public DifferentialEquation {
+ public:
+  void rates(double, std::span<const double>, std::span<double> rates) override {
+    std::fill(rates.begin(), rates.end(), 0.0);
+  }
+};
+
+ButcherTable coefficients(ARKODE_ERKTableID id) {
+  struct Free {
+    void operator()(ARKodeButcherTable table) const { ARKodeButcherTable_Free(table); }
+  };
+  const std::unique_ptr<ARKodeButcherTableMem, Free> theirs(ARKodeButcherTable_LoadERK(id));
+  if (theirs == nullptr) throw SetupError("SUNDIALS does not know this Runge-Kutta method");
+  const auto stages = static_cast<std::size_t>(theirs->stages);
+  ButcherTable table;
+  for (std::size_t i = 0; i < stages; ++i) {
+    table.A.emplace_back(theirs->A[i], theirs->A[i] + i);
+    table.b.push_back(theirs->b[i]);
+    table.c.push_back(theirs->c[i]);
+    table.error.push_back(theirs->b[i] - theirs->d[i]);
+  }
+  return table;
+}
+
 std::vector<std::string> problems(const SundialsOptions& options) {
   Findings found;
   found.positive("relative_tolerance", options.relative_tolerance);
@@ -104,6 +131,9 @@ class SundialsIntegrator::Solver {
   static int error_weights(N_Vector y, N_Vector weights, void* solver);
   static int end_step(double t, N_Vector y, void* solver);
   static void require(int flag);
+  /// With steps that SUNDIALS chooses; false, and y as it was, where it finds none.
+  bool adapt(DifferentialEquation& equation, double duration, std::span<double> y);
+  void write_error_weights(std::span<const double> y, std::span<double> weights) const;
 
   struct Destroy {
     void operator()(N_Vector v) const { N_VDestroy(v); }
@@ -116,6 +146,8 @@ class SundialsIntegrator::Solver {
   sundials::Context context_;  // outlives what is made with it
   std::unique_ptr<std::remove_pointer_t<N_Vector>, Destroy> y_;
   std::unique_ptr<void, Free> memory_;
+  WholeStep whole_step_;
+  std::vector<double> weights_;
   DifferentialEquation* equation_ = nullptr;
   double duration_ = 0.0;
   bool is_done_ = false;  ///< the end of the tick is reached
@@ -124,7 +156,10 @@ class SundialsIntegrator::Solver {
 };
 
 SundialsIntegrator::Solver::Solver(const SundialsOptions& options, std::size_t size)
-    : options_(options), y_(N_VNew_Serial(static_cast<sunindextype>(size), context_)) {
+    : options_(options),
+      y_(N_VNew_Serial(static_cast<sunindextype>(size), context_)),
+      whole_step_(coefficients(table(options.tableau)), size),
+      weights_(size) {
   use_own_operations(y_.get());
   N_VConst(0.0, y_.get());
   memory_.reset(ERKStepCreate(rates, 0.0, y_.get(), context_));
@@ -140,14 +175,31 @@ SundialsIntegrator::Solver::Solver(const SundialsOptions& options, std::size_t s
   require(ERKStepSetMaxErrTestFails(memory, max_rejected_steps));
   require(ERKStepSetMaxNumSteps(memory, options.max_steps));
   fallback_.prepare(size);
+  Rest rest;
+  adapt(rest, 1.0, weights_);  // its first step allocates
+  evaluations_ = 0;
 }
 
 void SundialsIntegrator::Solver::require(int flag) {
   if (flag != ARK_SUCCESS) throw SetupError("SUNDIALS refused an option with code " + std::to_string(flag));
 }
 
+// SUNDIALS would take the same step first, for a multiple of the cost.
 bool SundialsIntegrator::Solver::advance(DifferentialEquation& equation, double duration,
                                          std::span<double> y) {
+  whole_step_.take(equation, duration, y);
+  evaluations_ += whole_step_.stages();
+  write_error_weights(y, weights_);
+  if (whole_step_.error(weights_) <= 1.0) {
+    whole_step_.write(y);
+    return true;
+  }
+  if (adapt(equation, duration, y)) return true;
+  fallback_.advance(equation, duration, y);
+  return false;
+}
+
+bool SundialsIntegrator::Solver::adapt(DifferentialEquation& equation, double duration, std::span<double> y) {
   equation_ = &equation;
   duration_ = duration;
   is_done_ = false;
@@ -157,10 +209,7 @@ bool SundialsIntegrator::Solver::advance(DifferentialEquation& equation, double 
   const bool ready = ERKStepReset(memory, 0.0, y_.get()) == ARK_SUCCESS &&
                      ERKStepSetInitStep(memory, duration) == ARK_SUCCESS &&
                      ERKStepSetStopTime(memory, duration) == ARK_SUCCESS;
-  if (!ready || ERKStepEvolve(memory, duration, y_.get(), &reached, ARK_NORMAL) < 0) {
-    fallback_.advance(equation, duration, y);
-    return false;
-  }
+  if (!ready || ERKStepEvolve(memory, duration, y_.get(), &reached, ARK_NORMAL) < 0) return false;
   std::copy_n(data(y_.get()), y.size(), y.begin());
   return true;
 }
@@ -168,6 +217,10 @@ bool SundialsIntegrator::Solver::advance(DifferentialEquation& equation, double 
 int SundialsIntegrator::Solver::rates(double t, N_Vector y, N_Vector rates, void* solver) {
   auto& self = *static_cast<Solver*>(solver);
   if (self.is_done_) return 0;  // asked for a step that never follows: every tick starts afresh
+  if (const auto known = self.whole_step_.known_rates(t, numbers(y)); !known.empty()) {
+    std::copy(known.begin(), known.end(), data(rates));
+    return 0;
+  }
   ++self.evaluations_;
   self.equation_->rates(t, numbers(y), numbers(rates));
   return 0;
@@ -181,11 +234,14 @@ int SundialsIntegrator::Solver::end_step(double t, N_Vector, void* solver) {
 }
 
 int SundialsIntegrator::Solver::error_weights(N_Vector y, N_Vector weights, void* solver) {
-  const SundialsOptions& options = static_cast<Solver*>(solver)->options_;
-  for (std::size_t i = 0; i < size(y); ++i) {
-    data(weights)[i] = 1.0 / (options.relative_tolerance * std::abs(data(y)[i]) + options.absolute_tolerance);
-  }
+  static_cast<Solver*>(solver)->write_error_weights(numbers(y), numbers(weights));
   return 0;
+}
+
+void SundialsIntegrator::Solver::write_error_weights(std::span<const double> y,
+                                                     std::span<double> weights) const {
+  for (std::size_t i = 0; i < y.size(); ++i)
+    weights[i] = 1.0 / (options_.relative_tolerance * std::abs(y[i]) + options_.absolute_tolerance);
 }
 
 // ---------------------------------------------------------------- SundialsIntegrator
