@@ -91,7 +91,7 @@ double PlanarBench::drive_position(const Instant& now, int drive) const noexcept
 
 void PlanarBench::describe(const Instant& now, BenchSnapshot& out) const noexcept {
   out.joints = robot_->joint_angles(now);
-  out.loop_closure_error = robot_->chain_closure_error(out.joints.active, out.joints.passive, now.pose);
+  out.loop_closure_error = robot_->chain_closure_error(now);
   out.kinetic_energy = robot_->kinetic_energy(now);
 }
 

@@ -18,7 +18,7 @@ struct PlantTruth {
   JointVector drive_torque;     ///< tau_a that acts, without the brakes' [Nm]
   /// F_ext: all that acts from outside, contacts and applied wrench.
   PlatformVector wrench_in_base;
-  /// Largest coordinate by which a leg, followed along its joint angles, misses its joint on the platform
+  /// Largest coordinate by which a leg, followed along its links, misses its joint on the platform
   /// [m].
   double loop_closure_error = 0.0;
   double kinetic_energy = 0.0;  ///< [J]

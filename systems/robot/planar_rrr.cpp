@@ -293,6 +293,17 @@ double PlanarRrr::chain_closure_error(const JointVector& active, const JointVect
   return error;
 }
 
+double PlanarRrr::chain_closure_error(const PlanarMotion& motion) const noexcept {
+  double error = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const PlanarLeg& leg = motion.legs[i].leg;
+    const Eigen::Vector2d tip = leg.base_joint + geometry_[i].link1_length * leg.u1.normalized() +
+                                geometry_[i].link2_length * leg.u2.normalized();
+    error = std::max(error, (tip - leg.coupling_joint).lpNorm<Eigen::Infinity>());
+  }
+  return error;
+}
+
 // ---------------------------------------------------------------- differential kinematics
 
 void PlanarRrr::kinematics(const Configuration& pose, const PlatformVector& velocity, const WorkingMode& mode,

@@ -60,6 +60,9 @@ class PlanarRrr final : public ParallelRobot {
   /// All joint angles of a reachable motion.
   JointAngles joint_angles(const PlanarMotion& motion) const noexcept;
 
+  /// As chain_closure_error of those angles, by the directions of the links instead [m].
+  double chain_closure_error(const PlanarMotion& motion) const noexcept;
+
   /// Forward dynamics [m/s^2, m/s^2, rad/s^2] of a reachable motion under `drive_torques` [Nm] and an
   /// external platform wrench [N, N, Nm]. Regular at type-II singularities too.
   Eigen::Vector3d acceleration(const PlanarMotion& motion, const Eigen::Vector3d& drive_torques,

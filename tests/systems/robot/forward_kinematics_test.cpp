@@ -127,6 +127,15 @@ TEST_P(ForwardKinematics, SaysSoWhenThereIsNoPose) {
   EXPECT_FALSE(robot.forward_kinematics(Eigen::Vector3d(0.4, 0.4, 0.4), out_of_reach, mode).converged);
 }
 
+TEST_P(ForwardKinematics, ChainClosureErrorShowsAJointThatHasComeApart) {
+  for (const auto& [pose, velocity] : motions) {
+    PlanarMotion motion = robot.motion(pose, velocity);
+    EXPECT_LT(robot.chain_closure_error(motion), 1e-14);
+    motion.legs[2].leg.coupling_joint.y() += 2e-3;
+    EXPECT_NEAR(robot.chain_closure_error(motion), 2e-3, 1e-14);
+  }
+}
+
 TEST_P(ForwardKinematics, ChainClosureErrorShowsABadEncoder) {
   for (const auto& [pose, velocity] : motions) {
     JointAngles joints = joints_at(pose);
