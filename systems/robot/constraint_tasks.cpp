@@ -89,20 +89,6 @@ double distance_of(const PlaceKinematics& place, const BodyPair& pair) {
       .distance;
 }
 
-/// Body coordinates of a point in the base frame: p = o + R p_body.
-CartesianVector in_body(const Mechanism& mechanism, const Kinematics& kinematics, BodyId body,
-                        const CartesianVector& point) {
-  const int d = mechanism.space_dimension();
-  const CartesianVector origin = mechanism.point_on_body(kinematics, body, CartesianVector::Zero(d));
-  CartesianVector in_body = CartesianVector::Zero(d);
-  for (int axis = 0; axis < d; ++axis) {
-    const CartesianVector along =
-        mechanism.point_on_body(kinematics, body, CartesianVector::Unit(d, axis)) - origin;
-    in_body[axis] = along.dot(point - origin);
-  }
-  return in_body;
-}
-
 struct Nearest {
   CartesianVector point;
   CartesianJacobian J;
@@ -113,9 +99,7 @@ Nearest nearest_of(const Mechanism& mechanism, const Kinematics& kinematics, int
   const Segment axis = link_segment(kinematics, body);
   Nearest nearest;
   nearest.point = axis.begin + fraction * (axis.end - axis.begin);
-  nearest.J =
-      mechanism.contact_jacobian(kinematics, body, in_body(mechanism, kinematics, body, nearest.point))
-          .translation;
+  nearest.J = mechanism.contact_jacobian(kinematics, body, mechanism.axis_point(body, fraction)).translation;
   return nearest;
 }
 
