@@ -137,6 +137,12 @@ Eigen::Vector3d deviations(const Rows& rows, const Padded<max_dof>& deviation) {
   return (rows * deviation.asDiagonal()).rowwise().norm();
 }
 
+/// Whether `beyond` is no more than what a sensor's own noise makes, with `unsure` besides. Then nothing else
+/// needs to be asked: limits are never less, and what the encoders show only takes from it.
+bool is_own_noise(const Eigen::Vector3d& beyond, double noise, double limit, double unsure) {
+  return beyond.lpNorm<Eigen::Infinity>() <= limit * noise + limit / 5.0 * unsure;
+}
+
 /// What a sensor says of the acceleration beyond the model, in its axes.
 struct Claim {
   const Rows& rows;        ///< from the platform's acceleration
@@ -148,12 +154,14 @@ struct Claim {
 /// Whether a sensor claims what the encoders, who show `around` beyond the model, do not confirm.
 bool contradicted(const Comparison& at, const Padded<max_dof>& around, const Claim& claim) {
   constexpr int wide = widest, narrow = 3;
+  const double unsure = jitter * claim.slope.norm();
+  if (is_own_noise(claim.beyond, claim.noise, at.limit, unsure)) return false;
   const Eigen::Vector3d ahead = claim.rows * around;
   const Eigen::Vector3d long_since = claim.rows * unexplained(at.watch, at.age - at.ahead + wide, wide);
   const Eigen::Vector3d lately = claim.rows * unexplained(at.watch, at.age - at.ahead + narrow, narrow);
   const Eigen::Vector3d sigma = deviations(claim.rows, at.deviation);
   const double of_ahead = parabola_deviation(at.ahead), of_wide = parabola_deviation(wide);
-  const double of_narrow = parabola_deviation(narrow), slope = claim.slope.norm();
+  const double of_narrow = parabola_deviation(narrow);
   for (int axis = 0; axis < 3; ++axis) {
     Range range;
     range.include(ahead[axis], of_ahead * sigma[axis]);
@@ -161,8 +169,7 @@ bool contradicted(const Comparison& at, const Padded<max_dof>& around, const Cla
     range.include(lately[axis], of_narrow * sigma[axis]);
     range.low *= believed;
     range.high *= believed;
-    const double limit =
-        at.limit * std::hypot(of_wide * sigma[axis], claim.noise) + at.limit / 5.0 * jitter * slope;
+    const double limit = at.limit * std::hypot(of_wide * sigma[axis], claim.noise) + at.limit / 5.0 * unsure;
     if (range.outside(claim.beyond[axis]) > limit) return true;
   }
   return false;
@@ -190,10 +197,11 @@ Claim turning_claim(const Comparison& at, const ImuErrors& errors) {
 /// Whether the gyroscope does.
 bool turning_contradicted(const Comparison& at, const ImuError& error) {
   const Eigen::Vector3d smooth = at.turning * at.velocity;
+  const double unsure = scale * smooth.norm() + jitter * error.turning_slope.norm();
+  if (is_own_noise(error.turning, at.noise.turning, at.limit, unsure)) return false;
   const Eigen::Vector3d short_line = at.turning * line_velocity(at.watch, at.age, 1);
   const Eigen::Vector3d longer_line = at.turning * line_velocity(at.watch, at.age, 2);
   const Eigen::Vector3d sigma = deviations(at.turning, at.deviation);
-  const double unsure = scale * smooth.norm() + jitter * error.turning_slope.norm();
   for (int axis = 0; axis < 3; ++axis) {
     Range range;
     range.include(short_line[axis] - smooth[axis], line_deviation(1) * sigma[axis]);
