@@ -62,7 +62,7 @@ BenchStep BenchDynamics::initial_step() const {
   BenchStep step;
   const Configuration pose = settings_.initial_pose.value_or(robot().home_pose());
   step.chart = {pose, robot().difference(pose, robot().space().origin())};
-  step.candidates = ContactCandidates::all();
+  step.search.candidates = ContactCandidates::all();
   return step;
 }
 

@@ -34,7 +34,7 @@ struct HeldPoint {
 /// What stays the same from one tick to the next.
 struct BenchStep {
   BenchChart chart;
-  ContactCandidates candidates;
+  ContactSearch search;
   std::array<HeldPoint, max_obstacles> held;
   /// Positions of the drives at which their closed brakes bear nothing [rad or m]; empty: where they are.
   JointVector braked_at;
@@ -57,7 +57,7 @@ struct BenchSnapshot {
   PlatformVector acceleration;
   PlatformVector applied_wrench;
   ContactForces contacts;
-  ContactCandidates candidates;  ///< Those that can touch until the next tick.
+  ContactSearch search;  ///< For those that can touch until the next tick.
   NearPairs near_pairs;
   int obstacle_count = 0;
   PlacedObstacles obstacles;                                  ///< The first `obstacle_count` are used.

@@ -202,7 +202,7 @@ template <class Robot>
 bool BenchOf<Robot>::rests(const BenchSnapshot& now, const DriveAction& drives, const BenchStep& step,
                            double duration) const noexcept {
   if (!internal::only_brakes_act(drives, now.applied_wrench) || !settings().pulls.empty()) return false;
-  if (internal::can_touch(now.candidates, step, obstacle_count())) return false;
+  if (internal::can_touch(now.search.candidates, step, obstacle_count())) return false;
   const PlatformVector soon = now.velocity.cwiseAbs() + duration * now.acceleration.cwiseAbs();
   return (soon.array() < internal::resting_velocity).all();
 }
@@ -221,10 +221,10 @@ void BenchOf<Robot>::rates(const BenchState& state, const DriveAction& drives,
   if (!robot_.at(state, step.chart, now)) return;
   PlatformVector wrench = applied_wrench;
   if (!settings().pulls.empty()) wrench += pulled(now, state);
-  if (internal::can_touch(step.candidates, step, obstacle_count())) {
+  if (internal::can_touch(step.search.candidates, step, obstacle_count())) {
     PlacedObstacles obstacles;
     place_obstacles(state, obstacles);
-    find_forces(now, obstacles, step, step.candidates, contacts);
+    find_forces(now, obstacles, step, step.search.candidates, contacts);
     wrench += contacts.obstacle_wrench + contacts.self_wrench;
   }
   add_obstacle_rates(state, contacts, rates);
@@ -249,8 +249,8 @@ void BenchOf<Robot>::snapshot(const BenchState& state, const DriveAction& drives
   out.applied_wrench += pulled(now, state);
   robot_.describe(now, out);
   place_obstacles(state, out.obstacles);
-  out.candidates = robot_.candidates(now, out.obstacles, duration);
-  find_forces(now, out.obstacles, step, out.candidates, out.contacts);
+  out.search = robot_.find_candidates(now, out.obstacles, duration, step.search.clearance);
+  find_forces(now, out.obstacles, step, out.search.candidates, out.contacts);
   out.drive_torque = drive_torque(now, drives);
   out.braked_at = braked_at(out.joints.active, drives, step);
   out.acceleration =
@@ -275,7 +275,7 @@ void BenchOf<Robot>::next_step(const BenchState& state, double t, const BenchSna
   }
   out.chart.pose = snapshot.pose;
   out.chart.xi = state.head(dof());
-  out.candidates = snapshot.candidates;
+  out.search = snapshot.search;
   out.braked_at = snapshot.braked_at;
   out.at_rest = snapshot.at_rest;
   for (std::size_t i = 0; i < settings().obstacles.size(); ++i) {

@@ -51,4 +51,11 @@ class ContactCandidates {
   std::array<std::uint64_t, capacity / 64> pairs_{};
 };
 
+/// The pairs that can touch within a tick, and how long none of them needs to be looked for again.
+struct ContactSearch {
+  ContactCandidates candidates;
+  /// Less than every gap at the next tick [m]; zero: not known. Nothing touches before motion has used it up.
+  double clearance = 0.0;
+};
+
 }  // namespace flinch

@@ -208,10 +208,10 @@ double GeneralBench::greatest_speed(const Instant& now, const Placements& bodies
   return greatest;
 }
 
-ContactCandidates GeneralBench::candidates(const Instant& now, const PlacedObstacles& obstacles,
-                                           double duration) const noexcept {
-  ContactCandidates candidates;
-  if (pair_count() == 0) return candidates;
+ContactSearch GeneralBench::find_candidates(const Instant& now, const PlacedObstacles& obstacles,
+                                            double duration, double) const noexcept {
+  ContactSearch search;
+  if (pair_count() == 0) return search;
   Placements bodies;
   place_bodies(now, bodies);
   Boxes boxes;
@@ -228,9 +228,9 @@ ContactCandidates GeneralBench::candidates(const Instant& now, const PlacedObsta
         both.of_obstacle ? obstacles_[index(both.other)].box(flinch::placement(obstacles[index(both.other)]))
                          : boxes[index(both.other)];
     if (!boxes[index(both.body)].is_near(other, reach)) continue;
-    if (gap(both, bodies, obstacles).gap <= reach) candidates.add(number);
+    if (gap(both, bodies, obstacles).gap <= reach) search.candidates.add(number);
   }
-  return candidates;
+  return search;
 }
 
 void GeneralBench::find_near_pairs(const Instant& now, const PlacedObstacles& obstacles,

@@ -51,9 +51,9 @@ class GeneralBench {
   void for_each_gap(const Instant& now, const PlacedObstacles& obstacles, const ContactCandidates& candidates,
                     Touch&& touch, Meet&& meet) const noexcept;
   /// The pairs that can touch within `duration` [s] from now: boxes, then exact gaps, against how far the
-  /// bodies can move meanwhile.
-  ContactCandidates candidates(const Instant& now, const PlacedObstacles& obstacles,
-                               double duration) const noexcept;
+  /// bodies can move meanwhile. It tells and uses no clearance.
+  ContactSearch find_candidates(const Instant& now, const PlacedObstacles& obstacles, double duration,
+                                double clearance = 0.0) const noexcept;
   void find_near_pairs(const Instant& now, const PlacedObstacles& obstacles, NearPairs& out) const noexcept;
   SurfaceGap gap(const Instant& now, int body, int obstacle, const PlacedObstacles& obstacles) const noexcept;
 

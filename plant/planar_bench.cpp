@@ -9,6 +9,8 @@ namespace {
 
 // Room for what accelerates within a tick: 1 mm in 1 ms takes 2000 m/s^2.
 constexpr double reach_margin = 1e-3;  // [m]
+// So far beyond the reach of a tick is looked, so that several ticks do without a search.
+constexpr double outlook = 0.03;  // [m]
 
 Eigen::Vector3d in_space(const Eigen::Vector2d& v) { return {v.x(), v.y(), 0.0}; }
 
@@ -135,9 +137,27 @@ void PlanarBench::find_near_pairs(const Instant& now, const PlacedObstacles& obs
   }
 }
 
-ContactCandidates PlanarBench::candidates(const Instant& now, const PlacedObstacles& obstacles,
-                                          double duration) const noexcept {
+/// Of the bodies that `disc` may touch, also where another contact stands for theirs.
+double PlanarBench::least_gap(const Instant& now, const PlanarPair& pair, const Disc& disc) const noexcept {
+  using Against = PlanarPair::Against;
+  const auto gap_to = [&](BodyId body) { return gap_to_disc(shapes_.body(now, body), disc).gap; };
+  if (pair.against == Against::platform) return gap_to(BodyId::platform());
+  if (pair.against == Against::link1) return gap_to(BodyId::link1(pair.leg));
+  if (pair.against == Against::link2) return gap_to(BodyId::link2(pair.leg));
+  return std::min(gap_to(BodyId::link1(pair.leg)), gap_to(BodyId::link2(pair.leg)));
+}
+
+ContactSearch PlanarBench::find_candidates(const Instant& now, const PlacedObstacles& obstacles,
+                                           double duration, double clearance) const noexcept {
   const double speed = 2.0 * greatest_speed(now, shapes_.platform_radius);
+  const auto reach_beside = [&](double other_speed) {
+    return duration * (speed + other_speed) + reach_margin;
+  };
+  double fastest = 0.0;
+  for (std::size_t i = 0; i < rounds_.size(); ++i) fastest = std::max(fastest, obstacles[i].velocity.norm());
+  const double longest_reach = reach_beside(fastest);
+  if (clearance > longest_reach) return {{}, clearance - longest_reach};
+
   const auto box = [&](BodyId body) { return PlanarBox(shapes_.body(now, body)); };
   const std::array<PlanarBox, planar_body_count> boxes = {
       box(BodyId::platform()), box(BodyId::link1(0)), box(BodyId::link2(0)), box(BodyId::link1(1)),
@@ -146,24 +166,25 @@ ContactCandidates PlanarBench::candidates(const Instant& now, const PlacedObstac
     return boxes[static_cast<std::size_t>(body.index())].is_near(disc, reach);
   };
 
-  ContactCandidates candidates;
+  ContactSearch search{{}, outlook};
   for (std::size_t number = links_meet_ ? 0 : planar_self_pairs; number < pair_count(); ++number) {
     const PlanarPair pair = planar_pair(number);
     const bool of_obstacle = pair.round == PlanarPair::Round::obstacle;
     const auto which = static_cast<std::size_t>(pair.which);
     const Disc round = of_obstacle ? disc(pair.which, obstacles[which]) : shapes_.joint(pair, now);
-    const double other_speed = of_obstacle ? obstacles[which].velocity.norm() : 0.0;
-    const double reach = duration * (speed + other_speed) + reach_margin;
+    const double reach = reach_beside(of_obstacle ? obstacles[which].velocity.norm() : 0.0);
+    const double far = reach + outlook;
     const bool boxes_are_near = pair.against == PlanarPair::Against::platform
-                                    ? box_is_near(BodyId::platform(), round, reach)
-                                    : box_is_near(BodyId::link1(pair.leg), round, reach) ||
-                                          box_is_near(BodyId::link2(pair.leg), round, reach);
-    if (!boxes_are_near) continue;
+                                    ? box_is_near(BodyId::platform(), round, far)
+                                    : box_is_near(BodyId::link1(pair.leg), round, far) ||
+                                          box_is_near(BodyId::link2(pair.leg), round, far);
+    if (!boxes_are_near || least_gap(now, pair, round) > far) continue;
+    search.clearance = 0.0;
     flinch::for_each_gap(shapes_, pair, now, round, [&](BodyId, const DiscGap& gap) {
-      if (gap.gap <= reach) candidates.add(number);
+      if (gap.gap <= reach) search.candidates.add(number);
     });
   }
-  return candidates;
+  return search;
 }
 
 }  // namespace flinch

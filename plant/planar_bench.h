@@ -58,9 +58,9 @@ class PlanarBench {
   void for_each_gap(const Instant& now, const PlacedObstacles& obstacles, const ContactCandidates& candidates,
                     Touch&& touch, Meet&& meet) const noexcept;
   /// The pairs that can touch within `duration` [s] from now: boxes first, then exact gaps, both against how
-  /// far the bodies can move meanwhile.
-  ContactCandidates candidates(const Instant& now, const PlacedObstacles& obstacles,
-                               double duration) const noexcept;
+  /// far the bodies can move meanwhile. None while the `clearance` of the search before lasts.
+  ContactSearch find_candidates(const Instant& now, const PlacedObstacles& obstacles, double duration,
+                                double clearance = 0.0) const noexcept;
   void find_near_pairs(const Instant& now, const PlacedObstacles& obstacles, NearPairs& out) const noexcept;
   SurfaceGap gap(const Instant& now, int body, int obstacle, const PlacedObstacles& obstacles) const noexcept;
 
@@ -69,6 +69,7 @@ class PlanarBench {
     return planar_self_pairs + planar_pairs_of_obstacle * rounds_.size();
   }
   SurfaceGap surface_gap(const DiscGap& gap, BodyId body) const noexcept;
+  double least_gap(const Instant& now, const PlanarPair& pair, const Disc& disc) const noexcept;
 
   std::shared_ptr<const PlanarRrr> robot_;
   std::array<Eigen::Vector2d, 3> base_directions_;  ///< From which the drive angles count.

@@ -90,8 +90,8 @@ Run run(const BenchDynamics& dynamics, const Eigen::Vector3d& frequency, Integra
     tick.drives.torque = servo.torque(1e-3 * k, state.head<3>(), state.tail<3>());
     BenchSnapshot snapshot;
     dynamics.snapshot(state, tick.drives, PlatformVector::Zero(3), tick.step, 1e-3, snapshot);
-    tick.step.candidates = snapshot.candidates;
-    starts.push_back({y, tick.drives.torque, tick.step.candidates});
+    tick.step.search.candidates = snapshot.search.candidates;
+    starts.push_back({y, tick.drives.torque, tick.step.search.candidates});
     integrator.advance(tick, 1e-3, y);
   }
   return starts;
@@ -147,7 +147,7 @@ Seconds time_ticks(Tick& tick, const std::vector<Run>& runs, Work&& work) {
   for (const Run& run : runs) {
     for (const Start& start : run) {
       tick.drives.torque = start.torque;
-      tick.step.candidates = start.candidates;
+      tick.step.search.candidates = start.candidates;
       State y = start.y;
       work(y);
       benchmark::DoNotOptimize(y);

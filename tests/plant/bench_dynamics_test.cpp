@@ -266,7 +266,7 @@ TEST(BenchDynamics, MovesAlikeWithAllPairsAndWithThoseThatCanTouch) {
   dynamics->rates(state, coasting, nothing, step, with_some);
   EXPECT_EQ(with_all, with_some);
   EXPECT_GT(snapshot.contacts.touch_count, 0);
-  EXPECT_LT(step.candidates.count(), 7);
+  EXPECT_LT(step.search.candidates.count(), 7);
 }
 
 TEST(BenchDynamics, RefusesImpossibleSettingsNamingThemAll) {

@@ -172,7 +172,7 @@ TEST(HexapodInFreeMotion, FollowsTinyFixedStepsFromAFixedChart) {
   MovingBench moving(settings);
   test::BenchEquation reference(*moving.bench);  // one chart for all ticks
   reference.drives = moving.equation.drives;
-  reference.step.candidates = {};
+  reference.step.search.candidates = {};
   std::vector<double> y = std::vector<double>(moving.y);
   RungeKutta tiny(20);
   tiny.prepare(y.size());
@@ -352,7 +352,7 @@ TEST(GeneralBenchCandidates, MissNoContactOfATick) {
     ASSERT_TRUE(now.kinematics.reachable);
     PlacedObstacles obstacles;
     obstacles[0] = {pose.head<3>() + random_vector(0.35), random_vector(1.0)};
-    const ContactCandidates candidates = bench.candidates(now, obstacles, 1e-3);
+    const ContactCandidates candidates = bench.find_candidates(now, obstacles, 1e-3).candidates;
     for (const double t : {0.0, 5e-4, 1e-3}) {
       GeneralBench::Instant later;
       robot.kinematics(robot.space().plus(pose, t * v), v, later.kinematics);

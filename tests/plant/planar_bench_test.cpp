@@ -302,7 +302,8 @@ TEST(ContactCandidatesOfATick, MissNoContactWithinIt) {
   for (int i = 0; i < trials; ++i) {
     const PlanarMotion start = random.motion();
     const PostMotion pylon{random.point(0.6), random.point(1.0)};
-    const ContactCandidates candidates = model.planar().candidates(start, Scene::placed(pylon), 1e-3);
+    const ContactCandidates candidates =
+        model.planar().find_candidates(start, Scene::placed(pylon), 1e-3).candidates;
     candidates_in_all += candidates.count();
     for (const double t : {0.0, 2.5e-4, 5e-4, 7.5e-4, 1e-3}) {
       const Eigen::Vector3d pose = start.pose + t * start.velocity;
@@ -323,6 +324,29 @@ TEST(ContactCandidatesOfATick, MissNoContactWithinIt) {
   EXPECT_LT(candidates_in_all, 3 * trials) << "and leave most pairs out";
 }
 
+TEST(ContactCandidatesOfATick, AreThoseOfASearchWhileAClearanceLasts) {
+  test::RandomBench random(29);
+  const Scene model(random.shared, soft, soft);
+  int spared = 0;
+  for (int i = 0; i < 500; ++i) {
+    const PlanarMotion start = random.motion();
+    const PostMotion pylon{random.point(0.9), random.point(1.0)};
+    double clearance = 0.0;
+    for (int tick = 0; tick < 30; ++tick) {
+      const double t = 1e-3 * tick;
+      const PlanarMotion now = random.robot.motion(start.pose + t * start.velocity, start.velocity);
+      if (!now.reachable) break;
+      const PlacedObstacles placed = Scene::placed({pylon.position + t * pylon.velocity, pylon.velocity});
+      const ContactSearch whole = model.planar().find_candidates(now, placed, 1e-3);
+      const ContactSearch next = model.planar().find_candidates(now, placed, 1e-3, clearance);
+      EXPECT_EQ(next.candidates, whole.candidates);
+      spared += next.clearance < clearance && next.clearance > 0.0 ? 1 : 0;
+      clearance = next.clearance;
+    }
+  }
+  EXPECT_GT(spared, 1000);
+}
+
 TEST(PlanarBench, WithoutObstaclesOrLinkMaterialNothingTouches) {
   test::RandomBench random(26);
   BenchSettings settings;
@@ -330,7 +354,7 @@ TEST(PlanarBench, WithoutObstaclesOrLinkMaterialNothingTouches) {
   settings.link_material.reset();
   const PlanarBench bench(settings);
   const PlanarMotion motion = random.robot.motion({0.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
-  EXPECT_EQ(bench.candidates(motion, {}, 1e-3), ContactCandidates());
+  EXPECT_EQ(bench.find_candidates(motion, {}, 1e-3).candidates, ContactCandidates());
   NearPairs near;
   bench.find_near_pairs(motion, {}, near);
   EXPECT_EQ(near.count, 0);
@@ -362,7 +386,8 @@ TEST(PlanarBench, DoesNotAllocate) {
   NearPairs near;
   const test::AllocationCounter counter;
   const ContactForces forces = model.forces(motion, pylon);
-  const ContactCandidates candidates = model.planar().candidates(motion, Scene::placed(pylon), 1e-3);
+  const ContactCandidates candidates =
+      model.planar().find_candidates(motion, Scene::placed(pylon), 1e-3).candidates;
   model.planar().find_near_pairs(motion, Scene::placed(pylon), near);
   EXPECT_EQ(counter.count(), 0);
   EXPECT_GT(forces.touch_count, 0);
