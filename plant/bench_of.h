@@ -165,10 +165,8 @@ template <class Robot>
 JointVector BenchOf<Robot>::drive_torque(const Instant& now, const DriveAction& drives) const noexcept {
   JointVector torque = drives.torque;
   if (torque.size() != robot().drives()) torque.setZero(robot().drives());
-  const std::vector<UnevenTorque>& uneven = settings().uneven_torque;
-  for (int i = 0; i < static_cast<int>(uneven.size()); ++i) {
-    torque[i] = uneven[static_cast<std::size_t>(i)].at(robot_.drive_position(now, i), torque[i]);
-  }
+  for (int i = 0; i < static_cast<int>(settings().uneven_torque.size()); ++i)
+    torque[i] = robot_.uneven_torque(now, i, torque[i]);
   return torque;
 }
 

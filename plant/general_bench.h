@@ -35,6 +35,10 @@ class GeneralBench {
   double drive_rate(const Instant& now, int drive) const noexcept {
     return now.kinematics.rates.active[drive];
   }
+  /// What the motor of `drive`, which is not even, makes of `torque`.
+  double uneven_torque(const Instant& now, int drive, double torque) const noexcept {
+    return uneven_torque_[static_cast<std::size_t>(drive)].at(drive_position(now, drive), torque);
+  }
   PlatformVector acceleration(const Instant& now, const JointVector& torque,
                               const PlatformVector& wrench) const noexcept;
   /// Fills joints, loop closure and energy.
@@ -83,6 +87,7 @@ class GeneralBench {
   int directions_;
   std::vector<std::vector<Solid>> bodies_;
   std::vector<Solid> obstacles_;
+  std::vector<UnevenTorque> uneven_torque_;
   std::vector<BodyPair> self_pairs_;  ///< None, where the robot's bodies pass through one another.
 };
 

@@ -73,7 +73,16 @@ PlanarBench::PlanarBench(const BenchSettings& settings)
       base_directions_(base_directions(*robot_)),
       shapes_{robot_->parameters().link_radius, robot_->parameters().platform_hull_radius},
       rounds_(rounds_of(settings.obstacles)),
-      links_meet_(settings.link_material.has_value()) {}
+      links_meet_(settings.link_material.has_value()),
+      uneven_torque_(settings.uneven_torque) {
+  const bool all_repeat =
+      std::all_of(uneven_torque_.begin(), uneven_torque_.end(), [](const UnevenTorque& torque) {
+        return repeats_each_turn(torque.cogging) && repeats_each_turn(torque.ripple);
+      });
+  if (!all_repeat) return;
+  for (const UnevenTorque& torque : uneven_torque_)
+    turning_torque_.push_back({TurningWave(torque.cogging), TurningWave(torque.ripple)});
+}
 
 Disc PlanarBench::disc(int obstacle, const PlacedObstacle& placed) const noexcept {
   const Sphere& round = rounds_[static_cast<std::size_t>(obstacle)];
@@ -85,10 +94,21 @@ SurfaceGap PlanarBench::surface_gap(const DiscGap& gap, BodyId body) const noexc
           in_space(gap.axis_point + (shapes_.radius(body) + 0.5 * gap.gap) * gap.normal)};
 }
 
-double PlanarBench::drive_position(const Instant& now, int drive) const noexcept {
+Eigen::Vector2d PlanarBench::drive_direction(const Instant& now, int drive) const noexcept {
   const auto index = static_cast<std::size_t>(drive);
   const Eigen::Vector2d& link = now.legs[index].leg.u1;
-  return std::atan2(cross(base_directions_[index], link), base_directions_[index].dot(link));
+  return {base_directions_[index].dot(link), cross(base_directions_[index], link)};
+}
+
+double PlanarBench::drive_position(const Instant& now, int drive) const noexcept {
+  const Eigen::Vector2d direction = drive_direction(now, drive);
+  return std::atan2(direction.y(), direction.x());
+}
+
+double PlanarBench::uneven_torque(const Instant& now, int drive, double torque) const noexcept {
+  const auto index = static_cast<std::size_t>(drive);
+  if (turning_torque_.empty()) return uneven_torque_[index].at(drive_position(now, drive), torque);
+  return turning_torque_[index].at(drive_direction(now, drive), torque);
 }
 
 void PlanarBench::describe(const Instant& now, BenchSnapshot& out) const noexcept {

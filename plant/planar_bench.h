@@ -7,6 +7,7 @@
 
 #include "plant/bench_dynamics.h"
 #include "plant/planar_shapes.h"
+#include "plant/turning_wave.h"
 #include "systems/robot/planar_rrr.h"
 
 namespace flinch {
@@ -35,6 +36,8 @@ class PlanarBench {
     rates.head<3>() = state.segment<3>(3);
   }
   double drive_position(const Instant& now, int drive) const noexcept;
+  /// What the motor of `drive`, which is not even, makes of `torque`.
+  double uneven_torque(const Instant& now, int drive, double torque) const noexcept;
   double drive_rate(const Instant& now, int drive) const noexcept {
     return now.legs[static_cast<std::size_t>(drive)].qa_rate;
   }
@@ -68,6 +71,8 @@ class PlanarBench {
   std::size_t pair_count() const noexcept {
     return planar_self_pairs + planar_pairs_of_obstacle * rounds_.size();
   }
+  /// cos and sin of the drive's position.
+  Eigen::Vector2d drive_direction(const Instant& now, int drive) const noexcept;
   SurfaceGap surface_gap(const DiscGap& gap, BodyId body) const noexcept;
   double least_gap(const Instant& now, const PlanarPair& pair, const Disc& disc) const noexcept;
 
@@ -76,6 +81,8 @@ class PlanarBench {
   PlanarShapes shapes_;
   std::vector<Sphere> rounds_;  ///< one an obstacle
   bool links_meet_;
+  std::vector<UnevenTorque> uneven_torque_;
+  std::vector<UnevenTorqueBy<TurningWave>> turning_torque_;  ///< The same, where all repeat each turn.
 };
 
 template <class Touch, class Meet>
