@@ -64,7 +64,7 @@ std::string calibration_table(const CalibrationResult& result) {
                         digits(parameter.deviation), digits(parameter.before), parameter.unit,
                         parameter.identifiable ? "" : "   not identifiable: as believed before");
   }
-  const std::string residual_unit = behind_number(result.residual_unit);
+  const std::string residual_unit = behind_residual(result.residual_unit);
   text += fmt::format("\nresidual {:.4g}{} before, {:.4g}{} after\n", result.residual_before, residual_unit,
                       result.residual_after, residual_unit);
   text += boxes(result);

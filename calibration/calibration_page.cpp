@@ -111,14 +111,21 @@ std::string drawings(const std::string& title, const std::string& about, const s
   return "<h2>" + title + "</h2><p class='soft'>" + about + "</p><div class='drawings'>" + svg + "</div>";
 }
 
-std::string sources(const CalibrationResult& result, const std::string& date) {
-  std::string html = "<h2>How it was made</h2><ol>";
-  for (const CalibrationSource& source : result.recordings)
+std::string files(const std::string& what, const std::vector<CalibrationSource>& files) {
+  if (files.empty()) return "";
+  std::string html = "<p>" + what + "</p><ol>";
+  for (const CalibrationSource& source : files)
     html +=
         "<li>" + escaped(source.file) + "<br><code class='soft'>" + escaped(source.sha256) + "</code></li>";
-  html += "</ol><p>Robot file " + escaped(result.robot_file) + "<br><code class='soft'>" +
-          escaped(result.robot_sha256) + "</code></p><p class='soft'>" + escaped(date) + "</p>";
-  return html;
+  return html + "</ol>";
+}
+
+std::string sources(const CalibrationResult& result, const std::string& date) {
+  return "<h2>How it was made</h2>" + files("Recordings", result.recordings) +
+         files("Recordings that were not used, but for the errors above", result.unseen) +
+         files("Parameter files that it rests on", result.with) +
+         files("Robot file", {{result.robot_file, result.robot_sha256}}) +
+         "<p class='soft'>flinch " FLINCH_VERSION ", " + escaped(date) + "</p>";
 }
 
 }  // namespace
@@ -127,7 +134,7 @@ std::string calibration_page(const CalibrationResult& result, const std::string&
   const std::string title = "Calibration: " + result.kind;
   std::string html = page_head(title, style);
   html += "<header><p class='soft'>flinch</p><h1>" + escaped(title) + "</h1>";
-  const std::string unit = escaped(behind_number(result.residual_unit));
+  const std::string unit = escaped(behind_residual(result.residual_unit));
   html += fmt::format(
       "<p>What is left unexplained: <b>{:.4g}{}</b> with what was believed, <b>{:.4g}{}</b> with what "
       "was found (root mean square).</p></header>",

@@ -43,6 +43,8 @@ struct CalibrationResult {
   std::string robot_file;
   std::string robot_sha256;  ///< Of the robot file that the recordings keep.
   std::vector<CalibrationSource> recordings;
+  std::vector<CalibrationSource> unseen;  ///< Recordings that were not used, for `validation`.
+  std::vector<CalibrationSource> with;    ///< Parameter files that these rest on.
   std::vector<CalibratedParameter> parameters;
   double residual_before = 0.0;  ///< Root mean square, with what was believed.
   double residual_after = 0.0;
@@ -62,5 +64,10 @@ struct CalibrationResult {
 
 /// A unit as it stands behind a number: " Nm", and nothing for what has none, "1".
 inline std::string behind_number(const std::string& unit) { return unit == "1" ? "" : " " + unit; }
+
+/// The same of a residual, which without a unit is relative, [RAL25] (10).
+inline std::string behind_residual(const std::string& unit) {
+  return unit == "1" ? " of the largest reading" : " " + unit;
+}
 
 }  // namespace flinch

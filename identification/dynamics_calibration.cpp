@@ -313,6 +313,7 @@ CalibrationResult calibrate_dynamics(const DynamicsBelief& belief,
   const bool turns = belief.robot->drive_kind(0) == DriveKind::revolute;
   result.residual_unit = turns ? "Nm" : "N";
   for (const MotionRecording& recording : recordings) result.recordings.push_back(recording.source);
+  for (const MotionRecording& recording : unseen) result.unseen.push_back(recording.source);
   const auto parameters = DynamicParameters::of(*belief.robot);
   const DynamicsRows rows = rows_of(belief, *parameters, recordings, result.warnings);
   check(belief, rows, result.residual_unit.c_str(), result.warnings);

@@ -329,6 +329,7 @@ CalibrationResult calibrate_torque_constants(const TorqueConstantBelief& belief,
   result.kind = "torque-constant";
   result.residual_unit = belief.robot->drive_kind(0) == DriveKind::revolute ? "Nm" : "N";
   for (const PullRecording& recording : recordings) result.recordings.push_back(recording.source);
+  for (const PullRecording& recording : unseen) result.unseen.push_back(recording.source);
   const Pulls pulls = pulls_of(belief, recordings);
   check(pulls, belief, result.residual_unit.c_str());
   result.warnings = pulls.warnings;

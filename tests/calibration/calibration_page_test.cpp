@@ -24,6 +24,8 @@ CalibrationResult sample() {
   result.robot_file = "robot.yaml";
   result.robot_sha256 = std::string(64, 'b');
   result.recordings = {{"a<b>.h5", std::string(64, 'a')}, {"c.h5", std::string(64, 'c')}};
+  result.unseen = {{"unseen.h5", std::string(64, 'd')}};
+  result.with = {{"constants.yaml", std::string(64, 'e')}};
   result.parameters = {
       {.name = "k[0]", .value = 6.0, .deviation = 0.1, .unit = "Nm/A", .before = 6.1, .belongs_to = "robot"},
       {.name = "k[1]", .value = 7.0, .deviation = 0.2, .unit = "Nm/A"},
@@ -53,7 +55,7 @@ TEST(CalibrationPage, ShowsAllThatIsKnownAndNeedsNothingElse) {
   const std::string page = calibration_page(sample(), "2026-11-22");
   for (const char* const text :
        {"k[0]", "not identifiable", "correlation 0.50", "-1.50", "platform", "one &amp; two", "a&lt;b&gt;.h5",
-        "2026-11-22", "class='before'", "class='after'"})
+        "unseen.h5", "constants.yaml", "flinch 0.", "2026-11-22", "class='before'", "class='after'"})
     EXPECT_THAT(page, HasSubstr(text));
   EXPECT_THAT(page, Not(HasSubstr("<script")));
   EXPECT_THAT(page, Not(HasSubstr("http:")));

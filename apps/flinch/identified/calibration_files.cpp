@@ -89,6 +89,8 @@ void require_places(const CalibrateOptions& options) {
   require_place(page_beside(options.out), inputs);
 }
 
+CalibrationSource source_of(const std::filesystem::path& file) { return {file.string(), hash_of(file)}; }
+
 JointVector calibrated_constants(const Scenario& scenario, const std::vector<std::filesystem::path>& files) {
   if (files.empty()) return scenario.control.drive_torque.torque_constant;
   Scenario calibrated = scenario;
@@ -110,6 +112,7 @@ ParameterFile write_calibration(CalibrationResult& result, const Scenario& scena
 ExitStatus conclude_calibration(CalibrationResult& result, const Scenario& scenario,
                                 const CalibrateOptions& options) {
   note_robot(scenario, result);
+  for (const std::filesystem::path& file : options.with) result.with.push_back(source_of(file));
   fmt::print("{}", options.common.json ? calibration_json(result) + "\n" : calibration_table(result));
   for (const std::string& warning : result.warnings) fmt::print(stderr, "warning: {}\n", warning);
   if (!options.out.empty()) {

@@ -26,6 +26,9 @@ std::vector<OpenedRecording> open_recordings(const std::vector<std::filesystem::
 /// the call reads.
 void require_places(const CalibrateOptions& options);
 
+/// The name of a file and its hash.
+CalibrationSource source_of(const std::filesystem::path& file);
+
 /// The torque constants with which the scenario ran, or those of parameter files that hold already.
 JointVector calibrated_constants(const Scenario& scenario, const std::vector<std::filesystem::path>& files);
 
