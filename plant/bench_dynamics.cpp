@@ -8,7 +8,6 @@
 #include "plant/general_bench.h"
 #include "plant/planar_bench.h"
 #include "systems/foundation/setup_error.h"
-#include "systems/robot/contact_jacobian.h"
 #include "systems/robot/planar_rrr.h"
 
 namespace flinch {
@@ -47,7 +46,8 @@ BenchDynamics::BenchDynamics(const BenchSettings& settings)
 
 BenchState BenchDynamics::initial_state() const {
   BenchState state = BenchState::Zero(size_);
-  state.head(dof_) = initial_chart().xi;
+  const BenchChart chart = initial_step().chart;
+  state.head(dof_) = chart.xi;
   if (settings_.initial_velocity) state.segment(dof_, dof_) = *settings_.initial_velocity;
   for (std::size_t i = 0; i < settings_.obstacles.size(); ++i) {
     if (obstacle_at_[i] < 0) continue;
@@ -58,39 +58,12 @@ BenchState BenchDynamics::initial_state() const {
   return state;
 }
 
-BenchChart BenchDynamics::initial_chart() const {
-  const Configuration pose = settings_.initial_pose.value_or(robot().home_pose());
-  return {pose, robot().difference(pose, robot().space().origin())};
-}
-
 BenchStep BenchDynamics::initial_step() const {
   BenchStep step;
-  step.chart = initial_chart();
+  const Configuration pose = settings_.initial_pose.value_or(robot().home_pose());
+  step.chart = {pose, robot().difference(pose, robot().space().origin())};
   step.search.candidates = ContactCandidates::all();
-  step.braked_at = loaded_brakes(step.chart.pose);
   return step;
-}
-
-// Of J_qa,x^T (tau_brake + tau_uneven) = g.
-JointVector BenchDynamics::loaded_brakes(const Configuration& pose) const {
-  Kinematics now;
-  Dynamics dynamics;
-  robot().kinematics(pose, PlatformVector::Zero(dof_), now);
-  robot().dynamics(now, dynamics);
-  if (settings_.initial_velocity || !now.valid || !dynamics.valid) return {};
-  const JointVector load = drive_torques(now, dynamics.g_x);
-  JointVector braked_at = now.joints.active;
-  for (int i = 0; i < robot().drives(); ++i) {
-    const bool slides = robot().drive_kind(i) == DriveKind::prismatic;
-    const auto drive = static_cast<std::size_t>(i);
-    const double uneven =
-        settings_.uneven_torque.empty() ? 0.0 : settings_.uneven_torque[drive].at(braked_at[i], 0.0);
-    const double most = std::tanh(BrakeFriction::most_give);
-    const double share = (load[i] - uneven) / (slides ? settings_.brake.force : settings_.brake.torque);
-    braked_at[i] += (slides ? settings_.brake.sliding_give : settings_.brake.give) *
-                    std::atanh(std::clamp(share, -most, most));
-  }
-  return braked_at;
 }
 
 ObstacleMotion BenchDynamics::motion(std::size_t obstacle, const BenchState& state) const noexcept {

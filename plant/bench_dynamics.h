@@ -81,7 +81,7 @@ class BenchDynamics {
   int obstacle_count() const noexcept { return static_cast<int>(settings_.obstacles.size()); }
 
   BenchState initial_state() const;
-  /// The chart around the start, all pairs, nothing held; closed brakes bear the robot where it stands still.
+  /// The chart around the start, all pairs, nothing held.
   BenchStep initial_step() const;
 
   /// The time derivative of `state`, with the forces of the contacts in `step`.
@@ -113,9 +113,6 @@ class BenchDynamics {
   double brake_slides_to(int drive, double position, double braked_at) const noexcept;
 
  private:
-  BenchChart initial_chart() const;
-  /// Where brakes that hold the robot still at `pose` would bear nothing; empty where that cannot be said.
-  JointVector loaded_brakes(const Configuration& pose) const;
   /// From where a closed brake bears nothing, over its give.
   double brake_way(int drive, double position, double braked_at) const noexcept;
 

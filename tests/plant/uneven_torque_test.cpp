@@ -77,36 +77,6 @@ TEST(UnevenTorque, ActsOnTheDrivesOfEveryMechanism) {
   }
 }
 
-// Uneven motors and gravity pull at closed brakes from the begin.
-TEST(ClosedBrakes, BearARobotAtItsStartAsTheyDoLater) {
-  const std::vector<std::shared_ptr<const Mechanism>> robots = {
-      test::individual_bench(BenchFriction::test_bench), std::make_shared<const FiveBar>(five_bar_robot()),
-      std::make_shared<const Hexapod>(hexapod_robot(HexapodPayload::none, HexapodFriction::ball_screws))};
-  for (const auto& robot : robots) {
-    BenchSettings settings;
-    settings.robot = robot;
-    settings.link_material.reset();
-    const bool turns = robot->drive_kind(0) == DriveKind::revolute;
-    for (int i = 0; i < robot->drives(); ++i) {
-      settings.uneven_torque.push_back(
-          {.cogging = {.amplitude = 0.5, .rate = turns ? 24.0 : 3e4, .phase = 0.5 * i}, .ripple = {}});
-    }
-    const auto bench = BenchDynamics::make(settings);
-    const PlatformVector wrench = PlatformVector::Zero(robot->dof());
-    DriveAction braked;
-    braked.torque = JointVector::Zero(robot->drives());
-    BenchStep step = bench->initial_step();
-    BenchSnapshot now;
-    bench->snapshot(bench->initial_state(), braked, wrench, step, 1e-3, now);
-    // A rounding of 1e-16 m in the position of a screw is one of 4e-9 N in its brake.
-    EXPECT_LT(now.acceleration.norm(), 1e-8) << robot->name();
-    EXPECT_TRUE(now.at_rest) << robot->name();
-    step.braked_at.resize(0);  // as if they bore nothing where the drives are
-    bench->snapshot(bench->initial_state(), braked, wrench, step, 1e-3, now);
-    EXPECT_GT(now.acceleration.norm(), 1e-3) << robot->name();
-  }
-}
-
 TEST(UnevenTorque, IsRefusedForAnotherNumberOfDrives) {
   BenchSettings settings;
   settings.robot = test::individual_bench();
