@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/apps/flinch/documented_keys.h"
 #include "tests/apps/flinch/program.h"
 #include "tests/support/workplace.h"
 
@@ -13,6 +14,7 @@ namespace {
 using test::flinch;
 using test::Outcome;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 constexpr const char* square = "scenarios/square.yaml";
 constexpr const char* random_motion = "scenarios/random_motion.yaml";
@@ -40,6 +42,7 @@ TEST_F(CalibrateThresholds, FindsThoseOfEachEstimatorAndAScenarioTakesThem) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   const auto json = nlohmann::json::parse(outcome.out);
   ASSERT_EQ(json["thresholds"].size(), 2U);
+  EXPECT_THAT(test::undocumented_keys(json, "Thresholds"), IsEmpty());
   for (const auto& of : json["thresholds"]) {
     EXPECT_GT(of["force_N"]["value"], of["force_N"]["largest"]) << of;
     EXPECT_LT(of["force_N"]["value"], 5.0) << "the plant is as modelled: " << of;
@@ -61,6 +64,7 @@ TEST_F(CalibrateThresholds, FindsWhatTheFusedDetectorJudgesByAndAScenarioTakesIt
   const Outcome outcome = flinch(
       {"calibrate", "thresholds", place.at("free/run.h5"), "--json", "--out", place.at("thresholds.yaml")});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(test::undocumented_keys(nlohmann::json::parse(outcome.out), "Thresholds"), IsEmpty());
   const auto json = nlohmann::json::parse(outcome.out)["fused_detector"];
   ASSERT_EQ(json.size(), 2U);
   for (const auto& of : json) {

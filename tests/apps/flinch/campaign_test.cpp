@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/apps/flinch/documented_keys.h"
 #include "tests/apps/flinch/program.h"
 #include "tests/support/workplace.h"
 
@@ -13,6 +14,7 @@ namespace {
 using test::flinch;
 using test::Outcome;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 class CampaignVerb : public ::testing::Test {
  protected:
@@ -46,6 +48,16 @@ TEST_F(CampaignVerb, DoesNothingTwice) {
   EXPECT_EQ(json["runs"], 2);
   EXPECT_EQ(json["runs_per_s"], 0.0);
   EXPECT_EQ(json["groups"][0]["n"], 2);
+}
+
+TEST_F(CampaignVerb, PrintsOnlyKeysThatTheDocumentNames) {
+  for (const std::string summary : {"detections", "reactions"}) {
+    place.replace("campaigns/few.yaml", "runs: 2", "runs: 1\nsummary: " + summary);
+    const auto json = nlohmann::json::parse(campaign({"--json", "--fresh"}).out);
+    EXPECT_EQ(json["groups"].size(), 1U);
+    EXPECT_THAT(test::undocumented_keys(json, "Campaign file"), IsEmpty());
+    place.replace("campaigns/few.yaml", "runs: 1\nsummary: " + summary, "runs: 2");
+  }
 }
 
 TEST_F(CampaignVerb, SweepsAKey) {

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "systems/framework/recording.h"
+#include "tests/apps/flinch/documented_keys.h"
 #include "tests/apps/flinch/program.h"
 #include "tests/support/workplace.h"
 
@@ -240,6 +241,15 @@ TEST_F(CommandLine, DrawsTheClosedLoopAsDotOrSvg) {
   EXPECT_EQ(outcome.out, "graph: " + place.at("it's a loop.svg") + "\n");
   EXPECT_THAT(bytes_of("it's a loop.svg"), AllOf(HasSubstr("<svg"), HasSubstr("</svg>")));
   for (const auto& [file, bytes] : place.contents()) EXPECT_THAT(file, Not(HasSubstr(".part")));
+}
+
+TEST_F(CommandLine, PrintsOnlyKeysThatTheDocumentNames) {
+  EXPECT_THAT(
+      test::undocumented_keys(json::parse(R"({"verdict": "good", "contacts": [{"no_key": 1}]})"), "JSON"),
+      ElementsAre("contacts.no_key"));
+  const json printed = json::parse(run(collision, {"--json"}).out);
+  ASSERT_EQ(printed["contacts"].size(), 1U);
+  EXPECT_THAT(test::undocumented_keys(printed, "JSON"), ElementsAre());
 }
 
 TEST_F(CommandLine, ChecksScenariosRobotsAndRecordings) {

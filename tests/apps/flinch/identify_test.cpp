@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/apps/flinch/documented_keys.h"
 #include "tests/apps/flinch/program.h"
 #include "tests/support/workplace.h"
 
@@ -13,6 +14,7 @@ namespace {
 using test::flinch;
 using test::Outcome;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 class Identify : public ::testing::Test {
  protected:
@@ -33,6 +35,7 @@ TEST_F(Identify, TorqueConstantsAreToldAsAnObject) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   const auto json = nlohmann::json::parse(outcome.out);
   EXPECT_EQ(json["kind"], "torque-constant");
+  EXPECT_THAT(test::undocumented_keys(json, "Calibration"), IsEmpty());
   EXPECT_EQ(json["recordings"], nlohmann::json::array({recording}));
   EXPECT_EQ(json["sha256"][0].get<std::string>().size(), 64U);
   const auto& first = json["parameters"][0];
@@ -70,6 +73,7 @@ TEST_F(Identify, AllThatAFolderAllowsIsCalibratedInOrder) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   const auto json = nlohmann::json::parse(outcome.out);
   EXPECT_EQ(json["kind"], "all");
+  EXPECT_THAT(test::undocumented_keys(json, "Calibration"), IsEmpty());
   ASSERT_EQ(json["calibrations"].size(), 3U);
   EXPECT_EQ(json["calibrations"][0]["kind"], "torque-constant");
   EXPECT_EQ(json["calibrations"][1]["kind"], "dynamics");
@@ -86,6 +90,7 @@ TEST_F(Identify, AMotionThatExcitesIsAScenarioThatRuns) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   const auto json = nlohmann::json::parse(outcome.out);
   EXPECT_LE(json["condition"], json["first_condition"]);
+  EXPECT_THAT(test::undocumented_keys(json, "Calibration"), IsEmpty());
   EXPECT_EQ(flinch({"check", file}).status, 0) << flinch({"check", file}).err;
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "tests/apps/flinch/documented_keys.h"
 #include "tests/apps/flinch/program.h"
 #include "tests/support/workplace.h"
 
@@ -43,6 +44,7 @@ TEST_F(Keys, AreMadeForEachRole) {
 TEST_F(Keys, AreToldInJsonOrNotAtAll) {
   const auto told = nlohmann::json::parse(keys({"--json", "--days", "10"}).out);
   EXPECT_EQ(told["keys"]["robot"], place.at("keys/robot"));
+  EXPECT_THAT(test::undocumented_keys(told, "JSON"), IsEmpty());
   EXPECT_EQ(told["good_until"].get<std::string>().size(), 10u);
   const test::Outcome quiet = keys({"--quiet", "--force"});
   EXPECT_EQ(quiet.status, 0);

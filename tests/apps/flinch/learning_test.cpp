@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "tests/apps/flinch/documented_keys.h"
 #include "tests/apps/flinch/program.h"
 #include "tests/support/workplace.h"
 
@@ -15,6 +16,7 @@ namespace {
 
 using test::flinch;
 using test::Outcome;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 /// A small data set and its model.
@@ -47,6 +49,7 @@ TEST_F(LearningVerbs, SayWhatTheyHaveMade) {
   EXPECT_GT(json["samples"], 200);
   EXPECT_GT(json["accuracy"], 0.3) << "chance is 0.1";
   EXPECT_EQ(json["question"], "touched");
+  EXPECT_THAT(test::undocumented_keys(json, "JSON"), ElementsAre());
   EXPECT_TRUE(std::filesystem::exists(model()));
 }
 
@@ -57,6 +60,7 @@ TEST_F(LearningVerbs, EvaluateWithTheKeysOfTheDocument) {
   for (const char* key :
        {"samples", "accuracy", "confusion", "expected_calibration_error", "rejected", "wrong_of_accepted"})
     EXPECT_TRUE(json.contains(key)) << key;
+  EXPECT_THAT(test::undocumented_keys(json, "Classifiers"), ElementsAre());
   for (const char* key : {"body", "collision_clamping", "chain"})
     EXPECT_TRUE(json["accuracy"].contains(key)) << key;
   EXPECT_EQ(json["at"], "later");

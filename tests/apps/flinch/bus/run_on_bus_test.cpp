@@ -10,6 +10,7 @@
 #include "systems/signals/gate_fault.h"
 #include "systems/signals/reaction_state.h"
 #include "tests/apps/flinch/bus/bench_on_the_bus.h"
+#include "tests/apps/flinch/documented_keys.h"
 
 namespace flinch {
 namespace {
@@ -17,6 +18,7 @@ namespace {
 using nlohmann::json;
 using test::BenchOnTheBus;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 constexpr int stopped_by_fault = 3;  // the program's exit status
 
@@ -120,6 +122,7 @@ TEST(RunOnBus, ServesUntilCtrlC) {
   bench.server.interrupt();
   EXPECT_EQ(bench.server.wait(20s), 0);
   const json served = json::parse(bench.server.output());
+  EXPECT_THAT(test::undocumented_keys(served, "JSON"), IsEmpty());
   EXPECT_GT(served["commands"], 1000);
 }
 
@@ -203,6 +206,7 @@ TEST(Link, IsMeasuredWithoutMovingAnything) {
       bench.on_bus({"link", bench.place.at("robots/planar_3rrr.yaml"), "--duration", "1", "--json"}));
   const json report = json::parse(link.out);
   std::cout << report.dump() << std::endl;
+  EXPECT_THAT(test::undocumented_keys(report, "JSON"), IsEmpty());
   EXPECT_EQ(report["ticks"].get<int>() + report["lost_periods"].get<int>(), 1000);
   EXPECT_GT(report["received"], 900);
   EXPECT_GT(report["round_trip"]["count"], 800);
