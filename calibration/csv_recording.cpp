@@ -12,6 +12,7 @@
 #include "experiments/recorded/recorded_signals.h"
 #include "experiments/scenario/scenario.h"
 #include "systems/config/config_reader.h"
+#include "systems/config/file_kind.h"
 #include "systems/foundation/nearest_name.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/quantity_units.h"
@@ -112,6 +113,7 @@ Column read_column(ConfigReader& reader, const ParallelRobot& robot) {
 Mapping read_mapping(const std::filesystem::path& file, std::optional<Scenario>& scenario) {
   Mapping mapping;
   ConfigReader reader = ConfigReader::open(file);
+  require_kind(reader, FileKind::mapping);
   mapping.is_hdf5 = reader.one_of({"csv", "hdf5"}) == "hdf5";
   reader.required().file(mapping.is_hdf5 ? "hdf5" : "csv", mapping.log);
   reader.required().file("scenario", mapping.scenario);

@@ -9,10 +9,10 @@
 #include "apps/flinch/simulated/simulated_parts.h"
 #include "experiments/report/experiment_report.h"
 #include "experiments/report/report_page.h"
-#include "experiments/scenario/robot_input.h"
 #include "experiments/verdict/verdict.h"
 #include "systems/config/config_file.h"
 #include "systems/config/config_reader.h"
+#include "systems/config/file_kind.h"
 #include "systems/config/parameter_file.h"
 #include "systems/config/robot_file.h"
 #include "systems/foundation/json_text.h"
@@ -106,10 +106,10 @@ ExitStatus check(const CheckOptions& options) {
   if (options.file.extension() == ".h5" || is_journal(options.file)) {
     recorded_report(options.file, options.common);
     what = "recording";
-  } else if (is_parameter_file(options.file)) {
+  } else if (kind_of(options.file) == FileKind::parameters) {
     read_parameter_file(options.file);
     what = "calibration";
-  } else if (is_robot_file(options.file)) {
+  } else if (kind_of(options.file) == FileKind::robot) {
     const std::string text = read_config_file(options.file);
     parse_robot_file(text, options.file.string());
     robot_calibrations(text, options.file.string());

@@ -8,6 +8,7 @@
 #include "systems/config/config_file.h"
 #include "systems/config/config_node.h"
 #include "systems/config/config_reader.h"
+#include "systems/config/file_kind.h"
 #include "systems/config/parsed.h"
 #include "systems/config/yaml_text.h"
 #include "systems/foundation/setup_error.h"
@@ -179,6 +180,7 @@ Campaign read_campaign(const std::filesystem::path& file, const CampaignOverride
   campaign.name = file.stem().string();
   campaign.title = campaign.name;
   ConfigReader reader = ConfigReader::open(file);
+  require_kind(reader, FileKind::campaign);
   reader.text("title", campaign.title);
   reader.text("description", campaign.description);
   read_scenarios(reader, campaign);

@@ -4,6 +4,7 @@
 
 #include "experiments/campaign/campaign_run.h"
 #include "systems/config/config_reader.h"
+#include "systems/config/file_kind.h"
 #include "systems/config/parsed.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/random.h"
@@ -68,6 +69,7 @@ DataSpec read_data_spec(const std::filesystem::path& file, const DataSpecOverrid
   spec.file = file;
   spec.title = file.stem().string();
   ConfigReader reader = ConfigReader::open(file);
+  require_kind(reader, FileKind::data_spec);
   reader.text("title", spec.title);
   reader.text("description", spec.description);
   reader.seed("seed", spec.seed);

@@ -7,9 +7,6 @@
 
 namespace flinch {
 
-/// Whether a YAML file describes a robot, not a scenario. Throws SetupError where it cannot be read.
-bool is_robot_file(const std::filesystem::path& file);
-
 /// A robot and the text that describes it.
 struct RobotInput {
   RobotFile robot;

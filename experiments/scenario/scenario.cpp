@@ -11,6 +11,7 @@
 #include "experiments/verdict/body_regions.h"
 #include "systems/config/config_file.h"
 #include "systems/config/config_reader.h"
+#include "systems/config/file_kind.h"
 #include "systems/config/yaml_text.h"
 #include "systems/foundation/nearest_name.h"
 #include "systems/foundation/setup_error.h"
@@ -112,6 +113,7 @@ void read_rest(ConfigReader& reader, std::optional<std::uint64_t> seed, const Se
 Scenario assemble(ConfigReader reader, const std::filesystem::path& file, RobotFiles& robots,
                   std::optional<std::uint64_t> seed, const SectionReader& others,
                   const ControlStages& known) {
+  require_kind(reader, FileKind::scenario);
   Scenario scenario;
   scenario.control.stages = known;
   scenario.file = file;

@@ -82,6 +82,9 @@ std::string read_config_file(const fs::path& file) {
   if (descriptor >= 0) ::close(descriptor);
   if (got < 0)
     throw SetupError(file.string() + ": cannot be read: " + std::generic_category().message(reason));
+  if (text.starts_with("\x89HDF"))
+    throw SetupError(file.string() + ": is an HDF5 file, such as a recording; it must be YAML");
+  if (text.find('\0') != std::string::npos) throw SetupError(file.string() + ": is no text; it must be YAML");
   if (text.size() > most_bytes) {
     throw SetupError(file.string() + ": has more than " + std::to_string(most_bytes) +
                      " bytes; a file of settings has fewer");

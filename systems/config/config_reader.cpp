@@ -249,6 +249,13 @@ bool ConfigReader::has_section(std::string_view name) const {
   return found.node != nullptr && found.node->kind == Kind::mapping;
 }
 
+std::vector<std::string_view> ConfigReader::keys() const {
+  std::vector<std::string_view> keys;
+  if (section_->node == nullptr) return keys;
+  for (const ConfigNode::Entry& entry : section_->node->entries) keys.push_back(entry.key);
+  return keys;
+}
+
 std::string_view ConfigReader::one_of(std::initializer_list<std::string_view> names) {
   std::string list;
   std::vector<FoundValue> given;

@@ -91,6 +91,8 @@ class ConfigReader {
   bool has(std::string_view name) const;
   /// Whether a mapping stands there, and not one word or number.
   bool has_section(std::string_view name) const;
+  /// The keys that are there, as they are written; none of them is asked for by that.
+  std::vector<std::string_view> keys() const;
   /// The one key of these that is there. None is a problem and gives "", several are and give the first.
   std::string_view one_of(std::initializer_list<std::string_view> names);
 

@@ -6,6 +6,7 @@
 #include "systems/config/config_file.h"
 #include "systems/config/config_node.h"
 #include "systems/config/config_reader.h"
+#include "systems/config/file_kind.h"
 #include "systems/config/parsed.h"
 #include "systems/config/yaml_text.h"
 #include "systems/foundation/setup_error.h"
@@ -84,6 +85,7 @@ ParameterFile parse_parameter_file(std::string_view text, const std::string& fil
   result.file = file;
   result.text = text;
   ConfigReader reader = ConfigReader::parse(text, file);
+  require_kind(reader, FileKind::parameters);
   int version = 0;
   reader.required().integer("flinch_calibration", version, 1, ParameterFile::version);
   reader.required().text("kind", result.kind);
@@ -101,10 +103,6 @@ ParameterFile parse_parameter_file(std::string_view text, const std::string& fil
     result.assumed.push_back(read_parameter(parameter));
   reader.finish();
   return result;
-}
-
-bool is_parameter_file(const std::filesystem::path& file) {
-  return ConfigReader::open(file).has("flinch_calibration");
 }
 
 ParameterFile read_parameter_file(const std::filesystem::path& file) {

@@ -43,9 +43,6 @@ struct ParameterFile {
   std::vector<FileParameter> assumed;  ///< other parameters that these rest on: torque constants
 };
 
-/// Whether a YAML file is one. Throws SetupError where it cannot be read.
-bool is_parameter_file(const std::filesystem::path& file);
-
 /// Reads one. Throws SetupError with all that is wrong.
 ParameterFile read_parameter_file(const std::filesystem::path& file);
 /// The same for text that came from `file`.

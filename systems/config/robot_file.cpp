@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "systems/config/config_reader.h"
+#include "systems/config/file_kind.h"
 #include "systems/config/five_bar_file.h"
 #include "systems/config/hexapod_file.h"
 #include "systems/config/planar_rrr_file.h"
@@ -98,6 +99,7 @@ void read_kind(ConfigReader& file, const RobotKind*& kind) {
 }
 
 RobotFile read_any(ConfigReader file) {
+  require_kind(file, FileKind::robot);
   const RobotKind* kind = &planar_3rrr;
   read_kind(file, kind);
   RobotFile result;

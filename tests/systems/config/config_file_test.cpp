@@ -55,6 +55,11 @@ TEST(UnreadableFile, IsRefused) {
   const TemporaryFolder folder("config_file_unreadable");
   EXPECT_THAT(problems_of_file(folder / ""), ElementsAre(EndsWith(": is a folder; it must be a file")));
   EXPECT_THAT(problems_of_file("/dev/zero"), ElementsAre("/dev/zero: is no regular file; it must be one"));
+  const std::string hdf5 = folder.write("run.h5", "\x89HDF\r\n").string();
+  EXPECT_THAT(problems_of_file(hdf5),
+              ElementsAre(hdf5 + ": is an HDF5 file, such as a recording; it must be YAML"));
+  const std::string network = folder.write("net.onnx", std::string("a: \0b", 5)).string();
+  EXPECT_THAT(problems_of_file(network), ElementsAre(network + ": is no text; it must be YAML"));
   EXPECT_THAT(problems_of_file(""),
               ElementsAre(EndsWith("the name is empty; it must be the name of a file")));
 }
