@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -127,11 +128,12 @@ DataSet read(const std::filesystem::path& file) {
   const std::lock_guard lock(internal::hdf5_mutex());
   const internal::Hdf5Object hdf5 = internal::open_hdf5_file(file);
   DataSet data;
-  for (const std::string& name : internal::attribute_names(hdf5))
-    data.card[name] = internal::read_text(hdf5, name);
-  if (data.card["format"] != format) {
+  const std::vector<std::string> names = internal::attribute_names(hdf5);
+  const bool says_what_it_is = std::find(names.begin(), names.end(), "format") != names.end();
+  if (!says_what_it_is || internal::read_text(hdf5, "format") != format) {
     throw SetupError("this is no data set of contacts; `flinch dataset` makes one");
   }
+  for (const std::string& name : names) data.card[name] = internal::read_text(hdf5, name);
   data.robot_file = data.card["robot.file"];
   data.robot_text = data.card["robot.text"];
   data.robot = parse_robot_file(data.robot_text, data.robot_file).robot;

@@ -32,6 +32,7 @@ FreeMotions read_motions(const CalibrateThresholdsOptions& options, const Thresh
       Recording recording = open_recording(file);
       tell_if_partial(recording, options.common);
       Scenario scenario = scenario_of(recording, file);
+      require_run(recording, file);
       read.peaks.push_back(out_of(
           file, [&] { return contact_free_peaks(recording, scenario.robot.robot->space(), goal.stretch); }));
       read.recordings.push_back(std::move(recording));

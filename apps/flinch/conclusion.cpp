@@ -6,6 +6,7 @@
 #include "experiments/report/run_folder.h"
 #include "experiments/scenario/scenario.h"
 #include "experiments/verdict/verdict_output.h"
+#include "systems/foundation/setup_error.h"
 #include "systems/framework/recording.h"
 
 namespace flinch {
@@ -26,6 +27,17 @@ void tell_if_partial(const Recording& recording, const CommonOptions& common) {
   const auto partial = recording.attributes.find("recording.partial");
   if (partial == recording.attributes.end() || common.quiet) return;
   fmt::print(stderr, "partial:   {}\n", partial->second);
+}
+
+bool holds_readings_alone(const Recording& recording) {
+  return recording.find("detection") == nullptr && recording.find("gate") == nullptr;
+}
+
+void require_run(const Recording& recording, const std::filesystem::path& file) {
+  if (!holds_readings_alone(recording)) return;
+  throw SetupError(file.string() +
+                   ": holds readings and no run; 'flinch calibrate torque-constant', 'dynamics' and "
+                   "'imu-pose' can use it");
 }
 
 ExitStatus conclude(const Scenario& scenario, double wall, const std::filesystem::path& folder,

@@ -6,12 +6,13 @@
 
 #include "apps/flinch/command_line.h"
 #include "apps/flinch/conclusion.h"
+#include "apps/flinch/learning_verbs.h"
 #include "apps/flinch/simulated/simulated_parts.h"
+#include "calibration/csv_recording.h"
 #include "experiments/report/experiment_report.h"
 #include "experiments/report/report_page.h"
 #include "experiments/verdict/verdict.h"
 #include "systems/config/config_file.h"
-#include "systems/config/config_reader.h"
 #include "systems/config/file_kind.h"
 #include "systems/config/parameter_file.h"
 #include "systems/config/robot_file.h"
@@ -21,6 +22,7 @@
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/diagram.h"
 #include "systems/framework/recording_journal.h"
+#include "systems/framework/table_file.h"
 
 namespace flinch {
 namespace {
@@ -31,6 +33,7 @@ Report recorded_report(const std::filesystem::path& file, const CommonOptions& c
   const Recording recording = open_recording(file);
   tell_if_partial(recording, common);
   const Scenario scenario = scenario_of(recording, file);
+  require_run(recording, file);
   return out_of(file, [&] {
     return experiment_report(
         scenario, recording,
@@ -56,9 +59,49 @@ void draw_svg(const std::string& dot, const std::filesystem::path& file) {
                    ": Graphviz could not draw it; is the program 'dot' installed (package graphviz)?");
 }
 
-bool is_campaign_file(const std::filesystem::path& file) {
-  const ConfigReader reader = ConfigReader::open(file);
-  return reader.has("scenarios") || (reader.has("scenario") && !reader.has("csv"));
+/// Checks a file of HDF5, and says of which kind it is.
+std::string check_results(const CheckOptions& options) {
+  const std::string format = hdf5_format(options.file);
+  if (format == "flinch campaign") return "campaign results";
+  if (format.starts_with("flinch contacts")) {
+    check_data_set(options.file);
+    return "data set";
+  }
+  if (const Recording recording = open_recording(options.file); holds_readings_alone(recording)) {
+    scenario_of(recording, options.file);
+    return "readings";
+  }
+  recorded_report(options.file, options.common);
+  return "recording";
+}
+
+/// The same of YAML.
+std::string check_text(const std::filesystem::path& file) {
+  switch (kind_of(file).value_or(FileKind::scenario)) {
+    case FileKind::parameters:
+      read_parameter_file(file);
+      return "calibration";
+    case FileKind::mapping:
+      read_csv_recording(file);
+      return "import mapping";
+    case FileKind::campaign:
+      check_campaign(file);
+      return "campaign";
+    case FileKind::data_spec:
+      check_data_spec(file);
+      return "data specification";
+    case FileKind::robot: {
+      const std::string text = read_config_file(file);
+      parse_robot_file(text, file.string());
+      robot_calibrations(text, file.string());
+      return "robot";
+    }
+    case FileKind::thresholds:
+    case FileKind::scenario:
+      break;
+  }
+  closed_loop(file);
+  return "scenario";
 }
 
 }  // namespace
@@ -103,28 +146,19 @@ ExitStatus graph(const GraphOptions& options) {
 
 ExitStatus check(const CheckOptions& options) {
   std::string what;
-  if (options.file.extension() == ".h5" || is_journal(options.file)) {
-    recorded_report(options.file, options.common);
-    what = "recording";
-  } else if (kind_of(options.file) == FileKind::parameters) {
-    read_parameter_file(options.file);
-    what = "calibration";
-  } else if (kind_of(options.file) == FileKind::robot) {
-    const std::string text = read_config_file(options.file);
-    parse_robot_file(text, options.file.string());
-    robot_calibrations(text, options.file.string());
-    what = "robot";
-  } else if (is_campaign_file(options.file)) {
-    check_campaign(options.file);
-    what = "campaign";
+  if (options.file.extension() == ".onnx") {
+    check_classifier(options.file);
+    what = "classifier";
+  } else if (options.file.extension() == ".h5" || is_journal(options.file)) {
+    what = check_results(options);
   } else {
-    closed_loop(options.file);
-    what = "scenario";
+    what = check_text(options.file);
   }
   if (options.common.json) {
     fmt::print("{}\n", json_text(Json{{"file", options.file.string()}, {"kind", what}, {"good", true}}));
   } else if (!options.common.quiet) {
-    fmt::print("{}: a good {} file\n", options.file.string(), what);
+    const char* const use = what == "readings" ? ", for flinch calibrate" : "";
+    fmt::print("{}: a good {} file{}\n", options.file.string(), what, use);
   }
   return ExitStatus::done;
 }

@@ -53,6 +53,12 @@ ExitStatus dataset(const DatasetOptions& options);
 ExitStatus train(const TrainOptions& options);
 ExitStatus evaluate(const EvaluateOptions& options);
 
+/// Throw SetupError for all that is wrong with a file of this kind, and where this program was built without
+/// what reads it.
+void check_classifier(const std::filesystem::path& model);
+void check_data_set(const std::filesystem::path& data);
+void check_data_spec(const std::filesystem::path& spec);
+
 /// Lets a scenario's control path follow the classifier of a model. Throws SetupError where it cannot be
 /// read, or is not for that robot.
 void follow_classifier(const std::filesystem::path& model, Scenario& scenario);

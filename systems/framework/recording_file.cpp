@@ -8,6 +8,7 @@
 #include "systems/framework/hdf5_object.h"
 #include "systems/framework/recording_check.h"
 #include "systems/framework/recording_journal.h"
+#include "systems/framework/table_file.h"
 
 namespace flinch {
 namespace {
@@ -356,6 +357,8 @@ Recording open_recording(const std::filesystem::path& file) {
     recording.source = std::make_shared<RecordingFile>(file, recording);
     return recording;
   } catch (const SetupError& failure) {
+    if (const std::string format = hdf5_format(file); !format.empty())
+      throw SetupError(file.string() + ": is no recording; it says that it is '" + format + "'");
     throw SetupError(file.string() + ": this is no whole flinch recording: " + failure.what());
   }
 }

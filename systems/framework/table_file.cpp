@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "systems/foundation/setup_error.h"
 #include "systems/framework/hdf5_object.h"
 
 namespace flinch {
@@ -38,6 +39,15 @@ void write_table(const std::vector<TableColumn>& columns,
     for (const auto& [name, text] : attributes) internal::write_text(table, name, text);
     for (const TableColumn& column : columns) write_column(table, column);
   });
+}
+
+std::string hdf5_format(const std::filesystem::path& file) {
+  const std::scoped_lock lock(internal::hdf5_mutex());
+  try {
+    return internal::read_text(internal::open_hdf5_file(file), "format");
+  } catch (const SetupError&) {
+    return "";  // whoever reads it as what it may be says what is wrong
+  }
 }
 
 }  // namespace flinch

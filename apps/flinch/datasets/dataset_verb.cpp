@@ -21,6 +21,8 @@ volatile std::sig_atomic_t interrupted = 0;
 
 }  // namespace
 
+void check_data_spec(const std::filesystem::path& spec) { read_data_spec(spec); }
+
 ExitStatus dataset(const DatasetOptions& options) {
   const DataSpec spec = read_data_spec(options.spec, {.runs = options.runs, .seed = options.seed});
   const std::filesystem::path file =

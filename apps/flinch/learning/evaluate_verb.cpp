@@ -46,6 +46,9 @@ std::filesystem::path page_of(const EvaluateOptions& options) {
 
 }  // namespace
 
+void check_classifier(const std::filesystem::path& model) { read_onnx(model); }
+void check_data_set(const std::filesystem::path& data) { read_data_set(data); }
+
 ExitStatus evaluate(const EvaluateOptions& options) {
   const std::filesystem::path page = page_of(options);
   require_place(page, {options.model, options.data});

@@ -4,10 +4,15 @@
 
 namespace flinch {
 
-ExitStatus dataset(const DatasetOptions& options) {
-  throw SetupError(options.spec.string() +
+void check_data_spec(const std::filesystem::path& spec) {
+  throw SetupError(spec.string() +
                    ": no data can be made of it, for this flinch was built without the simulation, dlib or "
                    "ONNX");
+}
+
+ExitStatus dataset(const DatasetOptions& options) {
+  check_data_spec(options.spec);
+  return ExitStatus::done;
 }
 
 }  // namespace flinch

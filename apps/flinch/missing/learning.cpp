@@ -15,6 +15,8 @@ namespace {
 
 ExitStatus train(const TrainOptions&) { refuse("train"); }
 ExitStatus evaluate(const EvaluateOptions&) { refuse("evaluate"); }
+void check_classifier(const std::filesystem::path&) { refuse("check"); }
+void check_data_set(const std::filesystem::path&) { refuse("check"); }
 void follow_classifier(const std::filesystem::path&, Scenario&) { refuse("run --classifier"); }
 
 }  // namespace flinch

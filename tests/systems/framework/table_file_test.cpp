@@ -34,6 +34,16 @@ class ATableFile : public ::testing::Test {
       {"obstacles[0].name", std::vector<std::string>{"pylon", "", "a longer name"}}};
 };
 
+TEST_F(ATableFile, SaysWhatItIs) {
+  write_table(columns, {{"format", "a table"}}, folder / "table.h5");
+  EXPECT_EQ(hdf5_format(folder / "table.h5"), "a table");
+  write_table(columns, {}, folder / "table.h5");
+  EXPECT_EQ(hdf5_format(folder / "table.h5"), "") << "it does not say";
+  std::ofstream(folder / "text.h5") << "format: a table";
+  EXPECT_EQ(hdf5_format(folder / "text.h5"), "");
+  EXPECT_EQ(hdf5_format(folder / "none.h5"), "");
+}
+
 TEST_F(ATableFile, HoldsEveryColumn) {
   write_table(columns, {{"format", "a table"}}, folder / "table.h5");
   const hid_t file = H5Fopen((folder / "table.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
