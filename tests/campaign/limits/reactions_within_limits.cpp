@@ -42,13 +42,17 @@ std::string kind_of(const std::string& body) {
   return body.starts_with("leg") ? body.substr(body.find('_') + 1) : body;
 }
 
-/// Follows when the robot is touched.
+/// Follows when the robot is touched. What was over before anything was noticed is not what it answers.
 class Touching {
  public:
   void see(double time, double force, ReactionOutcome& outcome) {
     if (force > touched) {
-      if (!onset_) onset_ = time;
-      if (last_ && time - *last_ > released_after) outcome.reclosed = true;
+      const bool again = last_ && time - *last_ > released_after;
+      if (!onset_ || (again && !outcome.detected)) {
+        onset_ = time;
+      } else if (again) {
+        outcome.reclosed = true;
+      }
       if (!outcome.reclosed) last_ = time;
       still_ = true;
     } else {

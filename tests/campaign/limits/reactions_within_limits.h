@@ -28,7 +28,7 @@ struct ReactionOutcome {
   bool could_stop = false;        ///< the same of the true robot then; means nothing where that one is none
   bool is_lost = false;           ///< at a tick the true robot had no kinematics: the measures leave that out
   std::string fault;              ///< why the gate closed, "" if it did not
-  std::optional<double> removed;  ///< after the onset of the contact [s]
+  std::optional<double> removed;  ///< after the onset of the contact that is noticed [s]
   /// After the detection or, where the contact got hard, after that: until the platform stays below 0.02 m/s
   /// [s].
   std::optional<double> rest;
@@ -45,7 +45,7 @@ struct ReactionOutcome {
   double rotation = 0.0;     ///< the largest [rad]
   double slack = 0.0;        ///< the largest
   int steps = 0;             ///< the most of a quadratic programme
-  bool reclosed = false;     ///< touched again after a release of 100 ms
+  bool reclosed = false;     ///< touched again, once noticed, after a release of 100 ms
 };
 
 /// Runs every run of a campaign file, `draws` at each point of its grid, in `threads` threads; `set` as of
