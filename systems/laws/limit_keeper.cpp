@@ -40,11 +40,32 @@ Motion motion_of(const Kinematics& at, const Dynamics& model, const WrenchEstima
   return motion;
 }
 
+/// What torques may be after those of the tick before.
+struct TorqueRange {
+  JointVector least, most;
+};
+
+TorqueRange range_after(const TorqueCommand& before, Time now, int drives,
+                        const LimitKeeperSettings& settings) {
+  const JointVector whole = JointVector::Constant(drives, settings.max_torque);
+  const bool is_usable = before.valid && before.torque.size() == drives && before.torque.allFinite();
+  if (!is_usable) return {-whole, whole};
+  const JointVector from = before.torque.cwiseMin(whole).cwiseMax(-whole);
+  const double change = settings.max_torque_rate * to_seconds(now - before.computed);
+  return {(from.array() - change).matrix().cwiseMax(-whole),
+          (from.array() + change).matrix().cwiseMin(whole)};
+}
+
 /// The programme in z = (tau / largest torque, slack), row by row.
 class Programme {
  public:
-  Programme(const LimitKeeperSettings& settings, const Kinematics& at, const Motion& motion)
-      : settings_(settings), at_(at), motion_(motion), drives_(static_cast<int>(motion.G.cols())) {
+  Programme(const LimitKeeperSettings& settings, const Kinematics& at, const Motion& motion,
+            const TorqueRange& range)
+      : settings_(settings),
+        at_(at),
+        motion_(motion),
+        range_(range),
+        drives_(static_cast<int>(motion.G.cols())) {
     programme_.C.resize(max_constraints, drives_ + 1);
     programme_.d.resize(max_constraints);
     usual_reach_ = reach_of(by_torque(PlatformVector::Unit(motion.G.rows(), 0)));
@@ -66,17 +87,19 @@ class Programme {
   }
 
   /// Where h is flat, it is steeper on the way to its limit: there the drives can do what they usually do.
+  /// Who was pushed too fast for the usual braking brakes as hard as they can, and as the limit needs.
   void add_barrier(const Barrier& barrier, double excess) {
     const double h = barrier.room + excess;
     const double dh = barrier.gradient.dot(at_.velocity);
     const JointVector along = by_torque(barrier.gradient);
-    const double a = settings_.braking.of(barrier.kind) * std::max(reach_of(along), usual_reach_);
-    const double c = a / settings_.approach;
-    const double root = std::sqrt(c * c + 2.0 * a * std::max(h, 0.0));
-    const double alpha = h > 0.0 ? root - c : settings_.approach * h;
-    const double slope = h > 0.0 ? a / root : settings_.approach;
-    accelerate(barrier.gradient, along, -slope * dh - settings_.correction * (dh + alpha) - barrier.drift,
-               1U << static_cast<unsigned>(barrier.kind));
+    const double reach = std::max(reach_of(along), usual_reach_);
+    const BrakingShares& braking = settings_.braking;
+    const double usual = acceleration_for(barrier, h, dh, braking.of(barrier.kind) * reach);
+    const double possible = most_of(along) + barrier.gradient.dot(motion_.dv_0);
+    double least = usual;
+    if (usual > possible)
+      least = std::min(usual, std::max(possible, acceleration_for(barrier, h, dh, braking.hardest * reach)));
+    accelerate(barrier.gradient, along, least, 1U << static_cast<unsigned>(barrier.kind));
   }
 
   void add_speeds() {
@@ -101,11 +124,11 @@ class Programme {
     }
   }
 
-  /// Torques between two bounds, which leave no slack, and a slack that is not negative.
-  void add_bounds(const JointVector& least, const JointVector& most) {
+  /// Torques within their range, which leaves no slack, and a slack that is not negative.
+  void add_bounds() {
     for (int i = 0; i < drives_; ++i) {
-      bound(i, 1.0, least[i] / settings_.max_torque);
-      bound(i, -1.0, -most[i] / settings_.max_torque);
+      bound(i, 1.0, range_.least[i] / settings_.max_torque);
+      bound(i, -1.0, -range_.most[i] / settings_.max_torque);
     }
     bound(drives_, 1.0, 0.0);
   }
@@ -144,6 +167,18 @@ class Programme {
     for (Eigen::Index i = 0; i < along.size(); ++i) along[i] = gradient.dot(motion_.G.col(i));
     return along;
   }
+  /// What barrier.gradient^T dv must be to come to the limit by braking with `a`.
+  double acceleration_for(const Barrier& barrier, double h, double dh, double a) const {
+    const double c = a / settings_.approach;
+    const double root = std::sqrt(c * c + 2.0 * a * std::max(h, 0.0));
+    const double alpha = h > 0.0 ? root - c : settings_.approach * h;
+    const double slope = h > 0.0 ? a / root : settings_.approach;
+    return -slope * dh - settings_.correction * (dh + alpha) - barrier.drift;
+  }
+  /// The largest acceleration in that direction that the drives can cause at this tick.
+  double most_of(const JointVector& by_torque) const {
+    return by_torque.cwiseProduct(range_.least).cwiseMax(by_torque.cwiseProduct(range_.most)).sum();
+  }
   /// The largest acceleration that all drives together can cause in that direction.
   double reach_of(const JointVector& by_torque) const { return settings_.max_torque * by_torque.lpNorm<1>(); }
 
@@ -157,6 +192,7 @@ class Programme {
   const LimitKeeperSettings& settings_;
   const Kinematics& at_;
   const Motion& motion_;
+  const TorqueRange& range_;
   int drives_;
   int rows_ = 0;
   double usual_reach_ = 0.0;  ///< along the first direction [m/s^2]
@@ -174,7 +210,9 @@ std::vector<std::string> problems(const LimitKeeperSettings& settings, const Par
   for (int kind = 0; kind <= static_cast<int>(BarrierKind::drive_range); ++kind) {
     const double share = settings.braking.of(static_cast<BarrierKind>(kind));
     found.require(share > 0 && share <= 1, "braking shares must be above 0 and at most 1");
+    found.require(share <= settings.braking.hardest, "no braking share may exceed the hardest");
   }
+  found.require(settings.braking.hardest <= 1, "the hardest braking share must be at most 1");
   found.require(settings.approach > 0 && settings.correction > 0 && settings.speed_rate > 0,
                 "approach, correction and speed_rate must be positive");
   Kinematics home;
@@ -194,22 +232,6 @@ void follow_excess(const BarrierList& barriers, bool begins, std::array<double, 
     const double beyond = std::max(0.0, -barriers[i].room);
     open = begins ? beyond : std::min(open, beyond);
   }
-}
-
-/// What torques may be after those of the tick before.
-struct TorqueRange {
-  JointVector least, most;
-};
-
-TorqueRange range_after(const TorqueCommand& before, Time now, int drives,
-                        const LimitKeeperSettings& settings) {
-  const JointVector whole = JointVector::Constant(drives, settings.max_torque);
-  const bool is_usable = before.valid && before.torque.size() == drives && before.torque.allFinite();
-  if (!is_usable) return {-whole, whole};
-  const JointVector from = before.torque.cwiseMin(whole).cwiseMax(-whole);
-  const double change = settings.max_torque_rate * to_seconds(now - before.computed);
-  return {(from.array() - change).matrix().cwiseMax(-whole),
-          (from.array() + change).matrix().cwiseMin(whole)};
 }
 
 }  // namespace
@@ -257,12 +279,12 @@ void LimitKeeper::keep_within(Time now, const Memory& last, const TorqueCommand&
   result.memory.keeping = true;
   follow_excess(barriers, !last.keeping, result.memory.excess);
 
-  Programme programme(settings_, at, response);
+  const TorqueRange range = range_after(told, now, robot_->drives(), settings_);
+  Programme programme(settings_, at, response, range);
   for (int i = 0; i < barriers.count; ++i)
     programme.add_barrier(barriers[i], result.memory.excess[static_cast<std::size_t>(i)]);
   programme.add_speeds();
-  const TorqueRange range = range_after(told, now, robot_->drives(), settings_);
-  programme.add_bounds(range.least, range.most);
+  programme.add_bounds();
 
   ProgrammeVector z_r;
   const ProgrammeSolution solution = programme.solve_near(wanted.torque, z_r);

@@ -25,6 +25,7 @@ struct BrakingShares {
   double distance = 0.4;
   double rotation = 0.06;
   double drive_range = 0.5;
+  double hardest = 0.8;  ///< of all limits, where a contact has made the robot too fast for the others
 
   double of(BarrierKind kind) const;
 };
@@ -63,8 +64,10 @@ struct LimitKeeperSettings {
 ///   ddh + alpha'(h) dh + a_2 (dh + alpha(h)) >= 0,   alpha(h) = sqrt(c^2 + 2 a h) - c,   c = a / gamma,
 ///
 /// with the acceleration a towards which the drives can brake: whatever h, no more than that is asked for.
-/// Speeds and torques have limits too. Where the limits ask for more than the drives have, they are exceeded
-/// as little as possible. Where nothing binds, the requested torques are handed on as they are. (Derived.)
+/// Where that is more than the drives can do at this tick, they do what they can, and at least what braking
+/// by the hardest share asks for. Speeds and torques have limits too. Where the limits ask for more than the
+/// drives have, they are exceeded as little as possible. Where nothing binds, the requested torques are
+/// handed on as they are. (Derived.)
 ///
 /// Who stands outside of a limit when keeping begins is not driven back inside, but gets no further out.
 /// Limits are kept while there is a motion. Without a model the request is handed on and the status is not
