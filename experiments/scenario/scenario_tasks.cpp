@@ -43,6 +43,7 @@ void read_reaction(ConfigReader reader, ReactionTaskSettings& reaction) {
   reader.number("released_force", unit::N, reaction.released_force, positive);
   reader.number("released_moment", unit::Nm, reaction.released_moment, positive);
   reader.duration("pressed_for", reaction.pressed_for, not_negative);
+  reader.number("inertial_share", unit::none, reaction.inertial_share, not_negative);
   reader.duration("released_for", reaction.released_for, not_negative);
   reader.number("largest_platform_speed", unit::m_per_s, reaction.largest_platform_speed, positive);
   read_motion_limits(reader.section("translation"), reaction.translation, false);

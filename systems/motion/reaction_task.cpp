@@ -109,6 +109,7 @@ std::vector<std::string> problems(const ReactionTaskSettings& settings) {
   found.require(settings.decide_within >= Time::zero(), "decide_within must not be negative");
   found.require(settings.released_force > 0 && settings.released_moment > 0,
                 "thresholds of a release must be positive");
+  found.require(settings.inertial_share >= 0, "inertial_share must not be negative");
   found.require(settings.pressed_for >= Time::zero(), "pressed_for must not be negative");
   found.require(settings.released_for >= Time::zero(), "released_for must not be negative");
   found.require(can_be_planned_with(settings.translation), "limits of translation must be positive");
@@ -263,7 +264,7 @@ void ReactionTask::plan(Time now, const ReactionPlan& last, const ReactionState&
   if (!is_reacting(state.mode) || !at.valid || !model.valid) return;
   const bool opens = next.kind == ReactionKind::opening && next.opened < settings_.largest_opening;
   if (opens && has_arrived(now, next) && !next.released &&
-      !opposes(task_of(next, at), next.way, model, contact)) {
+      !opposes(task_of(next, at), next.way, Eigen::Vector2d::Zero(), model, contact)) {
     next.unpressed = now;
     if (felt) open_further(now, at, model, next);
     return;
@@ -299,13 +300,17 @@ bool ReactionTask::presses(Time now, const ReactionPlan& plan, const Kinematics&
   if (!feels(contact)) return false;
   if (has_arrived(now, plan)) return true;
   const Task task = task_of(plan, at);
-  return opposes(task, error_of(plan, task, plan.motion.goal()), model, contact);
+  const VectorMotion wanted = plan.motion.evaluate(to_seconds(now - plan.begin));
+  return opposes(task, error_of(plan, task, plan.motion.goal()), wanted.acceleration, model, contact);
 }
 
-bool ReactionTask::opposes(const Task& task, const PlatformVector& ahead, const Dynamics& model,
-                           const WrenchEstimate& contact) const {
+bool ReactionTask::opposes(const Task& task, const PlatformVector& ahead, const PlatformVector& acceleration,
+                           const Dynamics& model, const WrenchEstimate& contact) const {
   if (!task.valid || !contact.valid || contact.wrench_in_base.size() != robot_->dof()) return false;
-  return least_motion(task, ahead, inverse(model.M_x)).dot(contact.wrench_in_base) < 0.0;
+  const PlatformMatrix mobility = inverse(model.M_x);
+  const PlatformVector v = least_motion(task, ahead, mobility);
+  const PlatformVector inertial_force = model.M_x * least_motion(task, acceleration, mobility);
+  return v.dot(contact.wrench_in_base) < -settings_.inertial_share * std::abs(v.dot(inertial_force));
 }
 
 void ReactionTask::open_further(Time now, const Kinematics& at, const Dynamics& model,

@@ -111,9 +111,10 @@ class ReactionTask final : public System {
   /// What is felt stays, or the motion leads into it.
   bool presses(Time now, const ReactionPlan& plan, const Kinematics& at, const Dynamics& model,
                const WrenchEstimate& contact) const;
-  /// What is felt does negative work where the task moves along `ahead`.
-  bool opposes(const Task& task, const PlatformVector& ahead, const Dynamics& model,
-               const WrenchEstimate& contact) const;
+  /// What is felt does negative work where the task moves along `ahead`, beyond what a task that accelerates
+  /// so makes the robot feel.
+  bool opposes(const Task& task, const PlatformVector& ahead, const PlatformVector& acceleration,
+               const Dynamics& model, const WrenchEstimate& contact) const;
   void open_further(Time now, const Kinematics& at, const Dynamics& model, ReactionPlan& plan) const;
   PlatformVector error_of(const ReactionPlan& plan, const Task& task, const PlatformVector& wanted) const;
   TaskGains gains_of(const ReactionPlan& plan, int rows) const;

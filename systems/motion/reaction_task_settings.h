@@ -24,6 +24,8 @@ struct ReactionTaskSettings {
   double released_moment = 0.5;     ///< no moment component this [Nm],
   Time released_for = 100ms;        ///< for so long
   Time pressed_for = 20ms;          ///< where such a force stays so long, it is given way to anew
+  /// Of the force that accelerates the robot, which it may feel without a contact.
+  double inertial_share = 0.05;
   MotionLimits translation{.velocity = 1.0, .acceleration = 60.0, .jerk = 8000.0};
   MotionLimits joint{.velocity = 4.0, .acceleration = 80.0, .jerk = 8000.0};
   /// Of its coupling joints, to which motions of joints are slowed down [m/s].

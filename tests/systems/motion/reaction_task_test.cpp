@@ -105,6 +105,20 @@ TEST(ReactionTask, AMotionThatLeadsIntoWhatIsFeltIsDecidedAnew) {
   }
 }
 
+// Accelerating takes some 300 N for the first 24 ms; 8 N may be an error of the model then, but not later.
+TEST(ReactionTask, WhatItFeelsByAcceleratingIsNoContact) {
+  for (const bool stays : {false, true}) {
+    Reaction reaction;
+    reaction.know(platform, {30, 0, 0});
+    reaction.begin();
+    reaction.know(platform, {-8, 0, 0});
+    reaction.go_on(stays ? 48ms : 24ms);
+    reaction.know(platform, {0, 0, 0});
+    const TaskGoal& goal = reaction.go_on(1000ms).goals[0];
+    EXPECT_NEAR(goal.reference.error[0], stays ? -0.1 : 0.1, 1e-9);
+  }
+}
+
 TEST(ReactionTask, NothingIsDecidedAnewInOtherModes) {
   Reaction reaction;
   reaction.know(platform, {30, 0, 0});
