@@ -123,6 +123,7 @@ CampaignContact read_contact(ConfigReader& reader) {
   }
   const bool is_clamped =
       std::find(contact.bodies.begin(), contact.bodies.end(), "clamping") != contact.bodies.end();
+  if (is_clamped) reader.number("gap", unit::m, contact.gap, not_negative);
   if (contact.by != By::standing && is_clamped) {
     reader.problem("body", "has 'clamping', which only an obstacle that is 'standing' can be drawn for");
   }
@@ -161,6 +162,7 @@ std::string Campaign::identity() const {
     text += "by " + std::to_string(static_cast<int>(contact->by)) + " " + exact_text(contact->speed) + " " +
             exact_text(contact->angle) + " " + exact_text(contact->rise) + " " + exact_text(contact->hold);
     for (const double force : contact->force) text += " " + exact_text(force);
+    if (contact->gap > 0.0) text += " gap " + exact_text(contact->gap);
     text += "\n";
   }
   for (const std::string& scenario : scenario_texts) text += scenario;

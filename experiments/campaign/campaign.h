@@ -44,6 +44,7 @@ struct CampaignContact {
   std::vector<std::string> bodies;
   By by = By::standing;
   double speed = 1.0;         ///< of a moving one, up to that [m/s]
+  double gap = 0.0;           ///< of a clamping: to the other link when the first is touched, up to that [m]
   std::vector<double> force;  ///< of a pushing one: between the first and the last [N]
   double angle = 0.0;         ///< of a push against the normal of the surface, up to that either way [rad]
   double rise = 1.0, hold = 0.0;  ///< of a push; it falls as it rises [s]

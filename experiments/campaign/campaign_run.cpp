@@ -162,11 +162,11 @@ bool move_obstacle(const CampaignContact& settings, RobotFiles& robots, Draft& d
 }
 
 /// Stands the first obstacle where it is run into. False where this draw has no such place.
-bool place_obstacle(RobotFiles& robots, Draft& draft, const std::string& kind, RandomGenerator& random,
-                    CampaignRun& run) {
+bool place_obstacle(const CampaignContact& settings, RobotFiles& robots, Draft& draft,
+                    const std::string& kind, RandomGenerator& random, CampaignRun& run) {
   const Scenario scenario = parse_scenario(draft.root(), draft.file(), robots);
   if (scenario.obstacles.empty()) throw SetupError("there is no obstacle that 'contact' could move");
-  const auto contact = draw_contact(scenario, kind, scenario.obstacles.front().shape, random);
+  const auto contact = draw_contact(scenario, kind, scenario.obstacles.front().shape, random, settings.gap);
   if (!contact) return false;
   expect(contact->body, draft, run);
   place(draft, draft.has("pylon") ? "pylon." : "obstacles[0].", contact->position_in_base,
@@ -225,7 +225,7 @@ bool draw_once(const Campaign& campaign, RandomGenerator& random, CampaignRun& r
     const std::string& kind = bodies[next_digit(digits, bodies.size())];
     RobotFiles& robots = *campaign.robots;
     const bool is_placed = campaign.contact->by == CampaignContact::By::standing
-                               ? place_obstacle(robots, draft, kind, random, run)
+                               ? place_obstacle(*campaign.contact, robots, draft, kind, random, run)
                                : move_obstacle(*campaign.contact, robots, draft, kind, random, run);
     if (!is_placed) return false;
   }

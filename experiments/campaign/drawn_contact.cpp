@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "experiments/scenario/scenario.h"
@@ -149,21 +150,22 @@ std::optional<DrawnContact> touch_body(const Mechanism& robot, const Kinematics&
   return contact_at(robot, now, body, in_body, normal.normalized(), shape);
 }
 
-/// The half-plane angle between the links of a leg at the elbow, and the direction half-way between them.
+/// The angle between the links of a leg at the elbow, and the direction half-way between them.
 struct Elbow {
   Elbow(const LegPoints& leg) {
-    const Eigen::Vector3d inwards = in_space(leg.base_joint - leg.passive_joint).normalized();
-    const Eigen::Vector3d outwards = in_space(leg.coupling_joint - leg.passive_joint).normalized();
-    angle = std::acos(std::clamp(inwards.dot(outwards), -1.0, 1.0));
-    bisector = (inwards + outwards).normalized();
+    along = {in_space(leg.base_joint - leg.passive_joint).normalized(),
+             in_space(leg.coupling_joint - leg.passive_joint).normalized()};
+    angle = std::acos(std::clamp(along[0].dot(along[1]), -1.0, 1.0));
+    bisector = (along[0] + along[1]).normalized();
     joint = in_space(leg.passive_joint);
   }
   double angle;
+  std::array<Eigen::Vector3d, 2> along;  ///< each link, from the elbow
   Eigen::Vector3d bisector, joint;
 };
 
-std::optional<DrawnContact> clamp(const Mechanism& robot, const Instant& instant, int leg,
-                                  const Shape& shape) {
+std::optional<DrawnContact> clamp(const Mechanism& robot, const Instant& instant, int leg, const Shape& shape,
+                                  double largest_gap, RandomGenerator& random) {
   const Elbow now(instant.now.legs[static_cast<std::size_t>(leg)]);
   const Elbow later(instant.later.legs[static_cast<std::size_t>(leg)]);
   if (later.angle >= now.angle || now.angle > 0.9 * EIGEN_PI) return std::nullopt;
@@ -171,8 +173,13 @@ std::optional<DrawnContact> clamp(const Mechanism& robot, const Instant& instant
   const Eigen::Vector3d at1 = touching(robot, instant.now, link1, shape, now.joint, now.bisector);
   const Eigen::Vector3d at2 = touching(robot, instant.now, link2, shape, now.joint, now.bisector);
   const bool at1_is_further = (at1 - now.joint).norm() > (at2 - now.joint).norm();
-  const DrawnContact contact{
-      "leg" + std::to_string(leg + 1) + "_clamping", at1_is_further ? at1 : at2, {}, {}};
+  DrawnContact contact{"leg" + std::to_string(leg + 1) + "_clamping", at1_is_further ? at1 : at2, {}, {}};
+  if (largest_gap > 0.0) {  // shifted along the link that is touched first
+    const std::size_t first = random() % 2;
+    contact.position_in_base += random.uniform(0.0, largest_gap) / std::sin(now.angle) * now.along[first];
+    const PlacedBody link(robot, instant.now, first == 0 ? link1 : link2);
+    if (link.gap(Solid(shape), contact.position_in_base) > 1e-6) return std::nullopt;
+  }
   const bool is_free = stands_free(robot, instant.now, shape, contact, {link1, link2});
   return is_free ? std::optional(contact) : std::nullopt;
 }
@@ -180,7 +187,7 @@ std::optional<DrawnContact> clamp(const Mechanism& robot, const Instant& instant
 }  // namespace
 
 std::optional<DrawnContact> draw_contact(const Scenario& scenario, const std::string& kind,
-                                         const Shape& shape, RandomGenerator& random) {
+                                         const Shape& shape, RandomGenerator& random, double largest_gap) {
   const ParallelRobot& robot = *scenario.robot.robot;
   const Instant instant = half_way(scenario);
   if (!instant.now.reachable || !instant.later.reachable) return std::nullopt;
@@ -190,7 +197,7 @@ std::optional<DrawnContact> draw_contact(const Scenario& scenario, const std::st
     if (robot.space_dimension() > 2) {
       throw SetupError("contact.body: the links of this robot's legs slide; nothing is clamped between them");
     }
-    return clamp(robot, instant, leg, shape);
+    return clamp(robot, instant, leg, shape, largest_gap, random);
   }
   return touch_body(robot, instant.now, kind == "link1" ? BodyId::link1(leg) : BodyId::link2(leg), shape,
                     random);

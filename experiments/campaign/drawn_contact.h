@@ -29,12 +29,14 @@ struct HalfWay {
 
 /// Draws a place for an obstacle of `shape` so that it touches a body half-way through the motion of
 /// `scenario`, on the side to which that body moves there: the platform within about 45 degrees of its
-/// velocity, a link anywhere between 10 and 90 % of its length, a clamping where the links of a leg close.
+/// velocity, a link anywhere between 10 and 90 % of its length, a clamping where the links of a leg close: it
+/// touches both, or one that is drawn, with a gap of up to `largest_gap` [m] to the other.
 /// None where that body does not move (at least 0.02 m/s there), the leg opens, or another body is in the
 /// way; another draw may do.
 /// Throws SetupError where the robot has no such body.
 std::optional<DrawnContact> draw_contact(const Scenario& scenario, const std::string& kind,
-                                         const Shape& shape, RandomGenerator& random);
+                                         const Shape& shape, RandomGenerator& random,
+                                         double largest_gap = 0.0);
 
 /// Draws a place for an obstacle of `shape` so that it touches a body from any side, wherever that moves: the
 /// platform from a direction that is drawn, a link on either side between 10 and 90 % of its length. None

@@ -42,12 +42,12 @@ double gap(const Scenario& scenario, const Kinematics& now, int leg, int link, c
 }
 
 template <class Check>
-int drawn(const char* kind, Check&& check) {
+int drawn(const char* kind, Check&& check, double largest_gap = 0.0) {
   const Scenario scenario = moving();
   RandomGenerator random(4);
   int found = 0;
   for (int i = 0; i < 100; ++i) {
-    const auto contact = draw_contact(scenario, kind, Sphere{.radius = radius}, random);
+    const auto contact = draw_contact(scenario, kind, Sphere{.radius = radius}, random, largest_gap);
     if (!contact) continue;
     ++found;
     check(scenario, half_way(scenario), *contact);
@@ -95,6 +95,23 @@ TEST(ADrawnClamping, TouchesBothLinksOfALegThatCloses) {
         EXPECT_NEAR(gap(scenario, now, leg, 2, contact), 0.0, 1e-9);
       });
   EXPECT_GT(found, 10);
+}
+
+TEST(ADrawnClamping, WithAGapTouchesOneLinkWhichIsDrawn) {
+  int first_links = 0;
+  const int found = drawn(
+      "clamping",
+      [&first_links](const Scenario& scenario, const Kinematics& now, const DrawnContact& contact) {
+        const int leg = contact.body[3] - '1';
+        const double gap1 = gap(scenario, now, leg, 1, contact), gap2 = gap(scenario, now, leg, 2, contact);
+        EXPECT_NEAR(std::min(gap1, gap2), 0.0, 1e-9);
+        EXPECT_GT(std::max(gap1, gap2), 1e-6);
+        EXPECT_LT(std::max(gap1, gap2), 0.01);
+        first_links += gap1 < gap2 ? 1 : 0;
+      },
+      0.01);
+  EXPECT_GT(first_links, 5);
+  EXPECT_GT(found - first_links, 5);
 }
 
 TEST(ADrawnContact, WithThePlatformIsOnTheSideToWhichItMoves) {
