@@ -4,10 +4,9 @@
 
 #include "diagrams/contact_control_settings.h"
 #include "systems/contact/contact_period.h"
+#include "systems/contact/course_memory.h"
 #include "systems/contact/evidence_estimator.h"
-#include "systems/contact/evidence_features.h"
 #include "systems/contact/particle_locator.h"
-#include "systems/contact/wrench_growth.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/random.h"
 
@@ -80,26 +79,25 @@ ContactClassifier learned_classifier_stage(LearnedClassifierSettings settings) {
           [settings = std::move(settings)](const StageSite& site, const ContactPorts& given) {
             DiagramBuilder& builder = site.builder;
             auto& classifier = builder.add<LearnedClassifier>(site.name, site.robot, settings);
-            auto& growth = builder.add<WrenchGrowth>(site.name + "_growth");
+            auto& course = builder.add<CourseMemory>(site.name + "_course", settings.window);
             // The evidence that it was trained with, whatever the model classifier is told.
-            const auto evidence_of = [&](const std::string& name, OutputPort<WrenchEstimate> wrench,
-                                         const TouchHypothesesSettings& by) {
-              auto& evidence = builder.add<EvidenceEstimator>(site.name + name, site.robot, by,
-                                                              WrenchUncertainty(), settings.window);
+            const auto evidence_of = [&](const std::string& name, OutputPort<WrenchEstimate> wrench) {
+              auto& evidence =
+                  builder.add<EvidenceEstimator>(site.name + name, site.robot, TouchHypothesesSettings(),
+                                                 WrenchUncertainty(), settings.window);
               builder.connect(given.contact, evidence.phase);
               builder.connect(given.kinematics, evidence.kinematics);
               builder.connect(wrench, evidence.wrench);
               return evidence.evidence;
             };
             builder.connect(given.contact, classifier.phase);
-            builder.connect(given.isolation_wrench, growth.wrench);
-            builder.connect(given.isolation_wrench, classifier.wrench);
-            builder.connect(evidence_of("_evidence", given.isolation_wrench, {}), classifier.evidence);
-            builder.connect(evidence_of("_change_evidence", growth.change, hypotheses_of_change()),
-                            classifier.change_evidence);
-            builder.connect(
-                evidence_of("_change_before_evidence", growth.change_before, hypotheses_of_change()),
-                classifier.change_before_evidence);
+            builder.connect(given.kinematics, classifier.kinematics);
+            builder.connect(given.contact, course.phase);
+            builder.connect(given.isolation_wrench, course.wrench);
+            builder.connect(given.platform, course.platform);
+            builder.connect(course.course, classifier.course);
+            builder.connect(evidence_of("_evidence", given.isolation_wrench), classifier.evidence);
+            builder.connect(evidence_of("_growth_evidence", course.growth), classifier.growth_evidence);
             return classifier.classification;
           }};
 }

@@ -14,21 +14,24 @@
 namespace flinch {
 namespace {
 
-constexpr const char* format = "flinch contacts 1";
+constexpr const char* format = "flinch contacts 2";
 constexpr std::size_t first_columns = 7;
 
 std::size_t columns_of(const ParallelRobot& robot) {
-  return first_columns + static_cast<std::size_t>(robot.home_pose().size() + 4 * robot.dof());
+  return first_columns + static_cast<std::size_t>(robot.home_pose().size()) +
+         2 * course_ages.size() * static_cast<std::size_t>(robot.dof());
 }
 
 std::string column_names(const ParallelRobot& robot) {
   std::string names = "run configuration moment touched since_onset_s since_early_s force_N";
-  const auto add = [&names](const char* name, Eigen::Index count) {
+  const auto add = [&names](const std::string& name, Eigen::Index count) {
     for (Eigen::Index i = 0; i < count; ++i) names += fmt::format(" {}_{}", name, i + 1);
   };
   add("pose", robot.home_pose().size());
-  add("velocity", robot.dof());
-  for (const char* wrench : {"wrench", "change", "change_before"}) add(wrench, robot.dof());
+  for (const Time age : course_ages) {
+    add(fmt::format("wrench_{}ms", age / 1ms), robot.dof());
+    add(fmt::format("velocity_{}ms", age / 1ms), robot.dof());
+  }
   return names;
 }
 
@@ -43,10 +46,10 @@ void append(const DataSample& sample, std::vector<internal::Number>& row) {
   for (const double value : {sample.since_onset, sample.since_early, sample.force})
     row.push_back({.real = value});
   append(sample.pose, row);
-  append(sample.velocity, row);
-  append(sample.wrench_in_base, row);
-  append(sample.change, row);
-  append(sample.change_before, row);
+  for (const CourseMoment& moment : sample.course) {
+    append(moment.wrench_in_base, row);
+    append(moment.velocity, row);
+  }
 }
 
 /// Takes the numbers of a row one after the other.
@@ -91,9 +94,10 @@ DataSample sample_of(const internal::Number* row, std::size_t number, const Para
   sample.since_early = reader.real();
   sample.force = reader.real();
   reader.vector(robot.home_pose().size(), sample.pose);
-  reader.vector(robot.dof(), sample.velocity);
-  for (PlatformVector* wrench : {&sample.wrench_in_base, &sample.change, &sample.change_before})
-    reader.vector(robot.dof(), *wrench);
+  for (CourseMoment& moment : sample.course) {
+    reader.vector(robot.dof(), moment.wrench_in_base);
+    reader.vector(robot.dof(), moment.velocity);
+  }
   return sample;
 }
 

@@ -10,6 +10,7 @@
 #include "systems/robot/parallel_robot.h"
 #include "systems/robot/vectors.h"
 #include "systems/signals/contact_classes.h"
+#include "systems/signals/contact_course.h"
 
 namespace flinch {
 
@@ -22,18 +23,18 @@ struct Moment {
 
 /// What was known of a contact at one tick, and what was true.
 struct DataSample {
-  int run = 0;                    ///< samples of one run belong together
-  int configuration = 0;          ///< likewise samples of one configuration of the robot
-  int moment = 0;                 ///< sum of Moment's
-  int touched = 0;                ///< the truth: number in the robot's ContactClasses
-  double since_onset = 0.0;       ///< of the contact [s]
-  double since_early = 0.0;       ///< since Moment::early [s]
-  double force = 0.0;             ///< the truth, of the strongest touch [N]
-  Configuration pose;             ///< as the encoders tell it
-  PlatformVector velocity;        ///< likewise
-  PlatformVector wrench_in_base;  ///< as estimated [N, Nm]
-  PlatformVector change;          ///< of it during the last step of `WrenchGrowth` [N, Nm]
-  PlatformVector change_before;   ///< and during the one before [N, Nm]
+  int run = 0;               ///< samples of one run belong together
+  int configuration = 0;     ///< likewise samples of one configuration of the robot
+  int moment = 0;            ///< sum of Moment's
+  int touched = 0;           ///< the truth: number in the robot's ContactClasses
+  double since_onset = 0.0;  ///< of the contact [s]
+  double since_early = 0.0;  ///< since Moment::early [s]
+  double force = 0.0;        ///< the truth, of the strongest touch [N]
+  Configuration pose;        ///< as the encoders tell it
+  CourseMoments course;      ///< what was estimated, and how the platform moved
+
+  const PlatformVector& wrench_in_base() const { return course.front().wrench_in_base; }
+  const PlatformVector& velocity() const { return course.front().velocity; }
 };
 
 /// Contacts of a robot with their labels.

@@ -7,6 +7,7 @@
 #include <map>
 #include <thread>
 
+#include "systems/contact/course_memory.h"
 #include "systems/contact/evidence_features.h"
 #include "systems/contact/feature_extraction.h"
 #include "systems/foundation/nearest_name.h"
@@ -37,8 +38,7 @@ FeatureSet::FeatureSet(Question question, std::shared_ptr<const ParallelRobot> r
     : question_(question),
       robot_(std::move(robot)),
       touchable_(classes_of(*robot_)),
-      hypotheses_(robot_, TouchHypothesesSettings()),
-      hypotheses_of_change_(robot_, hypotheses_of_change()) {
+      hypotheses_(robot_, TouchHypothesesSettings()) {
   const bool is_all = question == Question::touched;
   for (const FeatureName& feature : is_all ? evidence_feature_names() : feature_names(*robot_)) {
     if (!is_all && !is_told(question, feature.name)) continue;
@@ -72,25 +72,24 @@ std::optional<int> FeatureSet::answer(int touched) const {
 
 bool FeatureSet::inputs(const DataSample& sample, NeuralNetwork::Values& columns) const {
   Kinematics now;
-  robot_->kinematics(sample.pose, sample.velocity, now);
-  WrenchEstimate estimate;
-  estimate.valid = true;
-  estimate.wrench_in_base = sample.wrench_in_base;
-  estimate.drive_torque = drive_torques(now, sample.wrench_in_base);
+  robot_->kinematics(sample.pose, sample.velocity(), now);
+  const PlatformVector& wrench = sample.wrench_in_base();
   if (question_ == Question::touched) {
     const ConfigurationSpace& space = robot_->space();
-    ContactEvidence whole, change, change_before;
-    const auto weigh = [&](const TouchHypotheses& by, const PlatformVector& wrench,
-                           ContactEvidence& evidence) {
-      by.weigh(now, wrench, uncertainty_.covariance(space, wrench), evidence);
+    ContactEvidence whole, growth;
+    const auto weigh = [&](const PlatformVector& of, ContactEvidence& evidence) {
+      hypotheses_.weigh(now, of, uncertainty_.covariance(space, of), evidence);
     };
-    weigh(hypotheses_, sample.wrench_in_base, whole);
-    weigh(hypotheses_of_change_, sample.change, change);
-    weigh(hypotheses_of_change_, sample.change_before, change_before);
-    const double force = sample.wrench_in_base.head(space.translations()).norm();
-    evidence_features(touchable_, {whole, change, change_before, force}, columns);
-    return whole.valid && change.valid && change_before.valid;
+    weigh(wrench, whole);
+    weigh(growth_of(sample.course), growth);
+    const double force = wrench.head(space.translations()).norm();
+    evidence_features(touchable_, {whole, growth, leg_courses(*robot_, now, sample.course), force}, columns);
+    return whole.valid && growth.valid;
   }
+  WrenchEstimate estimate;
+  estimate.valid = true;
+  estimate.wrench_in_base = wrench;
+  estimate.drive_torque = drive_torques(now, wrench);
   const ContactFeatures features = contact_features(*robot_, now, estimate, FeatureSettings());
   const FeatureVector all = feature_vector(features);
   const std::vector<FeatureName> every = feature_names(*robot_);
@@ -105,10 +104,11 @@ bool FeatureSet::inputs(const DataSample& sample, NeuralNetwork::Values& columns
 std::string FeatureSet::check() const {
   DataSample sample;
   sample.pose = robot_->home_pose();
-  sample.velocity = PlatformVector::Constant(robot_->dof(), 0.1);
-  sample.wrench_in_base = PlatformVector::LinSpaced(robot_->dof(), 30.0, 2.0);
-  sample.change = PlatformVector::LinSpaced(robot_->dof(), 12.0, 0.5);
-  sample.change_before = PlatformVector::LinSpaced(robot_->dof(), 5.0, 0.8);
+  for (std::size_t i = 0; i < sample.course.size(); ++i) {
+    const double left = 1.0 - static_cast<double>(i) / static_cast<double>(sample.course.size());
+    sample.course[i] = {left * PlatformVector::LinSpaced(robot_->dof(), 30.0, 2.0),
+                        (1.1 - left) * PlatformVector::Constant(robot_->dof(), 0.1)};
+  }
   NeuralNetwork::Values columns;
   const bool is_told = inputs(sample, columns);
   double sum = 0.0, weight = 1.0;

@@ -51,7 +51,7 @@ class FeatureSet {
   Question question_;
   std::shared_ptr<const ParallelRobot> robot_;
   ContactClasses touchable_;
-  TouchHypotheses hypotheses_, hypotheses_of_change_;
+  TouchHypotheses hypotheses_;
   WrenchUncertainty uncertainty_;
   std::vector<std::string> classes_, names_, units_;
 };

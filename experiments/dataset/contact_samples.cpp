@@ -4,7 +4,6 @@
 
 #include "experiments/dataset/data_spec.h"
 #include "experiments/verdict/recorded_estimate.h"
-#include "systems/contact/wrench_growth.h"
 #include "systems/framework/recorded_values.h"
 #include "systems/signals/contact_detection.h"
 #include "systems/signals/platform_motion.h"
@@ -129,6 +128,22 @@ struct Moments {
   std::size_t end = 0;
 };
 
+/// None where something was not known at one of its moments.
+std::optional<CourseMoments> course_at(std::size_t tick, Time period,
+                                       const RecordedValues<RecordedEstimate>& estimates,
+                                       const RecordedValues<PlatformMotion>& motions) {
+  CourseMoments course;
+  for (std::size_t i = 0; i < course_ages.size(); ++i) {
+    const auto age = static_cast<std::size_t>(course_ages[i] / period);
+    if (age > tick) return std::nullopt;
+    const RecordedEstimate estimate = estimates[tick - age];
+    const PlatformMotion motion = motions[tick - age];
+    if (!estimate.valid || !motion.valid()) return std::nullopt;
+    course[i] = {estimate.wrench_in_base, motion.velocity};
+  }
+  return course;
+}
+
 }  // namespace
 
 std::vector<std::string> sampled_signals(const SampleChoice& choice) {
@@ -152,24 +167,19 @@ ContactSamples contact_samples(const Recording& recording, const ParallelRobot& 
     if (moments.early && tick == *moments.early && !label.begun())
       return {{}, "noticed before anything touched"};
     if (!moments.early || tick < *moments.early) continue;
-    const auto step = static_cast<std::size_t>(wrench_growth_step / recording.period);
-    if (tick < 2 * step) continue;
     const RecordedEstimate estimate = estimates[tick];
-    const RecordedEstimate last = estimates[tick - step], first = estimates[tick - 2 * step];
-    const PlatformMotion motion = motions[tick];
-    const bool is_known = estimate.valid && last.valid && first.valid && motion.valid();
-    if (!is_known || label.touched() < 0) continue;
+    if (!estimate.valid || label.touched() < 0) continue;
     const int moment = moments.at(tick);
     const bool is_due = (tick - *moments.early) % static_cast<std::size_t>(choice.every) == 0;
     const double force = estimate.wrench_in_base.head(robot.space().translations()).norm();
     const bool is_chosen = choice.from_force ? force >= *choice.from_force && is_due
                                              : tick <= moments.end && (moment != 0 || is_due);
     if (!is_chosen) continue;
+    const auto course = course_at(tick, recording.period, estimates, motions);
+    if (!course) continue;
     const double early = static_cast<double>(*moments.early) * period;
     result.samples.push_back({0, 0, moment, label.touched(), time - label.onset(early), time - early,
-                              label.force(), motion.pose, motion.velocity, estimate.wrench_in_base,
-                              estimate.wrench_in_base - last.wrench_in_base,
-                              last.wrench_in_base - first.wrench_in_base});
+                              label.force(), motions[tick].pose, *course});
   }
   if (result.samples.empty()) result.left_out = label.begun() ? "not noticed" : "nothing touched";
   return result;

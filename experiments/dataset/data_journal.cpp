@@ -63,10 +63,10 @@ std::string frame_of(std::size_t run, const ContactSamples& samples) {
     for (const int number : {sample.configuration, sample.moment, sample.touched}) put(bytes, number);
     for (const double number : {sample.since_onset, sample.since_early, sample.force}) put(bytes, number);
     put_all(bytes, sample.pose);
-    put_all(bytes, sample.velocity);
-    put_all(bytes, sample.wrench_in_base);
-    put_all(bytes, sample.change);
-    put_all(bytes, sample.change_before);
+    for (const CourseMoment& moment : sample.course) {
+      put_all(bytes, moment.wrench_in_base);
+      put_all(bytes, moment.velocity);
+    }
   }
   return bytes;
 }
@@ -86,9 +86,10 @@ std::pair<std::size_t, ContactSamples> run_of(const std::string& bytes, const Pa
     for (double* const number : {&sample.since_onset, &sample.since_early, &sample.force})
       *number = frame.take<double>();
     frame.take_all(robot.home_pose().size(), sample.pose);
-    frame.take_all(robot.dof(), sample.velocity);
-    for (PlatformVector* wrench : {&sample.wrench_in_base, &sample.change, &sample.change_before})
-      frame.take_all(robot.dof(), *wrench);
+    for (CourseMoment& moment : sample.course) {
+      frame.take_all(robot.dof(), moment.wrench_in_base);
+      frame.take_all(robot.dof(), moment.velocity);
+    }
   }
   if (!frame.ended()) throw SetupError("a run has another length than its samples");
   return {run, std::move(samples)};

@@ -8,6 +8,7 @@ namespace flinch {
 namespace {
 
 constexpr double least_log = -12.0;
+constexpr double usual_speed = 0.3;  // [m/s]
 
 /// The numbers of one class.
 class Column {
@@ -81,12 +82,23 @@ void add_evidence(const ContactClasses& classes, const ContactEvidence& evidence
   column.add(std::min(std::sqrt(evidence.residual.minCoeff()), 10.0));
 }
 
+/// How the contact has come about, as a leg has felt it.
+void add_course(const LegCourse& course, Column& column) {
+  for (const LegMoment& moment : course.moments) {
+    for (const double force : {moment.link1_force, moment.link2_force, moment.other_force})
+      column.add(std::asinh(force / 5.0));
+    for (const double speed : {moment.link1_speed, moment.link2_speed})
+      column.add(std::clamp(speed / usual_speed, -5.0, 5.0));
+  }
+  column.add(course.elbow_cosine);
+}
+
 }  // namespace
 
-void evidence_features(const ContactClasses& classes, const GrowthEvidence& seen,
+void evidence_features(const ContactClasses& classes, const SeenContact& seen,
                        NeuralNetwork::Values& columns) noexcept {
   const int count = std::min(classes.count(), NeuralNetwork::max_rows);
-  const std::array all = {&seen.whole, &seen.change, &seen.change_before};
+  const std::array all = {&seen.whole, &seen.growth};
   columns.setZero(evidence_feature_count, count);
   for (const ContactEvidence* each : all) {
     if (!each->valid || each->log_evidence.size() != classes.count()) return;
@@ -99,6 +111,7 @@ void evidence_features(const ContactClasses& classes, const GrowthEvidence& seen
       column.add(is ? 1.0 : 0.0);
     for (const ContactEvidence* each : all) add_evidence(classes, *each, number, column);
     column.add(std::asinh(seen.force / 10.0));
+    add_course(seen.courses[static_cast<std::size_t>(leg_beside(classes, seen.whole, number))], column);
   }
 }
 
@@ -106,7 +119,7 @@ std::vector<FeatureName> evidence_feature_names() {
   std::vector<FeatureName> names;
   const auto add = [&names](const std::string& name) { names.push_back({name, "1"}); };
   for (const char* is : {"is_platform", "is_link1", "is_link2", "is_clamping"}) add(is);
-  for (const std::string when : {"", "change_", "change_before_"}) {
+  for (const std::string when : {"", "growth_"}) {
     for (const std::string of : {"own_", "link1_", "link2_", "clamping_", "platform_"}) {
       for (const char* what : {"log_share", "residual", "approach", "location", "log_force"})
         add(when + of + what);
@@ -114,6 +127,12 @@ std::vector<FeatureName> evidence_feature_names() {
     for (const char* what : {"best_of_others", "least_residual"}) add(when + what);
   }
   add("log_total_force");
+  for (const Time age : course_ages) {
+    const std::string when = "_" + std::to_string(age / 1ms) + "ms_ago";
+    for (const char* what : {"link1_force", "link2_force", "other_force", "link1_speed", "link2_speed"})
+      add(what + when);
+  }
+  add("elbow_cosine");
   return names;
 }
 

@@ -8,10 +8,10 @@
 
 namespace flinch {
 
-LearnedClassifier::LearnedClassifier(const std::shared_ptr<const ParallelRobot>& robot,
+LearnedClassifier::LearnedClassifier(std::shared_ptr<const ParallelRobot> robot,
                                      LearnedClassifierSettings settings)
-    : classes_(robot->body_count(), robot->legs()),
-      translations_(robot->space().translations()),
+    : robot_(std::move(robot)),
+      classes_(robot_->body_count(), robot_->legs()),
       settings_(std::move(settings)) {
   Findings found("learned classifier: ");
   found.require(settings_.network != nullptr, "there is no network");
@@ -28,17 +28,18 @@ LearnedClassifier::LearnedClassifier(const std::shared_ptr<const ParallelRobot>&
   throw_if_any(found.take());
 }
 
-void LearnedClassifier::classify(Time now, const ContactPhase& contact, const ContactEvidence& seen,
-                                 const ContactEvidence& change, const ContactEvidence& change_before,
-                                 const WrenchEstimate& estimate, const ContactClassification& last,
+void LearnedClassifier::classify(Time now, const ContactPhase& contact, const Kinematics& pose,
+                                 const ContactEvidence& seen, const ContactEvidence& growth,
+                                 const ContactCourse& how, const ContactClassification& last,
                                  ContactClassification& result) const {
   result = contact.active && !contact.begins(now) ? last : ContactClassification();
-  const bool is_told = contact.active && now - contact.since <= settings_.window && seen.valid &&
-                       change.valid && change_before.valid && estimate.wrench_in_base.size() >= translations_;
+  const bool is_told = contact.active && now - contact.since <= settings_.window && pose.valid &&
+                       seen.valid && growth.valid && how.valid &&
+                       how.moments.front().wrench_in_base.size() == robot_->dof();
   if (!is_told) return;
   NeuralNetwork::Values features, probability;
-  evidence_features(
-      classes_, {seen, change, change_before, estimate.wrench_in_base.head(translations_).norm()}, features);
+  const double force = how.moments.front().wrench_in_base.head(robot_->space().translations()).norm();
+  evidence_features(classes_, {seen, growth, leg_courses(*robot_, pose, how.moments), force}, features);
   if (!settings_.network->evaluate(features, probability)) return;
   result.acquired = seen.acquired;
   result.valid = true;

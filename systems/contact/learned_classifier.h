@@ -6,8 +6,8 @@
 #include "systems/framework/system.h"
 #include "systems/robot/parallel_robot.h"
 #include "systems/signals/contact_classes.h"
+#include "systems/signals/contact_course.h"
 #include "systems/signals/contact_phase.h"
-#include "systems/signals/wrench_estimate.h"
 
 namespace flinch {
 
@@ -21,33 +21,32 @@ struct LearnedClassifierSettings {
 };
 
 /// Classifies the contact by a network that has learned what the evidence of the model is worth: that of the
-/// wrench and of how it has grown. At each tick of the window it says what the evidence of that tick tells;
-/// evidence that is not valid changes nothing.
+/// wrench and of its growth, and how it has come about. At each tick of the window it says what that tick
+/// tells; what is not valid changes nothing.
 class LearnedClassifier final : public System {
   State<ContactClassification> last_ = state<ContactClassification>("last");
 
  public:
   /// Throws SetupError without a network, or for one that is told other features.
-  LearnedClassifier(const std::shared_ptr<const ParallelRobot>& robot, LearnedClassifierSettings settings);
+  LearnedClassifier(std::shared_ptr<const ParallelRobot> robot, LearnedClassifierSettings settings);
 
   InputPort<ContactPhase> phase = input<ContactPhase>("phase");
+  InputPort<Kinematics> kinematics = input<Kinematics>("kinematics");
   InputPort<ContactEvidence> evidence = input<ContactEvidence>("evidence");
-  InputPort<ContactEvidence> change_evidence = input<ContactEvidence>("change_evidence");  ///< of its growth
-  InputPort<ContactEvidence> change_before_evidence = input<ContactEvidence>("change_before_evidence");
-  InputPort<WrenchEstimate> wrench = input<WrenchEstimate>("wrench");  ///< that the evidence is of
+  InputPort<ContactEvidence> growth_evidence = input<ContactEvidence>("growth_evidence");
+  InputPort<ContactCourse> course = input<ContactCourse>("course");  ///< of the wrench that they are of
   OutputPort<ContactClassification> classification = output<&LearnedClassifier::classify>(
-      "classification", clock, phase, evidence, change_evidence, change_before_evidence, wrench, last_);
+      "classification", clock, phase, kinematics, evidence, growth_evidence, course, last_);
 
  private:
   Update remember_ = keep(last_, classification);
 
-  void classify(Time now, const ContactPhase& contact, const ContactEvidence& seen,
-                const ContactEvidence& change, const ContactEvidence& change_before,
-                const WrenchEstimate& estimate, const ContactClassification& last,
+  void classify(Time now, const ContactPhase& contact, const Kinematics& pose, const ContactEvidence& seen,
+                const ContactEvidence& growth, const ContactCourse& how, const ContactClassification& last,
                 ContactClassification& result) const;
 
+  std::shared_ptr<const ParallelRobot> robot_;
   ContactClasses classes_;
-  int translations_;
   LearnedClassifierSettings settings_;
 };
 

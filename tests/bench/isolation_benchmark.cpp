@@ -107,20 +107,22 @@ void EvidenceOfTheModel(benchmark::State& state) {
 }
 BENCHMARK(EvidenceOfTheModel);
 
-/// Evidence of the wrench and of its two changes, features, and the scorer of all classes.
+/// Evidence of the wrench and of its growth, the course of the legs, features, and the scorer of all classes.
 void LearnedClassifierOfAWrench(benchmark::State& state) {
   const Touch touch;
-  const TouchHypotheses of_wrench(touch.robot, {}), of_change(touch.robot, hypotheses_of_change());
-  const NeuralNetwork scorer = network(evidence_feature_count, {32, 32, 1}, NetworkResult::softmax_of_rows);
-  const PlatformVector change = 0.3 * touch.wrench;
-  const PlatformMatrix of_small = WrenchUncertainty().covariance(touch.robot->space(), change);
-  ContactEvidence whole, last, before;
+  const TouchHypotheses hypotheses(touch.robot, {});
+  const NeuralNetwork scorer = network(evidence_feature_count, {80, 48, 1}, NetworkResult::softmax_of_rows);
+  const PlatformVector grown = 0.9 * touch.wrench;
+  const PlatformMatrix of_grown = WrenchUncertainty().covariance(touch.robot->space(), grown);
+  CourseMoments moments;
+  moments.fill({0.5 * touch.wrench, touch.k.velocity});
+  ContactEvidence whole, growth;
   NeuralNetwork::Values features, outputs;
   compare(state, touch, [&] {
-    of_wrench.weigh(touch.k, touch.wrench, touch.covariance, whole);
-    of_change.weigh(touch.k, change, of_small, last);
-    of_change.weigh(touch.k, change, of_small, before);
-    evidence_features(of_wrench.classes(), {whole, last, before, 50.0}, features);
+    hypotheses.weigh(touch.k, touch.wrench, touch.covariance, whole);
+    hypotheses.weigh(touch.k, grown, of_grown, growth);
+    const LegCourses courses = leg_courses(*touch.robot, touch.k, moments);
+    evidence_features(hypotheses.classes(), {whole, growth, courses, 50.0}, features);
     benchmark::DoNotOptimize(scorer.evaluate(features, outputs));
   });
 }

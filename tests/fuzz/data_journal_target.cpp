@@ -50,8 +50,7 @@ std::vector<std::string> seeds() {
     DataSample& sample = samples.samples.emplace_back();
     sample.touched = i;
     sample.pose = robot().home_pose();
-    sample.velocity = PlatformVector::Zero(robot().dof());
-    sample.wrench_in_base = sample.change = sample.change_before = PlatformVector::Ones(robot().dof());
+    sample.course.fill({PlatformVector::Ones(robot().dof()), PlatformVector::Zero(robot().dof())});
   }
   return {journal_of(&samples).substr(journal_of(nullptr).size() + 16)};
 }

@@ -20,8 +20,7 @@ std::vector<std::string> seeds() {
     sample.run = i;
     sample.touched = i;
     sample.pose = data.robot->home_pose();
-    sample.velocity = PlatformVector::Zero(data.robot->dof());
-    sample.wrench_in_base = sample.change = sample.change_before = PlatformVector::Ones(data.robot->dof());
+    sample.course.fill({PlatformVector::Ones(data.robot->dof()), PlatformVector::Zero(data.robot->dof())});
   }
   const std::filesystem::path file = fuzz_folder() / "seed_set.h5";
   write_data_set(data, file);

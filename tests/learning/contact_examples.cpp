@@ -108,24 +108,28 @@ DataSet contact_examples(int count, std::uint64_t seed) {
     if (!classes.is_clamping(sample.touched)) since[1] = since[0];
     const double least_speed = sample.force / (stiffest * 5e-3 * std::min(since[0], since[1]));
     Contact contact;
+    Kinematics now;
+    PlatformVector velocity;
     do {
       const double direction = random.uniform(-M_PI, M_PI);
-      sample.velocity = Eigen::Vector3d(0.5 * std::cos(direction), 0.5 * std::sin(direction), 0.0);
-      Kinematics now;
-      robot.kinematics(sample.pose, sample.velocity, now);
+      velocity = Eigen::Vector3d(0.5 * std::cos(direction), 0.5 * std::sin(direction), 0.0);
+      robot.kinematics(sample.pose, velocity, now);
       contact = contact_of(robot, now, sample.touched, fraction);
     } while (contact.speed < least_speed);
-    const auto wrench_before = [&](int steps) {  // of 5 ms
-      PlatformVector wrench = PlatformVector::Zero(robot.dof());
-      for (std::size_t place = 0; place < since.size(); ++place)
-        wrench += (1.0 - steps / since[place]) * sample.force * contact.places[place].wrench;
-      return wrench;
-    };
-    sample.wrench_in_base = wrench_before(0);
-    sample.change = wrench_before(0) - wrench_before(1);
-    sample.change_before = wrench_before(1) - wrench_before(2);
-    for (PlatformVector* noisy : {&sample.wrench_in_base, &sample.change, &sample.change_before})
-      *noisy += Eigen::Vector3d(0.5 * random.normal(), 0.5 * random.normal(), 0.05 * random.normal());
+    Dynamics dynamics;
+    robot.dynamics(now, dynamics);
+    for (std::size_t k = 0; k < course_ages.size(); ++k) {
+      const double ago = static_cast<double>(course_ages[k] / 1ms);
+      PlatformVector wrench = PlatformVector::Zero(robot.dof()), since_then = wrench;
+      for (std::size_t place = 0; place < since.size(); ++place) {
+        const double lasts = 5.0 * since[place], of = std::min(ago, lasts);  // [ms]
+        const PlatformVector whole = sample.force * contact.places[place].wrench;
+        wrench += (1.0 - of / lasts) * whole;
+        since_then += 1e-3 * of * (1.0 - 0.5 * of / lasts) * whole;
+      }
+      wrench += Eigen::Vector3d(0.5 * random.normal(), 0.5 * random.normal(), 0.05 * random.normal());
+      sample.course[k] = {wrench, velocity - dynamics.M_x.inverse() * since_then};
+    }
     data.samples.push_back(sample);
   }
   return data;

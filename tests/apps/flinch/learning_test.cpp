@@ -23,7 +23,7 @@ using ::testing::HasSubstr;
 class LearningVerbs : public ::testing::Test {
  protected:
   void SetUp() override {
-    made = flinch({"dataset", FLINCH_SOURCE_DIR "/apps/models/bodies.yaml", "--runs", "40", "--seed", "5",
+    made = flinch({"dataset", FLINCH_SOURCE_DIR "/apps/models/bodies.yaml", "--runs", "60", "--seed", "5",
                    "--out", data(), "--threads", "2", "--quiet"});
     trained = flinch(
         {"train", data(), "-o", model(), "--epochs", "40", "--threads", "2", "--folds", "3", "--json"});
@@ -42,7 +42,7 @@ class LearningVerbs : public ::testing::Test {
 
 TEST_F(LearningVerbs, SayWhatTheyHaveMade) {
   EXPECT_EQ(made.status, 0) << made.err;
-  EXPECT_THAT(made.out, HasSubstr("40 runs"));
+  EXPECT_THAT(made.out, HasSubstr("60 runs"));
   EXPECT_THAT(made.out, HasSubstr("platform"));
   ASSERT_EQ(trained.status, 0) << trained.err;
   const auto json = nlohmann::json::parse(trained.out);

@@ -36,11 +36,15 @@ struct Classifier {
   explicit Classifier(const LearnedClassifierSettings& settings = {.network = takes_evidence_as_it_is()})
       : block(builder.add<LearnedClassifier>("classifier", bench(), settings)),
         phase(builder.export_input("phase", block.phase)),
+        kinematics(builder.export_input("kinematics", block.kinematics)),
         evidence(builder.export_input("evidence", block.evidence)),
-        change(builder.export_input("change_evidence", block.change_evidence)),
-        change_before(builder.export_input("change_before_evidence", block.change_before_evidence)),
-        wrench(builder.export_input("wrench", block.wrench)),
-        ticking(builder) {}
+        growth(builder.export_input("growth_evidence", block.growth_evidence)),
+        course(builder.export_input("course", block.course)),
+        ticking(builder) {
+    Kinematics home;
+    bench()->kinematics(bench()->home_pose(), PlatformVector::Zero(3), home);
+    ticking.set(kinematics, home);
+  }
 
   /// One class is e^`strength` times as likely as each other one.
   ContactClassification see(int number, double strength, bool active = true, double residual = 1.0) {
@@ -52,11 +56,11 @@ struct Classifier {
     seen.location = seen.approach = ClassVector::Zero(10);
     seen.force = ClassVector::Constant(10, 30.0);
     ticking.set(evidence, seen);
-    ticking.set(change, seen);
-    ticking.set(change_before, has_grown ? seen : ContactEvidence());
-    ticking.set(wrench, WrenchEstimate{.valid = true,
-                                       .wrench_in_base = Eigen::Vector3d(30.0, 0.0, 1.0),
-                                       .drive_torque = JointVector::Zero(3)});
+    ticking.set(growth, has_grown ? seen : ContactEvidence());
+    ContactCourse told;
+    told.valid = has_course;
+    told.moments.fill({Eigen::Vector3d(30.0, 0.0, 1.0), Eigen::Vector3d(0.3, 0.1, 0.0)});
+    ticking.set(course, told);
     if (active && !active_) since_ = ticking.now();
     active_ = active;
     ticking.set(phase, ContactPhase{active, since_});
@@ -67,10 +71,11 @@ struct Classifier {
   DiagramBuilder builder;
   LearnedClassifier& block;
   InputPort<ContactPhase> phase;
-  InputPort<ContactEvidence> evidence, change, change_before;
-  InputPort<WrenchEstimate> wrench;
+  InputPort<Kinematics> kinematics;
+  InputPort<ContactEvidence> evidence, growth;
+  InputPort<ContactCourse> course;
   test::Ticking ticking;
-  bool has_grown = true;  ///< it is known how the wrench has grown
+  bool has_grown = true, has_course = true;  ///< they are known
 
  private:
   bool active_ = false;
@@ -110,6 +115,11 @@ TEST(LearnedClassifier, LeavesItsAnswerWhereThereIsNoEvidence) {
   EXPECT_EQ(classifier.see(5, nan).most_likely, 2);
   classifier.has_grown = false;
   EXPECT_EQ(classifier.see(5, 5.0).most_likely, 2);
+  classifier.has_grown = true;
+  classifier.has_course = false;
+  EXPECT_EQ(classifier.see(5, 5.0).most_likely, 2);
+  classifier.has_course = true;
+  EXPECT_EQ(classifier.see(5, 5.0).most_likely, 5);
 }
 
 TEST(LearnedClassifier, DoesNotAllocate) {

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "systems/framework/system.h"
+#include "systems/signals/contact_course.h"
+#include "systems/signals/contact_phase.h"
+#include "systems/signals/history.h"
+#include "systems/signals/platform_motion.h"
+#include "systems/signals/wrench_estimate.h"
+
+namespace flinch {
+
+/// Remembers an estimate and the motion, and tells their course at every tick of the first `window` of a
+/// contact; at others the last one stands. It is not valid where something was not known at one of its
+/// moments, to within 1 ms, or since. For ticks of 1 ms or longer. (Derived.)
+class CourseMemory final : public System {
+ public:
+  struct Remembered {
+    Time acquired{};
+    CourseMoment moment;
+  };
+  using Past = History<Remembered, 48>;
+
+ private:
+  State<Past> past_ = state<Past>("past");
+
+ public:
+  explicit CourseMemory(Time window) : window_(window) {}
+
+  InputPort<ContactPhase> phase = input<ContactPhase>("phase");
+  InputPort<WrenchEstimate> wrench = input<WrenchEstimate>("wrench");
+  InputPort<PlatformMotion> platform = input<PlatformMotion>("platform");
+
+ private:
+  Intermediate<bool> active_ = intermediate<&CourseMemory::is_active>("active", clock, phase);
+
+ public:
+  OutputPort<ContactCourse> course =
+      output<&CourseMemory::recall>(When(active_), "course", wrench, platform, past_);
+  /// What of the estimate has come since the first moment of the course: without errors that are older.
+  OutputPort<WrenchEstimate> growth = output<&CourseMemory::grow>(When(active_), "growth", course);
+
+ private:
+  Update remember_ = update<&CourseMemory::remember>(past_, wrench, platform);
+
+  bool is_active(Time now, const ContactPhase& contact) const {
+    return contact.active && now - contact.since <= window_;
+  }
+  void recall(const WrenchEstimate& estimate, const PlatformMotion& motion, const Past& past,
+              ContactCourse& result) const;
+  void grow(const ContactCourse& now, WrenchEstimate& result) const;
+  void remember(const WrenchEstimate& estimate, const PlatformMotion& motion, Past& past) const;
+
+  Time window_;
+};
+
+/// What of the estimate has come since the first moment of a course.
+inline PlatformVector growth_of(const CourseMoments& moments) {
+  return moments.front().wrench_in_base - moments.back().wrench_in_base;
+}
+
+}  // namespace flinch

@@ -1,0 +1,70 @@
+#include "systems/contact/leg_course.h"
+
+#include <cmath>
+
+#include "systems/contact/wrench_uncertainty.h"
+
+namespace flinch {
+namespace {
+
+/// A direction of platform coordinates: of whitened wrenches, or of velocities.
+PlatformVector felt_at(const ParallelRobot& robot, const Kinematics& now, BodyId link,
+                       const CartesianVector& direction) {
+  return robot.contact_jacobian(now, link, robot.axis_point(link, 0.5)).translation.transpose() * direction;
+}
+
+PlatformVector normalised(const PlatformVector& vector) {
+  const double size = vector.norm();
+  return size > 0.0 ? PlatformVector(vector / size) : vector;
+}
+
+LegCourse leg_course(const ParallelRobot& robot, const Kinematics& now, const PlatformVector& deviation,
+                     const CourseMoments& moments, int leg) {
+  LegCourse result;
+  const LegPoints& points = now.legs[static_cast<std::size_t>(leg)];
+  const CartesianVector first = points.base_joint - points.passive_joint;
+  const CartesianVector second = points.coupling_joint - points.passive_joint;
+  const double lengths = first.norm() * second.norm();
+  if (!(lengths > 0.0)) return result;
+  const double cosine = first.dot(second) / lengths;
+  if (!(std::abs(cosine) < 1.0 - 1e-6)) return result;
+  const double sine = std::sqrt(1.0 - cosine * cosine);
+  const CartesianVector along1 = first / first.norm(), along2 = second / second.norm();
+  const CartesianVector inwards1 = (along2 - cosine * along1) / sine;
+  const CartesianVector inwards2 = (along1 - cosine * along2) / sine;
+  const PlatformVector motion1 = felt_at(robot, now, BodyId::link1(leg), inwards1);
+  const PlatformVector motion2 = felt_at(robot, now, BodyId::link2(leg), inwards2);
+  // What pushes the links apart pushes them outwards.
+  const PlatformVector push1 = normalised(-motion1.cwiseQuotient(deviation));
+  const PlatformVector push2 = -motion2.cwiseQuotient(deviation);
+  const PlatformVector beside = normalised(push2 - push1.dot(push2) * push1);
+  result.elbow_cosine = cosine;
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    const PlatformVector wrench = moments[i].wrench_in_base.cwiseQuotient(deviation);
+    LegMoment& moment = result.moments[i];
+    moment.link1_force = push1.dot(wrench);
+    moment.link2_force = beside.dot(wrench);
+    moment.other_force = (wrench - moment.link1_force * push1 - moment.link2_force * beside).norm();
+    moment.link1_speed = motion1.dot(moments[i].velocity);
+    moment.link2_speed = motion2.dot(moments[i].velocity);
+  }
+  return result;
+}
+
+}  // namespace
+
+LegCourses leg_courses(const ParallelRobot& robot, const Kinematics& now,
+                       const CourseMoments& moments) noexcept {
+  LegCourses courses{};
+  const int dof = robot.dof();
+  if (!now.valid) return courses;
+  for (const CourseMoment& moment : moments)
+    if (moment.wrench_in_base.size() != dof || moment.velocity.size() != dof) return courses;
+  const PlatformVector deviation =
+      WrenchUncertainty().covariance(robot.space(), PlatformVector::Zero(dof)).diagonal().cwiseSqrt();
+  for (int leg = 0; leg < robot.legs(); ++leg)
+    courses[static_cast<std::size_t>(leg)] = leg_course(robot, now, deviation, moments, leg);
+  return courses;
+}
+
+}  // namespace flinch

@@ -1,0 +1,74 @@
+// How well `touched` tells contacts in two configurations after it has learned in another one, the protocol
+// of [SafePR] V-F, on robots that differ from their model. FLINCH_CLASSIFIED in the environment says of how
+// many runs; 1800 are all.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "experiments/dataset/data_spec.h"
+#include "experiments/dataset/make_data_set.h"
+#include "learning/train_classifier.h"
+#include "tests/support/wanted.h"
+
+namespace flinch {
+namespace {
+
+constexpr int all_runs = 1800;
+
+DataSet data_of(const std::string& name, int runs) {
+  DataSpec spec =
+      read_data_spec(FLINCH_SOURCE_DIR "/apps/models/" + name, {.runs = static_cast<std::size_t>(runs)});
+  spec.samples.wrench = "isolation";
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("flinch_one_configuration_" + std::to_string(getpid()) + ".h5");
+  const DataSet data = make_data_set(spec, file);
+  std::filesystem::remove(file);
+  return data;
+}
+
+ClassifierModel learned_in_the_first(const DataSet& data, int epochs) {
+  ClassifierTraining training;
+  TrainingSettings settings = standard_settings(Question::touched);
+  settings.least_scale = 3.0;
+  settings.l2 = 1e-3;
+  settings.epochs = epochs;
+  training.candidates = {settings};
+  training.filter.configurations = {0};
+  return train_classifier(data, training).model;
+}
+
+Evaluation asked_in_the_others(const ClassifierModel& model, const DataSet& data, int moments,
+                               const std::string& name) {
+  const FeatureSet features(Question::touched, data.robot);
+  const SampleFilter filter{.moments = moments, .configurations = {1, 2}};
+  const Questions questions = questions_of(data, features, filter, false);
+  const Evaluation seen = evaluate(answers_of(NeuralNetwork(model.network), questions, data), features,
+                                   model.accepted_from, name);
+  std::printf("%-12s %7zu samples: body %.1f %%, of clampings %.1f %% told as such\n", name.c_str(),
+              seen.samples, 100.0 * seen.body.value_or(0.0), 100.0 * seen.clamping.value_or(0.0));
+  return seen;
+}
+
+TEST(OneConfiguration, IsEnoughToTellDynamicContactsInOthers) {
+  const int runs = test::wanted("FLINCH_CLASSIFIED", 90);
+  const DataSet data = data_of("papers.yaml", runs);
+  const bool is_whole = runs >= all_runs;
+  const ClassifierModel model = learned_in_the_first(data, is_whole ? 6 : 40);
+  asked_in_the_others(model, data, 0, "all samples");
+  const Evaluation detected = asked_in_the_others(model, data, Moment::detected, "detected");
+  asked_in_the_others(model, data, Moment::later, "10 ms later");
+  EXPECT_GE(*detected.body, is_whole ? 0.95 : 0.8);
+}
+
+TEST(OneConfiguration, IsEnoughToTellStaticPushesInOthers) {
+  const int runs = test::wanted("FLINCH_CLASSIFIED", 90);
+  const DataSet data = data_of("papers_pushes.yaml", runs * 500 / all_runs);
+  const bool is_whole = runs >= all_runs;
+  const Evaluation seen =
+      asked_in_the_others(learned_in_the_first(data, is_whole ? 6 : 40), data, 0, "pushes");
+  EXPECT_GE(*seen.body, is_whole ? 0.9 : 0.7);
+}
+
+}  // namespace
+}  // namespace flinch

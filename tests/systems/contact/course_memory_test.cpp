@@ -1,0 +1,128 @@
+#include "systems/contact/course_memory.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/support/allocations.h"
+#include "tests/support/ticking.h"
+
+namespace flinch {
+namespace {
+
+constexpr int oldest = static_cast<int>(course_ages.back() / 1ms);
+
+PlatformVector squared(int tick) { return Eigen::Vector3d(tick * tick, -2.0 * tick * tick, 0.1 * tick); }
+PlatformVector cubed(int tick) { return Eigen::Vector3d(tick * tick * tick, 0.3 * tick, -tick); }
+
+struct Memory {
+  explicit Memory(Time window = 1000ms)
+      : block(builder.add<CourseMemory>("memory", window)),
+        phase(builder.export_input("phase", block.phase)),
+        wrench(builder.export_input("wrench", block.wrench)),
+        platform(builder.export_input("platform", block.platform)),
+        ticking(builder) {
+    ticking.set(phase, ContactPhase{true, Time{}});
+  }
+
+  void see(int number, bool is_estimated = true, bool moves = true, Time late = Time{}) {
+    set(number, is_estimated, moves, late);
+    ticking.tick();
+  }
+  void set(int number, bool is_estimated = true, bool moves = true, Time late = Time{}) {
+    ticking.set(wrench, WrenchEstimate{.acquired = ticking.now() - late,
+                                       .valid = is_estimated,
+                                       .wrench_in_base = squared(number),
+                                       .drive_torque = JointVector::Zero(3)});
+    ticking.set(platform, PlatformMotion{.acquired = ticking.now() - late,
+                                         .status = moves ? PlatformMotion::Status::valid
+                                                         : PlatformMotion::Status::no_data,
+                                         .pose = Eigen::Vector3d::Zero(),
+                                         .velocity = cubed(number)});
+  }
+  ContactCourse course() { return ticking.get(block.course); }
+  WrenchEstimate growth() { return ticking.get(block.growth); }
+
+  DiagramBuilder builder;
+  CourseMemory& block;
+  InputPort<ContactPhase> phase;
+  InputPort<WrenchEstimate> wrench;
+  InputPort<PlatformMotion> platform;
+  test::Ticking ticking;
+};
+
+TEST(CourseMemory, KnowsWhatWasThereAtEachAge) {
+  Memory memory;
+  for (int tick = 0; tick <= 70; ++tick) memory.see(tick);
+  const ContactCourse course = memory.course();
+  ASSERT_TRUE(course.valid);
+  EXPECT_EQ(course.acquired, 70ms);
+  for (std::size_t i = 0; i < course_ages.size(); ++i) {
+    const int then = 70 - static_cast<int>(course_ages[i] / 1ms);
+    EXPECT_EQ(course.moments[i].wrench_in_base, squared(then)) << i;
+    EXPECT_EQ(course.moments[i].velocity, cubed(then)) << i;
+  }
+}
+
+TEST(CourseMemory, TellsWhatHasComeSinceTheFirstMoment) {
+  Memory memory;
+  for (int tick = 0; tick <= 70; ++tick) memory.see(tick);
+  ASSERT_TRUE(memory.growth().valid);
+  EXPECT_EQ(memory.growth().wrench_in_base, squared(70) - squared(70 - oldest));
+  EXPECT_EQ(memory.growth().acquired, 70ms);
+}
+
+TEST(CourseMemory, KnowsNoCourseUntilThereIsAPast) {
+  Memory memory;
+  for (int tick = 0; tick <= 60; ++tick) {
+    memory.see(tick);
+    EXPECT_EQ(memory.course().valid, tick >= oldest) << tick;
+    EXPECT_EQ(memory.growth().valid, tick >= oldest) << tick;
+  }
+}
+
+TEST(CourseMemory, DoesNotReachOverWhatWasNotKnown) {
+  for (const bool is_estimated : {false, true}) {
+    Memory memory;
+    for (int tick = 0; tick < 60; ++tick) memory.see(tick);
+    memory.see(60, is_estimated, !is_estimated);
+    EXPECT_FALSE(memory.course().valid);
+    for (int tick = 61; tick < 120; ++tick) {
+      memory.see(tick);
+      EXPECT_EQ(memory.course().valid, tick >= 61 + oldest) << tick;
+    }
+  }
+}
+
+TEST(CourseMemory, ComparesTimesOfAcquisitionNotTicks) {
+  Memory memory;
+  for (int tick = 0; tick < 60; ++tick) memory.see(tick);
+  for (int tick = 60; tick < 63; ++tick) memory.see(59, true, true, (tick - 59) * 1ms);  // nothing new
+  EXPECT_EQ(memory.course().moments.back().wrench_in_base, squared(59 - oldest));
+  memory.see(63);
+  EXPECT_EQ(memory.course().moments.back().wrench_in_base, squared(63 - oldest));
+}
+
+TEST(CourseMemory, IsAtRestOutsideOfTheWindow) {
+  Memory memory(10ms);
+  memory.ticking.set(memory.phase, ContactPhase{false, Time{}});
+  for (int tick = 0; tick <= 60; ++tick) memory.see(tick);
+  EXPECT_FALSE(memory.course().valid);
+  memory.ticking.set(memory.phase, ContactPhase{true, 61ms});
+  for (int tick = 61; tick <= 80; ++tick) {
+    memory.see(tick);
+    EXPECT_EQ(memory.course().acquired, std::min(tick, 71) * 1ms);
+  }
+}
+
+TEST(CourseMemory, DoesNotAllocate) {
+  Memory memory;
+  for (int tick = 0; tick < 60; ++tick) memory.see(tick);
+  memory.set(60);
+  const test::AllocationCounter allocations;
+  memory.ticking.tick();
+  EXPECT_EQ(allocations.count(), 0);
+}
+
+}  // namespace
+}  // namespace flinch
