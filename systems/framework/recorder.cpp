@@ -50,6 +50,7 @@ Recorder::Recorder(const Diagram& diagram, const std::vector<std::string>& paths
   }
   throw_if_any(std::move(problems));
   time_ns_.resize(capacity);
+  rows_.resize(capacity * numbers_);
 }
 
 std::size_t Recorder::channel_of(const Diagram::Tap& tap) {
@@ -57,7 +58,8 @@ std::size_t Recorder::channel_of(const Diagram::Tap& tap) {
     if (channels_[i].place == tap.place) return i;
   }
   const std::size_t numbers = tap.type->layout().numbers;
-  channels_.push_back({tap.place, tap.type, numbers, std::vector<internal::Number>(capacity_ * numbers)});
+  channels_.push_back({tap.place, tap.type, numbers_, numbers});
+  numbers_ += numbers;
   return channels_.size() - 1;
 }
 
@@ -70,10 +72,9 @@ void Recorder::record(const Context& context) {
   }
   const std::size_t slot = pushed % capacity_;
   time_ns_[slot] = context.time().count();
-  for (Channel& channel : channels_) {
-    internal::Number* row = channel.rows.data() + slot * channel.numbers;
-    channel.type->to_row(channel.place.in(context.memory()), row);
-  }
+  internal::Number* const sample = rows_.data() + slot * numbers_;
+  for (const Channel& channel : channels_)
+    channel.type->to_row(channel.place.in(context.memory()), sample + channel.first);
   pushed_.store(pushed + 1, std::memory_order_release);
 }
 
@@ -85,8 +86,8 @@ void Recorder::clear() {
 SampleBlock Recorder::block(std::size_t first, std::size_t samples) const {
   SampleBlock block{std::span(time_ns_).subspan(first, samples), {}};
   for (const Shown& shown : shown_) {
-    const auto& [place, type, numbers, rows] = channels_[shown.channel];
-    block.rows.push_back(std::span(rows).subspan(first * numbers, samples * numbers));
+    const Channel& channel = channels_[shown.channel];
+    block.rows.push_back({rows_.data() + first * numbers_ + channel.first, channel.numbers, numbers_});
   }
   return block;
 }

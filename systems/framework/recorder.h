@@ -60,12 +60,12 @@ class Recorder {
   Recording recording(std::map<std::string, std::string> attributes = {}) const;
 
  private:
-  /// The ring of one value.
+  /// One value of a sample.
   struct Channel {
     Place place;
     const ValueType* type;
-    std::size_t numbers;  ///< in a row
-    std::vector<internal::Number> rows;
+    std::size_t first;    ///< of its numbers, in a sample
+    std::size_t numbers;  ///< of which it consists
   };
   /// One path under which a value is recorded.
   struct Shown {
@@ -84,7 +84,9 @@ class Recorder {
   std::size_t capacity_;
   std::vector<Channel> channels_;
   std::vector<Shown> shown_;
+  std::size_t numbers_ = 0;  ///< of a sample
   std::vector<std::int64_t> time_ns_;
+  std::vector<internal::Number> rows_;  ///< a ring: all of a sample lies together, as it is written
   alignas(cache_line) std::atomic<std::size_t> pushed_ = 0;  ///< since the start
   std::atomic<std::int64_t> dropped_ = 0;
   alignas(cache_line) std::atomic<std::size_t> popped_ = 0;

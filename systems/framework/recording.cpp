@@ -83,7 +83,11 @@ std::vector<double> Recording::column(const std::string& path, const std::string
 void Recording::append(const SampleBlock& samples) {
   time_ns.insert(time_ns.end(), samples.time_ns.begin(), samples.time_ns.end());
   for (std::size_t i = 0; i < signals.size(); ++i) {
-    signals[i].rows.insert(signals[i].rows.end(), samples.rows[i].begin(), samples.rows[i].end());
+    std::vector<internal::Number>& rows = signals[i].rows;
+    for (std::size_t k = 0; k < samples.samples(); ++k) {
+      const std::span<const internal::Number> row = samples.rows[i][k];
+      rows.insert(rows.end(), row.begin(), row.end());
+    }
   }
 }
 

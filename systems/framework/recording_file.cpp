@@ -285,12 +285,7 @@ RecordingFileWriter::~RecordingFileWriter() {
 void RecordingFileWriter::append(const SampleBlock& samples) {
   for (std::size_t first = 0; first < samples.samples();) {
     const std::size_t count = std::min(samples.samples() - first, Recording::block - block_.samples());
-    SampleBlock part{samples.time_ns.subspan(first, count), {}};
-    for (std::size_t i = 0; i < block_.signals.size(); ++i) {
-      const std::size_t numbers = block_.signals[i].layout.numbers;
-      part.rows.push_back(samples.rows[i].subspan(first * numbers, count * numbers));
-    }
-    block_.append(part);
+    block_.append(samples.part(first, count));
     if (block_.samples() == Recording::block) write_block();
     first += count;
   }
@@ -337,7 +332,7 @@ void write_recording(const Recording& recording, const std::filesystem::path& fi
       const Signal& signal = recording.signals[i];
       rows[i].resize(count * signal.layout.numbers);
       recording.read_rows(signal, first, count, rows[i].data());
-      block.rows.emplace_back(rows[i]);
+      block.rows.push_back({rows[i].data(), signal.layout.numbers, signal.layout.numbers});
     }
     writer.append(block);
   }

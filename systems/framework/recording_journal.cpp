@@ -343,7 +343,11 @@ void RecordingJournal::append(const SampleBlock& samples) {
   Gathered payload;
   payload.add(&count, sizeof(count));
   payload.add(samples.time_ns.data(), samples.time_ns.size_bytes());
-  for (const std::span<const Number> rows : samples.rows) payload.add(rows.data(), rows.size_bytes());
+  std::vector<Number> rows;
+  for (const SampleRows& each : samples.rows) {
+    for (std::size_t k = 0; k < count; ++k) rows.insert(rows.end(), each[k].begin(), each[k].end());
+  }
+  payload.add(rows.data(), rows.size() * sizeof(Number));
   if (write_frame(file_, samples_mark, payload)) return;
   throw SetupError(part_.string() + ": the recording cannot be written: " + reason());
 }

@@ -59,11 +59,8 @@ std::vector<std::string> seeds() {
   {
     RecordingJournal journal(recording, file);
     const std::size_t numbers = recording.signals[0].layout.numbers;
-    for (std::size_t first = 0; first < honest_samples; first += 10) {
-      SampleBlock block{std::span(recording.time_ns).subspan(first, 10), {}};
-      block.rows.emplace_back(std::span(recording.signals[0].rows).subspan(first * numbers, 10 * numbers));
-      journal.append(block);
-    }
+    const SampleBlock all{recording.time_ns, {{recording.signals[0].rows.data(), numbers, numbers}}};
+    for (std::size_t first = 0; first < honest_samples; first += 10) journal.append(all.part(first, 10));
   }
   return {bytes_of_file(file)};
 }

@@ -50,11 +50,8 @@ TEST(HostileJournal, MayHaveAnyBytesAndIsReadAsFarAsItIsWhole) {
   const Recording recording = test::honest_recording();
   {
     RecordingJournal journal(recording, file.path());
-    for (std::size_t first = 0; first < samples; first += 10) {
-      SampleBlock block{std::span(recording.time_ns).subspan(first, 10), {}};
-      block.rows.emplace_back(std::span(recording.signals[0].rows).subspan(first * 13, 130));
-      journal.append(block);
-    }
+    const SampleBlock all{recording.time_ns, {{recording.signals[0].rows.data(), 13, 13}}};
+    for (std::size_t first = 0; first < samples; first += 10) journal.append(all.part(first, 10));
   }
   ASSERT_EQ(refusal(file.path()), "");
   expect_no_harm_by_any_bytes(file.path(), 7);

@@ -33,12 +33,10 @@ class Journal : public testing::Test {
   }
 
   static SampleBlock samples(const Recording& recording, std::size_t first, std::size_t count) {
-    SampleBlock block{std::span(recording.time_ns).subspan(first, count), {}};
-    for (const Signal& signal : recording.signals) {
-      const std::size_t numbers = signal.layout.numbers;
-      block.rows.push_back(std::span(signal.rows).subspan(first * numbers, count * numbers));
-    }
-    return block;
+    SampleBlock all{recording.time_ns, {}};
+    for (const Signal& signal : recording.signals)
+      all.rows.push_back({signal.rows.data(), signal.layout.numbers, signal.layout.numbers});
+    return all.part(first, count);
   }
 
   /// Writes frames of 1, 2, 3, ... samples.

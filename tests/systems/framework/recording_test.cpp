@@ -101,7 +101,7 @@ TEST(Recorder, KeepsOneRowForPortsThatShowOneValue) {
   simulator.advance_to(context, 10ms);
   const SampleBlock block = recorder.front();
   ASSERT_EQ(block.rows.size(), 2U);
-  EXPECT_EQ(block.rows[0].data(), block.rows[1].data());
+  EXPECT_EQ(block.rows[0].first, block.rows[1].first);
   const Recording recording = recorder.recording();
   EXPECT_EQ(recording.column("inner/sample", "real"), recording.column("inner/source/sample", "real"));
   EXPECT_EQ(recording.column("inner/sample", "real").size(), 10U);
