@@ -3,6 +3,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "systems/foundation/quantity_text.h"
+
 namespace flinch {
 
 void Findings::positive(const std::string& field, double value, const char* unit) {
@@ -24,9 +26,7 @@ void Findings::finite(const std::string& field, double value, const char* unit) 
 }
 
 void Findings::add(const std::string& field, double value, const char* unit, const std::string& expectation) {
-  std::ostringstream sentence;
-  sentence << field << " is " << value << (*unit == '\0' ? "" : " ") << unit << "; it " << expectation;
-  add(sentence.str());
+  add(field + " is " + quantity_text(value, unit) + "; it " + expectation);
 }
 
 void Findings::add_all(std::vector<std::string> of_part) {

@@ -1,9 +1,10 @@
 #include "systems/robot/workspace_limits.h"
 
 #include <cmath>
-#include <sstream>
+#include <string>
 
 #include "systems/foundation/findings.h"
+#include "systems/foundation/quantity_text.h"
 #include "systems/robot/link_segments.h"
 #include "systems/robot/parallel_robot.h"
 
@@ -23,9 +24,8 @@ class LimitsAtHome {
 
  private:
   void add(const char* field, double limit, const char* unit, const char* expectation, double at_home) {
-    std::ostringstream bound;
-    bound << expectation << " that at the home pose, " << at_home << (*unit == '\0' ? "" : " ") << unit;
-    findings_.add(field, limit, unit, bound.str());
+    findings_.add(field, limit, unit,
+                  std::string(expectation) + " that at the home pose, " + quantity_text(at_home, unit));
   }
 
   Findings findings_;

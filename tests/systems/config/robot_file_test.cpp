@@ -349,10 +349,10 @@ TEST_F(ChangedRobotFile, HasAReachableHomePose) {
 
 TEST_F(ChangedRobotFile, HasAHomePoseWithinItsLimits) {
   replace("max_distance_m: 0.35", "max_distance_m: 0.35\n  min_active_angle_deg: 30");
-  EXPECT_THAT(problems(),
-              ElementsAre(line(28) +
-                          "workspace_limits.min_active_angle_deg: is 0.523599 rad; it must be at most that "
-                          "at the home pose, 0.44072 rad"));
+  EXPECT_THAT(
+      problems(),
+      ElementsAre(line(28) + "workspace_limits.min_active_angle_deg: is 0.523599 rad (30 deg); it must be at "
+                             "most that at the home pose, 0.44072 rad (25.2514 deg)"));
 }
 
 TEST_F(ChangedRobotFile, ExcusesWhatIsMissingFromPhysics) {

@@ -48,10 +48,11 @@ TEST(WorkspaceLimits, MustNotExcludeTheHomePose) {
       problems(limits, bench),
       ElementsAre(
           "max_distance is -0.1 m; it must be at least that at the home pose, 0 m",
-          "max_rotation is nan rad; it must be at least that at the home pose, 0 rad",
+          "max_rotation is nan rad (nan deg); it must be at least that at the home pose, 0 rad (0 deg)",
           HasSubstr("min_abs_det_A is 0.452; it must be at most that at the home pose, 0.45185"),
           HasSubstr("min_abs_det_B is 0.2217;"), HasSubstr("min_self_collision_distance is 0.1854 m;"),
-          HasSubstr("min_active_angle is 0.4256 rad;"), HasSubstr("max_active_angle is 0.4531 rad;")));
+          HasSubstr("min_active_angle is 0.4256 rad (24.3851 deg);"),
+          HasSubstr("max_active_angle is 0.4531 rad (25.9607 deg);")));
 }
 
 Kinematics at_home() {
