@@ -15,8 +15,6 @@ struct BusOptions {
   std::filesystem::path security;   ///< folder of keys; empty: without
   bool anyone_may_command = false;  ///< see BusSettings
   int priority = 80;                ///< SCHED_FIFO of loop and bus, where permitted; 0: not wanted
-
-  bool operator==(const BusOptions&) const = default;
 };
 
 }  // namespace flinch

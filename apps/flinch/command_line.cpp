@@ -133,6 +133,9 @@ void add_run_verb(CLI::App& app, Verbs& verbs) {
       .add_flag("--reset-faults", verbs.run.reset_faults,
                 "Reset faults that the drives report; without it they end the run before it begins")
       ->group("Bus");
+  const auto is_of_bus = [](const CLI::Option* option) { return option->get_group() == "Bus"; };
+  for (CLI::Option* const option : run_verb.get_options(is_of_bus))
+    option->each([&verbs](const std::string&) { verbs.run.names_a_bus = true; });
 }
 
 void add_file_verbs(CLI::App& app, Verbs& verbs) {

@@ -89,8 +89,7 @@ void check(const RunOptions& options) {
         "--fault: a robot on the bus has its own faults; 'flinch serve' makes them for one that is "
         "simulated");
   }
-  const bool names_a_bus = options.bus != BusOptions() || options.reset_faults;
-  if (names_a_bus && options.station != StationKind::dds) {
+  if (options.names_a_bus && options.station != StationKind::dds) {
     problems.push_back("the options of the bus mean something only with --station dds");
   }
   throw_if_any(std::move(problems));

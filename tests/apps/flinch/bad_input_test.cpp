@@ -323,6 +323,18 @@ TEST_F(BadInput, NumberOfAnOptionThatIsNone) {
   }
 }
 
+TEST_F(BadInput, OptionOfABusThatIsNotAskedFor) {
+  for (const std::vector<std::string>& option : {std::vector<std::string>{"--domain", "0"},
+                                                 {"--patience", "10"},
+                                                 {"--priority", "80"},
+                                                 {"--reset-faults"}}) {
+    std::vector<std::string> call = {"run", place.at(collision), "--out", place.at("out")};
+    call.insert(call.end(), option.begin(), option.end());
+    EXPECT_EQ(complaint(call), "error: the options of the bus mean something only with --station dds\n")
+        << option[0];
+  }
+}
+
 TEST_F(BadInput, SeedThatIsNoWholeNumber) {
   for (const std::string seed : {"-1", "1.5", "one", "", "1e3", "0x10", "18446744073709551616"}) {
     EXPECT_EQ(complaint({"run", place.at(collision), "--out", place.at("out"), "--seed", seed}),
