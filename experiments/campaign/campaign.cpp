@@ -111,8 +111,9 @@ CampaignContact read_contact(ConfigReader& reader) {
   using By = CampaignContact::By;
   CampaignContact contact;
   reader.required().words("body", contact.bodies, {"platform", "link1", "link2", "clamping"});
-  reader.choice("by", contact.by,
-                {{"standing", By::standing}, {"moving", By::moving}, {"pushing", By::pushing}});
+  const bool is_known = reader.choice(
+      "by", contact.by, {{"standing", By::standing}, {"moving", By::moving}, {"pushing", By::pushing}});
+  if (!is_known) reader.leave_rest_unread();
   if (contact.by == By::moving) reader.number("speed", unit::m_per_s, contact.speed, not_negative);
   if (contact.by == By::pushing) {
     contact.force = {20.0, 60.0};

@@ -223,12 +223,13 @@ void read_motion(ConfigReader motion, const RobotFile& file, std::uint64_t seed,
   const ParallelRobot& robot = *file.robot;
   MotionKind kind = MotionKind::hold;
   Time start = Time::zero();
-  motion.choice("kind", kind,
-                {{"hold", MotionKind::hold},
-                 {"through", MotionKind::through},
-                 {"passage", MotionKind::passage},
-                 {"square", MotionKind::square},
-                 {"random", MotionKind::random}});
+  const bool is_known = motion.choice("kind", kind,
+                                      {{"hold", MotionKind::hold},
+                                       {"through", MotionKind::through},
+                                       {"passage", MotionKind::passage},
+                                       {"square", MotionKind::square},
+                                       {"random", MotionKind::random}});
+  if (!is_known) return motion.leave_rest_unread();
   motion.duration("start", start, not_negative);
   settings.trajectory.start = start;
   try {

@@ -26,8 +26,9 @@ Shape read_shape(ConfigReader& reader) {
   Outline outline = Outline::sphere;
   double radius = 0.04;
   Eigen::Vector3d axis(0.0, 0.0, 0.2), size(0.1, 0.1, 0.1);
-  reader.choice("shape", outline,
-                {{"sphere", Outline::sphere}, {"capsule", Outline::capsule}, {"box", Outline::box}});
+  const bool is_known = reader.choice(
+      "shape", outline, {{"sphere", Outline::sphere}, {"capsule", Outline::capsule}, {"box", Outline::box}});
+  if (!is_known) reader.leave_rest_unread();
   if (outline != Outline::box) reader.number("radius", unit::m, radius, positive);
   if (outline == Outline::capsule) reader.numbers("axis", unit::m, entries(axis));
   if (outline == Outline::box) reader.numbers("size", unit::m, entries(size), positive);

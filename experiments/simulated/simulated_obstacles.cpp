@@ -82,11 +82,12 @@ Obstacles read_simulated_obstacles(ConfigReader& scenario, const std::vector<Sce
     read_material(reader, form.material);
     Kind kind = Kind::fixed;
     if (moves) {
-      reader.choice(key, kind,
-                    {{"fixed", Kind::fixed},
-                     {"compliant", Kind::compliant},
-                     {"path", Kind::path},
-                     {"hand", Kind::hand}});
+      const bool is_known = reader.choice(key, kind,
+                                          {{"fixed", Kind::fixed},
+                                           {"compliant", Kind::compliant},
+                                           {"path", Kind::path},
+                                           {"hand", Kind::hand}});
+      if (!is_known) reader.leave_rest_unread();
     } else {
       reader.choice(key, kind, {{"fixed", Kind::fixed}, {"compliant", Kind::compliant}});
       read_mount(reader);

@@ -234,6 +234,7 @@ std::optional<std::size_t> ConfigReader::choose(std::string_view name, const std
       chosen = static_cast<std::size_t>(word - words.begin());
     } else {
       document_->add_problem(found, description(*found.node) + did_you_mean(found.node->scalar, words));
+      chosen.reset();
     }
   }
   document_->add_value(found, chosen ? words[*chosen] : "", unit::none);

@@ -82,9 +82,10 @@ class ConfigReader {
   void nodes(std::string_view name, std::vector<std::shared_ptr<const ConfigNode>>& values);
   /// Name of another file, relative to the folder of this one, which must exist.
   void file(std::string_view name, std::filesystem::path& value);
-  /// One of several words.
+  /// One of several words. False where there is none to go on with: another word stands there, or nothing and
+  /// `value` is none of them. Where other keys depend on it, leave_rest_unread() then.
   template <class Enum>
-  void choice(std::string_view name, Enum& value,
+  bool choice(std::string_view name, Enum& value,
               std::initializer_list<std::pair<std::string_view, std::type_identity_t<Enum>>> words);
 
   /// Whether the key is there, without a unit: a section, a list of sections or a word.
@@ -140,7 +141,7 @@ class ConfigReader {
 };
 
 template <class Enum>
-void ConfigReader::choice(
+bool ConfigReader::choice(
     std::string_view name, Enum& value,
     std::initializer_list<std::pair<std::string_view, std::type_identity_t<Enum>>> words) {
   std::vector<std::string> names;
@@ -149,7 +150,9 @@ void ConfigReader::choice(
     if (meaning == value) standard = names.size();
     names.emplace_back(word);
   }
-  if (const auto chosen = choose(name, names, standard)) value = words.begin()[*chosen].second;
+  const std::optional<std::size_t> chosen = choose(name, names, standard);
+  if (chosen) value = words.begin()[*chosen].second;
+  return chosen.has_value();
 }
 
 }  // namespace flinch

@@ -92,17 +92,24 @@ WorkspaceLimits read_limits(ConfigReader& file, const RobotKind& kind) {
   return limits;
 }
 
-void read_kind(ConfigReader& file, const RobotKind*& kind) {
+/// Null where the file names none.
+const RobotKind* read_kind(ConfigReader& file) {
+  const RobotKind* kind = nullptr;
   file.required().choice(
       "kind", kind,
       {{"planar_3rrr", &planar_3rrr}, {"five_bar", &five_bar}, {"hexapod_6ups", &hexapod_6ups}});
+  return kind;
 }
 
 RobotFile read_any(ConfigReader file) {
   require_kind(file, FileKind::robot);
-  const RobotKind* kind = &planar_3rrr;
-  read_kind(file, kind);
   RobotFile result;
+  const RobotKind* const kind = read_kind(file);
+  if (kind == nullptr) {
+    file.leave_rest_unread();
+    file.finish();  // throws
+    return result;
+  }
   for (ConfigReader& calibration : file.sections("calibrations")) calibration.leave_rest_unread();
   result.robot = kind->read(file);
   result.drives = read_drives(file.section("drives"), *kind);
@@ -127,8 +134,7 @@ RobotFile parse_robot_file(std::string_view text, const std::string& file) {
 std::optional<RobotFile> preset_of_kind(const std::filesystem::path& file) {
   try {
     ConfigReader reader = ConfigReader::open(file);
-    const RobotKind* kind = nullptr;
-    read_kind(reader, kind);
+    const RobotKind* const kind = read_kind(reader);
     if (kind == nullptr) return std::nullopt;
     RobotFile preset;
     preset.robot = kind->make_preset();

@@ -62,6 +62,20 @@ TEST_F(BadInput, MotionThatTheLegsDoNotReach) {
   EXPECT_THAT(said, HasSubstr("the legs do not reach the pose (-0.6"));
 }
 
+TEST_F(BadInput, KindsThatNobodyKnowsAloneAreTold) {
+  place.replace(collision, "kind: passage", "kind: pasage");
+  EXPECT_EQ(complaint_of_run(),
+            at_line_of(collision, "pasage") + "motion.kind: is 'pasage'; did you mean 'passage'?\n");
+  place.replace(collision, "kind: pasage", "kind: passage");
+  place.replace(collision, "pylon: {", "obstacles: [{shape: cone, height_m: 1, ");
+  place.replace(collision, "stiffness_N_per_m: 6000}", "stiffness_N_per_m: 6000}]");
+  const std::string place_of_obstacle = at_line_of(collision, "obstacles") + "obstacles[0].";
+  EXPECT_EQ(complaint_of_run(), place_of_obstacle + "shape: is 'cone'; known are: sphere, capsule, box\n");
+  place.replace(collision, "shape: cone, height_m: 1", "kind: mving, path: []");
+  EXPECT_EQ(complaint_of_run(),
+            place_of_obstacle + "kind: is 'mving'; known are: fixed, compliant, path, hand\n");
+}
+
 TEST_F(BadInput, KeyWithTheUnitOfAnotherQuantity) {
   place.replace(collision, "speed_m_per_s", "speed_m");
   EXPECT_EQ(complaint_of_run(), at_line_of(collision, "speed_m") +
