@@ -2,18 +2,15 @@
 
 #include <algorithm>
 
-#include "diagrams/contact_control.h"
 #include "diagrams/requested_fault.h"
 #include "experiments/recorded/recorded_signals.h"
 #include "experiments/recorded/robot_as_drawn.h"
-#include "experiments/simulated/contact_teller.h"
+#include "experiments/simulated/closed_loop.h"
 #include "experiments/simulated/simulated_scenario.h"
 #include "experiments/verdict/recorded_run.h"
 #include "experiments/verdict/run_watch.h"
 #include "experiments/verdict/verdict.h"
-#include "plant/simulated_station.h"
 #include "plant/sundials_integrator.h"
-#include "systems/framework/constant.h"
 #include "systems/framework/diagram_builder.h"
 #include "systems/framework/recorder.h"
 #include "systems/framework/recording_stream.h"
@@ -39,26 +36,12 @@ ContactControlSettings judged_control(ContactControlSettings settings) {
   return settings;
 }
 
-Experiment build(const SimulatedScenario& scenario, ContactControlSettings settings) {
+Experiment build(const SimulatedScenario& scenario, const ContactControlSettings& settings) {
   require_possible(scenario.station.faults, {.end = scenario.duration});
   DiagramBuilder builder("experiment", 1ms);
-  const SimulatedStation station = add_simulated_station(builder, scenario.station);
-  settings.contact_is_told = !scenario.station.told_contact.empty();
-  const ContactControl control = add_contact_control(builder, scenario.robot.robot, settings);
-  connect(builder, station, control);
+  const auto [station, control] = add_closed_loop(builder, scenario, settings);
   const auto operator_command = builder.export_input("operator", control.operator_command);
   const auto target = builder.export_input("target", control.target);
-  builder.connect(builder.add<Constant<TickTiming>>("tick_timing", TickTiming()).value, control.tick_timing);
-  if (settings.contact_is_told) {
-    auto& teller =
-        builder.add<ContactTeller>("contact_teller", scenario.robot.robot, scenario.station.told_contact);
-    builder.connect(station.contact_truth, teller.contact);
-    builder.connect(station.platform_truth, teller.platform);
-    builder.connect(teller.classification, control.told_classification);
-    builder.connect(teller.location, control.told_location);
-    builder.export_output("told_classification", teller.classification);
-    builder.export_output("told_location", teller.location);
-  }
   builder.export_output("truth", station.plant_truth);
   builder.export_output("contact", station.contact_truth);
   const Obstacles& obstacles = scenario.station.bench.obstacles;

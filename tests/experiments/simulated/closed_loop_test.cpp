@@ -10,10 +10,13 @@
 #include "experiments/simulated/experiment.h"
 #include "experiments/simulated/simulated_scenario.h"
 #include "experiments/verdict/verdict.h"
+#include "plant/plant_truth.h"
 #include "plant/sundials_integrator.h"
+#include "systems/framework/recorded_values.h"
 #include "systems/framework/recorder.h"
 #include "systems/framework/simulator.h"
 #include "systems/robot/quantity_units.h"
+#include "tests/fault/scenario_loop.h"
 #include "tests/support/allocations.h"
 #include "tests/support/workplace.h"
 
@@ -120,6 +123,18 @@ TEST_P(ClosedLoop, IsReplayedBitForBitFromItsRecordingFile) {
   EXPECT_THAT(replayed.differing, testing::IsEmpty());
   for (const std::string path : {"wrench", "detection", "reaction", "torque_command", "brake", "gate"}) {
     EXPECT_TRUE(is_same(recorded, replayed.recording, path)) << path;
+  }
+}
+
+TEST(AClosedLoop, GoesTickByTickAsInTheExperimentWithWhatItIsToldOfContacts) {
+  const SimulatedScenario scenario = scenario_called("reaction_near_singularity");
+  ASSERT_FALSE(scenario.station.told_contact.empty());
+  const Recording recording = run_for_signals(scenario, {"truth"});
+  const auto truth = read<PlantTruth>(recording, "truth");
+  test::ScenarioLoop loop(scenario);
+  for (std::size_t tick = 0; tick < truth.size(); ++tick) {
+    loop.tick();
+    ASSERT_EQ(loop.context.get(loop.station.plant_truth).pose, truth[tick].pose);
   }
 }
 
