@@ -97,10 +97,20 @@ TEST(CourseMemory, DoesNotReachOverWhatWasNotKnown) {
 TEST(CourseMemory, ComparesTimesOfAcquisitionNotTicks) {
   Memory memory;
   for (int tick = 0; tick < 60; ++tick) memory.see(tick);
-  for (int tick = 60; tick < 63; ++tick) memory.see(59, true, true, (tick - 59) * 1ms);  // nothing new
+  memory.see(59, true, true, 1ms);  // nothing new
   EXPECT_EQ(memory.course().moments.back().wrench_in_base, squared(59 - oldest));
-  memory.see(63);
-  EXPECT_EQ(memory.course().moments.back().wrench_in_base, squared(63 - oldest));
+  memory.see(61);
+  ASSERT_TRUE(memory.course().valid);
+  EXPECT_EQ(memory.course().moments.back().wrench_in_base, squared(61 - oldest));
+}
+
+TEST(CourseMemory, KnowsNoCourseAfterNothingNewCameForLonger) {
+  Memory memory;
+  for (int tick = 0; tick < 60; ++tick) memory.see(tick);
+  for (int tick = 60; tick < 62; ++tick) memory.see(59, true, true, (tick - 59) * 1ms);
+  EXPECT_TRUE(memory.course().valid) << "it is that of 59 ms";
+  memory.see(62);
+  EXPECT_FALSE(memory.course().valid);
 }
 
 TEST(CourseMemory, IsAtRestOutsideOfTheWindow) {
