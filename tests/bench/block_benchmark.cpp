@@ -53,6 +53,7 @@ void BlocksOfClosedLoop(benchmark::State& state, const std::string& name) {
   }
 }
 BENCHMARK_CAPTURE(BlocksOfClosedLoop, square, "square")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(BlocksOfClosedLoop, square_realistic, "square_realistic")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(BlocksOfClosedLoop, platform_collision, "platform_collision")
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(BlocksOfClosedLoop, clamping, "clamping")->Unit(benchmark::kMillisecond);

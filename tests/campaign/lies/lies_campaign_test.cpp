@@ -6,11 +6,6 @@
 #include <algorithm>
 #include <string>
 
-#include "experiments/simulated/experiment.h"
-#include "experiments/simulated/simulated_scenario.h"
-#include "plant/sundials_integrator.h"
-#include "systems/framework/block_profile.h"
-#include "systems/framework/simulator.h"
 #include "tests/fault/lies/false_alarms.h"
 #include "tests/fault/lies/lie_cases.h"
 #include "tests/support/wanted.h"
@@ -53,27 +48,6 @@ TEST(Lies, AreAllNamedOrCannotBe) {
       "honest "
       "run, {} ms until rest, {} ms of growing energy\n",
       outcomes.size(), unnamed, excused, worst.excess, longest / 1ms, worst.growth / 1ms);
-}
-
-/// The best of ten stretches of a second, since other programs take their time as well.
-TEST(Plausibility, CostsLittle) {
-  const SimulatedScenario scenario =
-      read_simulated_scenario(FLINCH_SOURCE_DIR "/apps/scenarios/square_realistic.yaml");
-  const Experiment experiment = build_experiment(scenario);
-  Simulator simulator(*experiment.diagram, std::make_unique<SundialsIntegrator>());
-  Context context = experiment.diagram->make_context();
-  double least = 1e9;
-  for (int stretch = 0; stretch < 10; ++stretch) {
-    BlockProfile profile(*experiment.diagram);
-    simulator.profile(profile);
-    for (int tick = 0; tick < 300; ++tick) simulator.step(context);
-    for (const BlockProfile::Row& row : profile.rows()) {
-      if (row.path.ends_with("plausibility_monitor"))
-        least = std::min(least, 1e6 * to_seconds(row.total) / static_cast<double>(profile.ticks()));
-    }
-  }
-  fmt::print("all questions: {:.2f} us a tick\n", least);
-  EXPECT_LT(least, 2.5);
 }
 
 class FalseAlarms : public testing::TestWithParam<MountedSensors> {};
