@@ -1,9 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstddef>
 
+#include "systems/safety/ring.h"
 #include "systems/signals/imu_doubt.h"
 
 namespace flinch {
@@ -23,16 +23,10 @@ struct ImuError {
 };
 
 /// The latest samples in a row.
-struct ImuErrors {
+struct ImuErrors : Series<ImuError, 20> {
   static constexpr std::size_t most = 20, judged = 16;
-  std::array<ImuError, most> ring{};
-  std::size_t count = 0;
+  using Series::Series;
 
-  void push(const ImuError& error) noexcept { ring[count++ % most] = error; }
-  std::size_t held() const noexcept { return count < most ? count : most; }
-  /// Of 0 the latest.
-  const ImuError& back(std::size_t age) const noexcept { return ring[(count - 1 - age) % most]; }
-  ImuError& latest() noexcept { return ring[(count - 1) % most]; }
   int contradicted() const noexcept;  ///< of the last `judged`
 };
 

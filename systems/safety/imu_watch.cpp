@@ -10,6 +10,8 @@
 namespace flinch {
 namespace {
 
+using Motions = Series<TickMotion, ImuWatch::kept>;
+
 constexpr Time period = 1ms;
 constexpr double T = 1e-3;
 constexpr int dropped_after = 5;     // ticks without a reading
@@ -30,22 +32,22 @@ void take_motion(ImuWatch& watch, const PlausibilityTick& tick) {
   const int n = tick.robot.dof();
   const bool known = tick.free && tick.platform.valid() && kinematics.valid && tick.torque.valid &&
                      !tick.torque.braked && tick.platform.pose.size() == tick.robot.space().stored();
-  const bool is_new = watch.motions == 0 || tick.platform.acquired > watch.back(0).time;
+  const bool is_new = watch.motion.count == 0 || tick.platform.acquired > watch.motion.newest.time;
   if (known && !is_new) return;
   const auto acceleration =
       known ? forward_dynamics(kinematics, tick.dynamics, tick.torque.torque, PlatformVector::Zero(n))
             : std::nullopt;
-  const bool goes_on =
-      watch.motions > 0 && tick.platform.acquired - watch.back(0).time < 3 * period / 2 && acceleration;
-  if (!goes_on) watch.motions = 0;
+  const bool goes_on = watch.motion.count > 0 &&
+                       tick.platform.acquired - watch.motion.newest.time < 3 * period / 2 && acceleration;
+  if (!goes_on) watch.motion.clear();
   if (!acceleration) return;
   TickMotion motion{tick.platform.acquired, padded(tick.platform.pose), padded(tick.platform.velocity),
                     Padded<max_dof>::Zero(), padded(*acceleration)};
   if (goes_on) {
-    const Configuration before = watch.back(0).pose.head(tick.platform.pose.size());
+    const Configuration before = watch.motion.newest.pose.head(tick.platform.pose.size());
     motion.step = padded(tick.robot.difference(tick.platform.pose, before));
   }
-  watch.motion[watch.motions++ % ImuWatch::kept] = motion;
+  watch.motion.push(motion);
 }
 
 /// Standard deviations of the pose's coordinates, from the noise of the angles.
@@ -73,12 +75,12 @@ constexpr auto parabola_weights = [] {
 
 /// Acceleration of the platform beyond the model, around the motion of `age`: what the parabola through 2 h +
 /// 1 poses has more than the model.
-Padded<max_dof> unexplained(const ImuWatch& watch, int age, int h) {
+Padded<max_dof> unexplained(const Motions& motions, int age, int h) {
   const auto& weights = parabola_weights[static_cast<std::size_t>(h)];
   Padded<max_dof> steps = Padded<max_dof>::Zero(), model = steps;
   for (int i = 1 - h; i < h; ++i) {
-    const TickMotion& at = watch.back(static_cast<std::size_t>(age - i));
-    const TickMotion& after = watch.back(static_cast<std::size_t>(age - i - 1));
+    const TickMotion& at = motions.back(static_cast<std::size_t>(age - i));
+    const TickMotion& after = motions.back(static_cast<std::size_t>(age - i - 1));
     const double weight = weights[static_cast<std::size_t>(std::abs(i))];
     steps += weight * (after.step - at.step);
     model += weight * at.acceleration;
@@ -93,12 +95,12 @@ double parabola_deviation(int h) {
 }
 
 /// Velocity at the motion of `age`: slope of the line through 2 h + 1 poses.
-Padded<max_dof> line_velocity(const ImuWatch& watch, int age, int h) {
+Padded<max_dof> line_velocity(const Motions& motions, int age, int h) {
   Padded<max_dof> apart = Padded<max_dof>::Zero(), sum = apart;
   double squares = 0.0;
   for (int i = 1; i <= h; ++i) {  // x_{+i} - x_{-i}
-    apart += watch.back(static_cast<std::size_t>(age - i)).step +
-             watch.back(static_cast<std::size_t>(age + i - 1)).step;
+    apart += motions.back(static_cast<std::size_t>(age - i)).step +
+             motions.back(static_cast<std::size_t>(age + i - 1)).step;
     sum += i * apart;
     squares += 2.0 * i * i;
   }
@@ -121,11 +123,11 @@ using Rows = Eigen::Matrix<double, 3, max_dof>;
 
 /// What a sample can be compared with.
 struct Comparison {
-  const ImuWatch& watch;
+  const Motions& motions;
   int age;                      ///< of the motion at its instant
   int ahead;                    ///< motions after it that count
   Padded<max_dof> deviation;    ///< of the pose
-  Padded<max_dof> velocity;     ///< line_velocity(watch, age, ahead)
+  Padded<max_dof> velocity;     ///< line_velocity(motions, age, ahead)
   ImuSpread noise;              ///< of the unit at rest
   double limit;                 ///< in deviations
   Rows turning = Rows::Zero();  ///< how what is expected of the unit changes with velocity
@@ -157,8 +159,8 @@ bool contradicted(const Comparison& at, const Padded<max_dof>& around, const Cla
   const double unsure = jitter * claim.slope.norm();
   if (is_own_noise(claim.beyond, claim.noise, at.limit, unsure)) return false;
   const Eigen::Vector3d ahead = claim.rows * around;
-  const Eigen::Vector3d long_since = claim.rows * unexplained(at.watch, at.age - at.ahead + wide, wide);
-  const Eigen::Vector3d lately = claim.rows * unexplained(at.watch, at.age - at.ahead + narrow, narrow);
+  const Eigen::Vector3d long_since = claim.rows * unexplained(at.motions, at.age - at.ahead + wide, wide);
+  const Eigen::Vector3d lately = claim.rows * unexplained(at.motions, at.age - at.ahead + narrow, narrow);
   const Eigen::Vector3d sigma = deviations(claim.rows, at.deviation);
   const double of_ahead = parabola_deviation(at.ahead), of_wide = parabola_deviation(wide);
   const double of_narrow = parabola_deviation(narrow);
@@ -199,8 +201,8 @@ bool turning_contradicted(const Comparison& at, const ImuError& error) {
   const Eigen::Vector3d smooth = at.turning * at.velocity;
   const double unsure = scale * smooth.norm() + jitter * error.turning_slope.norm();
   if (is_own_noise(error.turning, at.noise.turning, at.limit, unsure)) return false;
-  const Eigen::Vector3d short_line = at.turning * line_velocity(at.watch, at.age, 1);
-  const Eigen::Vector3d longer_line = at.turning * line_velocity(at.watch, at.age, 2);
+  const Eigen::Vector3d short_line = at.turning * line_velocity(at.motions, at.age, 1);
+  const Eigen::Vector3d longer_line = at.turning * line_velocity(at.motions, at.age, 2);
   const Eigen::Vector3d sigma = deviations(at.turning, at.deviation);
   for (int axis = 0; axis < 3; ++axis) {
     Range range;
@@ -219,40 +221,41 @@ bool unit_left_model(const Comparison& at, const ImuErrors& errors) {
   const Eigen::Vector3d error = errors.back(0).turning;
   if ((error - errors.back(1).turning).norm() > 0.85 * error.norm()) return true;
   const int before = at.age + static_cast<int>(vote);  // with what was wrong with the model until then
-  Padded<max_dof> model = static_cast<double>(vote) * unexplained(at.watch, before + 4, 4);
+  Padded<max_dof> model = static_cast<double>(vote) * unexplained(at.motions, before + 4, 4);
   for (std::size_t k = 0; k < vote; ++k)
-    model += at.watch.back(static_cast<std::size_t>(at.age) + k).acceleration;
-  const Padded<max_dof> change = at.velocity - line_velocity(at.watch, before, at.ahead);
+    model += at.motions.back(static_cast<std::size_t>(at.age) + k).acceleration;
+  const Padded<max_dof> change = at.velocity - line_velocity(at.motions, before, at.ahead);
   const Eigen::Vector3d encoders = at.turning * (change - T * model);
   const Eigen::Vector3d unit = encoders + errors.back(0).turning - errors.back(vote).turning;
   return unit.norm() > believed * encoders.norm();
 }
 
 /// Compares the sample with the motion of its instant, where that is known; whether it is contradicted.
-void judge(ImuWatch& watch, const InertialWatch& learned, const AngleWatch& angles,
-           const PlausibilityTick& tick, const ImuReading& reading, const ImuSpread& rest) {
+void judge(ImuWatch& watch, const Motions& motions, const ImuErrors& errors, const InertialWatch& learned,
+           const AngleWatch& angles, const PlausibilityTick& tick, const ImuReading& reading,
+           const ImuSpread& rest) {
   constexpr int youngest = 2, oldest = 9;  // so that there is enough after and before it
   int age = 0;
-  while (age <= oldest && age < static_cast<int>(watch.motions) &&
-         watch.back(static_cast<std::size_t>(age)).time - reading.acquired > period / 2)
+  while (age <= oldest && age < static_cast<int>(motions.held()) &&
+         motions.back(static_cast<std::size_t>(age)).time - reading.acquired > period / 2)
     ++age;
-  if (age < youngest || age > oldest || watch.motions < ImuWatch::kept) {
-    watch.errors.count = 0;
+  if (age < youngest || age > oldest || motions.held() < ImuWatch::kept) {
+    watch.errors.clear();
     watch.late = false;
     return;
   }
-  const TickMotion& then = watch.back(static_cast<std::size_t>(age));
+  const TickMotion& then = motions.back(static_cast<std::size_t>(age));
   const int ahead = std::min(age, 4);
   const ConfigurationSpace space = tick.robot.space();
   const int n = space.dimension();
   const ImuOutput output =
       imu_output(space, tick.mounted, tick.robot.gravity(), then.pose.head(space.stored()),
                  then.velocity.head(n), then.acceleration.head(n));
-  Comparison at{.watch = watch,
+  Comparison at{.motions = motions,
                 .age = age,
                 .ahead = ahead,
                 .deviation = pose_deviation(angles, tick),
-                .velocity = line_velocity(watch, age, ahead),
+                .velocity = line_velocity(motions, age, ahead),
                 .noise = {std::max(rest.force, 1e-3), std::max(rest.turning, 1e-4)},
                 .limit = 0.5 * tick.limits.inertial};
   at.turning.leftCols(n) = output.by_velocity.topRows<3>();
@@ -262,25 +265,23 @@ void judge(ImuWatch& watch, const InertialWatch& learned, const AngleWatch& angl
   error.expected_turning = at.turning * at.velocity;
   error.force = reading.specific_force - learned.accelerometer.mean() - error.expected_force;
   error.turning = reading.angular_velocity - learned.gyroscope.mean() - error.expected_turning;
-  if (watch.errors.count > 0)
-    error.force_slope = (error.expected_force - watch.errors.back(0).expected_force) / T;
+  if (errors.held() > 0) error.force_slope = (error.expected_force - errors.back(0).expected_force) / T;
   error.turning_slope = at.turning * then.acceleration;
-  const Padded<max_dof> around = unexplained(watch, age, ahead);
-  const TickMotion& after = watch.back(static_cast<std::size_t>(age - 1));
+  const Padded<max_dof> around = unexplained(motions, age, ahead);
+  const TickMotion& after = motions.back(static_cast<std::size_t>(age - 1));
   error.force_unseen = error.force + at.force * (then.acceleration - (after.step - then.step) / (T * T));
   error.turning_unseen =
       error.turning + error.expected_turning - at.turning * (after.step + then.step) / (2.0 * T);
   watch.errors.push(error);
-  watch.errors.latest().jumps = jumped(watch.errors, 0, rest);
+  watch.errors.newest.jumps = jumped(errors, 0, rest);
   const bool is_rest = at.noise.force == rest.force && at.noise.turning == rest.turning;
-  if (is_rest ? watch.errors.latest().jumps : jumped(watch.errors, 0, at.noise)) at.limit *= 0.5;
+  if (is_rest ? watch.errors.newest.jumps : jumped(errors, 0, at.noise)) at.limit *= 0.5;
   const bool turning = turning_contradicted(at, error);
-  watch.blamed = turning && (watch.blamed || unit_left_model(at, watch.errors));
-  watch.errors.latest().contradicted = contradicted(at, around, force_claim(at, watch.errors)) ||
-                                       contradicted(at, around, turning_claim(at, watch.errors)) ||
-                                       watch.blamed;
-  watch.late = is_late(watch.errors,
-                       {deviations(at.force, at.deviation), deviations(at.turning, at.deviation)}, at.noise);
+  watch.blamed = turning && (watch.blamed || unit_left_model(at, errors));
+  watch.errors.newest.contradicted = contradicted(at, around, force_claim(at, errors)) ||
+                                     contradicted(at, around, turning_claim(at, errors)) || watch.blamed;
+  watch.late =
+      is_late(errors, {deviations(at.force, at.deviation), deviations(at.turning, at.deviation)}, at.noise);
 }
 
 /// How often each axis has said the same, and whether that is more than chance makes.
@@ -312,25 +313,26 @@ void count_missing(ImuWatch& watch, bool valid) {
   if (watch.doubt == ImuDoubt::dropped_out && watch.seen >= back_after) watch.doubt = ImuDoubt::none;
 }
 
-int lately_contradicted(const ImuWatch& watch) {
+int lately_contradicted(const ImuErrors& errors) {
   int lately = 0;
-  for (std::size_t age = 0; age < std::min<std::size_t>(4, watch.errors.held()); ++age)
-    lately += watch.errors.back(age).contradicted ? 1 : 0;
+  for (std::size_t age = 0; age < std::min<std::size_t>(4, errors.held()); ++age)
+    lately += errors.back(age).contradicted ? 1 : 0;
   return lately;
 }
 
 /// Leaves out what has just been contradicted, and what follows soon after two of them.
-void mask(ImuWatch& watch) {
-  if (watch.errors.count == 0) return;
-  if (!watch.errors.latest().contradicted) return;
-  watch.masked = std::max(watch.masked, lately_contradicted(watch) > 1 ? quarantine : 1);
+void mask(ImuWatch& watch, const ImuErrors& errors) {
+  if (errors.held() == 0 || !errors.back(0).contradicted) return;
+  watch.masked = std::max(watch.masked, lately_contradicted(errors) > 1 ? quarantine : 1);
 }
 
 }  // namespace
 
-void advance(ImuWatch& watch, const InertialWatch& learned, const AngleWatch& angles,
-             const PlausibilityTick& tick, Plausibility& found) noexcept {
+void advance(ImuWatch& watch, const ImuWatch::Past& past, const InertialWatch& learned,
+             const AngleWatch& angles, const PlausibilityTick& tick, Plausibility& found) noexcept {
   take_motion(watch, tick);
+  const Motions motions(watch.motion, past.motion);
+  const ImuErrors errors(watch.errors, past.errors);
   const ImuReading& reading = tick.imu;
   const bool usable_now =
       reading.valid && usable(reading.angular_velocity, 3) && usable(reading.specific_force, 3);
@@ -338,16 +340,15 @@ void advance(ImuWatch& watch, const InertialWatch& learned, const AngleWatch& an
   watch.masked = std::max(watch.masked - 1, 0);
   if (usable_now && reading.acquired > watch.before.acquired && learned.gyroscope.known()) {
     ImuDoubt doubt = repetition(watch, learned, reading);
-    if (reading.acquired - watch.before.acquired > 3 * period / 2) watch.errors.count = 0;
+    if (reading.acquired - watch.before.acquired > 3 * period / 2) watch.errors.clear();
     const ImuSpread rest{learned.accelerometer.deviation(), learned.gyroscope.deviation()};
-    judge(watch, learned, angles, tick, reading, rest);
-    mask(watch);
-    if (doubt == ImuDoubt::none && jumps(watch.errors)) doubt = ImuDoubt::noisy;
-    if (doubt == ImuDoubt::none && watch.errors.contradicted() >= named_after)
-      doubt = watch.late
-                  ? ImuDoubt::late
-                  : explanation(watch.errors, {std::max(rest.force, 0.2), std::max(rest.turning, 5e-3)});
-    if (doubt == ImuDoubt::none && watch.late && lately_contradicted(watch) < 2) doubt = ImuDoubt::late;
+    judge(watch, motions, errors, learned, angles, tick, reading, rest);
+    mask(watch, errors);
+    if (doubt == ImuDoubt::none && jumps(errors)) doubt = ImuDoubt::noisy;
+    if (doubt == ImuDoubt::none && errors.contradicted() >= named_after)
+      doubt = watch.late ? ImuDoubt::late
+                         : explanation(errors, {std::max(rest.force, 0.2), std::max(rest.turning, 5e-3)});
+    if (doubt == ImuDoubt::none && watch.late && lately_contradicted(errors) < 2) doubt = ImuDoubt::late;
     if (watch.doubt == ImuDoubt::none) watch.doubt = doubt;
   }
   if (usable_now) watch.before = reading;

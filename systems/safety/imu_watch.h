@@ -29,10 +29,15 @@ struct TickMotion {
 /// itself, stands at its end or jumps, it is in doubt by name, and stays so until the operator resets.
 struct ImuWatch {
   static constexpr std::size_t kept = 24;
+  using Motions = Ring<TickMotion, kept>;
+  using Errors = Ring<ImuError, ImuErrors::most>;
+  struct Past {
+    Motions::Past motion{};
+    Errors::Past errors{};
+  };
 
-  std::array<TickMotion, kept> motion{};  ///< a ring
-  std::size_t motions = 0;                ///< in a row without a gap
-  ImuErrors errors;
+  Motions motion;                ///< in a row without a gap
+  Errors errors;                 ///< likewise
   ImuReading before;             ///< the last reading
   int seen = 0, missing = 0;     ///< ticks with, and in a row without a valid reading
   std::array<int, 6> repeats{};  ///< of each axis, to the last bit
@@ -41,13 +46,11 @@ struct ImuWatch {
   bool late = false;    ///< by its last samples
   int masked = 0;       ///< ticks that the unit is left out
   ImuDoubt doubt = ImuDoubt::none;
-
-  const TickMotion& back(std::size_t age) const noexcept { return motion[(motions - 1 - age) % kept]; }
 };
 
 /// Takes in a tick; `learned` knows biases and noise of the unit at rest. Says in `found` what is in doubt.
-void advance(ImuWatch& watch, const InertialWatch& learned, const AngleWatch& angles,
-             const PlausibilityTick& tick, Plausibility& found) noexcept;
+void advance(ImuWatch& watch, const ImuWatch::Past& past, const InertialWatch& learned,
+             const AngleWatch& angles, const PlausibilityTick& tick, Plausibility& found) noexcept;
 
 /// The mean of second differences over the square of their interval that is the second derivative of the
 /// parabola fitted to 2 h + 1 samples: weights of the differences -(h - 1) ... h - 1 around the middle,

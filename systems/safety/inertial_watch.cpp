@@ -12,10 +12,11 @@ namespace {
 
 constexpr Time period = 1ms;
 
-const SensorPointMotion* motion_at(const InertialWatch& watch, Time time) {
-  const std::size_t held = std::min(watch.motions, watch.motion.size());
-  for (std::size_t age = 1; age <= held; ++age) {
-    const SensorPointMotion& motion = watch.motion[(watch.motions - age) % watch.motion.size()];
+using Motions = Series<SensorPointMotion, 32>;
+
+const SensorPointMotion* motion_at(const Motions& motions, Time time) {
+  for (std::size_t age = 0; age < motions.held(); ++age) {
+    const SensorPointMotion& motion = motions.back(age);
     if (std::chrono::abs(motion.time - time) <= period / 2) return motion.known ? &motion : nullptr;
   }
   return nullptr;
@@ -57,10 +58,10 @@ Spread spread_of(const AngleWatch& angles, const PlausibilityTick& tick) {
 }
 
 /// How far `value` lies outside of what the encoders said within a tick of `time`, axis by axis; zero within.
-Eigen::Vector3d outside_of_tube(const InertialWatch& watch, Time time, const Eigen::Vector3d& value) {
+Eigen::Vector3d outside_of_tube(const Motions& motions, Time time, const Eigen::Vector3d& value) {
   Eigen::Vector3d low = Eigen::Vector3d::Constant(HUGE_VAL), high = -low;
   for (const Time apart : {-period, Time::zero(), period}) {
-    const SensorPointMotion* const motion = motion_at(watch, time + apart);
+    const SensorPointMotion* const motion = motion_at(motions, time + apart);
     if (motion == nullptr) return Eigen::Vector3d::Zero();
     low = low.cwiseMin(motion->turning);
     high = high.cwiseMax(motion->turning);
@@ -68,10 +69,10 @@ Eigen::Vector3d outside_of_tube(const InertialWatch& watch, Time time, const Eig
   return (value - high).cwiseMax(0.0) + (value - low).cwiseMin(0.0);
 }
 
-void judge_turning(InertialWatch& watch, const PlausibilityTick& tick, const ImuReading& imu,
-                   const Spread& spread, Plausibility& found) {
+void judge_turning(InertialWatch& watch, const Motions& motions, const PlausibilityTick& tick,
+                   const ImuReading& imu, const Spread& spread, Plausibility& found) {
   const Eigen::Vector3d turning = imu.angular_velocity - watch.gyroscope.mean();
-  watch.turning[watch.turnings++ % watch.turning.size()] = outside_of_tube(watch, imu.acquired, turning);
+  watch.turning[watch.turnings++ % watch.turning.size()] = outside_of_tube(motions, imu.acquired, turning);
   if (!tick.free) watch.turnings = 0;
   if (watch.turnings < watch.turning.size()) return;
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -92,14 +93,15 @@ void take_acceleration(InertialWatch& watch, const Eigen::Vector3d& acceleration
 
 /// The change of velocity over a window, as the encoders tell it and as the accelerometer sums it up. Where
 /// the acceleration changes, a sample is a value at an instant, not a mean: hence its total variation.
-void judge_velocity(InertialWatch& watch, const PlausibilityTick& tick, const ImuReading& imu,
-                    const Spread& spread, const SensorPointMotion& now, Plausibility& found) {
+void judge_velocity(InertialWatch& watch, const Motions& motions, const PlausibilityTick& tick,
+                    const ImuReading& imu, const Spread& spread, const SensorPointMotion& now,
+                    Plausibility& found) {
   take_acceleration(watch,
                     now.axes * (imu.specific_force - watch.accelerometer.mean()) + tick.robot.gravity());
   if (!tick.free) watch.accelerations = 0;
   double ratio = 0.0;
   const SensorPointMotion* const before =
-      motion_at(watch, now.time - static_cast<Time::rep>(InertialWatch::window - 1) * period);
+      motion_at(motions, now.time - static_cast<Time::rep>(InertialWatch::window - 1) * period);
   if (watch.accelerations >= InertialWatch::window && before != nullptr) {
     const auto at = [&watch](std::size_t k) -> const Eigen::Vector3d& {
       return watch.acceleration[(watch.accelerations + k) % InertialWatch::window];
@@ -160,15 +162,16 @@ double LearnedBias::deviation() const noexcept {
   return std::sqrt(std::max(variance.maxCoeff(), 0.0));
 }
 
-void advance(InertialWatch& watch, const AngleWatch& angles, const PlausibilityTick& tick,
-             Plausibility& found) noexcept {
-  watch.motion[watch.motions++ % watch.motion.size()] = told_by_encoders(angles, tick);
+void advance(InertialWatch& watch, const InertialWatch::Motions::Past& past, const AngleWatch& angles,
+             const PlausibilityTick& tick, Plausibility& found) noexcept {
+  watch.motion.push(told_by_encoders(angles, tick));
+  const Motions motions(watch.motion, past);
   keep_waiting(watch, tick.imu);
   const ImuReading* const imu = next_sample(watch, angles);
   if (imu == nullptr) return;
   if (imu->acquired - watch.acquired > 3 * period / 2) watch.accelerations = watch.turnings = 0;
   watch.acquired = imu->acquired;
-  const SensorPointMotion* const now = motion_at(watch, imu->acquired);
+  const SensorPointMotion* const now = motion_at(motions, imu->acquired);
   if (now == nullptr) {
     watch.accelerations = watch.turnings = 0;
     return;
@@ -176,8 +179,8 @@ void advance(InertialWatch& watch, const AngleWatch& angles, const PlausibilityT
   if (tick.held) learn(watch, *imu, tick.robot.gravity(), *now);
   if (!watch.gyroscope.known()) return;
   const Spread spread = spread_of(angles, tick);
-  judge_turning(watch, tick, *imu, spread, found);
-  judge_velocity(watch, tick, *imu, spread, *now, found);
+  judge_turning(watch, motions, tick, *imu, spread, found);
+  judge_velocity(watch, motions, tick, *imu, spread, *now, found);
 }
 
 }  // namespace flinch

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "systems/safety/angle_watch.h"
+#include "systems/safety/ring.h"
 
 namespace flinch {
 
@@ -32,9 +33,9 @@ struct LearnedBias {
 /// samples are late; each is compared with what the encoders said of its instant, give or take a tick.
 struct InertialWatch {
   static constexpr std::size_t window = 16;  ///< ticks over which velocities are compared
+  using Motions = Ring<SensorPointMotion, 32>;
 
-  std::array<SensorPointMotion, 32> motion{};  ///< a ring
-  std::size_t motions = 0;
+  Motions motion;
   std::array<ImuReading, 4> waiting{};                 ///< samples of the unit, the latest last
   Time acquired = -24h;                                ///< of the last one that was compared
   std::array<Eigen::Vector3d, window> acceleration{};  ///< in the base frame, a ring [m/s^2]
@@ -47,7 +48,7 @@ struct InertialWatch {
   std::array<double, 2> outside{};  ///< how far velocities were apart, in their limit, at the two before
 };
 
-void advance(InertialWatch& watch, const AngleWatch& angles, const PlausibilityTick& tick,
-             Plausibility& found) noexcept;
+void advance(InertialWatch& watch, const InertialWatch::Motions::Past& past, const AngleWatch& angles,
+             const PlausibilityTick& tick, Plausibility& found) noexcept;
 
 }  // namespace flinch

@@ -42,12 +42,13 @@ PlausibilityMonitor::PlausibilityMonitor(std::shared_ptr<const ParallelRobot> ro
   throw_if_any(problems(limits, robot_->drives()));
 }
 
-void PlausibilityMonitor::advance(Time now, const PlausibilityMemory& last, const GateAction& done,
-                                  const JointReading& angles, const DriveReading& currents,
-                                  const ImuReading& inertial, const DriveTorque& acting,
-                                  const ResetCommand& command, const StationStatus& status,
-                                  const PlatformMotion& pose, const Kinematics& kinematic,
-                                  const Dynamics& dynamic, PlausibilityMemory& next) const {
+void PlausibilityMonitor::advance(Time now, const PlausibilityMemory& last, const PlausibilityPast& past,
+                                  const GateAction& done, const JointReading& angles,
+                                  const DriveReading& currents, const ImuReading& inertial,
+                                  const DriveTorque& acting, const ResetCommand& command,
+                                  const StationStatus& status, const PlatformMotion& pose,
+                                  const Kinematics& kinematic, const Dynamics& dynamic,
+                                  PlausibilityMemory& next) const {
   next = last;
   note(next, done, limits_, now);
   next.found = {};
@@ -72,11 +73,11 @@ void PlausibilityMonitor::advance(Time now, const PlausibilityMemory& last, cons
   flinch::advance(next.angles, tick, limits_.commands_act ? acting_torque(next) : JointVector(), next.found);
   flinch::advance(next.currents, tick, next.found);
   if (command.reset) next.imu = ImuWatch();
-  flinch::advance(next.imu, next.inertial, next.angles, tick, next.found);
+  flinch::advance(next.imu, past.imu, next.inertial, next.angles, tick, next.found);
   believed.valid = inertial.valid && !next.found.imu_left_out;
-  flinch::advance(next.inertial, next.angles, tick, next.found);
+  flinch::advance(next.inertial, past.points, next.angles, tick, next.found);
   flinch::advance(next.parity, tick, next.found);
-  flinch::advance(next.rest, next.angles, tick, next.found);
+  flinch::advance(next.rest, past.driven, next.angles, tick, next.found);
   count(angles.passive_valid, next.passive_seen, next.passive_missing);
   count(inertial.valid, next.imu_seen, next.imu_missing);
   next.found.passive_lost = is_lost(next.passive_seen, next.passive_missing);

@@ -30,6 +30,13 @@ struct PlausibilityMemory {
   Plausibility found;
 };
 
+/// The long rings of what it remembers.
+struct PlausibilityPast {
+  InertialWatch::Motions::Past points{};
+  ImuWatch::Past imu{};
+  RestWatch::Driven::Past driven{};
+};
+
 /// What the gate has done at the tick before.
 struct GateAction {
   TorqueCommand torque;
@@ -48,6 +55,7 @@ struct GateAction {
 /// them stays silent without.
 class PlausibilityMonitor final : public System {
   State<PlausibilityMemory> last_ = state<PlausibilityMemory>("last");
+  State<PlausibilityPast> past_ = state<PlausibilityPast>("past");
   State<GateAction> done_ = state<GateAction>("done");
 
  public:
@@ -70,8 +78,8 @@ class PlausibilityMonitor final : public System {
 
  private:
   Intermediate<PlausibilityMemory> now_ =
-      intermediate<&PlausibilityMonitor::advance>("memory", clock, last_, done_, joints, drives, imu, torque,
-                                                  reset, station, platform, kinematics, dynamics);
+      intermediate<&PlausibilityMonitor::advance>("memory", clock, last_, past_, done_, joints, drives, imu,
+                                                  torque, reset, station, platform, kinematics, dynamics);
 
  public:
   OutputPort<Plausibility> plausibility = output<&PlausibilityMonitor::read>("plausibility", now_);
@@ -79,16 +87,24 @@ class PlausibilityMonitor final : public System {
 
  private:
   Update remember_ = keep(last_, now_);
+  Update keep_ = update<&PlausibilityMonitor::keep_newest>(past_, now_);
   Update note_ = update<&PlausibilityMonitor::note_action>(done_, commanded, brake, gate);
 
-  void advance(Time now, const PlausibilityMemory& last, const GateAction& done, const JointReading& angles,
-               const DriveReading& currents, const ImuReading& inertial, const DriveTorque& acting,
-               const ResetCommand& command, const StationStatus& status, const PlatformMotion& pose,
-               const Kinematics& kinematic, const Dynamics& dynamic, PlausibilityMemory& next) const;
+  void advance(Time now, const PlausibilityMemory& last, const PlausibilityPast& past, const GateAction& done,
+               const JointReading& angles, const DriveReading& currents, const ImuReading& inertial,
+               const DriveTorque& acting, const ResetCommand& command, const StationStatus& status,
+               const PlatformMotion& pose, const Kinematics& kinematic, const Dynamics& dynamic,
+               PlausibilityMemory& next) const;
   void read(const PlausibilityMemory& memory, Plausibility& result) const { result = memory.found; }
   void pass_on(const PlausibilityMemory& memory, const ImuReading& said, ImuReading& believed) const {
     believed = said;
     believed.valid = said.valid && !memory.found.imu_left_out;
+  }
+  void keep_newest(const PlausibilityMemory& memory, PlausibilityPast& past) const {
+    memory.inertial.motion.keep_in(past.points);
+    memory.imu.motion.keep_in(past.imu.motion);
+    memory.imu.errors.keep_in(past.imu.errors);
+    memory.rest.driven.keep_in(past.driven);
   }
   void note_action(const TorqueCommand& command, const BrakeCommand& brakes, const GateStatus& status,
                    GateAction& done) const {

@@ -8,6 +8,9 @@
 namespace flinch {
 namespace {
 
+using Driven = Series<DrivenTick, 32>;
+constexpr std::size_t window = 32;  // [ticks]
+
 constexpr Time brakes_close = 60ms;  // brakes of 30 ms, and as long again until the robot rests
 constexpr Time torque_turns = 15ms;  // from one end of the range to the other, behind the velocity filter
 constexpr double period = 1e-3;      // of readings [s]
@@ -56,20 +59,17 @@ void judge_brakes(RestWatch& watch, const PlausibilityTick& tick, const JointVec
 }
 
 /// What is `age` ticks younger than the oldest of a full ring.
-template <class Ring>
-const auto& aged(const Ring& ring, std::size_t ticks, std::size_t age) {
-  return ring[(ticks + age) % ring.size()];
-}
+const DrivenTick& aged(const Driven& driven, std::size_t age) { return driven.back(window - 1 - age); }
 
-bool drives_have_stood(const RestWatch& watch, const AngleWatch& angles, const PlausibilityTick& tick) {
-  const auto ring = static_cast<double>(watch.angle.size());
+bool drives_have_stood(const Driven& driven, const AngleWatch& angles, const PlausibilityTick& tick) {
   for (Eigen::Index i = 0; i < tick.robot.drives(); ++i) {
-    const double still =
-        std::max(0.1 * tick.limits.resting_rate * period * ring, 10.0 * angles.angle_noise(i, tick.limits));
+    const double still = std::max(0.1 * tick.limits.resting_rate * period * static_cast<double>(window),
+                                  10.0 * angles.angle_noise(i, tick.limits));
     double low = HUGE_VAL, high = -HUGE_VAL;
-    for (const Padded<max_dof>& angle : watch.angle) {
-      low = std::min(low, angle[i]);
-      high = std::max(high, angle[i]);
+    for (std::size_t age = 0; age < window; ++age) {
+      const double angle = driven.back(age).angle[i];
+      low = std::min(low, angle);
+      high = std::max(high, angle);
       if (high - low > still) return false;
     }
   }
@@ -77,12 +77,11 @@ bool drives_have_stood(const RestWatch& watch, const AngleWatch& angles, const P
 }
 
 /// By how much each torque has been another one for half the window than when it began [Nm].
-Padded<max_dof> change_of_torque(const RestWatch& watch) {
-  const std::size_t ring = watch.torque.size();
-  const Padded<max_dof>& oldest = aged(watch.torque, watch.ticks, 0);
+Padded<max_dof> change_of_torque(const Driven& driven) {
+  const Padded<max_dof>& oldest = aged(driven, 0).torque;
   Padded<max_dof> least = Padded<max_dof>::Constant(HUGE_VAL);
-  for (std::size_t age = ring / 2; age < ring; ++age)
-    least = least.cwiseMin((aged(watch.torque, watch.ticks, age) - oldest).cwiseAbs());
+  for (std::size_t age = window / 2; age < window; ++age)
+    least = least.cwiseMin((aged(driven, age).torque - oldest).cwiseAbs());
   return least;
 }
 
@@ -92,18 +91,16 @@ struct DrivenMotion {
   Padded<max_dof> acceleration, torque;
 };
 
-DrivenMotion driven_motion(const RestWatch& watch, std::size_t age) {
-  const auto angle = [&](std::size_t at) -> const Padded<max_dof>& {
-    return aged(watch.angle, watch.ticks, at);
-  };
+DrivenMotion driven_motion(const Driven& driven, std::size_t age) {
+  const auto angle = [&](std::size_t at) -> const Padded<max_dof>& { return aged(driven, at).angle; };
   constexpr double area = arm * arm;
   DrivenMotion motion;
   motion.acceleration = (angle(age + arm) - 2.0 * angle(age) + angle(age - arm)) / (area * period * period);
   motion.torque.setZero();
   for (std::size_t away = 0; away < arm; ++away) {
     const double weight = static_cast<double>(arm - away) / area;
-    motion.torque += weight * aged(watch.torque, watch.ticks, age + away);
-    if (away > 0) motion.torque += weight * aged(watch.torque, watch.ticks, age - away);
+    motion.torque += weight * aged(driven, age + away).torque;
+    if (away > 0) motion.torque += weight * aged(driven, age - away).torque;
   }
   return motion;
 }
@@ -111,9 +108,9 @@ DrivenMotion driven_motion(const RestWatch& watch, std::size_t age) {
 /// How surely the change of each torque, from the begin of the window to its end, has moved nothing: what
 /// M_qa ddq leaves of it, over what honest drives leave; above 1 for those that do not move the robot.
 /// Gravity, bias and all that lasts is in both ends.
-JointVector idleness(const RestWatch& watch, const AngleWatch& angles, const PlausibilityTick& tick) {
-  const DrivenMotion first = driven_motion(watch, arm);
-  const DrivenMotion last = driven_motion(watch, watch.angle.size() - 1 - arm);
+JointVector idleness(const Driven& driven, const AngleWatch& angles, const PlausibilityTick& tick) {
+  const DrivenMotion first = driven_motion(driven, arm);
+  const DrivenMotion last = driven_motion(driven, window - 1 - arm);
   const PlatformMatrix& J = tick.kinematics.J_x_qa;
   const PlatformMatrix M_qa = J.transpose() * tick.dynamics.M_x * J;
   const Eigen::Index drives = M_qa.rows();
@@ -129,31 +126,30 @@ JointVector idleness(const RestWatch& watch, const AngleWatch& angles, const Pla
 /// Brakes that have stayed closed, or drives whose torques end nowhere: a torque has been another one for
 /// half the window, nothing has moved to speak of, and not as this torque would move it. An honest robot
 /// that comes to rest moves as little, but as its torque says.
-void judge_still(RestWatch& watch, const AngleWatch& angles, const PlausibilityTick& tick,
-                 Plausibility& found) {
-  const std::size_t ring = watch.angle.size();
+void judge_still(RestWatch& watch, const RestWatch::Driven::Past& past, const AngleWatch& angles,
+                 const PlausibilityTick& tick, Plausibility& found) {
   const bool follows = tick.free && tick.limits.commands_act && watch.gate.passes() && angles.readings > 0;
-  if (!follows || watch.commanded != tick.robot.drives()) {
-    watch.ticks = 0;
+  if (!follows || watch.torque.size() != tick.robot.drives()) {
+    watch.driven.clear();
     return;
   }
-  watch.angle[watch.ticks % ring] = padded(angles.angle.back());
-  ++watch.ticks;
-  const bool known = watch.ticks >= ring && tick.kinematics.valid && tick.dynamics.valid;
-  if (!known || !drives_have_stood(watch, angles, tick)) return;
-  const JointVector changed = change_of_torque(watch).head(tick.robot.drives()) / tick.limits.still_torque;
-  note(found, PlausibilityCheck::still, changed.cwiseMin(idleness(watch, angles, tick)).maxCoeff(),
+  watch.driven.push({padded(angles.angle.back()), padded(watch.torque)});
+  const Driven driven(watch.driven, past);
+  const bool known = driven.held() == window && tick.kinematics.valid && tick.dynamics.valid;
+  if (!known || !drives_have_stood(driven, angles, tick)) return;
+  const JointVector changed = change_of_torque(driven).head(tick.robot.drives()) / tick.limits.still_torque;
+  note(found, PlausibilityCheck::still, changed.cwiseMin(idleness(driven, angles, tick)).maxCoeff(),
        GateFault::drives_without_effect);
 }
 
 }  // namespace
 
-void advance(RestWatch& watch, const AngleWatch& angles, const PlausibilityTick& tick,
-             Plausibility& found) noexcept {
+void advance(RestWatch& watch, const RestWatch::Driven::Past& past, const AngleWatch& angles,
+             const PlausibilityTick& tick, Plausibility& found) noexcept {
   const JointVector rates = tick.joints.valid ? angles.rates() : JointVector();
   judge_stop(watch, tick, rates, found);
   judge_brakes(watch, tick, rates, found);
-  judge_still(watch, angles, tick, found);
+  judge_still(watch, past, angles, tick, found);
 }
 
 void remember(RestWatch& watch, Time now, const GateStatus& gate, bool engage,
@@ -161,8 +157,7 @@ void remember(RestWatch& watch, Time now, const GateStatus& gate, bool engage,
   if (engage != watch.engage) watch.engaged = now;
   watch.engage = engage;
   watch.gate = gate;
-  watch.commanded = torque.valid ? torque.torque.size() : 0;
-  watch.torque[watch.ticks % watch.torque.size()] = padded(torque.valid ? torque.torque : JointVector());
+  watch.torque = torque.valid ? torque.torque : JointVector();
 }
 
 }  // namespace flinch

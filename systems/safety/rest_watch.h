@@ -3,27 +3,34 @@
 #include <array>
 
 #include "systems/safety/angle_watch.h"
+#include "systems/safety/ring.h"
 #include "systems/signals/gate_status.h"
 #include "systems/signals/torque_command.h"
 
 namespace flinch {
 
+/// Where the drives are at a tick, and what was commanded at the tick before.
+struct DrivenTick {
+  Padded<max_dof> angle;   ///< [rad]
+  Padded<max_dof> torque;  ///< [Nm]
+};
+
 /// What should rest, and what should move: brakes, stops, drives.
 struct RestWatch {
+  using Driven = Ring<DrivenTick, 32>;
+
   GateStatus gate{};  ///< of the tick before
   Time engaged{};     ///< since when the brakes have been told to close
   bool engage = true;
-  std::array<double, 6> energy{};            ///< kinetic, a ring [J]
-  std::size_t energies = 0;                  ///< since the controlled stop began
-  bool rested = false;                       ///< it has come to its end
-  std::array<Padded<max_dof>, 32> angle{};   ///< a ring [rad]
-  std::array<Padded<max_dof>, 32> torque{};  ///< a ring [Nm]
-  std::size_t ticks = 0;                     ///< in a row with drives that obey
-  Eigen::Index commanded = 0;                ///< torques at the tick before
+  std::array<double, 6> energy{};  ///< kinetic, a ring [J]
+  std::size_t energies = 0;        ///< since the controlled stop began
+  bool rested = false;             ///< it has come to its end
+  Driven driven;                   ///< ticks in a row with drives that obey
+  JointVector torque;              ///< commanded at the tick before [Nm]; empty: none
 };
 
-void advance(RestWatch& watch, const AngleWatch& angles, const PlausibilityTick& tick,
-             Plausibility& found) noexcept;
+void advance(RestWatch& watch, const RestWatch::Driven::Past& past, const AngleWatch& angles,
+             const PlausibilityTick& tick, Plausibility& found) noexcept;
 
 /// Notes at the end of a tick what the gate has done.
 void remember(RestWatch& watch, Time now, const GateStatus& gate, bool engage,

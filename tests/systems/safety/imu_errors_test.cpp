@@ -18,10 +18,25 @@ Eigen::Vector3d noise(RandomGenerator& random, double deviation) {
   return deviation * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
 }
 
+/// Errors of one sample after the other.
+class Samples {
+ public:
+  void push(const ImuError& error) {
+    ring_.keep_in(past_);
+    ring_.push(error);
+  }
+  ImuError& latest() { return ring_.newest; }
+  operator ImuErrors() const { return {ring_, past_}; }
+
+ private:
+  Ring<ImuError, ImuErrors::most> ring_;
+  std::array<ImuError, ImuErrors::most> past_{};
+};
+
 /// What is expected in a motion with 8 m/s^2 and 2 rad/s, and the errors of a unit that `failure` spoils.
-ImuErrors errors_of(const std::function<void(double time, ImuError&)>& failure, double deviations = 1.0) {
+Samples errors_of(const std::function<void(double time, ImuError&)>& failure, double deviations = 1.0) {
   RandomGenerator random(3);
-  ImuErrors errors;
+  Samples errors;
   for (int k = 0; k < 40; ++k) {
     const double t = 1e-3 * k, w = 40.0;
     ImuError error;
@@ -61,13 +76,13 @@ TEST(ImuErrors, AreExplainedByWhatMadeThem) {
 }
 
 TEST(ImuErrors, CountsThoseThatAreContradicted) {
-  ImuErrors errors;
+  Samples errors;
   for (int k = 0; k < 20; ++k) {
     errors.push({});
     errors.latest().contradicted = k >= 15;
   }
-  EXPECT_EQ(errors.held(), ImuErrors::most);
-  EXPECT_EQ(errors.contradicted(), 5);
+  EXPECT_EQ(ImuErrors(errors).held(), ImuErrors::most);
+  EXPECT_EQ(ImuErrors(errors).contradicted(), 5);
 }
 
 TEST(ImuErrors, JumpWithTenfoldNoiseOnly) {
@@ -85,7 +100,7 @@ const EncoderSpread encoders{Eigen::Vector3d::Constant(position_noise),
                              Eigen::Vector3d::Constant(angle_noise)};
 
 /// Samples of a platform that swings by `amplitude` [m, rad]; its unit is late by `delay`.
-ImuErrors swinging(double amplitude, double delay, std::uint64_t seed) {
+Samples swinging(double amplitude, double delay, std::uint64_t seed) {
   RandomGenerator random(seed);
   const double w = 40.0, T = 1e-3;
   const Eigen::Vector3d along(1.0, -0.5, 0.0), about(0.0, 0.0, 3.0);
@@ -94,7 +109,7 @@ ImuErrors swinging(double amplitude, double delay, std::uint64_t seed) {
     positions.push_back(amplitude * std::sin(w * T * k) * along + noise(random, position_noise));
     angles.push_back(amplitude * std::cos(w * T * k) * about + noise(random, angle_noise));
   }
-  ImuErrors errors;
+  Samples errors;
   for (std::size_t k = 1; k < 41; ++k) {
     const double now = T * static_cast<double>(k), then = now - delay;
     ImuError error;  // of a model that expects no acceleration
@@ -134,7 +149,7 @@ TEST(Lateness, IsSureOnlyOfAUnitThatIsLateInMotion) {
 }
 
 TEST(Lateness, IsNotKnownFromFewSamples) {
-  ImuErrors errors;
+  Samples errors;
   for (int k = 0; k < 9; ++k) errors.push({});
   EXPECT_EQ(lateness(errors, 10, encoders, spread).deviation, 0.0);
   EXPECT_FALSE(is_late(errors, encoders, spread));
