@@ -8,7 +8,8 @@ namespace flinch {
 
 /// The platform's motion from the tick of a fault until the torque gate opens again, if no fault since then
 /// calls anything in doubt; otherwise no data. So a controlled stop can keep the robot's limits where all
-/// that this needs is known to be right.
+/// that this needs is known to be right. There is none where no controlled stop can follow: before the gate
+/// has first opened, and once it has fallen back to the brakes.
 class StoppingMotion final : public System {
   State<GateStatus> last_ = state<GateStatus>("last");
 

@@ -10,10 +10,12 @@
 namespace flinch {
 namespace {
 
+constexpr GateStatus opened{.phase = GatePhase::open, .reaction = GateReaction::none};
+
 struct Stopping {
   Stopping() {
     ticking.set(motion, posture.platform);
-    tick(0, {});
+    tick(0, opened);
   }
 
   bool tick(FaultMask present, const GateStatus& gate_then) {
@@ -39,12 +41,12 @@ GateStatus closed_by(FaultMask faults) {
 TEST(StoppingMotion, IsThereFromTheTickOfTheFaultUntilTheGateOpens) {
   const FaultMask fault = fault_bit(GateFault::operator_stop);
   Stopping stopping;
-  EXPECT_FALSE(stopping.tick(0, {.phase = GatePhase::open, .reaction = GateReaction::none}));
+  EXPECT_FALSE(stopping.tick(0, opened));
   EXPECT_TRUE(stopping.tick(fault, closed_by(fault)));
   EXPECT_EQ(stopping.ticking.get(stopping.block.trusted).pose, stopping.posture.platform.pose);
   EXPECT_TRUE(stopping.tick(0, closed_by(fault))) << "what closed the gate counts for as long";
-  EXPECT_TRUE(stopping.tick(0, {.phase = GatePhase::open, .reaction = GateReaction::none}));
-  EXPECT_FALSE(stopping.tick(0, {.phase = GatePhase::open, .reaction = GateReaction::none}));
+  EXPECT_TRUE(stopping.tick(0, opened));
+  EXPECT_FALSE(stopping.tick(0, opened));
 }
 
 TEST(StoppingMotion, IsNotThereOnceAnythingIsInDoubt) {
@@ -56,6 +58,20 @@ TEST(StoppingMotion, IsNotThereOnceAnythingIsInDoubt) {
     EXPECT_EQ(stopping.tick(trusted, closed_by(fault | trusted)), row.doubt == Doubt::nothing)
         << "what has been doubted stays in doubt: " << row.description;
   }
+}
+
+TEST(StoppingMotion, IsNotThereWhereNoControlledStopCanFollow) {
+  const FaultMask fault = fault_bit(GateFault::operator_stop);
+  GateStatus braked = closed_by(fault);
+  braked.reaction = GateReaction::zero_torque_and_brake;
+  for (const GateStatus& before : {GateStatus(), braked}) {
+    Stopping stopping;
+    stopping.tick(0, before);
+    EXPECT_FALSE(stopping.tick(fault, before));
+  }
+  Stopping stopping;
+  stopping.tick(0, {.phase = GatePhase::recovering, .reaction = GateReaction::none, .faults = fault});
+  EXPECT_TRUE(stopping.tick(fault, closed_by(fault)));
 }
 
 TEST(StoppingMotion, IsNotThereWhereNobodyHasLookedForFaults) {
