@@ -263,8 +263,8 @@ void judge(ImuWatch& watch, const Motions& motions, const ImuErrors& errors, con
   ImuError error;
   error.expected_force = output.value.tail<3>();
   error.expected_turning = at.turning * at.velocity;
-  error.force = reading.specific_force - learned.accelerometer.mean() - error.expected_force;
-  error.turning = reading.angular_velocity - learned.gyroscope.mean() - error.expected_turning;
+  error.force = reading.specific_force - learned.accelerometer.mean - error.expected_force;
+  error.turning = reading.angular_velocity - learned.gyroscope.mean - error.expected_turning;
   if (errors.held() > 0) error.force_slope = (error.expected_force - errors.back(0).expected_force) / T;
   error.turning_slope = at.turning * then.acceleration;
   const Padded<max_dof> around = unexplained(motions, age, ahead);
@@ -296,7 +296,7 @@ ImuDoubt repetition(ImuWatch& watch, const InertialWatch& learned, const ImuRead
     repeats = now[i] == last[i] ? repeats + 1 : 0;
     ends = ends || (repeats >= saturated_after && std::abs(now[i]) >= watch.largest[i]);
   }
-  const bool has_noise = learned.gyroscope.deviation() > 1e-6 && learned.accelerometer.deviation() > 1e-5;
+  const bool has_noise = learned.gyroscope.deviation > 1e-6 && learned.accelerometer.deviation > 1e-5;
   if (!has_noise) return ImuDoubt::none;
   const auto [w1, w2, w3, f1, f2, f3] = watch.repeats;
   const int turning = std::min({w1, w2, w3}), force = std::min({f1, f2, f3});
@@ -341,7 +341,7 @@ void advance(ImuWatch& watch, const ImuWatch::Past& past, const InertialWatch& l
   if (usable_now && reading.acquired > watch.before.acquired && learned.gyroscope.known()) {
     ImuDoubt doubt = repetition(watch, learned, reading);
     if (reading.acquired - watch.before.acquired > 3 * period / 2) watch.errors.clear();
-    const ImuSpread rest{learned.accelerometer.deviation(), learned.gyroscope.deviation()};
+    const ImuSpread rest{learned.accelerometer.deviation, learned.gyroscope.deviation};
     judge(watch, motions, errors, learned, angles, tick, reading, rest);
     mask(watch, errors);
     if (doubt == ImuDoubt::none && jumps(errors)) doubt = ImuDoubt::noisy;

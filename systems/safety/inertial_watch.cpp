@@ -71,13 +71,13 @@ Eigen::Vector3d outside_of_tube(const Motions& motions, Time time, const Eigen::
 
 void judge_turning(InertialWatch& watch, const Motions& motions, const PlausibilityTick& tick,
                    const ImuReading& imu, const Spread& spread, Plausibility& found) {
-  const Eigen::Vector3d turning = imu.angular_velocity - watch.gyroscope.mean();
+  const Eigen::Vector3d turning = imu.angular_velocity - watch.gyroscope.mean;
   watch.turning[watch.turnings++ % watch.turning.size()] = outside_of_tube(motions, imu.acquired, turning);
   if (!tick.free) watch.turnings = 0;
   if (watch.turnings < watch.turning.size()) return;
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& each : watch.turning) mean += each / static_cast<double>(watch.turning.size());
-  const double noise = std::hypot(spread.turning, std::max(watch.gyroscope.deviation(), 1e-3)) / 2.0;
+  const double noise = std::hypot(spread.turning, std::max(watch.gyroscope.deviation, 1e-3)) / 2.0;
   const double limit = tick.limits.inertial * noise + tick.limits.gyroscope_scale * turning.norm();
   note(found, PlausibilityCheck::gyroscope, mean.lpNorm<Eigen::Infinity>() / limit,
        GateFault::motion_contradicted);
@@ -96,8 +96,7 @@ void take_acceleration(InertialWatch& watch, const Eigen::Vector3d& acceleration
 void judge_velocity(InertialWatch& watch, const Motions& motions, const PlausibilityTick& tick,
                     const ImuReading& imu, const Spread& spread, const SensorPointMotion& now,
                     Plausibility& found) {
-  take_acceleration(watch,
-                    now.axes * (imu.specific_force - watch.accelerometer.mean()) + tick.robot.gravity());
+  take_acceleration(watch, now.axes * (imu.specific_force - watch.accelerometer.mean) + tick.robot.gravity());
   if (!tick.free) watch.accelerations = 0;
   double ratio = 0.0;
   const SensorPointMotion* const before =
@@ -115,7 +114,7 @@ void judge_velocity(InertialWatch& watch, const Motions& motions, const Plausibi
       if (k + 1 < InertialWatch::window) sum += at(k);
     }
     const double noise =
-        std::sqrt(2.0) * spread.velocity + to_seconds(period) * 4.0 * watch.accelerometer.deviation();
+        std::sqrt(2.0) * spread.velocity + to_seconds(period) * 4.0 * watch.accelerometer.deviation;
     const double limit = tick.limits.inertial * noise + tick.limits.acceleration_time * variation;
     const Eigen::Vector3d apart = now.velocity - before->velocity - to_seconds(period) * sum;
     ratio = apart.head(tick.robot.space().translations()).norm() / limit;
@@ -155,11 +154,9 @@ void LearnedBias::add(const Eigen::Vector3d& value) noexcept {
   sum += value;
   squares += value.cwiseAbs2();
   ++count;
-}
-
-double LearnedBias::deviation() const noexcept {
-  const Eigen::Vector3d variance = squares / count - mean().cwiseAbs2();
-  return std::sqrt(std::max(variance.maxCoeff(), 0.0));
+  mean = sum / count;
+  const Eigen::Vector3d variance = squares / count - mean.cwiseAbs2();
+  deviation = std::sqrt(std::max(variance.maxCoeff(), 0.0));
 }
 
 void advance(InertialWatch& watch, const InertialWatch::Motions::Past& past, const AngleWatch& angles,

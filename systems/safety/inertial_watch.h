@@ -22,11 +22,11 @@ struct LearnedBias {
   int count = 0;
   Eigen::Vector3d sum{0.0, 0.0, 0.0};
   Eigen::Vector3d squares{0.0, 0.0, 0.0};
+  Eigen::Vector3d mean{0.0, 0.0, 0.0};
+  double deviation = 0.0;  ///< standard deviation of the axis with the most
 
   void add(const Eigen::Vector3d& value) noexcept;
   bool known() const noexcept { return count >= LearnedNoise::enough; }
-  Eigen::Vector3d mean() const noexcept { return sum / count; }
-  double deviation() const noexcept;  ///< of the axis with the most
 };
 
 /// Encoders against the inertial measurement unit: both see the same motion, whatever caused it. The unit's

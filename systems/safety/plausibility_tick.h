@@ -44,18 +44,20 @@ Padded<most> padded(const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most, 1>& 
   return whole;
 }
 
-/// Mean square of what a sensor says while nothing moves, so much as there is of it.
+/// What a sensor says while nothing moves, so much as there is of it.
 struct LearnedNoise {
   static constexpr int enough = 50;
   static constexpr int most = 200;
   int count = 0;
-  JointVector squares{};
+  JointVector squares{};     ///< their sum
+  JointVector deviations{};  ///< by that: standard deviations
 
   void add(const JointVector& value) noexcept {
     if (count >= most) return;
     if (count == 0) squares.setZero(value.size());
     squares += value.cwiseAbs2();
     ++count;
+    deviations = (squares / count).cwiseSqrt();
   }
   bool known() const noexcept { return count >= enough; }
   /// Standard deviation of one of them, at least `least`.
@@ -63,9 +65,8 @@ struct LearnedNoise {
 };
 
 inline double LearnedNoise::deviation(Eigen::Index i, double least) const noexcept {
-  if (!known() || i >= squares.size()) return least;
-  const double learned = std::sqrt(squares[i] / count);
-  return learned > least ? learned : least;
+  if (!known() || i >= deviations.size()) return least;
+  return deviations[i] > least ? deviations[i] : least;
 }
 
 /// Puts `value` over its limit where it is the largest so far, and names the drive where that makes a fault.
