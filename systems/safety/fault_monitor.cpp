@@ -63,7 +63,10 @@ FaultReport FaultMonitor::judge(Time now, const FaultMonitorMemory& memory, cons
                           .last_command = memory.last_command,
                           .buttons = pressed,
                           .reaction = state,
-                          .plausibility = plausible};
+                          .plausibility = plausible,
+                          .has_motion = is_usable(rates, *robot_),
+                          .has_pose = is_usable(pose, *robot_),
+                          .has_command = is_usable(memory.command, *robot_)};
   return {.valid = true,
           .present = find_faults(evidence),
           .tolerable = tolerable_faults(memory.recovery, limits_.recovery_margin)};

@@ -26,17 +26,6 @@ double largest(const auto& vector) {
 
 bool is_old(Time time, const Evidence& e) { return std::chrono::abs(e.now - time) > e.limits.max_age; }
 
-bool has_motion(const Evidence& e) {
-  return e.motion.valid && fits_drives(e.motion.position, e.robot) && fits_drives(e.motion.velocity, e.robot);
-}
-
-bool has_pose(const Evidence& e) {
-  return e.platform.valid() && e.robot.space().contains(e.platform.pose) &&
-         fits(e.platform.velocity, e.robot.dof());
-}
-
-bool has_command(const Evidence& e) { return e.command.valid && fits_drives(e.command.torque, e.robot); }
-
 // ---------------------------------------------------------------- station and sensors
 
 bool loop_late(const Evidence& e) { return e.timing.valid && e.timing.lateness > e.limits.max_lateness; }
@@ -75,7 +64,7 @@ bool encoder_frozen(const Evidence& e) {
   return false;
 }
 
-bool velocity_invalid(const Evidence& e) { return !has_motion(e); }
+bool velocity_invalid(const Evidence& e) { return !e.has_motion; }
 
 bool drives_invalid(const Evidence& e) { return e.drives_gap > e.limits.longest_gap; }
 
@@ -86,7 +75,7 @@ bool drives_stale(const Evidence& e) { return e.drives.valid && is_old(e.drives.
 bool forward_kinematics(const Evidence& e) {
   using Status = PlatformMotion::Status;
   const Status status = e.platform.status;
-  return status == Status::no_data || status == Status::not_converged || (e.platform.valid() && !has_pose(e));
+  return status == Status::no_data || status == Status::not_converged || (e.platform.valid() && !e.has_pose);
 }
 
 bool encoders_implausible(const Evidence& e) {
@@ -95,26 +84,26 @@ bool encoders_implausible(const Evidence& e) {
 }
 
 bool type_1_singularity(const Evidence& e) {
-  return has_pose(e) && !(e.measures.valid && std::abs(e.measures.det_B) >= e.limits.workspace.min_abs_det_B);
+  return e.has_pose && !(e.measures.valid && std::abs(e.measures.det_B) >= e.limits.workspace.min_abs_det_B);
 }
 
 bool type_2_singularity(const Evidence& e) {
   if (e.platform.status == PlatformMotion::Status::singular) return true;
-  return has_pose(e) && !(e.measures.valid && std::abs(e.measures.det_A) >= e.limits.workspace.min_abs_det_A);
+  return e.has_pose && !(e.measures.valid && std::abs(e.measures.det_A) >= e.limits.workspace.min_abs_det_A);
 }
 
 bool workspace_radius(const Evidence& e) {
-  return has_pose(e) &&
+  return e.has_pose &&
          distance_from_centre(e.limits.workspace, e.robot, e.platform.pose) > e.limits.workspace.max_distance;
 }
 
 bool orientation(const Evidence& e) {
-  return has_pose(e) && e.robot.space().rotation_angle(e.platform.pose) > e.limits.workspace.max_rotation;
+  return e.has_pose && e.robot.space().rotation_angle(e.platform.pose) > e.limits.workspace.max_rotation;
 }
 
 bool joint_range(const Evidence& e) {
-  return has_motion(e) && (e.motion.position.minCoeff() < e.limits.workspace.min_active ||
-                           e.motion.position.maxCoeff() > e.limits.workspace.max_active);
+  return e.has_motion && (e.motion.position.minCoeff() < e.limits.workspace.min_active ||
+                          e.motion.position.maxCoeff() > e.limits.workspace.max_active);
 }
 
 bool recovers(const Evidence& e) { return e.reaction.mode == ReactionMode::recover; }
@@ -122,11 +111,11 @@ bool recovers(const Evidence& e) { return e.reaction.mode == ReactionMode::recov
 bool joint_speed(const Evidence& e) {
   const bool degraded = e.plausibility.valid && e.plausibility.passive_lost;
   const double share = recovers(e) ? e.limits.recovery_speed : (degraded ? e.limits.degraded_speed : 1.0);
-  return has_motion(e) && largest(e.motion.velocity) > share * e.limits.max_joint_speed;
+  return e.has_motion && largest(e.motion.velocity) > share * e.limits.max_joint_speed;
 }
 
 bool self_collision(const Evidence& e) {
-  return has_pose(e) &&
+  return e.has_pose &&
          !(e.measures.valid && e.measures.sigma_sc >= e.limits.workspace.min_self_collision_distance);
 }
 
@@ -136,7 +125,7 @@ bool contact_unmonitored(const Evidence& e) { return !e.detection.valid; }
 
 /// A reference that the legs do not reach cannot be followed.
 bool control_error(const Evidence& e) {
-  if (!e.reference.valid || !has_motion(e)) return false;
+  if (!e.reference.valid || !e.has_motion) return false;
   if (!e.robot.space().contains(e.reference.pose)) return true;
   const InverseSolution wanted = e.robot.inverse_kinematics(e.reference.pose, e.robot.home_working_mode());
   if (!wanted.reachable) return true;
@@ -148,12 +137,12 @@ bool command_invalid(const Evidence& e) { return !e.command.valid; }
 
 bool command_stale(const Evidence& e) { return e.command.valid && is_old(e.command.computed, e); }
 
-bool command_not_finite(const Evidence& e) { return e.command.valid && !has_command(e); }
+bool command_not_finite(const Evidence& e) { return e.command.valid && !e.has_command; }
 
 /// Torques that are not let through have changed from those of one mode to those of none.
 bool torque_jump(const Evidence& e) {
   if (e.reaction.mode == ReactionMode::stopped) return false;
-  if (!has_command(e) || !e.last_command.valid || !fits_drives(e.last_command.torque, e.robot)) return false;
+  if (!e.has_command || !e.last_command.valid || !fits_drives(e.last_command.torque, e.robot)) return false;
   const double range = e.limits.torque_range;
   const auto within = [range](const JointVector& torque) { return torque.cwiseMin(range).cwiseMax(-range); };
   return largest((within(e.command.torque) - within(e.last_command.torque)).eval()) >
@@ -269,6 +258,18 @@ bool is_usable(const JointReading& joints, const ParallelRobot& robot) noexcept 
 
 bool is_usable(const DriveReading& drives, const ParallelRobot& robot) noexcept {
   return drives.valid && fits_drives(drives.current, robot);
+}
+
+bool is_usable(const JointMotion& motion, const ParallelRobot& robot) noexcept {
+  return motion.valid && fits_drives(motion.position, robot) && fits_drives(motion.velocity, robot);
+}
+
+bool is_usable(const PlatformMotion& platform, const ParallelRobot& robot) noexcept {
+  return platform.valid() && robot.space().contains(platform.pose) && fits(platform.velocity, robot.dof());
+}
+
+bool is_usable(const TorqueCommand& command, const ParallelRobot& robot) noexcept {
+  return command.valid && fits_drives(command.torque, robot);
 }
 
 FaultMask faults_that_doubt(Doubt doubt) noexcept {

@@ -92,6 +92,8 @@ struct Evidence {
   const OperatorCommand& buttons;
   const ReactionState& reaction;
   const Plausibility& plausibility;  ///< not valid where nobody asks
+
+  bool has_motion, has_pose, has_command;  ///< whether these are usable
 };
 
 /// What a fault calls in doubt.
@@ -133,6 +135,9 @@ std::span<const FaultRow> fault_table() noexcept;
 /// Whether a sample can be worked with: valid, of the robot's size and finite.
 bool is_usable(const JointReading& joints, const ParallelRobot& robot) noexcept;
 bool is_usable(const DriveReading& drives, const ParallelRobot& robot) noexcept;
+bool is_usable(const JointMotion& motion, const ParallelRobot& robot) noexcept;
+bool is_usable(const PlatformMotion& platform, const ParallelRobot& robot) noexcept;
+bool is_usable(const TorqueCommand& command, const ParallelRobot& robot) noexcept;
 
 /// The faults that call this in doubt.
 FaultMask faults_that_doubt(Doubt doubt) noexcept;
