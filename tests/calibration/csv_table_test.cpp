@@ -3,9 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "tests/support/problems_of.h"
+#include "tests/support/temporary_folder.h"
 
 namespace flinch {
 namespace {
@@ -14,14 +13,15 @@ using ::testing::ElementsAre;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
-std::filesystem::path file_with(const std::string& text) {
-  const auto file = std::filesystem::path(testing::TempDir()) /
-                    (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".csv");
-  std::ofstream(file) << text;
-  return file;
-}
+class Csv : public testing::Test {
+ protected:
+  std::filesystem::path file_with(const std::string& text) const { return folder_.write("table.csv", text); }
 
-TEST(Csv, HasTheColumnsThatAreWanted) {
+ private:
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(Csv, HasTheColumnsThatAreWanted) {
   const CsvTable table =
       read_csv(file_with("t, \"q1\" ,name\r\n0,+1.5,a\r\n1,-2e-3,b\r\n\n"), ',', {"t", "q1"});
   ASSERT_EQ(table.values.rows(), 2);
@@ -30,7 +30,7 @@ TEST(Csv, HasTheColumnsThatAreWanted) {
   EXPECT_EQ(table.find("q2"), -1);
 }
 
-TEST(Csv, KeepsNothingOfColumnsThatNobodyWants) {
+TEST_F(Csv, KeepsNothingOfColumnsThatNobodyWants) {
   std::string names = "t";
   for (int i = 0; i < 50'000; ++i) names += ",x";
   std::string rows;
@@ -40,7 +40,7 @@ TEST(Csv, KeepsNothingOfColumnsThatNobodyWants) {
   EXPECT_EQ(table.values.cols(), 1);
 }
 
-TEST(Csv, TellsRowAndColumnOfWhatIsNoNumber) {
+TEST_F(Csv, TellsRowAndColumnOfWhatIsNoNumber) {
   const auto file = file_with("t;q1\n0;1\n1;abc\n2\n3;nan\n");
   EXPECT_THAT(test::problems_of([&] {
                 read_csv(file, ';', {"t", "q1"});
@@ -50,13 +50,13 @@ TEST(Csv, TellsRowAndColumnOfWhatIsNoNumber) {
                           EndsWith(".csv:5: column 'q1' is 'nan'; it must be a number")));
 }
 
-TEST(Csv, TellsAColumnThatIsNotThere) {
+TEST_F(Csv, TellsAColumnThatIsNotThere) {
   const auto file = file_with("time,current_1\n0,1\n");
   EXPECT_THAT(test::problems_of([&] { read_csv(file, ',', {"curent_1"}); }),
               ElementsAre(HasSubstr(".csv:1: there is no column 'curent_1'; did you mean 'current_1'?")));
 }
 
-TEST(Csv, ThatIsNotThereIsTold) {
+TEST_F(Csv, ThatIsNotThereIsTold) {
   EXPECT_THAT(test::problems_of([] { read_csv("nowhere.csv", ',', {}); }),
               ElementsAre("nowhere.csv: there is no such file"));
   EXPECT_THAT(test::problems_of([] { read_csv("/dev/zero", ',', {}); }),

@@ -7,6 +7,7 @@
 
 #include "systems/framework/hdf5_object.h"
 #include "tests/support/problems_of.h"
+#include "tests/support/temporary_folder.h"
 
 namespace flinch {
 namespace {
@@ -16,18 +17,23 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-std::filesystem::path written(const char* name, const std::function<void(Hdf5Object::Id)>& fill) {
-  const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / name;
-  internal::write_hdf5_result(file, 1U << 20U, fill);
-  return file;
-}
+class Hdf5Table : public testing::Test {
+ protected:
+  std::filesystem::path written(const std::function<void(Hdf5Object::Id)>& fill) const {
+    internal::write_hdf5_result(folder_ / "table.h5", 1U << 20U, fill);
+    return folder_ / "table.h5";
+  }
+
+ private:
+  test::TemporaryFolder folder_;
+};
 
 std::vector<std::string> problems(const std::filesystem::path& file, const std::vector<std::string>& wanted) {
   return test::problems_of([&] { read_hdf5_table(file, wanted); });
 }
 
-TEST(Hdf5Table, ReadsDataSetsOfOneDimensionAndOfTwoOfAnyNumbers) {
-  const auto file = written("flinch_columns.h5", [](Hdf5Object::Id id) {
+TEST_F(Hdf5Table, ReadsDataSetsOfOneDimensionAndOfTwoOfAnyNumbers) {
+  const auto file = written([](Hdf5Object::Id id) {
     internal::write_reals(id, "t", {0.0, 0.5, 1.0});
     const Hdf5Object counts = internal::make_table(id, "counts", Field::Kind::integer, 2, 10);
     std::vector<internal::Number> numbers(6);
@@ -40,20 +46,20 @@ TEST(Hdf5Table, ReadsDataSetsOfOneDimensionAndOfTwoOfAnyNumbers) {
 }
 
 // A chunk of this recording claims 2 GB in a file of 20 kB.
-TEST(Hdf5Table, BelievesTheStoredSizeOfAChunkAsFarAsTheFileIsLong) {
+TEST_F(Hdf5Table, BelievesTheStoredSizeOfAChunkAsFarAsTheFileIsLong) {
   const std::filesystem::path file = FLINCH_SOURCE_DIR "/tests/fuzz/corpus/recording/stored_size_of_a_chunk";
   EXPECT_THAT(problems(file, {"time_ns"}), Contains(HasSubstr("more than the file")));
 }
 
-TEST(Hdf5Table, NamesRowAndColumnOfWhatIsWrong) {
-  const auto file = written("flinch_wrong.h5", [](Hdf5Object::Id id) {
+TEST_F(Hdf5Table, NamesRowAndColumnOfWhatIsWrong) {
+  const auto file = written([](Hdf5Object::Id id) {
     internal::write_reals(id, "t", {0.0, 0.5, 1.0});
     internal::write_reals(id, "q", {0.0, std::nan(""), 1.0});
     internal::write_reals(id, "short", {0.0});
     internal::write_texts(id, "words", {"a", "b", "c"});
   });
   EXPECT_THAT(problems(file, {"t", "q"}),
-              ElementsAre(HasSubstr("flinch_wrong.h5:2: column 'q' is no finite number")));
+              ElementsAre(HasSubstr("table.h5:2: column 'q' is no finite number")));
   EXPECT_THAT(problems(file, {"t", "short"}), ElementsAre(HasSubstr("has 1 rows, and 't' has 3")));
   EXPECT_THAT(problems(file, {"t", "q[1]"}), ElementsAre(HasSubstr("the data set has 1 columns")));
   EXPECT_THAT(problems(file, {"t", "words"}), ElementsAre(HasSubstr("has no numbers")));

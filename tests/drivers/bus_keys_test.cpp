@@ -12,14 +12,16 @@
 #include "drivers/topics.h"
 #include "systems/foundation/setup_error.h"
 #include "tests/drivers/key_folder.h"
+#include "tests/support/file_bytes.h"
+#include "tests/support/temporary_folder.h"
 
 namespace flinch {
 namespace {
 
 namespace fs = std::filesystem;
-using test::EmptyFolder;
+using test::bytes_of;
 using test::KeyFolder;
-using test::text_of;
+using test::TemporaryFolder;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -102,7 +104,7 @@ TEST(BusKeys, SignWhatIsAllowed) {
                                         keys.file(role, security_file::certificate).string());
     EXPECT_THAT(permissions, HasSubstr(">" + subject.substr(8, subject.size() - 9) + "<")) << subject;
     const fs::path file = keys.file(role, security_file::permissions);
-    test::overwrite(file, std::regex_replace(text_of(file), std::regex("DENY"), "ALLOW"));
+    test::overwrite(file, std::regex_replace(bytes_of(file), std::regex("DENY"), "ALLOW"));
     EXPECT_THAT(verification(keys, role, security_file::permissions), HasSubstr("Verification failure"));
   }
 }
@@ -112,19 +114,19 @@ TEST(BusKeys, LetEachTopicBeSentByItsSenderOnly) {
   std::map<BusRole, std::multiset<std::string>> sent;
   for (const Topic* topic : all_topics()) sent[topic->sender].insert(topic->name);
   for (const BusRole role : all_bus_roles) {
-    const std::string permissions = text_of(keys.file(role, security_file::permissions));
+    const std::string permissions = bytes_of(keys.file(role, security_file::permissions));
     EXPECT_EQ(topics_in(permissions, "publish"), sent[role]) << name(role);
     EXPECT_THAT(permissions, HasSubstr("<default>DENY</default>"));
   }
   EXPECT_THAT(sent[BusRole::observer], IsEmpty());
-  const std::string robot = text_of(keys.file(BusRole::robot, security_file::permissions));
+  const std::string robot = bytes_of(keys.file(BusRole::robot, security_file::permissions));
   EXPECT_THAT(topics_in(robot, "subscribe"), ElementsAre("flinch/drive_request", "flinch/torque_command"));
-  const std::string controller = text_of(keys.file(BusRole::controller, security_file::permissions));
+  const std::string controller = bytes_of(keys.file(BusRole::controller, security_file::permissions));
   EXPECT_THAT(topics_in(controller, "subscribe"), ElementsAre("*"));
 }
 
 TEST(BusKeys, ForgetNoTopic) {
-  const std::string header = text_of(fs::path(FLINCH_SOURCE_DIR) / "drivers/topics.h");
+  const std::string header = bytes_of(fs::path(FLINCH_SOURCE_DIR) / "drivers/topics.h");
   const std::regex declaration("extern const Topic ");
   const auto declared =
       std::distance(std::sregex_iterator(header.begin(), header.end(), declaration), std::sregex_iterator());
@@ -143,7 +145,7 @@ TEST(BusKeys, KeepPrivateKeysFromOthersAndThoseOfTheAuthoritiesFromAll) {
   for (const auto& entry : fs::recursive_directory_iterator(keys.path())) {
     if (entry.is_directory()) {
       EXPECT_EQ(mode_of(entry.path()), 0700u);
-    } else if (text_of(entry.path()).find("PRIVATE KEY") != std::string::npos) {
+    } else if (bytes_of(entry.path()).find("PRIVATE KEY") != std::string::npos) {
       EXPECT_EQ(entry.path().filename(), security_file::private_key);
       EXPECT_EQ(mode_of(entry.path()), 0600u);
       ++private_keys;
@@ -158,7 +160,7 @@ TEST(BusKeys, AreGoodForTheDaysAndDomainsAskedFor) {
   EXPECT_THAT(openssl("x509 -noout -checkend 172000 -in " + certificate), HasSubstr("will not expire"));
   EXPECT_THAT(openssl("x509 -noout -checkend 173000 -in " + certificate), HasSubstr("will expire"));
   for (const char* file : {security_file::governance, security_file::permissions}) {
-    EXPECT_THAT(text_of(keys.file(BusRole::robot, file)), HasSubstr("<min>3</min><max>5</max>"));
+    EXPECT_THAT(bytes_of(keys.file(BusRole::robot, file)), HasSubstr("<min>3</min><max>5</max>"));
   }
   EXPECT_THAT(problem_of(keys.path() / "new", {.days = 0}), HasSubstr("1 to 36500 days"));
   EXPECT_THAT(problem_of(keys.path() / "new", {.domains = {.first = 3, .last = 231}}), HasSubstr("0 to 230"));
@@ -167,22 +169,22 @@ TEST(BusKeys, AreGoodForTheDaysAndDomainsAskedFor) {
 TEST(BusKeys, ReplaceKeysOnlyWhenToldToAndNothingElseEver) {
   const KeyFolder keys;
   const fs::path key = keys.file(BusRole::robot, security_file::private_key);
-  const std::string first = text_of(key);
+  const std::string first = bytes_of(key);
   EXPECT_THAT(problem_of(keys.path(), {}), HasSubstr("--force"));
-  EXPECT_EQ(text_of(key), first);
+  EXPECT_EQ(bytes_of(key), first);
   EXPECT_EQ(problem_of(keys.path(), {.replace = true}), "");
-  EXPECT_NE(text_of(key), first);
+  EXPECT_NE(bytes_of(key), first);
 
-  const std::string second = text_of(key);
+  const std::string second = bytes_of(key);
   test::overwrite(keys.path() / "robot" / "notes.txt", "mine");
   EXPECT_THAT(problem_of(keys.path(), {.replace = true}), HasSubstr("other things than keys"));
-  EXPECT_EQ(text_of(key), second);
+  EXPECT_EQ(bytes_of(key), second);
   EXPECT_THAT(problem_of(key, {.replace = true}), HasSubstr("this is none"));
   EXPECT_THAT(problem_of(keys.path() / "a" / "b", {}), HasSubstr("make it first"));
 }
 
 TEST(BusKeys, LeaveNothingBehindWhereTheyCannotBeWritten) {
-  const EmptyFolder place;
+  const TemporaryFolder place;
   rlimit limit{};
   ::getrlimit(RLIMIT_FSIZE, &limit);
   const rlimit small{.rlim_cur = 1000, .rlim_max = limit.rlim_max};  // keys fit, signed documents do not

@@ -99,11 +99,11 @@ TEST(BusSecurity, RefusesKeysThatDoNotFit) {
   const KeyFolder keys, others;
   EXPECT_EQ(refusal(settings(domain, keys, BusRole::observer)), "");
   const auto file = keys.file(BusRole::observer, security_file::permissions);
-  const std::string own = test::text_of(file);
-  test::overwrite(file, test::text_of(keys.file(BusRole::controller, security_file::permissions)));
+  const std::string own = test::bytes_of(file);
+  test::overwrite(file, test::bytes_of(keys.file(BusRole::controller, security_file::permissions)));
   EXPECT_THAT(refusal(settings(domain, keys, BusRole::observer)), HasSubstr("are refused"))
       << "of another role";
-  test::overwrite(file, test::text_of(others.file(BusRole::observer, security_file::permissions)));
+  test::overwrite(file, test::bytes_of(others.file(BusRole::observer, security_file::permissions)));
   EXPECT_THAT(refusal(settings(domain, keys, BusRole::observer)), HasSubstr("are refused")) << "of others";
   std::string changed = own;
   changed.replace(changed.find("</allow_rule>"), 0,

@@ -1,49 +1,22 @@
 #pragma once
 
-#include <stdlib.h>
-
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <sstream>
-#include <stdexcept>
 #include <string>
 
 #include "drivers/bus_keys.h"
 #include "drivers/bus_security.h"
 #include "drivers/key_authority.h"
+#include "tests/support/file_bytes.h"
+#include "tests/support/temporary_folder.h"
 
 namespace flinch::test {
-
-inline std::string text_of(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 inline void overwrite(const std::filesystem::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
 }
-
-/// An empty folder, gone with this.
-class EmptyFolder {
- public:
-  EmptyFolder() {
-    std::string name = std::filesystem::temp_directory_path() / "flinch_keys.XXXXXX";
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    path_ = name;
-  }
-  EmptyFolder(const EmptyFolder&) = delete;
-  EmptyFolder& operator=(const EmptyFolder&) = delete;
-  ~EmptyFolder() {
-    std::error_code error;
-    std::filesystem::remove_all(path_, error);
-  }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Keys of all roles, gone with this.
 class KeyFolder {
@@ -55,12 +28,12 @@ class KeyFolder {
   BusSecurity of(BusRole role) const { return {.folder = path(), .role = role}; }
 
  private:
-  EmptyFolder parent_;
+  TemporaryFolder parent_;
 };
 
 /// The text within a signed file.
 inline std::string signed_text(const std::filesystem::path& file) {
-  std::string text = text_of(file);
+  std::string text = bytes_of(file);
   const std::string end = "</dds>\r\n";
   text = text.substr(text.find("<?xml"), text.find(end) + end.size() - text.find("<?xml"));
   std::erase(text, '\r');

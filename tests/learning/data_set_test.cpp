@@ -7,26 +7,27 @@
 #include <fstream>
 
 #include "systems/config/robot_file.h"
+#include "systems/framework/hdf5_object.h"
 #include "systems/framework/random.h"
 #include "tests/learning/contact_examples.h"
+#include "tests/support/file_bytes.h"
 #include "tests/support/problems_of.h"
+#include "tests/support/temporary_folder.h"
 
 namespace flinch {
 namespace {
 
-std::filesystem::path place(const std::string& name) {
-  return std::filesystem::temp_directory_path() /
-         ("flinch_data_set_" + std::to_string(getpid()) + "_" + name);
-}
+class DataSetFile : public testing::Test {
+ protected:
+  std::filesystem::path file() const { return folder_ / "data.h5"; }
 
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
+ private:
+  test::TemporaryFolder folder_;
+};
 
-TEST(DataSet, ComesBackBitForBitFromItsFile) {
+TEST_F(DataSetFile, ComesBackBitForBitFromItsFile) {
   const DataSet data = test::contact_examples(300, 1);
-  const auto file = place("whole.h5");
+  const auto file = this->file();
   write_data_set(data, file);
   const DataSet read = read_data_set(file);
   EXPECT_EQ(read.card, data.card);
@@ -43,18 +44,17 @@ TEST(DataSet, ComesBackBitForBitFromItsFile) {
       EXPECT_EQ(a.course[k].wrench_in_base, b.course[k].wrench_in_base);
     }
   }
-  const std::string bytes = bytes_of(file);
+  const std::string bytes = test::bytes_of(file);
   write_data_set(read, file);
-  EXPECT_EQ(bytes_of(file), bytes);
-  std::filesystem::remove(file);
+  EXPECT_EQ(test::bytes_of(file), bytes);
 }
 
-TEST(DataSet, SaysWhatIsWrongWithAFile) {
-  const auto file = place("broken.h5");
+TEST_F(DataSetFile, SaysWhatIsWrongWithAFile) {
+  const auto file = this->file();
   EXPECT_THAT(test::problems_of([&] { read_data_set(file); }),
               testing::ElementsAre(file.string() + ": there is no such file"));
   write_data_set(test::contact_examples(50, 1), file);
-  const std::string bytes = bytes_of(file);
+  const std::string bytes = test::bytes_of(file);
   std::ofstream(file, std::ios::binary | std::ios::trunc) << bytes.substr(0, bytes.size() / 2);
   const auto problems = test::problems_of([&] { read_data_set(file); });
   ASSERT_EQ(problems.size(), 1U);
@@ -71,13 +71,21 @@ TEST(DataSet, SaysWhatIsWrongWithAFile) {
   EXPECT_THAT(
       test::problems_of([&] { read_data_set(file); }),
       testing::ElementsAre(file.string() + ": sample 9 has 10 where a whole number from 0 to 9 belongs"));
-  std::filesystem::remove(file);
 }
 
-TEST(DataSet, SurvivesBytesThatChange) {
-  const auto file = place("hostile.h5");
+TEST_F(DataSetFile, OfAnotherVersionMustBeMadeAnew) {
+  internal::write_hdf5_result(file(), 1000, [](internal::Hdf5Object::Id id) {
+    internal::write_text(id, "format", "flinch contacts 1");
+  });
+  EXPECT_THAT(test::problems_of([&] { read_data_set(file()); }),
+              testing::ElementsAre(file().string() + ": is a data set of another version ('flinch contacts "
+                                                     "1'); make it anew with `flinch dataset`"));
+}
+
+TEST_F(DataSetFile, SurvivesBytesThatChange) {
+  const auto file = this->file();
   write_data_set(test::contact_examples(20, 1), file);
-  const std::string whole = bytes_of(file);
+  const std::string whole = test::bytes_of(file);
   RandomGenerator random(3);
   int refused = 0;
   for (int trial = 0; trial < 300; ++trial) {
@@ -88,7 +96,6 @@ TEST(DataSet, SurvivesBytesThatChange) {
     if (!test::problems_of([&] { read_data_set(file); }).empty()) ++refused;
   }
   EXPECT_GT(refused, 10);
-  std::filesystem::remove(file);
 }
 
 TEST(DataSet, KnowsARobotByItsParametersAndNotByComments) {

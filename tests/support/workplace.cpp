@@ -1,31 +1,13 @@
 #include "tests/support/workplace.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <fstream>
-#include <iterator>
 
 namespace flinch::test {
-namespace {
 
 namespace fs = std::filesystem;
-
-std::string name_of_test() {
-  const ::testing::TestInfo& test = *::testing::UnitTest::GetInstance()->current_test_info();
-  std::string name = std::string(test.test_suite_name()) + "_" + test.name();
-  std::replace(name.begin(), name.end(), '/', '_');
-  return name;
-}
-
-}  // namespace
-
-std::string bytes_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 fs::path shipped(const std::string& name) { return fs::path(FLINCH_SOURCE_DIR) / "apps" / name; }
 
@@ -39,15 +21,8 @@ std::vector<std::string> shipped_scenarios() {
 }
 
 Workplace::Workplace() {
-  static std::atomic<int> made = 0;  // a test may have several
-  folder_ = fs::path(::testing::TempDir()) /
-            ("flinch_" + name_of_test() + "_" + std::to_string(getpid()) + "_" + std::to_string(++made));
-  fs::remove_all(folder_);
-  fs::create_directories(folder_);
   for (const std::string part : {"scenarios", "robots"}) fs::copy(shipped(part), folder_ / part);
 }
-
-Workplace::~Workplace() { fs::remove_all(folder_); }
 
 void Workplace::write(const std::string& name, const std::string& text) const {
   fs::create_directories((folder_ / name).parent_path());
@@ -70,7 +45,7 @@ int Workplace::line_of(const std::string& name, const std::string& text) const {
 
 std::map<std::string, std::string> Workplace::contents() const {
   std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder_.path())) {
     files[entry.path().string()] = entry.is_directory() ? "" : bytes_of(entry.path());
   }
   return files;

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-namespace flinch::test {
+#include "tests/support/file_bytes.h"
+#include "tests/support/temporary_folder.h"
 
-/// All bytes of a file; none where there is no file.
-std::string bytes_of(const std::filesystem::path& file);
+namespace flinch::test {
 
 /// A scenario or robot that ships with the project, from the folder apps/.
 std::filesystem::path shipped(const std::string& name);
@@ -20,9 +20,6 @@ std::vector<std::string> shipped_scenarios();
 class Workplace {
  public:
   Workplace();
-  ~Workplace();
-  Workplace(const Workplace&) = delete;
-  Workplace& operator=(const Workplace&) = delete;
 
   std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
   /// `name` in it, as an argument.
@@ -38,7 +35,7 @@ class Workplace {
   std::map<std::string, std::string> contents() const;
 
  private:
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
 };
 
 }  // namespace flinch::test

@@ -2,13 +2,13 @@
 // of [SafePR] V-F, on robots that differ from their model. FLINCH_CLASSIFIED in the environment says of how
 // many runs; 1800 are all.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstdio>
 
 #include "experiments/dataset/data_spec.h"
 #include "experiments/dataset/make_data_set.h"
 #include "learning/train_classifier.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/wanted.h"
 
 namespace flinch {
@@ -20,11 +20,8 @@ DataSet data_of(const std::string& name, int runs) {
   DataSpec spec =
       read_data_spec(FLINCH_SOURCE_DIR "/apps/models/" + name, {.runs = static_cast<std::size_t>(runs)});
   spec.samples.wrench = "isolation";
-  const auto file = std::filesystem::temp_directory_path() /
-                    ("flinch_one_configuration_" + std::to_string(getpid()) + ".h5");
-  const DataSet data = make_data_set(spec, file);
-  std::filesystem::remove(file);
-  return data;
+  const test::TemporaryFolder folder;
+  return make_data_set(spec, folder / "data.h5");
 }
 
 ClassifierModel learned_in_the_first(const DataSet& data, int epochs) {

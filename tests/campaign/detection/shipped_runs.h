@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "experiments/campaign/campaign.h"
 #include "experiments/campaign/run_campaign.h"
+#include "tests/support/temporary_folder.h"
 
 namespace flinch::test {
 
@@ -19,13 +19,8 @@ inline Campaign shipped(const std::string& name, std::size_t draws) {
 }
 
 inline std::vector<RunResult> runs_of(const Campaign& campaign) {
-  const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
-  const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) / (std::string(test.test_suite_name()) + "." + test.name());
-  std::filesystem::create_directories(folder);
-  const std::vector<RunResult> results = run_campaign(campaign, folder, 2);
-  std::filesystem::remove_all(folder);
-  return results;
+  const TemporaryFolder folder;
+  return run_campaign(campaign, folder.path(), 2);
 }
 
 inline std::vector<RunResult> shipped_runs(const std::string& name, std::size_t draws) {

@@ -1,10 +1,9 @@
 // 50 runs, each killed at a random moment: see the tests of RecordingStream, which kill a few.
 #include "tests/systems/framework/killed_run.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
 #include <string>
 
 namespace flinch {
@@ -12,26 +11,22 @@ namespace {
 
 class KilledRun : public testing::Test {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::filesystem::path folder_ =
-      std::filesystem::path(testing::TempDir()) / ("flinch_killed_runs_" + std::to_string(getpid()));
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(KilledRun, InRealTimeHoldsAllButTheLastSecond) {
   for (std::uint64_t round = 0; round < 5; ++round) {
-    test::kill_runs(5, 100 + round, test::Pace::real_time, folder_);
+    test::kill_runs(5, 100 + round, test::Pace::real_time, folder_.path());
   }
 }
 
 TEST_F(KilledRun, AsFastAsPossibleHoldsAllButTheLastSecond) {
   for (std::uint64_t round = 0; round < 5; ++round) {
-    test::kill_runs(5, 200 + round, test::Pace::as_fast_as_possible, folder_);
+    test::kill_runs(5, 200 + round, test::Pace::as_fast_as_possible, folder_.path());
   }
 }
 
-TEST_F(KilledRun, AtItsEndLeavesAWholeRecording) { test::kill_ends_of_runs(50, 300, folder_); }
+TEST_F(KilledRun, AtItsEndLeavesAWholeRecording) { test::kill_ends_of_runs(50, 300, folder_.path()); }
 
 }  // namespace
 }  // namespace flinch

@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -18,6 +17,7 @@
 #include "systems/robot/planar_rrr_presets.h"
 #include "systems/robot/rotation.h"
 #include "tests/experiments/report/chromium.h"
+#include "tests/support/temporary_folder.h"
 
 namespace flinch {
 namespace {
@@ -116,12 +116,10 @@ TEST_P(DrawnRobot, HasLegsWhoseLinksKeepTheirShape) {
 TEST_P(DrawnRobot, IsOneThatThePageKnows) { EXPECT_NO_THROW(check_report(circling(*GetParam().robot))); }
 
 TEST_P(DrawnRobot, WorksInChromium) {
-  const std::filesystem::path path =
-      std::filesystem::temp_directory_path() /
-      ("flinch_drawn_" + std::string(GetParam().name) + "_" + std::to_string(getpid()) + ".html");
+  const test::TemporaryFolder folder;
+  const std::filesystem::path path = folder / "page.html";
   write_report_page(circling(*GetParam().robot), path);
   expect_works_in_chromium(path);
-  std::filesystem::remove(path);
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, DrawnRobot, testing::Values(planar, five_bar, hexapod),

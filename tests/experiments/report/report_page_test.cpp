@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <array>
 #include <cmath>
@@ -17,6 +16,7 @@
 #include "tests/experiments/report/chromium.h"
 #include "tests/experiments/report/sample_report.h"
 #include "tests/support/problems_of.h"
+#include "tests/support/temporary_folder.h"
 
 namespace flinch {
 namespace {
@@ -139,17 +139,13 @@ TEST(CheckReport, NamesEveryProblemAtOnce) {
                           HasSubstr("chart 'forces'"), HasSubstr("period")));
 }
 
-std::filesystem::path page_file(const std::string& name) {
-  return std::filesystem::temp_directory_path() /
-         ("flinch_" + name + "_" + std::to_string(getpid()) + ".html");
+void expect_to_work(const Report& report) {
+  const test::TemporaryFolder folder;
+  write_report_page(report, folder / "page.html");
+  expect_works_in_chromium(folder / "page.html");
 }
 
-TEST(ReportPage, WorksInChromium) {
-  const std::filesystem::path path = page_file("report");
-  write_report_page(sample_report(), path);
-  expect_works_in_chromium(path);
-  std::filesystem::remove(path);
-}
+TEST(ReportPage, WorksInChromium) { expect_to_work(sample_report()); }
 
 /// As a run that a fault has stopped before anything was touched.
 TEST(ReportPage, TellsInChromiumWhyARunIsNotGood) {
@@ -160,10 +156,7 @@ TEST(ReportPage, TellsInChromiumWhyARunIsNotGood) {
                     "the torque gate closed: " + report.fault};
   report.remarks = {"the contact with platform was not over at the end"};
   EXPECT_EQ(json::parse(report_json(report))["reasons"], report.reasons);
-  const std::filesystem::path path = page_file("failed");
-  write_report_page(report, path);
-  expect_works_in_chromium(path);
-  std::filesystem::remove(path);
+  expect_to_work(report);
 }
 
 /// As a clamping whose gate closed at last.
@@ -176,19 +169,12 @@ TEST(ReportPage, TellsInChromiumOfAClampingAndOfTheGateThatCloses) {
   report.contacts[0].detected = 1e-3;
   report.fault = "the encoders are silent";
   report.lanes = {{"torque gate", {"waiting", "open", "closed"}, {1, 1, 2}}};
-  const std::filesystem::path path = page_file("clamping");
-  write_report_page(report, path);
-  expect_works_in_chromium(path);
-  std::filesystem::remove(path);
+  expect_to_work(report);
 }
 
 TEST(ReportPage, WorksInChromiumWithTheLeastOfData) {
-  const std::filesystem::path path = page_file("least");
-  write_report_page(small_report(), path);
-  expect_works_in_chromium(path);
-  write_report_page(Report(), path);
-  expect_works_in_chromium(path);
-  std::filesystem::remove(path);
+  expect_to_work(small_report());
+  expect_to_work(Report());
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +12,7 @@
 #include "plant/obstacle_path.h"
 #include "systems/framework/recording.h"
 #include "tests/experiments/report/chromium.h"
+#include "tests/support/temporary_folder.h"
 
 namespace flinch {
 namespace {
@@ -64,19 +64,17 @@ TEST(ExperimentPage, DrawsTheLyapunovFunctionOfWhatTheLawOfTheModeServes) {
 }
 
 TEST(ExperimentPage, WorksInChromium) {
-  const std::filesystem::path page =
-      std::filesystem::temp_directory_path() / ("flinch_experiment_" + std::to_string(getpid()) + ".html");
+  const test::TemporaryFolder folder;
+  const std::filesystem::path page = folder / "page.html";
   write_report_page(report_of(FLINCH_SOURCE_DIR "/apps/scenarios/platform_collision.yaml"), page);
   expect_works_in_chromium(page);
-  std::filesystem::remove(page);
 }
 
 TEST(ExperimentPage, OfAHexapodWorksInChromium) {
-  const std::filesystem::path page =
-      std::filesystem::temp_directory_path() / ("flinch_hexapod_" + std::to_string(getpid()) + ".html");
+  const test::TemporaryFolder folder;
+  const std::filesystem::path page = folder / "page.html";
   write_report_page(report_of(FLINCH_SOURCE_DIR "/apps/scenarios/hexapod_collision.yaml"), page);
   expect_works_in_chromium(page);
-  std::filesystem::remove(page);
 }
 
 /// Every scenario that ships has a page that the check of its names and lengths lets pass.

@@ -7,6 +7,7 @@
 
 #include "experiments/simulated/experiment.h"
 #include "experiments/simulated/simulated_scenario.h"
+#include "tests/support/temporary_folder.h"
 
 namespace flinch {
 namespace {
@@ -24,14 +25,13 @@ TEST(DocumentedScenario, CanBeRunAndSaysEveryKey) {
   std::string text = documented_scenario();
   const std::string folder = "../robots/";
   text.replace(text.find(folder), folder.size(), FLINCH_SOURCE_DIR "/apps/robots/");
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "documented_scenario.yaml";
-  std::ofstream(file) << text;
+  const test::TemporaryFolder place;
+  const std::filesystem::path file = place.write("documented_scenario.yaml", text);
 
   const SimulatedScenario scenario = read_simulated_scenario(file);
   EXPECT_NO_THROW(build_experiment(scenario));
   EXPECT_GT(scenario.values.size(), 50U);
   for (const ReadValue& value : scenario.values) EXPECT_TRUE(value.from_file) << value.key;
-  std::filesystem::remove(file);
 }
 
 }  // namespace

@@ -18,12 +18,6 @@ namespace fs = std::filesystem;
 
 constexpr std::uint32_t moving_ticks = 300;
 
-fs::path new_folder() {
-  std::string name = (fs::temp_directory_path() / "flinch_link_XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no folder for a test");
-  return name;
-}
-
 /// The programs bring their own bus; this one is for the taps.
 BusSettings tapped_bus(std::uint32_t domain, const TwoNetworks* networks) {
   if (networks == nullptr) return {.domain = domain};
@@ -53,8 +47,7 @@ LinkTrial::LinkTrial(OwnRobot robot) : LinkTrial(std::move(robot), nullptr) {}
 LinkTrial::LinkTrial(const TwoNetworks& networks) : LinkTrial({}, &networks) {}
 
 LinkTrial::LinkTrial(OwnRobot robot, const TwoNetworks* networks)
-    : folder_(new_folder()),
-      own_robot_(std::move(robot)),
+    : own_robot_(std::move(robot)),
       networks_(networks),
       domain_(free_domain()),
       trouble_(folder_ / "trouble") {
@@ -63,7 +56,7 @@ LinkTrial::LinkTrial(OwnRobot robot, const TwoNetworks* networks)
   if (networks_ != nullptr) commanders_tap_ = std::make_unique<BusTap>(bus, networks_->second());
 }
 
-LinkTrial::~LinkTrial() { fs::remove_all(folder_); }
+LinkTrial::~LinkTrial() = default;
 
 std::vector<std::string> LinkTrial::bus_arguments() const {
   std::vector<std::string> arguments = {"--domain", std::to_string(domain_)};

@@ -10,6 +10,7 @@
 #include "drivers/bus_settings.h"
 #include "tests/fault/link/bus_tap.h"
 #include "tests/support/flinch_program.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/trouble.h"
 
 namespace flinch::test {
@@ -84,7 +85,7 @@ class LinkTrial {
   std::unique_ptr<OtherProgram> start(const std::vector<std::string>& arguments,
                                       const std::string& network) const;
 
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
   OwnRobot own_robot_;
   const TwoNetworks* networks_;
   std::uint32_t domain_;

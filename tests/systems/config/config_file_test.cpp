@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <chrono>
 
+#include "tests/support/temporary_folder.h"
 #include "tests/systems/config/problems_of.h"
 
 namespace flinch {
@@ -21,12 +22,12 @@ Problems problems_of_file(const std::filesystem::path& file) {
 }
 
 TEST(ReadingAFile, GivesItsTextAsItIs) {
-  const TemporaryFolder folder("config_file_text");
+  const TemporaryFolder folder;
   EXPECT_EQ(read_config_file(folder.write("a.yaml", "a: 1\r\n\n")), "a: 1\r\n\n");
 }
 
 TEST(MissingFile, IsToldWithTheNearestNameInItsFolder) {
-  const TemporaryFolder folder("config_file_nearest");
+  const TemporaryFolder folder;
   folder.write("planar_3rrr.yaml", "");
   folder.write("hexapod.yml", "");
   folder.write("planar_3rr.txt", "");
@@ -37,7 +38,7 @@ TEST(MissingFile, IsToldWithTheNearestNameInItsFolder) {
 }
 
 TEST(MissingFile, IsToldWithAllThatAreThereIfNoneIsNear) {
-  const TemporaryFolder folder("config_file_all");
+  const TemporaryFolder folder;
   EXPECT_THAT(problems_of_file(folder / "delta.yaml"), ElementsAre(EndsWith("no such file")));
   folder.write("planar_3rrr.yaml", "");
   folder.write("hexapod.yml", "");
@@ -46,13 +47,13 @@ TEST(MissingFile, IsToldWithAllThatAreThereIfNoneIsNear) {
 }
 
 TEST(MissingFile, MayMissItsFolderToo) {
-  const TemporaryFolder folder("config_file_folder");
+  const TemporaryFolder folder;
   EXPECT_THAT(problems_of_file(folder / "robots/a.yaml"),
               ElementsAre(EndsWith("no such file, for there is no folder " + (folder / "robots").string())));
 }
 
 TEST(UnreadableFile, IsRefused) {
-  const TemporaryFolder folder("config_file_unreadable");
+  const TemporaryFolder folder;
   EXPECT_THAT(problems_of_file(folder / ""), ElementsAre(EndsWith(": is a folder; it must be a file")));
   EXPECT_THAT(problems_of_file("/dev/zero"), ElementsAre("/dev/zero: is no regular file; it must be one"));
   const std::string hdf5 = folder.write("run.h5", "\x89HDF\r\n").string();
@@ -75,7 +76,7 @@ TEST(UnreadableFile, MayKeepItsReaderWaiting) {
 }
 
 TEST(UnreadableFile, MayBeTooLarge) {
-  const TemporaryFolder folder("config_file_large");
+  const TemporaryFolder folder;
   EXPECT_TRUE(problems_of_file(folder.write("a.yaml", std::string(1'000'000, '#'))).empty());
   EXPECT_THAT(problems_of_file(folder.write("a.yaml", std::string(1'000'001, '#'))),
               ElementsAre(EndsWith("has more than 1000000 bytes; a file of settings has fewer")));

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "tests/support/problems_of.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/systems/config/problems_of.h"
 
 namespace flinch {
@@ -143,7 +144,7 @@ TEST(ReadingWords, KeepsADefaultThatHasNoWord) {
 }
 
 TEST(ReadingFileNames, StartsInTheFolderOfTheFileThatNamesThem) {
-  const TemporaryFolder folder("config_reader_file");
+  const TemporaryFolder folder;
   const auto robot = folder.write("robot.yaml", "");
   ConfigReader reader = ConfigReader::open(folder.write("scenario.yaml", "robot: ./robot.yaml\n"));
   std::filesystem::path found;
@@ -153,7 +154,7 @@ TEST(ReadingFileNames, StartsInTheFolderOfTheFileThatNamesThem) {
 }
 
 TEST(ReadingFileNames, TellsTheNearestOneWhereTheKeyStands) {
-  const TemporaryFolder folder("config_reader_no_file");
+  const TemporaryFolder folder;
   folder.write("robot.yaml", "");
   const auto scenario = folder.write("scenario.yaml", "a: 1\nrobot: robto.yaml\n");
   EXPECT_THAT(problems_of([&] {

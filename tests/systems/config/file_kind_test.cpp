@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 
+#include "tests/support/temporary_folder.h"
 #include "tests/systems/config/problems_of.h"
 
 namespace flinch {
@@ -32,7 +33,7 @@ Problems problems_as(FileKind wanted, const std::string& text) {
 }
 
 TEST(FileKinds, AreToldByTheirKeys) {
-  const TemporaryFolder folder("file_kinds");
+  const TemporaryFolder folder;
   for (const auto& [kind, text] : examples) EXPECT_EQ(kind_of(folder.write("a.yaml", text)), kind) << text;
   EXPECT_EQ(kind_of(folder.write("a.yaml", "seed: 1\n")), std::nullopt);
   EXPECT_EQ(kind_of(folder.write("a.yaml", "recordings: []\n")), FileKind::data_spec);

@@ -3,12 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <iterator>
 
 #include "systems/config/robot_file.h"
 #include "systems/robot/hexapod.h"
 #include "systems/robot/hexapod_presets.h"
+#include "tests/support/file_bytes.h"
 #include "tests/systems/config/problems_of.h"
 
 namespace flinch {
@@ -28,11 +28,6 @@ void expect_same_friction(const JointFriction& a, const JointFriction& b) {
 
 HexapodParameters parameters_of(const RobotFile& file) {
   return std::dynamic_pointer_cast<const Hexapod>(file.robot)->parameters();
-}
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 void expect_same_body(const RigidBodyInertia& a, const RigidBodyInertia& b) {
@@ -73,7 +68,7 @@ TEST(HexapodFile, OfTheShippedRobotIsThePresetToANanometre) {
 }
 
 TEST(HexapodFile, MayTellOfAPayload) {
-  const std::string text = text_of(shipped) +
+  const std::string text = test::bytes_of(shipped) +
                            "payload: {mass_kg: 5.0, centre_of_mass_m: [0.03, -0.02, 0.08],\n"
                            "          inertia_kg_m2: [0.025, 0.030, 0.020]}\n";
   const RobotFile file = parse_robot_file(text, "hexapod.yaml");
@@ -84,7 +79,7 @@ TEST(HexapodFile, MayTellOfAPayload) {
 
 // The shipped hexapod with `old` replaced.
 std::string hexapod_with(const std::string& old, const std::string& text) {
-  std::string file = text_of(shipped);
+  std::string file = test::bytes_of(shipped);
   return file.replace(file.find(old), old.size(), text);
 }
 

@@ -15,6 +15,7 @@
 #include "systems/robot/five_bar_presets.h"
 #include "systems/robot/planar_rrr.h"
 #include "systems/robot/planar_rrr_presets.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/systems/config/problems_of.h"
 
 namespace flinch {
@@ -236,8 +237,7 @@ workspace_limits:
 )";
 
  private:
-  TemporaryFolder folder_{std::string("robot_") +
-                          ::testing::UnitTest::GetInstance()->current_test_info()->name()};
+  TemporaryFolder folder_;
 };
 
 TEST_F(ChangedRobotFile, IsFineUnchanged) { EXPECT_THAT(problems(), IsEmpty()); }

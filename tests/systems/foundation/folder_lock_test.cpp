@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "systems/foundation/setup_error.h"
+#include "tests/support/temporary_folder.h"
 
 namespace flinch {
 namespace {
@@ -13,10 +14,8 @@ namespace fs = std::filesystem;
 
 class FolderLocks : public testing::Test {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  fs::path folder_ = fs::temp_directory_path() / ("flinch_lock_" + std::to_string(::getpid()));
+  const test::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path();
 };
 
 TEST_F(FolderLocks, NameWhoHasTheFolder) {

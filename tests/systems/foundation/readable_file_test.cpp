@@ -1,4 +1,5 @@
 #include "systems/foundation/readable_file.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -12,12 +13,7 @@ namespace fs = std::filesystem;
 
 class AFileToBeRead : public testing::Test {
  protected:
-  AFileToBeRead() { fs::create_directory(folder); }
-  ~AFileToBeRead() override { fs::remove_all(folder); }
-
-  const fs::path folder =
-      fs::temp_directory_path() /
-      (std::string("flinch_readable_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+  const test::TemporaryFolder folder;
 };
 
 TEST_F(AFileToBeRead, IsThereAndHasBytes) {
@@ -27,7 +23,7 @@ TEST_F(AFileToBeRead, IsThereAndHasBytes) {
   EXPECT_EQ(problem_with_reading(folder / "empty"), "is empty");
   EXPECT_EQ(problem_with_reading(folder / "none"), "there is no such file");
   EXPECT_EQ(problem_with_reading(folder / "some/below"), "there is no such file");
-  EXPECT_EQ(problem_with_reading(folder), "is a folder; it must be a file");
+  EXPECT_EQ(problem_with_reading(folder.path()), "is a folder; it must be a file");
 }
 
 TEST_F(AFileToBeRead, IsNeitherPipeNorDeviceNorFileOfTheKernel) {

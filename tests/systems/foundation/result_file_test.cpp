@@ -7,10 +7,11 @@
 #include <unistd.h>
 
 #include <csignal>
-#include <fstream>
 #include <iterator>
 
 #include "systems/foundation/setup_error.h"
+#include "tests/support/file_bytes.h"
+#include "tests/support/temporary_folder.h"
 
 namespace flinch {
 namespace {
@@ -18,26 +19,16 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-/// A folder that is there while a test runs.
 class ResultFiles : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / (std::string("flinch_results_") + test->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   fs::path file(const std::string& name = "a.txt") const { return folder_ / name; }
-  auto files() const { return std::distance(fs::directory_iterator(folder_), fs::directory_iterator()); }
-  std::string text(const std::string& name = "a.txt") const {
-    std::ifstream stream(file(name), std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
+  auto files() const {
+    return std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator());
   }
+  std::string text(const std::string& name = "a.txt") const { return test::bytes_of(file(name)); }
 
  private:
-  fs::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 /// Does `work` in a program of its own, which ends without cleaning up. Its exit status.

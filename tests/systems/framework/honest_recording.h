@@ -1,17 +1,14 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include "systems/framework/recording.h"
 #include "systems/framework/recording_check.h"
+#include "tests/support/temporary_folder.h"
 
 /// A recording that holds what it says, for tests of what becomes of it in a file.
 namespace flinch::test {
@@ -41,27 +38,13 @@ inline Recording honest_recording() {
   return recording;
 }
 
-/// A file that is there while this object is.
+/// The name of a file that is gone with this.
 class TemporaryFile {
  public:
-  TemporaryFile() {
-    const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::temp_directory_path() / (std::string("flinch_check_") + test->name() + ".h5");
-    std::filesystem::remove(path_);
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  ~TemporaryFile() { std::filesystem::remove(path_); }
-
-  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path path() const { return folder_ / "honest.h5"; }
 
  private:
-  std::filesystem::path path_;
+  TemporaryFolder folder_;
 };
-
-inline std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 }  // namespace flinch::test

@@ -8,6 +8,7 @@
 
 #include "systems/framework/recording.h"
 #include "systems/framework/recording_journal.h"
+#include "tests/support/file_bytes.h"
 #include "tests/systems/framework/honest_recording.h"
 #include "tests/systems/framework/refusal.h"
 

@@ -8,6 +8,7 @@
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recorder.h"
 #include "systems/framework/simulator.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/systems/framework/random_source.h"
 
 namespace flinch {
@@ -33,7 +34,8 @@ std::vector<internal::Number> row_of(const Sample& sample) {
 
 TEST(RecordedValues, AreThoseOfTheRowsBitForBitFromMemoryAndFromAFile) {
   const Recording memory = recorded(10'000);
-  const std::filesystem::path place = std::filesystem::path(testing::TempDir()) / "flinch_recorded_values.h5";
+  const test::TemporaryFolder folder;
+  const std::filesystem::path place = folder / "values.h5";
   write_recording(memory, place);
   const Recording file = open_recording(place);
   EXPECT_TRUE(file.signal("source/sample").rows.empty()) << "a file is not read before it is asked";

@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 #include "systems/foundation/setup_error.h"
+#include "tests/support/file_bytes.h"
 #include "tests/systems/framework/honest_recording.h"
 
 namespace flinch {

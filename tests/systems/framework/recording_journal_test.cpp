@@ -9,6 +9,7 @@
 #include "systems/framework/recorded_values.h"
 #include "systems/framework/recorder.h"
 #include "systems/framework/simulator.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/systems/framework/random_source.h"
 
 namespace flinch {
@@ -16,9 +17,6 @@ namespace {
 
 class Journal : public testing::Test {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   std::filesystem::path part() const { return folder_ / "a.h5.part"; }
 
   /// `ticks` samples of a random source.
@@ -62,9 +60,7 @@ class Journal : public testing::Test {
   }
 
  private:
-  std::filesystem::path folder_ =
-      std::filesystem::path(testing::TempDir()) /
-      ("flinch_journal_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(Journal, HoldsEveryBitUnitAndAttribute) {

@@ -4,14 +4,15 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <thread>
 
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recorder.h"
 #include "systems/framework/simulator.h"
 #include "tests/support/allocations.h"
+#include "tests/support/file_bytes.h"
 #include "tests/support/locks.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/systems/framework/killed_run.h"
 #include "tests/systems/framework/random_source.h"
 
@@ -20,17 +21,11 @@ namespace {
 
 class Stream : public testing::Test {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   std::filesystem::path file(const std::string& name) const { return folder_ / name; }
   bool exists(const std::string& name) const { return std::filesystem::exists(file(name)); }
   auto files() const {
-    return std::distance(std::filesystem::directory_iterator(folder_), std::filesystem::directory_iterator());
-  }
-  static std::string bytes(const std::filesystem::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
+    return std::distance(std::filesystem::directory_iterator(folder_.path()),
+                         std::filesystem::directory_iterator());
   }
 
   /// Runs for `ticks` through a ring of `ring` samples.
@@ -51,9 +46,7 @@ class Stream : public testing::Test {
   const std::unique_ptr<Diagram> diagram_ = test::random_source();
 
  private:
-  std::filesystem::path folder_ =
-      std::filesystem::path(testing::TempDir()) /
-      ("flinch_stream_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(Stream, MakesTheFileThatIsWrittenFromMemory) {
@@ -65,7 +58,7 @@ TEST_F(Stream, MakesTheFileThatIsWrittenFromMemory) {
     Context context = diagram_->make_context();
     simulator.advance_to(context, ticks * Time(1ms));
     write_recording(recorder.recording({{"seed", "3"}, {"late", "known at the end"}}), file("b.h5"));
-    EXPECT_TRUE(bytes(file("a.h5")) == bytes(file("b.h5"))) << ticks;
+    EXPECT_TRUE(test::bytes_of(file("a.h5")) == test::bytes_of(file("b.h5"))) << ticks;
   }
 }
 
@@ -73,7 +66,7 @@ TEST_F(Stream, MakesTheSameFileWhateverTheRing) {
   stream_to(file("a.h5"), 9001, 8192);
   for (const std::size_t ring : {1U, 2U, 77U}) {
     stream_to(file("b.h5"), 9001, ring);
-    EXPECT_TRUE(bytes(file("a.h5")) == bytes(file("b.h5"))) << ring;
+    EXPECT_TRUE(test::bytes_of(file("a.h5")) == test::bytes_of(file("b.h5"))) << ring;
   }
 }
 
@@ -86,7 +79,7 @@ TEST_F(Stream, LeavesNothingButTheFile) {
 
 TEST_F(Stream, ReplacesAnOlderFileOnlyAtTheEnd) {
   stream_to(file("a.h5"), 100, 10);
-  const std::string older = bytes(file("a.h5"));
+  const std::string older = test::bytes_of(file("a.h5"));
   {
     Recorder recorder(*diagram_, recordable_paths(*diagram_), 10);
     const RecordingStream stream(recorder, file("a.h5"));
@@ -94,7 +87,7 @@ TEST_F(Stream, ReplacesAnOlderFileOnlyAtTheEnd) {
     diagram_->evaluate(context);
     recorder.record(context);
   }  // the run ended without finish()
-  EXPECT_TRUE(bytes(file("a.h5")) == older);
+  EXPECT_TRUE(test::bytes_of(file("a.h5")) == older);
   EXPECT_EQ(files(), 2) << "the file and the journal";
   EXPECT_EQ(open_recording(file("a.h5.part")).samples(), 1U);
 }

@@ -11,6 +11,8 @@
 #include "systems/framework/player.h"
 #include "systems/framework/recorder.h"
 #include "systems/framework/simulator.h"
+#include "tests/support/file_bytes.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/systems/framework/random_source.h"
 
 namespace flinch {
@@ -55,18 +57,10 @@ Recording record_source(int ticks) {
 
 class RecordingFile : public testing::Test {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
   std::filesystem::path file(const std::string& name) const { return folder_ / name; }
-  static std::string bytes(const std::filesystem::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
 
  private:
-  std::filesystem::path folder_ =
-      std::filesystem::path(testing::TempDir()) /
-      ("flinch_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(RecordingFile, ReplaysToIdenticalBitsDownstream) {
@@ -131,12 +125,12 @@ TEST_F(RecordingFile, HoldsEveryBitAndAttribute) {
 TEST_F(RecordingFile, IsTheSameFileForTheSameRun) {
   write_recording(record_source(300), file("a.h5"));
   write_recording(record_source(300), file("b.h5"));
-  EXPECT_EQ(bytes(file("a.h5")), bytes(file("b.h5")));
+  EXPECT_EQ(test::bytes_of(file("a.h5")), test::bytes_of(file("b.h5")));
 }
 
 TEST_F(RecordingFile, TellsWhenItIsTruncatedAndNamesTheFile) {
   write_recording(record_source(300), file("a.h5"));
-  const std::string whole = bytes(file("a.h5"));
+  const std::string whole = test::bytes_of(file("a.h5"));
   for (const std::size_t size : {std::size_t{0}, std::size_t{100}, whole.size() / 2, whole.size() - 100}) {
     std::ofstream(file("cut.h5"), std::ios::binary) << whole.substr(0, size);
     try {

@@ -6,29 +6,19 @@
 
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <limits>
-#include <sstream>
 
 #include "systems/foundation/setup_error.h"
+#include "tests/support/file_bytes.h"
+#include "tests/support/temporary_folder.h"
 
 namespace flinch {
 namespace {
 
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 class ATableFile : public ::testing::Test {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder); }
-  void TearDown() override { std::filesystem::remove_all(folder); }
-
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("flinch_table_" + std::to_string(::getpid()));
+  const test::TemporaryFolder folder;
   const std::vector<TableColumn> columns = {
       {"time_s", std::vector<double>{0.1, std::numeric_limits<double>::quiet_NaN(), -3e-300}},
       {"obstacles[0].name", std::vector<std::string>{"pylon", "", "a longer name"}}};
@@ -70,7 +60,7 @@ TEST_F(ATableFile, HoldsEveryColumn) {
 TEST_F(ATableFile, IsTheSameForTheSameTable) {
   write_table(columns, {}, folder / "a.h5");
   write_table(columns, {}, folder / "b.h5");
-  EXPECT_EQ(bytes_of(folder / "a.h5"), bytes_of(folder / "b.h5"));
+  EXPECT_EQ(test::bytes_of(folder / "a.h5"), test::bytes_of(folder / "b.h5"));
 }
 
 TEST_F(ATableFile, ThatCannotBeWrittenIsToldOf) {
