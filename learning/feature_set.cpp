@@ -82,9 +82,11 @@ bool FeatureSet::inputs(const DataSample& sample, NeuralNetwork::Values& columns
     };
     weigh(wrench, whole);
     weigh(growth_of(sample.course), growth);
+    const auto courses = leg_courses(*robot_, now, sample.course);
+    if (!whole.valid || !growth.valid || !courses) return false;
     const double force = wrench.head(space.translations()).norm();
-    evidence_features(touchable_, {whole, growth, leg_courses(*robot_, now, sample.course), force}, columns);
-    return whole.valid && growth.valid;
+    evidence_features(touchable_, {whole, growth, *courses, force}, columns);
+    return true;
   }
   WrenchEstimate estimate;
   estimate.valid = true;

@@ -134,7 +134,7 @@ std::optional<CourseMoments> course_at(std::size_t tick, Time period,
                                        const RecordedValues<PlatformMotion>& motions) {
   CourseMoments course;
   for (std::size_t i = 0; i < course_ages.size(); ++i) {
-    const auto age = static_cast<std::size_t>(course_ages[i] / period);
+    const auto age = static_cast<std::size_t>((course_ages[i] + period - Time{1}) / period);
     if (age > tick) return std::nullopt;
     const RecordedEstimate estimate = estimates[tick - age];
     const PlatformMotion motion = motions[tick - age];

@@ -3,7 +3,8 @@
 namespace flinch {
 namespace {
 
-constexpr Time tolerance = 1ms;
+constexpr Time jitter = 500us;            // of a stamp against those that follow
+constexpr Time tolerance = 1ms + jitter;  // nothing new for one tick
 
 }  // namespace
 
@@ -15,7 +16,7 @@ void CourseMemory::recall(const WrenchEstimate& estimate, const PlatformMotion& 
   result.moments.front() = {estimate.wrench_in_base, motion.velocity};
   for (std::size_t i = 1; i < course_ages.size(); ++i) {
     const Time wanted = estimate.acquired - course_ages[i];
-    const Remembered* const then = past.last_before(wanted + Time{1});
+    const Remembered* const then = past.last_before(wanted + jitter);
     if (then == nullptr || wanted - then->acquired > tolerance) return;
     result.moments[i] = then->moment;
   }

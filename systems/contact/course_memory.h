@@ -10,8 +10,9 @@
 namespace flinch {
 
 /// Remembers an estimate and the motion, and tells their course at every tick of the first `window` of a
-/// contact; at others the last one stands. It is not valid where something was not known at one of its
-/// moments, to within 1 ms, or since. For ticks of 1 ms or longer. (Derived.)
+/// contact; at others the last one stands. A moment is the newest that is less than half a millisecond
+/// younger than its age, for stamps jitter. The course is not valid where that one is 1.5 ms older than its
+/// age, or where something was not known since. For ticks of 1 or 2 ms. (Derived.)
 class CourseMemory final : public System {
  public:
   struct Remembered {

@@ -37,7 +37,8 @@ double logarithm_of_sum(const ClassVector& logarithms) {
 Seen seen(const ContactEvidence& evidence, double all, int number) {
   return {std::max(evidence.log_evidence[number] - all, least_log),
           std::min(std::sqrt(evidence.residual[number]), 10.0), evidence.location[number],
-          std::asinh(evidence.force[number] / 10.0), std::clamp(evidence.approach[number] / 0.3, -5.0, 5.0)};
+          std::asinh(evidence.force[number] / 10.0),
+          std::clamp(evidence.approach[number] / usual_speed, -5.0, 5.0)};
 }
 
 /// First link, second link and gap of a leg.

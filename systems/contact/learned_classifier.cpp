@@ -34,12 +34,13 @@ void LearnedClassifier::classify(Time now, const ContactPhase& contact, const Ki
                                  ContactClassification& result) const {
   result = contact.active && !contact.begins(now) ? last : ContactClassification();
   const bool is_told = contact.active && now - contact.since <= settings_.window && pose.valid &&
-                       seen.valid && growth.valid && how.valid &&
-                       how.moments.front().wrench_in_base.size() == robot_->dof();
+                       seen.valid && growth.valid && how.valid;
   if (!is_told) return;
+  const auto courses = leg_courses(*robot_, pose, how.moments);
+  if (!courses) return;
   NeuralNetwork::Values features, probability;
   const double force = how.moments.front().wrench_in_base.head(robot_->space().translations()).norm();
-  evidence_features(classes_, {seen, growth, leg_courses(*robot_, pose, how.moments), force}, features);
+  evidence_features(classes_, {seen, growth, *courses, force}, features);
   if (!settings_.network->evaluate(features, probability)) return;
   result.acquired = seen.acquired;
   result.valid = true;

@@ -7,15 +7,16 @@
 namespace flinch {
 namespace {
 
-/// A direction of platform coordinates: of whitened wrenches, or of velocities.
-PlatformVector felt_at(const ParallelRobot& robot, const Kinematics& now, BodyId link,
-                       const CartesianVector& direction) {
+/// Times a velocity of the platform: that of the middle of a link along `direction`.
+PlatformVector motion_of(const ParallelRobot& robot, const Kinematics& now, BodyId link,
+                         const CartesianVector& direction) {
   return robot.contact_jacobian(now, link, robot.axis_point(link, 0.5)).translation.transpose() * direction;
 }
 
-PlatformVector normalised(const PlatformVector& vector) {
+/// Of length 1; zero where `vector` is shorter than `least`.
+PlatformVector normalised(const PlatformVector& vector, double least) {
   const double size = vector.norm();
-  return size > 0.0 ? PlatformVector(vector / size) : vector;
+  return size > least ? PlatformVector(vector / size) : PlatformVector(PlatformVector::Zero(vector.size()));
 }
 
 LegCourse leg_course(const ParallelRobot& robot, const Kinematics& now, const PlatformVector& deviation,
@@ -32,12 +33,12 @@ LegCourse leg_course(const ParallelRobot& robot, const Kinematics& now, const Pl
   const CartesianVector along1 = first / first.norm(), along2 = second / second.norm();
   const CartesianVector inwards1 = (along2 - cosine * along1) / sine;
   const CartesianVector inwards2 = (along1 - cosine * along2) / sine;
-  const PlatformVector motion1 = felt_at(robot, now, BodyId::link1(leg), inwards1);
-  const PlatformVector motion2 = felt_at(robot, now, BodyId::link2(leg), inwards2);
+  const PlatformVector motion1 = motion_of(robot, now, BodyId::link1(leg), inwards1);
+  const PlatformVector motion2 = motion_of(robot, now, BodyId::link2(leg), inwards2);
   // What pushes the links apart pushes them outwards.
-  const PlatformVector push1 = normalised(-motion1.cwiseQuotient(deviation));
+  const PlatformVector push1 = normalised(-motion1.cwiseQuotient(deviation), 0.0);
   const PlatformVector push2 = -motion2.cwiseQuotient(deviation);
-  const PlatformVector beside = normalised(push2 - push1.dot(push2) * push1);
+  const PlatformVector beside = normalised(push2 - push1.dot(push2) * push1, 1e-6 * push2.norm());
   result.elbow_cosine = cosine;
   for (std::size_t i = 0; i < moments.size(); ++i) {
     const PlatformVector wrench = moments[i].wrench_in_base.cwiseQuotient(deviation);
@@ -53,13 +54,13 @@ LegCourse leg_course(const ParallelRobot& robot, const Kinematics& now, const Pl
 
 }  // namespace
 
-LegCourses leg_courses(const ParallelRobot& robot, const Kinematics& now,
-                       const CourseMoments& moments) noexcept {
-  LegCourses courses{};
+std::optional<LegCourses> leg_courses(const ParallelRobot& robot, const Kinematics& now,
+                                      const CourseMoments& moments) noexcept {
   const int dof = robot.dof();
-  if (!now.valid) return courses;
+  if (!now.valid) return std::nullopt;
   for (const CourseMoment& moment : moments)
-    if (moment.wrench_in_base.size() != dof || moment.velocity.size() != dof) return courses;
+    if (moment.wrench_in_base.size() != dof || moment.velocity.size() != dof) return std::nullopt;
+  LegCourses courses{};
   const PlatformVector deviation =
       WrenchUncertainty().covariance(robot.space(), PlatformVector::Zero(dof)).diagonal().cwiseSqrt();
   for (int leg = 0; leg < robot.legs(); ++leg)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "systems/robot/parallel_robot.h"
 #include "systems/signals/contact_course.h"
@@ -23,8 +24,9 @@ struct LegCourse {
 using LegCourses = std::array<LegCourse, max_dof>;
 
 /// The course in coordinates of each leg in the pose of now; zeros for legs without two links, and for those
-/// whose links lie in one line. Never allocates. (Derived.)
-LegCourses leg_courses(const ParallelRobot& robot, const Kinematics& now,
-                       const CourseMoments& moments) noexcept;
+/// whose links lie in one line. Nothing where the pose is not valid or a moment has another size. Never
+/// allocates. (Derived.)
+std::optional<LegCourses> leg_courses(const ParallelRobot& robot, const Kinematics& now,
+                                      const CourseMoments& moments) noexcept;
 
 }  // namespace flinch

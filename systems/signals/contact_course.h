@@ -14,7 +14,7 @@ inline constexpr std::array course_ages{0ms, 1ms, 2ms, 3ms, 5ms, 7ms, 10ms, 15ms
 /// What was estimated and how the platform moved at one moment.
 struct CourseMoment {
   PlatformVector wrench_in_base;  ///< [N, Nm]
-  PlatformVector velocity;        ///< of the platform, as the encoders tell it
+  PlatformVector velocity;  ///< of the platform [m/s, rad/s], in the base frame, as the encoders tell it
 };
 
 /// At each of `course_ages`.

@@ -121,7 +121,7 @@ void LearnedClassifierOfAWrench(benchmark::State& state) {
   compare(state, touch, [&] {
     hypotheses.weigh(touch.k, touch.wrench, touch.covariance, whole);
     hypotheses.weigh(touch.k, grown, of_grown, growth);
-    const LegCourses courses = leg_courses(*touch.robot, touch.k, moments);
+    const LegCourses courses = leg_courses(*touch.robot, touch.k, moments).value();
     evidence_features(hypotheses.classes(), {whole, growth, courses, 50.0}, features);
     benchmark::DoNotOptimize(scorer.evaluate(features, outputs));
   });

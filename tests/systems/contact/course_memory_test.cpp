@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "systems/framework/random.h"
 #include "tests/support/allocations.h"
 #include "tests/support/ticking.h"
 
@@ -102,6 +103,32 @@ TEST(CourseMemory, ComparesTimesOfAcquisitionNotTicks) {
   memory.see(61);
   ASSERT_TRUE(memory.course().valid);
   EXPECT_EQ(memory.course().moments.back().wrench_in_base, squared(61 - oldest));
+}
+
+TEST(CourseMemory, KnowsTheCourseWhereStampsJitter) {
+  for (const Time jitter : {Time(1ns), Time(20us), Time(400us)}) {
+    Memory memory;
+    RandomGenerator random(7);
+    for (int tick = 0; tick < 300; ++tick) {
+      memory.see(tick, true, true, static_cast<std::int64_t>(random() % 1000) * jitter / 1000);
+      ASSERT_EQ(memory.course().valid, tick >= oldest) << tick << ", jitter " << jitter.count();
+      if (tick < oldest) continue;
+      for (std::size_t i = 0; i < course_ages.size(); ++i) {
+        const int then = tick - static_cast<int>(course_ages[i] / 1ms);
+        EXPECT_EQ(memory.course().moments[i].wrench_in_base, squared(then)) << tick;
+      }
+    }
+  }
+}
+
+TEST(CourseMemory, KnowsTheCourseWhereStampsJitterAndATickBringsNothingNew) {
+  Memory memory;
+  for (int tick = 0; tick < 60; ++tick) memory.see(tick, true, true, tick % 2 * 20us);
+  memory.see(59, true, true, 1ms + 20us);
+  for (int tick = 61; tick < 120; ++tick) {
+    memory.see(tick, true, true, tick % 3 * 10us);
+    EXPECT_TRUE(memory.course().valid) << tick;
+  }
 }
 
 TEST(CourseMemory, KnowsNoCourseAfterNothingNewCameForLonger) {
