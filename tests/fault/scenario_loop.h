@@ -21,6 +21,9 @@ struct ScenarioLoop {
         simulator(*diagram, std::make_unique<SundialsIntegrator>()),
         context(diagram->make_context()) {}
 
+  ScenarioLoop(const ScenarioLoop&) = delete;  // its references lead into itself
+  ScenarioLoop& operator=(const ScenarioLoop&) = delete;
+
   void tick() { simulator.step(context); }
 
   DiagramBuilder builder{"experiment", 1ms};

@@ -99,7 +99,7 @@ TEST_P(Readers, RefuseOrTakeAnyBytesWithLittleMemory) {
   std::cout << corpus.size() << " files and " << changes << " changes of them, " << taken << " taken, "
             << peak_kB() - before << " kB more memory" << std::endl;
   if (sanitized()) return;  // it keeps what is freed
-  EXPECT_LT(peak_kB() - before, 200'000 + 4 * static_cast<long>(largest) / 1000);
+  EXPECT_LT(peak_kB() - before, 50'000 + 4 * static_cast<long>(largest) / 1000);
 }
 
 }  // namespace

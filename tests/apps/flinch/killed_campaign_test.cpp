@@ -19,7 +19,7 @@ class KilledCampaign : public ::testing::Test {
     place.replace("scenarios/platform_collision.yaml", "duration_s: 1.2", "duration_s: 0.45");
     place.write("campaigns/many.yaml",
                 "scenario: ../scenarios/platform_collision.yaml\n"
-                "runs: 60\n"
+                "runs: 120\n"
                 "contact: {body: [platform, link2]}\n"
                 "draw: [{key: motion.direction_deg, from: 0, to: 360}]\n");
   }
@@ -51,7 +51,7 @@ TEST_F(KilledCampaign, GivesTheSameTableAfterTwentyKills) {
   RandomGenerator random(7);
   int kills = 0;
   for (int call = 0; call < 20; ++call)
-    kills += kill_after(1 + random() % 4, std::chrono::microseconds(random() % 20000)) ? 1 : 0;
+    kills += kill_after(1 + random() % 4, std::chrono::microseconds(random() % 3000)) ? 1 : 0;
   EXPECT_EQ(kills, 20);
   EXPECT_FALSE(std::filesystem::exists(place / "killed/results.csv"))
       << "no table is better than a part of one";

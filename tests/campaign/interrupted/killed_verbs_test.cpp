@@ -41,7 +41,7 @@ class KilledVerbs : public testing::Test {
     const int kills = wanted_kills();
     int killed = 0;
     std::size_t left = 0;
-    for (int call = 1; killed < kills && call < 3 * kills && !HasFailure(); ++call) {
+    for (int call = 1; killed < kills && call < 10 * kills && !HasFailure(); ++call) {
       killed += kill(verb) ? 1 : 0;
       left += results_.leftovers();
       if (call % 5 == 0) results_.make_older(verb);

@@ -97,7 +97,9 @@ TEST_F(RanksOfACampaign, AreResumedWhereOneWasLost) {
     const pid_t rank = program_with(place.at("campaigns/few.yaml"), "OMPI_COMM_WORLD_RANK=2");
     ASSERT_GT(rank, 0) << program.output();
     kill(rank, SIGKILL);
-    EXPECT_NE(program.wait(60s), 0);
+    const std::optional<int> status = program.wait(60s);
+    ASSERT_TRUE(status.has_value()) << "it still runs";
+    EXPECT_NE(*status, 0);
   }
   const std::size_t done = rows();
   EXPECT_LT(done, 302U) << "it was lost on the way";
@@ -108,7 +110,9 @@ TEST_F(RanksOfACampaign, AreResumedWhereOneWasLost) {
 
 TEST_F(RanksOfACampaign, SayWhatIsWrongOnceAndEnd) {
   test::OtherProgram program(mpirun(3, {"--set", "control.contact_detector.reacton_force_N=8"}));
-  EXPECT_NE(program.wait(60s), 0);
+  const std::optional<int> status = program.wait(60s);
+  ASSERT_TRUE(status.has_value()) << "it still runs";
+  EXPECT_NE(*status, 0);
   const std::string said = program.output();
   const std::string problem = "did you mean 'reaction_force_N'?";
   const std::size_t first = said.find(problem);
