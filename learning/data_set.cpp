@@ -7,6 +7,7 @@
 #include <set>
 
 #include "systems/config/robot_file.h"
+#include "systems/foundation/fnv1a.h"
 #include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/hdf5_object.h"
@@ -134,8 +135,12 @@ DataSet read(const std::filesystem::path& file) {
   DataSet data;
   const std::vector<std::string> names = internal::attribute_names(hdf5);
   const bool says_what_it_is = std::find(names.begin(), names.end(), "format") != names.end();
-  if (!says_what_it_is || internal::read_text(hdf5, "format") != format) {
-    throw SetupError("this is no data set of contacts; `flinch dataset` makes one");
+  const std::string says = says_what_it_is ? internal::read_text(hdf5, "format") : "";
+  if (says != format) {
+    throw SetupError(says.starts_with("flinch contacts ")
+                         ? "is a data set of another version ('" + says +
+                               "'); make it anew with `flinch dataset`"
+                         : "this is no data set of contacts; `flinch dataset` makes one");
   }
   for (const std::string& name : names) data.card[name] = internal::read_text(hdf5, name);
   data.robot_file = data.card["robot.file"];
@@ -160,11 +165,10 @@ bool is_limit(const std::string& key) {
 ContactClasses classes_of(const ParallelRobot& robot) { return {robot.body_count(), robot.legs()}; }
 
 std::string fingerprint(const std::string& robot_text, const std::string& robot_file) {
-  std::uint64_t hash = 0xcbf29ce484222325U;  // FNV-1a
+  std::uint64_t hash = fnv1a("");
   for (const ReadValue& value : parse_robot_file(robot_text, robot_file).values) {
     if (is_limit(value.key)) continue;
-    for (const char letter : value.key + "=" + value.value + "\n")
-      hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3U;
+    hash = fnv1a(value.key + "=" + value.value + "\n", hash);
   }
   return fmt::format("{:016x}", hash);
 }

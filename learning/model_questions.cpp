@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "systems/contact/evidence_features.h"
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
 
@@ -27,6 +28,15 @@ void compare(const std::vector<std::string>& of_model, const std::vector<std::st
 }
 
 }  // namespace
+
+void check_features(const ClassifierModel& model) {
+  if (value_of(model, "question") != name_of(Question::touched)) return;
+  std::vector<std::string> names;
+  for (const FeatureName& each : evidence_feature_names()) names.push_back(each.name);
+  Findings found;
+  compare(model.features, names, "feature", found);
+  throw_if_any(found.take());
+}
 
 FeatureSet features_for(const ClassifierModel& model, const DataSet& data) {
   const std::string question = value_of(model, "question");

@@ -129,8 +129,9 @@ void add_excite_verb(CLI::App& app, Verbs& verbs) {
 
 void add_import_verb(CLI::App& app, Verbs& verbs) {
   ImportOptions& options = verbs.import_log;
-  CLI::App& verb = verbs.add(app, "import", "Make a recording out of a CSV or HDF5 log of another tool",
-                             "flinch import mapping.yaml --out out/log/run.h5", options, &import_log);
+  CLI::App& verb =
+      verbs.add(app, "import", "Make readings for calibrate out of a CSV or HDF5 log of another tool",
+                "flinch import mapping.yaml --out out/log/run.h5", options, &import_log);
   verb.add_option("mapping", options.mapping, "What the columns are (YAML); docs/files.md has the keys")
       ->required()
       ->type_name("MAPPING.yaml");

@@ -155,10 +155,12 @@ void add_file_verbs(CLI::App& app, Verbs& verbs) {
       ->type_name("SCENARIO.yaml");
   graph_verb.add_option("--out", verbs.graph.out, "A .svg or .dot file [DOT on stdout]")->type_name("FILE");
 
-  CLI::App& check_verb =
-      verbs.add(app, "check", "Say all that is wrong with a scenario, robot, campaign or recording file",
-                "flinch check apps/robots/planar_3rrr.yaml", verbs.check, &check);
-  check_verb.add_option("file", verbs.check.file, "Scenario, robot or campaign (YAML), or recording (HDF5)")
+  CLI::App& check_verb = verbs.add(app, "check", "Say all that is wrong with a file that flinch reads",
+                                   "flinch check apps/robots/planar_3rrr.yaml", verbs.check, &check);
+  check_verb
+      .add_option(
+          "file", verbs.check.file,
+          "Any file in YAML, HDF5 or ONNX: scenario, robot, campaign, recording, data set, classifier, ...")
       ->required()
       ->type_name("FILE");
 }

@@ -157,8 +157,10 @@ ExitStatus check(const CheckOptions& options) {
   if (options.common.json) {
     fmt::print("{}\n", json_text(Json{{"file", options.file.string()}, {"kind", what}, {"good", true}}));
   } else if (!options.common.quiet) {
-    const char* const use = what == "readings" ? ", for flinch calibrate" : "";
-    fmt::print("{}: a good {} file{}\n", options.file.string(), what, use);
+    const char* more = "";
+    if (what == "readings") more = ", for flinch calibrate";
+    if (what == "campaign results") more = ", by what it says it is; its columns were not read";
+    fmt::print("{}: a good {} file{}\n", options.file.string(), what, more);
   }
   return ExitStatus::done;
 }

@@ -5,22 +5,16 @@
 #include <algorithm>
 
 #include "experiments/campaign/campaign.h"
+#include "systems/foundation/fnv1a.h"
 #include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
 namespace {
 
-/// FNV-1a: two texts with one number are one text, short of intent.
-std::uint64_t hash_of(const std::string& text) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-  return hash;
-}
-
 const std::string first_column = "run,";  // with which headers begin
 
-std::string sealed(const std::string& row) { return fmt::format("{},{:016x}\n", row, hash_of(row)); }
+std::string sealed(const std::string& row) { return fmt::format("{},{:016x}\n", row, fnv1a(row)); }
 
 /// The row that was sealed; "" where the line is torn.
 std::string unsealed(const std::string& line) {
@@ -31,7 +25,7 @@ std::string unsealed(const std::string& line) {
 }
 
 std::string first_line(const Campaign& campaign) {
-  return fmt::format("flinch campaign {:016x}", hash_of(campaign.identity()));
+  return fmt::format("flinch campaign {:016x}", fnv1a(campaign.identity()));
 }
 
 }  // namespace

@@ -3,21 +3,16 @@
 #include <fmt/core.h>
 
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include "experiments/dataset/data_spec.h"
+#include "systems/foundation/fnv1a.h"
 #include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
 namespace {
-
-/// FNV-1a.
-std::uint64_t hash_of(const std::string& bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-  return hash;
-}
 
 template <class Number>
 void put(std::string& bytes, Number number) {
@@ -71,7 +66,9 @@ std::string frame_of(std::size_t run, const ContactSamples& samples) {
   return bytes;
 }
 
-std::pair<std::size_t, ContactSamples> run_of(const std::string& bytes, const ParallelRobot& robot) {
+/// Nothing where the frame has another length than its samples.
+std::optional<std::pair<std::size_t, ContactSamples>> run_of(const std::string& bytes,
+                                                             const ParallelRobot& robot) {
   Frame frame(bytes);
   const auto run = static_cast<std::size_t>(frame.take<std::uint64_t>());
   ContactSamples samples;
@@ -91,14 +88,14 @@ std::pair<std::size_t, ContactSamples> run_of(const std::string& bytes, const Pa
       frame.take_all(robot.dof(), moment.velocity);
     }
   }
-  if (!frame.ended()) throw SetupError("a run has another length than its samples");
-  return {run, std::move(samples)};
+  if (!frame.ended()) return std::nullopt;
+  return std::pair(run, std::move(samples));
 }
 
 std::string sealed(const std::string& frame) {
   std::string bytes;
   put(bytes, static_cast<std::uint64_t>(frame.size()));
-  put(bytes, hash_of(frame));
+  put(bytes, fnv1a(frame));
   return bytes + frame;
 }
 
@@ -106,7 +103,7 @@ std::string sealed(const std::string& frame) {
 
 DataJournal::DataJournal(std::filesystem::path file, const DataSpec& spec, const ParallelRobot& robot)
     : file_(std::move(file)) {
-  const std::string header = fmt::format("flinch data set {:016x}\n", hash_of(spec.identity()));
+  const std::string header = fmt::format("flinch data set 2 {:016x}\n", fnv1a(spec.identity()));
   remove_link(file_);
   if (std::filesystem::exists(file_)) read(header, robot);
   // Written anew, so that what follows does not stand behind half a frame.
@@ -129,9 +126,13 @@ void DataJournal::read(const std::string& header, const ParallelRobot& robot) {
   std::uint64_t start[2] = {0, 0};  // length and checksum
   while (stream.read(reinterpret_cast<char*>(start), sizeof start) && start[0] < longest) {
     std::string frame(start[0], '\0');
-    if (!stream.read(frame.data(), static_cast<std::streamsize>(frame.size())) || hash_of(frame) != start[1])
+    if (!stream.read(frame.data(), static_cast<std::streamsize>(frame.size())) || fnv1a(frame) != start[1])
       return;
-    runs_.insert(run_of(frame, robot));
+    const auto run = run_of(frame, robot);
+    if (!run)
+      throw SetupError(file_.string() +
+                       ": holds a run of another length than its samples; begin anew with --fresh");
+    runs_.insert(*run);
   }
 }
 

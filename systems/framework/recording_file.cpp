@@ -352,8 +352,10 @@ Recording open_recording(const std::filesystem::path& file) {
     recording.source = std::make_shared<RecordingFile>(file, recording);
     return recording;
   } catch (const SetupError& failure) {
-    if (const std::string format = hdf5_format(file); !format.empty())
-      throw SetupError(file.string() + ": is no recording; it says that it is '" + format + "'");
+    if (const std::string format = hdf5_format(file); !format.empty()) {
+      const std::string why = format.starts_with("flinch ") ? "" : std::string(": ") + failure.what();
+      throw SetupError(file.string() + ": is no recording; it says that it is '" + format + "'" + why);
+    }
     throw SetupError(file.string() + ": this is no whole flinch recording: " + failure.what());
   }
 }

@@ -343,7 +343,10 @@ void RecordingJournal::append(const SampleBlock& samples) {
   Gathered payload;
   payload.add(&count, sizeof(count));
   payload.add(samples.time_ns.data(), samples.time_ns.size_bytes());
+  std::size_t numbers = 0;
+  for (const SampleRows& each : samples.rows) numbers += count * each.numbers;
   std::vector<Number> rows;
+  rows.reserve(numbers);
   for (const SampleRows& each : samples.rows) {
     for (std::size_t k = 0; k < count; ++k) rows.insert(rows.end(), each[k].begin(), each[k].end());
   }

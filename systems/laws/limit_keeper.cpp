@@ -207,11 +207,14 @@ std::vector<std::string> problems(const LimitKeeperSettings& settings, const Par
   found.require(settings.max_drive_speed > 0, "max_drive_speed must be positive");
   found.require(settings.max_torque > 0, "max_torque must be positive");
   found.require(settings.max_torque_rate > 0, "max_torque_rate must be positive");
+  bool are_shares = true, have_hardest = true;
   for (int kind = 0; kind <= static_cast<int>(BarrierKind::drive_range); ++kind) {
     const double share = settings.braking.of(static_cast<BarrierKind>(kind));
-    found.require(share > 0 && share <= 1, "braking shares must be above 0 and at most 1");
-    found.require(share <= settings.braking.hardest, "no braking share may exceed the hardest");
+    are_shares = are_shares && share > 0 && share <= 1;
+    have_hardest = have_hardest && share <= settings.braking.hardest;
   }
+  found.require(are_shares, "braking shares must be above 0 and at most 1");
+  found.require(have_hardest, "no braking share may exceed the hardest");
   found.require(settings.braking.hardest <= 1, "the hardest braking share must be at most 1");
   found.require(settings.approach > 0 && settings.correction > 0 && settings.speed_rate > 0,
                 "approach, correction and speed_rate must be positive");

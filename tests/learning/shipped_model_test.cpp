@@ -1,9 +1,11 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "learning/evaluation.h"
 #include "learning/model_questions.h"
 #include "learning/onnx_file.h"
 #include "tests/learning/contact_examples.h"
+#include "tests/support/problems_of.h"
 
 namespace flinch {
 namespace {
@@ -14,6 +16,16 @@ TEST(ShippedModel, FitsTheShippedRobotAndThisVersionOfItsFeatures) {
   const ClassifierModel model = shipped();
   EXPECT_EQ(features_for(model, test::contact_examples(1, 1)).question(), Question::touched);
   EXPECT_GT(std::stod(model.provenance.at("cross_validated_accuracy")), 0.92);
+}
+
+TEST(ShippedModel, IsRefusedWithoutARobotWhereItsFeaturesAreThoseOfAnotherVersion) {
+  ClassifierModel model = shipped();
+  EXPECT_NO_THROW(check_features(model));
+  model.features.pop_back();
+  EXPECT_THAT(test::problems_of([&] { check_features(model); }),
+              testing::ElementsAre(testing::HasSubstr(" of the model is missing and must be ")));
+  model.provenance["question"] = "body";
+  EXPECT_NO_THROW(check_features(model)) << "its features are those of a robot";
 }
 
 TEST(ShippedModel, TellsContactsThatNoSimulationMade) {

@@ -46,7 +46,13 @@ std::filesystem::path page_of(const EvaluateOptions& options) {
 
 }  // namespace
 
-void check_classifier(const std::filesystem::path& model) { read_onnx(model); }
+void check_classifier(const std::filesystem::path& model) {
+  const ClassifierModel read = read_onnx(model);
+  out_of(model.string(), [&] {
+    check_features(read);
+    return 0;
+  });
+}
 void check_data_set(const std::filesystem::path& data) { read_data_set(data); }
 
 ExitStatus evaluate(const EvaluateOptions& options) {

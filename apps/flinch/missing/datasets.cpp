@@ -4,15 +4,17 @@
 
 namespace flinch {
 
-void check_data_spec(const std::filesystem::path& spec) {
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& spec) {
   throw SetupError(spec.string() +
                    ": no data can be made of it, for this flinch was built without the simulation, dlib or "
                    "ONNX");
 }
 
-ExitStatus dataset(const DatasetOptions& options) {
-  check_data_spec(options.spec);
-  return ExitStatus::done;
-}
+}  // namespace
+
+void check_data_spec(const std::filesystem::path& spec) { refuse(spec); }
+ExitStatus dataset(const DatasetOptions& options) { refuse(options.spec); }
 
 }  // namespace flinch

@@ -7,7 +7,7 @@ namespace {
 
 [[noreturn]] void refuse(const char* what) {
   throw SetupError(
-      std::string("calibrate ") + what +
+      std::string("flinch ") + what +
       ": this flinch was built without Ceres (Debian: libceres-dev); install it and build again");
 }
 

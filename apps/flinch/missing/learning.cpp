@@ -5,18 +5,18 @@
 namespace flinch {
 namespace {
 
-[[noreturn]] ExitStatus refuse(const std::string& verb) {
-  throw SetupError("flinch " + verb +
+[[noreturn]] void refuse(const std::string& what) {
+  throw SetupError(what +
                    ": this flinch was built without dlib or ONNX; install libdlib-dev, libonnx-dev and "
                    "libprotobuf-dev, and build it anew");
 }
 
 }  // namespace
 
-ExitStatus train(const TrainOptions&) { refuse("train"); }
-ExitStatus evaluate(const EvaluateOptions&) { refuse("evaluate"); }
-void check_classifier(const std::filesystem::path&) { refuse("check"); }
-void check_data_set(const std::filesystem::path&) { refuse("check"); }
-void follow_classifier(const std::filesystem::path&, Scenario&) { refuse("run --classifier"); }
+ExitStatus train(const TrainOptions&) { refuse("flinch train"); }
+ExitStatus evaluate(const EvaluateOptions&) { refuse("flinch evaluate"); }
+void check_classifier(const std::filesystem::path& model) { refuse(model.string()); }
+void check_data_set(const std::filesystem::path& data) { refuse(data.string()); }
+void follow_classifier(const std::filesystem::path&, Scenario&) { refuse("flinch run --classifier"); }
 
 }  // namespace flinch

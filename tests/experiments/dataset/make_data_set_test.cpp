@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "experiments/dataset/contact_samples.h"
@@ -9,6 +10,7 @@
 #include "experiments/dataset/data_spec.h"
 #include "experiments/simulated/experiment.h"
 #include "experiments/simulated/simulated_scenario.h"
+#include "systems/foundation/fnv1a.h"
 #include "systems/framework/recording.h"
 #include "tests/support/problems_of.h"
 #include "tests/support/workplace.h"
@@ -50,6 +52,24 @@ TEST_F(MakeDataSet, GoesOnWhereItWasStopped) {
   place.write("part.h5.part", left);
   EXPECT_THAT(test::problems_of([&] { make_data_set(few(8, 3), place / "part.h5", 1); }),
               testing::ElementsAre(testing::HasSubstr("holds the samples of another specification")));
+}
+
+TEST_F(MakeDataSet, SaysWhatToDoWithRunsOfAnotherLayout) {
+  EXPECT_FALSE(test::problems_of([&] {
+                 make_data_set(few(8), place / "part.h5", 1, [](std::size_t done) { return done < 1; });
+               }).empty());
+  const std::string left = test::bytes_of(place / "part.h5.part");
+  const std::size_t first = left.find('\n') + 1;
+  std::uint64_t length = 0;
+  std::memcpy(&length, left.data() + first, sizeof length);
+  const std::string longer = left.substr(first + 16, length) + "12345678";
+  const std::uint64_t start[2] = {longer.size(), fnv1a(longer)};
+  place.write("part.h5.part", left.substr(0, first) +
+                                  std::string(reinterpret_cast<const char*>(start), sizeof start) + longer);
+  EXPECT_THAT(
+      test::problems_of([&] { make_data_set(few(8), place / "part.h5", 1); }),
+      testing::ElementsAre(place.at("part.h5.part") +
+                           ": holds a run of another length than its samples; begin anew with --fresh"));
 }
 
 TEST_F(MakeDataSet, MakesTheSameRunsHoweverManyFollow) {

@@ -13,7 +13,9 @@
 #include <tuple>
 
 #include "systems/foundation/setup_error.h"
+#include "systems/framework/hdf5_object.h"
 #include "systems/framework/recording.h"
+#include "tests/support/problems_of.h"
 #include "tests/support/sanitized.h"
 #include "tests/systems/framework/honest_recording.h"
 #include "tests/systems/framework/refusal.h"
@@ -412,6 +414,16 @@ TEST(HostileRecording, TakesNoMoreMemoryThanItsSizeAllows) {
   expect_no_harm(set_cases());
   getrusage(RUSAGE_SELF, &after);
   EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 200'000) << "kB";
+}
+
+TEST(RecordingOfAnotherTool, IsRefusedWithTheReason) {
+  const TemporaryFile file;
+  internal::write_hdf5_result(file.path(), 1000, [](internal::Hdf5Object::Id id) {
+    internal::write_text(id, "format", "lab log 3");
+  });
+  EXPECT_THAT(
+      test::problems_of([&] { open_recording(file.path()); }),
+      testing::ElementsAre(testing::HasSubstr("it says that it is 'lab log 3': HDF5 failed opening")));
 }
 
 }  // namespace
