@@ -26,6 +26,13 @@ void resolve_units(const UnitTable& units, Signal& signal, std::vector<std::stri
   }
 }
 
+/// Asks for the memory of a sample before it is written: nobody has touched it for a whole ring, and who
+/// writes it would wait for one line of it after the other.
+void fetch(const internal::Number* sample, std::size_t numbers) {
+  constexpr std::size_t line = 64 / sizeof(internal::Number);
+  for (std::size_t i = 0; i < numbers; i += line) __builtin_prefetch(sample + i, 1);
+}
+
 }  // namespace
 
 Recorder::Recorder(const Diagram& diagram, const std::vector<std::string>& paths, std::size_t capacity,
@@ -75,6 +82,7 @@ void Recorder::record(const Context& context) {
   internal::Number* const sample = rows_.data() + slot * numbers_;
   for (const Channel& channel : channels_)
     channel.type->to_row(channel.place.in(context.memory()), sample + channel.first);
+  fetch(rows_.data() + (pushed + 1) % capacity_ * numbers_, numbers_);
   pushed_.store(pushed + 1, std::memory_order_release);
 }
 
