@@ -205,9 +205,9 @@ void ReactionTask::move(Time now, const Task& task, const PlatformVector& rate,
     limits = slowed(limits, std::min(1.0, settings_.largest_platform_speed / std::max(fastest, 1e-9)));
   }
   if (settings_.drive_share) {
-    limits.acceleration =
-        *settings_.drive_share * largest_acceleration(task, direction, at, model, settings_.max_torque);
-    limits.jerk = limits.acceleration * settings_.max_torque_rate / settings_.max_torque;
+    const double most = largest_acceleration(task, direction, at, model, settings_.max_torque);
+    limits.acceleration = *settings_.drive_share * most;
+    limits.jerk = most * settings_.max_torque_rate / settings_.max_torque;
   }
   plan.begin = now;
   plan.motion = SynchronisedMotion::plan(task.sigma, rate, task.sigma + displacement, limits);

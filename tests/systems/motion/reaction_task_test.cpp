@@ -130,7 +130,7 @@ TEST(ReactionTask, NothingIsDecidedAnewInOtherModes) {
   EXPECT_TRUE(reaction.finished());
 }
 
-TEST(ReactionTask, TakesItsShareOfWhatAllDrivesTogetherCanDo) {
+TEST(ReactionTask, TakesItsShareOfWhatAllDrivesTogetherCanDoAsSoonAsTheyCan) {
   for (const int touched : {platform, leg2_link1, leg2_link2, leg2_clamping}) {
     ReactionTaskSettings settings;
     settings.drive_share = 0.7;
@@ -140,13 +140,15 @@ TEST(ReactionTask, TakesItsShareOfWhatAllDrivesTogetherCanDo) {
     reaction.begin();
     reaction.know(touched, {0, 0, 0});
     const TaskGoal last = reaction.go_on(1ms).goals[0];
-    double largest = 0.0;
-    PlatformVector way;
+    double largest = 0.0, largest_change = 0.0;
+    PlatformVector way, before = last.reference.acceleration;
     for (int tick = 0; tick < 200; ++tick) {
       const TaskGoal& goal = reaction.go_on().goals[0];
       const PlatformVector& a = goal.reference.acceleration;
       if (a.norm() > largest) way = a.normalized();
       largest = std::max(largest, a.norm());
+      largest_change = std::max(largest_change, (a - before).norm());
+      before = a;
     }
     // By torques at their limits, each with the sign that accelerates the task along its way.
     const Kinematics& at = reaction.posture->kinematics;
@@ -157,6 +159,7 @@ TEST(ReactionTask, TakesItsShareOfWhatAllDrivesTogetherCanDo) {
       together += std::abs(way.dot(last.task.J * dv));
     }
     EXPECT_NEAR(largest, 0.7 * together, 0.02 * together) << touched;
+    EXPECT_NEAR(largest_change, 0.2 * together, 0.02 * together) << touched << ": 20 Nm in a tick, of 100";
   }
 }
 
