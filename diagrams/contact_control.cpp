@@ -142,11 +142,15 @@ OutputPort<TorqueCommand> add_yielding(const Path& path, const ReactionPorts& gi
 
 Laws add_laws(const Path& path, const ReactionPorts& given) {
   DiagramBuilder& builder = path.builder;
-  Laws laws{path.add(path.settings.stages.nominal_laws, given),
-            path.add(path.settings.stages.reaction_laws, given),
+  const AddedStages<LawPorts> nominal = path.add(path.settings.stages.nominal_laws, given);
+  const AddedStages<LawPorts> reaction = path.add(path.settings.stages.reaction_laws, given);
+  ModeSelectorSettings modes = path.settings.modes;
+  modes.reacts_at_once = reaction.port().at_once;
+  Laws laws{nominal,
+            reaction,
             builder.add<ZeroGravity>("zero_gravity"),
             builder.add<ControlledStop>("controlled_stop", path.robot, path.settings.controlled_stop),
-            builder.add<ModeSelector>("mode_selector", path.settings.modes),
+            builder.add<ModeSelector>("mode_selector", modes),
             {}};
   builder.connect(given.kinematics, laws.zero_gravity.kinematics);
   builder.connect(given.dynamics, laws.zero_gravity.dynamics);

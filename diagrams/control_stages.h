@@ -96,6 +96,7 @@ struct LawPorts {
   OutputPort<PlatformReference> reference;
   std::optional<OutputPort<ConstraintState>> constraints{};  ///< of a law that keeps some
   std::optional<OutputPort<TaskEnergies>> energies{};        ///< of a law that serves tasks by torques
+  bool at_once = false;  ///< a reaction that is not blended in: as fast as torques may change
 };
 
 using VelocitySource = Stage<SensedPorts, OutputPort<JointMotion>>;

@@ -74,13 +74,16 @@ LawPorts add_reaction(const StageSite& site, TaskLevel level, const ReactionPort
   return add_reaction_with(site, level, settings.constraints, settings.reaction, given);
 }
 
-/// The limit keeper holds the constraints: none becomes a task, and motions may take what the drives have.
+/// The limit keeper holds the constraints: none becomes a task, and motions may take what the drives have,
+/// from the first tick on.
 LawPorts add_strict_reaction(const StageSite& site, TaskLevel level, const ReactionPorts& given) {
   ConstraintSettings watched = site.settings.tasks.constraints;
   watched.kept = ConstraintsKept::never;
   ReactionTaskSettings reaction = site.settings.tasks.reaction;
   reaction.drive_share = reaction.drive_share.value_or(planned_torque_share);
-  return add_reaction_with(site, level, watched, reaction, given);
+  LawPorts law = add_reaction_with(site, level, watched, reaction, given);
+  law.at_once = true;
+  return law;
 }
 
 template <auto add>

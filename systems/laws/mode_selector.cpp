@@ -53,6 +53,10 @@ ModeSelector::Blend ModeSelector::advanced(Time now, const Blend& last, Law want
     next.progress = Time::zero();
     next.frozen = false;
     if (last.weight < 1.0) freeze(next, last.torque);
+    if (wanted == Law::reacting && settings_.reacts_at_once) {
+      next.progress = settings_.blend;
+      next.behind = true;
+    }
   }
   next.tick = now;
   next.progress += now - last.tick;
@@ -86,10 +90,10 @@ void ModeSelector::blend(Time now, const Blend& last, const ReactionState& state
 }
 
 void ModeSelector::hold_back(const Blend& last, Blend& next) const {
+  const bool follows = next.weight < 1.0 || last.weight < 1.0 || next.behind;
   next.behind = false;
-  const bool blends = next.weight < 1.0 || last.weight < 1.0 || last.behind;
   const JointVector& before = last.torque.torque;
-  if (!blends || !last.torque.valid || before.size() != next.torque.torque.size()) return;
+  if (!follows || !last.torque.valid || before.size() != next.torque.torque.size()) return;
   const JointVector change = next.torque.torque - before;
   const double share = share_within(change, settings_.max_torque_rate * to_seconds(next.tick - last.tick));
   if (!(share < 1.0)) return;

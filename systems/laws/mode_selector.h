@@ -10,8 +10,9 @@
 namespace flinch {
 
 struct ModeSelectorSettings {
-  Time blend = 10ms;  ///< from one law to the next, 0 for none
-  /// By which the torque of a drive changes at most in a blend [Nm/s or N/s].
+  Time blend = 10ms;            ///< from one law to the next, 0 for none
+  bool reacts_at_once = false;  ///< the reacting law is followed by the largest rate instead of a blend
+  /// By which the torque of a drive changes at most from law to law [Nm/s or N/s].
   double max_torque_rate = 20e3;
 };
 
@@ -25,8 +26,8 @@ struct ModeSelectorSettings {
 /// At a change of the law it blends, tau = (1 - w) tau_old + w tau_new, where w grows by tick / blend at
 /// every tick and is one such step at the first. The old law goes on being evaluated, unless it has no valid
 /// torques or was itself still being blended in: then its last torques are frozen. Torques that would change
-/// too fast in a blend follow by the largest rate, in the direction of the change, until they have caught up.
-/// Not valid where the new law is not.
+/// too fast in a blend follow by the largest rate, in the direction of the change, until they have caught up;
+/// so do those of a reaction that begins at once. Not valid where the new law is not.
 class ModeSelector final : public System {
  public:
   enum class Law : std::uint8_t { zero_gravity, nominal, reacting, yielding };

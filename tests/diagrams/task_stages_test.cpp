@@ -155,6 +155,23 @@ TEST_P(TaskStages, TorquesNeverChangeFasterThanTheGateLetsThem) {
   EXPECT_GT(largest, 0.0);
 }
 
+TEST_P(TaskStages, OnlyTheStrictReactionIsFollowedAtOnce) {
+  Bench bench(experiment(0.5));
+  const OutputPort<TorqueCommand> law{bench.diagram->tap("control/" + reaction().name + "/torque").port};
+  ASSERT_TRUE(bench.run_until(react, 1500ms));
+  int ticks = 1;
+  while (ticks < 100 &&
+         bench.context.get(bench.control.requested_torque).torque != bench.context.get(law).torque) {
+    bench.tick();
+    ++ticks;
+  }
+  if (GetParam() == strict) {
+    EXPECT_LE(ticks, 5) << "100 Nm are there after 5";
+  } else {
+    EXPECT_EQ(ticks, 10);
+  }
+}
+
 TEST(TaskStageNames, AreKnownToScenarios) {
   const std::vector<std::string> nominal_laws = names_of(known_stages().nominal_laws);
   const std::vector<std::string> reaction_laws = names_of(known_stages().reaction_laws);

@@ -170,6 +170,16 @@ TEST(ModeSelector, SwitchesAtOnceWithoutABlend) {
   EXPECT_EQ(selector.tick(react).torque[0], -50.0);
 }
 
+TEST(ModeSelector, FollowsAReactionThatBeginsAtOnceByTheLargestRate) {
+  Selector selector({.reacts_at_once = true, .max_torque_rate = 20e3});
+  selector.settle(nominal);
+  for (int step = 1; step <= 7; ++step)
+    EXPECT_NEAR(selector.tick(react).torque[0], 100.0 - 20.0 * step, 1e-12) << step;
+  EXPECT_EQ(selector.tick(react).torque[0], -50.0) << "it has caught up";
+  EXPECT_NEAR(selector.tick(zero_g).torque[0], 0.9 * -50.0 + 0.1 * 20.0, 1e-12) << "others are blended in";
+  EXPECT_NEAR(selector.tick(react).torque[0], -50.0, 1e-12) << "in the middle of that blend as well";
+}
+
 TEST(ModeSelector, NeverAllocates) {
   Selector selector;
   selector.settle(nominal);
