@@ -36,6 +36,7 @@ std::vector<std::string> problems_with(const ClassifierModel& model) {
   }
   found.require(model.accepted_from >= 0.0 && model.accepted_from <= 1.0,
                 "the probability from which it is believed is not between 0 and 1");
+  found.require(model.least_wrench >= 0.0, "the least wrench that it is believed about is negative");
   find_repetitions(model.features, "feature", found);
   find_repetitions(model.classes, "class", found);
   return found.take();

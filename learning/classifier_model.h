@@ -16,6 +16,9 @@ struct ClassifierModel {
   std::vector<std::string> units;     ///< of the features; "1" for a plain number
   /// Below this probability an answer is not acted upon; 0: all are.
   double accepted_from = 0.0;
+  /// Nor is one about a wrench of less than this size (WrenchUncertainty::size), of which it has not learned;
+  /// 0: all are.
+  double least_wrench = 0.0;
   /// What made it: robot, data, seed, version, settings.
   std::map<std::string, std::string> provenance;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "systems/contact/wrench_uncertainty.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
@@ -113,6 +114,13 @@ std::vector<Answered> answers_of(const NeuralNetwork& network, const Questions& 
   return answers;
 }
 
+void disbelieve_small(std::vector<Answered>& answers, const DataSet& data, double least_wrench) {
+  for (Answered& answer : answers) {
+    const PlatformVector& wrench = data.samples[answer.sample].wrench_in_base();
+    answer.believable = WrenchUncertainty().size(data.robot->space(), wrench) >= least_wrench;
+  }
+}
+
 Eigen::MatrixXd Confusion::row_normalised() const {
   Eigen::MatrixXd shares = counts;
   for (auto row : shares.rowwise()) {
@@ -188,7 +196,7 @@ double expected_calibration_error(const std::vector<ReliabilityBin>& bins) {
 RejectPoint reject_at(const std::vector<Answered>& answers, double accepted_from) {
   double accepted = 0.0, wrong = 0.0;
   for (const Answered& answer : answers) {
-    if (answer.given() < 0 || answer.confidence() < accepted_from) continue;
+    if (answer.given() < 0 || !answer.believable || answer.confidence() < accepted_from) continue;
     accepted += 1.0;
     wrong += is_right(answer) ? 0.0 : 1.0;
   }

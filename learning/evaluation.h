@@ -16,6 +16,7 @@ struct Answered {
   int configuration = 0;
   int right = 0;
   Eigen::VectorXd probability;  ///< of each class; empty: no answer
+  bool believable = true;       ///< false: about a smaller wrench than the model has learned from
 
   int given() const;  ///< the most likely class; -1: none
   double confidence() const;
@@ -24,6 +25,9 @@ struct Answered {
 /// Answers of `network` to all questions. Throws SetupError where the questions are not of its size.
 std::vector<Answered> answers_of(const NeuralNetwork& network, const Questions& questions,
                                  const DataSet& data);
+
+/// Marks the answers about wrenches of less than the size `least_wrench` (WrenchUncertainty::size).
+void disbelieve_small(std::vector<Answered>& answers, const DataSet& data, double least_wrench);
 
 /// How often what was right was given as what.
 struct Confusion {
@@ -59,6 +63,7 @@ struct RejectPoint {
   double rejected = 0.0;           ///< share of all
   double wrong_of_accepted = 0.0;  ///< 0 where nothing is accepted
 };
+/// What is not believable is rejected at any confidence.
 RejectPoint reject_at(const std::vector<Answered>& answers, double accepted_from);
 /// The same where the share `rejected` of the answers is, those that are least sure; at most that share.
 RejectPoint reject_share(const std::vector<Answered>& answers, double rejected);

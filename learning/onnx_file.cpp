@@ -254,9 +254,9 @@ std::vector<std::string> names_in(const std::string& text, const std::string& ke
   throw SetupError("the metadata '" + key_prefix + key + "' is no list of names");
 }
 
-double probability_in(const std::string& text) {
+double number_in(const std::string& text, const std::string& key) {
   const auto json = nlohmann::json::parse(text, nullptr, false);
-  if (!json.is_number()) throw SetupError("the metadata 'flinch.accepted_from' is no number");
+  if (!json.is_number()) throw SetupError("the metadata '" + key_prefix + key + "' is no number");
   return json.get<double>();
 }
 
@@ -271,7 +271,9 @@ void read_metadata(const onnx::ModelProto& proto, ClassifierModel& model) {
     else if (key == "units")
       model.units = names_in(entry.value(), key);
     else if (key == "accepted_from")
-      model.accepted_from = probability_in(entry.value());
+      model.accepted_from = number_in(entry.value(), key);
+    else if (key == "least_wrench")
+      model.least_wrench = number_in(entry.value(), key);
     else
       model.provenance[key] = entry.value();
   }
@@ -312,6 +314,7 @@ std::string onnx_bytes(const ClassifierModel& model) {
   add_metadata(proto, "features", nlohmann::json(model.features).dump());
   add_metadata(proto, "units", nlohmann::json(model.units).dump());
   add_metadata(proto, "accepted_from", nlohmann::json(model.accepted_from).dump());
+  add_metadata(proto, "least_wrench", nlohmann::json(model.least_wrench).dump());
   for (const auto& [key, value] : model.provenance) add_metadata(proto, key, value);
   return proto.SerializeAsString();
 }

@@ -11,6 +11,7 @@
 #include <set>
 #include <thread>
 
+#include "systems/contact/wrench_uncertainty.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/random.h"
 
@@ -192,6 +193,16 @@ std::vector<TrainingSettings> paper_grid(const TrainingSettings& base) {
   return grid;
 }
 
+double least_wrench_of(const DataSet& data, const std::vector<std::size_t>& samples) {
+  std::vector<double> sizes;
+  for (const std::size_t sample : samples)
+    sizes.push_back(WrenchUncertainty().size(data.robot->space(), data.samples[sample].wrench_in_base()));
+  if (sizes.empty()) return 0.0;
+  const auto twentieth = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 20);
+  std::nth_element(sizes.begin(), twentieth, sizes.end());
+  return *twentieth;
+}
+
 TrainedClassifier train_classifier(const DataSet& data, const ClassifierTraining& training,
                                    const TrainingProgress& progress) {
   std::vector<TrainingSettings> candidates = training.candidates;
@@ -233,6 +244,9 @@ TrainedClassifier train_classifier(const DataSet& data, const ClassifierTraining
   result.temperature = best_temperature(best);
   best = at_temperature(std::move(best), result.temperature);
   result.model.accepted_from = acceptance_for(best, training.wrong_of_accepted);
+  if (training.question == Question::touched)
+    result.model.least_wrench = least_wrench_of(data, questions.samples);
+  disbelieve_small(best, data, result.model.least_wrench);
   result.expected = evaluate(best, features, result.model.accepted_from, "cross-validation");
   result.model.network = train_network(questions.set, features.outputs(), result.settings, [&](double share) {
     return !progress || progress(0.8 + 0.2 * share);

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "systems/contact/evidence_features.h"
+#include "systems/contact/wrench_uncertainty.h"
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
 
@@ -22,6 +23,7 @@ LearnedClassifier::LearnedClassifier(std::shared_ptr<const ParallelRobot> robot,
         "the network answers another question than which class was touched");
   }
   found.require(settings_.accept >= 0.0 && settings_.accept <= 1.0, "accept must be between 0 and 1");
+  found.not_negative("least_wrench", settings_.least_wrench);
   found.require(settings_.window >= Time{}, "window must not be negative");
   found.positive("largest_residual", settings_.largest_residual);
   found.require(classes_.count() <= NeuralNetwork::max_rows, "the robot has too many bodies to compare");
@@ -49,7 +51,9 @@ void LearnedClassifier::classify(Time now, const ContactPhase& contact, const Ki
   result.probability.maxCoeff(&most_likely);
   result.most_likely = static_cast<int>(most_likely);
   result.several_contacts = seen.residual.minCoeff() > settings_.largest_residual;
-  result.accepted = result.confidence() >= settings_.accept && !result.several_contacts;
+  const bool is_large =
+      WrenchUncertainty().size(robot_->space(), how.moments.front().wrench_in_base) >= settings_.least_wrench;
+  result.accepted = result.confidence() >= settings_.accept && is_large && !result.several_contacts;
 }
 
 }  // namespace flinch

@@ -15,7 +15,10 @@ struct LearnedClassifierSettings {
   /// Says by `evidence_features` how likely each class is; softmax_of_rows.
   std::shared_ptr<const NeuralNetwork> network;
   double accept = 0.9;  ///< least probability to act upon
-  Time window = 10ms;   ///< from the detection; what is said by then stands until the contact ends
+  /// Least size of the wrench to act upon (WrenchUncertainty::size): that of which the network has learned.
+  /// Of smaller ones it may be sure and wrong.
+  double least_wrench = 0.0;
+  Time window = 10ms;  ///< from the detection; what is said by then stands until the contact ends
   /// Least residual e^T S^-1 e of any class at which no single contact explains the wrench.
   double largest_residual = 15.0;
 };

@@ -23,6 +23,13 @@ struct WrenchUncertainty {
     return variance.asDiagonal();
   }
 
+  /// The size of an estimated wrench in deviations of one that is zero: how far it stands out of what an
+  /// estimate errs by without any contact.
+  double size(const ConfigurationSpace& space, const PlatformVector& wrench) const {
+    const PlatformVector none = PlatformVector::Zero(space.dimension());
+    return wrench.cwiseQuotient(covariance(space, none).diagonal().cwiseSqrt()).norm();
+  }
+
   void find_problems(Findings& found) const {
     found.positive("force", force, "N");
     found.positive("moment", moment, "Nm");

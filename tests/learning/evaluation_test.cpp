@@ -127,6 +127,18 @@ TEST(Evaluation, TellsBodiesClampingsAndLegsApart) {
   EXPECT_EQ(json["confusion"]["rows"][7][1], 1.0);
 }
 
+TEST(RejectPoint, RejectsSureAnswersAboutWrenchesOfWhichNothingWasLearned) {
+  DataSet data = test::contact_examples(2, 1);
+  data.samples[0].course.front().wrench_in_base = Eigen::Vector3d(6.0, 0.0, 0.0);  // 3 deviations
+  data.samples[1].course.front().wrench_in_base = Eigen::Vector3d(0.0, 0.0, 1.0);  // 5
+  std::vector<Answered> answers = {answered(0, {0.9, 0.1}), answered(0, {0.9, 0.1})};
+  answers[1].sample = 1;
+  disbelieve_small(answers, data, 4.0);
+  EXPECT_FALSE(answers[0].believable);
+  EXPECT_TRUE(answers[1].believable);
+  EXPECT_EQ(reject_at(answers, 0.5).rejected, 0.5);
+}
+
 TEST(EvaluationPage, KeepsNamesFromBecomingMarkup) {
   DataSet data = test::contact_examples(1, 1);
   data.card["title"] = "<script>alert(1)</script>";

@@ -22,6 +22,7 @@ ClassifierModel example(NetworkResult result = NetworkResult::softmax_of_outputs
   model.units = {"N", "m", "rad"};
   model.classes = {"collision", "clamping"};
   model.accepted_from = 0.75;
+  model.least_wrench = 4.5;
   model.provenance = {{"robot", "bench"}, {"seed", "7"}};
   model.network.mean = Eigen::Vector3d(1.5, -2.0, 0.25);
   model.network.scale = Eigen::Vector3d(2.0, 0.5, 1.0);
@@ -47,6 +48,7 @@ TEST(OnnxFile, GivesBackWhatWasWritten) {
     EXPECT_EQ(read.features, model.features);
     EXPECT_EQ(read.units, model.units);
     EXPECT_EQ(read.accepted_from, model.accepted_from);
+    EXPECT_EQ(read.least_wrench, model.least_wrench);
     EXPECT_EQ(read.provenance, model.provenance);
     EXPECT_EQ(read.network.mean, model.network.mean);
     EXPECT_EQ(read.network.scale, model.network.scale);

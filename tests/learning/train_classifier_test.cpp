@@ -90,6 +90,18 @@ TEST(TrainClassifier, SaysWhyItCannotLearn) {
               testing::ElementsAre("there are 2 runs to learn from; 3 folds need at least as many"));
 }
 
+TEST(LeastWrench, IsThatOfWhichATwentiethOfTheSamplesIsSmaller) {
+  DataSet data = test::contact_examples(100, 1);
+  std::vector<std::size_t> samples;
+  for (std::size_t i = 0; i < 100; ++i) {
+    data.samples[i].course.front().wrench_in_base =
+        Eigen::Vector3d(2.0 * static_cast<double>(100 - i), 0.0, 0.0);
+    samples.push_back(i);
+  }
+  EXPECT_NEAR(least_wrench_of(data, samples), 6.0, 1e-12);  // 1 to 5 are smaller
+  EXPECT_EQ(least_wrench_of(data, {}), 0.0);
+}
+
 TEST(FeaturesFor, RefusesOtherRobotsAndFeaturesInAnotherOrder) {
   const DataSet data = test::contact_examples(100, 1);
   ClassifierTraining training = quick(Question::body);

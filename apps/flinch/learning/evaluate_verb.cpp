@@ -72,7 +72,9 @@ ExitStatus evaluate(const EvaluateOptions& options) {
       progress.show(static_cast<double>(all.size()) / static_cast<double>(known_moments.size()));
       const Questions questions = questions_of(data, features, {each.moments, options.configurations}, false,
                                                options.threads.value_or(0));
-      all.push_back(evaluate(answers_of(network, questions, data), features, model.accepted_from, each.name));
+      std::vector<Answered> answers = answers_of(network, questions, data);
+      disbelieve_small(answers, data, model.least_wrench);
+      all.push_back(evaluate(answers, features, model.accepted_from, each.name));
     }
   }
   for (const Evaluation& each : all)

@@ -24,6 +24,7 @@ void follow_classifier(const std::filesystem::path& model, Scenario& scenario) {
   LearnedClassifierSettings settings;
   settings.network = std::make_shared<NeuralNetwork>(read.network);
   settings.accept = read.accepted_from;
+  settings.least_wrench = read.least_wrench;
   settings.window = scenario.control.isolation.model_classifier.window;
   settings.largest_residual = scenario.control.isolation.model_classifier.largest_residual;
   scenario.control.stages.classifiers.follow(learned_classifier_stage(settings));

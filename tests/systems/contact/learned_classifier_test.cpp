@@ -98,6 +98,16 @@ TEST(LearnedClassifier, AcceptsWhatIsSureEnoughAndOneContact) {
   EXPECT_FALSE(several.accepted);
 }
 
+TEST(LearnedClassifier, DoesNotAcceptWhatItSaysOfWrenchesOfWhichItHasNotLearned) {
+  const double size = std::hypot(30.0 / 2.0, 1.0 / 0.2);  // of that of see()
+  for (const double least : {0.99 * size, 1.01 * size}) {
+    const ContactClassification said =
+        Classifier({.network = takes_evidence_as_it_is(), .least_wrench = least}).see(4, 9.0);
+    EXPECT_TRUE(said.valid);
+    EXPECT_EQ(said.accepted, size >= least);
+  }
+}
+
 TEST(LearnedClassifier, StandsByWhatItSaidUntilTheContactEnds) {
   Classifier classifier;
   EXPECT_FALSE(classifier.see(2, 5.0, false).valid);
