@@ -18,6 +18,9 @@ std::vector<std::string> problems(const SimulatedImuSettings& settings) {
   Findings found("imu.");
   found.positive("period", to_seconds(settings.period), "s");
   found.not_negative("delay", to_seconds(settings.delay), "s");
+  found.not_negative("before_tick", to_seconds(settings.before_tick), "s");
+  found.require(settings.before_tick <= Time::zero() || settings.before_tick < settings.period,
+                "before_tick must be shorter than the period");
   found.require(DelayLine<ImuReading>::can_delay(settings.delay, settings.period),
                 "delay must be shorter than " + std::to_string(DelayLine<ImuReading>::longest_delay) +
                     " times the period");
@@ -35,12 +38,21 @@ SimulatedImu::SimulatedImu(const SimulatedImuSettings& settings, const Mechanism
   throw_if_any(problems(settings));
 }
 
+/// The motion so many seconds before, under the acceleration of now.
+SpatialMotion SimulatedImu::motion_before(const PlantTruth& now, double seconds) const {
+  if (seconds == 0.0) return spatial_motion(space_, now.pose, now.velocity, now.acceleration);
+  const PlatformVector velocity = now.velocity - seconds * now.acceleration;
+  const PlatformVector way = -0.5 * seconds * (now.velocity + velocity);
+  return spatial_motion(space_, space_.plus(now.pose, way), velocity, now.acceleration);
+}
+
 void SimulatedImu::measure(const PlantTruth& now, const NormalNumbers<6>& noise, ImuReading& reading) const {
   reading = ImuReading();
-  reading.acquired = now.acquired;
+  const Time before = settings_.ideal ? Time::zero() : settings_.before_tick;
+  reading.acquired = now.acquired - before;
   reading.valid = now.valid;
   if (!now.valid) return;
-  const SpatialMotion motion = spatial_motion(space_, now.pose, now.velocity, now.acceleration);
+  const SpatialMotion motion = motion_before(now, to_seconds(before));
   reading.angular_velocity = R_SE_ * motion.axes.transpose() * motion.angular_velocity;
   reading.specific_force = R_SE_ * specific_force(motion, settings_.position_in_platform, gravity_);
   if (settings_.ideal) return;

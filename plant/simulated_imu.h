@@ -12,6 +12,7 @@
 #include "systems/framework/system.h"
 #include "systems/robot/imu_mount.h"
 #include "systems/robot/mechanism.h"
+#include "systems/robot/spatial_motion.h"
 #include "systems/signals/imu_reading.h"
 
 namespace flinch {
@@ -34,6 +35,8 @@ struct SimulatedImuSettings {
   double gyroscope_resolution = 1.91e-3 * degree;  ///< [rad/s]
 
   Time period = 1ms;
+  /// How long before a tick it measures: its clock is its own. Shorter than the period.
+  Time before_tick = 0us;
   Time delay = 3500us;  ///< From measurement to delivery, at the first tick thereafter.
 
  private:
@@ -44,7 +47,8 @@ struct SimulatedImuSettings {
 std::vector<std::string> problems(const SimulatedImuSettings& settings);
 
 /// Measures angular velocity and specific force at p_S, in its own axes, every period. What it delivers later
-/// is stamped with the time of measurement; before the first sample is through, its output is not valid.
+/// is stamped with the time of measurement; before the first sample is through, its output is not valid. What
+/// it measures before a tick is the motion of the tick, back under the acceleration that has led there.
 class SimulatedImu final : public System {
  public:
   /// Throws SetupError.
@@ -76,6 +80,7 @@ class SimulatedImu final : public System {
   Update draw_ = update<&SimulatedImu::draw>(noise_);
   Update send_ = update<&SimulatedImu::send>(Every{settings_.period}, underway_, measured_);
 
+  SpatialMotion motion_before(const PlantTruth& now, double seconds) const;
   void measure(const PlantTruth& now, const NormalNumbers<6>& noise, ImuReading& reading) const;
   void deliver(Time now, const ImuReading& fresh, const DelayLine<ImuReading>& underway,
                ImuReading& reading) const;

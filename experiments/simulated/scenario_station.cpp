@@ -99,6 +99,7 @@ void read_imu(ConfigReader reader, SimulatedImuSettings& imu) {
   reader.number("gyroscope_density", unit::rad_per_s_per_sqrt_Hz, imu.gyroscope_density, not_negative);
   reader.number("accelerometer_bias", unit::m_per_s2, imu.accelerometer_bias, not_negative);
   reader.number("gyroscope_bias", unit::rad_per_s, imu.gyroscope_bias, not_negative);
+  reader.duration("before_tick", imu.before_tick, not_negative);
   reader.duration("delay", imu.delay, not_negative);
 }
 

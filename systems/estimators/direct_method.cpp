@@ -1,6 +1,33 @@
 #include "systems/estimators/direct_method.h"
 
+#include <optional>
+
+#include "systems/signals/driven_share.h"
+#include "systems/signals/sampling.h"
+
 namespace flinch {
+namespace {
+
+/// At `time`, as if all but the torques changed evenly from before to after it; none where they are too far
+/// apart.
+std::optional<DirectSample> at_time(Time time, const Around<DirectSample>& around) {
+  if (around.after == nullptr) return std::nullopt;
+  if (around.before == nullptr) return *around.after;  // nothing is known before it
+  const DirectSample &before = *around.before, &after = *around.after;
+  if (&before == &after) return after;
+  if (Sampling().interrupted(before.acquired, after.acquired)) return std::nullopt;
+  const double later = around.share(time), earlier = 1.0 - later;
+  DirectSample result;
+  result.acquired = time;
+  result.valid = before.valid && after.valid;
+  result.braked = before.braked || after.braked;
+  result.M_x = earlier * before.M_x + later * after.M_x;
+  result.rest = earlier * before.rest + later * after.rest;
+  result.rest -= (driven_share(time - before.acquired) - later) * (after.driving - before.driving);
+  return result;
+}
+
+}  // namespace
 
 DirectSample DirectMethod::sample(const PlatformMotion& motion, const Kinematics& at, const Dynamics& model,
                                   const DriveTorque& drives) const {
@@ -12,6 +39,7 @@ DirectSample DirectMethod::sample(const PlatformMotion& motion, const Kinematics
   now.braked = drives.braked;
   now.M_x = model.M_x;
   now.rest = model.C_x * at.velocity + model.g_x + model.F_fr_x - F_a;
+  now.driving = F_a;
   now.valid = now.M_x.allFinite() && now.rest.allFinite();
   return now;
 }
@@ -28,9 +56,9 @@ void DirectMethod::estimate(const PlatformAcceleration& measured, const Kinemati
   result.wrench_in_base.setZero(robot_->dof());
   result.drive_torque.setZero(robot_->drives());
   result.health = measured.health;
-  const DirectSample* then = past.first_from(measured.acquired);
-  if (then == nullptr && fresh.acquired >= measured.acquired) then = &fresh;
-  if (!measured.valid || !fresh.valid || then == nullptr || !measured.acceleration.allFinite()) return;
+  if (!measured.valid || !fresh.valid || !measured.acceleration.allFinite()) return;
+  const std::optional<DirectSample> then = at_time(measured.acquired, past.around(measured.acquired, &fresh));
+  if (!then) return;
   if (measured.acceleration.size() != robot_->dof()) return;
 
   result.valid = true;

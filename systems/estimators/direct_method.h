@@ -18,14 +18,15 @@ struct DirectSample {
   bool valid = false;
   bool braked = false;
   PlatformMatrix M_x;
-  PlatformVector rest;  ///< C_x dx + g_x + F_fr_x - F_a [N, Nm]
+  PlatformVector rest;     ///< C_x dx + g_x + F_fr_x - F_a [N, Nm]
+  PlatformVector driving;  ///< F_a [N, Nm]
 };
 
 /// The external wrench straight from the equation of motion, [RAL25] (5):
 ///   F_ext = M_x ddx + C_x dx + g_x + F_fr_x - F_a.
 /// It has no dynamics of its own; what it lags, the acceleration lags. An acceleration of some milliseconds
-/// ago is set against model and torques of then: those of the first sample that is not older, whose torque
-/// was held at that time. So `torque` must not be filtered.
+/// ago is set against model and torques of then; between two ticks, on the straight line between them,
+/// but for the torque, see `driven_share`. So `torque` must not be filtered.
 ///
 /// Valid where acceleration, motion, model and torque are at this tick. Zero while brakes are closed: what
 /// they hold cannot be told from what acts from outside.

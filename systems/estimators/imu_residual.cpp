@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/forward_dynamics.h"
+#include "systems/signals/driven_share.h"
 
 namespace flinch {
 namespace {
@@ -59,7 +61,37 @@ void ImuResidual::expect(const PlatformMotion& motion, const Kinematics& at, con
   result.by_acceleration << moving.by_velocity.topRows(3), moving.by_acceleration.bottomRows(3);
   result.rotation = moving.by_velocity.topRows(3) * *acceleration;
   result.M_x = model.M_x;
+  result.driving = at.J_qa_x.transpose() * drives.torque;
   result.valid = result.force.allFinite() && result.M_x.allFinite();
+}
+
+/// Between what was expected before and after `time`, where both are known: as if all changed evenly but for
+/// the torques.
+std::optional<ExpectedMotion> ImuResidual::expected_at(Time time, const ExpectedMotion& fresh,
+                                                       const History<ExpectedMotion, 32>& past) const {
+  const Around<ExpectedMotion> around = past.around(time, fresh.valid ? &fresh : nullptr);
+  if (around.after == nullptr) return std::nullopt;
+  if (around.before == nullptr) return *around.after;  // nothing is known before it
+  const ExpectedMotion &before = *around.before, &after = *around.after;
+  if (&before == &after) return after;
+  if (settings_.sampling.interrupted(before.acquired, after.acquired)) return std::nullopt;
+  const double later = around.share(time), earlier = 1.0 - later;
+  ExpectedMotion result;
+  result.acquired = time;
+  result.valid = true;
+  result.braked = before.braked || after.braked;
+  result.is_slow = before.is_slow && after.is_slow;
+  result.force_at_rest = earlier * before.force_at_rest + later * after.force_at_rest;
+  result.force = earlier * before.force + later * after.force;
+  result.rotation = earlier * before.rotation + later * after.rotation;
+  result.by_acceleration = earlier * before.by_acceleration + later * after.by_acceleration;
+  result.M_x = earlier * before.M_x + later * after.M_x;
+  const PlatformVector sooner =
+      (driven_share(time - before.acquired) - later) * (after.driving - before.driving);
+  const PlatformVector acceleration = result.M_x.llt().solve(sooner);
+  result.force += result.by_acceleration.bottomRows<3>() * acceleration;
+  result.rotation += result.by_acceleration.topRows<3>() * acceleration;
+  return result;
 }
 
 void ImuResidual::remember(const ExpectedMotion& fresh, History<ExpectedMotion, 32>& past) const {
@@ -76,11 +108,11 @@ void ImuResidual::advance(const ImuReading& reading, const ExpectedMotion& fresh
   const Sampling& sampling = settings_.sampling;
   const bool sees_imu = is_usable(reading);
   const bool is_new = sees_imu && reading.acquired > memory.acquired;
-  const ExpectedMotion* then = is_new ? past.first_from(reading.acquired) : nullptr;
-  if (is_new && then == nullptr && fresh.valid && fresh.acquired >= reading.acquired) then = &fresh;
+  const std::optional<ExpectedMotion> then =
+      is_new ? expected_at(reading.acquired, fresh, past) : std::nullopt;
   next = memory;
   next.sees_imu = sees_imu;
-  if (then == nullptr) {
+  if (!then) {
     if (sampling.expired(memory.arrived, now)) next.started = false;  // its bias stays what it is
     return;
   }

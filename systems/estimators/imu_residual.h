@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 
 #include "systems/framework/system.h"
 #include "systems/robot/imu_output.h"
@@ -43,6 +44,7 @@ struct ExpectedMotion {
   Eigen::Vector3d rotation{0.0, 0.0, 0.0};       ///< dw/dt under it, sensor axes [rad/s^2]
   ImuOutput::Jacobian by_acceleration;  ///< how dw/dt and specific force change with the acceleration
   PlatformMatrix M_x;
+  PlatformVector driving;  ///< F_a [N, Nm]
 };
 
 /// What an accelerometer measures beside gravity, as a mean over samples at rest.
@@ -69,7 +71,8 @@ struct ImuResidualMemory {
 };
 
 /// Compares accelerometer and gyroscope with what the model expects of the time at which they measured: with
-/// the acceleration that drive torques and model give, of some milliseconds ago. What is left is an
+/// the acceleration that drive torques and model give, of some milliseconds ago; of a sample between two
+/// ticks, on the straight line between them, but for the torque, see `driven_share`. What is left is an
 /// acceleration that the surroundings cause, and F_ext = M_x times it. (Derived.)
 ///
 /// The accelerometer is not filtered. Of the gyroscope, the change between samples is what counts, seen
@@ -113,6 +116,8 @@ class ImuResidual final : public System {
   void expect(const PlatformMotion& motion, const Kinematics& at, const Dynamics& model,
               const DriveTorque& drives, ExpectedMotion& result) const;
   void remember(const ExpectedMotion& fresh, History<ExpectedMotion, 32>& past) const;
+  std::optional<ExpectedMotion> expected_at(Time time, const ExpectedMotion& fresh,
+                                            const History<ExpectedMotion, 32>& past) const;
   void advance(const ImuReading& reading, const ExpectedMotion& fresh,
                const History<ExpectedMotion, 32>& past, const ImuResidualMemory& memory, Time now,
                ImuResidualMemory& next) const;

@@ -59,14 +59,13 @@ class RotationFit {
   double squares_ = 0.0;
 };
 
-constexpr double T = 1e-3;  // between samples [s]
-
 /// Sums of the samples so far: of what the encoders do not show, and of the motion itself, whose rate the
 /// encoders tell with less noise.
 struct SummedAxes {
   explicit SummedAxes(const ImuError& oldest) : first(oldest.force + oldest.expected_force) {}
 
   void add(const ImuError& each) {
+    const double T = to_seconds(each.spacing);
     speed_unseen += T * each.force_unseen;
     position_unseen += T * speed_unseen;
     angle_unseen += T * each.turning_unseen;
@@ -104,10 +103,12 @@ class Products {
 /// Least squares for the time by which all axes are late.
 class LatenessFit {
  public:
-  explicit LatenessFit(std::size_t samples) : middle_(0.5 * (static_cast<double>(samples) - 1.0)) {}
+  /// `middle`: the mean of the times of all samples [ms].
+  explicit LatenessFit(double middle) : middle_(middle) {}
 
-  void add(const SummedAxes& sums, std::size_t k) {
-    const double at = static_cast<double>(k) - middle_;
+  /// Sums up to a sample at `time` [ms].
+  void add(const SummedAxes& sums, double time) {
+    const double at = time - middle_;
     positions_.add(sums.position_unseen.array(), -sums.speed.array(), at);
     angles_.add(sums.angle_unseen.array(), -sums.rate.array(), at);
   }
@@ -126,20 +127,37 @@ class LatenessFit {
   Products positions_, angles_;
 };
 
+/// Three samples in a row, and their weights in a second difference, which no straight line has: 1, -2 and 1
+/// where they are equally far apart.
+struct Bend {
+  const ImuError &a, &b, &c;
+  double of_a, of_c;
+
+  Bend(const ImuErrors& errors, std::size_t age)
+      : a(errors.back(age)), b(errors.back(age + 1)), c(errors.back(age + 2)) {
+    const double later = to_seconds(a.spacing), earlier = to_seconds(b.spacing);
+    of_a = 2.0 * earlier / (later + earlier);
+    of_c = 2.0 * later / (later + earlier);
+  }
+};
+
+double milliseconds(Time time) { return static_cast<double>(time.count()) / 1e6; }
+
 Six second_difference(const ImuErrors& errors, std::size_t age, const ImuSpread& rest) {
-  const ImuError &a = errors.back(age), &b = errors.back(age + 1), &c = errors.back(age + 2);
-  return weighed(a.force - 2.0 * b.force + c.force, a.turning - 2.0 * b.turning + c.turning, rest);
+  const auto [a, b, c, of_a, of_c] = Bend(errors, age);
+  return weighed(of_a * a.force - 2.0 * b.force + of_c * c.force,
+                 of_a * a.turning - 2.0 * b.turning + of_c * c.turning, rest);
 }
 
 /// What the drives' own noise makes of it, which the model follows up to a part of a sample.
 Six driven(const ImuErrors& errors, std::size_t age, const ImuSpread& rest) {
-  const ImuError &a = errors.back(age), &b = errors.back(age + 1), &c = errors.back(age + 2);
-  return weighed(a.expected_force - 2.0 * b.expected_force + c.expected_force,
-                 1e-3 * (a.turning_slope - b.turning_slope), rest)
+  const auto [a, b, c, of_a, of_c] = Bend(errors, age);
+  return weighed(of_a * a.expected_force - 2.0 * b.expected_force + of_c * c.expected_force,
+                 of_a * to_seconds(a.spacing) * (a.turning_slope - b.turning_slope), rest)
       .cwiseAbs();
 }
 
-/// A second difference of white noise has six times its variance.
+/// A second difference of white noise has six times its variance, where samples are equally far apart.
 const double far = 4.0 * std::sqrt(6.0);
 
 }  // namespace
@@ -171,14 +189,25 @@ bool jumps(const ImuErrors& errors) noexcept {
 Lateness lateness(const ImuErrors& errors, std::size_t samples, const EncoderSpread& encoders,
                   const ImuSpread& unit) noexcept {
   if (errors.held() < samples) return {};
-  SummedAxes sums(errors.back(samples - 1));
-  LatenessFit fit(samples);
+  const Time before = -errors.back(samples - 1).spacing;  // with the oldest at zero
+  Time time = before;
+  double middle = 0.0;
   for (std::size_t k = 0; k < samples; ++k) {
-    sums.add(errors.back(samples - 1 - k));
-    fit.add(sums, k);
+    time += errors.back(samples - 1 - k).spacing;
+    middle += milliseconds(time) / static_cast<double>(samples);
+  }
+  const double whole = to_seconds(time - before);
+  SummedAxes sums(errors.back(samples - 1));
+  LatenessFit fit(middle);
+  time = before;
+  for (std::size_t k = 0; k < samples; ++k) {
+    const ImuError& each = errors.back(samples - 1 - k);
+    time += each.spacing;
+    sums.add(each);
+    fit.add(sums, milliseconds(time));
   }
   // What is slow weighs most: of white noise that is summed up, half a period in all the samples.
-  const double slow = T * static_cast<double>(samples) / std::numbers::pi;
+  const double slow = whole / std::numbers::pi;
   const double turned = unit.turning * slow, moved = unit.force * slow * slow;
   return fit.solve(encoders.position.array().square() + moved * moved,
                    encoders.angle.array().square() + turned * turned);

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 
+#include "systems/framework/time.h"
 #include "systems/safety/ring.h"
 #include "systems/signals/imu_doubt.h"
 
@@ -10,6 +11,7 @@ namespace flinch {
 
 /// What a sample of the inertial measurement unit says beyond what is expected of it; sensor axes.
 struct ImuError {
+  Time spacing{1ms};                                ///< since the sample before
   Eigen::Vector3d force{0.0, 0.0, 0.0};             ///< beyond what the model expects [m/s^2]
   Eigen::Vector3d turning{0.0, 0.0, 0.0};           ///< beyond what the encoders say [rad/s]
   Eigen::Vector3d expected_force{0.0, 0.0, 0.0};    ///< [m/s^2]

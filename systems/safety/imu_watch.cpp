@@ -6,6 +6,7 @@
 
 #include "systems/robot/forward_dynamics.h"
 #include "systems/robot/imu_output.h"
+#include "systems/signals/driven_share.h"
 
 namespace flinch {
 namespace {
@@ -73,9 +74,14 @@ constexpr auto parabola_weights = [] {
   return weights;
 }();
 
-/// Acceleration of the platform beyond the model, around the motion of `age`: what the parabola through 2 h +
-/// 1 poses has more than the model.
-Padded<max_dof> unexplained(const Motions& motions, int age, int h) {
+/// Accelerations of the platform around the motion of `age`.
+struct Accelerations {
+  Padded<max_dof> shown;  ///< of the parabola through 2 h + 1 poses
+  Padded<max_dof> model;  ///< what the drives alone make of it
+
+  Padded<max_dof> unexplained() const { return shown - model; }
+};
+Accelerations accelerations(const Motions& motions, int age, int h) {
   const auto& weights = parabola_weights[static_cast<std::size_t>(h)];
   Padded<max_dof> steps = Padded<max_dof>::Zero(), model = steps;
   for (int i = 1 - h; i < h; ++i) {
@@ -85,7 +91,10 @@ Padded<max_dof> unexplained(const Motions& motions, int age, int h) {
     steps += weight * (after.step - at.step);
     model += weight * at.acceleration;
   }
-  return steps / (T * T) - model;
+  return {steps / (T * T), model};
+}
+Padded<max_dof> unexplained(const Motions& motions, int age, int h) {
+  return accelerations(motions, age, h).unexplained();
 }
 
 /// Deviation of that for a pose of deviation 1, of parabolas: sqrt(720 / (N (N^2 - 1)(N^2 - 4))) / T^2.
@@ -108,6 +117,34 @@ Padded<max_dof> line_velocity(const Motions& motions, int age, int h) {
 }
 double line_deviation(int h) { return 1.0 / (std::sqrt(h * (h + 1.0) * (2.0 * h + 1.0) / 3.0) * T); }
 
+/// The motion at `time`, between those of `age` and of the tick before or after it.
+TickMotion motion_at(const Motions& motions, int age, Time time, const ConfigurationSpace& space) {
+  const auto nearest = static_cast<std::size_t>(age);
+  const Time later = time - motions.back(nearest).time;
+  if (later == Time::zero()) return motions.back(nearest);
+  const TickMotion& before = motions.back(later > Time::zero() ? nearest : nearest + 1);
+  const TickMotion& after = motions.back(later > Time::zero() ? nearest - 1 : nearest);
+  const double share = to_seconds(time - before.time) / to_seconds(after.time - before.time);
+  TickMotion motion = before;
+  motion.time = time;
+  motion.pose =
+      padded(space.plus(before.pose.head(space.stored()), share * after.step.head(space.dimension())));
+  motion.velocity += share * (after.velocity - before.velocity);
+  motion.acceleration += driven_share(time - before.time) * (after.acceleration - before.acceleration);
+  return motion;
+}
+
+/// The step in the tick that begins at `time`, which is one at least before the latest.
+Padded<max_dof> step_from(const Motions& motions, Time time) {
+  std::size_t age = 1;
+  while (age + 1 < motions.held() && motions.back(age).time > time) ++age;
+  const TickMotion& before = motions.back(age);
+  const Padded<max_dof>& step = motions.back(age - 1).step;
+  if (before.time >= time || age < 2) return step;
+  const double share = to_seconds(time - before.time) / T;
+  return step + share * (motions.back(age - 2).step - step);
+}
+
 /// A range that grows by what is significant.
 struct Range {
   double low = 0.0, high = 0.0;
@@ -124,8 +161,10 @@ using Rows = Eigen::Matrix<double, 3, max_dof>;
 /// What a sample can be compared with.
 struct Comparison {
   const Motions& motions;
-  int age;                      ///< of the motion at its instant
+  int age;                      ///< of the motion nearest to its instant
   int ahead;                    ///< motions after it that count
+  double later;                 ///< than that motion [s]
+  double spacing;               ///< since the sample before [s]
   Padded<max_dof> deviation;    ///< of the pose
   Padded<max_dof> velocity;     ///< line_velocity(motions, age, ahead)
   ImuSpread noise;              ///< of the unit at rest
@@ -186,13 +225,13 @@ Claim force_claim(const Comparison& at, const ImuErrors& errors) {
 /// What the gyroscope claims by its change from the sample before; nothing in a first sample.
 Claim turning_claim(const Comparison& at, const ImuErrors& errors) {
   Claim claim{at.turning, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
-              std::sqrt(2.0) * at.noise.turning / T};
+              std::sqrt(2.0) * at.noise.turning / at.spacing};
   if (errors.held() < 2) return claim;
   const ImuError &now = errors.back(0), &before = errors.back(1);
   const Eigen::Vector3d change =
       now.turning + now.expected_turning - before.turning - before.expected_turning;
-  claim.beyond = change / T - now.turning_slope;
-  claim.slope = (now.turning_slope - before.turning_slope) / T;
+  claim.beyond = change / at.spacing - now.turning_slope;
+  claim.slope = (now.turning_slope - before.turning_slope) / at.spacing;
   return claim;
 }
 
@@ -204,12 +243,13 @@ bool turning_contradicted(const Comparison& at, const ImuError& error) {
   const Eigen::Vector3d short_line = at.turning * line_velocity(at.motions, at.age, 1);
   const Eigen::Vector3d longer_line = at.turning * line_velocity(at.motions, at.age, 2);
   const Eigen::Vector3d sigma = deviations(at.turning, at.deviation);
+  const double of_rate = std::hypot(line_deviation(at.ahead), at.later * parabola_deviation(at.ahead));
   for (int axis = 0; axis < 3; ++axis) {
     Range range;
     range.include(short_line[axis] - smooth[axis], line_deviation(1) * sigma[axis]);
     range.include(longer_line[axis] - smooth[axis], line_deviation(2) * sigma[axis]);
-    const double limit = at.limit * std::hypot(line_deviation(at.ahead) * sigma[axis], at.noise.turning) +
-                         at.limit / 5.0 * unsure;
+    const double limit =
+        at.limit * std::hypot(of_rate * sigma[axis], at.noise.turning) + at.limit / 5.0 * unsure;
     if (range.outside(error.turning[axis]) > limit) return true;
   }
   return false;
@@ -230,56 +270,71 @@ bool unit_left_model(const Comparison& at, const ImuErrors& errors) {
   return unit.norm() > believed * encoders.norm();
 }
 
+/// Age of the motion nearest to `time`; none where there is not enough after and before it.
+std::optional<int> nearest_age(const Motions& motions, Time time) {
+  constexpr int youngest = 2, oldest = 9;
+  int age = 0;
+  while (age <= oldest && age < static_cast<int>(motions.held()) &&
+         motions.back(static_cast<std::size_t>(age)).time - time > period / 2)
+    ++age;
+  if (age < youngest || age > oldest || motions.held() < ImuWatch::kept) return std::nullopt;
+  return age;
+}
+
 /// Compares the sample with the motion of its instant, where that is known; whether it is contradicted.
 void judge(ImuWatch& watch, const Motions& motions, const ImuErrors& errors, const InertialWatch& learned,
            const AngleWatch& angles, const PlausibilityTick& tick, const ImuReading& reading,
            const ImuSpread& rest) {
-  constexpr int youngest = 2, oldest = 9;  // so that there is enough after and before it
-  int age = 0;
-  while (age <= oldest && age < static_cast<int>(motions.held()) &&
-         motions.back(static_cast<std::size_t>(age)).time - reading.acquired > period / 2)
-    ++age;
-  if (age < youngest || age > oldest || motions.held() < ImuWatch::kept) {
+  const std::optional<int> nearest = nearest_age(motions, reading.acquired);
+  if (!nearest) {
     watch.errors.clear();
     watch.late = false;
     return;
   }
-  const TickMotion& then = motions.back(static_cast<std::size_t>(age));
-  const int ahead = std::min(age, 4);
+  const int age = *nearest;
   const ConfigurationSpace space = tick.robot.space();
+  const TickMotion then = motion_at(motions, age, reading.acquired, space);
+  const int ahead = std::min(age, 4);
   const int n = space.dimension();
+  const Time spacing = errors.held() > 0 ? reading.acquired - watch.before.acquired : period;
   const ImuOutput output =
       imu_output(space, tick.mounted, tick.robot.gravity(), then.pose.head(space.stored()),
                  then.velocity.head(n), then.acceleration.head(n));
   Comparison at{.motions = motions,
                 .age = age,
                 .ahead = ahead,
+                .later = to_seconds(then.time - motions.back(static_cast<std::size_t>(age)).time),
+                .spacing = to_seconds(spacing),
                 .deviation = pose_deviation(angles, tick),
                 .velocity = line_velocity(motions, age, ahead),
                 .noise = {std::max(rest.force, 1e-3), std::max(rest.turning, 1e-4)},
                 .limit = 0.5 * tick.limits.inertial};
   at.turning.leftCols(n) = output.by_velocity.topRows<3>();
   at.force.leftCols(n) = output.by_acceleration.bottomRows<3>();
+  const Accelerations around = accelerations(motions, age, ahead);
   ImuError error;
+  error.spacing = spacing;
   error.expected_force = output.value.tail<3>();
-  error.expected_turning = at.turning * at.velocity;
+  error.expected_turning = at.turning * (at.velocity + at.later * around.shown);
   error.force = reading.specific_force - learned.accelerometer.mean - error.expected_force;
   error.turning = reading.angular_velocity - learned.gyroscope.mean - error.expected_turning;
-  if (errors.held() > 0) error.force_slope = (error.expected_force - errors.back(0).expected_force) / T;
+  if (errors.held() > 0)
+    error.force_slope = (error.expected_force - errors.back(0).expected_force) / at.spacing;
   error.turning_slope = at.turning * then.acceleration;
-  const Padded<max_dof> around = unexplained(motions, age, ahead);
-  const TickMotion& after = motions.back(static_cast<std::size_t>(age - 1));
-  error.force_unseen = error.force + at.force * (then.acceleration - (after.step - then.step) / (T * T));
-  error.turning_unseen =
-      error.turning + error.expected_turning - at.turning * (after.step + then.step) / (2.0 * T);
+  const Padded<max_dof> after = step_from(motions, then.time);
+  const Padded<max_dof> change = after - step_from(motions, then.time - spacing);
+  error.force_unseen = error.force + at.force * (then.acceleration - change / (T * at.spacing));
+  error.turning_unseen = error.turning + error.expected_turning -
+                         at.turning * (after + step_from(motions, then.time - period)) / (2.0 * T);
   watch.errors.push(error);
   watch.errors.newest.jumps = jumped(errors, 0, rest);
   const bool is_rest = at.noise.force == rest.force && at.noise.turning == rest.turning;
   if (is_rest ? watch.errors.newest.jumps : jumped(errors, 0, at.noise)) at.limit *= 0.5;
   const bool turning = turning_contradicted(at, error);
   watch.blamed = turning && (watch.blamed || unit_left_model(at, errors));
-  watch.errors.newest.contradicted = contradicted(at, around, force_claim(at, errors)) ||
-                                     contradicted(at, around, turning_claim(at, errors)) || watch.blamed;
+  const Padded<max_dof> unexplained = around.unexplained();
+  watch.errors.newest.contradicted = contradicted(at, unexplained, force_claim(at, errors)) ||
+                                     contradicted(at, unexplained, turning_claim(at, errors)) || watch.blamed;
   watch.late =
       is_late(errors, {deviations(at.force, at.deviation), deviations(at.turning, at.deviation)}, at.noise);
 }

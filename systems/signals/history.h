@@ -7,6 +7,20 @@
 
 namespace flinch {
 
+/// The two samples of a signal between which an instant lies; both are one where it is that of a sample.
+template <class Sample>
+struct Around {
+  const Sample* before = nullptr;
+  const Sample* after = nullptr;
+
+  bool known() const { return before != nullptr && after != nullptr; }
+  /// How far `time` lies on the way from `before` to `after`, 0 to 1.
+  double share(Time time) const {
+    if (before == after) return 1.0;
+    return to_seconds(time - before->acquired) / to_seconds(after->acquired - before->acquired);
+  }
+};
+
 /// The last samples of a signal, at most `size`, in the order of their acquisition.
 template <class Sample, std::size_t size>
 struct History {
@@ -40,6 +54,13 @@ struct History {
       if (sample.acquired < time) return &sample;
     }
     return nullptr;
+  }
+  /// Those around `time`, with `fresh` as one more, later than all; null: there is none.
+  Around<Sample> around(Time time, const Sample* fresh = nullptr) const {
+    const Sample* after = first_from(time);
+    if (after == nullptr && fresh != nullptr && fresh->acquired >= time) after = fresh;
+    if (after != nullptr && after->acquired == time) return {after, after};
+    return {last_before(time), after};
   }
 };
 

@@ -8,7 +8,7 @@ namespace flinch {
 
 /// One sample of an inertial measurement unit on the platform, in its own frame S.
 struct ImuReading {
-  Time acquired{};  ///< when it was measured, not when it arrived
+  Time acquired{};  ///< when it was measured, to 0.1 ms, on any tick or between; not when it arrived
   bool valid = false;
   Eigen::Vector3d angular_velocity{0.0, 0.0, 0.0};  ///< [rad/s]
   Eigen::Vector3d specific_force{0.0, 0.0, 0.0};    ///< acceleration minus gravity [m/s^2]

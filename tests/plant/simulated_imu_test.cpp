@@ -134,6 +134,26 @@ TEST(SimulatedImu, DeliversEachSampleAtTheFirstTickAfterItsDelay) {
   }
 }
 
+TEST(SimulatedImu, MeasuresSoLongBeforeTheTickAsItIsTold) {
+  SimulatedImuSettings settings;
+  settings.accelerometer_density = settings.gyroscope_density = 0.0;
+  settings.accelerometer_bias = settings.gyroscope_bias = 0.0;
+  settings.accelerometer_resolution = settings.gyroscope_resolution = 0.0;
+  settings.delay = Time::zero();
+  SimulatedImuSettings before = settings;
+  before.before_tick = 300us;
+  for (int k = 1; k < 50; ++k) {
+    const double t = 1e-3 * k;
+    const ImuReading early = Imu(before).read(moving_truth(t));
+    const ImuReading then = Imu(settings).read(moving_truth(t - 300e-6));
+    EXPECT_EQ(early.acquired, -300us) << "of the first tick";
+    EXPECT_LT((early.angular_velocity - then.angular_velocity).norm(), 1e-5);
+    EXPECT_LT((early.specific_force - then.specific_force).norm(), 0.05) << "with the acceleration of now";
+  }
+  settings.before_tick = settings.period;
+  EXPECT_EQ(problems(settings).size(), 1U);
+}
+
 TEST(SimulatedImu, HoldsItsSamplesBetweenPeriods) {
   SimulatedImuSettings settings = without_errors();
   settings.period = 2ms;

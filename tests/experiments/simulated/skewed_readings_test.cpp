@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <string>
 
 #include "experiments/simulated/experiment.h"
 #include "experiments/simulated/simulated_scenario.h"
+#include "experiments/verdict/verdict.h"
 #include "tests/experiments/simulated/fed_control.h"
 #include "tests/support/workplace.h"
 
@@ -56,6 +59,30 @@ TEST_P(SkewedReadings, LookLikeAForceOfSomeNewtonsForAMillisecond) {
   std::printf("%-20s aligned %5.2f N, currents 1 ms late %5.2f N\n", GetParam().c_str(), aligned, skewed);
   EXPECT_GT(skewed, aligned + 1.5);
   EXPECT_LT(skewed, aligned + 8.0);
+}
+
+TEST(ImuBetweenTicks, IsBelievedAndLeavesAResidualAsSmallAsOnTheTick) {
+  const test::Workplace place;
+  double on_tick = 0.0;
+  for (const int before : {0, 60, 300, 500, 700}) {
+    place.write("scenarios/clock.yaml",
+                "robot: ../robots/planar_3rrr.yaml\nduration_s: 1.6\nplant: {realism: bench}\n"
+                "sensors: {imu: {before_tick_us: " +
+                    std::to_string(before) + "}}\n" +
+                    "motion:\n  kind: square\n  start_ms: 300\n"
+                    "  limits: {velocity_m_per_s: 1.5, acceleration_m_per_s2: 12, jerk_m_per_s3: 1000}\n"
+                    "control:\n  estimators: [imu_residual]\n"
+                    "  momentum_observer: {gain_per_s: [135, 135, 135]}\n"
+                    "  contact_detector: {reaction_force_N: 500, reaction_moment_Nm: 100, hard_force_N: 600, "
+                    "hard_moment_Nm: 200}\n");
+    const SimulatedScenario scenario = read_simulated_scenario(place / "scenarios/clock.yaml");
+    const Verdict verdict = judge(run_experiment(scenario), scenario.robot.robot->space(), scenario.expected,
+                                  scenario.force_limits);
+    std::printf("%3d us before the tick: %5.2f N\n", before, verdict.max_observer_error_force);
+    EXPECT_EQ(verdict.imu_doubt, ImuDoubt::none) << before;
+    if (before == 0) on_tick = verdict.max_observer_error_force;
+    EXPECT_LT(verdict.max_observer_error_force, 1.2 * on_tick) << before;
+  }
 }
 
 }  // namespace

@@ -18,6 +18,7 @@ struct Instant {
   test::Posture at;
   DriveTorque torque;
   PlatformAcceleration acceleration;
+  PlatformVector driving;  ///< F_a
 };
 
 const PlatformVector F_ext{{80.0, -15.0, 2.0}};
@@ -25,10 +26,11 @@ const PlatformVector F_ext{{80.0, -15.0, 2.0}};
 /// On the smooth trajectory, pushed by F_ext.
 Instant instant(const PlanarRrr& robot, Time now) {
   const test::SmoothTrajectory motion(to_seconds(now));
-  Instant seen{test::Posture(robot, motion.pose, motion.velocity, now), {}, {}};
+  Instant seen{test::Posture(robot, motion.pose, motion.velocity, now), {}, {}, {}};
   const Dynamics& model = seen.at.dynamics;
   const PlatformVector F_a = model.M_x * PlatformVector(motion.acceleration) +
                              model.C_x * PlatformVector(motion.velocity) + model.g_x + model.F_fr_x - F_ext;
+  seen.driving = F_a;
   seen.torque = {now, true, drive_torques(seen.at.kinematics, F_a)};
   seen.acceleration.acquired = now;
   seen.acceleration.valid = true;
@@ -79,6 +81,21 @@ TEST_F(DirectMethodTest, SetsALateAccelerationAgainstModelAndTorquesOfThen) {
     if (k < 4) continue;
     ASSERT_EQ(estimate.acquired, (k - 4) * 1ms);
     ASSERT_LT((estimate.wrench_in_base - F_ext).norm(), 1e-11) << k;
+  }
+}
+
+// What is not even between two ticks: an eighth of its second derivative times T^2.
+TEST_F(DirectMethodTest, SetsAnAccelerationBetweenTwoTicksAgainstWhatIsBetweenThem) {
+  for (int k = 0; k < 500; ++k) {
+    const Time then = ticking_.now() - 4300us;
+    const Instant between = instant(*robot_, then), after = instant(*robot_, then + 300us);
+    PlatformAcceleration late = between.acceleration;  // and what the torque makes that was held
+    late.acceleration += between.at.dynamics.M_x.llt().solve(after.driving - between.driving);
+    const WrenchEstimate& estimate = see(instant(*robot_, ticking_.now()), late);
+    if (k < 5) continue;
+    ASSERT_TRUE(estimate.valid) << k;
+    ASSERT_EQ(estimate.acquired, then);
+    ASSERT_LT((estimate.wrench_in_base - F_ext).norm(), 0.01) << k;
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <deque>
 #include <limits>
 
@@ -25,12 +26,17 @@ class ImuResidualTest : public testing::Test {
     const Time now = ticking_.now();
     test::Posture at(*robot_, zero, zero, now);
     if (moves_) at.platform.velocity[0] = 0.02;  // no rest to learn a bias from
-    const PlatformVector acceleration = *forward_dynamics(at.kinematics, at.dynamics, torque, push);
+    JointVector acted = torque;
+    if (before_tick_ > Time::zero())  // reached in 0.3 ms, then held
+      acted = torque_before_ +
+              std::min(1.0, (1e-3 - to_seconds(before_tick_)) / 3e-4) * (torque - torque_before_);
+    torque_before_ = torque;
+    const PlatformVector acceleration = *forward_dynamics(at.kinematics, at.dynamics, acted, push);
     turned_ += 1e-3 * acceleration[2];
     const ImuOutput output =
         imu_output(robot_->space(), ImuMount{}, robot_->gravity(), zero, zero, acceleration);
     const Eigen::Vector3d rate = output.by_velocity.col(2).head<3>() * turned_;
-    underway_.push_back({now, true, rate + rate_bias, output.value.tail<3>() + bias});
+    underway_.push_back({now - before_tick_, true, rate + rate_bias, output.value.tail<3>() + bias});
     for (int i = 0; i < 3; ++i) {
       underway_.back().angular_velocity[i] += noise_ * 2.74e-3 * random_.normal();
       underway_.back().specific_force[i] += noise_ * 0.0395 * random_.normal();
@@ -65,6 +71,8 @@ class ImuResidualTest : public testing::Test {
   test::Ticking ticking_{builder_};
   std::deque<ImuReading> underway_;
   bool moves_ = false;
+  Time before_tick_{};  ///< that the IMU measures
+  JointVector torque_before_ = JointVector::Zero(3);
   double turned_ = 0.0, noise_ = 0.0, upwards_ = 0.0;
   RandomGenerator random_{2};
 };
@@ -127,6 +135,23 @@ TEST_F(ImuResidualTest, ComparesWithTheTorquesOfTheTimeAtWhichTheImuMeasured) {
     const WrenchEstimate& seen = see(torque, zero, 4);
     if (k <= 4) continue;
     ASSERT_LT(seen.wrench_in_base.norm(), 2.0) << k;
+  }
+}
+
+// Torques that rise and fall, and nothing that pushes: nothing is left, whatever the phase.
+TEST_F(ImuResidualTest, ComparesASampleBetweenTwoTicksWithWhatIsBetweenThem) {
+  rest();
+  for (const Time before_tick : {0us, 60us, 300us, 500us, 900us}) {
+    before_tick_ = before_tick;
+    double largest = 0.0;
+    for (int k = 0; k < 400; ++k) {
+      const double height = std::abs(k % 200 - 100) * 0.08;
+      const WrenchEstimate& seen = see(JointVector::Constant(3, height), zero, 4);
+      if (k <= 100) continue;
+      ASSERT_TRUE(seen.valid);
+      largest = std::max(largest, seen.wrench_in_base.head(2).norm());
+    }
+    EXPECT_LT(largest, 1e-3) << to_seconds(before_tick) << " s";
   }
 }
 

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -23,25 +24,27 @@ constexpr double angle_noise = 7e-6;    // [rad]
 constexpr double force_noise = 0.04;    // [m/s^2]
 constexpr double turning_noise = 3e-3;  // [rad/s]
 
+/// When the unit samples, and by how much its stamps may be wrong.
+struct Clock {
+  Time period = 1ms;
+  Time phase{};  ///< of the first sample
+  Time jitter{};
+};
+
 using Failure = std::function<void(int tick, ImuReading&)>;
 
 /// A robot that moves round a curve, which drives and an outer wrench make together; its unit is some ticks
 /// late, and `failure` spoils what it says.
 class Moving {
  public:
-  Moving() {
+  explicit Moving(const Clock& clock = {}) : clock_(clock), next_(clock.phase) {
     for (int k = 0; k < 200; ++k) tick();
   }
   bool braked() const { return tick_ < 100; }
 
   /// `pull` [m/s^2] is what the outer wrench makes of the platform's acceleration.
   const Plausibility& tick(const Failure& failure = {}, double pull = 0.0, bool reset = false) {
-    const double t = braked() ? 0.0 : 1e-3 * (tick_ - 100), w = 12.0;
-    const Eigen::Vector3d amplitude(0.06, 0.05, 0.2);
-    const Eigen::Vector3d pose = amplitude * (1.0 - std::cos(w * t));
-    const Eigen::Vector3d velocity = w * amplitude * std::sin(w * t);
-    Eigen::Vector3d acceleration = w * w * amplitude * std::cos(w * t);
-    if (braked()) acceleration.setZero();
+    const auto [pose, velocity, acceleration] = motion_at(1e-3 * (tick_ - 100));
     test::Posture posture(*monitor_.robot, pose, velocity, monitor_.ticking.now());
     const Eigen::Vector3d driven = acceleration - Eigen::Vector3d(pull, 0.0, 0.0);
     const JointVector torque =
@@ -49,9 +52,7 @@ class Moving {
         (posture.dynamics.M_x * driven + posture.dynamics.C_x * velocity + posture.dynamics.g_x);
     set_encoders(posture);
     monitor_.ticking.set(monitor_.torque, DriveTorque{monitor_.ticking.now(), true, torque, braked()});
-    set_unit(imu_output(monitor_.robot->space(), ImuMount{}, monitor_.robot->gravity(), pose, velocity,
-                        acceleration),
-             failure);
+    set_unit(failure);
     const bool held = braked();
     monitor_.ticking.set(
         monitor_.station,
@@ -70,6 +71,18 @@ class Moving {
   bool is_late_enough() const { return tick_ > 150; }
 
  private:
+  struct Motion {
+    Eigen::Vector3d pose, velocity, acceleration;
+  };
+  /// So many seconds after the brakes open; before, it rests.
+  static Motion motion_at(double t) {
+    constexpr double w = 12.0;
+    const Eigen::Vector3d amplitude(0.06, 0.05, 0.2), none(0.0, 0.0, 0.0);
+    if (t < 0.0) return {none, none, none};
+    return {amplitude * (1.0 - std::cos(w * t)), w * amplitude * std::sin(w * t),
+            w * w * amplitude * std::cos(w * t)};
+  }
+
   void set_encoders(test::Posture& posture) {
     JointVector off = JointVector::Zero(3);
     for (double& each : off) each = angle_noise * random_.normal();
@@ -81,20 +94,38 @@ class Moving {
     monitor_.ticking.set(monitor_.dynamics, posture.dynamics);
   }
 
-  void set_unit(const ImuOutput& output, const Failure& failure) {
-    ImuReading fresh{monitor_.ticking.now(), true, output.value.head<3>(), output.value.tail<3>()};
-    for (double& each : fresh.angular_velocity) each += turning_noise * random_.normal();
-    for (double& each : fresh.specific_force) each += force_noise * random_.normal();
-    underway_.push_back(fresh);
+  void set_unit(const Failure& failure) {
+    const Time now = monitor_.ticking.now();
+    for (; next_ <= now; next_ += clock_.period) underway_.push_back({next_, sample(next_)});
+    while (underway_.size() > 1 && underway_[1].measured <= now - delay * 1ms) underway_.pop_front();
     ImuReading arrived;
-    if (underway_.size() > delay) arrived = underway_[underway_.size() - 1 - delay];
+    if (!underway_.empty() && underway_.front().measured <= now - delay * 1ms)
+      arrived = underway_.front().reading;
     if (failure && arrived.valid) failure(tick_, arrived);
     monitor_.ticking.set(monitor_.imu, arrived);
   }
+  ImuReading sample(Time time) {
+    const auto [pose, velocity, acceleration] = motion_at(to_seconds(time - 100ms));
+    const ImuOutput output = imu_output(monitor_.robot->space(), ImuMount{}, monitor_.robot->gravity(), pose,
+                                        velocity, acceleration);
+    ImuReading fresh{time, true, output.value.head<3>(), output.value.tail<3>()};
+    for (double& each : fresh.angular_velocity) each += turning_noise * random_.normal();
+    for (double& each : fresh.specific_force) each += force_noise * random_.normal();
+    if (clock_.jitter > Time::zero())
+      fresh.acquired += from_seconds(random_.uniform(-1.0, 1.0) * to_seconds(clock_.jitter));
+    return fresh;
+  }
+
+  struct Underway {
+    Time measured{};
+    ImuReading reading;
+  };
 
   test::Monitored monitor_{PlausibilityLimits()};
   RandomGenerator random_{1};
-  std::vector<ImuReading> underway_;
+  Clock clock_;
+  Time next_;
+  std::deque<Underway> underway_;
   int tick_ = 0;
 };
 
@@ -126,6 +157,34 @@ TEST(ImuWatch, BelievesAnHonestUnitInMotionAndInContact) {
     }
   }
   EXPECT_LT(left_out, 30) << "one tick in a hundred";
+}
+
+// The BMI160 samples with 1.6 kHz of its own, of which every tick delivers the latest.
+TEST(ImuWatch, BelievesAnHonestUnitWhateverItsClock) {
+  std::vector<Clock> clocks{{.jitter = 100us}, {.period = 625us}, {.period = 625us, .phase = 200us}};
+  for (const Time phase : {60us, 125us, 250us, 312us, 500us, 750us, 940us})
+    clocks.push_back({.phase = phase});
+  for (const Clock& clock : clocks) {
+    Moving moving(clock);
+    int left_out = 0;
+    for (int k = 0; k < 1500; ++k) {
+      const Plausibility& found = moving.tick();
+      ASSERT_EQ(found.present, FaultMask{0});
+      ASSERT_EQ(found.imu_doubt, ImuDoubt::none) << to_seconds(clock.phase) << " s, " << k;
+      left_out += found.imu_left_out ? 1 : 0;
+    }
+    EXPECT_LE(left_out, 1) << to_seconds(clock.period) << " s, " << to_seconds(clock.phase) << " s";
+  }
+}
+
+TEST(ImuWatch, NamesWhatIsWrongBetweenTicksAsWell) {
+  for (const Clock& clock : {Clock{.phase = 400us}, Clock{.period = 625us}}) {
+    Moving moving(clock);
+    const auto found =
+        ticks_until(moving, ImuDoubt::biased, [](int, ImuReading& imu) { imu.specific_force.x() += 3.0; });
+    ASSERT_TRUE(found.has_value());
+    EXPECT_LE(*found, 8);
+  }
 }
 
 TEST(ImuWatch, NamesWhatIsWrongWithinTwentyTicks) {

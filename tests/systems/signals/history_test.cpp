@@ -30,6 +30,25 @@ TEST(History, FindsTheSamplesAroundATime) {
   }
 }
 
+TEST(History, KnowsBetweenWhichSamplesATimeLies) {
+  const auto history = of(3);
+  const auto between = history.around(2250us);
+  ASSERT_TRUE(between.known());
+  EXPECT_EQ(between.before->number, 2);
+  EXPECT_EQ(between.after->number, 3);
+  EXPECT_EQ(between.share(2250us), 0.25);
+  const auto on_sample = history.around(2ms);
+  EXPECT_EQ(on_sample.before, on_sample.after);
+  EXPECT_EQ(on_sample.after->number, 2);
+  EXPECT_FALSE(history.around(3500us).known()) << "nothing is known beyond the last sample";
+  EXPECT_FALSE(history.around(500us).known()) << "nor before the first";
+  const Sample fresh{4ms, 4};
+  EXPECT_EQ(history.around(3500us, &fresh).after, &fresh);
+  EXPECT_EQ(history.around(3500us, &fresh).before->number, 3);
+  EXPECT_EQ(history.around(4ms, &fresh).before, &fresh);
+  EXPECT_FALSE(history.around(4500us, &fresh).known());
+}
+
 TEST(History, HasNothingAtFirst) {
   const auto history = of(0);
   EXPECT_EQ(history.first_from(0ms), nullptr);
