@@ -61,6 +61,7 @@ std::string problem_with_file(const fs::path& file) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (status.type() == fs::file_type::not_found) return missing(file);
+  if (error) return "cannot be read: " + error.message();
   if (std::string problem = problem_with_kind(status); !problem.empty()) return problem;
   if (!std::ifstream(file)) return "cannot be opened; reading it must be permitted";
   return "";

@@ -17,6 +17,7 @@ class TemporaryFolder {
     std::string name = std::filesystem::temp_directory_path() / "flinch_XXXXXX";
     if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
     path_ = name;
+    std::filesystem::permissions(path_, std::filesystem::perms(0755));  // as of any new folder
   }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;

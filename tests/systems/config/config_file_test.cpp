@@ -65,6 +65,13 @@ TEST(UnreadableFile, IsRefused) {
               ElementsAre(EndsWith("the name is empty; it must be the name of a file")));
 }
 
+TEST(UnreadableFile, IsToldWithTheReasonOfTheSystem) {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("loop.yaml", folder / "loop.yaml");
+  EXPECT_THAT(problems_of_file((folder / "loop.yaml").string()),
+              ElementsAre(EndsWith("loop.yaml: cannot be read: Too many levels of symbolic links")));
+}
+
 TEST(UnreadableFile, MayKeepItsReaderWaiting) {
   if (!std::ifstream("/proc/kmsg")) GTEST_SKIP() << "only root may read the messages of the kernel";
   const auto begin = std::chrono::steady_clock::now();

@@ -31,6 +31,8 @@ TEST_F(AFileToBeRead, IsNeitherPipeNorDeviceNorFileOfTheKernel) {
   fs::create_symlink("pipe", folder / "link");
   for (const fs::path& file : {folder / "pipe", folder / "link", fs::path("/dev/zero")})
     EXPECT_EQ(problem_with_reading(file), "is no regular file; it must be one") << file;
+  fs::create_symlink("loop", folder / "loop");
+  EXPECT_EQ(problem_with_reading(folder / "loop"), "cannot be read: Too many levels of symbolic links");
   EXPECT_EQ(problem_with_reading("/proc/version"), "is empty") << "so says it itself";
 }
 
