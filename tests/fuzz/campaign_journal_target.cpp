@@ -8,6 +8,7 @@
 #include "experiments/campaign/campaign.h"
 #include "tests/fuzz/fuzz_files.h"
 #include "tests/fuzz/fuzz_target.h"
+#include "tests/support/file_bytes.h"
 
 namespace flinch::test {
 namespace {
@@ -47,7 +48,7 @@ std::string first_line(const Campaign& campaign) {
   const std::filesystem::path folder = fuzz_folder() / "empty_campaign";
   std::filesystem::create_directories(folder);
   { const CampaignJournal journal(folder, campaign); }
-  const std::string text = bytes_of_file(folder / "results.part");
+  const std::string text = bytes_of(folder / "results.part");
   return text.substr(0, text.find('\n') + 1);
 }
 

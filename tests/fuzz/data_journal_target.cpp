@@ -8,6 +8,7 @@
 #include "systems/config/robot_file.h"
 #include "tests/fuzz/fuzz_files.h"
 #include "tests/fuzz/fuzz_target.h"
+#include "tests/support/file_bytes.h"
 
 namespace flinch::test {
 namespace {
@@ -24,7 +25,7 @@ std::string journal_of(const ContactSamples* samples) {
     DataJournal journal(file, DataSpec{}, robot());
     if (samples != nullptr) journal.add(1, *samples);
   }
-  return bytes_of_file(file);
+  return bytes_of(file);
 }
 
 /// What stands before a frame: its length, and FNV-1a of its bytes.

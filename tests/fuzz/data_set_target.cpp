@@ -3,6 +3,7 @@
 #include "systems/config/robot_file.h"
 #include "tests/fuzz/fuzz_files.h"
 #include "tests/fuzz/fuzz_target.h"
+#include "tests/support/file_bytes.h"
 
 namespace flinch::test {
 namespace {
@@ -12,7 +13,7 @@ void read(std::string_view bytes) { counts_table(read_data_set(fuzz_file("fuzzed
 std::vector<std::string> seeds() {
   DataSet data;
   data.robot_file = "five_bar.yaml";
-  data.robot_text = bytes_of_file(FLINCH_SOURCE_DIR "/apps/robots/five_bar.yaml");
+  data.robot_text = bytes_of(FLINCH_SOURCE_DIR "/apps/robots/five_bar.yaml");
   data.robot = parse_robot_file(data.robot_text, data.robot_file).robot;
   data.card = {{"title", "two contacts"}, {"seed", "1"}};
   for (int i = 0; i < 2; ++i) {
@@ -24,7 +25,7 @@ std::vector<std::string> seeds() {
   }
   const std::filesystem::path file = fuzz_folder() / "seed_set.h5";
   write_data_set(data, file);
-  return {bytes_of_file(file)};
+  return {bytes_of(file)};
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 #include "tests/fuzz/fuzz_files.h"
+#include "tests/support/file_bytes.h"
 
 #include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
-#include <iterator>
 #include <set>
 
 namespace flinch::test {
@@ -40,11 +40,6 @@ fs::path fuzz_file(const std::string& name, std::string_view bytes) {
   return file;
 }
 
-std::string bytes_of_file(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 std::vector<std::string> shipped_files(const std::string& folder, const std::string& extension) {
   const fs::path apps = fs::path(FLINCH_SOURCE_DIR) / "apps";
   std::set<fs::path> files;
@@ -53,7 +48,7 @@ std::vector<std::string> shipped_files(const std::string& folder, const std::str
   }
   std::vector<std::string> texts;
   for (const fs::path& file : files) {
-    std::string text = bytes_of_file(file);
+    std::string text = bytes_of(file);
     const std::string up = "../", whole = apps.string() + "/";
     for (std::size_t at = 0; (at = text.find(up, at)) != std::string::npos; at += whole.size())
       text.replace(at, up.size(), whole);

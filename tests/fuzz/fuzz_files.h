@@ -13,8 +13,6 @@ const std::filesystem::path& fuzz_folder();
 /// Writes the bytes to a file in it.
 std::filesystem::path fuzz_file(const std::string& name, std::string_view bytes);
 
-std::string bytes_of_file(const std::filesystem::path& file);
-
 /// The files of a folder of apps/ with that extension, in the order of their names; what they name by
 /// "../FOLDER" they name by its whole path.
 std::vector<std::string> shipped_files(const std::string& folder, const std::string& extension);

@@ -12,6 +12,7 @@
 #include "systems/framework/random.h"
 #include "tests/fuzz/fuzz_files.h"
 #include "tests/fuzz/fuzz_target.h"
+#include "tests/support/file_bytes.h"
 #include "tests/support/sanitized.h"
 
 namespace flinch::test {
@@ -24,7 +25,7 @@ std::vector<std::string> corpus_of(const FuzzTarget& target) {
   if (!std::filesystem::exists(folder)) return all;
   std::set<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) files.insert(entry.path());
-  for (const std::filesystem::path& file : files) all.push_back(bytes_of_file(file));
+  for (const std::filesystem::path& file : files) all.push_back(bytes_of(file));
   return all;
 }
 

@@ -2,6 +2,7 @@
 #include "learning/onnx_file.h"
 #include "tests/fuzz/fuzz_files.h"
 #include "tests/fuzz/fuzz_target.h"
+#include "tests/support/file_bytes.h"
 
 namespace flinch::test {
 namespace {
@@ -30,7 +31,7 @@ std::vector<std::string> seeds() {
                            .bias = Eigen::VectorXd::Ones(2),
                            .activation = Activation::none}};
   model.network.result = NetworkResult::softmax_of_outputs;
-  return {onnx_bytes(model), bytes_of_file(FLINCH_SOURCE_DIR "/apps/models/bodies.onnx")};
+  return {onnx_bytes(model), bytes_of(FLINCH_SOURCE_DIR "/apps/models/bodies.onnx")};
 }
 
 }  // namespace

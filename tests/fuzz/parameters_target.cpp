@@ -2,12 +2,13 @@
 #include "systems/config/parameter_file.h"
 #include "tests/fuzz/fuzz_files.h"
 #include "tests/fuzz/fuzz_target.h"
+#include "tests/support/file_bytes.h"
 
 namespace flinch::test {
 namespace {
 
 const std::string& robot_text() {
-  static const std::string text = bytes_of_file(FLINCH_SOURCE_DIR "/apps/robots/planar_3rrr.yaml");
+  static const std::string text = bytes_of(FLINCH_SOURCE_DIR "/apps/robots/planar_3rrr.yaml");
   return text;
 }
 

@@ -9,6 +9,7 @@
 #include "tests/fuzz/fuzz_files.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/read_recording.h"
+#include "tests/support/file_bytes.h"
 #include "tests/systems/framework/honest_recording.h"
 
 namespace flinch::test {
@@ -62,7 +63,7 @@ std::vector<std::string> seeds() {
     const SampleBlock all{recording.time_ns, {{recording.signals[0].rows.data(), numbers, numbers}}};
     for (std::size_t first = 0; first < honest_samples; first += 10) journal.append(all.part(first, 10));
   }
-  return {bytes_of_file(file)};
+  return {bytes_of(file)};
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "tests/fuzz/fuzz_files.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/read_recording.h"
+#include "tests/support/file_bytes.h"
 #include "tests/systems/framework/honest_recording.h"
 
 namespace flinch::test {
@@ -13,7 +14,7 @@ void read(std::string_view bytes) { read_all_of(open_recording(fuzz_file("fuzzed
 std::vector<std::string> seeds() {
   const std::filesystem::path file = fuzz_folder() / "seed.h5";
   write_recording(honest_recording(), file);
-  return {bytes_of_file(file)};
+  return {bytes_of(file)};
 }
 
 }  // namespace

@@ -7,13 +7,14 @@
 #include "systems/foundation/setup_error.h"
 #include "tests/fuzz/fuzz_files.h"
 #include "tests/fuzz/fuzz_target.h"
+#include "tests/support/file_bytes.h"
 
 namespace flinch::test {
 namespace {
 
 void set_value(const std::string& text) {
   static const auto scenario =
-      parse_yaml(bytes_of_file(FLINCH_SOURCE_DIR "/apps/scenarios/platform_collision.yaml"), "scenario.yaml");
+      parse_yaml(bytes_of(FLINCH_SOURCE_DIR "/apps/scenarios/platform_collision.yaml"), "scenario.yaml");
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos) return;
   yaml_text(*with_value(*scenario, text.substr(0, equals), parse_yaml(text.substr(equals + 1), "--set")));

@@ -2,20 +2,18 @@
 // is the older result or the new one, whole; what the dead have left goes with the next call. 10 kills of
 // each verb; FLINCH_KILLS in the environment says how many instead.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
 #include <iostream>
 
 #include "systems/framework/random.h"
 #include "tests/campaign/interrupted/verb_results.h"
 #include "tests/support/flinch_program.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/wanted.h"
 
 namespace flinch {
 namespace {
 
-namespace fs = std::filesystem;
 using test::InterruptedVerb;
 using test::OtherProgram;
 using test::VerbResults;
@@ -52,10 +50,9 @@ class KilledVerbs : public testing::Test {
               << left << " files lay there besides until the next call" << std::endl;
   }
 
-  VerbResults results_{fs::temp_directory_path() / ("flinch_killed_" + std::to_string(::getpid()))};
+  test::TemporaryFolder folder_;
+  VerbResults results_{folder_.path()};
   RandomGenerator random_{3};
-
-  void TearDown() override { fs::remove_all(results_.folder()); }
 };
 
 TEST_F(KilledVerbs, RunLeavesTheOlderRecordingOrTheNewOne) { kill_at_random_moments(results_.run()); }

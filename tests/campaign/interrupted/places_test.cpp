@@ -8,6 +8,7 @@
 
 #include "tests/campaign/interrupted/verb_results.h"
 #include "tests/support/flinch_program.h"
+#include "tests/support/temporary_folder.h"
 
 namespace flinch {
 namespace {
@@ -19,9 +20,8 @@ using test::VerbResults;
 
 class Places : public testing::Test {
  protected:
-  void TearDown() override { fs::remove_all(results_.folder()); }
-
-  VerbResults results_{fs::temp_directory_path() / ("flinch_places_" + std::to_string(::getpid()))};
+  test::TemporaryFolder folder_;
+  VerbResults results_{folder_.path()};
 };
 
 TEST_F(Places, ThatTwoRunsWantBelongToTheFirst) {
