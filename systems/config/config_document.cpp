@@ -44,11 +44,27 @@ std::string mistaken_for(const std::string& written, std::vector<WantedKey>& wan
   return written;
 }
 
+std::string listed(const std::vector<std::string>& words) {
+  std::string list;
+  for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
+  return list;
+}
+
+// Where other keys depend on a word, it is the word that is wrong or missing: so they are told as well.
+std::vector<std::string> known_keys_with_words(const std::vector<WantedKey>& wanted) {
+  std::vector<std::string> keys;
+  for (const WantedKey& key : wanted)
+    keys.push_back(key.with_si_unit() + (key.words.empty() ? "" : " (" + listed(key.words) + ")"));
+  return keys;
+}
+
 std::string complaint_about_key(const std::string& written, const std::vector<WantedKey>& wanted) {
   const std::vector<std::string> known = known_keys(wanted);
-  const bool looked_for = std::find(known.begin(), known.end(), written) != known.end();
-  return looked_for ? "has no effect here; leave it out"
-                    : "is not a known key" + did_you_mean(written, known);
+  if (std::find(known.begin(), known.end(), written) != known.end())
+    return "has no effect here; leave it out";
+  const bool is_near = !nearest_name(written, known).empty();
+  return "is not a known key" +
+         (is_near ? did_you_mean(written, known) : known_names(known_keys_with_words(wanted)));
 }
 
 std::string complaint_about_unit(std::string_view written, const WantedKey& meant) {
@@ -68,6 +84,7 @@ void note_wanted(std::vector<WantedKey>& wanted, WantedKey key) {
     wanted.push_back(std::move(key));
   } else {
     known->required = known->required || key.required;
+    if (!key.words.empty()) known->words = std::move(key.words);
   }
 }
 
@@ -109,7 +126,7 @@ ConfigSection& ConfigDocument::add_section(const ConfigNode* node, std::string p
 }
 
 FoundValue ConfigDocument::find(ConfigSection& section, std::string_view name, const Unit& unit,
-                                bool required) {
+                                bool required, const std::vector<std::string>& words) {
   FoundValue found;
   found.key = section.path_of(name);
   found.written = found.key;
@@ -132,7 +149,7 @@ FoundValue ConfigDocument::find(ConfigSection& section, std::string_view name, c
               "; keep one of them");
     }
   }
-  note_wanted(section.wanted, {std::string(name), unit, required, found.node != nullptr});
+  note_wanted(section.wanted, {std::string(name), unit, required, found.node != nullptr, words});
   if (required && found.node == nullptr) incomplete_ = true;
   return found;
 }
@@ -239,7 +256,7 @@ void ConfigDocument::report_missing(const ConfigSection& section) {
   for (const WantedKey& wanted : section.wanted) {
     if (!wanted.required || wanted.found) continue;
     add(section.place, section.path_of(wanted.name), section.path_of(wanted.with_si_unit()),
-        "is missing; it must be given");
+        "is missing; it must be " + (wanted.words.empty() ? "given" : "one of " + listed(wanted.words)));
   }
 }
 

@@ -19,6 +19,7 @@ struct WantedKey {
   Unit unit;
   bool required = false;
   bool found = false;
+  std::vector<std::string> words = {};  ///< one of which must stand there; none: it is no such choice
 
   std::string with_si_unit() const { return key_with_unit(name, unit.key); }
 };
@@ -63,7 +64,9 @@ class ConfigDocument {
   ConfigSection& add_section(const ConfigNode* node, std::string path, ConfigPlace place);
 
   /// Finds and takes the value called `name`, in any unit of that quantity. Absent and required is a problem.
-  FoundValue find(ConfigSection& section, std::string_view name, const Unit& unit, bool required);
+  /// `words`: those that may stand there, if they are few.
+  FoundValue find(ConfigSection& section, std::string_view name, const Unit& unit, bool required,
+                  const std::vector<std::string>& words = {});
 
   /// Whether there is such a key, without a unit; it is known from now on, but not taken.
   bool has(ConfigSection& section, std::string_view name);

@@ -226,7 +226,7 @@ void ConfigReader::file(std::string_view name, std::filesystem::path& value) {
 
 std::optional<std::size_t> ConfigReader::choose(std::string_view name, const std::vector<std::string>& words,
                                                 std::optional<std::size_t> standard) {
-  const FoundValue found = document_->find(*section_, name, unit::none, required_);
+  const FoundValue found = document_->find(*section_, name, unit::none, required_, words);
   std::optional<std::size_t> chosen = standard;
   if (found.node != nullptr) {
     const auto word = std::find(words.begin(), words.end(), found.node->scalar);

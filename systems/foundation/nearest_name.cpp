@@ -40,12 +40,15 @@ std::string nearest_name(std::string_view name, std::span<const std::string> kno
   return nearest;
 }
 
+std::string known_names(std::span<const std::string> known) {
+  std::string list;
+  for (const std::string& name : known) list += (list.empty() ? "; known are: " : ", ") + name;
+  return list;
+}
+
 std::string did_you_mean(std::string_view name, std::span<const std::string> known) {
   const std::string nearest = nearest_name(name, known);
-  if (!nearest.empty()) return "; did you mean '" + nearest + "'?";
-  std::string list;
-  for (const std::string& candidate : known) list += (list.empty() ? "" : ", ") + candidate;
-  return list.empty() ? "" : "; known are: " + list;
+  return nearest.empty() ? known_names(known) : "; did you mean '" + nearest + "'?";
 }
 
 }  // namespace flinch

@@ -10,6 +10,9 @@ namespace flinch {
 /// near.
 std::string nearest_name(std::string_view name, std::span<const std::string> known);
 
+/// "; known are: " and all names; empty where there are none.
+std::string known_names(std::span<const std::string> known);
+
 /// "; did you mean 'x'?" for the nearest known name, or a list of all known names when none is near.
 std::string did_you_mean(std::string_view name, std::span<const std::string> known);
 

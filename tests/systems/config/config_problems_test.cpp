@@ -305,6 +305,29 @@ TEST(WrongWord, IsToldWithTheNearestChoice) {
               ElementsAre("a.yaml:1: observer: is a list; known are: momentum, kalman"));
 }
 
+TEST(MissingWord, IsToldWithAllChoices) {
+  const auto read = [](ConfigReader& reader) {
+    int observer = 2;
+    reader.required().choice("observer", observer, {{"momentum", 0}, {"kalman", 1}});
+  };
+  EXPECT_THAT(problems_of("{}", read),
+              ElementsAre("a.yaml:1: observer: is missing; it must be one of momentum, kalman"));
+}
+
+TEST(MissingWord, IsToldWithKeysThatItWouldMakeKnown) {
+  const auto read = [](ConfigReader& reader) {
+    int observer = 0;
+    double gain = 0.0;
+    reader.choice("observer", observer, {{"momentum", 0}, {"kalman", 1}});
+    if (observer == 0) reader.number("gain", unit::per_s, gain);
+    if (observer == 1) reader.number("density", unit::N2_per_s, gain);
+  };
+  EXPECT_THAT(problems_of("density_N2_per_s: 3", read),
+              ElementsAre("a.yaml:1: density_N2_per_s: is not a known key; known are: observer (momentum, "
+                          "kalman), gain_per_s"));
+  EXPECT_THAT(problems_of("{observer: kalman, density_N2_per_s: 3}", read), ElementsAre());
+}
+
 TEST(WrongSection, IsNoMapping) {
   const auto read = [](ConfigReader& reader) {
     double mass = 0.0;

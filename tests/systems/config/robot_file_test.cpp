@@ -275,7 +275,9 @@ TEST_F(ChangedRobotFile, IsOfAKindThatIsKnown) {
               ElementsAre(line(1) + "kind: is 'hexapod'; known are: planar_3rrr, five_bar, hexapod_6ups"))
       << "the keys of another robot are not judged";
   replace("kind: hexapod\n", "");
-  EXPECT_THAT(problems(), ElementsAre(line(1) + "kind: is missing; it must be given"));
+  EXPECT_THAT(
+      problems(),
+      ElementsAre(line(1) + "kind: is missing; it must be one of planar_3rrr, five_bar, hexapod_6ups"));
 }
 
 TEST_F(ChangedRobotFile, HasASoundRobotOfItsKindThoughItIsNoGood) {
