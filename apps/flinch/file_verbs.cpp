@@ -21,8 +21,8 @@
 #include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/diagram.h"
+#include "systems/framework/hdf5_format.h"
 #include "systems/framework/recording_journal.h"
-#include "systems/framework/table_file.h"
 
 namespace flinch {
 namespace {

@@ -5,10 +5,10 @@
 #include <system_error>
 
 #include "systems/foundation/setup_error.h"
+#include "systems/framework/hdf5_format.h"
 #include "systems/framework/hdf5_object.h"
 #include "systems/framework/recording_check.h"
 #include "systems/framework/recording_journal.h"
-#include "systems/framework/table_file.h"
 
 namespace flinch {
 namespace {

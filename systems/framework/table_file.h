@@ -19,8 +19,4 @@ struct TableColumn {
 void write_table(const std::vector<TableColumn>& columns,
                  const std::map<std::string, std::string>& attributes, const std::filesystem::path& file);
 
-/// What an HDF5 file says that it is, in the attribute `format` of its root: "flinch campaign"; "" where it
-/// does not say, and where it is none.
-std::string hdf5_format(const std::filesystem::path& file);
-
 }  // namespace flinch

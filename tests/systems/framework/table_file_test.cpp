@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <limits>
 
 #include "systems/foundation/setup_error.h"
@@ -23,16 +22,6 @@ class ATableFile : public ::testing::Test {
       {"time_s", std::vector<double>{0.1, std::numeric_limits<double>::quiet_NaN(), -3e-300}},
       {"obstacles[0].name", std::vector<std::string>{"pylon", "", "a longer name"}}};
 };
-
-TEST_F(ATableFile, SaysWhatItIs) {
-  write_table(columns, {{"format", "a table"}}, folder / "table.h5");
-  EXPECT_EQ(hdf5_format(folder / "table.h5"), "a table");
-  write_table(columns, {}, folder / "table.h5");
-  EXPECT_EQ(hdf5_format(folder / "table.h5"), "") << "it does not say";
-  std::ofstream(folder / "text.h5") << "format: a table";
-  EXPECT_EQ(hdf5_format(folder / "text.h5"), "");
-  EXPECT_EQ(hdf5_format(folder / "none.h5"), "");
-}
 
 TEST_F(ATableFile, HoldsEveryColumn) {
   write_table(columns, {{"format", "a table"}}, folder / "table.h5");
