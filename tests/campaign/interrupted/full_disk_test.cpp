@@ -4,7 +4,6 @@
 #include <sched.h>
 #include <sys/mount.h>
 #include <sys/statvfs.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <iostream>
@@ -12,6 +11,7 @@
 
 #include "tests/campaign/interrupted/verb_results.h"
 #include "tests/support/flinch_program.h"
+#include "tests/support/temporary_folder.h"
 
 namespace flinch {
 namespace {
@@ -27,26 +27,25 @@ constexpr std::size_t plenty = 256 << 20;
 class SmallDisk : public testing::Test {
  protected:
   void SetUp() override {
-    fs::create_directories(disk_);
     is_mounted_ = ::unshare(CLONE_NEWNS) == 0 &&
                   ::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 && mount(plenty, 0);
     if (!is_mounted_) GTEST_SKIP() << "a small disk needs the right to mount file systems";
-    results_.emplace(disk_ / "out");
+    results_.emplace(folder_ / "out");
   }
   void TearDown() override {
     results_.reset();
-    if (is_mounted_) ::umount(disk_.c_str());
-    fs::remove_all(disk_);
+    if (is_mounted_) ::umount(folder_.path().c_str());
   }
 
   bool mount(std::size_t size, unsigned long flags) const {
-    return ::mount("flinch", disk_.c_str(), "tmpfs", flags, ("size=" + std::to_string(size)).c_str()) == 0;
+    return ::mount("flinch", folder_.path().c_str(), "tmpfs", flags,
+                   ("size=" + std::to_string(size)).c_str()) == 0;
   }
   /// Leaves so many bytes free.
   void leave(std::size_t bytes) const {
     ASSERT_TRUE(mount(plenty, MS_REMOUNT));
     struct statvfs now {};
-    ASSERT_EQ(::statvfs(disk_.c_str(), &now), 0);
+    ASSERT_EQ(::statvfs(folder_.path().c_str(), &now), 0);
     ASSERT_TRUE(mount((now.f_blocks - now.f_bfree) * now.f_frsize + bytes, MS_REMOUNT));
   }
 
@@ -78,7 +77,7 @@ class SmallDisk : public testing::Test {
     EXPECT_EQ(written, 3);
   }
 
-  fs::path disk_ = fs::temp_directory_path() / ("flinch_disk_" + std::to_string(::getpid()));
+  const test::TemporaryFolder folder_;
   bool is_mounted_ = false;
   std::optional<VerbResults> results_;
 };
