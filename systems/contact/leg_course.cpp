@@ -61,8 +61,7 @@ std::optional<LegCourses> leg_courses(const ParallelRobot& robot, const Kinemati
   for (const CourseMoment& moment : moments)
     if (moment.wrench_in_base.size() != dof || moment.velocity.size() != dof) return std::nullopt;
   LegCourses courses{};
-  const PlatformVector deviation =
-      WrenchUncertainty().covariance(robot.space(), PlatformVector::Zero(dof)).diagonal().cwiseSqrt();
+  const PlatformVector deviation = WrenchUncertainty().deviation_without_contact(robot.space());
   for (int leg = 0; leg < robot.legs(); ++leg)
     courses[static_cast<std::size_t>(leg)] = leg_course(robot, now, deviation, moments, leg);
   return courses;

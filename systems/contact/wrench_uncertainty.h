@@ -23,11 +23,15 @@ struct WrenchUncertainty {
     return variance.asDiagonal();
   }
 
+  /// Standard deviation of each component where the wrench is zero.
+  PlatformVector deviation_without_contact(const ConfigurationSpace& space) const {
+    return covariance(space, PlatformVector::Zero(space.dimension())).diagonal().cwiseSqrt();
+  }
+
   /// The size of an estimated wrench in deviations of one that is zero: how far it stands out of what an
   /// estimate errs by without any contact.
   double size(const ConfigurationSpace& space, const PlatformVector& wrench) const {
-    const PlatformVector none = PlatformVector::Zero(space.dimension());
-    return wrench.cwiseQuotient(covariance(space, none).diagonal().cwiseSqrt()).norm();
+    return wrench.cwiseQuotient(deviation_without_contact(space)).norm();
   }
 
   void find_problems(Findings& found) const {
