@@ -5,9 +5,9 @@
 
 namespace flinch {
 
-/// Motor currents at one instant, one entry per drive.
+/// Motor currents, one entry per drive, as means since the tick before: they tell the torque that acted then.
 struct DriveReading {
-  Time acquired{};
+  Time acquired{};  ///< end of that time; where a drive holds its torque, any instant of it tells the mean
   bool valid = false;
   JointVector current;  ///< torque-producing current i_q [A]
 
