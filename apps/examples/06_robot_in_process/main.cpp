@@ -3,6 +3,8 @@
 //
 //   MyRobot --readings--> guards --> control path --torque, brake--> MyRobot
 //
+// A robot without passive encoders says so in its reading of the joints; one without an IMU sets none.
+//
 // The scenario is one of those that flinch ships; the platform runs into MyRobot's wall. Start it in the root
 // of the tree.
 #include <cstdio>
@@ -28,6 +30,7 @@ class MyExchange final : public Exchange {
       : robot_(robot),
         joints_(experiment.diagram->slot(experiment.station.arriving_joints)),
         drives_(experiment.diagram->slot(experiment.station.arriving_drives)),
+        imu_(experiment.diagram->slot(experiment.station.arriving_imu)),
         status_(experiment.diagram->slot(experiment.station.arriving_status)),
         torque_(experiment.diagram->slot(experiment.station.torque_command)),
         brake_(experiment.diagram->slot(experiment.station.brake)) {}
@@ -38,6 +41,7 @@ class MyExchange final : public Exchange {
     ++number_;
     context[joints_] = {{now, true, true, told.active, told.passive}, 1, number_};
     context[drives_] = {{now, true, told.current}, 1, number_};
+    context[imu_] = {{now, true, told.angular_velocity, told.specific_force}, 1, number_};
     context[status_] = {{now, true, true, told.braked, false}, 1, number_};  // enabled, no fault
   }
 
@@ -50,6 +54,7 @@ class MyExchange final : public Exchange {
   MyRobot& robot_;
   Slot<Arrival<JointReading>> joints_;
   Slot<Arrival<DriveReading>> drives_;
+  Slot<Arrival<ImuReading>> imu_;
   Slot<Arrival<StationStatus>> status_;
   Slot<TorqueCommand> torque_;
   Slot<BrakeCommand> brake_;
@@ -60,7 +65,7 @@ bool run_into_the_wall() {
   const Scenario scenario = read_scenario("apps/scenarios/platform_collision.yaml");
   const LiveExperiment experiment = build_live_experiment(scenario);
   MyRobot robot(scenario.robot.robot, scenario.control.trajectory.path->start(),
-                scenario.control.drive_torque.torque_constant);
+                scenario.control.drive_torque.torque_constant, scenario.control.imu_mount);
   MyExchange exchange(robot, experiment);
 
   ClockTicks ticks;  // beside a robot that has a clock of its own: a TickSource of yours
@@ -81,7 +86,9 @@ bool run_into_the_wall() {
   std::printf("touched at %.3f s, noticed %.0f ms later, %s; fault: %s\n", touched, 1e3 * (noticed - touched),
               robot.touches() ? "still touching" : "removed", verdict.fault.empty() ? "none" : "yes");
   const bool soon = noticed >= touched && noticed < touched + 0.020;
-  return robot.touched() && soon && !robot.touches() && verdict.fault.empty();
+  const bool is_believed = context.get(experiment.station.imu).valid &&
+                           context.get(experiment.control.plausibility).imu_doubt == ImuDoubt::none;
+  return robot.touched() && soon && !robot.touches() && verdict.fault.empty() && is_believed;
 }
 
 }  // namespace

@@ -4,13 +4,15 @@
 #include <optional>
 
 #include "systems/framework/time.h"
+#include "systems/robot/imu_mount.h"
 #include "systems/robot/parallel_robot.h"
 
 /// What the robot tells once a millisecond, in units and signs of the robot file.
 struct MyReadings {
-  flinch::JointVector active;   ///< encoders of the drives [rad]
-  flinch::JointVector passive;  ///< encoders of the elbows [rad]
-  flinch::JointVector current;  ///< [A]
+  flinch::JointVector active;                        ///< encoders of the drives [rad]
+  flinch::JointVector passive;                       ///< encoders of the elbows [rad]
+  flinch::JointVector current;                       ///< [A]
+  Eigen::Vector3d angular_velocity, specific_force;  ///< of the IMU, in its axes [rad/s, m/s^2]
   bool braked = true;
 };
 
@@ -19,7 +21,7 @@ struct MyReadings {
 class MyRobot {
  public:
   MyRobot(std::shared_ptr<const flinch::ParallelRobot> robot, flinch::Configuration pose,
-          flinch::JointVector torque_constant);
+          flinch::JointVector torque_constant, const flinch::MountedImu& imu);
 
   MyReadings read() const;
   /// A millisecond with this torque [Nm]; none: brakes.
@@ -34,8 +36,9 @@ class MyRobot {
 
   std::shared_ptr<const flinch::ParallelRobot> robot_;
   flinch::Configuration pose_;
-  flinch::PlatformVector velocity_;
+  flinch::PlatformVector velocity_, acceleration_;
   flinch::JointVector torque_constant_, torque_;
+  flinch::MountedImu imu_;
   bool braked_ = true;
   flinch::Time time_{};
   std::optional<flinch::Time> touched_;
