@@ -16,6 +16,11 @@ LiveExperiment build_live_experiment(const Scenario& scenario) {
   connect(builder, experiment.station, experiment.control);
   experiment.operator_command = builder.export_input("operator", experiment.control.operator_command);
   experiment.target = builder.export_input("target", experiment.control.target);
+  if (scenario.control.contact_is_told) {
+    experiment.told_classification =
+        builder.export_input("told_classification", experiment.control.told_classification);
+    experiment.told_location = builder.export_input("told_location", experiment.control.told_location);
+  }
   experiment.tick_timing = builder.export_input("tick_timing", experiment.control.tick_timing);
   export_readings(builder, experiment.station);
   export_control(builder, experiment.control);

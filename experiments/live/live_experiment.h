@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "diagrams/contact_control.h"
 #include "diagrams/external_station.h"
@@ -19,6 +20,9 @@ struct LiveExperiment {
   ContactControl control;
   InputPort<OperatorCommand> operator_command;
   InputPort<TargetCommand> target;
+  /// What touches the robot and where, for a program that knows it: with `control.contact_is_told`.
+  std::optional<InputPort<ContactClassification>> told_classification;
+  std::optional<InputPort<ContactLocation>> told_location;
   InputPort<TickTiming> tick_timing;  ///< for RealtimeRunner::feed_timing()
   int translations = 2;               ///< directions in which the platform moves
 };
