@@ -13,7 +13,7 @@ template <class T>
 class DelayLine {
  public:
   static constexpr std::size_t capacity = 16;
-  static constexpr std::size_t longest_delay = capacity - 1;  ///< below which all delays are [periods]
+  static constexpr int longest_delay = capacity - 1;  ///< below which all delays are [periods]
 
   /// Takes a sample later than all before, and forgets the oldest where it holds `capacity`.
   void push(const T& sample) {
@@ -32,9 +32,7 @@ class DelayLine {
   }
 
   /// Whether every sample, taken every `period`, is still held when it is `delay` old.
-  static bool can_delay(Time delay, Time period) {
-    return delay < period * static_cast<Time::rep>(longest_delay);
-  }
+  static bool can_delay(Time delay, Time period) { return delay < longest_delay * period; }
 
  private:
   std::array<T, capacity> samples_{};

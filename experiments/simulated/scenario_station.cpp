@@ -13,6 +13,7 @@
 #include "experiments/simulated/scenario_realism.h"
 #include "experiments/simulated/simulated_obstacles.h"
 #include "plant/contacts_at_start.h"
+#include "plant/delay_line.h"
 #include "plant/simulated_station.h"
 #include "plant/specimen.h"
 #include "plant/true_robot.h"
@@ -27,6 +28,11 @@ namespace {
 template <class Vector>
 std::span<double> entries(Vector& vector) {
   return {vector.data(), static_cast<std::size_t>(vector.size())};
+}
+
+/// Times below `limit` that stay below it when they are rounded to nanoseconds.
+Range shorter_than(Time limit) {
+  return {.low = 0.0, .high = to_seconds(limit) - 0.5e-9, .high_included = false};
 }
 
 enum class PlantFriction { as_robot_file, none };
@@ -49,6 +55,15 @@ void read_classification(ConfigReader& plant, const ParallelRobot& robot, std::s
 void read_scales(ConfigReader& plant, const char* name, int count, JointVector& scales) {
   scales.setOnes(count);
   plant.numbers(name, unit::none, entries(scales), not_negative);
+}
+
+Configuration read_start(ConfigReader& plant, const ParallelRobot& robot) {
+  const Configuration pose = read_pose(plant.section("initial_pose"), robot);
+  Kinematics there;
+  robot.kinematics(pose, PlatformVector::Zero(robot.dof()), there);
+  if (!there.reachable)
+    plant.problem("initial_pose", "is out of the reach of the legs; choose a nearer pose");
+  return pose;
 }
 
 /// What is true of the robot, where that differs from what the controller believes; how far one that is drawn
@@ -79,9 +94,7 @@ Realism read_plant(ConfigReader plant, const Scenario& scenario, SimulatedStatio
     deviation.passive_friction_scale.setZero();
   }
   station.bench.robot = true_robot(built.robot, deviation);
-  if (plant.has("initial_pose")) {
-    station.bench.initial_pose = read_pose(plant.section("initial_pose"), *built.robot);
-  }
+  if (plant.has("initial_pose")) station.bench.initial_pose = read_start(plant, *built.robot);
   return read_realism(plant, *built.robot);
 }
 
@@ -89,6 +102,12 @@ void read_encoder(ConfigReader reader, const Unit& unit, EncoderErrors& errors) 
   reader.number("accuracy", unit, errors.accuracy, not_negative);
   reader.number("noise", unit, errors.noise, not_negative);
   reader.number("resolution", unit, errors.resolution, not_negative);
+}
+
+/// What a sensor that measures every `period` can still hold back.
+template <class Reading>
+Range deliverable(Time period) {
+  return shorter_than(DelayLine<Reading>::longest_delay * period);
 }
 
 void read_imu(ConfigReader reader, SimulatedImuSettings& imu) {
@@ -99,15 +118,15 @@ void read_imu(ConfigReader reader, SimulatedImuSettings& imu) {
   reader.number("gyroscope_density", unit::rad_per_s_per_sqrt_Hz, imu.gyroscope_density, not_negative);
   reader.number("accelerometer_bias", unit::m_per_s2, imu.accelerometer_bias, not_negative);
   reader.number("gyroscope_bias", unit::rad_per_s, imu.gyroscope_bias, not_negative);
-  reader.duration("before_tick", imu.before_tick, not_negative);
-  reader.duration("delay", imu.delay, not_negative);
+  reader.duration("before_tick", imu.before_tick, shorter_than(imu.period));
+  reader.duration("delay", imu.delay, deliverable<ImuReading>(imu.period));
 }
 
 void read_force_torque(ConfigReader reader, SimulatedForceTorqueSettings& sensor) {
   reader.flag("ideal", sensor.ideal);
   reader.number("force_noise", unit::N, sensor.force_noise, not_negative);
   reader.number("moment_noise", unit::Nm, sensor.moment_noise, not_negative);
-  reader.duration("delay", sensor.delay, not_negative);
+  reader.duration("delay", sensor.delay, deliverable<ForceTorqueReading>(sensor.period));
 }
 
 void read_instrument(ConfigReader reader, SimulatedInstrumentSettings& instrument) {
@@ -208,12 +227,8 @@ void read_station(ConfigReader& file, const Scenario& scenario, SimulatedStation
   specimen = draw_specimen(realism, *scenario.robot.robot, scenario.robot.drives.max_torque, scenario.seed);
   station = with_specimen(std::move(station), specimen);
   if (file.good()) {
-    for (const std::string& complaint : problems(station.bench)) file.add_problems({"plant: " + complaint});
-  }
-  if (file.good()) {
     for (const std::string& contact : contacts_at_start(station.bench)) file.problem("", contact);
   }
-  for (const std::string& complaint : problems(station.imu)) file.add_problems({"sensors.imu: " + complaint});
 }
 
 }  // namespace flinch

@@ -9,6 +9,7 @@
 #include "systems/framework/diagram.h"
 #include "systems/framework/recording.h"
 #include "systems/robot/planar_rrr.h"
+#include "tests/support/problems_of.h"
 #include "tests/support/workplace.h"
 
 namespace flinch {
@@ -17,6 +18,7 @@ namespace {
 using test::shipped;
 using ::testing::Contains;
 using ::testing::ElementsAre;
+using ::testing::EndsWith;
 
 /// The least that a scenario can say.
 constexpr const char* least = "robot: ../robots/planar_3rrr.yaml\nduration_s: 0.25\n";
@@ -82,6 +84,22 @@ TEST(SimulatedScenario, TellsWhatIsWrongWithItsOwnSectionsAsWell) {
     EXPECT_THAT(error.problems(), ElementsAre(::testing::HasSubstr("own.yaml:3: plant.payload_kg: "),
                                               ::testing::HasSubstr("own.yaml:4: sensors.ideal: ")));
   }
+}
+
+TEST(SimulatedScenario, SaysWhereSomethingStandsThatNoSensorAndNoRobotCanDo) {
+  const test::Workplace place;
+  const std::string text = std::string(least) + "plant:\n  initial_pose: {x_m: 3}\nsensors:\n  imu:\n" +
+                           "    before_tick_us: 1000\n    delay_us: 90000\n  force_torque: {delay_ms: 15}\n";
+  EXPECT_THAT(
+      test::problems_of([&] { scenario_of(place, text); }),
+      ElementsAre(EndsWith("own.yaml:4: plant.initial_pose: is out of the reach of the legs; choose a "
+                           "nearer pose"),
+                  EndsWith("own.yaml:7: sensors.imu.before_tick_us: is 1000; it must be at least 0 and "
+                           "less than 1000"),
+                  EndsWith("own.yaml:8: sensors.imu.delay_us: is 90000; it must be at least 0 and less "
+                           "than 15000"),
+                  EndsWith("own.yaml:9: sensors.force_torque.delay_ms: is 15; it must be at least 0 and "
+                           "less than 15")));
 }
 
 TEST(SimulatedScenario, SimulatesTheRobotThatTheControllerBelievesIn) {
