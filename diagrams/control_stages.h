@@ -66,6 +66,7 @@ struct ContactPorts : EstimatePorts {
   OutputPort<ContactDetection> detection;       ///< of the followed detector
   OutputPort<ContactPhase> contact;             ///< one contact after the other
   OutputPort<WrenchEstimate> isolation_wrench;  ///< of an observer that is faster than the one that detects
+  OutputPort<WrenchEstimate> isolation_change;  ///< what that has changed by of late
   OutputPort<ContactFeatures> features;         ///< of that wrench, as the next
   OutputPort<ContactEvidence> evidence;         ///< weighed while a contact lasts
 };

@@ -7,6 +7,7 @@
 #include "systems/contact/course_memory.h"
 #include "systems/contact/evidence_estimator.h"
 #include "systems/contact/particle_locator.h"
+#include "systems/contact/wrench_trend.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/random.h"
 
@@ -35,6 +36,7 @@ void connect_locator(const StageSite& site, const ClassifiedPorts& given, Locato
   site.builder.connect(given.classification, locator.classification);
   site.builder.connect(given.kinematics, locator.kinematics);
   site.builder.connect(given.isolation_wrench, locator.wrench);
+  site.builder.connect(given.isolation_change, locator.change);
 }
 
 LocatorPorts add_closed_form(const StageSite& site, const ClassifiedPorts& given) {
@@ -119,10 +121,13 @@ ContactPorts add_isolation(const StageSite& site, const EstimatePorts& given,
   builder.connect(given.reset, period.reset);
   builder.connect(given.kinematics, features.kinematics);
   builder.connect(observer.wrench, features.wrench);
+  auto& trend = builder.add<WrenchTrend>("isolation_trend", from_seconds(1.0 / settings.observer_gain));
+  builder.connect(observer.wrench, trend.wrench);
   builder.connect(period.phase, evidence.phase);
   builder.connect(given.kinematics, evidence.kinematics);
   builder.connect(observer.wrench, evidence.wrench);
-  return {given, detection, period.phase, observer.wrench, features.features, evidence.evidence};
+  return {given,        detection,         period.phase,     observer.wrench,
+          trend.change, features.features, evidence.evidence};
 }
 
 }  // namespace flinch

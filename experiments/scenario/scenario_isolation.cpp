@@ -15,8 +15,7 @@ void read_isolation(ConfigReader isolation, IsolationSettings& settings) {
   isolation.number("accept", unit::none, settings.model_classifier.accept, fraction);
   isolation.duration("window", settings.model_classifier.window, not_negative);
   isolation.number("leaning", unit::none, settings.closed_form.leaning, not_negative);
-  settings.particle_filter.angled = settings.closed_form.leaning > 0.0;
-  if (settings.particle_filter.angled) settings.particle_filter.leaning = settings.closed_form.leaning;
+  settings.particle_filter.leaning = settings.closed_form.leaning;
   isolation.integer("particles", settings.particle_filter.particles, 1, max_particles);
 }
 

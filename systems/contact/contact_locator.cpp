@@ -1,5 +1,6 @@
 #include "systems/contact/contact_locator.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -30,10 +31,19 @@ Eigen::Matrix3d platform_axes(const ParallelRobot& robot, const Kinematics& kine
   return axes;
 }
 
-/// Standard deviation of the line of action across itself at the platform: that of the moment over the force.
-double line_deviation(const ConfigurationSpace& space, const PlatformMatrix& covariance, double force) {
-  if (space.rotations() == 0) return 0.0;
-  return std::sqrt(covariance.diagonal().tail(space.rotations()).mean()) / force;
+/// Standard deviation of a line of action across itself: that of the moment about a point on it, over the
+/// force. `arm`: from the platform's origin to that point.
+double line_deviation(const ConfigurationSpace& space, const PlatformMatrix& covariance,
+                      const Eigen::Vector3d& arm, double force) {
+  const int directions = space.translations(), rotations = space.rotations();
+  if (rotations == 0) return 0.0;
+  PlatformMatrix about_line = PlatformMatrix::Identity(space.dimension(), space.dimension());
+  for (int i = 0; i < directions; ++i) {
+    const Eigen::Vector3d unit = in_space(CartesianVector::Unit(directions, i));
+    about_line.col(i).tail(rotations) = -arm.cross(unit).tail(rotations);
+  }
+  const PlatformMatrix of_line = about_line * covariance * about_line.transpose();
+  return std::sqrt(of_line.diagonal().tail(rotations).mean()) / force;
 }
 
 }  // namespace
@@ -56,11 +66,12 @@ ContactLocation locate_on_platform(const ParallelRobot& robot, const Kinematics&
   const Eigen::Vector3d direction = axes.transpose() * in_space(line.direction);
   const LinePassage passage = platform.passage(lever, direction);
   location.located = line.has_lever && passage.hits;
-  location.point_deviation = line_deviation(robot.space(), covariance, location.force_in_base.norm());
   Eigen::Vector3d point = lever + passage.enter * direction;  // the first of the two: a push
   if (!line.has_lever) point = platform.farthest(-direction);
   if (line.has_lever && !passage.hits) point = platform.farthest(lever.normalized());
-  location.point_in_base = (origin + axes * point).head(directions);
+  const Eigen::Vector3d arm = axes * point;
+  location.point_in_base = (origin + arm).head(directions);
+  location.point_deviation = line_deviation(robot.space(), covariance, arm, location.force_in_base.norm());
   return location;
 }
 
@@ -74,23 +85,26 @@ CartesianVector pushed_point(const LinkContactMap& link, double fraction,
 }
 
 ContactLocation locate_on_link(const LinkContactMap& map, BodyId link, const PlatformVector& wrench,
-                               const PlatformMatrix& covariance,
+                               const PlatformMatrix& noise, const PlatformMatrix& errors,
                                const ContactLocatorSettings& settings) noexcept {
   ContactLocation location;
-  const LinkPush push =
-      settings.leaning > 0.0
-          ? leaning_link_push(map, wrench, covariance, settings.largest_deviation, settings.leaning)
-          : link_push(map, wrench, covariance, settings.largest_deviation);
+  const LinkPush push = link_push(map, wrench, noise, settings.largest_deviation);
   if (!push.valid) return location;
   location.valid = true;
-  location.located = push.identifiable;
   location.body = link.index();
   location.fraction = std::clamp(push.fraction, 0.0, 1.0);
   location.force_in_base = push.force * map.axes.col(1);
   location.point_in_base = pushed_point(map, location.fraction, location.force_in_base);
   location.covariance = push.covariance;
-  location.point_deviation = map.length * std::sqrt(push.covariance(0, 0));
-  location.force_deviation = std::sqrt(push.covariance(1, 1));
+  if (push.identifiable) {
+    const CartesianVector across = Eigen::Vector2d(0.0, push.force);
+    location.covariance = push_covariance(map, push.fraction, across, errors) +
+                          lean_covariance(map, wrench, noise, push, settings.leaning);
+  }
+  const double deviation = std::sqrt(location.covariance(0, 0));
+  location.located = push.identifiable && deviation <= settings.largest_deviation;
+  location.point_deviation = map.length * deviation;
+  location.force_deviation = std::sqrt(location.covariance(1, 1));
   location.residual = push.residual;
   return location;
 }
@@ -111,19 +125,22 @@ ContactLocator::ContactLocator(std::shared_ptr<const ParallelRobot> robot,
 }
 
 ContactLocation ContactLocator::locate(const ContactPhase& contact, const ContactClassification& touched,
-                                       const Kinematics& now, const WrenchEstimate& estimate) const {
+                                       const Kinematics& now, const WrenchEstimate& estimate,
+                                       const WrenchEstimate& lately) const {
   ContactLocation found;
   const bool can_be_located = contact.active && touched.valid && classes_.contains(touched.most_likely) &&
                               !classes_.is_clamping(touched.most_likely) && estimate.valid && now.valid &&
-                              usable(estimate.wrench_in_base, robot_->dof());
+                              usable(estimate.wrench_in_base, robot_->dof()) && lately.valid &&
+                              usable(lately.wrench_in_base, robot_->dof());
   if (can_be_located) {
     const PlatformVector& F = estimate.wrench_in_base;
-    const PlatformMatrix covariance = uncertainty_.covariance(robot_->space(), F);
+    const PlatformMatrix noise = uncertainty_.covariance(robot_->space(), F);
+    const PlatformMatrix errors = uncertainty_.errors(robot_->space(), F, lately.wrench_in_base);
     const BodyId body = ContactClasses::body(touched.most_likely);
     if (body.is_platform()) {
-      found = locate_on_platform(*robot_, now, platform_, F, covariance, settings_.least_force);
+      found = locate_on_platform(*robot_, now, platform_, F, errors, settings_.least_force);
     } else if (F.head(robot_->space_dimension()).norm() >= settings_.least_force) {
-      found = locate_on_link(link_contact_map(*robot_, now, body), body, F, covariance, settings_);
+      found = locate_on_link(link_contact_map(*robot_, now, body), body, F, noise, errors, settings_);
     }
   }
   found.acquired = estimate.acquired;

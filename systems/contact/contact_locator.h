@@ -17,9 +17,9 @@ namespace flinch {
 struct ContactLocatorSettings {
   double least_force = 1.0;  ///< below it nothing is located [N]
   /// Largest standard deviation of the fraction at which a place on a link counts as known.
-  double largest_deviation = 0.1;
+  double largest_deviation = 0.15;
   /// Standard deviation of f_x / f_y: how far friction lets a force on a link lean. 0: pushes are orthogonal.
-  double leaning = 0.0;
+  double leaning = 0.15;
 };
 
 /// Where the line of action of `wrench` enters the platform: the point of a push, [SafePR] III-A, with its
@@ -28,9 +28,11 @@ ContactLocation locate_on_platform(const ParallelRobot& robot, const Kinematics&
                                    const Outline& platform, const PlatformVector& wrench,
                                    const PlatformMatrix& covariance, double least_force) noexcept;
 
-/// Where `link` is pushed, by `link_push`. Forces that lean by friction widen the covariance.
+/// Where `link` is pushed, by `link_push`, which takes the push as orthogonal. What it tells of place and
+/// force is as uncertain as the wrench is and as friction lets the force lean. `noise`: covariance of the
+/// wrench, by which its components are weighed; `errors`: the same with all that it may be off by.
 ContactLocation locate_on_link(const LinkContactMap& map, BodyId link, const PlatformVector& wrench,
-                               const PlatformMatrix& covariance,
+                               const PlatformMatrix& noise, const PlatformMatrix& errors,
                                const ContactLocatorSettings& settings) noexcept;
 
 /// The point at `fraction` of a link on the side from which a force pushes it [m].
@@ -48,12 +50,14 @@ class ContactLocator final : public System {
   InputPort<ContactClassification> classification = input<ContactClassification>("classification");
   InputPort<Kinematics> kinematics = input<Kinematics>("kinematics");
   InputPort<WrenchEstimate> wrench = input<WrenchEstimate>("wrench");
+  InputPort<WrenchEstimate> change = input<WrenchEstimate>("change");  ///< of late, as `WrenchTrend` tells
   OutputPort<ContactLocation> location =
-      output<&ContactLocator::locate>("location", phase, classification, kinematics, wrench);
+      output<&ContactLocator::locate>("location", phase, classification, kinematics, wrench, change);
 
  private:
   ContactLocation locate(const ContactPhase& contact, const ContactClassification& touched,
-                         const Kinematics& now, const WrenchEstimate& estimate) const;
+                         const Kinematics& now, const WrenchEstimate& estimate,
+                         const WrenchEstimate& lately) const;
 
   std::shared_ptr<const ParallelRobot> robot_;
   ContactClasses classes_;

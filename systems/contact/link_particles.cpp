@@ -95,7 +95,7 @@ void LinkParticles::begin(const LinkContactMap& link, const Kinematics& kinemati
             std::isfinite(fit[axis]) ? fit[axis] * (1.0 + jitter * random_.normal()) : 0.0;
       }
     }
-    if (settings.angled)
+    if (settings.lean())
       particle.force[0] = settings.leaning * random_.normal() * particle.force.tail<2>().norm();
     particles_[static_cast<std::size_t>(i)] = particle;
   }
@@ -108,14 +108,14 @@ void LinkParticles::take(const LinkParticles& other) noexcept {
 }
 
 void LinkParticles::move(const LinkParticleSettings& settings, int directions) noexcept {
-  const double along = settings.angled ? std::sqrt(settings.along_variance) : 0.0;
+  const double along = settings.lean() ? std::sqrt(settings.along_variance) : 0.0;
   const double across = std::sqrt(settings.across_variance);
   const double fraction = std::sqrt(settings.fraction_variance);
   std::normal_distribution<double> normal;  // which makes its numbers in pairs
   for (int i = 0; i < count_; ++i) {        // [SafePR] (20)
     LinkParticle& particle = particles_[static_cast<std::size_t>(i)];
     particle.fraction = reflected(particle.fraction + fraction * normal(random_));
-    if (settings.angled) particle.force[0] += along * normal(random_);
+    if (settings.lean()) particle.force[0] += along * normal(random_);
     for (int axis = 1; axis < directions; ++axis) particle.force[axis] += across * normal(random_);
   }
 }
@@ -182,7 +182,7 @@ LinkParticleEstimate LinkParticles::step(const LinkContactMap& link, const Kinem
     estimate.covariance += share * off * off.transpose();
   }
   resample(weights, sum);
-  if (settings.angled) lean_anew(maps, drive_torque, settings);
+  if (settings.lean()) lean_anew(maps, drive_torque, settings);
   return estimate;
 }
 

@@ -12,15 +12,16 @@ namespace flinch {
 inline constexpr int max_particles = 256;
 
 struct LinkParticleSettings {
-  int particles = 50;   ///< R, at most `max_particles`
-  bool angled = false;  ///< forces along the link as well, [l, f_x, f_y]; otherwise across alone
+  int particles = 50;  ///< R, at most `max_particles`
   /// Sigma_mot of one step, [PAR]: of the fraction, of the force along the link and across it [N^2].
   double fraction_variance = 2.5e-6;
   double along_variance = 1.25e-3;
   double across_variance = 12.5;
   double torque_variance = 10.0;  ///< Sigma_meas, of each drive, [PAR] [Nm^2 or N^2]
-  /// Standard deviation of f_x / f_y: as far as friction lets a force lean.
-  double leaning = 0.2;
+  /// Standard deviation of f_x / f_y: as far as friction lets a force lean. 0: forces across the link alone.
+  double leaning = 0.15;
+
+  bool lean() const { return leaning > 0.0; }
 };
 
 /// One place and force that may be: l along the link, and the force in the axes of its `LinkContactMap` [N].

@@ -9,6 +9,11 @@
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
+namespace {
+
+constexpr double largest_deviation = ContactLocatorSettings().largest_deviation;
+
+}  // namespace
 
 ParticleLocator::ParticleLocator(std::shared_ptr<const ParallelRobot> robot,
                                  const LinkParticleSettings& settings, const WrenchUncertainty& uncertainty,
@@ -29,15 +34,15 @@ ParticleLocator::ParticleLocator(std::shared_ptr<const ParallelRobot> robot,
   throw_if_any(found.take());
   memory_ = state<Memory>("memory", Memory{LinkParticles(seed), -1, {}, {}});
   next_ = intermediate<&ParticleLocator::advance>("next", clock, phase, classification, kinematics, wrench,
-                                                  memory_);
+                                                  change, memory_);
   location = output<&ParticleLocator::read>("location", next_, wrench);
   cloud = output<&ParticleLocator::show>("cloud", next_);
   keep(memory_, next_);
 }
 
 void ParticleLocator::advance(Time now, const ContactPhase& contact, const ContactClassification& touched,
-                              const Kinematics& at, const WrenchEstimate& estimate, const Memory& memory,
-                              Memory& next) const {
+                              const Kinematics& at, const WrenchEstimate& estimate,
+                              const WrenchEstimate& lately, const Memory& memory, Memory& next) const {
   next.particles.take(memory.particles);
   next.body = memory.body;
   next.estimate = {};
@@ -51,10 +56,12 @@ void ParticleLocator::advance(Time now, const ContactPhase& contact, const Conta
     return;
   }
   if (!estimate.valid || !at.valid || !usable(estimate.wrench_in_base, robot_->dof())) return;
+  if (!lately.valid || !usable(lately.wrench_in_base, robot_->dof())) return;
   next.link = link_contact_map(*robot_, at, BodyId::from_index(number));
   if (next.body != number || contact.begins(now)) {
-    const LinkPush push = link_push(next.link, estimate.wrench_in_base,
-                                    uncertainty_.covariance(robot_->space(), estimate.wrench_in_base), 0.1);
+    const LinkPush push =
+        link_push(next.link, estimate.wrench_in_base,
+                  uncertainty_.covariance(robot_->space(), estimate.wrench_in_base), largest_deviation);
     next.particles.begin(next.link, at, push, estimate.drive_torque, settings_);
     next.body = number;
   }
@@ -64,11 +71,10 @@ void ParticleLocator::advance(Time now, const ContactPhase& contact, const Conta
   // them alike.
   next.estimate.covariance +=
       push_covariance(next.link, next.estimate.fraction, next.estimate.force.head(next.link.axes.cols()),
-                      uncertainty_.covariance(robot_->space(), estimate.wrench_in_base));
+                      uncertainty_.errors(robot_->space(), estimate.wrench_in_base, lately.wrench_in_base));
 }
 
 ContactLocation ParticleLocator::read(const Memory& next, const WrenchEstimate& estimate) const {
-  constexpr double largest_deviation = 0.1;
   ContactLocation found;
   found.acquired = estimate.acquired;
   if (!next.estimate.valid || !next.link.valid) return found;

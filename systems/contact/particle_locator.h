@@ -38,6 +38,7 @@ class ParticleLocator final : public System {
   InputPort<ContactClassification> classification = input<ContactClassification>("classification");
   InputPort<Kinematics> kinematics = input<Kinematics>("kinematics");
   InputPort<WrenchEstimate> wrench = input<WrenchEstimate>("wrench");
+  InputPort<WrenchEstimate> change = input<WrenchEstimate>("change");  ///< of late, as `WrenchTrend` tells
 
  private:
   Intermediate<Memory> next_;
@@ -48,8 +49,8 @@ class ParticleLocator final : public System {
 
  private:
   void advance(Time now, const ContactPhase& contact, const ContactClassification& touched,
-               const Kinematics& at, const WrenchEstimate& estimate, const Memory& memory,
-               Memory& next) const;
+               const Kinematics& at, const WrenchEstimate& estimate, const WrenchEstimate& lately,
+               const Memory& memory, Memory& next) const;
   ContactLocation read(const Memory& next, const WrenchEstimate& estimate) const;
   void show(const Memory& next, ParticleCloud& shown) const;
 

@@ -6,12 +6,14 @@
 namespace flinch {
 
 /// How far an estimated wrench is from the true one: standard deviations of each of its components, which
-/// grow with the force. docs/theory.md says how the defaults were measured.
+/// grow with the force, and what it is behind by while the force changes. docs/theory.md says how the
+/// defaults were measured.
 struct WrenchUncertainty {
   double force = 2.0;             ///< [N]
   double moment = 0.2;            ///< [Nm]
   double share_of_force = 0.05;   ///< of the size of the force, on each component of it
   double share_of_lever = 0.004;  ///< of the size of the force, on each component of the moment [m]
+  double share_of_change = 2.0;   ///< of what the estimate has changed by of late (`WrenchTrend`), as a whole
 
   /// The covariance of `wrench`: no correlations.
   PlatformMatrix covariance(const ConfigurationSpace& space, const PlatformVector& wrench) const {
@@ -28,6 +30,12 @@ struct WrenchUncertainty {
     return covariance(space, PlatformVector::Zero(space.dimension())).diagonal().cwiseSqrt();
   }
 
+  /// The covariance of all errors of an estimate that has changed by `change` of late.
+  PlatformMatrix errors(const ConfigurationSpace& space, const PlatformVector& wrench,
+                        const PlatformVector& change) const {
+    return covariance(space, wrench) + share_of_change * share_of_change * change * change.transpose();
+  }
+
   /// The size of an estimated wrench in deviations of one that is zero: how far it stands out of what an
   /// estimate errs by without any contact.
   double size(const ConfigurationSpace& space, const PlatformVector& wrench) const {
@@ -39,6 +47,7 @@ struct WrenchUncertainty {
     found.positive("moment", moment, "Nm");
     found.not_negative("share_of_force", share_of_force);
     found.not_negative("share_of_lever", share_of_lever, "m");
+    found.not_negative("share_of_change", share_of_change);
   }
 };
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -125,43 +126,29 @@ LinkPush link_push(const LinkContactMap& link, const PlatformVector& wrench, con
   return is_identified(push, largest_deviation) ? push : in_the_middle(g0 + 0.5 * g1, wrench, S);
 }
 
-LinkPush leaning_link_push(const LinkContactMap& link, const PlatformVector& wrench,
-                           const PlatformMatrix& covariance, double largest_deviation,
-                           double leaning) noexcept {
-  constexpr int leans = 21;
-  constexpr double widest = 2.5;  // standard deviations
-  if (!can_be_a_link(link, wrench)) return {};
+Eigen::Matrix2d lean_covariance(const LinkContactMap& link, const PlatformVector& wrench,
+                                const PlatformMatrix& covariance, const LinkPush& push,
+                                double leaning) noexcept {
+  struct Node {
+    double place, weight;
+  };
+  constexpr double near = 1.3556261799742659, far = 2.8569700138728057;  // the fifth is 0, the push itself
+  constexpr Node nodes[] = {{-far, 0.011257411327720689},
+                            {-near, 0.22207592200561264},
+                            {near, 0.22207592200561264},
+                            {far, 0.011257411327720689}};
+  Eigen::Matrix2d found = Eigen::Matrix2d::Zero();
+  if (leaning <= 0.0) return found;
   const Eigen::LLT<PlatformMatrix> S(covariance);
-  if (S.info() != Eigen::Success) return {};
-  LinkPush mean{.valid = true, .identifiable = true, .fraction = 0.0, .force = 0.0};
-  Eigen::Matrix2d second_moment = Eigen::Matrix2d::Zero();
-  double sum = 0.0;
-  for (int i = 0; i < leans; ++i) {
-    const double x = widest * (2.0 * i / (leans - 1) - 1.0);
-    const CartesianVector direction = Eigen::Vector2d(leaning * x, 1.0);
-    const LinkPush push = unconfined_push(link.at_joint * direction, link.along * direction, wrench, S);
-    if (!push.valid) continue;
-    const double deviation = std::sqrt(push.covariance(0, 0));
-    const double on_link = 0.5 * (std::erfc(-push.fraction / deviation / std::sqrt(2.0)) -
-                                  std::erfc((1.0 - push.fraction) / deviation / std::sqrt(2.0)));
-    const double weight = std::exp(-0.5 * (x * x + push.residual)) * on_link;
-    const Eigen::Vector2d found(push.fraction, push.force);
-    sum += weight;
-    mean.fraction += weight * push.fraction;
-    mean.force += weight * push.force;
-    mean.residual += weight * push.residual;
-    second_moment += weight * (push.covariance + found * found.transpose());
+  for (const Node& node : nodes) {
+    const CartesianVector direction = Eigen::Vector2d(node.place * leaning, 1.0);
+    const LinkPush leans = unconfined_push(link.at_joint * direction, link.along * direction, wrench, S);
+    if (!leans.valid) return Eigen::Vector2d(1.0, push.force * push.force).asDiagonal();
+    const double moved = std::clamp(leans.fraction, 0.0, 1.0) - std::clamp(push.fraction, 0.0, 1.0);
+    const Eigen::Vector2d off(moved, leans.force - push.force);
+    found += node.weight * off * off.transpose();
   }
-  if (sum > 0.0) {
-    mean.fraction /= sum;
-    mean.force /= sum;
-    mean.residual /= sum;
-    const Eigen::Vector2d middle(mean.fraction, mean.force);
-    mean.covariance = second_moment / sum - middle * middle.transpose();
-    mean.identifiable = is_identified(mean, largest_deviation);
-    return mean;
-  }
-  return in_the_middle((link.at_joint + 0.5 * link.along).col(1), wrench, S);
+  return found;
 }
 
 Eigen::Matrix2d push_covariance(const LinkContactMap& link, double fraction, const CartesianVector& force,

@@ -47,13 +47,14 @@ struct LinkPush {
 LinkPush link_push(const LinkContactMap& link, const PlatformVector& wrench, const PlatformMatrix& covariance,
                    double largest_deviation) noexcept;
 
-/// The same for a force (lean, 1) f_y that leans along the link by an unknown share of its size, normally
-/// distributed with standard deviation `leaning`, as far as friction lets it: the mean and covariance of what
-/// each lean gives, weighted by how likely it is and by whether it lies on the link, also where that is too
-/// uncertain to be identifiable.
-LinkPush leaning_link_push(const LinkContactMap& link, const PlatformVector& wrench,
-                           const PlatformMatrix& covariance, double largest_deviation,
-                           double leaning) noexcept;
+/// What a force (lean, 1) f_y that leans along the link by an unknown share of its size, normally distributed
+/// with standard deviation `leaning`, adds to the covariance of a `push` that `link_push` has identified: the
+/// mean square by which the pushes that explain `wrench` then differ from it, by Gauss-Hermite quadrature in
+/// five points. A place is on the link. A lean by which nothing explains the wrench counts as the whole link
+/// and all of the force. (Derived.)
+Eigen::Matrix2d lean_covariance(const LinkContactMap& link, const PlatformVector& wrench,
+                                const PlatformMatrix& covariance, const LinkPush& push,
+                                double leaning) noexcept;
 
 /// What errors of the wrench with this `covariance` make of place and size of a `force`, in the link's axes,
 /// that is found at `fraction`: the covariance of (fraction, force across the link). Not more of the fraction

@@ -132,23 +132,24 @@ void ClosedFormOnALink(benchmark::State& state) {
   const Touch touch;
   compare(state, touch, [&] {
     const LinkContactMap link = link_contact_map(*touch.robot, touch.k, touch.body);
-    benchmark::DoNotOptimize(locate_on_link(link, touch.body, touch.wrench, touch.covariance, {}));
+    benchmark::DoNotOptimize(
+        locate_on_link(link, touch.body, touch.wrench, touch.covariance, touch.covariance, {}));
   });
 }
 BENCHMARK(ClosedFormOnALink);
 
 /// Of so many particles; of pushes that are orthogonal, or may lean.
-void ParticleFilterStep(benchmark::State& state, bool angled) {
+void ParticleFilterStep(benchmark::State& state, double leaning) {
   const Touch touch;
-  const LinkParticleSettings settings{.particles = static_cast<int>(state.range(0)), .angled = angled};
+  const LinkParticleSettings settings{.particles = static_cast<int>(state.range(0)), .leaning = leaning};
   LinkParticles particles(1);
   particles.begin(touch.link, touch.k, {}, touch.estimate.drive_torque, settings);
   compare(state, touch, [&] {
     benchmark::DoNotOptimize(particles.step(touch.link, touch.k, touch.estimate.drive_torque, settings));
   });
 }
-BENCHMARK_CAPTURE(ParticleFilterStep, orthogonal, false)->Arg(50)->Arg(200);
-BENCHMARK_CAPTURE(ParticleFilterStep, leaning, true)->Arg(50)->Arg(200);
+BENCHMARK_CAPTURE(ParticleFilterStep, orthogonal, 0.0)->Arg(50)->Arg(200);
+BENCHMARK_CAPTURE(ParticleFilterStep, leaning, 0.15)->Arg(50)->Arg(200);
 
 }  // namespace
 }  // namespace flinch

@@ -30,8 +30,8 @@ TEST(ReadIsolation, TakesWhatTheFileSaysAndLeavesTheRest) {
   EXPECT_EQ(settings.model_classifier.accept, 0.8);
   EXPECT_EQ(settings.model_classifier.window, 5ms);
   EXPECT_EQ(settings.closed_form.leaning, 0.2);
-  EXPECT_TRUE(settings.particle_filter.angled);
-  EXPECT_FALSE(read("isolation: {leaning: 0}").particle_filter.angled);
+  EXPECT_EQ(settings.particle_filter.leaning, 0.2);
+  EXPECT_EQ(read("isolation: {leaning: 0}").particle_filter.leaning, 0.0);
   EXPECT_EQ(settings.particle_filter.particles, 200);
   EXPECT_EQ(settings.hypotheses.object_speed, 0.1);
 }

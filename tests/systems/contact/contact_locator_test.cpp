@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <random>
 
 #include "systems/foundation/setup_error.h"
+#include "systems/framework/random.h"
 #include "systems/robot/five_bar.h"
 #include "systems/robot/five_bar_presets.h"
 #include "systems/robot/hexapod.h"
@@ -44,6 +46,28 @@ TEST(LocateOnPlatform, FindsThePointOfAPushAnywhereAroundIt) {
   }
 }
 
+TEST(LocateOnPlatform, ItsDeviationIsThatOfTheLineOfActionAcrossItself) {
+  const auto robot = test::touched_bench();
+  const Outline outline(robot->body(BodyId::platform()).shapes);
+  const PlatformVector deviation{{1.5, 1.5, 0.1}};
+  const PlatformMatrix S = deviation.cwiseAbs2().asDiagonal();
+  RandomGenerator random(3);
+  double squared = 0.0;
+  constexpr int pushes = 2000;
+  for (const Kinematics& k : test::random_kinematics(*robot, pushes)) {
+    const Eigen::Vector2d arm = 0.137 * unit_vector(random.uniform(0.0, 6.2));
+    const Eigen::Vector2d force = -40.0 * rotate(arm.normalized(), unit_vector(random.uniform(-0.6, 0.6)));
+    PlatformVector wrench{{force.x(), force.y(), arm.x() * force.y() - arm.y() * force.x()}};
+    for (int i = 0; i < 3; ++i) wrench[i] += deviation[i] * random.normal();
+    const ContactLocation found = locate_on_platform(*robot, k, outline, wrench, S, 1.0);
+    const CartesianVector along = found.force_in_base.normalized();
+    const CartesianVector off = found.point_in_base - CartesianVector(k.pose.head<2>() + arm);
+    if (found.located)
+      squared += std::pow((along[0] * off[1] - along[1] * off[0]) / found.point_deviation, 2) / pushes;
+  }
+  EXPECT_NEAR(squared, 1.0, 0.1);
+}
+
 TEST(LocateOnPlatform, GivesTheNearestPointWhereTheLineMisses) {
   const auto robot = test::touched_bench();
   const Kinematics k = test::at_home(*robot);
@@ -80,7 +104,8 @@ TEST(LocateOnLink, FindsThePointOnTheSurfaceThatIsPushed) {
   const BodyId link = BodyId::link2(1);
   const LinkContactMap map = link_contact_map(*robot, k, link);
   const PlatformVector wrench = test::wrench_on_link(*robot, k, link, 0.6, {0.0, 50.0});
-  const ContactLocation found = locate_on_link(map, link, wrench, 1e-4 * noise(*robot), {});
+  const PlatformMatrix S = 1e-4 * noise(*robot);
+  const ContactLocation found = locate_on_link(map, link, wrench, S, S, {.leaning = 0.0});
   ASSERT_TRUE(found.located);
   EXPECT_NEAR(found.fraction, 0.6, 1e-9);
   const CartesianVector expected =
@@ -89,9 +114,8 @@ TEST(LocateOnLink, FindsThePointOnTheSurfaceThatIsPushed) {
   EXPECT_NEAR(found.force_in_base.norm(), 50.0, 1e-9);
 }
 
-// Forces that lean by friction are not what the closed form assumes; with their lean as noise its covariance
-// covers them.
-TEST(LocateOnLink, CoversForcesThatLeanWhereItIsToldOfThem) {
+// Forces that lean by friction are not what the closed form assumes; its covariance covers them.
+TEST(LocateOnLink, CoversForcesThatLean) {
   const auto robot = test::touched_bench();
   std::mt19937 generator(4);
   std::normal_distribution<double> normal;
@@ -109,7 +133,7 @@ TEST(LocateOnLink, CoversForcesThatLeanWhereItIsToldOfThem) {
           test::wrench_on_link(*robot, k, link, l, {50.0 * 0.2 * normal(generator), 50.0});
       wrench += PlatformVector{{0.5 * normal(generator), 0.5 * normal(generator), 0.05 * normal(generator)}};
       const PlatformMatrix S = PlatformVector{{0.25, 0.25, 0.0025}}.asDiagonal();
-      const ContactLocation found = locate_on_link(map, link, wrench, S, told);
+      const ContactLocation found = locate_on_link(map, link, wrench, S, S, told);
       if (!found.located) continue;
       ++count;
       const Eigen::Vector2d error(found.fraction - l, found.force_in_base.dot(map.axes.col(1)) - 50.0);
@@ -130,6 +154,7 @@ struct Block {
         classification(builder.export_input("classification", block.classification)),
         kinematics(builder.export_input("kinematics", block.kinematics)),
         wrench(builder.export_input("wrench", block.wrench)),
+        change(builder.export_input("change", block.change)),
         ticking(builder) {}
 
   ContactLocation see(int number, const PlatformVector& seen, bool active = true, bool valid = true) {
@@ -141,6 +166,7 @@ struct Block {
     ticking.set(classification, said);
     ticking.set(kinematics, k);
     ticking.set(wrench, test::estimate_of(k, seen));
+    ticking.set(change, lately ? test::estimate_of(k, *lately) : WrenchEstimate());
     ticking.tick();
     return ticking.get(block.location);
   }
@@ -151,7 +177,8 @@ struct Block {
   InputPort<ContactPhase> phase;
   InputPort<ContactClassification> classification;
   InputPort<Kinematics> kinematics;
-  InputPort<WrenchEstimate> wrench;
+  InputPort<WrenchEstimate> wrench, change;
+  std::optional<PlatformVector> lately = PlatformVector::Zero(robot->dof());
   test::Ticking ticking;
 };
 
@@ -163,6 +190,29 @@ TEST(ContactLocator, LocatesTheClassifiedBody) {
   const ContactLocation first = locator.see(1, push);
   EXPECT_TRUE(first.valid);
   EXPECT_FALSE(first.located);  // a first link tells no place
+}
+
+TEST(ContactLocator, KnowsLessOfAForceThatGrowsButAsMuchOfItsPlace) {
+  Block locator(test::touched_bench());
+  const BodyId link = BodyId::link2(1);
+  const PlatformVector push =
+      test::wrench_on_link(*locator.robot, test::at_home(*locator.robot), link, 0.3, {0.0, 50.0});
+  const ContactLocation steady = locator.see(link.index(), push);
+  locator.lately = 0.3 * push;
+  const ContactLocation grows = locator.see(link.index(), push);
+  ASSERT_TRUE(steady.valid && grows.valid);
+  EXPECT_EQ(grows.point_in_base, steady.point_in_base);
+  EXPECT_NEAR(grows.force_deviation, std::hypot(steady.force_deviation, 2.0 * 0.3 * 50.0), 1e-6);
+  EXPECT_NEAR(grows.point_deviation, steady.point_deviation, 1e-6);
+  locator.lately =
+      test::wrench_on_link(*locator.robot, test::at_home(*locator.robot), link, 0.9, {0.0, 15.0});
+  EXPECT_GT(locator.see(link.index(), push).point_deviation, 1.5 * steady.point_deviation);
+}
+
+TEST(ContactLocator, SaysNothingWhereItIsNotKnownWhatTheEstimateIsBehindBy) {
+  Block locator(test::touched_bench());
+  locator.lately.reset();
+  EXPECT_FALSE(locator.see(0, PlatformVector{{-40.0, 0.0, 1.0}}).valid);
 }
 
 TEST(ContactLocator, SaysNothingOfWhatIsNotClassifiedClampedOrGone) {

@@ -48,10 +48,10 @@ Errors run(const LinkParticleSettings& settings, const LinkPush& start, double f
 
 // Noise-free torques of 60 N at 0.7 of the link, from anywhere on it: as the paper's 4 % and 4 N after 50 ms.
 TEST(LinkParticles, FindAPushFromAnywhereOnTheLink) {
-  const Errors few = run({.particles = 50, .angled = false}, {}, 0.7, 60.0);
+  const Errors few = run({.particles = 50, .leaning = 0.0}, {}, 0.7, 60.0);
   EXPECT_LT(few.last_fraction, 0.04);
   EXPECT_LT(few.last_force, 4.0);
-  const Errors many = run({.particles = 200, .angled = false}, {}, 0.7, 60.0);
+  const Errors many = run({.particles = 200, .leaning = 0.0}, {}, 0.7, 60.0);
   EXPECT_LT(many.last_fraction, few.last_fraction);
 }
 
@@ -61,7 +61,7 @@ TEST(LinkParticles, StartedFromTheClosedFormAreThereAtOnce) {
                        .fraction = 0.7,
                        .force = 60.0,
                        .covariance = Eigen::Vector2d(1e-4, 1.0).asDiagonal()};
-  const Errors errors = run({.particles = 50, .angled = false}, start, 0.7, 60.0);
+  const Errors errors = run({.particles = 50, .leaning = 0.0}, start, 0.7, 60.0);
   EXPECT_LT(errors.first_fraction, 0.01);
   EXPECT_LT(errors.last_fraction, 0.02);
   EXPECT_LT(errors.last_force, 2.0);

@@ -18,8 +18,10 @@ struct Block {
         classification(builder.export_input("classification", block.classification)),
         kinematics(builder.export_input("kinematics", block.kinematics)),
         wrench(builder.export_input("wrench", block.wrench)),
+        change(builder.export_input("change", block.change)),
         ticking(builder) {
     ticking.set(kinematics, k);
+    ticking.set(change, test::estimate_of(k, PlatformVector::Zero(robot->dof())));
   }
 
   const ContactLocation& see(int number, const PlatformVector& seen) {
@@ -45,7 +47,7 @@ struct Block {
   InputPort<ContactPhase> phase;
   InputPort<ContactClassification> classification;
   InputPort<Kinematics> kinematics;
-  InputPort<WrenchEstimate> wrench;
+  InputPort<WrenchEstimate> wrench, change;
   test::Ticking ticking;
 
  private:
@@ -56,7 +58,7 @@ struct Block {
 constexpr int link2_of_leg2 = ContactClasses::collision(BodyId::link2(1));
 
 TEST(ParticleLocator, FindsThePushOnTheClassifiedSecondLink) {
-  Block locator;
+  Block locator(1, {.leaning = 0.0});
   const test::AllocationCounter allocations;
   ContactLocation found;
   for (int i = 0; i < 50; ++i) found = locator.see(link2_of_leg2, locator.push(1, 0.7));
@@ -100,17 +102,17 @@ struct Honesty {
   double covered = 0.0, squared_error = 0.0;
 };
 
-Honesty honesty_of(bool angled, int ticks) {
+Honesty honesty_of(double leaning, int ticks) {
   constexpr int pushes = 1000;
   const WrenchUncertainty uncertainty{.force = 1.5, .moment = 0.12, .share_of_force = 0, .share_of_lever = 0};
-  Block locator(1, {.angled = angled}, uncertainty);
+  Block locator(1, {.leaning = leaning}, uncertainty);
   RandomGenerator random(8);
   Honesty honesty;
   for (const Kinematics& k : test::random_kinematics(*locator.robot, pushes)) {
     const int leg = static_cast<int>(random() % 3);
     const double side = random.uniform(-1.0, 1.0) < 0.0 ? -1.0 : 1.0;
     const double fraction = random.uniform(0.0, 1.0), force = side * random.uniform(40.0, 80.0);
-    const double lean = angled ? LinkParticleSettings().leaning * random.normal() : 0.0;
+    const double lean = leaning * random.normal();
     PlatformVector wrench = test::wrench_on_link(*locator.robot, k, BodyId::link2(leg), fraction,
                                                  force * Eigen::Vector2d(lean, 1.0));
     wrench += PlatformVector{{uncertainty.force * random.normal(), uncertainty.force * random.normal(),
@@ -128,13 +130,14 @@ Honesty honesty_of(bool angled, int ticks) {
     honesty.covered += square < 5.991 ? 1.0 / pushes : 0.0;  // 95 % of chi-square with two degrees
   }
   std::printf("  %s pushes after %d ticks: covered %.1f %%, squared error %.2f of 2\n",
-              angled ? "leaning" : "orthogonal", ticks, 100.0 * honesty.covered, honesty.squared_error);
+              leaning > 0.0 ? "leaning" : "orthogonal", ticks, 100.0 * honesty.covered,
+              honesty.squared_error);
   return honesty;
 }
 
 TEST(ParticleLocator, CoversPushesAcrossALink) {
   for (const int ticks : {10, 50}) {
-    const Honesty honesty = honesty_of(false, ticks);
+    const Honesty honesty = honesty_of(0.0, ticks);
     EXPECT_GT(honesty.covered, 0.93);
     EXPECT_LT(honesty.squared_error, 2.124);  // the 95 % band of chi-square, of 1000
   }
@@ -142,7 +145,7 @@ TEST(ParticleLocator, CoversPushesAcrossALink) {
 
 TEST(ParticleLocator, CoversPushesThatLeanForAsLongAsTheyLast) {
   for (const int ticks : {10, 50, 150}) {
-    const Honesty honesty = honesty_of(true, ticks);
+    const Honesty honesty = honesty_of(0.2, ticks);
     EXPECT_GT(honesty.covered, 0.93);
     EXPECT_LT(honesty.squared_error, 3.0);  // not normal: where a force may lean bends with its place
   }
