@@ -7,7 +7,7 @@
 namespace flinch {
 namespace {
 
-constexpr int iterations = 200;
+constexpr int iterations = 400;
 constexpr double least_share = 1e-6;  // of the mean square that is noise at least
 
 /// The variances, as shares of which begins each part with as much as the others.
@@ -55,7 +55,8 @@ ResidualErrors fit_error_sizes(std::span<const ErrorSample> samples) {
           .speed = std::sqrt(sizes[1]),
           .load = std::sqrt(sizes[2]),
           .torque = std::sqrt(sizes[3]),
-          .friction = std::sqrt(sizes[4])};
+          .friction = std::sqrt(sizes[4]),
+          .lag = std::sqrt(sizes[5])};
 }
 
 }  // namespace flinch

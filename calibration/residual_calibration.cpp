@@ -34,11 +34,12 @@ void follow(const ResidualRecording& of, const std::string& estimator, const Vis
       std::find_if(signals.begin(), signals.end(), [&](const auto& each) { return each.first == estimator; });
   const auto estimates = read<WrenchEstimate>(recording, signal->second);
   const auto loads = read<DriveLoad>(recording, loads_of(recording));
+  const ResidualTracking tracking = of.tracking.at(estimator);
   LoadHistory past;
   ResidualMemory memory, next;
   for (std::size_t k = 0; k < estimates.size(); ++k) {
     const DriveLoad load = loads[k];
-    follow_residual(estimates[k], load, past, Time(recording.time_ns[k]), of.tracking, memory, next);
+    follow_residual(estimates[k], load, past, Time(recording.time_ns[k]), tracking, memory, next);
     if (load.valid) past.push(load);
     memory = next;
     visit(nominal[k], memory);

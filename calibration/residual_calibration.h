@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,9 @@ struct Recording;
 /// Motion without contact in which a fused detector told the loads of the drives.
 struct ResidualRecording {
   const Recording* recording;
-  ConfigurationSpace space;   ///< of the recorded robot
-  ResidualTracking tracking;  ///< of the detector that shall judge
+  ConfigurationSpace space;  ///< of the recorded robot
+  /// Of the detector that shall judge, by estimator.
+  std::map<std::string, ResidualTracking> tracking;
 };
 
 /// When the level or the change of a residual is a contact.

@@ -40,17 +40,19 @@ std::array<NamedSurprise, 2> parts(const CalibratedResidual& residual) {
 
 std::string residuals_table(const ThresholdFindings& found) {
   std::string text = fmt::format(
-      "\nfused detector, all of it together; deviations of the errors by cause, noise in {}\n{:<22} {:<6} "
+      "\nfused detector, all of it together; deviations of the errors by cause, noise in {}, lag in "
+      "ms\n{:<22} {:<6} "
       "{:>9} "
-      "{:>9} {:>9} {:>7} {:>7} {:>7} {:>7} {:>8}\n",
+      "{:>9} {:>9} {:>7} {:>7} {:>7} {:>7} {:>8} {:>7}\n",
       found.drives_turn ? "Nm" : "N", "residual", "of", "threshold", "guess", "largest", "noise", "speed",
-      "load", "torque", "friction");
+      "load", "torque", "friction", "lag");
   for (const CalibratedResidual& residual : found.residuals) {
     for (const auto& [part, of] : parts(residual)) {
       text += fmt::format(
-          "{:<22} {:<6} {:>9.3g} {:>9.3g} {:>9.3g} {:>7.3f} {:>7.3f} {:>7.3f} {:>7.3f} {:>8.3f}\n",
+          "{:<22} {:<6} {:>9.3g} {:>9.3g} {:>9.3g} {:>7.3f} {:>7.3f} {:>7.3f} {:>7.3f} {:>8.3f} {:>7.3f}\n",
           residual.estimator, part, of.threshold.value, of.threshold.best_guess, of.threshold.largest,
-          of.errors.noise, of.errors.speed, of.errors.load, of.errors.torque, of.errors.friction);
+          of.errors.noise, of.errors.speed, of.errors.load, of.errors.torque, of.errors.friction,
+          1e3 * of.errors.lag);
     }
   }
   return text;
@@ -64,8 +66,8 @@ std::string residuals_yaml(const ThresholdFindings& found) {
       text += fmt::format("      {}: {{threshold: {:.4g}, noise_{}: {:.4g}, speed_{}: {:.4g}", part,
                           of.threshold.value, found.drives_turn ? "Nm" : "N", of.errors.noise,
                           found.drives_turn ? "Nms_per_rad" : "Ns_per_m", of.errors.speed);
-      text += fmt::format(", load: {:.4g}, torque: {:.4g}, friction: {:.4g}}}\n", of.errors.load,
-                          of.errors.torque, of.errors.friction);
+      text += fmt::format(", load: {:.4g}, torque: {:.4g}, friction: {:.4g}, lag_ms: {:.4g}}}\n",
+                          of.errors.load, of.errors.torque, of.errors.friction, 1e3 * of.errors.lag);
     }
   }
   return text;
@@ -75,7 +77,8 @@ Json json_of(const CalibratedSurprise& of) {
   return {{"value", of.threshold.value},     {"best_guess", of.threshold.best_guess},
           {"largest", of.threshold.largest}, {"noise", of.errors.noise},
           {"speed", of.errors.speed},        {"load", of.errors.load},
-          {"torque", of.errors.torque},      {"friction", of.errors.friction}};
+          {"torque", of.errors.torque},      {"friction", of.errors.friction},
+          {"lag_s", of.errors.lag}};
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ OutputPort<ContactDetection> add_residual(const StageSite& site, const FusedResi
                                           OutputPort<DriveLoad> load) {
   const WhitenedDetectorSettings settings{.level = residual.level,
                                           .change = residual.change,
-                                          .tracking = site.settings.fused_detector.tracking,
+                                          .tracking = tracking_of(residual.estimator, site.settings),
                                           .hard = site.settings.contact_detector.hard};
   const std::string name = site.name + "_by_" + residual.estimator;
   auto& detector = site.builder.add<WhitenedDetector>(name, site.robot, settings);
@@ -68,6 +68,13 @@ OutputPort<ContactDetection> add_nothing(const StageSite& site) {
 }
 
 }  // namespace
+
+ResidualTracking tracking_of(const std::string& estimator, const ContactControlSettings& settings) {
+  ResidualTracking tracking = settings.fused_detector.tracking;
+  if (estimator == "disturbance_filter")
+    tracking.answer = {.filters = 3, .rate = settings.disturbance_filter.pole};
+  return tracking;
+}
 
 OutputPort<ContactDetection> add_fused_detector(const StageSite& site, const EstimatePorts& given) {
   const LaglessPorts present = without_lag(part(site, "motion"), given);

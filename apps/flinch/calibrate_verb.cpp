@@ -7,6 +7,7 @@
 #include "calibration/contact_free_peaks.h"
 #include "calibration/threshold_calibration.h"
 #include "calibration/thresholds_output.h"
+#include "diagrams/fused_detector.h"
 #include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
@@ -47,14 +48,15 @@ FreeMotions read_motions(const CalibrateThresholdsOptions& options, const Thresh
 
 /// Of the estimators whose residuals a fused detector judges by, as far as they are recorded.
 std::vector<CalibratedResidual> residuals_of(const FreeMotions& motions, const ThresholdGoal& goal) {
+  const std::vector<std::string> judged{"disturbance_filter", "imu_residual"};
   std::vector<ResidualRecording> recordings;
   for (std::size_t i = 0; i < motions.recordings.size(); ++i) {
     const Scenario& scenario = motions.scenarios[i];
-    recordings.push_back(
-        {&motions.recordings[i], scenario.robot.robot->space(), scenario.control.fused_detector.tracking});
+    ResidualRecording recording{&motions.recordings[i], scenario.robot.robot->space(), {}};
+    for (const std::string& name : judged) recording.tracking[name] = tracking_of(name, scenario.control);
+    recordings.push_back(recording);
   }
-  const std::vector<std::string> estimators =
-      calibrated_residuals(recordings, {"disturbance_filter", "imu_residual"});
+  const std::vector<std::string> estimators = calibrated_residuals(recordings, judged);
   if (estimators.empty()) return {};
   return calibrate_residuals(recordings, estimators, goal);
 }

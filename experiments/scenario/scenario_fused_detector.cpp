@@ -18,6 +18,7 @@ void read(ConfigReader reader, bool drives_turn, SurpriseThreshold& limit) {
   reader.number("load", unit::none, limit.errors.load, not_negative);
   reader.number("torque", unit::none, limit.errors.torque, not_negative);
   reader.number("friction", unit::none, limit.errors.friction, not_negative);
+  reader.number("lag", unit::s, limit.errors.lag, not_negative);
 }
 
 bool has(const std::vector<FusedResidual>& residuals, const std::string& estimator) {

@@ -12,12 +12,16 @@ constexpr double square(double value) { return value * value; }
 
 double ResidualErrors::variance(const ErrorFeatures& features) const {
   return square(noise) * features[0] + square(speed) * features[1] + square(load) * features[2] +
-         square(torque) * features[3] + square(friction) * features[4];
+         square(torque) * features[3] + square(friction) * features[4] + square(lag) * features[5];
 }
 
 ErrorFeatures error_features(const DriveLoad& load, const DriveResidual& seen, int drive) {
-  return {1.0, square(load.rate[drive]), square(load.torque[drive]), square(seen.torque[drive]),
-          square(seen.friction[drive])};
+  return {1.0,
+          square(load.rate[drive]),
+          square(load.torque[drive]),
+          square(seen.torque[drive]),
+          square(seen.friction[drive]),
+          square(seen.slope[drive])};
 }
 
 double surprise(const DriveLoad& load, const DriveResidual& seen, const ResidualErrors& errors) {

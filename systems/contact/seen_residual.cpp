@@ -11,13 +11,30 @@ bool is_usable(const WrenchEstimate& estimate) {
 }
 
 DriveResidual minus(const DriveResidual& a, const DriveResidual& b) {
-  return {a.effort - b.effort, a.torque - b.torque, a.friction - b.friction};
+  return {a.effort - b.effort, a.torque - b.torque, a.friction - b.friction, a.slope - b.slope};
 }
 
 /// a + share (b - a)
 DriveResidual towards(const DriveResidual& a, const DriveResidual& b, double share) {
   const DriveResidual way = minus(b, a);
-  return {a.effort + share * way.effort, a.torque + share * way.torque, a.friction + share * way.friction};
+  return {a.effort + share * way.effort, a.torque + share * way.torque, a.friction + share * way.friction,
+          a.slope + share * way.slope};
+}
+
+/// Passes a load through the filters of an answer, which have settled on it where it is the first one; `T` is
+/// the time since the last one [s].
+AnsweredLoad answered(const DriveLoad& load, const EstimatorAnswer& answer, bool is_first, double T,
+                      ResidualMemory& next) {
+  AnsweredLoad now{load.torque, load.friction};
+  const double share = is_first ? 1.0 : 1.0 - std::exp(-answer.rate * T);
+  for (int i = 0; i < answer.filters; ++i) {
+    AnsweredLoad& filter = next.answered[static_cast<std::size_t>(i)];
+    if (is_first) filter = now;
+    filter.torque += share * (now.torque - filter.torque);
+    filter.friction += share * (now.friction - filter.friction);
+    now = filter;
+  }
+  return now;
 }
 
 }  // namespace
@@ -34,8 +51,12 @@ void follow_residual(const WrenchEstimate& estimate, const DriveLoad& fresh, con
     if (tracking.sampling.expired(memory.arrived, now)) next.started = false;
     return;
   }
-  const DriveResidual level{estimate.drive_torque, then->torque, then->friction};
   const bool continued = memory.started && !tracking.sampling.interrupted(memory.acquired, estimate.acquired);
+  const double T = to_seconds(estimate.acquired - memory.acquired);
+  const AnsweredLoad load = answered(*then, tracking.answer, !continued, T, next);
+  DriveResidual level{estimate.drive_torque, load.torque, load.friction,
+                      JointVector::Zero(load.torque.size())};
+  if (continued) level.slope = (load.torque - memory.seen.level.torque) / T;
   if (!continued) {
     next.mean = level;
     next.since = now;
@@ -46,10 +67,7 @@ void follow_residual(const WrenchEstimate& estimate, const DriveLoad& fresh, con
   next.seen.load = *then;
   next.seen.level = level;
   next.seen.change = minus(level, next.mean);
-  if (continued) {
-    const double T = to_seconds(estimate.acquired - memory.acquired);
-    next.mean = towards(next.mean, level, 1.0 - std::exp(-tracking.rate * T));
-  }
+  if (continued) next.mean = towards(next.mean, level, 1.0 - std::exp(-tracking.rate * T));
   next.acquired = estimate.acquired;
   next.arrived = now;
 }

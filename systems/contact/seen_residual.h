@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "systems/framework/time.h"
 #include "systems/robot/vectors.h"
 #include "systems/signals/drive_load.h"
@@ -10,11 +12,12 @@
 namespace flinch {
 
 /// What an estimator holds for the effort of the surroundings at the drives, beside what its errors grow
-/// with; one entry a drive [Nm or N].
+/// with, as late as it shows them; one entry a drive [Nm or N].
 struct DriveResidual {
   JointVector effort;    ///< tau_a,ext as estimated
-  JointVector torque;    ///< of the drives at that time
-  JointVector friction;  ///< that the model expects there
+  JointVector torque;    ///< of the drives
+  JointVector friction;  ///< that the model expects
+  JointVector slope;     ///< of the torque [Nm/s or N/s]
 };
 
 /// A residual as it is, and what of it is new. All of it was acquired at one time.
@@ -28,12 +31,27 @@ struct SeenResidual {
 
 using LoadHistory = History<DriveLoad, 32>;
 
+/// How an estimator answers an effort: through first-order filters in a row. What is wrong with the torque of
+/// the drives shows in its residual through the same filters.
+struct EstimatorAnswer {
+  static constexpr int most = 3;
+  int filters = 0;
+  double rate = 0.0;  ///< of each filter [1/s]
+};
+
 /// How a residual is followed.
 struct ResidualTracking {
+  EstimatorAnswer answer;
   double rate = 50.0;  ///< of the first-order filter whose output is the mean of late [1/s]
   Sampling sampling;
 
   Time settling_time() const { return from_seconds(3.0 / rate); }
+};
+
+/// Torque and friction of the drives behind a filter; one entry a drive [Nm or N].
+struct AnsweredLoad {
+  JointVector torque;
+  JointVector friction;
 };
 
 /// What is remembered of a residual.
@@ -42,13 +60,16 @@ struct ResidualMemory {
   Time acquired{};  ///< of the last estimate
   Time arrived{};   ///< tick at which it came
   Time since{};     ///< tick of the first one
+  /// Behind each filter of the answer.
+  std::array<AnsweredLoad, EstimatorAnswer::most> answered;
   DriveResidual mean;
   SeenResidual seen;
 };
 
-/// The estimate of a tick, whose residual is set beside the load of the time that it tells of: a fresh load,
-/// or one of `past`. An estimate that is not valid, not finite, or has fallen back to another estimator is
-/// none; after the longest hold without one, and after a gap, everything begins anew.
+/// The estimate of a tick, whose residual is set beside the load of the time that it tells of, a fresh load
+/// or one of `past`, as the estimator answers it. An estimate that is not valid, not finite, or has fallen
+/// back to another estimator is none; after the longest hold without one, and after a gap, everything begins
+/// anew.
 void follow_residual(const WrenchEstimate& estimate, const DriveLoad& fresh, const LoadHistory& past,
                      Time now, const ResidualTracking& tracking, const ResidualMemory& memory,
                      ResidualMemory& next);

@@ -17,6 +17,7 @@ void find_problems(const std::string& owner, const SurpriseThreshold& settings, 
   findings.not_negative(owner + ".load", settings.errors.load);
   findings.not_negative(owner + ".torque", settings.errors.torque);
   findings.not_negative(owner + ".friction", settings.errors.friction);
+  findings.not_negative(owner + ".lag", settings.errors.lag, "s");
 }
 
 std::vector<std::string> problems(const WhitenedDetectorSettings& settings) {
@@ -24,6 +25,10 @@ std::vector<std::string> problems(const WhitenedDetectorSettings& settings) {
   find_problems("level", settings.level, found);
   find_problems("change", settings.change, found);
   found.positive("tracking", settings.tracking.rate, "1/s");
+  const EstimatorAnswer& answer = settings.tracking.answer;
+  found.require(answer.filters >= 0 && answer.filters <= EstimatorAnswer::most,
+                "tracking.answer has more filters than can be followed, or fewer than none");
+  if (answer.filters > 0) found.positive("tracking.answer", answer.rate, "1/s");
   found.require(settings.hard.force > 0.0 && settings.hard.moment > 0.0,
                 "hard has a threshold that is not positive [N, Nm]");
   return found.take();

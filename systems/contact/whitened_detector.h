@@ -23,10 +23,10 @@ struct WhitenedDetectorSettings {
 };
 
 /// Says that the robot is touched when what an estimator holds for the effort at the drives is larger than
-/// its errors explain. Each drive's is divided by the deviation that its error has under the present speed,
-/// torque and friction (`ResidualErrors`, from motion without contact); the length of what is left is
-/// compared with a threshold. The same is done with the change of late, from which slow errors are gone.
-/// (Derived.)
+/// its errors explain. Each drive's is divided by the deviation that its error has under its speed, torque
+/// and friction, as late as the estimator shows them (`ResidualErrors`, from motion without contact); the
+/// length of what is left is compared with a threshold. The same is done with the change of late, from which
+/// slow errors are gone. (Derived.)
 ///
 /// The level latches as that of `ContactDetector`. In a tick whose estimate is not new nothing is noticed;
 /// where none has come for the longest hold, or it has fallen back to another estimator, the detection is

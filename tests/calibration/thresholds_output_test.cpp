@@ -28,8 +28,10 @@ ThresholdFindings with_a_residual(bool drives_turn) {
   found.residuals = {
       {.estimator = "filter",
        .stretches = 180,
-       .level = {{.noise = 0.25, .speed = 0.5, .load = 0.0, .torque = 0.125, .friction = 0.75}, {8.0}},
-       .change = {{.noise = 0.5, .speed = 0.25, .load = 0.0625, .torque = 0.5, .friction = 1.0}, {9.5}}}};
+       .level = {{.noise = 0.25, .speed = 0.5, .load = 0.0, .torque = 0.125, .friction = 0.75, .lag = 0.5},
+                 {8.0}},
+       .change = {{.noise = 0.5, .speed = 0.25, .load = 0.0625, .torque = 0.5, .friction = 1.0, .lag = 0.25},
+                  {9.5}}}};
   return found;
 }
 
@@ -67,9 +69,9 @@ TEST(TheSection, OfAFusedDetectorHasTheUnitsOfTheDrives) {
                 "  residuals:\n"
                 "    - estimator: filter\n"
                 "      level: {threshold: 8, noise_Nm: 0.25, speed_Nms_per_rad: 0.5, load: 0, torque: "
-                "0.125, friction: 0.75}\n"
+                "0.125, friction: 0.75, lag_ms: 500}\n"
                 "      change: {threshold: 9.5, noise_Nm: 0.5, speed_Nms_per_rad: 0.25, load: 0.0625, "
-                "torque: 0.5, friction: 1}\n"));
+                "torque: 0.5, friction: 1, lag_ms: 250}\n"));
   EXPECT_THAT(thresholds_yaml(with_a_residual(false)), HasSubstr("noise_N: 0.25, speed_Ns_per_m: 0.5"));
 }
 

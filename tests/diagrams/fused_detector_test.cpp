@@ -74,6 +74,14 @@ TEST(FusedDetector, WithoutResidualsMayRunButNotBeFollowed) {
   EXPECT_TRUE(bench.run_until(react, 3s)) << "by the contact detector";
 }
 
+TEST(FusedDetector, FollowsTheDisturbanceFilterBehindItsOwnPoles) {
+  ContactControlSettings settings = collision(0.5).control;
+  settings.disturbance_filter.pole = 250.0;
+  EXPECT_EQ(tracking_of("disturbance_filter", settings).answer.filters, 3);
+  EXPECT_EQ(tracking_of("disturbance_filter", settings).answer.rate, 250.0);
+  EXPECT_EQ(tracking_of("imu_residual", settings).answer.filters, 0);
+}
+
 TEST(FusedDetector, TellsTheNearestNameOfAnEstimator) {
   FusedDetectorSettings misspelt = by_the_encoders();
   misspelt.residuals[0].estimator = "disturbence_filter";

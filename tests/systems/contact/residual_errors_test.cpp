@@ -18,23 +18,27 @@ const DriveLoad load{.acquired = {},
 TEST(ErrorVariance, IsTheSumOfIndependentParts) {
   const DriveResidual seen{.effort = Eigen::Vector3d::Zero(),
                            .torque = Eigen::Vector3d(1.0, 3.0, 0.0),
-                           .friction = Eigen::Vector3d(0.5, 0.0, 0.0)};
-  const ResidualErrors errors{.noise = 0.1, .speed = 0.2, .load = 0.01, .torque = 0.5, .friction = 0.4};
+                           .friction = Eigen::Vector3d(0.5, 0.0, 0.0),
+                           .slope = Eigen::Vector3d(0.0, 0.0, 500.0)};
+  const ResidualErrors errors{
+      .noise = 0.1, .speed = 0.2, .load = 0.01, .torque = 0.5, .friction = 0.4, .lag = 2e-4};
   // 0.1^2 + (0.2 2)^2 + (0.01 10)^2 + (0.5 1)^2 + (0.4 0.5)^2
   EXPECT_NEAR(errors.variance(error_features(load, seen, 0)), 0.01 + 0.16 + 0.01 + 0.25 + 0.04, 1e-15);
   EXPECT_NEAR(errors.variance(error_features(load, seen, 1)), 0.01 + 0.04 + 0.04 + 2.25, 1e-15);
-  EXPECT_NEAR(errors.variance(error_features(load, seen, 2)), 0.01 + 0.0025, 1e-15);
+  EXPECT_NEAR(errors.variance(error_features(load, seen, 2)), 0.01 + 0.0025 + 0.01, 1e-15);
 }
 
 TEST(Surprise, HasASquareThatIsChiSquareForErrorsAsAssumed) {
   RandomGenerator random(1);
-  const ResidualErrors errors{.noise = 0.1, .speed = 0.2, .load = 0.01, .torque = 0.5, .friction = 0.4};
+  const ResidualErrors errors{
+      .noise = 0.1, .speed = 0.2, .load = 0.01, .torque = 0.5, .friction = 0.4, .lag = 2e-4};
   constexpr int trials = 20'000;
   double sum = 0.0, squares = 0.0;
   for (int k = 0; k < trials; ++k) {
     DriveResidual seen{.effort = Eigen::Vector3d::Zero(),
                        .torque = Eigen::Vector3d::Constant(random.uniform(-3.0, 3.0)),
-                       .friction = Eigen::Vector3d::Constant(random.uniform(-0.6, 0.6))};
+                       .friction = Eigen::Vector3d::Constant(random.uniform(-0.6, 0.6)),
+                       .slope = Eigen::Vector3d::Constant(random.uniform(-1e3, 1e3))};
     for (int i = 0; i < 3; ++i) {
       const ErrorFeatures features = error_features(load, seen, i);
       seen.effort[i] = std::sqrt(errors.variance(features)) * random.normal();
@@ -50,7 +54,8 @@ TEST(Surprise, HasASquareThatIsChiSquareForErrorsAsAssumed) {
 TEST(Surprise, OfWhatIsNotFiniteIsInfinite) {
   const DriveResidual seen{.effort = Eigen::Vector3d(std::nan(""), 0.0, 0.0),
                            .torque = Eigen::Vector3d::Zero(),
-                           .friction = Eigen::Vector3d::Zero()};
+                           .friction = Eigen::Vector3d::Zero(),
+                           .slope = Eigen::Vector3d::Zero()};
   EXPECT_EQ(surprise(load, seen, {.noise = 1.0}), INFINITY);
 }
 

@@ -6,6 +6,7 @@
 
 #include "systems/foundation/setup_error.h"
 #include "tests/support/allocations.h"
+#include "tests/support/answer_of_filters.h"
 #include "tests/support/planar_bench.h"
 #include "tests/support/ticking.h"
 
@@ -26,6 +27,9 @@ WhitenedDetectorSettings settings() {
 /// The detector, fed with an estimate of the effort at the first drive.
 class WhitenedDetectorTest : public testing::Test {
  protected:
+  explicit WhitenedDetectorTest(const WhitenedDetectorSettings& by = settings())
+      : block_(builder_.add<WhitenedDetector>("detector", test::planar_bench(), by)) {}
+
   const ContactDetection& see(double effort, Time late = 0ms) {
     const Time now = ticking_.now();
     load_.acquired = now;
@@ -44,7 +48,7 @@ class WhitenedDetectorTest : public testing::Test {
   bool notices(double effort) { return see(effort).present_level != ContactLevel::none; }
 
   DiagramBuilder builder_;
-  WhitenedDetector& block_ = builder_.add<WhitenedDetector>("detector", test::planar_bench(), settings());
+  WhitenedDetector& block_;
   InputPort<WrenchEstimate> wrench_ = builder_.export_input("wrench", block_.wrench);
   InputPort<DriveLoad> load_port_ = builder_.export_input("load", block_.load);
   InputPort<ResetCommand> reset_ = builder_.export_input("reset", block_.reset);
@@ -87,6 +91,29 @@ TEST_F(WhitenedDetectorTest, ExpectsLargerErrorsWhereFrictionOrTorqueHaveJustCha
   EXPECT_FALSE(notices(2.4 + 0.5));
   settle();
   EXPECT_TRUE(notices(2.4 + 1.2)) << "nothing has changed";
+}
+
+/// Judges an estimator that answers through three filters.
+class BehindFilters : public WhitenedDetectorTest {
+ protected:
+  BehindFilters() : WhitenedDetectorTest(answering()) {}
+  static WhitenedDetectorSettings answering() {
+    WhitenedDetectorSettings slow = settings();
+    slow.tracking.answer = {.filters = 3, .rate = 300.0};
+    return slow;
+  }
+};
+
+TEST_F(BehindFilters, AnErrorIsExpectedWhenTheEstimatorShowsIt) {
+  settle();
+  load_.friction[0] = 1.2;
+  for (int k = 1; k < 60; ++k) EXPECT_FALSE(notices(2.4 * test::answer_of_three_filters(0.3 * k))) << k;
+}
+
+TEST_F(BehindFilters, AnErrorIsNotExpectedBefore) {
+  settle();
+  load_.friction[0] = 1.2;
+  EXPECT_TRUE(notices(0.6)) << "what friction does is not seen yet";
 }
 
 TEST_F(WhitenedDetectorTest, SetsALateEstimateBesideTheLoadOfItsTime) {
@@ -161,6 +188,17 @@ TEST_F(WhitenedDetectorTest, NeverAllocates) {
   const test::AllocationCounter counter;
   for (int k = 0; k < 100; ++k) see(k % 7 == 0 ? 1.0 : 0.0, 3ms);
   EXPECT_EQ(counter.count(), 0);
+}
+
+TEST(WhitenedDetectorSettings, AreRefusedWhereFiltersHaveNoRateOrAreTooMany) {
+  WhitenedDetectorSettings wrong = settings();
+  wrong.tracking.answer = {.filters = 4, .rate = 0.0};
+  try {
+    const WhitenedDetector detector(test::planar_bench(), wrong);
+    FAIL();
+  } catch (const SetupError& error) {
+    EXPECT_EQ(error.problems().size(), 2U);
+  }
 }
 
 TEST(WhitenedDetectorSettings, AreRefusedWhereAThresholdOrTheNoiseIsMissing) {

@@ -14,6 +14,7 @@
 #include "systems/robot/planar_rrr_presets.h"
 #include "systems/sensors/drive_torque_mapping.h"
 #include "systems/sensors/velocity_filter.h"
+#include "tests/support/answer_of_filters.h"
 #include "tests/support/moving_robot.h"
 
 namespace flinch {
@@ -89,15 +90,13 @@ class Chain {
 
 const PlatformVector push{{25.0, -40.0, 3.0}};
 
-// A threefold pole w answers a step by 1 - exp(-w t) (1 + w t + (w t)^2 / 2).
 TEST(DisturbanceFilter, AnswersAPushOnTheMovingRobotByItsThreefoldPole) {
   Chain chain(push, 0.0);
   for (int k = 0; k < 600; ++k) {
     const WrenchEstimate& seen = chain.tick();
     ASSERT_EQ(seen.valid, k >= 35) << k;
     if (!seen.valid) continue;
-    const double wt = std::max(0.0, 300.0 * (k - 300.5) * 1e-3);
-    const double answer = k < 301 ? 0.0 : 1.0 - std::exp(-wt) * (1.0 + wt + 0.5 * wt * wt);
+    const double answer = test::answer_of_three_filters(300.0 * (k - 300.5) * 1e-3);
     const double transient = k >= 301 && k < 320 ? 0.08 : 0.015;
     ASSERT_LT((seen.wrench_in_base - answer * push).norm(), transient * push.norm() + 0.2) << k;
   }

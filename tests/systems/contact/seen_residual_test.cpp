@@ -1,0 +1,140 @@
+#include "systems/contact/seen_residual.h"
+
+#include <gtest/gtest.h>
+
+#include "systems/estimators/disturbance_filter.h"
+#include "tests/support/answer_of_filters.h"
+#include "tests/support/planar_bench.h"
+#include "tests/support/ticking.h"
+
+namespace flinch {
+namespace {
+
+const DriveLoad at_rest{.acquired = {},
+                        .valid = true,
+                        .rate = Eigen::Vector3d::Zero(),
+                        .torque = Eigen::Vector3d::Zero(),
+                        .friction = Eigen::Vector3d::Zero()};
+
+WrenchEstimate estimate_of(const JointVector& effort) {
+  WrenchEstimate estimate;
+  estimate.valid = true;
+  estimate.drive_torque = effort;
+  return estimate;
+}
+
+/// Follows the residual of an estimator that answers through filters, a tick a time.
+class Follower {
+ public:
+  explicit Follower(const EstimatorAnswer& answer) { tracking_.answer = answer; }
+
+  const SeenResidual& see(WrenchEstimate estimate, DriveLoad load) {
+    now_ += 1ms;
+    estimate.acquired = load.acquired = now_;
+    ResidualMemory next;
+    follow_residual(estimate, load, past_, now_, tracking_, memory_, next);
+    past_.push(load);
+    memory_ = next;
+    return memory_.seen;
+  }
+  void miss(Time time) { now_ += time; }
+
+ private:
+  ResidualTracking tracking_;
+  LoadHistory past_;
+  ResidualMemory memory_;
+  Time now_{};
+};
+
+const EstimatorAnswer three_poles{.filters = 3, .rate = DisturbanceFilterSettings{}.pole};
+
+TEST(SeenResidual, HasTheLoadBehindTheFiltersOfItsEstimator) {
+  Follower follower(three_poles);
+  DriveLoad load = at_rest;
+  for (int k = -50; k < 60; ++k) {
+    if (k >= 0) load.friction[0] = 1.0;
+    if (k >= 0) load.torque[0] += 1.0;
+    const SeenResidual& seen = follower.see(estimate_of(Eigen::Vector3d::Zero()), load);
+    // Discrete filters are half a tick each ahead of those of the formula.
+    const double sooner = test::answer_of_three_filters(0.3 * (k + 2));
+    const double later = test::answer_of_three_filters(0.3 * k);
+    EXPECT_GE(seen.level.friction[0], later) << k;
+    EXPECT_LE(seen.level.friction[0], sooner) << k;
+    EXPECT_GE(seen.level.slope[0], 1e3 * later) << k;
+    EXPECT_LE(seen.level.slope[0], 1e3 * sooner) << k;
+    EXPECT_EQ(seen.load.torque, load.torque) << "the load itself has no lag";
+  }
+}
+
+TEST(SeenResidual, BeginsWithFiltersThatHaveSettled) {
+  Follower follower(three_poles);
+  DriveLoad load = at_rest;
+  load.torque[0] = 4.0;
+  for (int times = 0; times < 2; ++times) {
+    const SeenResidual& seen = follower.see(estimate_of(Eigen::Vector3d::Zero()), load);
+    EXPECT_EQ(seen.level.torque[0], load.torque[0]);
+    EXPECT_EQ(seen.level.slope[0], 0.0);
+    load.torque[0] = -7.0;
+    follower.miss(1s);
+  }
+}
+
+TEST(SeenResidual, OfAnEstimatorWithoutFiltersHasTheLoadOfItsTime) {
+  Follower follower({});
+  DriveLoad load = at_rest;
+  follower.see(estimate_of(Eigen::Vector3d::Zero()), load);
+  load.torque[0] = 4.0;
+  const SeenResidual& seen = follower.see(estimate_of(Eigen::Vector3d::Zero()), load);
+  EXPECT_EQ(seen.level.torque[0], 4.0);
+  EXPECT_NEAR(seen.level.slope[0], 4e3, 1e-9);
+}
+
+/// The disturbance filter of a robot that stands still, whatever torque is told.
+class StandingRobot {
+ public:
+  WrenchEstimate told(double torque) {
+    const test::Posture posture(*robot_, Eigen::Vector3d(0.05, -0.03, 0.1), PlatformVector::Zero(3),
+                                ticking_.now());
+    ticking_.set(joints_, posture.joints);
+    ticking_.set(platform_, posture.platform);
+    ticking_.set(kinematics_, posture.kinematics);
+    ticking_.set(dynamics_, posture.dynamics);
+    ticking_.set(torque_, DriveTorque{ticking_.now(), true, Eigen::Vector3d(torque, 0.0, 0.0)});
+    ticking_.tick();
+    return ticking_.get(filter_.wrench);
+  }
+
+ private:
+  std::shared_ptr<const ParallelRobot> robot_ = test::planar_bench();
+  DiagramBuilder builder_{"robot", 1ms};
+  DisturbanceFilter& filter_ = builder_.add<DisturbanceFilter>("filter", robot_, DisturbanceFilterSettings{});
+  InputPort<JointReading> joints_ = builder_.export_input("joints", filter_.joints);
+  InputPort<PlatformMotion> platform_ = builder_.export_input("platform", filter_.platform);
+  InputPort<Kinematics> kinematics_ = builder_.export_input("kinematics", filter_.kinematics);
+  InputPort<Dynamics> dynamics_ = builder_.export_input("dynamics", filter_.dynamics);
+  InputPort<DriveTorque> torque_ = builder_.export_input("torque", filter_.torque);
+  test::Ticking ticking_{builder_};
+};
+
+// Of a torque that is told but does not act, the whole is an error: what the estimator holds for an effort
+// from outside is its opposite.
+TEST(SeenResidual, HasAWrongTorqueAsLateAsTheDisturbanceFilterHoldsItForAnEffort) {
+  StandingRobot robot;
+  Follower follower(three_poles);
+  constexpr double wrong = 0.5;  // Nm
+  for (int k = -60; k < 60; ++k) {
+    DriveLoad load = at_rest;
+    load.torque[0] = k < 0 ? 0.0 : wrong;
+    const WrenchEstimate estimate = robot.told(load.torque[0]);
+    const SeenResidual& seen = follower.see(estimate, load);
+    if (k < -20) continue;
+    ASSERT_TRUE(estimate.valid) << k;
+    // Half a tick between filters and poles: a tenth of the answer's steepest slope.
+    EXPECT_NEAR(seen.level.effort[0], -seen.level.torque[0], 0.05 * wrong) << k;
+    if (k < 0 || k > 3) continue;
+    EXPECT_LT(std::abs(seen.level.effort[0]), 0.2 * wrong) << "still to come, at " << k;
+  }
+}
+
+}  // namespace
+}  // namespace flinch
