@@ -1,6 +1,9 @@
 #include "systems/contact/seen_residual.h"
 
 #include <cmath>
+#include <optional>
+
+#include "systems/signals/sample_at.h"
 
 namespace flinch {
 namespace {
@@ -19,6 +22,19 @@ DriveResidual towards(const DriveResidual& a, const DriveResidual& b, double sha
   const DriveResidual way = minus(b, a);
   return {a.effort + share * way.effort, a.torque + share * way.torque, a.friction + share * way.friction,
           a.slope + share * way.slope};
+}
+
+/// The load between two ticks, as if it changed evenly.
+DriveLoad between(const Around<DriveLoad>& around, Time time) {
+  const DriveLoad &before = *around.before, &after = *around.after;
+  const double later = around.share(time);
+  DriveLoad load;
+  load.acquired = time;
+  load.valid = true;
+  load.rate = before.rate + later * (after.rate - before.rate);
+  load.torque = before.torque + later * (after.torque - before.torque);
+  load.friction = before.friction + later * (after.friction - before.friction);
+  return load;
 }
 
 /// Passes a load through the filters of an answer, which have settled on it where it is the first one; `T` is
@@ -43,11 +59,12 @@ void follow_residual(const WrenchEstimate& estimate, const DriveLoad& fresh, con
                      Time now, const ResidualTracking& tracking, const ResidualMemory& memory,
                      ResidualMemory& next) {
   const bool is_new = is_usable(estimate) && (!memory.started || estimate.acquired > memory.acquired);
-  const DriveLoad* then = is_new ? past.first_from(estimate.acquired) : nullptr;
-  if (is_new && then == nullptr && fresh.valid && fresh.acquired >= estimate.acquired) then = &fresh;
+  std::optional<DriveLoad> then;
+  if (is_new)
+    then = sample_at(estimate.acquired, past, fresh.valid ? &fresh : nullptr, tracking.sampling, between);
   next = memory;
   next.seen.is_new = false;
-  if (then == nullptr || then->torque.size() != estimate.drive_torque.size()) {
+  if (!then || then->torque.size() != estimate.drive_torque.size()) {
     if (tracking.sampling.expired(memory.arrived, now)) next.started = false;
     return;
   }

@@ -3,19 +3,14 @@
 #include <optional>
 
 #include "systems/signals/driven_share.h"
-#include "systems/signals/sampling.h"
+#include "systems/signals/sample_at.h"
 
 namespace flinch {
 namespace {
 
-/// At `time`, as if all but the torques changed evenly from before to after it; none where they are too far
-/// apart.
-std::optional<DirectSample> at_time(Time time, const Around<DirectSample>& around) {
-  if (around.after == nullptr) return std::nullopt;
-  if (around.before == nullptr) return *around.after;  // nothing is known before it
+/// Between two ticks, as if all but the torques changed evenly.
+DirectSample between(const Around<DirectSample>& around, Time time) {
   const DirectSample &before = *around.before, &after = *around.after;
-  if (&before == &after) return after;
-  if (Sampling().interrupted(before.acquired, after.acquired)) return std::nullopt;
   const double later = around.share(time), earlier = 1.0 - later;
   DirectSample result;
   result.acquired = time;
@@ -57,7 +52,7 @@ void DirectMethod::estimate(const PlatformAcceleration& measured, const Kinemati
   result.drive_torque.setZero(robot_->drives());
   result.health = measured.health;
   if (!measured.valid || !fresh.valid || !measured.acceleration.allFinite()) return;
-  const std::optional<DirectSample> then = at_time(measured.acquired, past.around(measured.acquired, &fresh));
+  const std::optional<DirectSample> then = sample_at(measured.acquired, past, &fresh, Sampling(), between);
   if (!then) return;
   if (measured.acceleration.size() != robot_->dof()) return;
 

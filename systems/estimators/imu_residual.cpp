@@ -11,6 +11,7 @@
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/forward_dynamics.h"
 #include "systems/signals/driven_share.h"
+#include "systems/signals/sample_at.h"
 
 namespace flinch {
 namespace {
@@ -30,6 +31,28 @@ std::vector<std::string> problems(const ImuResidualSettings& settings) {
   found.finite("mount.position_in_platform", settings.mount.position_in_platform, "m");
   found.finite("mount.angles", settings.mount.angles, "rad");
   return found.take();
+}
+
+/// Between two ticks, as if all but the torques changed evenly.
+ExpectedMotion between(const Around<ExpectedMotion>& around, Time time) {
+  const ExpectedMotion &before = *around.before, &after = *around.after;
+  const double later = around.share(time), earlier = 1.0 - later;
+  ExpectedMotion result;
+  result.acquired = time;
+  result.valid = true;
+  result.braked = before.braked || after.braked;
+  result.is_slow = before.is_slow && after.is_slow;
+  result.force_at_rest = earlier * before.force_at_rest + later * after.force_at_rest;
+  result.force = earlier * before.force + later * after.force;
+  result.rotation = earlier * before.rotation + later * after.rotation;
+  result.by_acceleration = earlier * before.by_acceleration + later * after.by_acceleration;
+  result.M_x = earlier * before.M_x + later * after.M_x;
+  const PlatformVector sooner =
+      (driven_share(time - before.acquired) - later) * (after.driving - before.driving);
+  const PlatformVector acceleration = result.M_x.llt().solve(sooner);
+  result.force += result.by_acceleration.bottomRows<3>() * acceleration;
+  result.rotation += result.by_acceleration.topRows<3>() * acceleration;
+  return result;
 }
 
 }  // namespace
@@ -65,35 +88,6 @@ void ImuResidual::expect(const PlatformMotion& motion, const Kinematics& at, con
   result.valid = result.force.allFinite() && result.M_x.allFinite();
 }
 
-/// Between what was expected before and after `time`, where both are known: as if all changed evenly but for
-/// the torques.
-std::optional<ExpectedMotion> ImuResidual::expected_at(Time time, const ExpectedMotion& fresh,
-                                                       const History<ExpectedMotion, 32>& past) const {
-  const Around<ExpectedMotion> around = past.around(time, fresh.valid ? &fresh : nullptr);
-  if (around.after == nullptr) return std::nullopt;
-  if (around.before == nullptr) return *around.after;  // nothing is known before it
-  const ExpectedMotion &before = *around.before, &after = *around.after;
-  if (&before == &after) return after;
-  if (settings_.sampling.interrupted(before.acquired, after.acquired)) return std::nullopt;
-  const double later = around.share(time), earlier = 1.0 - later;
-  ExpectedMotion result;
-  result.acquired = time;
-  result.valid = true;
-  result.braked = before.braked || after.braked;
-  result.is_slow = before.is_slow && after.is_slow;
-  result.force_at_rest = earlier * before.force_at_rest + later * after.force_at_rest;
-  result.force = earlier * before.force + later * after.force;
-  result.rotation = earlier * before.rotation + later * after.rotation;
-  result.by_acceleration = earlier * before.by_acceleration + later * after.by_acceleration;
-  result.M_x = earlier * before.M_x + later * after.M_x;
-  const PlatformVector sooner =
-      (driven_share(time - before.acquired) - later) * (after.driving - before.driving);
-  const PlatformVector acceleration = result.M_x.llt().solve(sooner);
-  result.force += result.by_acceleration.bottomRows<3>() * acceleration;
-  result.rotation += result.by_acceleration.topRows<3>() * acceleration;
-  return result;
-}
-
 void ImuResidual::remember(const ExpectedMotion& fresh, History<ExpectedMotion, 32>& past) const {
   if (fresh.valid) past.push(fresh);
 }
@@ -109,7 +103,8 @@ void ImuResidual::advance(const ImuReading& reading, const ExpectedMotion& fresh
   const bool sees_imu = is_usable(reading);
   const bool is_new = sees_imu && reading.acquired > memory.acquired;
   const std::optional<ExpectedMotion> then =
-      is_new ? expected_at(reading.acquired, fresh, past) : std::nullopt;
+      is_new ? sample_at(reading.acquired, past, fresh.valid ? &fresh : nullptr, sampling, between)
+             : std::nullopt;
   next = memory;
   next.sees_imu = sees_imu;
   if (!then) {

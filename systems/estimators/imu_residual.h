@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <memory>
-#include <optional>
 
 #include "systems/framework/system.h"
 #include "systems/robot/imu_output.h"
@@ -116,8 +115,6 @@ class ImuResidual final : public System {
   void expect(const PlatformMotion& motion, const Kinematics& at, const Dynamics& model,
               const DriveTorque& drives, ExpectedMotion& result) const;
   void remember(const ExpectedMotion& fresh, History<ExpectedMotion, 32>& past) const;
-  std::optional<ExpectedMotion> expected_at(Time time, const ExpectedMotion& fresh,
-                                            const History<ExpectedMotion, 32>& past) const;
   void advance(const ImuReading& reading, const ExpectedMotion& fresh,
                const History<ExpectedMotion, 32>& past, const ImuResidualMemory& memory, Time now,
                ImuResidualMemory& next) const;

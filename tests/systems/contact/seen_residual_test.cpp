@@ -89,6 +89,29 @@ TEST(SeenResidual, OfAnEstimatorWithoutFiltersHasTheLoadOfItsTime) {
   EXPECT_NEAR(seen.level.slope[0], 4e3, 1e-9);
 }
 
+TEST(SeenResidual, HasTheLoadOfAnInstantBetweenTwoTicks) {
+  LoadHistory past;
+  ResidualMemory memory, next;
+  for (int k = 1; k < 20; ++k) {
+    DriveLoad load = at_rest;
+    load.acquired = k * 1ms;
+    load.torque[0] = load.friction[1] = load.rate[2] = k;
+    WrenchEstimate estimate = estimate_of(Eigen::Vector3d::Zero());
+    estimate.acquired = load.acquired - (k % 2 ? 400us : 150us);  // its clock is its own
+    follow_residual(estimate, load, past, load.acquired, {}, memory, next);
+    past.push(load);
+    memory = next;
+    if (k < 3) continue;
+    const double then = to_seconds(estimate.acquired) * 1e3;
+    ASSERT_TRUE(memory.seen.is_new);
+    EXPECT_EQ(memory.seen.load.acquired, estimate.acquired);
+    EXPECT_NEAR(memory.seen.level.torque[0], then, 1e-12) << k;
+    EXPECT_NEAR(memory.seen.level.friction[1], then, 1e-12) << k;
+    EXPECT_NEAR(memory.seen.load.rate[2], then, 1e-12) << k;
+    EXPECT_NEAR(memory.seen.level.slope[0], 1e3, 1e-8) << k;
+  }
+}
+
 /// The disturbance filter of a robot that stands still, whatever torque is told.
 class StandingRobot {
  public:
