@@ -53,8 +53,9 @@ struct CampaignOptions {
   std::optional<std::size_t> runs;  ///< at each point of the grid
   std::optional<std::uint64_t> seed;
   std::optional<std::size_t> threads;
-  std::optional<std::size_t> run;  ///< only this one, with recording and page
-  bool fresh = false;              ///< whatever the folder holds
+  std::optional<std::size_t> run;    ///< only this one, with recording and page
+  std::filesystem::path classifier;  ///< a model to follow; empty: as the scenarios say
+  bool fresh = false;                ///< whatever the folder holds
 };
 
 struct CalibrateThresholdsOptions {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -59,8 +60,8 @@ void check_classifier(const std::filesystem::path& model);
 void check_data_set(const std::filesystem::path& data);
 void check_data_spec(const std::filesystem::path& spec);
 
-/// Lets a scenario's control path follow the classifier of a model. Throws SetupError where it cannot be
-/// read, or is not for that robot.
-void follow_classifier(const std::filesystem::path& model, Scenario& scenario);
+/// What lets the control path of scenarios follow the classifier of a model. Throws SetupError where that
+/// cannot be read; the function, which threads may share, where it is not for the robot of the scenario.
+std::function<void(Scenario&)> classifier_of(const std::filesystem::path& model);
 
 }  // namespace flinch

@@ -51,7 +51,7 @@ ExitStatus run_recorded(const RunOptions& options) {
   tell_if_partial(recorded, options.common);
   Scenario scenario = scenario_to_replay(recorded, options);
   require_run(recorded, options.input);
-  if (!options.classifier.empty()) follow_classifier(options.classifier, scenario);
+  if (!options.classifier.empty()) classifier_of(options.classifier)(scenario);
   std::vector<RequestedFault> faults;
   add_faults(options.faults, *scenario.robot.robot, faults);
   const StopWatch watch;

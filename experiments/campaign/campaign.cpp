@@ -166,6 +166,7 @@ std::string Campaign::identity() const {
     if (contact->gap > 0.0) text += " gap " + exact_text(contact->gap);
     text += "\n";
   }
+  if (addition) text += addition->identity + "\n";
   for (const std::string& scenario : scenario_texts) text += scenario;
   for (const std::string& robot : robot_texts) text += robot;
   return text;

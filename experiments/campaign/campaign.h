@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@ namespace flinch {
 
 class RobotFiles;
 struct ConfigNode;
+struct Scenario;
 
 /// The values that a key of the scenario takes in turn: one axis of the grid.
 struct CampaignAxis {
@@ -50,6 +52,12 @@ struct CampaignContact {
   double rise = 1.0, hold = 0.0;  ///< of a push; it falls as it rises [s]
 };
 
+/// What a program adds to the scenario of every run, for which there is no key.
+struct CampaignAddition {
+  std::string identity;                ///< results of one do not go on with those of another
+  std::function<void(Scenario&)> add;  ///< called by several threads at once
+};
+
 /// Many runs of scenarios that differ in some of their keys. docs/files.md has the keys of the file.
 struct Campaign {
   std::filesystem::path file;
@@ -70,6 +78,7 @@ struct Campaign {
   std::vector<CampaignAxis> grid;
   std::vector<CampaignDraw> drawn;
   std::optional<CampaignContact> contact;
+  std::optional<CampaignAddition> addition;
   std::shared_ptr<RobotFiles> robots;  ///< of all runs
 
   /// Everything that decides about the results, in words: two campaigns with one identity have one table.

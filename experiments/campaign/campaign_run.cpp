@@ -266,7 +266,7 @@ CampaignRun draw_run(const Campaign& campaign, std::size_t number, int most_atte
   for (run.attempts = 1;; ++run.attempts) {
     const bool is_last = !draws_again || run.attempts >= most_attempts;
     try {
-      if (draw_once(campaign, random, run)) return run;
+      if (draw_once(campaign, random, run)) break;
       if (is_last) throw SetupError("no body moves as 'contact' asks, in none of the draws");
     } catch (const KeyError& error) {
       throw SetupError(of_run(run, error.problems()));
@@ -276,6 +276,8 @@ CampaignRun draw_run(const Campaign& campaign, std::size_t number, int most_atte
         throw SetupError(of_run(run, error.problems()));
     }
   }
+  if (campaign.addition) campaign.addition->add(run.scenario);
+  return run;
 }
 
 void check_keys(const Campaign& campaign) {

@@ -33,7 +33,7 @@ void tell_of_loop_and_link(const LiveRun& run) {
 ExitStatus run_on_bus(const RunOptions& options) {
   const bool silent = options.common.quiet || options.common.json;
   Scenario scenario = read_scenario(options.input);
-  if (!options.classifier.empty()) follow_classifier(options.classifier, scenario);
+  if (!options.classifier.empty()) classifier_of(options.classifier)(scenario);
   const Interrupts interrupts;
   const BusSettings settings = bus_settings(options.bus, silent);
   const DdsBus bus(settings);

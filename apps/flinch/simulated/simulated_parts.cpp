@@ -27,7 +27,7 @@ bool was_simulated(const Recording& recording) { return recording.find("truth") 
 ExitStatus run_simulated(const RunOptions& options) {
   SimulatedScenario scenario = read_simulated_scenario(options.input, options.seed);
   add_faults(options.faults, *scenario.robot.robot, scenario.station.faults);
-  if (!options.classifier.empty()) follow_classifier(options.classifier, scenario);
+  if (!options.classifier.empty()) classifier_of(options.classifier)(scenario);
   built(scenario);  // before anything is written
   const RunFolder folder = folder_of(options, scenario.name);
   const StopWatch watch;

@@ -85,6 +85,30 @@ TEST_F(LearningVerbs, MakeAModelThatARunCanFollow) {
   EXPECT_THAT(other.err, HasSubstr("train it anew with data of this robot"));
 }
 
+TEST_F(LearningVerbs, MakeAModelThatEveryRunOfACampaignCanFollow) {
+  place.write("campaigns/one.yaml", "scenario: ../scenarios/platform_collision.yaml\nruns: 1\n");
+  const auto campaign = [&](const std::string& folder, const std::vector<std::string>& options) {
+    std::vector<std::string> words = {"campaign", place.at("campaigns/one.yaml"), "--out", place.at(folder)};
+    words.insert(words.end(), options.begin(), options.end());
+    return flinch(words);
+  };
+  const Outcome follows = campaign("table", {"--classifier", model()});
+  EXPECT_EQ(follows.status, 0) << follows.err;
+  const Outcome does_not = campaign("table", {});
+  EXPECT_EQ(does_not.status, 2) << "results of two classifiers in one table";
+  EXPECT_THAT(does_not.err, HasSubstr("holds the results of another campaign"));
+  const Outcome alone = campaign("alone", {"--classifier", model(), "--run", "0", "--json"});
+  ASSERT_EQ(alone.status, 0) << alone.err;
+  const Outcome usual = campaign("usual", {"--run", "0", "--json"});
+  const auto probability = [](const Outcome& outcome) {
+    return nlohmann::json::parse(outcome.out)["contacts"][0]["probability"];
+  };
+  EXPECT_NE(probability(alone), probability(usual));
+  const Outcome wrong = campaign("wrong", {"--classifier", place.at("campaigns/one.yaml")});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("this is no ONNX file"));
+}
+
 TEST_F(LearningVerbs, SayOnceWhatIsWrongWithAFile) {
   const std::string whole = test::bytes_of(model());
   place.write("short.onnx", whole.substr(0, whole.size() / 2));
