@@ -4,10 +4,10 @@
 
 #include "diagrams/contact_control_settings.h"
 #include "diagrams/limit_keeping.h"
-#include "systems/laws/pose_goals.h"
 #include "systems/laws/task_controller.h"
 #include "systems/laws/task_energy.h"
 #include "systems/motion/constraint_watch.h"
+#include "systems/motion/pose_goals.h"
 #include "systems/motion/reaction_task.h"
 
 namespace flinch {
@@ -58,7 +58,8 @@ LawPorts add_tracking(const StageSite& site, TaskLevel level, const ReactionPort
 LawPorts add_reaction_with(const StageSite& site, TaskLevel level, const ConstraintSettings& constraints,
                            const ReactionTaskSettings& reaction, const ReactionPorts& given) {
   DiagramBuilder& builder = site.builder;
-  auto& task = builder.add<ReactionTask>(site.name + "_task", site.robot, reaction);
+  auto& task =
+      builder.add<ReactionTask>(site.name + "_task", site.robot, reaction, site.settings.tasks.nominal);
   builder.connect(given.reaction, task.reaction);
   builder.connect(given.kinematics, task.kinematics);
   builder.connect(given.dynamics, task.dynamics);

@@ -6,8 +6,8 @@
 
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
-#include "systems/laws/pose_guidance.h"
 #include "systems/robot/contact_jacobian.h"
+#include "systems/signals/pose_guidance.h"
 
 namespace flinch {
 namespace {

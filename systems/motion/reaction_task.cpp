@@ -7,6 +7,7 @@
 
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/motion/pose_goals.h"
 #include "systems/robot/angles.h"
 #include "systems/robot/link_segments.h"
 #include "systems/robot/reaction_tasks.h"
@@ -117,13 +118,16 @@ std::vector<std::string> problems(const ReactionTaskSettings& settings) {
   found.require(settings.largest_platform_speed > 0, "largest_platform_speed must be positive");
   const double share = settings.drive_share.value_or(1.0);
   found.require(share > 0 && share <= 1, "drive_share must be above 0 and at most 1");
+  found.require(settings.rest_speed > 0, "rest_speed must be positive");
+  found.require(settings.longest_braking >= Time::zero(), "longest_braking must not be negative");
   found.require(settings.max_torque > 0, "max_torque must be positive");
   found.require(settings.max_torque_rate > 0, "max_torque_rate must be positive");
   return found.take();
 }
 
-ReactionTask::ReactionTask(std::shared_ptr<const ParallelRobot> robot, const ReactionTaskSettings& settings)
-    : robot_(std::move(robot)), settings_(settings) {
+ReactionTask::ReactionTask(std::shared_ptr<const ParallelRobot> robot, const ReactionTaskSettings& settings,
+                           const PoseGoalSettings& held)
+    : robot_(std::move(robot)), settings_(settings), held_(held) {
   throw_if_any(problems(settings));
 }
 
@@ -274,6 +278,7 @@ void ReactionTask::plan(Time now, const ReactionPlan& last, const ReactionState&
   } else if (now - next.unpressed >= settings_.pressed_for) {
     next = decided_anew(now, next, at, model, contact, touched, place);
   }
+  if (!next.holds() && has_given_way(now, next)) come_to_rest(now, at, next);
 }
 
 ReactionPlan ReactionTask::decided_anew(Time now, const ReactionPlan& last, const Kinematics& at,
@@ -322,11 +327,29 @@ void ReactionTask::open_further(Time now, const Kinematics& at, const Dynamics& 
   move(now, task, Eigen::Vector2d::Zero(), step * plan.way, at, model, plan);
 }
 
+bool ReactionTask::has_given_way(Time now, const ReactionPlan& plan) const {
+  const bool until_released = plan.kind == ReactionKind::opening || plan.kind == ReactionKind::brake;
+  const bool opened = plan.kind == ReactionKind::opening && plan.opened >= settings_.largest_opening;
+  return (!until_released || plan.released || opened) && has_arrived(now, plan);
+}
+
+void ReactionTask::come_to_rest(Time now, const Kinematics& at, ReactionPlan& plan) const {
+  if (!plan.over) plan.over = now;
+  const bool rests = (at.rates.active.array().abs() < settings_.rest_speed).all();
+  if (rests || now - *plan.over >= settings_.longest_braking) plan.held = at.pose;
+}
+
 // ---------------------------------------------------------------- what follows from it at a tick
 
 void ReactionTask::lead(Time now, const ReactionPlan& plan, const Kinematics& at, TaskList& list) const {
   list.count = 0;
   list.valid = at.valid;
+  if (!at.valid) return;
+  if (plan.holds()) {
+    const PlatformVector rest = PlatformVector::Zero(robot_->dof());
+    add_pose_goals(*robot_, held_, {true, true, plan.held, rest, rest}, at, list);
+    return;
+  }
   const Task task = task_of(plan, at);
   const VectorMotion wanted = plan.motion.evaluate(to_seconds(now - plan.begin));
   if (!task.valid || !wanted.valid || wanted.position.size() != task.rows()) return;
@@ -344,10 +367,9 @@ PlatformVector ReactionTask::error_of(const ReactionPlan& plan, const Task& task
 
 void ReactionTask::follow(Time now, const ReactionPlan& plan, const Kinematics& at,
                           PlatformReference& followed) const {
-  const bool done =
-      plan.kind != ReactionKind::opening || plan.released || plan.opened >= settings_.largest_opening;
   const PlatformVector rest = PlatformVector::Zero(robot_->dof());
-  followed = {at.valid, at.valid && done && has_arrived(now, plan), at.pose, rest, rest};
+  const bool rests = plan.kind == ReactionKind::brake ? has_arrived(now, plan) : plan.holds();
+  followed = {at.valid, at.valid && rests, at.pose, rest, rest};
 }
 
 TaskGains ReactionTask::gains_of(const ReactionPlan& plan, int rows) const {
@@ -355,8 +377,7 @@ TaskGains ReactionTask::gains_of(const ReactionPlan& plan, int rows) const {
                          : plan.kind == ReactionKind::second_link ? settings_.second_link
                          : plan.kind == ReactionKind::first_link  ? settings_.first_link
                                                                   : settings_.opening;
-  return TaskGains::uniform(rows, one.velocity[0], one.stiffness[0], one.damping[0], one.force[0],
-                            one.damping_ratio[0]);
+  return one.for_rows(rows);
 }
 
 }  // namespace flinch

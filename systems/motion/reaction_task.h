@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "systems/framework/never_allocates.h"
 #include "systems/framework/system.h"
+#include "systems/motion/pose_goal_settings.h"
 #include "systems/motion/reaction_task_settings.h"
 #include "systems/motion/synchronised_motion.h"
 #include "systems/robot/dynamics.h"
@@ -35,21 +37,30 @@ struct ReactionPlan {
   CartesianVector direction;      ///< of the force; empty where both directions are a task
   PlatformVector way;             ///< of the two joints of a leg that opens, for 1 rad of `opened`
   SynchronisedMotion motion;      ///< of the task
-  Time begin{};           ///< of that motion; of braking, when it is decided that nothing else follows
-  double opened = 0.0;    ///< planned opening of the first link [rad]
-  Time touched{};         ///< tick at which a force was last felt
-  bool released = false;  ///< an opening: nothing was felt for long enough, once
-  Time unpressed{};       ///< tick at which the robot last did not press against what it feels
+  Time begin{};              ///< of that motion; of braking, when it is decided that nothing else follows
+  double opened = 0.0;       ///< planned opening of the first link [rad]
+  Time touched{};            ///< tick at which a force was last felt
+  bool released = false;     ///< an opening: nothing was felt for long enough, once
+  Time unpressed{};          ///< tick at which the robot last did not press against what it feels
+  std::optional<Time> over;  ///< tick at which the motion was
+  Configuration held;        ///< place that is held after it; empty until the robot rests
+
+  bool holds() const { return held.size() != 0; }
 };
 
 template <>
 inline constexpr bool never_allocates<ReactionPlan> =
-    never_allocates<CartesianVector>&& never_allocates<PlatformVector>;
+    never_allocates<CartesianVector>&& never_allocates<PlatformVector>&& never_allocates<Configuration>;
 
 /// Gives way to a contact as its class asks for: at the tick at which the reaction begins class, place,
 /// direction of the force and leg are frozen, and a jerk-limited motion of the task of that class is planned
 /// from how it moves now. An opening that has arrived goes on by `opening_step` where a force is still felt
 /// that does not oppose it, up to the largest opening; once released, it is over. [SafePR] IV-B, Alg. 5
+///
+/// When that is over and the robot rests, or does not within `longest_braking`, its goal is given up, for a
+/// limit or a contact may have kept the robot from it: its place is held, position before orientation. A
+/// robot that is only braked yields until nothing was felt for `released_for`, and then holds its place.
+/// (Derived.)
 ///
 /// A link of a leg that closes, touched from between its links, is answered by opening too. What is still
 /// felt after the motion, or lies on its way, is given way to anew. (Derived.)
@@ -61,8 +72,9 @@ class ReactionTask final : public System {
   State<ReactionPlan> last_ = state<ReactionPlan>("last");
 
  public:
-  /// Throws SetupError for settings that have `problems`.
-  ReactionTask(std::shared_ptr<const ParallelRobot> robot, const ReactionTaskSettings& settings);
+  /// `held`: how strongly a place is held. Throws SetupError for settings that have `problems`.
+  ReactionTask(std::shared_ptr<const ParallelRobot> robot, const ReactionTaskSettings& settings,
+               const PoseGoalSettings& held = {});
 
   InputPort<ReactionState> reaction = input<ReactionState>("reaction");
   InputPort<Kinematics> kinematics = input<Kinematics>("kinematics");
@@ -78,8 +90,9 @@ class ReactionTask final : public System {
  public:
   OutputPort<TaskList> goals = output<&ReactionTask::lead>("goals", clock, plan_, kinematics);
   OutputPort<ReactionKind> kind = output<&ReactionTask::kind_of>("kind", plan_);
-  /// `finished` when the motion has arrived and a leg is released. Tasks leave part of the pose free, so the
-  /// pose is the measured one.
+  /// `finished` when it holds a place; where there is nothing to give way to, when that is decided. Tasks
+  /// leave part of the pose free, and constraints come before a place that is held: the pose is the measured
+  /// one.
   OutputPort<PlatformReference> reference =
       output<&ReactionTask::follow>("reference", clock, plan_, kinematics);
 
@@ -116,11 +129,16 @@ class ReactionTask final : public System {
   bool opposes(const Task& task, const PlatformVector& ahead, const PlatformVector& acceleration,
                const Dynamics& model, const WrenchEstimate& contact) const;
   void open_further(Time now, const Kinematics& at, const Dynamics& model, ReactionPlan& plan) const;
+  /// The motion has arrived, and a leg that opened, or a robot that was only braked, is released.
+  bool has_given_way(Time now, const ReactionPlan& plan) const;
+  /// Decides about the place that is held.
+  void come_to_rest(Time now, const Kinematics& at, ReactionPlan& plan) const;
   PlatformVector error_of(const ReactionPlan& plan, const Task& task, const PlatformVector& wanted) const;
   TaskGains gains_of(const ReactionPlan& plan, int rows) const;
 
   std::shared_ptr<const ParallelRobot> robot_;
   ReactionTaskSettings settings_;
+  PoseGoalSettings held_;
 };
 
 }  // namespace flinch

@@ -33,6 +33,9 @@ struct ReactionTaskSettings {
   /// Motions are planned with this share of what all drives together can do about them, in the place of the
   /// accelerations and jerks above; none: with those.
   std::optional<double> drive_share;
+  /// After a motion the robot has come to rest when all drives are slower than this [rad/s or m/s].
+  double rest_speed = 0.05;
+  Time longest_braking = 150ms;   ///< If it has not by then, its place is held all the same.
   double max_torque = 100.0;      ///< of a drive [Nm or N]
   double max_torque_rate = 20e3;  ///< [Nm/s or N/s]
 

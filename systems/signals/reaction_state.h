@@ -11,7 +11,7 @@ enum class ReactionMode : std::uint8_t {
   stopped,  ///< the torque gate lets no torque of the laws through: before it opened, or after a fault
   nominal,  ///< follows its nominal motion
   react,    ///< gives way to a contact
-  hold,     ///< has given way and keeps its goal until the operator resets
+  hold,     ///< has given way and keeps its place until the operator resets
   zero_g,   ///< gravity is compensated and nothing else, until the operator resets
   recover,  ///< comes back slowly, by the operator's targets, from where it must not stand
 };

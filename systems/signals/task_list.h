@@ -22,6 +22,10 @@ struct TaskGains {
     const auto all = [rows](double value) -> PlatformVector { return PlatformVector::Constant(rows, value); };
     return {all(velocity), all(stiffness), all(damping), all(force), all(damping_ratio)};
   }
+  /// Those of the first row for each of `rows` rows.
+  TaskGains for_rows(int rows) const {
+    return uniform(rows, velocity[0], stiffness[0], damping[0], force[0], damping_ratio[0]);
+  }
 };
 
 /// A task, where it shall be, and how strongly.

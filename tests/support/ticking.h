@@ -7,7 +7,8 @@
 
 namespace flinch::test {
 
-/// A diagram of discrete blocks that is run by hand: set inputs, tick, look at outputs.
+/// A diagram of discrete blocks that is run by hand: set inputs, tick, look at outputs. A copy goes on from
+/// the same tick by itself.
 class Ticking {
  public:
   explicit Ticking(DiagramBuilder& builder) : diagram_(builder.build()), context_(diagram_->make_context()) {}
@@ -33,7 +34,7 @@ class Ticking {
   }
 
  private:
-  std::unique_ptr<Diagram> diagram_;
+  std::shared_ptr<const Diagram> diagram_;
   Context context_;
 };
 

@@ -69,6 +69,18 @@ class Touching {
   bool still_ = false;
 };
 
+/// Follows how fast a robot that holds its place moves though nothing touches it.
+class Holding {
+ public:
+  void see(double time, ReactionMode mode, double force, double speed, ReactionOutcome& outcome) {
+    if (force > touched || mode != ReactionMode::hold) since_ = time;
+    if (time - since_ > released_after) outcome.held_speed = std::max(outcome.held_speed, speed);
+  }
+
+ private:
+  double since_ = 0.0;
+};
+
 void measure_place(const Mechanism& robot, const RecordedTruth& truth, ReactionOutcome& outcome) {
   Kinematics at;
   robot.kinematics(truth.pose, truth.velocity, at);
@@ -141,7 +153,9 @@ ReactionOutcome outcome_of(const CampaignRun& run) {
   const RecordedValues<BrakingStatus> brakings(recording, "braking");
   const Mechanism& robot = *run.scenario.robot.robot;
   outcome.speed = number_of(run, "motion.speed_m_per_s");
+  const int translations = robot.space().translations();
   Touching touching;
+  Holding holding;
   double detected = 0.0;
   for (std::size_t k = 0; k < recording.samples(); ++k) {
     const double time = to_seconds(Time(recording.time_ns[k]));
@@ -153,6 +167,8 @@ ReactionOutcome outcome_of(const CampaignRun& run) {
     outcome.slack = std::max(outcome.slack, limit.slack);
     outcome.steps = std::max(outcome.steps, static_cast<int>(limit.steps));
     const RecordedTruth truth = truths[k];
+    holding.see(time, modes[k].mode, contact.strongest.force_in_base.norm(),
+                truth.velocity.head(translations).norm(), outcome);
     if (contact.in_contact && !outcome.touched) measure_unavoidable(run, truth, contact, outcome);
     if (k == 0) {
       measure_place(robot, truth, outcome);
@@ -168,7 +184,7 @@ ReactionOutcome outcome_of(const CampaignRun& run) {
     if (!outcome.detected) detected = time;
     outcome.detected = true;
     note_stop(robot, truth, brakings[k], outcome);
-    if (truth.velocity.head(robot.space().translations()).norm() > at_rest) {
+    if (truth.velocity.head(translations).norm() > at_rest) {
       outcome.rest.reset();
     } else if (!outcome.rest) {
       outcome.rest = time - detected;

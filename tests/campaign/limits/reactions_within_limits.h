@@ -32,6 +32,8 @@ struct ReactionOutcome {
   /// After the detection or, where the contact got hard, after that: until the platform stays below 0.02 m/s
   /// [s].
   std::optional<double> rest;
+  /// Largest speed of the platform in hold when nothing has touched it for 100 ms [m/s].
+  double held_speed = 0.0;
   double speed = 0.0;       ///< that was asked of the platform [m/s]; 0 where that is not drawn
   double peak_force = 0.0;  ///< [N]
   /// What no reaction could have kept the contact below, see unavoidable_force(): one that begins with the

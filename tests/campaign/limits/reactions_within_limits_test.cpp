@@ -30,6 +30,8 @@ std::filesystem::path campaign_file(const char* name) {
 
 /// Contacts up to which no check of plausibility takes offence, docs/faults.md [N].
 constexpr double hardest = 800.0;
+/// At which a robot may move with somebody near it, ISO 10218 [m/s].
+constexpr double reduced_speed = 0.25;
 
 /// The runs of one group, added up.
 struct Group {
@@ -43,6 +45,8 @@ struct Group {
   std::size_t beyond_despite_said_so = 0, beyond_despite_could_stop = 0;  ///< either of them
   std::vector<double> removed, rest;
   double sigma_kappa = 0.0, sigma_sc = 1.0, det_A = 1.0, distance = 0.0, rotation = 0.0, largest_slack = 0.0;
+  std::size_t move_in_hold = 0;  ///< by themselves, faster than 0.1 m/s
+  double held_speed = 0.0;
   int steps = 0;
 
   void add(const ReactionOutcome& run) {
@@ -50,6 +54,8 @@ struct Group {
     lost += run.is_lost ? 1U : 0U;
     faults += run.fault.empty() || run.peak_force > hardest ? 0U : 1U;
     steps = std::max(steps, run.steps);
+    held_speed = std::max(held_speed, run.held_speed);
+    move_in_hold += run.held_speed > 0.1 ? 1U : 0U;
     largest_slack = std::max(largest_slack, run.slack);
     slack += run.slack > 1e-3 ? 1U : 0U;
     if (!run.detected) return;
@@ -83,11 +89,12 @@ struct Group {
     std::printf(
         "%-26s %4zu runs, %4zu detected, %3zu faults, removed %3.0f/%3.0f ms, rest %3.0f/%3.0f/%4.0f ms, "
         "again %zu\n  beyond kappa %zu, sc %zu; worst kappa %.2f, sc %.4f m, det A %.3f, %.4f m, %.1f deg; "
-        "slack in %zu runs (%.3f), %d steps\n",
+        "slack in %zu runs (%.3f), %d steps; in hold %zu move by themselves, up to %.2f m/s\n",
         name.c_str(), n, detected, faults, 1e3 * test::quantile(removed, 0.5),
         1e3 * test::quantile(removed, 0.95), 1e3 * test::quantile(rest, 0.5),
         1e3 * test::quantile(rest, 0.95), 1e3 * test::quantile(rest, 1.0), reclosed, kappa, sc, sigma_kappa,
-        sigma_sc, det_A, distance, rotation * 180.0 / std::numbers::pi, slack, largest_slack, steps);
+        sigma_sc, det_A, distance, rotation * 180.0 / std::numbers::pi, slack, largest_slack, steps,
+        move_in_hold, held_speed);
     if (judged == 0) return;
     std::printf(
         "  at the detection %zu of %zu robots say that they can stop within the limits, of which %zu went "
@@ -129,6 +136,7 @@ TEST(TheStrictReaction, KeepsTheLimits) {
   EXPECT_EQ(strict.kappa, 0U);
   EXPECT_EQ(strict.sc, 0U);
   EXPECT_EQ(strict.faults, 0U);
+  EXPECT_LT(strict.held_speed, reduced_speed);
   EXPECT_GE(upper_share(strict.n - strict.slack, strict.n, 0.999), 0.99) << "slack in at most 1 %";
 }
 

@@ -3,11 +3,11 @@
 #include <Eigen/Dense>
 
 #include "systems/framework/random.h"
-#include "systems/laws/pose_guidance.h"
 #include "systems/robot/forward_dynamics.h"
 #include "systems/robot/impedance_damping.h"
 #include "systems/robot/joint_space_dynamics.h"
 #include "systems/robot/reaction_tasks.h"
+#include "systems/signals/pose_guidance.h"
 #include "tests/support/allocations.h"
 #include "tests/support/planar_bench.h"
 #include "tests/systems/laws/task_level_trial.h"

@@ -11,8 +11,8 @@ namespace flinch::test {
 
 /// A ReactionTask, and what it is told.
 struct Reaction {
-  explicit Reaction(const ReactionTaskSettings& settings = {})
-      : block(builder.add<ReactionTask>("reaction", robot, settings)) {}
+  explicit Reaction(const ReactionTaskSettings& settings = {}, const PoseGoalSettings& held = {})
+      : block(builder.add<ReactionTask>("reaction", robot, settings, held)) {}
 
   /// What the robot knows at the next tick. `touched`: a number in `classes`; -1: nobody knows.
   void know(int touched, const Eigen::Vector3d& wrench, const Eigen::Vector3d& pose = {0.02, 0.01, 0.05},
@@ -39,6 +39,27 @@ struct Reaction {
   const TaskList& go_on(Time for_time = 1ms) {
     for (Time t{}; t < for_time; t += 1ms) ticking.tick();
     return ticking.get(block.goals);
+  }
+  /// Goes on until the motion is over and says where it leads: as it would be followed if the mode were
+  /// another, in which nothing is decided.
+  TaskGoal goal() {
+    Ticking followed = ticking;
+    for (Time t{}; t < 10s && ticking.get(block.goals).count == 1; t += 1ms) {
+      followed = ticking;
+      ticking.tick();
+    }
+    followed.set(reaction, ReactionState{ReactionMode::nominal, ReactionMode::hold, followed.now()});
+    followed.tick();
+    followed.tick();
+    return followed.get(block.goals).goals[0];
+  }
+  bool holds_a_place() const { return ticking.get(block.goals).count == 2; }
+  /// Of the place that is held, from where the robot is: position, then orientation.
+  Eigen::Vector3d way_back() const {
+    const TaskList& list = ticking.get(block.goals);
+    Eigen::Vector3d way;
+    way << list.goals[0].reference.error, list.goals[1].reference.error;
+    return way;
   }
   bool finished() const { return ticking.get(block.reference).finished; }
 

@@ -18,9 +18,84 @@ TEST(ReactionTask, ThePlatformMovesAlongTheForceFromHowItMovesNow) {
   EXPECT_LT(begins.goals[0].reference.error.norm(), 1e-12);
   EXPECT_LT((begins.goals[0].reference.rate - Eigen::Vector2d(0.3, 0.2)).norm(), 1e-12);
   reaction.know(platform, {0, 0, 0});
-  const TaskList& arrives = reaction.go_on(1000ms);
-  EXPECT_LT((arrives.goals[0].reference.error - 0.1 * Eigen::Vector2d(0.6, -0.8)).norm(), 1e-9);
+  EXPECT_LT((reaction.goal().reference.error - 0.1 * Eigen::Vector2d(0.6, -0.8)).norm(), 1e-9);
   EXPECT_TRUE(reaction.finished());
+}
+
+/// A reaction whose motion has just ended, and a robot that moves otherwise: a limit or a contact kept it
+/// from its goal.
+struct KeptFromItsGoal : Reaction {
+  explicit KeptFromItsGoal(int touched) {
+    know(touched, {30, -40, 1}, pose);
+    begin();
+    know(-1, {0, 0, 0}, pose, velocity);
+    go_on();
+    for (Time t{}; t < 1000ms && ticking.get(block.goals).goals[0].reference.rate.norm() > 0.0; t += 1ms)
+      go_on();
+  }
+  /// For a tick, the fastest drive with `rate` [rad/s].
+  const TaskList& move(double rate) {
+    const Eigen::Vector3d v =
+        rate / Posture(*robot, pose, velocity).kinematics.rates.active.lpNorm<Eigen::Infinity>() * velocity;
+    pose += 1e-3 * v;
+    know(-1, {0, 0, 0}, pose, v);
+    return go_on();
+  }
+  /// What the task shall become.
+  PlatformVector wanted() {
+    const TaskGoal& goal = ticking.get(block.goals).goals[0];
+    return goal.task.sigma + goal.reference.error;
+  }
+
+  Eigen::Vector3d pose{0.02, 0.01, 0.05}, velocity{0.6, -0.3, 1.5};
+};
+
+TEST(ReactionTask, WhenTheMotionIsOverAndTheDrivesRestThePlaceIsHeldAndTheGoalGivenUp) {
+  for (const int touched : {platform, leg2_link1, leg2_link2, leg2_clamping}) {
+    KeptFromItsGoal reaction(touched);
+    const PlatformVector goal = reaction.wanted();
+    for (int tick = 1; tick < 100; ++tick) {
+      EXPECT_EQ(reaction.move(0.051).count, 1) << touched;
+      EXPECT_LT((reaction.wanted() - goal).norm(), 1e-12) << touched;
+      EXPECT_FALSE(reaction.finished()) << touched;
+    }
+    const TaskList& held = reaction.move(0.049);
+    ASSERT_TRUE(reaction.holds_a_place()) << touched;
+    EXPECT_TRUE(reaction.finished()) << touched;
+    EXPECT_LT(reaction.way_back().norm(), 1e-15) << touched << ": it is not brought back";
+    const Eigen::Vector3d place = reaction.pose;
+    for (int tick = 0; tick < 100; ++tick) reaction.move(3.0);
+    EXPECT_GT((place - reaction.pose).norm(), 0.01) << touched;
+    EXPECT_LT((reaction.way_back() - (place - reaction.pose)).norm(), 1e-15) << touched;
+    for (const TaskGoal& one : held) {
+      EXPECT_EQ(one.reference.rate.norm(), 0.0) << touched;
+      EXPECT_EQ(one.reference.acceleration.norm(), 0.0) << touched;
+    }
+    EXPECT_TRUE(reaction.finished()) << touched;
+  }
+}
+
+TEST(ReactionTask, ARobotThatKeepsMovingIsHeld150MillisecondsAfterTheMotion) {
+  KeptFromItsGoal reaction(platform);
+  for (int tick = 1; tick < 150; ++tick) EXPECT_EQ(reaction.move(2.0).count, 1) << tick;
+  EXPECT_FALSE(reaction.finished());
+  reaction.move(2.0);
+  ASSERT_TRUE(reaction.holds_a_place());
+  EXPECT_TRUE(reaction.finished());
+  EXPECT_LT(reaction.way_back().norm(), 1e-15);
+}
+
+TEST(ReactionTask, APlaceIsHeldAsStronglyAsIsAsked) {
+  Reaction reaction({}, {.position = TaskGains::uniform(1, 1, 2, 3, 4, 5),
+                         .orientation = TaskGains::uniform(1, 6, 7, 8, 9, 10)});
+  reaction.know(platform, {30, -40, 1});
+  reaction.begin();
+  reaction.know(platform, {0, 0, 0});
+  reaction.goal();
+  ASSERT_TRUE(reaction.holds_a_place());
+  const TaskList& list = reaction.ticking.get(reaction.block.goals);
+  EXPECT_EQ(list.goals[0].gains.force, Eigen::Vector2d(4, 4));
+  EXPECT_EQ(list.goals[1].gains.force[0], 9.0);
 }
 
 TEST(ReactionTask, AlongTheForceOnlyThePlatformHasOneRow) {
@@ -29,7 +104,7 @@ TEST(ReactionTask, AlongTheForceOnlyThePlatformHasOneRow) {
   Reaction reaction(settings);
   reaction.know(platform, {30, -40, 1});
   ASSERT_EQ(reaction.begin().goals[0].task.rows(), 1);
-  EXPECT_NEAR(reaction.go_on(1000ms).goals[0].reference.error[0], 0.1, 1e-9);
+  EXPECT_NEAR(reaction.goal().reference.error[0], 0.1, 1e-9);
 }
 
 TEST(ReactionTask, AFirstLinkTurnsAsItIsPushed) {
@@ -40,7 +115,7 @@ TEST(ReactionTask, AFirstLinkTurnsAsItIsPushed) {
         reaction.posture->kinematics.J_qa_x.transpose() * Eigen::Vector3d(0, sign * 10, 0);
     reaction.know(leg2_link1, Eigen::Vector3d(wrench));
     reaction.begin();
-    const TaskGoal& goal = reaction.go_on(1000ms).goals[0];
+    const TaskGoal goal = reaction.goal();
     EXPECT_EQ(goal.task.J, reaction.posture->kinematics.J_qa_x.row(1));
     EXPECT_NEAR(goal.reference.error[0], sign * 0.25, 1e-9);
   }
@@ -54,7 +129,7 @@ TEST(ReactionTask, ThePointOfASecondLinkMovesAlongTheForceOnIt) {
   reaction.place.force_in_base = Eigen::Vector2d(0, 25);
   reaction.know(leg2_link2, {5, 20, 0});
   reaction.begin();
-  const TaskGoal& goal = reaction.go_on(1000ms).goals[0];
+  const TaskGoal goal = reaction.goal();
   const CartesianVector point = reaction.robot->point_on_body(
       reaction.posture->kinematics, BodyId::link2(1), reaction.robot->axis_point(BodyId::link2(1), 0.3));
   EXPECT_LT((goal.task.sigma - PlatformVector(point)).norm(), 1e-12);
@@ -65,7 +140,7 @@ TEST(ReactionTask, ASecondLinkThatNobodyHasLocatedMovesAcrossItsAxis) {
   Reaction reaction;
   reaction.know(leg2_link2, {5, 20, 0});
   reaction.begin();
-  const TaskGoal& goal = reaction.go_on(1000ms).goals[0];
+  const TaskGoal goal = reaction.goal();
   const LegPoints& leg = reaction.posture->kinematics.legs[1];
   const PlatformVector axis = leg.coupling_joint - leg.passive_joint;
   EXPECT_NEAR(goal.reference.error.dot(axis), 0.0, 1e-9);
@@ -87,7 +162,7 @@ TEST(ReactionTask, WhatStaysAfterTheMotionIsGivenWayToAnew) {
   reaction.go_on(2ms);
   EXPECT_FALSE(reaction.finished());
   reaction.know(platform, {0, 0, 0});
-  const TaskGoal& goal = reaction.go_on(1000ms).goals[0];
+  const TaskGoal goal = reaction.goal();
   EXPECT_TRUE(reaction.finished());
   EXPECT_LT((goal.reference.error - Eigen::Vector2d(0, 0.1)).norm(), 1e-9);
 }
@@ -100,7 +175,7 @@ TEST(ReactionTask, AMotionThatLeadsIntoWhatIsFeltIsDecidedAnew) {
     reaction.know(platform, {against ? -30.0 : 30.0, 0, 0});
     reaction.go_on(25ms);
     reaction.know(platform, {0, 0, 0});
-    const TaskGoal& goal = reaction.go_on(1000ms).goals[0];
+    const TaskGoal goal = reaction.goal();
     EXPECT_NEAR(goal.reference.error[0], against ? -0.1 : 0.1, 1e-9);
   }
 }
@@ -114,7 +189,7 @@ TEST(ReactionTask, WhatItFeelsByAcceleratingIsNoContact) {
     reaction.know(platform, {-8, 0, 0});
     reaction.go_on(stays ? 48ms : 24ms);
     reaction.know(platform, {0, 0, 0});
-    const TaskGoal& goal = reaction.go_on(1000ms).goals[0];
+    const TaskGoal goal = reaction.goal();
     EXPECT_NEAR(goal.reference.error[0], stays ? -0.1 : 0.1, 1e-9);
   }
 }
@@ -126,8 +201,8 @@ TEST(ReactionTask, NothingIsDecidedAnewInOtherModes) {
   reaction.ticking.set(reaction.reaction,
                        ReactionState{ReactionMode::nominal, ReactionMode::hold, reaction.ticking.now()});
   reaction.know(platform, {-30, 0, 0});
-  reaction.go_on(1000ms);
-  EXPECT_TRUE(reaction.finished());
+  const TaskGoal& goal = reaction.go_on(1000ms).goals[0];
+  EXPECT_NEAR(goal.reference.error[0], 0.1, 1e-9);
 }
 
 TEST(ReactionTask, TakesItsShareOfWhatAllDrivesTogetherCanDoAsSoonAsTheyCan) {
@@ -144,6 +219,7 @@ TEST(ReactionTask, TakesItsShareOfWhatAllDrivesTogetherCanDoAsSoonAsTheyCan) {
     PlatformVector way, before = last.reference.acceleration;
     for (int tick = 0; tick < 200; ++tick) {
       const TaskGoal& goal = reaction.go_on().goals[0];
+      if (reaction.holds_a_place()) break;
       const PlatformVector& a = goal.reference.acceleration;
       if (a.norm() > largest) way = a.normalized();
       largest = std::max(largest, a.norm());
@@ -170,7 +246,9 @@ TEST(ReactionTask, MotionsOfJointsLeaveThePlatformBelowItsLargestSpeed) {
   reaction.know(leg2_clamping, {0, 0, 0});
   double fastest = 0.0;
   for (int tick = 0; tick < 500; ++tick) {
-    const TaskGoal& goal = reaction.go_on().goals[0];
+    const TaskList& list = reaction.go_on();
+    if (reaction.holds_a_place()) break;
+    const TaskGoal& goal = list.goals[0];
     const JointVector drives = seen_by_drives(goal.task, reaction.posture->kinematics)
                                    .J.completeOrthogonalDecomposition()
                                    .solve(goal.reference.rate);
@@ -208,6 +286,14 @@ TEST(ReactionTask, WhatIsNotKnownIsAnsweredByBraking) {
     reaction.go_on(20ms);
     EXPECT_EQ(reaction.ticking.get(reaction.block.kind), ReactionKind::brake);
     EXPECT_TRUE(reaction.finished());
+    reaction.go_on(200ms);
+    EXPECT_EQ(reaction.ticking.get(reaction.block.goals).count, 0) << "it yields to what presses";
+    reaction.know(-1, {0, 0, 0});
+    reaction.go_on(99ms);
+    EXPECT_FALSE(reaction.holds_a_place());
+    reaction.go_on(2ms);
+    EXPECT_TRUE(reaction.holds_a_place());
+    EXPECT_TRUE(reaction.finished());
   }
 }
 
@@ -224,7 +310,7 @@ TEST(ReactionTask, WhatBecomesKnownSoonAfterTheDetectionIsStillAnswered) {
     reaction.know(platform, {50, 10, 0});
     reaction.go_on(50ms);
     reaction.know(platform, {0, 0, 0});
-    const TaskGoal& goal = reaction.go_on(1000ms).goals[0];
+    const TaskGoal goal = reaction.goal();
     EXPECT_LT((goal.reference.error - 0.1 * Eigen::Vector2d(0.6, -0.8)).norm(), 1e-9) << "it stays so";
   }
 }
@@ -242,7 +328,7 @@ TEST(ReactionTask, ClassPlaceAndDirectionStayAsTheyWereAtTheDetection) {
   reaction.know(leg2_link1, {50, 10, 0});
   reaction.go_on(50ms);
   reaction.know(leg2_link1, {0, 0, 0});
-  const TaskGoal& goal = reaction.go_on(1000ms).goals[0];
+  const TaskGoal goal = reaction.goal();
   EXPECT_LT((goal.reference.error - 0.1 * Eigen::Vector2d(0.6, -0.8)).norm(), 1e-9);
 }
 
@@ -263,6 +349,12 @@ TEST(ReactionTask, RefusesSettingsThatMakeNoSense) {
   settings = {};
   settings.max_torque_rate = -1.0;
   EXPECT_THROW(builder.add<ReactionTask>("e", planar_bench(), settings), SetupError);
+  settings = {};
+  settings.rest_speed = 0.0;
+  EXPECT_THROW(builder.add<ReactionTask>("f", planar_bench(), settings), SetupError);
+  settings = {};
+  settings.longest_braking = -1ms;
+  EXPECT_THROW(builder.add<ReactionTask>("g", planar_bench(), settings), SetupError);
 }
 
 TEST(ReactionTask, DoesNotAllocate) {

@@ -1,4 +1,4 @@
-#include "systems/laws/pose_goals.h"
+#include "systems/motion/pose_goals.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "systems/laws/pose_guidance.h"
+#include "systems/signals/pose_guidance.h"
 
 #include <Eigen/Geometry>
 

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "systems/framework/system.h"
-#include "systems/laws/pose_goal_settings.h"
+#include "systems/motion/pose_goal_settings.h"
 #include "systems/robot/kinematics.h"
 #include "systems/robot/parallel_robot.h"
 #include "systems/signals/platform_reference.h"
@@ -11,8 +11,12 @@
 
 namespace flinch {
 
-/// Turns a reference of the platform into tasks: first its position, then its orientation where it has one.
-/// [SafePR] Table II
+/// Adds to `list` the platform's position and below it, where it can turn, its orientation, to be led to
+/// `desired`: valid, and of this robot. `at` must be reachable. [SafePR] Table II
+void add_pose_goals(const ParallelRobot& robot, const PoseGoalSettings& settings,
+                    const PlatformReference& desired, const Kinematics& at, TaskList& list) noexcept;
+
+/// Turns a reference of the platform into these tasks.
 class PoseGoals final : public System {
  public:
   PoseGoals(std::shared_ptr<const ParallelRobot> robot, const PoseGoalSettings& settings);
@@ -25,8 +29,7 @@ class PoseGoals final : public System {
   void lead(const PlatformReference& desired, const Kinematics& at, TaskList& list) const;
 
   std::shared_ptr<const ParallelRobot> robot_;
-  TaskGains position_;
-  TaskGains orientation_;
+  PoseGoalSettings settings_;
 };
 
 }  // namespace flinch
