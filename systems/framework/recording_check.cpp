@@ -30,15 +30,18 @@ void add_field(const Field& field, RowLayout& layout) {
 }
 
 Time checked_period(std::int64_t ns) {
-  if (ns <= 0) throw SetupError("the period is " + std::to_string(ns) + " ns");
+  if (ns <= 0 || ns > longest_time) throw SetupError("the period is " + std::to_string(ns) + " ns");
   return Time(ns);
 }
 
 void check_times(const std::vector<std::int64_t>& times_ns) {
   const auto fault = std::adjacent_find(times_ns.begin(), times_ns.end(), std::greater_equal<>());
-  if (fault == times_ns.end()) return;
-  throw SetupError("sample " + std::to_string(fault - times_ns.begin() + 1) +
-                   " is not later than the one before");
+  if (fault != times_ns.end()) {
+    throw SetupError("sample " + std::to_string(fault - times_ns.begin() + 1) +
+                     " is not later than the one before");
+  }
+  if (!times_ns.empty() && (times_ns.front() < -longest_time || times_ns.back() > longest_time))
+    throw SetupError("there are samples of times that no run has: more than 73 years from its start");
 }
 
 std::int64_t checked_size(std::int64_t rows, std::int64_t columns, int capacity, const std::string& field) {

@@ -22,6 +22,10 @@ Field checked_field(const std::string& name, const std::string& unit, const std:
 /// Adds a field to a row, which has room for most_numbers.
 void add_field(const Field& field, RowLayout& layout);
 
+/// No time of a recording is further from zero, and no period longer: 73 years. So they can be subtracted and
+/// added [ns].
+inline constexpr std::int64_t longest_time = std::int64_t{1} << 61;
+
 /// Above zero.
 Time checked_period(std::int64_t ns);
 

@@ -283,7 +283,7 @@ std::vector<Case> time_cases() {
                          H5Dwrite(set, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, times.data());
                          H5Dclose(set);
                        },
-                       is_later && is_earlier});
+                       is_later && is_earlier && time != least && time != most});
     }
   }
   return cases;
@@ -380,6 +380,15 @@ TEST(HostileRecording, MayHaveAttributesOfAnyTypeAndSize) { expect_no_harm(attri
 TEST(HostileRecording, MayHaveDataSetsOfAnyTypeShapeAndPlace) { expect_no_harm(set_cases()); }
 TEST(HostileRecording, MayClaimMatricesOfAnySize) { expect_no_harm(size_cases()); }
 TEST(HostileRecording, MayHaveTimesThatDoNotGrow) { expect_no_harm(time_cases()); }
+TEST(HostileRecording, HasNoTimesThatCannotBeSubtracted) {
+  constexpr std::int64_t longest = internal::longest_time;
+  EXPECT_NO_THROW(internal::check_times({-longest, 0, longest}));
+  EXPECT_THROW(internal::check_times({-longest - 1, 0}), SetupError);
+  EXPECT_THROW(internal::check_times({0, longest + 1}), SetupError);
+  EXPECT_THROW(internal::checked_period(longest + 1), SetupError);
+  EXPECT_GT(longest - -longest + internal::checked_period(longest).count(), 0) << "as the length of a run is";
+}
+
 TEST(HostileRecording, MayNameWhatIsNone) { expect_no_harm(name_cases()); }
 
 TEST(HostileRecording, IsTriedInEnoughWays) {
