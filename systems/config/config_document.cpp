@@ -44,12 +44,6 @@ std::string mistaken_for(const std::string& written, std::vector<WantedKey>& wan
   return written;
 }
 
-std::string listed(const std::vector<std::string>& words) {
-  std::string list;
-  for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
-  return list;
-}
-
 // Where other keys depend on a word, it is the word that is wrong or missing: so they are told as well.
 std::vector<std::string> known_keys_with_words(const std::vector<WantedKey>& wanted) {
   std::vector<std::string> keys;

@@ -42,9 +42,7 @@ std::string similar_files(const fs::path& file, const std::vector<std::string>& 
   if (nearest != stems.end()) {
     return "; did you mean '" + present[static_cast<std::size_t>(nearest - stems.begin())] + "'?";
   }
-  std::string list;
-  for (const std::string& name : present) list += (list.empty() ? "" : ", ") + name;
-  return list.empty() ? "" : "; its folder has " + list;
+  return present.empty() ? "" : "; its folder has " + listed(present);
 }
 
 std::string missing(const fs::path& file) {

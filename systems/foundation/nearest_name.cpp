@@ -40,10 +40,14 @@ std::string nearest_name(std::string_view name, std::span<const std::string> kno
   return nearest;
 }
 
-std::string known_names(std::span<const std::string> known) {
+std::string listed(std::span<const std::string> names) {
   std::string list;
-  for (const std::string& name : known) list += (list.empty() ? "; known are: " : ", ") + name;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
   return list;
+}
+
+std::string known_names(std::span<const std::string> known) {
+  return known.empty() ? "" : "; known are: " + listed(known);
 }
 
 std::string did_you_mean(std::string_view name, std::span<const std::string> known) {

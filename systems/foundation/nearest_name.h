@@ -10,6 +10,9 @@ namespace flinch {
 /// near.
 std::string nearest_name(std::string_view name, std::span<const std::string> known);
 
+/// All names, with commas between them.
+std::string listed(std::span<const std::string> names);
+
 /// "; known are: " and all names; empty where there are none.
 std::string known_names(std::span<const std::string> known);
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <fstream>
+#include <vector>
 
 namespace flinch {
 namespace {
@@ -74,6 +76,17 @@ std::string Sha256::digits() const {
 std::string sha256(std::string_view bytes) {
   Sha256 hash;
   hash.add(bytes);
+  return hash.digits();
+}
+
+std::string sha256_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  Sha256 hash;
+  std::vector<char> piece(1U << 20U);
+  while (stream) {
+    stream.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+    hash.add({piece.data(), static_cast<std::size_t>(stream.gcount())});
+  }
   return hash.digits();
 }
 

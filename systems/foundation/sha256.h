@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -27,5 +28,8 @@ class Sha256 {
 
 /// The same of bytes that are all there.
 std::string sha256(std::string_view bytes);
+
+/// The same of the bytes of a file, as far as it can be read.
+std::string sha256_of(const std::filesystem::path& file);
 
 }  // namespace flinch

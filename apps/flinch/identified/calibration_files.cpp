@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <ctime>
-#include <fstream>
 #include <vector>
 
 #include "apps/flinch/conclusion.h"
@@ -19,17 +18,6 @@
 
 namespace flinch {
 namespace {
-
-std::string hash_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  Sha256 hash;
-  std::vector<char> piece(1U << 20U);
-  while (stream) {
-    stream.read(piece.data(), static_cast<std::streamsize>(piece.size()));
-    hash.add({piece.data(), static_cast<std::size_t>(stream.gcount())});
-  }
-  return hash.digits();
-}
 
 std::string today() { return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr))); }
 
@@ -48,7 +36,7 @@ std::vector<OpenedRecording> open_recordings(const std::vector<std::filesystem::
     try {
       OpenedRecording one{{file.string(), {}}, open_recording(file), {}};
       tell_if_partial(one.recording, common);
-      one.source.sha256 = hash_of(file);
+      one.source.sha256 = sha256_of(file);
       one.scenario = recorded_scenario(one.recording, file);
       opened.push_back(std::move(one));
       if (opened.back().scenario.robot_text == opened.front().scenario.robot_text) continue;
@@ -89,7 +77,7 @@ void require_places(const CalibrateOptions& options) {
   require_place(page_beside(options.out), inputs);
 }
 
-CalibrationSource source_of(const std::filesystem::path& file) { return {file.string(), hash_of(file)}; }
+CalibrationSource source_of(const std::filesystem::path& file) { return {file.string(), sha256_of(file)}; }
 
 JointVector calibrated_constants(const Scenario& scenario, const std::vector<std::filesystem::path>& files) {
   if (files.empty()) return scenario.control.drive_torque.torque_constant;

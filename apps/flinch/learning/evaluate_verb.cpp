@@ -48,10 +48,7 @@ std::filesystem::path page_of(const EvaluateOptions& options) {
 
 void check_classifier(const std::filesystem::path& model) {
   const ClassifierModel read = read_onnx(model);
-  out_of(model.string(), [&] {
-    check_features(read);
-    return 0;
-  });
+  out_of(model.string(), [&] { check_features(read); });
 }
 void check_data_set(const std::filesystem::path& data) { read_data_set(data); }
 

@@ -29,10 +29,7 @@ std::function<void(Scenario&)> classifier_of(const std::filesystem::path& model)
   settings.accept = read->accepted_from;
   settings.least_wrench = read->least_wrench;
   return [model, read, settings](Scenario& scenario) {
-    out_of(model.string(), [&] {
-      require_touched(*read, scenario);
-      return 0;
-    });
+    out_of(model.string(), [&] { require_touched(*read, scenario); });
     LearnedClassifierSettings of_scenario = settings;
     of_scenario.window = scenario.control.isolation.model_classifier.window;
     of_scenario.largest_residual = scenario.control.isolation.model_classifier.largest_residual;

@@ -3,8 +3,6 @@
 
 #include <csignal>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 
 #include "apps/flinch/command_line.h"
 #include "apps/flinch/conclusion.h"
@@ -20,8 +18,8 @@
 #include "experiments/campaign/run_campaign.h"
 #include "experiments/report/run_folder.h"
 #include "experiments/simulated/experiment.h"
-#include "systems/foundation/fnv1a.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/foundation/sha256.h"
 #include "systems/framework/recording.h"
 #if FLINCH_HAS_MPI
 #include "experiments/ranks/campaign_ranks.h"
@@ -31,11 +29,6 @@ namespace flinch {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
-
-std::uint64_t hash_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return fnv1a(std::string(std::istreambuf_iterator<char>(stream), {}));
-}
 
 /// One run of the table alone, with recording and page.
 ExitStatus repeat_run(const CampaignOptions& options, const Campaign& campaign) {
@@ -99,7 +92,7 @@ ExitStatus campaign(const CampaignOptions& options) {
       read_campaign(options.file, {.set = options.set, .draws = options.runs, .seed = options.seed});
   if (!options.classifier.empty()) {
     const auto follow = classifier_of(options.classifier);
-    campaign.addition = {fmt::format("classifier {:x}", hash_of(options.classifier)), follow};
+    campaign.addition = {"classifier " + sha256_of(options.classifier), follow};
   }
   if (options.run) return repeat_run(options, campaign);
   const std::unique_ptr<CampaignHelpers> helpers = helpers_of(campaign);

@@ -23,6 +23,7 @@ TEST(NearestName, IsEmptyWhenNothingIsNear) {
 TEST(DidYouMean, ListsAllNamesWhenNoneIsNear) {
   EXPECT_EQ(did_you_mean("dampin", known), "; did you mean 'damping'?");
   EXPECT_EQ(did_you_mean("qqqqqqqq", known), "; known are: mass, stiffness, damping, link1_length");
+  EXPECT_EQ(listed(known), "mass, stiffness, damping, link1_length");
   EXPECT_EQ(known_names(known), "; known are: mass, stiffness, damping, link1_length");
   EXPECT_EQ(known_names({}), "");
 }

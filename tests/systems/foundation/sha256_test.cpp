@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/temporary_folder.h"
+
 namespace flinch {
 namespace {
 
@@ -20,6 +22,13 @@ TEST(Sha256, DoesNotDependOnThePieces) {
   for (const char* const piece : {"abcdbcdecdefdefgefghfghighij", "", "hijkijkljklmklmnlmnomnopnopq"})
     hash.add(piece);
   EXPECT_EQ(hash.digits(), "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+}
+
+TEST(Sha256, OfAFileIsThatOfItsBytes) {
+  const test::TemporaryFolder folder;
+  const std::string bytes(3'000'000, '\x8f');
+  EXPECT_EQ(sha256_of(folder.write("long", bytes)), sha256(bytes));
+  EXPECT_EQ(sha256_of(folder / "absent"), sha256(""));
 }
 
 }  // namespace
