@@ -1,12 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "plant/delay_line.h"
+#include "plant/imu_clock.h"
 #include "plant/plant_truth.h"
 #include "plant/sensor_noise.h"
 #include "systems/framework/system.h"
@@ -34,9 +36,7 @@ struct SimulatedImuSettings {
   double accelerometer_resolution = 2.99e-4;       ///< [m/s^2]
   double gyroscope_resolution = 1.91e-3 * degree;  ///< [rad/s]
 
-  Time period = 1ms;
-  /// How long before a tick it measures: its clock is its own. Shorter than the period.
-  Time before_tick = 0us;
+  ImuClockSettings clock;
   Time delay = 3500us;  ///< From measurement to delivery, at the first tick thereafter.
 
  private:
@@ -46,46 +46,63 @@ struct SimulatedImuSettings {
 
 std::vector<std::string> problems(const SimulatedImuSettings& settings);
 
-/// Measures angular velocity and specific force at p_S, in its own axes, every period. What it delivers later
-/// is stamped with the time of measurement; before the first sample is through, its output is not valid. What
-/// it measures before a tick is the motion of the tick, back under the acceleration that has led there.
+/// What an IMU has measured since the tick before, the latest last.
+struct ImuSamples {
+  static constexpr int most = 5;  ///< in a tick of four periods, some early, some late
+  struct Sample {
+    Time acquired{};  ///< When it was measured, whatever the reading says of it.
+    ImuReading reading;
+  };
+
+  std::array<Sample, most> samples;
+  int count = 0;
+};
+
+/// Measures angular velocity and specific force at p_S, in its own axes, by its own clock. At each tick the
+/// newest sample that has come through is there, stamped with the time of measurement; one that was there
+/// before where none has come. Before the first sample is through, the output is not valid. What it measures
+/// before a tick is the motion of the tick, back under the acceleration that has led there.
 class SimulatedImu final : public System {
  public:
-  /// Throws SetupError.
-  SimulatedImu(const SimulatedImuSettings& settings, const Mechanism& robot, std::uint64_t seed);
+  /// `tick` is the time between ticks of the diagram, or a multiple of it. Throws SetupError.
+  SimulatedImu(const SimulatedImuSettings& settings, const Mechanism& robot, std::uint64_t seed,
+               Time tick = 1ms);
 
   const Eigen::Vector3d& accelerometer_bias() const { return accelerometer_bias_; }
   const Eigen::Vector3d& gyroscope_bias() const { return gyroscope_bias_; }
 
  private:
   SimulatedImuSettings settings_;
+  Time tick_;
+  ImuClock clock_;
   ConfigurationSpace space_;
   Eigen::Vector3d gravity_;
   Eigen::Matrix3d R_SE_;  // from platform to sensor axes
   Eigen::Vector3d accelerometer_bias_;
   Eigen::Vector3d gyroscope_bias_;
   State<NormalNumbers<6>> noise_;
-  State<DelayLine<ImuReading>> underway_ = state<DelayLine<ImuReading>>("underway");
+  State<DelayLine<ImuSamples::Sample>> underway_ = state<DelayLine<ImuSamples::Sample>>("underway");
 
  public:
   InputPort<PlantTruth> truth = input<PlantTruth>("truth");
 
  private:
-  Intermediate<ImuReading> measured_ = intermediate<&SimulatedImu::measure>("measured", truth, noise_);
+  Intermediate<ImuSamples> measured_ = intermediate<&SimulatedImu::measure>("measured", truth, noise_);
 
  public:
   OutputPort<ImuReading> imu = output<&SimulatedImu::deliver>("imu", clock, measured_, underway_);
 
  private:
-  Update draw_ = update<&SimulatedImu::draw>(noise_);
-  Update send_ = update<&SimulatedImu::send>(Every{settings_.period}, underway_, measured_);
+  Update draw_ = update<&SimulatedImu::draw>(noise_, measured_);
+  Update send_ = update<&SimulatedImu::send>(underway_, measured_);
 
   SpatialMotion motion_before(const PlantTruth& now, double seconds) const;
-  void measure(const PlantTruth& now, const NormalNumbers<6>& noise, ImuReading& reading) const;
-  void deliver(Time now, const ImuReading& fresh, const DelayLine<ImuReading>& underway,
+  void read(const PlantTruth& now, Time before, const NormalNumbers<6>& noise, ImuReading& reading) const;
+  void measure(const PlantTruth& now, const NormalNumbers<6>& noise, ImuSamples& measured) const;
+  void deliver(Time now, const ImuSamples& fresh, const DelayLine<ImuSamples::Sample>& underway,
                ImuReading& reading) const;
-  void send(const ImuReading& fresh, DelayLine<ImuReading>& underway) const { underway.push(fresh); }
-  void draw(NormalNumbers<6>& noise) const { noise.draw(); }
+  void send(const ImuSamples& fresh, DelayLine<ImuSamples::Sample>& underway) const;
+  void draw(const ImuSamples& fresh, NormalNumbers<6>& noise) const;
 };
 
 }  // namespace flinch

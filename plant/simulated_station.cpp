@@ -55,8 +55,8 @@ OutputPort<DriveReading> add_current_sensors(DiagramBuilder& inside, const Simul
 
 OutputPort<ImuReading> add_imu(DiagramBuilder& inside, const SimulatedStationSettings& settings,
                                const Parts& parts) {
-  auto& imu =
-      inside.add<SimulatedImu>("imu", settings.imu, *settings.bench.robot, derive_seed(settings.seed, "imu"));
+  auto& imu = inside.add<SimulatedImu>("imu", settings.imu, *settings.bench.robot,
+                                       derive_seed(settings.seed, "imu"), settings.tick);
   inside.connect(parts.plant.truth, imu.truth);
   return imu.imu;
 }

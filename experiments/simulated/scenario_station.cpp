@@ -110,6 +110,15 @@ Range deliverable(Time period) {
   return shorter_than(DelayLine<Reading>::longest_delay * period);
 }
 
+void read_clock(ConfigReader& reader, ImuClockSettings& clock) {
+  double rate = 1.0 / to_seconds(clock.period);
+  reader.number("rate", unit::Hz, rate, between(100.0, 4000.0));
+  clock.period = from_seconds(1.0 / rate);
+  reader.duration("before_tick", clock.before_tick, shorter_than(clock.period));
+  reader.duration("jitter", clock.jitter, shorter_than(clock.period / 2));
+  reader.duration("stamp_jitter", clock.stamp_jitter, shorter_than(clock.period / 2 - clock.jitter));
+}
+
 void read_imu(ConfigReader reader, SimulatedImuSettings& imu) {
   reader.flag("ideal", imu.ideal);
   reader.numbers("position", unit::m, entries(imu.position_in_platform));
@@ -118,8 +127,8 @@ void read_imu(ConfigReader reader, SimulatedImuSettings& imu) {
   reader.number("gyroscope_density", unit::rad_per_s_per_sqrt_Hz, imu.gyroscope_density, not_negative);
   reader.number("accelerometer_bias", unit::m_per_s2, imu.accelerometer_bias, not_negative);
   reader.number("gyroscope_bias", unit::rad_per_s, imu.gyroscope_bias, not_negative);
-  reader.duration("before_tick", imu.before_tick, shorter_than(imu.period));
-  reader.duration("delay", imu.delay, deliverable<ImuReading>(imu.period));
+  read_clock(reader, imu.clock);
+  reader.duration("delay", imu.delay, deliverable<ImuReading>(imu.clock.period));
 }
 
 void read_force_torque(ConfigReader reader, SimulatedForceTorqueSettings& sensor) {

@@ -28,6 +28,7 @@ class Imu {
   }
 
   const SimulatedImu& block() const { return *block_; }
+  Time now() const { return ticking_.now(); }
 
  private:
   DiagramBuilder& wire(const SimulatedImuSettings& settings, std::uint64_t seed) {
@@ -141,7 +142,7 @@ TEST(SimulatedImu, MeasuresSoLongBeforeTheTickAsItIsTold) {
   settings.accelerometer_resolution = settings.gyroscope_resolution = 0.0;
   settings.delay = Time::zero();
   SimulatedImuSettings before = settings;
-  before.before_tick = 300us;
+  before.clock.before_tick = 300us;
   for (int k = 1; k < 50; ++k) {
     const double t = 1e-3 * k;
     const ImuReading early = Imu(before).read(moving_truth(t));
@@ -150,13 +151,59 @@ TEST(SimulatedImu, MeasuresSoLongBeforeTheTickAsItIsTold) {
     EXPECT_LT((early.angular_velocity - then.angular_velocity).norm(), 1e-5);
     EXPECT_LT((early.specific_force - then.specific_force).norm(), 0.05) << "with the acceleration of now";
   }
-  settings.before_tick = settings.period;
+  settings.clock.before_tick = settings.clock.period;
   EXPECT_EQ(problems(settings).size(), 1U);
+}
+
+TEST(SimulatedImu, WithAClockOfItsOwnDeliversTheNewestOfNoneOneOrTwoSamplesATick) {
+  SimulatedImuSettings settings;
+  settings.accelerometer_density = settings.gyroscope_density = 0.0;
+  settings.accelerometer_bias = settings.gyroscope_bias = 0.0;
+  settings.accelerometer_resolution = settings.gyroscope_resolution = 0.0;
+  for (const Time period : {1250us, 625us, 313us}) {
+    settings.clock = {.period = period, .before_tick = 200us};
+    Imu imu(settings);
+    for (int k = 0; k < 100; ++k) {
+      const ImuReading reading = imu.read(moving_truth(1e-3 * k));
+      const Time newest = (1ms * k - settings.delay + 200us) / period * period - 200us;
+      if (1ms * k < settings.delay + 1ms) continue;
+      ASSERT_TRUE(reading.valid) << k;
+      EXPECT_EQ(reading.acquired, newest);
+      const double t = to_seconds(newest);
+      SimulatedImuSettings prompt = settings;
+      prompt.clock = {};
+      prompt.delay = Time::zero();
+      const ImuReading then = Imu(prompt).read(moving_truth(t));
+      EXPECT_LT((reading.angular_velocity - then.angular_velocity).norm(), 1e-4);
+      EXPECT_LT((reading.specific_force - then.specific_force).norm(), 0.2)
+          << "with the acceleration of the tick";
+    }
+  }
+}
+
+TEST(SimulatedImu, SaysOfItsSamplesAnotherTimeThanTheirs) {
+  SimulatedImuSettings settings;
+  settings.accelerometer_density = settings.gyroscope_density = 0.0;
+  settings.clock = {.period = 625us, .jitter = 80us, .stamp_jitter = 150us};
+  const ImuClock clock(settings.clock, derive_seed(1, "clock"));
+  Imu imu(settings);
+  int other = 0;
+  for (int k = 0; k < 100; ++k) {
+    const Time due = imu.now() - settings.delay;
+    const ImuReading reading = imu.read(moving_truth(to_seconds(imu.now())));
+    std::int64_t number = clock.number_at(due);
+    while (clock.sample(number + 1).measured <= due) ++number;
+    if (k < 5) continue;
+    ASSERT_TRUE(reading.valid) << k;
+    EXPECT_EQ(reading.acquired, clock.sample(number).stamp);
+    other += reading.acquired != clock.sample(number).measured ? 1 : 0;
+  }
+  EXPECT_GT(other, 50);
 }
 
 TEST(SimulatedImu, HoldsItsSamplesBetweenPeriods) {
   SimulatedImuSettings settings = without_errors();
-  settings.period = 2ms;
+  settings.clock.period = 2ms;
   Imu imu(settings);
   for (int k = 0; k < 10; ++k) EXPECT_EQ(imu.read(moving_truth(1e-3 * k)).acquired, 2ms * (k / 2));
 }
@@ -203,6 +250,22 @@ TEST(SimulatedImu, QuantisesWithItsResolutions) {
   }
 }
 
+TEST(SimulatedImu, HasNoiseOfItsOwnInEachSampleOfATick) {
+  SimulatedImuSettings settings;
+  settings.clock.period = 250us;
+  Imu imu(settings);
+  test::Statistics force;
+  Eigen::Vector3d before = Eigen::Vector3d::Zero();
+  for (int k = 0; k < 20000; ++k) {
+    const ImuReading reading = imu.read();
+    if (!reading.valid) continue;
+    force.add(reading.specific_force.x());
+    EXPECT_NE(reading.specific_force, before);
+    before = reading.specific_force;
+  }
+  EXPECT_NEAR(force.deviation(), 2.0 * 0.0395, 0.03 * 2.0 * 0.0395) << "of the same density";
+}
+
 TEST(SimulatedImu, IsTheSameForTheSameSeedOnly) {
   SimulatedImuSettings settings;
   settings.delay = Time::zero();
@@ -220,8 +283,11 @@ TEST(SimulatedImu, RefusesADelayLongerThanItsMemory) {
   SimulatedImuSettings settings;
   settings.delay = 20ms;
   EXPECT_THROW(SimulatedImu(settings, *test::individual_bench(), 1), SetupError);
-  settings.period = Time::zero();
+  settings.clock.period = Time::zero();
   EXPECT_EQ(problems(settings).size(), 2U);
+  settings = SimulatedImuSettings();
+  settings.clock.period = 249us;
+  EXPECT_THROW(SimulatedImu(settings, *test::individual_bench(), 1), SetupError) << "too many in a tick";
 }
 
 }  // namespace

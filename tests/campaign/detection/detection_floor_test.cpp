@@ -64,8 +64,8 @@ Trace follow(const SimulatedScenario& scenario, std::size_t most) {
 /// would move without the contact and how it moves with it, and lacks only the noise of the drives' encoders
 /// and the IMU. No detector that goes by these is earlier. [ms after the onset]
 double floor_of(const Trace& touched, const Trace& free, const SimulatedStationSettings& station) {
-  const double pushing = noise_deviation(station.imu.accelerometer_density, station.imu.period);
-  const double turning = noise_deviation(station.imu.gyroscope_density, station.imu.period);
+  const double pushing = noise_deviation(station.imu.accelerometer_density, station.imu.clock.period);
+  const double turning = noise_deviation(station.imu.gyroscope_density, station.imu.clock.period);
   const auto delay = static_cast<std::size_t>(std::ceil(to_seconds(station.imu.delay) / 1e-3));
   double squares = 0.0;
   for (std::size_t k = 0; k < touched.angle.size(); ++k) {

@@ -102,6 +102,31 @@ TEST(SimulatedScenario, SaysWhereSomethingStandsThatNoSensorAndNoRobotCanDo) {
                            "less than 15")));
 }
 
+TEST(SimulatedScenario, LetsTheImuHaveAClockOfItsOwn) {
+  const test::Workplace place;
+  const auto clock_with = [&](const std::string& keys) {
+    return scenario_of(place, std::string(least) + "sensors:\n  imu:\n" + keys).station.imu.clock;
+  };
+  const ImuClockSettings clock =
+      clock_with("    {rate_kHz: 1.6, before_tick_us: 600, jitter_us: 100, stamp_jitter_us: 200}\n");
+  EXPECT_EQ(clock.period, 625us);
+  EXPECT_EQ(clock.before_tick, 600us);
+  EXPECT_EQ(clock.jitter, 100us);
+  EXPECT_EQ(clock.stamp_jitter, 200us);
+  EXPECT_THAT(test::problems_of([&] {
+                clock_with(
+                    "    rate_Hz: 2000\n    before_tick_us: 500\n    jitter_us: 100\n"
+                    "    stamp_jitter_us: 400\n");
+              }),
+              ElementsAre(EndsWith("own.yaml:6: sensors.imu.before_tick_us: is 500; it must be at least 0 "
+                                   "and less than 500"),
+                          EndsWith("own.yaml:8: sensors.imu.stamp_jitter_us: is 400; it must be at least 0 "
+                                   "and less than 150")));
+  EXPECT_THAT(test::problems_of([&] { clock_with("    rate_Hz: 20\n"); }),
+              ElementsAre(EndsWith("own.yaml:5: sensors.imu.rate_Hz: is 20; it must lie between 100 and "
+                                   "4000")));
+}
+
 TEST(SimulatedScenario, SimulatesTheRobotThatTheControllerBelievesIn) {
   const test::Workplace place;
   const SimulatedScenario scenario = scenario_of(place, least);

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "systems/framework/time.h"
+
+namespace flinch {
+
+/// When an inertial measurement unit measures: by a clock that is its own, whatever the ticks are.
+struct ImuClockSettings {
+  Time period = 1ms;        ///< From sample to sample.
+  Time before_tick = 0us;   ///< How long before the tick at zero one is measured; shorter than the period.
+  Time jitter = 0us;        ///< By how much the instants are off, at most, either way.
+  Time stamp_jitter = 0us;  ///< By how much what is said of them is off besides.
+};
+
+/// All that is wrong with `settings`. Samples and stamps must keep their order.
+std::vector<std::string> problems(const ImuClockSettings& settings);
+
+/// When each sample was measured, and when it says that it was. How early or late one is depends on the seed
+/// and its number alone.
+class ImuClock {
+ public:
+  struct Sample {
+    Time measured{};
+    Time stamp{};
+  };
+
+  ImuClock(const ImuClockSettings& settings, std::uint64_t seed) : settings_(settings), seed_(seed) {}
+
+  /// A sample not later than the first one after `time`.
+  std::int64_t number_at(Time time) const;
+  Sample sample(std::int64_t number) const;
+
+ private:
+  ImuClockSettings settings_;
+  std::uint64_t seed_;
+};
+
+}  // namespace flinch
