@@ -164,6 +164,7 @@ void closed_loop(const char* row, SimulatedScenario (*scenario)(const std::strin
 
 const bool registered = [] {
   closed_loop("square", shipped, "square");
+  closed_loop("square_by_fused_detector", with_fused_detector, "square");
   closed_loop("platform_collision", shipped, "platform_collision");
   closed_loop("clamping", shipped, "clamping");
   closed_loop("platform_collision_by_fused_detector", with_fused_detector, "platform_collision");
