@@ -39,6 +39,7 @@ void read_reaction(ConfigReader reader, ReactionTaskSettings& reaction) {
   reader.number("largest_opening", unit::rad, reaction.largest_opening, positive);
   reader.flag("along_force_only", reaction.along_force_only);
   reader.number("force_to_go_by", unit::N, reaction.force_to_go_by, positive);
+  reader.flag("retreat", reaction.retreat);
   reader.duration("decide_within", reaction.decide_within, not_negative);
   reader.number("released_force", unit::N, reaction.released_force, positive);
   reader.number("released_moment", unit::Nm, reaction.released_moment, positive);

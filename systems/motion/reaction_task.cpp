@@ -7,6 +7,7 @@
 
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/motion/chart_motion.h"
 #include "systems/motion/pose_goals.h"
 #include "systems/robot/angles.h"
 #include "systems/robot/link_segments.h"
@@ -35,17 +36,23 @@ PlatformVector least_motion(const Task& task, const PlatformVector& direction, c
   return W_J * PlatformVector(mobility.solve(direction));
 }
 
-// Largest speed of a coupling joint in such a motion, on the torque level and on those of the drives.
-double platform_speed(const Task& task, const PlatformVector& direction, const Kinematics& at,
-                      const Dynamics& model, int translations) {
-  const PlatformMatrix by_inertia = inverse(model.M_x);
-  const PlatformMatrix by_drives = at.J_x_qa * at.J_x_qa.transpose();
+// Of the platform's coupling joints from E.
+double largest_reach(const Kinematics& at, int translations) {
   double reach = 0.0;
   for (int leg = 0; leg < drive_count(at); ++leg) {
     const CartesianVector& joint = at.legs[static_cast<std::size_t>(leg)].coupling_joint;
     if (joint.size() != translations) continue;
     reach = std::max(reach, (joint - at.pose.head(translations)).norm());
   }
+  return reach;
+}
+
+// Largest speed of a coupling joint in such a motion, on the torque level and on those of the drives.
+double platform_speed(const Task& task, const PlatformVector& direction, const Kinematics& at,
+                      const Dynamics& model, int translations) {
+  const PlatformMatrix by_inertia = inverse(model.M_x);
+  const PlatformMatrix by_drives = at.J_x_qa * at.J_x_qa.transpose();
+  const double reach = largest_reach(at, translations);
   double fastest = 0.0;
   for (const PlatformMatrix* const W : {&by_inertia, &by_drives}) {
     const PlatformVector v = least_motion(task, direction, *W);
@@ -166,6 +173,18 @@ void ReactionTask::classify(const Kinematics& at, const WrenchEstimate& contact,
     plan.kind = ReactionKind::opening;
 }
 
+void ReactionTask::go_back(const TravelledPath& travelled, const Kinematics& at,
+                           const WrenchEstimate& contact, ReactionPlan& plan) const {
+  if (!settings_.retreat || !at.valid) return;
+  if (!contact.valid || contact.wrench_in_base.size() != robot_->dof()) return;
+  const double reach = largest_reach(at, robot_->space().translations());
+  const PlatformVector back = travelled.way_back(robot_->space(), at.pose, settings_.displacement, reach);
+  if (back.size() == 0 || !(contact.wrench_in_base.dot(back) > 0.0)) return;
+  plan.kind = ReactionKind::retreat;
+  plan.way = back;
+  plan.from = at.pose;
+}
+
 Task ReactionTask::task_of(const ReactionPlan& plan, const Kinematics& at) const {
   const auto narrowed = [&](const Task& task) {
     return settings_.along_force_only ? along(task, plan.direction) : task;
@@ -179,6 +198,11 @@ Task ReactionTask::task_of(const ReactionPlan& plan, const Kinematics& at) const
       return drive_task(at, plan.leg);
     case ReactionKind::opening:
       return stacked(drive_task(at, plan.leg), passive_joint_task(at, plan.leg));
+    case ReactionKind::retreat: {
+      Task task = platform_pose_task(*robot_, at);
+      task.sigma = robot_->space().difference(at.pose, plan.from);
+      return task;
+    }
     case ReactionKind::brake:
       break;
   }
@@ -191,6 +215,7 @@ PlatformVector ReactionTask::displacement(const ReactionPlan& plan, const Wrench
     return PlatformVector::Constant(1, sign * settings_.first_link_angle);
   }
   if (plan.kind == ReactionKind::opening) return plan.opened * plan.way;
+  if (plan.kind == ReactionKind::retreat) return plan.way;
   if (settings_.along_force_only) return PlatformVector::Constant(1, settings_.displacement);
   return settings_.displacement * plan.direction;
 }
@@ -207,6 +232,11 @@ void ReactionTask::move(Time now, const Task& task, const PlatformVector& rate,
     const double fastest =
         limits.velocity * platform_speed(task, direction, at, model, robot_->space().translations());
     limits = slowed(limits, std::min(1.0, settings_.largest_platform_speed / std::max(fastest, 1e-9)));
+  } else if (plan.kind == ReactionKind::retreat) {
+    const int translations = robot_->space().translations();
+    const double turning = direction.tail(direction.size() - translations).norm();
+    const double fastest = direction.head(translations).norm() + largest_reach(at, translations) * turning;
+    limits = slowed(limits, 1.0 / fastest);
   }
   if (settings_.drive_share) {
     const double most = largest_acceleration(task, direction, at, model, settings_.max_torque);
@@ -247,19 +277,28 @@ bool ReactionTask::has_arrived(Time now, const ReactionPlan& plan) const {
   return to_seconds(now - plan.begin) >= plan.motion.duration();
 }
 
-void ReactionTask::plan(Time now, const ReactionPlan& last, const ReactionState& state, const Kinematics& at,
-                        const Dynamics& model, const WrenchEstimate& contact,
-                        const ContactClassification& touched, const ContactLocation& place,
-                        ReactionPlan& next) const {
+void ReactionTask::travel(Time now, const ReactionState& state, const Kinematics& at,
+                          TravelledPath& path) const {
+  if (state.mode == ReactionMode::nominal && at.valid) path.add(now, state.since, at.pose);
+}
+
+void ReactionTask::plan(Time now, const ReactionPlan& last, const TravelledPath& travelled,
+                        const ReactionState& state, const Kinematics& at, const Dynamics& model,
+                        const WrenchEstimate& contact, const ContactClassification& touched,
+                        const ContactLocation& place, ReactionPlan& next) const {
   const Time decided = state.since + settings_.decide_within;
-  const bool undecided =
-      last.kind == ReactionKind::brake && state.mode == ReactionMode::react && now <= decided;
-  if (undecided || (state.entered(ReactionMode::react, now) && state.previous != ReactionMode::hold)) {
+  const bool begins = state.entered(ReactionMode::react, now) && state.previous != ReactionMode::hold;
+  const bool known = last.kind != ReactionKind::brake && last.kind != ReactionKind::retreat;
+  if (begins || (!known && state.mode == ReactionMode::react && now <= decided)) {
     next = ReactionPlan();
     classify(at, contact, touched, place, next);
-    begin(now, at, model, contact, next);
-    if (next.kind == ReactionKind::brake) next.begin = decided;
-    return;
+    const bool goes_on = !begins && last.kind == ReactionKind::retreat && next.kind == ReactionKind::brake;
+    if (!goes_on) {
+      if (next.kind == ReactionKind::brake) go_back(travelled, at, contact, next);
+      begin(now, at, model, contact, next);
+      if (next.kind == ReactionKind::brake) next.begin = decided;
+      return;
+    }
   }
   next = last;
   const bool felt = feels(contact);
@@ -276,14 +315,14 @@ void ReactionTask::plan(Time now, const ReactionPlan& last, const ReactionState&
   if (!presses(now, next, at, model, contact)) {
     next.unpressed = now;
   } else if (now - next.unpressed >= settings_.pressed_for) {
-    next = decided_anew(now, next, at, model, contact, touched, place);
+    next = decided_anew(now, next, travelled, at, model, contact, touched, place);
   }
   if (!next.holds() && has_given_way(now, next)) come_to_rest(now, at, next);
 }
 
-ReactionPlan ReactionTask::decided_anew(Time now, const ReactionPlan& last, const Kinematics& at,
-                                        const Dynamics& model, const WrenchEstimate& contact,
-                                        const ContactClassification& touched,
+ReactionPlan ReactionTask::decided_anew(Time now, const ReactionPlan& last, const TravelledPath& travelled,
+                                        const Kinematics& at, const Dynamics& model,
+                                        const WrenchEstimate& contact, const ContactClassification& touched,
                                         const ContactLocation& place) const {
   ReactionPlan next;
   classify(at, contact, touched, place, next);
@@ -295,6 +334,8 @@ ReactionPlan ReactionTask::decided_anew(Time now, const ReactionPlan& last, cons
     }
     next.kind = ReactionKind::brake;
     next.opened = last.opened;
+  } else if (next.kind == ReactionKind::brake) {
+    go_back(travelled, at, contact, next);
   }
   begin(now, at, model, contact, next);
   return next;
@@ -352,6 +393,12 @@ void ReactionTask::lead(Time now, const ReactionPlan& plan, const Kinematics& at
   }
   const Task task = task_of(plan, at);
   const VectorMotion wanted = plan.motion.evaluate(to_seconds(now - plan.begin));
+  if (plan.kind == ReactionKind::retreat && wanted.valid) {
+    const PlatformReference pose =
+        chart_motion(robot_->space(), plan.from, wanted.position, wanted.velocity, wanted.acceleration);
+    add_pose_goals(*robot_, held_, pose, at, list);
+    return;
+  }
   if (!task.valid || !wanted.valid || wanted.position.size() != task.rows()) return;
   list.add({task,
             {error_of(plan, task, wanted.position), wanted.velocity, wanted.acceleration},

@@ -9,6 +9,7 @@
 #include "systems/motion/pose_goal_settings.h"
 #include "systems/motion/reaction_task_settings.h"
 #include "systems/motion/synchronised_motion.h"
+#include "systems/motion/travelled_path.h"
 #include "systems/robot/dynamics.h"
 #include "systems/robot/parallel_robot.h"
 #include "systems/signals/contact_classes.h"
@@ -23,6 +24,7 @@ namespace flinch {
 /// What a reaction does about a contact. [SafePR] (26)-(31)
 enum class ReactionKind : std::uint8_t {
   brake,       ///< nothing to give way to: what touches the robot is not known, or the force has no direction
+  retreat,     ///< the same, but the robot ran into it: the platform goes back the way it came
   platform,    ///< the platform moves along the force
   first_link,  ///< the drive of a first link turns away
   second_link,  ///< the point that is touched moves along the force
@@ -35,15 +37,16 @@ struct ReactionPlan {
   int leg = -1;                   ///< of a link or clamping
   CartesianVector point_in_body;  ///< of a second link
   CartesianVector direction;      ///< of the force; empty where both directions are a task
-  PlatformVector way;             ///< of the two joints of a leg that opens, for 1 rad of `opened`
-  SynchronisedMotion motion;      ///< of the task
-  Time begin{};              ///< of that motion; of braking, when it is decided that nothing else follows
-  double opened = 0.0;       ///< planned opening of the first link [rad]
-  Time touched{};            ///< tick at which a force was last felt
-  bool released = false;     ///< an opening: nothing was felt for long enough, once
-  Time unpressed{};          ///< tick at which the robot last did not press against what it feels
-  std::optional<Time> over;  ///< tick at which the motion was
-  Configuration held;        ///< place that is held after it; empty until the robot rests
+  PlatformVector way;         ///< of the two joints of a leg that opens, for 1 rad of `opened`; of a retreat
+  Configuration from;         ///< pose at which a retreat begins
+  SynchronisedMotion motion;  ///< of the task
+  Time begin{};               ///< of that motion; of braking, when it is decided that nothing else follows
+  double opened = 0.0;        ///< planned opening of the first link [rad]
+  Time touched{};             ///< tick at which a force was last felt
+  bool released = false;      ///< an opening: nothing was felt for long enough, once
+  Time unpressed{};           ///< tick at which the robot last did not press against what it feels
+  std::optional<Time> over;   ///< tick at which the motion was
+  Configuration held;         ///< place that is held after it; empty until the robot rests
 
   bool holds() const { return held.size() != 0; }
 };
@@ -65,11 +68,14 @@ inline constexpr bool never_allocates<ReactionPlan> =
 /// A link of a leg that closes, touched from between its links, is answered by opening too. What is still
 /// felt after the motion, or lies on its way, is given way to anew. (Derived.)
 ///
-/// Where the class is not accepted, or the force has no direction yet, the list has no task: the robot is
-/// braked. It may still be decided for `decide_within` after the detection.
+/// Where the class is not accepted, or the force has no direction yet, the platform goes back by
+/// `displacement` on the way that it came, if what it feels pushes it there: it has run into something, and
+/// was free of it there, whatever was touched. Otherwise the list has no task: the robot is braked. For
+/// `decide_within` after the detection it may still be decided. (Derived.)
 /// Displacements of legs are opposite to those printed, which press a first link against what it clamps.
 class ReactionTask final : public System {
   State<ReactionPlan> last_ = state<ReactionPlan>("last");
+  State<TravelledPath> travelled_ = state<TravelledPath>("travelled");
 
  public:
   /// `held`: how strongly a place is held. Throws SetupError for settings that have `problems`.
@@ -85,7 +91,7 @@ class ReactionTask final : public System {
 
  private:
   Intermediate<ReactionPlan> plan_ = intermediate<&ReactionTask::plan>(
-      "plan", clock, last_, reaction, kinematics, dynamics, estimate, classification, location);
+      "plan", clock, last_, travelled_, reaction, kinematics, dynamics, estimate, classification, location);
 
  public:
   OutputPort<TaskList> goals = output<&ReactionTask::lead>("goals", clock, plan_, kinematics);
@@ -98,10 +104,13 @@ class ReactionTask final : public System {
 
  private:
   Update remember_ = keep(last_, plan_);
+  Update travel_ =
+      update<&ReactionTask::travel>(Every{TravelledPath::spacing}, travelled_, clock, reaction, kinematics);
 
-  void plan(Time now, const ReactionPlan& last, const ReactionState& state, const Kinematics& at,
-            const Dynamics& model, const WrenchEstimate& contact, const ContactClassification& touched,
-            const ContactLocation& place, ReactionPlan& next) const;
+  void travel(Time now, const ReactionState& state, const Kinematics& at, TravelledPath& path) const;
+  void plan(Time now, const ReactionPlan& last, const TravelledPath& travelled, const ReactionState& state,
+            const Kinematics& at, const Dynamics& model, const WrenchEstimate& contact,
+            const ContactClassification& touched, const ContactLocation& place, ReactionPlan& next) const;
   void lead(Time now, const ReactionPlan& plan, const Kinematics& at, TaskList& list) const;
   ReactionKind kind_of(const ReactionPlan& plan) const { return plan.kind; }
   void follow(Time now, const ReactionPlan& plan, const Kinematics& at, PlatformReference& followed) const;
@@ -109,6 +118,9 @@ class ReactionTask final : public System {
   /// Decides about kind, leg, point and direction.
   void classify(const Kinematics& at, const WrenchEstimate& contact, const ContactClassification& touched,
                 const ContactLocation& place, ReactionPlan& plan) const;
+  /// Decides about what is not known.
+  void go_back(const TravelledPath& travelled, const Kinematics& at, const WrenchEstimate& contact,
+               ReactionPlan& plan) const;
   void begin(Time now, const Kinematics& at, const Dynamics& model, const WrenchEstimate& contact,
              ReactionPlan& plan) const;
   /// Plans from `task`, moving with `rate`.
@@ -118,9 +130,9 @@ class ReactionTask final : public System {
   PlatformVector displacement(const ReactionPlan& plan, const WrenchEstimate& contact) const;
   bool feels(const WrenchEstimate& contact) const;
   bool has_arrived(Time now, const ReactionPlan& plan) const;
-  ReactionPlan decided_anew(Time now, const ReactionPlan& last, const Kinematics& at, const Dynamics& model,
-                            const WrenchEstimate& contact, const ContactClassification& touched,
-                            const ContactLocation& place) const;
+  ReactionPlan decided_anew(Time now, const ReactionPlan& last, const TravelledPath& travelled,
+                            const Kinematics& at, const Dynamics& model, const WrenchEstimate& contact,
+                            const ContactClassification& touched, const ContactLocation& place) const;
   /// What is felt stays, or the motion leads into it.
   bool presses(Time now, const ReactionPlan& plan, const Kinematics& at, const Dynamics& model,
                const WrenchEstimate& contact) const;

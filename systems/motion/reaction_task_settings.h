@@ -19,6 +19,7 @@ struct ReactionTaskSettings {
   bool along_force_only = false;    ///< platform and second link: only the direction of the force is a task
   double force_to_go_by = 3.0;      ///< a weaker force has no reliable direction [N],
   double load_to_go_by = 1.5;       ///< nor a weaker load of a first link's drive [Nm or N]
+  bool retreat = true;              ///< the way it came, from what is not known; false: brake
   Time decide_within = 20ms;        ///< of the detection: so long what is not known may still become known
   double released_force = 5.0;      ///< a leg is released where no force component reaches it [N],
   double released_moment = 0.5;     ///< no moment component this [Nm],

@@ -35,23 +35,20 @@ struct History {
     next = (next + 1) % size;
     if (count < size) ++count;
   }
-  const Sample& newest() const { return samples[(next + size - 1) % size]; }
+  const Sample& newest() const { return back(0); }
+  /// The one that `age` others came after; below `count`.
+  const Sample& back(std::size_t age) const { return samples[(next + size - 1 - age) % size]; }
 
   /// The oldest sample that was acquired at `time` or later; none: null.
   const Sample* first_from(Time time) const {
     const Sample* found = nullptr;
-    for (std::size_t back = 1; back <= count; ++back) {
-      const Sample& sample = samples[(next + size - back) % size];
-      if (sample.acquired < time) break;
-      found = &sample;
-    }
+    for (std::size_t age = 0; age < count && back(age).acquired >= time; ++age) found = &back(age);
     return found;
   }
   /// The newest sample that was acquired before `time`; none: null.
   const Sample* last_before(Time time) const {
-    for (std::size_t back = 1; back <= count; ++back) {
-      const Sample& sample = samples[(next + size - back) % size];
-      if (sample.acquired < time) return &sample;
+    for (std::size_t age = 0; age < count; ++age) {
+      if (back(age).acquired < time) return &back(age);
     }
     return nullptr;
   }

@@ -25,7 +25,7 @@ struct Posture {
   Dynamics dynamics;
   WorkspaceMeasures measures;
 
-  explicit Posture(const ParallelRobot& robot, const PlatformVector& pose = PlatformVector::Zero(3),
+  explicit Posture(const ParallelRobot& robot, const Configuration& pose = Configuration::Zero(3),
                    const PlatformVector& velocity = PlatformVector::Zero(3), Time acquired = {}) {
     robot.kinematics(pose, velocity, kinematics);
     robot.dynamics(kinematics, dynamics);

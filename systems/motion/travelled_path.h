@@ -1,0 +1,35 @@
+#pragma once
+
+#include "systems/framework/never_allocates.h"
+#include "systems/framework/time.h"
+#include "systems/robot/configuration_space.h"
+#include "systems/signals/history.h"
+
+namespace flinch {
+
+/// Poses that the platform has come from, the last 0.3 s of its motion.
+class TravelledPath {
+ public:
+  static constexpr Time spacing = 10ms;  ///< of its poses
+
+  /// Adds the pose at `now`. What it knows from before `since` is forgotten: it led elsewhere.
+  void add(Time now, Time since, const Configuration& pose) noexcept;
+
+  /// The displacement from `pose` back to the latest of these poses that is `distance` [m] away, or to the
+  /// oldest. Rotations count as a point at `reach` [m] from E moves. Empty where that is not a tenth of it
+  /// away: the robot hardly moved.
+  PlatformVector way_back(const ConfigurationSpace& space, const Configuration& pose, double distance,
+                          double reach) const noexcept;
+
+ private:
+  struct Pose {
+    Time acquired{};
+    Configuration pose;
+  };
+  History<Pose, 32> poses_;
+};
+
+template <>
+inline constexpr bool never_allocates<TravelledPath> = never_allocates<Configuration>;
+
+}  // namespace flinch
