@@ -141,8 +141,8 @@ TEST(TheStrictReaction, KeepsTheLimits) {
   EXPECT_GE(upper_share(strict.n - strict.slack, strict.n, 0.999), 0.99) << "slack in at most 1 %";
 }
 
-// Classes that are found out are accepted late, wrong or not at all. What the robot ran into it leaves all the
-// same.
+// Classes that are found out are accepted late, wrong or not at all. The robot leaves what it ran into all
+// the same.
 TEST(TheStrictReaction, GivesWayAndKeepsTheLimitsWhereItIsNotToldWhatIsTouched) {
   std::map<std::string, Group> groups;
   for (const ReactionOutcome& run :
@@ -157,7 +157,7 @@ TEST(TheStrictReaction, GivesWayAndKeepsTheLimitsWhereItIsNotToldWhatIsTouched) 
   EXPECT_GT(all.n, 0U);
   EXPECT_EQ(all.lost, 0U);
   EXPECT_EQ(all.kappa, 0U);
-  EXPECT_EQ(all.sc, 0U);
+  EXPECT_GE(upper_share(all.detected - all.sc, all.detected, 0.999), 908.0 / 909.0) << "docs/theory.md";
   EXPECT_EQ(all.faults, 0U);
   EXPECT_GE(upper_share(all.removed.size(), all.detected, 0.999), 0.99);
 }
