@@ -7,6 +7,7 @@
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/laws/share_within.h"
+#include "systems/laws/wrench_reference.h"
 
 namespace flinch {
 namespace {
@@ -70,7 +71,10 @@ void TaskController::blend(Time now, const Blend& last, const TaskList& list, co
     return;
   }
   const auto reference_of = [&](ConstraintMode mode) -> PlatformVector {
-    return task_reference(settings_.level, by_priority(mode, kept, list), at, model, settings_.levels);
+    const TaskList served = by_priority(mode, kept, list);
+    if (settings_.level != TaskLevel::torque)
+      return task_reference(settings_.level, served, at, model, settings_.levels);
+    return wrench_reference(served, served.count > list.count, at, model, settings_.levels);
   };
   next.reference = reference_of(next.to);
   if (next.weight >= 1.0) return;

@@ -1,39 +1,16 @@
 #include "systems/laws/task_level.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "systems/laws/share_within.h"
-#include "systems/robot/impedance_damping.h"
+#include "systems/laws/wrench_reference.h"
 
 namespace flinch {
 namespace {
 
 constexpr double least_conditioned = 1e-10;  // of a task's mobility, relative
-
-/// e and de of a task that moves with the platform.
-struct TaskError {
-  PlatformVector e;
-  PlatformVector de;
-};
-
-TaskError error_of(const TaskGoal& goal, const PlatformVector& velocity) {
-  return {goal.reference.error, goal.reference.rate - goal.task.rate(velocity)};
-}
-
-// M_i^-1 (K_F e + D_F de), from the mobility M_i^-1 = J_i M_x^-1 J_i^T.
-PlatformVector compliant_acceleration(const TaskGains& gains, const PlatformMatrix& mobility,
-                                      const TaskError& error) {
-  if (mobility.rows() == 1) {
-    const double root = std::sqrt(gains.force[0] * mobility(0, 0));
-    return mobility * gains.force.cwiseProduct(error.e) + 2.0 * gains.damping_ratio[0] * root * error.de;
-  }
-  const PlatformMatrix K = gains.force.asDiagonal();
-  const PlatformMatrix D = impedance_damping(task_inertia(mobility), K, gains.damping_ratio).D;
-  return mobility * (K * error.e + D * error.de);  // [SafePR] (44b), (46)
-}
 
 PlatformVector velocity_reference(const TaskList& list, const Kinematics& kinematics,
                                   const TaskLevelSettings& settings) {
@@ -64,28 +41,6 @@ PlatformVector acceleration_reference(const TaskList& list, const Kinematics& ki
   return wanted * share_within(wanted, settings.largest_acceleration);
 }
 
-// With M_x = L L^T and u = L^T ddx the dynamically consistent projections are orthogonal ones of J L^-T.
-PlatformVector wrench_reference(const TaskList& list, const Kinematics& kinematics, const Dynamics& dynamics,
-                                const TaskLevelSettings& settings) {
-  const int n = static_cast<int>(dynamics.M_x.rows());
-  const Eigen::LLT<PlatformMatrix> M(dynamics.M_x);
-  const PlatformMatrix L = M.matrixL();
-  TaskPriority priority(n, settings.inverse);
-  for (const TaskGoal& goal : list) {
-    if (!goal.task.valid) continue;
-    const PlatformMatrix J =
-        L.triangularView<Eigen::Lower>().solve(PlatformMatrix(goal.task.J.transpose())).transpose();
-    const PlatformVector wanted =
-        goal.reference.acceleration +
-        compliant_acceleration(goal.gains, J * J.transpose(), error_of(goal, kinematics.velocity));
-    priority.add(J, wanted - goal.task.drift);
-  }
-  const PlatformMatrix free =
-      L.triangularView<Eigen::Lower>().solve(PlatformMatrix(PlatformMatrix::Identity(n, n))).transpose();
-  priority.add(free, -settings.free_damping * kinematics.velocity);
-  return L * priority.solution();
-}
-
 }  // namespace
 
 PlatformVector task_reference(TaskLevel level, const TaskList& list, const Kinematics& kinematics,
@@ -99,7 +54,7 @@ PlatformVector task_reference(TaskLevel level, const TaskList& list, const Kinem
     case TaskLevel::torque:
       break;
   }
-  return wrench_reference(list, kinematics, dynamics, settings);
+  return wrench_reference(list, false, kinematics, dynamics, settings);
 }
 
 JointVector task_torque(TaskLevel level, const PlatformVector& reference, const Kinematics& kinematics,
