@@ -20,19 +20,25 @@ ConstraintMode mode_of(bool sigma_kappa, bool sigma_sc) {
   return sigma_sc ? ConstraintMode::self_collision : ConstraintMode::none;
 }
 
-/// One measure at one tick. `outside`: it is beyond its activation value, [SafePR] Alg. 4.
-void follow(Time now, const ConstraintLimit& limit, Time dwell, const Task& task, double rate, bool outside,
-            Glide& glide) {
-  if (outside) glide.outside = now;
-  if (glide.active) {
-    glide.active = now - glide.outside < dwell;
-    return;
-  }
-  if (!outside) return;
-  const double velocity = std::clamp(rate, -limit.glide.velocity, limit.glide.velocity);
-  glide.active = true;
+bool is_inside(const ConstraintLimit& limit, double bound, double sigma) {
+  return limit.safety > limit.activation ? sigma < bound : sigma > bound;
+}
+
+/// One measure at one tick.
+void follow(Time now, const ConstraintLimit& limit, Time dwell, const ReactionState& state, const Task& task,
+            double rate, Glide& glide) {
+  const double sigma = task.sigma[0];
+  const bool inside = is_inside(limit, limit.activation, sigma);  // [SafePR] Alg. 4
+  if (!inside) glide.outside = now;
+  const bool was_active = glide.active;
+  glide.active = was_active ? now - glide.outside < dwell : !inside;
+  const bool stays = state.mode == ReactionMode::hold && is_inside(limit, limit.safety, sigma);
+  const bool begins = !was_active || (stays && state.entered(ReactionMode::hold, now));
+  if (!glide.active || !begins) return;
+  const double velocity = stays ? 0.0 : std::clamp(rate, -limit.glide.velocity, limit.glide.velocity);
   glide.begin = now;
-  glide.profile = JerkLimitedProfile::plan({task.sigma[0], velocity, 0.0, 0.0}, limit.safety, limit.glide);
+  glide.profile =
+      JerkLimitedProfile::plan({sigma, velocity, 0.0, 0.0}, stays ? sigma : limit.safety, limit.glide);
 }
 
 TaskGoal goal_of(Time now, const Task& task, const ConstraintLimit& limit, const Glide& glide) {
@@ -99,18 +105,15 @@ void ConstraintWatch::advance(Time now, const Memory& last, const ReactionState&
                               const Measures& measures, Memory& next) const {
   next = last;
   const bool watching = watches(state);
-  const auto keep_within = [&](const ConstraintLimit& limit, const Task& task, double rate, bool outside,
-                               Glide& glide) {
+  const auto keep_within = [&](const ConstraintLimit& limit, const Task& task, double rate, Glide& glide) {
     if (watching && task.valid) {
-      follow(now, limit, settings_.dwell, task, rate, outside, glide);
+      follow(now, limit, settings_.dwell, state, task, rate, glide);
     } else {
       glide.active = false;
     }
   };
-  keep_within(settings_.sigma_kappa, measures.sigma_kappa, measures.kappa_rate,
-              !(measures.sigma_kappa.sigma[0] < settings_.sigma_kappa.activation), next.sigma_kappa);
-  keep_within(settings_.sigma_sc, measures.sigma_sc, measures.sc_rate,
-              !(measures.sigma_sc.sigma[0] > settings_.sigma_sc.activation), next.sigma_sc);
+  keep_within(settings_.sigma_kappa, measures.sigma_kappa, measures.kappa_rate, next.sigma_kappa);
+  keep_within(settings_.sigma_sc, measures.sigma_sc, measures.sc_rate, next.sigma_sc);
   next.mode = mode_of(next.sigma_kappa.active, next.sigma_sc.active);
   if (next.mode != last.mode) next.since = now;
 }

@@ -19,6 +19,9 @@ namespace flinch {
 /// to the safety value and stays there, so that the measure is led to its limit and not stopped by it. It is
 /// let go when it has been inside its activation value for the dwell.
 ///
+/// In hold no measure is led to its limit any more: one that is inside its safety value when hold begins, or
+/// when it leaves the range of its activation value in hold, is kept where it is then. (Derived.)
+///
 /// It watches in the modes that it was made for. Where the kinematics is not valid nothing is active.
 class ConstraintWatch final : public System {
  public:

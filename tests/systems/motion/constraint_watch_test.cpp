@@ -22,7 +22,8 @@ struct Watch {
 
   const ConstraintState& at(const Eigen::Vector3d& pose, const Eigen::Vector3d& velocity = {0, 0, 0},
                             ReactionMode mode = ReactionMode::react) {
-    ticking.set(reaction, ReactionState{mode, ReactionMode::nominal, Time::zero()});
+    if (mode != state.mode) state = {mode, state.mode, ticking.now()};
+    ticking.set(reaction, state);
     Kinematics now;
     robot->kinematics(pose, velocity, now);
     ticking.set(kinematics, now);
@@ -36,6 +37,7 @@ struct Watch {
   ConstraintWatch& block;
   InputPort<ReactionState> reaction;
   InputPort<Kinematics> kinematics;
+  ReactionState state;
   test::Ticking ticking{builder};
 };
 
@@ -106,6 +108,33 @@ TEST(ConstraintWatch, AMeasureThatLeavesAgainBeforeStaysActive) {
   for (int tick = 0; tick < 200; ++tick) {
     EXPECT_EQ(watch.at(tick % 40 == 0 ? near_singularity : inside).mode, ConstraintMode::condition_number);
   }
+}
+
+TEST(ConstraintWatch, InHoldAMeasureInsideItsSafetyValueIsKeptWhereItIs) {
+  const Eigen::Vector3d towards(0.0, 0.0, 0.5);
+  for (const bool was_active : {true, false}) {
+    Watch watch;
+    for (int tick = 0; tick < 50; ++tick) watch.at(was_active ? near_singularity : inside, towards);
+    const ReactionMode hold = ReactionMode::hold;
+    if (!was_active) watch.at(inside, towards, hold);
+    const double sigma = watch.at(near_singularity, towards, hold).sigma_kappa.sigma;
+    EXPECT_LT(sigma, 15.0);
+    for (int tick = 0; tick < 100; ++tick) {
+      const ConstraintMeasure held = watch.at(near_singularity, towards, hold).sigma_kappa;
+      EXPECT_TRUE(held.active);
+      EXPECT_NEAR(held.reference, sigma, 1e-12) << was_active;
+      EXPECT_NEAR(watch.goal(0).reference.rate[0], 0.0, 1e-12) << was_active;
+    }
+  }
+}
+
+TEST(ConstraintWatch, InHoldAMeasureBeyondItsSafetyValueIsLedBack) {
+  const Eigen::Vector3d beyond(0.0, 0.0, -0.45);
+  Watch watch;
+  watch.at(beyond);
+  EXPECT_LT(watch.at(beyond, {0, 0, 0}, ReactionMode::hold).sigma_sc.sigma, 0.17);
+  for (int tick = 0; tick < 400; ++tick) watch.at(beyond, {0, 0, 0}, ReactionMode::hold);
+  EXPECT_DOUBLE_EQ(watch.at(beyond, {0, 0, 0}, ReactionMode::hold).sigma_sc.reference, 0.17);
 }
 
 TEST(ConstraintWatch, WatchesAsItsSettingsSay) {
