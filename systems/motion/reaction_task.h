@@ -104,8 +104,7 @@ class ReactionTask final : public System {
 
  private:
   Update remember_ = keep(last_, plan_);
-  Update travel_ =
-      update<&ReactionTask::travel>(Every{TravelledPath::spacing}, travelled_, clock, reaction, kinematics);
+  Update travel_ = update<&ReactionTask::travel>(travelled_, clock, reaction, kinematics);
 
   void travel(Time now, const ReactionState& state, const Kinematics& at, TravelledPath& path) const;
   void plan(Time now, const ReactionPlan& last, const TravelledPath& travelled, const ReactionState& state,

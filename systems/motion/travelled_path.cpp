@@ -4,7 +4,7 @@ namespace flinch {
 
 void TravelledPath::add(Time now, Time since, const Configuration& pose) noexcept {
   if (poses_.count > 0 && poses_.newest().acquired < since) poses_ = {};
-  poses_.push({now, pose});
+  if (poses_.count == 0 || now - poses_.newest().acquired >= spacing) poses_.push({now, pose});
 }
 
 PlatformVector TravelledPath::way_back(const ConfigurationSpace& space, const Configuration& pose,

@@ -10,9 +10,10 @@ namespace flinch {
 /// Poses that the platform has come from, the last 0.3 s of its motion.
 class TravelledPath {
  public:
-  static constexpr Time spacing = 10ms;  ///< of its poses
+  static constexpr Time spacing = 10ms;  ///< of its poses, at least
 
-  /// Adds the pose at `now`. What it knows from before `since` is forgotten: it led elsewhere.
+  /// Adds the pose at `now`, unless one was added less than `spacing` ago. What it knows from before `since`
+  /// is forgotten: it led elsewhere.
   void add(Time now, Time since, const Configuration& pose) noexcept;
 
   /// The displacement from `pose` back to the latest of these poses that is `distance` [m] away, or to the

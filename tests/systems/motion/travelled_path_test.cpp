@@ -30,6 +30,16 @@ TEST(TravelledPath, HoldsTheLast310Milliseconds) {
   EXPECT_LT((back - Eigen::Vector3d(-0.155, 0, 0)).norm(), 1e-12);
 }
 
+TEST(TravelledPath, IsAsLongWhateverTheTick) {
+  for (const Time tick : {1ms, 3ms, 4ms}) {
+    TravelledPath path;
+    for (Time t{}; t <= 3s; t += tick) path.add(t, {}, Eigen::Vector3d(to_seconds(t), 0, 0));
+    const double way = path.way_back(planar, Eigen::Vector3d(3, 0, 0), 1.0, 0.1).norm();
+    EXPECT_GE(way, 0.31) << tick.count();
+    EXPECT_LE(way, 32 * 0.012) << tick.count();
+  }
+}
+
 TEST(TravelledPath, CountsRotationsAsTheMotionOfAPoint) {
   TravelledPath path;
   for (int k = 0; k <= 20; ++k) path.add(k * TravelledPath::spacing, {}, Eigen::Vector3d(0, 0, 0.05 * k));
