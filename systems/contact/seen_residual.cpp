@@ -37,6 +37,17 @@ DriveLoad between(const Around<DriveLoad>& around, Time time) {
   return load;
 }
 
+/// The slope of the torque in the hold in which `then` lies, which the drives reach some time after the tick
+/// before; zero where it is not known.
+JointVector held_slope(const DriveLoad& then, const DriveLoad& fresh, const LoadHistory& past,
+                       const Sampling& sampling) {
+  const DriveLoad* const after = past.around(then.acquired, fresh.valid ? &fresh : nullptr).after;
+  const DriveLoad* const before = past.last_before(then.acquired);
+  if (after == nullptr || before == nullptr || sampling.interrupted(before->acquired, after->acquired))
+    return JointVector::Zero(then.torque.size());
+  return (after->torque - before->torque) / to_seconds(after->acquired - before->acquired);
+}
+
 /// Passes a load through the filters of an answer, which have settled on it where it is the first one; `T` is
 /// the time since the last one [s].
 AnsweredLoad answered(const DriveLoad& load, const EstimatorAnswer& answer, bool is_first, double T,
@@ -73,7 +84,10 @@ void follow_residual(const WrenchEstimate& estimate, const DriveLoad& fresh, con
   const AnsweredLoad load = answered(*then, tracking.answer, !continued, T, next);
   DriveResidual level{estimate.drive_torque, load.torque, load.friction,
                       JointVector::Zero(load.torque.size())};
-  if (continued) level.slope = (load.torque - memory.seen.level.torque) / T;
+  if (continued) {
+    level.slope = tracking.answer.filters > 0 ? JointVector((load.torque - memory.seen.level.torque) / T)
+                                              : held_slope(*then, fresh, past, tracking.sampling);
+  }
   if (!continued) {
     next.mean = level;
     next.since = now;

@@ -55,6 +55,40 @@ ExpectedMotion between(const Around<ExpectedMotion>& around, Time time) {
   return result;
 }
 
+/// What the rotation of `between` adds up to from the tick before `time` to it [rad/s].
+Eigen::Vector3d turned_since_tick(const Around<ExpectedMotion>& around, Time time) {
+  const ExpectedMotion &before = *around.before, &after = *around.after;
+  const double since = to_seconds(time - before.acquired);
+  const double evenly = 0.5 * since * around.share(time);
+  const PlatformVector sooner =
+      (driven_time(time - before.acquired) - evenly) * (after.driving - before.driving);
+  return since * before.rotation + evenly * (after.rotation - before.rotation) +
+         after.by_acceleration.topRows<3>() * after.M_x.llt().solve(sooner);
+}
+
+/// Whether both are ticks, one after the other.
+bool is_whole_hold(Time from, Time to, const History<ExpectedMotion, 32>& past, const ExpectedMotion* fresh) {
+  const Around<ExpectedMotion> around = past.around(to, fresh);
+  const ExpectedMotion* const before = past.last_before(to);
+  return around.before == around.after && before != nullptr && before->acquired == from;
+}
+
+/// The mean of dw/dt from one instant to a later one, which is what a gyroscope shows between two samples;
+/// none where not all of it is known.
+std::optional<Eigen::Vector3d> mean_rotation(Time from, Time to, const History<ExpectedMotion, 32>& past,
+                                             const ExpectedMotion* fresh) {
+  Eigen::Vector3d turned = Eigen::Vector3d::Zero();
+  for (Time until = to; until > from;) {
+    Around<ExpectedMotion> around = past.around(until, fresh);
+    if (around.before == around.after) around.before = past.last_before(until);
+    if (!around.known()) return std::nullopt;
+    turned += turned_since_tick(around, until);
+    if (around.before->acquired < from) turned -= turned_since_tick(around, from);
+    until = around.before->acquired;
+  }
+  return turned / to_seconds(to - from);
+}
+
 }  // namespace
 
 ImuResidual::ImuResidual(std::shared_ptr<const ParallelRobot> robot, const ImuResidualSettings& settings)
@@ -102,9 +136,9 @@ void ImuResidual::advance(const ImuReading& reading, const ExpectedMotion& fresh
   const Sampling& sampling = settings_.sampling;
   const bool sees_imu = is_usable(reading);
   const bool is_new = sees_imu && reading.acquired > memory.acquired;
-  const std::optional<ExpectedMotion> then =
-      is_new ? sample_at(reading.acquired, past, fresh.valid ? &fresh : nullptr, sampling, between)
-             : std::nullopt;
+  const ExpectedMotion* const newest = fresh.valid ? &fresh : nullptr;
+  std::optional<ExpectedMotion> then =
+      is_new ? sample_at(reading.acquired, past, newest, sampling, between) : std::nullopt;
   next = memory;
   next.sees_imu = sees_imu;
   if (!then) {
@@ -119,6 +153,10 @@ void ImuResidual::advance(const ImuReading& reading, const ExpectedMotion& fresh
     next.expected_force = then->force;
     next.innovation = 1.0;
     next.slow = 0;
+  }
+  if (continued && !is_whole_hold(memory.acquired, reading.acquired, past, newest)) {
+    const auto mean = mean_rotation(memory.acquired, reading.acquired, past, newest);
+    if (mean) then->rotation = *mean;
   }
   learn_bias(reading, *then, next);
   if (continued) turn(reading, *then, T, next);

@@ -112,6 +112,26 @@ TEST(SeenResidual, HasTheLoadOfAnInstantBetweenTwoTicks) {
   }
 }
 
+TEST(SeenResidual, HasTheSlopeOfTheTorqueThatTheDrivesHeldAtItsInstant) {
+  for (const Time before : {0us, 50us, 500us, 950us}) {
+    LoadHistory past;
+    ResidualMemory memory, next;
+    for (int k = 1; k < 20; ++k) {
+      DriveLoad load = at_rest;
+      load.acquired = k * 1ms;
+      load.torque[0] = k == 10 ? 2.0 : 0.0;
+      WrenchEstimate estimate = estimate_of(Eigen::Vector3d::Zero());
+      estimate.acquired = load.acquired - before;
+      follow_residual(estimate, load, past, load.acquired, {}, memory, next);
+      past.push(load);
+      memory = next;
+      const double expected = k == 10 ? 2e3 : k == 11 ? -2e3 : 0.0;
+      EXPECT_NEAR(memory.seen.level.slope[0], expected, 1e-9)
+          << k << ", " << to_seconds(before) << " s before";
+    }
+  }
+}
+
 /// The disturbance filter of a robot that stands still, whatever torque is told.
 class StandingRobot {
  public:

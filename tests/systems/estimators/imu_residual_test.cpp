@@ -30,12 +30,20 @@ class ImuResidualTest : public testing::Test {
     if (before_tick_ > Time::zero())  // reached in 0.3 ms, then held
       acted = torque_before_ +
               std::min(1.0, (1e-3 - to_seconds(before_tick_)) / 3e-4) * (torque - torque_before_);
-    torque_before_ = torque;
     const PlatformVector acceleration = *forward_dynamics(at.kinematics, at.dynamics, acted, push);
-    turned_ += 1e-3 * acceleration[2];
+    const double angular = (*forward_dynamics(at.kinematics, at.dynamics, torque, push))[2];
+    const double angular_before = (*forward_dynamics(at.kinematics, at.dynamics, torque_before_, push))[2];
+    const auto turned_in = [&](double time) {  // since the tick before, of a sample between two ticks
+      const double reached = time < 3e-4 ? time * time / 6e-4 : time - 1.5e-4;
+      return time * angular_before + reached * (angular - angular_before);
+    };
+    const bool between = before_tick_ > Time::zero();
+    const double turned = turned_ + (between ? turned_in(1e-3 - to_seconds(before_tick_)) : 1e-3 * angular);
+    turned_ += between ? turned_in(1e-3) : 1e-3 * angular;
+    torque_before_ = torque;
     const ImuOutput output =
         imu_output(robot_->space(), ImuMount{}, robot_->gravity(), zero, zero, acceleration);
-    const Eigen::Vector3d rate = output.by_velocity.col(2).head<3>() * turned_;
+    const Eigen::Vector3d rate = output.by_velocity.col(2).head<3>() * turned;
     underway_.push_back({now - before_tick_, true, rate + rate_bias, output.value.tail<3>() + bias});
     for (int i = 0; i < 3; ++i) {
       underway_.back().angular_velocity[i] += noise_ * 2.74e-3 * random_.normal();
@@ -149,9 +157,27 @@ TEST_F(ImuResidualTest, ComparesASampleBetweenTwoTicksWithWhatIsBetweenThem) {
       const WrenchEstimate& seen = see(JointVector::Constant(3, height), zero, 4);
       if (k <= 100) continue;
       ASSERT_TRUE(seen.valid);
-      largest = std::max(largest, seen.wrench_in_base.head(2).norm());
+      largest = std::max(largest, seen.wrench_in_base.norm());
     }
     EXPECT_LT(largest, 1e-3) << to_seconds(before_tick) << " s";
+  }
+}
+
+// Between two samples a gyroscope shows the mean of dw/dt, in which torques of two ticks have a part.
+TEST_F(ImuResidualTest, ComparesTheGyroscopeWithAllThatHappenedBetweenTwoSamples) {
+  rest();
+  RandomGenerator random(5);
+  for (const Time before_tick : {60us, 300us, 500us, 900us}) {
+    before_tick_ = before_tick;
+    double largest = 0.0;
+    for (int k = 0; k < 400; ++k) {
+      const JointVector torque = JointVector::NullaryExpr(3, [&] { return random.uniform(-3.0, 3.0); });
+      const WrenchEstimate& seen = see(torque, zero, 4);
+      if (k <= 100) continue;
+      ASSERT_TRUE(seen.valid);
+      largest = std::max(largest, seen.wrench_in_base.norm());
+    }
+    EXPECT_LT(largest, 1e-6) << to_seconds(before_tick) << " s";
   }
 }
 
