@@ -19,13 +19,13 @@ const EstimatorResult& by(const RunResult& result, const std::string& name) {
 TEST(TheFusedDetector, SeesNoContactInMotionWithoutOne) {
   std::size_t alarms = 0;
   double hours = 0.0;
-  for (const RunResult& result : test::shipped_runs("false_alarms", 30)) {
+  for (const RunResult& result : test::shipped_runs("false_alarms", 15)) {
     alarms += by(result, "fused_detector").false_alarm ? 1 : 0;
     hours += by(result, "fused_detector").contact_free / 3600.0;
   }
   std::printf("  %zu false alarms in %.2f h: at most %.1f an hour (95 %%)\n", alarms, hours,
               upper_rate(alarms, hours));
-  EXPECT_GT(hours, 0.27);
+  EXPECT_GT(hours, 0.13);
   EXPECT_EQ(alarms, 0U) << "half a one an hour was asked";
 }
 

@@ -30,7 +30,7 @@ class Intervals : public ::testing::Test {
     EXPECT_GE(got.share(), 0.92);
     EXPECT_LE(got.share(), 0.98);
   }
-  int calibrations_ = test::wanted("FLINCH_CALIBRATIONS", 24);
+  int calibrations_ = test::wanted("FLINCH_CALIBRATIONS", 12);
 };
 
 TEST_F(Intervals, OfTorqueConstantsCoverTheTruthInNineteenOfTwentyCalibrations) {

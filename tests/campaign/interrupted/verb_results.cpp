@@ -60,6 +60,11 @@ InterruptedVerb VerbResults::campaign() const {
 }
 
 InterruptedVerb VerbResults::calibrate() const {
+  place_.replace("scenarios/random_motion.yaml",
+                 "[momentum_observer, momentum_kalman_filter, sliding_mode_observer, "
+                 "direct_extended_imu_ekf, disturbance_filter, imu_residual]\n"
+                 "  detectors: [contact_detector, fused_detector]",
+                 "[momentum_observer]");
   const std::string file = scenario("random_motion.yaml", 33.0);
   OtherProgram program(flinch_program({"run", file, "--out", place_.at("recorded"), "--quiet"}));
   EXPECT_EQ(program.wait(100s), 0) << program.output();

@@ -28,7 +28,7 @@ class VerbResults {
   const std::filesystem::path& folder() const { return folder_; }
   std::string file(const std::string& name) const { return (folder_ / name).string(); }
 
-  /// A run of 0.6 s, a campaign of six such runs, thresholds of a recording of 33 s.
+  /// A run of 0.6 s, a campaign of six such runs, thresholds of one estimator in a recording of 33 s.
   InterruptedVerb run() const;
   InterruptedVerb campaign() const;
   InterruptedVerb calibrate() const;
