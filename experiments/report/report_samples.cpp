@@ -224,9 +224,9 @@ class Drives {
 };
 
 /// How far obstacles are from where they are drawn. Those that never move have no columns.
-class ObstacleMotion {
+class ObstacleColumns {
  public:
-  ObstacleMotion(const Recording& recording, std::size_t obstacles, int translations, PageSamples& page)
+  ObstacleColumns(const Recording& recording, std::size_t obstacles, int translations, PageSamples& page)
       : translations_(translations) {
     if (recording.find("obstacles") == nullptr) return;
     places_.emplace(recording, "obstacles");
@@ -421,7 +421,7 @@ void add_samples(const ParallelRobot& robot, const Recording& recording, Report&
   Constraints constraints(recording, page);
   TaskEnergyColumns energies(recording, page);
   Isolation isolation(robot, recording, simulated, page);
-  ObstacleMotion obstacles(recording, report.obstacles.size(), robot.space().translations(), page);
+  ObstacleColumns obstacles(recording, report.obstacles.size(), robot.space().translations(), page);
   std::optional<RecordedTruths> truths;
   if (simulated) truths.emplace(recording);
   for (std::size_t k = 0; k < run.size(); ++k) {
