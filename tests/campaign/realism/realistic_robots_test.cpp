@@ -1,4 +1,4 @@
-// 12 robots that differ from their model, each drawn anew, in contact-free motion at 1.5 m/s and 12 or 17
+// 6 robots that differ from their model, each drawn anew, in contact-free motion at 1.5 m/s and 12 or 17
 // m/s^2; beside them the model itself with the same noise and motions. FLINCH_ROBOTS in the environment says
 // how many robots instead; docs/theory.md cites 50.
 #include <gmock/gmock.h>
@@ -16,7 +16,7 @@ using test::FreeMotion;
 using test::FreeMotionErrors;
 using test::RobotTrial;
 
-int wanted_robots() { return test::wanted("FLINCH_ROBOTS", 12); }
+int wanted_robots() { return test::wanted("FLINCH_ROBOTS", 6); }
 
 TEST(RealisticRobots, MoveWithoutAFaultAndAlignedWithoutAContactThatIsNone) {
   std::printf("%s", test::table_head().c_str());
