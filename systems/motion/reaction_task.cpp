@@ -16,6 +16,7 @@
 namespace flinch {
 namespace {
 
+constexpr double least_push = 0.1;  // of what counts as felt: links near the base push the platform little
 constexpr double slowest_closing = 0.02;  // of an elbow that bends; slower is noise [rad/s]
 
 bool is_reacting(ReactionMode mode) { return mode == ReactionMode::react || mode == ReactionMode::hold; }
@@ -49,15 +50,13 @@ double largest_reach(const Kinematics& at, int translations) {
 
 // Largest speed of a coupling joint in such a motion, on the torque level and on those of the drives.
 double platform_speed(const Task& task, const PlatformVector& direction, const Kinematics& at,
-                      const Dynamics& model, int translations) {
+                      const Dynamics& model, const ConfigurationSpace& space) {
   const PlatformMatrix by_inertia = inverse(model.M_x);
   const PlatformMatrix by_drives = at.J_x_qa * at.J_x_qa.transpose();
-  const double reach = largest_reach(at, translations);
+  const double reach = largest_reach(at, space.translations());
   double fastest = 0.0;
   for (const PlatformMatrix* const W : {&by_inertia, &by_drives}) {
-    const PlatformVector v = least_motion(task, direction, *W);
-    const double turning = v.tail(v.size() - translations).norm();
-    fastest = std::max(fastest, v.head(translations).norm() + reach * turning);
+    fastest = std::max(fastest, farthest_moved(space, least_motion(task, direction, *W), reach));
   }
   return fastest;
 }
@@ -176,13 +175,22 @@ void ReactionTask::classify(const Kinematics& at, const WrenchEstimate& contact,
 void ReactionTask::go_back(const TravelledPath& travelled, const Kinematics& at,
                            const WrenchEstimate& contact, ReactionPlan& plan) const {
   if (!settings_.retreat || !at.valid) return;
-  if (!contact.valid || contact.wrench_in_base.size() != robot_->dof()) return;
-  const double reach = largest_reach(at, robot_->space().translations());
-  const PlatformVector back = travelled.way_back(robot_->space(), at.pose, settings_.displacement, reach);
-  if (back.size() == 0 || !(contact.wrench_in_base.dot(back) > 0.0)) return;
+  const ConfigurationSpace& space = robot_->space();
+  const double reach = largest_reach(at, space.translations());
+  const PlatformVector back = travelled.way_back(space, at.pose, settings_.displacement, reach);
+  if (back.size() == 0) return;
+  if (!(pushed_along(back, at, contact) >= least_push * settings_.released_force)) return;
   plan.kind = ReactionKind::retreat;
   plan.way = back;
   plan.from = at.pose;
+}
+
+double ReactionTask::pushed_along(const PlatformVector& way, const Kinematics& at,
+                                  const WrenchEstimate& contact) const {
+  const ConfigurationSpace& space = robot_->space();
+  if (!contact.valid || contact.wrench_in_base.size() != space.dimension()) return 0.0;
+  return contact.wrench_in_base.dot(way) /
+         farthest_moved(space, way, largest_reach(at, space.translations()));
 }
 
 Task ReactionTask::task_of(const ReactionPlan& plan, const Kinematics& at) const {
@@ -229,13 +237,11 @@ void ReactionTask::move(Time now, const Task& task, const PlatformVector& rate,
   MotionLimits limits = settings_.translation;
   if (moves_joints(plan.kind)) {
     limits = settings_.joint;
-    const double fastest =
-        limits.velocity * platform_speed(task, direction, at, model, robot_->space().translations());
+    const double fastest = limits.velocity * platform_speed(task, direction, at, model, robot_->space());
     limits = slowed(limits, std::min(1.0, settings_.largest_platform_speed / std::max(fastest, 1e-9)));
   } else if (plan.kind == ReactionKind::retreat) {
-    const int translations = robot_->space().translations();
-    const double turning = direction.tail(direction.size() - translations).norm();
-    const double fastest = direction.head(translations).norm() + largest_reach(at, translations) * turning;
+    const ConfigurationSpace& space = robot_->space();
+    const double fastest = farthest_moved(space, direction, largest_reach(at, space.translations()));
     limits = slowed(limits, 1.0 / fastest);
   }
   if (settings_.drive_share) {
@@ -292,7 +298,8 @@ void ReactionTask::plan(Time now, const ReactionPlan& last, const TravelledPath&
   if (begins || (!known && state.mode == ReactionMode::react && now <= decided)) {
     next = ReactionPlan();
     classify(at, contact, touched, place, next);
-    const bool goes_on = !begins && last.kind == ReactionKind::retreat && next.kind == ReactionKind::brake;
+    const bool goes_on = !begins && last.kind == ReactionKind::retreat && next.kind == ReactionKind::brake &&
+                         pushed_along(last.way, at, contact) > -least_push * settings_.released_force;
     if (!goes_on) {
       if (next.kind == ReactionKind::brake) go_back(travelled, at, contact, next);
       begin(now, at, model, contact, next);
@@ -334,7 +341,7 @@ ReactionPlan ReactionTask::decided_anew(Time now, const ReactionPlan& last, cons
     }
     next.kind = ReactionKind::brake;
     next.opened = last.opened;
-  } else if (next.kind == ReactionKind::brake) {
+  } else if (next.kind == ReactionKind::brake && !last.over) {
     go_back(travelled, at, contact, next);
   }
   begin(now, at, model, contact, next);

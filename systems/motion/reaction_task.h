@@ -68,10 +68,11 @@ inline constexpr bool never_allocates<ReactionPlan> =
 /// A link of a leg that closes, touched from between its links, is answered by opening too. What is still
 /// felt after the motion, or lies on its way, is given way to anew. (Derived.)
 ///
-/// Where the class is not accepted, or the force has no direction yet, the platform goes back by
-/// `displacement` on the way that it came, if what it feels pushes it there: it has run into something, and
-/// was free of it there, whatever was touched. Otherwise the list has no task: the robot is braked. For
-/// `decide_within` after the detection it may still be decided. (Derived.)
+/// Where the class is not accepted, or the force has no direction yet, the platform goes straight back to
+/// where it was `displacement` before, if what it feels pushes it there: it has run into something, and was
+/// free of it there, whatever was touched. Otherwise the list has no task: the robot is braked. For
+/// `decide_within` after the detection it may still be decided, and whoever is not pushed back any more is
+/// braked. When the motion is over nobody goes back. (Derived.)
 /// Displacements of legs are opposite to those printed, which press a first link against what it clamps.
 class ReactionTask final : public System {
   State<ReactionPlan> last_ = state<ReactionPlan>("last");
@@ -120,6 +121,8 @@ class ReactionTask final : public System {
   /// Decides about what is not known.
   void go_back(const TravelledPath& travelled, const Kinematics& at, const WrenchEstimate& contact,
                ReactionPlan& plan) const;
+  /// Work of what is felt on `way`, by the length of that [N]; 0 where it is not known.
+  double pushed_along(const PlatformVector& way, const Kinematics& at, const WrenchEstimate& contact) const;
   void begin(Time now, const Kinematics& at, const Dynamics& model, const WrenchEstimate& contact,
              ReactionPlan& plan) const;
   /// Plans from `task`, moving with `rate`.

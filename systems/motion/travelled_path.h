@@ -7,7 +7,11 @@
 
 namespace flinch {
 
-/// Poses that the platform has come from, the last 0.3 s of its motion.
+/// How far `displacement` moves E, and a point at `reach` from E besides [m].
+double farthest_moved(const ConfigurationSpace& space, const PlatformVector& displacement,
+                      double reach) noexcept;
+
+/// Poses that the platform has come from, at least the last 0.3 s of its motion.
 class TravelledPath {
  public:
   static constexpr Time spacing = 10ms;  ///< of its poses, at least
@@ -17,8 +21,8 @@ class TravelledPath {
   void add(Time now, Time since, const Configuration& pose) noexcept;
 
   /// The displacement from `pose` back to the latest of these poses that is `distance` [m] away, or to the
-  /// oldest. Rotations count as a point at `reach` [m] from E moves. Empty where that is not a tenth of it
-  /// away: the robot hardly moved.
+  /// oldest; only those count that are older than the nearest. Empty where the robot is half of `distance`
+  /// off all of them, and where it would be led by less than a tenth of it: it hardly moved.
   PlatformVector way_back(const ConfigurationSpace& space, const Configuration& pose, double distance,
                           double reach) const noexcept;
 

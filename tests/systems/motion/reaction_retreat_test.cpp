@@ -83,6 +83,49 @@ TEST(Retreat, WhoIsPushedOnHisWayOrHardlyMovesIsBraked) {
   EXPECT_EQ(standing.kind(), ReactionKind::brake);
 }
 
+TEST(Retreat, WhatIsHardlyFeltLeadsNobodyBack) {
+  for (const double share : {0.05, 0.5}) {
+    Travelling robot(v);
+    robot.know(-1, share * 0.3 * against, robot.at, v);  // about 0.3 and 3.4 N along the way
+    robot.begin();
+    EXPECT_EQ(robot.kind(), share > 0.4 ? ReactionKind::retreat : ReactionKind::brake) << share;
+  }
+}
+
+TEST(Retreat, WhoIsNotPushedBackAnyMoreIsBrakedAtOnce) {
+  Travelling robot(v);
+  robot.know(-1, against, robot.at, v);
+  robot.begin();
+  robot.go_on(5ms);
+  EXPECT_EQ(robot.kind(), ReactionKind::retreat);
+  robot.know(-1, -against, robot.at, v);
+  robot.go_on();
+  EXPECT_EQ(robot.kind(), ReactionKind::brake);
+}
+
+// What is felt then pushes it to where it was touched first.
+TEST(Retreat, WhoWentBackOrGaveWayAndIsPushedFromBehindDoesNotReturnToWhatItLeft) {
+  const Eigen::Vector3d behind = 0.12 / v.norm() * v;
+  for (const Eigen::Vector3d& left : {Eigen::Vector3d(-behind), Eigen::Vector3d(0.06, 0.1, 0.0)}) {
+    for (const Time after : {15ms, 100ms, 600ms}) {
+      Travelling robot(v);
+      robot.know(-1, against, robot.at, v);
+      robot.begin();
+      const Eigen::Vector3d now = robot.at + left;
+      robot.know(-1, {0, 0, 0}, now, {0, 0, 0});
+      robot.go_on(after);
+      robot.know(-1, -30.0 * left / left.norm(), now, {0, 0, 0});
+      for (Time t{}; t < 200ms; t += 1ms) {
+        const TaskList& list = robot.go_on();
+        const bool leads_back = list.count == 2 && list.goals[0].reference.rate.dot(left.head<2>()) < -1e-9;
+        EXPECT_FALSE(leads_back && robot.kind() == ReactionKind::retreat)
+            << after.count() << ", " << t.count();
+      }
+      EXPECT_EQ(robot.kind(), ReactionKind::brake) << after.count();
+    }
+  }
+}
+
 TEST(Retreat, WhoShallNotIsBraked) {
   ReactionTaskSettings settings;
   settings.retreat = false;

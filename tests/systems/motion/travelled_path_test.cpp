@@ -53,6 +53,23 @@ TEST(TravelledPath, LeadsNowhereWhereTheRobotHardlyMoved) {
   EXPECT_EQ(along_x(30ms).way_back(planar, Eigen::Vector3d(0, 0.2, 0.1), 0.1, 0.1).size(), 3);
 }
 
+TEST(TravelledPath, LeadsFurtherBackFromWhereItHasLedAlready) {
+  const TravelledPath path = along_x(300ms);
+  for (const double x : {-0.03, -0.04, -0.0401}) {
+    const PlatformVector back = path.way_back(planar, Eigen::Vector3d(x, 0.2, 0.1), 0.0999, 0.1);
+    ASSERT_EQ(back.size(), 3) << x;
+    EXPECT_LT(back[0], -0.09) << x << ": not to where the contact was";
+  }
+  EXPECT_EQ(path.way_back(planar, Eigen::Vector3d(-0.145, 0.2, 0.1), 0.0999, 0.1).size(), 0) << "at its end";
+}
+
+TEST(TravelledPath, LeadsNowhereFromBesideIt) {
+  const TravelledPath path = along_x(300ms);
+  EXPECT_EQ(path.way_back(planar, Eigen::Vector3d(0, 0.251, 0.1), 0.1, 0.1).size(), 0);
+  EXPECT_EQ(path.way_back(planar, Eigen::Vector3d(-0.05, 0.1, 0.1), 0.1, 0.1).size(), 0);
+  EXPECT_EQ(path.way_back(planar, Eigen::Vector3d(0, 0.249, 0.1), 0.1, 0.1).size(), 3);
+}
+
 TEST(TravelledPath, ForgetsWhatWasBeforeAnInterruption) {
   TravelledPath path = along_x(300ms);
   for (const Time t : {2000ms, 2010ms, 2020ms, 2030ms})
