@@ -12,7 +12,7 @@ Eigen::Vector3d draw_bias(double limit, std::uint64_t seed) {
   return uniform_vector(generator, limit);
 }
 
-/// An ideal one measures on the ticks.
+/// An ideal one has no lead and no jitter.
 ImuClockSettings clock_of(const SimulatedImuSettings& settings) {
   if (!settings.ideal) return settings.clock;
   return {.period = settings.clock.period};
@@ -45,7 +45,7 @@ SimulatedImu::SimulatedImu(const SimulatedImuSettings& settings, const Mechanism
   std::vector<std::string> all = problems(settings);
   constexpr int most = ImuSamples::most - 1;
   if (all.empty() && tick > most * settings.clock.period)
-    all.push_back("imu.period must be at least a " + std::to_string(most) + "th of a tick");
+    all.push_back("imu.rate must be at most " + std::to_string(most) + " samples a tick");
   throw_if_any(all);
 }
 
