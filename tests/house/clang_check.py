@@ -3,9 +3,8 @@
 Usage: clang_check.py BUILD_DIR [FILE...]     BUILD_DIR: configured with the preset clang
 
 Most of the time goes into the headers that a source includes, so sources that can stand in one translation unit are
-looked at together, with the flags of all of them; where that cannot be compiled, or is not clean, in smaller parts, at
-last alone with their own flags. What was found clean is remembered in BUILD_DIR by the hash of its preprocessed text
-and not looked at again.
+looked at together; where that cannot be compiled, or is not clean, in smaller parts. What was found clean is remembered
+in BUILD_DIR by the hash of its preprocessed text and not looked at again.
 """
 import concurrent.futures
 import hashlib
@@ -22,12 +21,9 @@ COMPILER_ONLY = ("tests/",)
 # What tests/CMakeLists.txt precompiles stands before every source of a folder of tests, alone or beside others; a program
 # that is not one of them sees no Eigen.
 PRECOMPILED = ("-include", "gmock/gmock.h", "-include", "gtest/gtest.h", "-include", "Eigen/Dense")
-LARGEST_BUNDLE = 40
-LOCATED_ERROR = re.compile(r"^(/[^:\n]+):\d+:\d+: (?:fatal )?error: ", re.MULTILINE)
-FLAG = re.compile(r"^-.*(?:\n[^-].*)?$", re.MULTILINE)
-PARAMETERS = re.compile(r"\([^()]*")
-PARAMETER_NAME = re.compile(r" ?\b\w+(?=,|$)")
-USING = re.compile(r"(?:using|namespace) (?:::)?(?:\w+::)*(\w+)(?: =.*)?;")
+LARGEST_BUNDLE = 16
+ANONYMOUS = re.compile(r"^namespace \{$(.*?)^\}  // namespace$", re.DOTALL | re.MULTILINE)
+USING = re.compile(r"(?:using|namespace) (?:\w+::)*(\w+)(?: =.*)?;")
 
 
 class Source:
@@ -41,16 +37,13 @@ class Source:
         self.by_compiler_only = path.startswith(COMPILER_ONLY)
         if self.by_compiler_only and any("eigen3" in word for word in self.compiler):
             self.compiler += PRECOMPILED
-        # Those with a value of their own, as -isystem, together with it.
-        self.flags = [tuple(flag.split("\n")) for flag in FLAG.findall("\n".join(self.compiler[1:]))]
-        self.definitions = dict(flag[0].split("=", 1) for flag in self.flags if "=" in flag[0])
         self.own_names = {}
         self.mark = None
 
     def read(self, build_dir):
         """Learns what all that the outcome depends on hashes to: the text with its comments (NOLINT), rules, flags."""
         text = pathlib.Path(self.file).read_text(errors="replace")
-        self.own_names = own_names(text)
+        self.own_names = own_names("".join(ANONYMOUS.findall(text)) + "".join(re.findall(r"^int main\(", text, re.M)))
         preprocessed = run([*self.compiler, "-E", "-C", self.file], self.folder)
         if preprocessed.returncode == 0:
             rules = (tree.ROOT / ".clang-tidy").read_text() + repr((self.compiler, self.by_compiler_only))
@@ -63,64 +56,42 @@ class Source:
 
 
 def own_names(text):
-    """What is defined outside of classes and functions: of functions the types of parameters, of names that only stand for
-    others what they stand for, of anything else None."""
+    """What the lines of an anonymous namespace define; for names that only stand for others, what they stand for."""
     names = {}
     for line in text.split("\n"):
         using = USING.match(line)
         head = re.split(r"[({=;]| : ", line.replace(" final", ""))[0]
-        name = re.search(r"(?<!::)\b(\w+) ?$", head)
+        name = re.search(r"(\w+) ?$", head)
         if using:
-            names[using.group(1)] = line.replace(" ::", " ")
-        elif line[:1].isalpha() and name and not head.isupper() and not head.startswith("namespace"):
-            parameters = PARAMETERS.match(line[len(head):]) if name.group(1) != "main" else None
-            names[name.group(1)] = PARAMETER_NAME.sub("", parameters.group()) if parameters else None
+            names[using.group(1)] = line
+        elif line[:1].isalpha() and name and not head.isupper():
+            names[name.group(1)] = None
     return names
 
 
 def clash(one, other):
-    """Whether they define a name twice. Functions of other parameters are others, and names for the same are one."""
-    def clashes(name):
-        is_same = one[name] == other[name]
-        if one[name] is None or other[name] is None:
-            return True
-        if one[name].startswith("(") and other[name].startswith("("):
-            return is_same
-        return not is_same
-    return any(clashes(name) for name in one.keys() & other.keys())
+    return any(one[name] is None or one[name] != other[name] for name in one.keys() & other.keys())
 
 
 def run(command, folder):
     return subprocess.run(command, capture_output=True, text=True, errors="replace", cwd=folder)
 
 
-def check(source, file, flags):
-    """Checks a file, which may be a bundle that this source is in."""
+def check(source, file, *more_flags):
+    """Checks a file, which may be a bundle, as this source is compiled."""
     if source.by_compiler_only:
-        return run([source.compiler[0], *flags, "-fsyntax-only", file], source.folder)
-    return run(["clang-tidy", "--quiet", file, "--", *flags], source.folder)
-
-
-def flags_of_all(bundle):
-    """Each flag once."""
-    flags = {}
-    for source in bundle:
-        flags.update(dict.fromkeys(source.flags))
-    return [word for flag in flags for word in flag]
-
-
-def definitions_clash(one, other):
-    return any(other.definitions.get(name, value) != value for name, value in one.definitions.items())
+        return run([*source.compiler, *more_flags, "-fsyntax-only", file], source.folder)
+    return run(["clang-tidy", "--quiet", file, "--", *source.compiler[1:], *more_flags], source.folder)
 
 
 def bundles_of(sources):
-    """Sources that are looked at alike, and have no name of their own in common."""
+    """Sources that are compiled alike and have no name of their own in common."""
     bundles = []
     for source in sources:
         fitting = (bundle for bundle in bundles
-                   if bundle[0].by_compiler_only == source.by_compiler_only and len(bundle) < LARGEST_BUNDLE
-                   and not any(definitions_clash(source, other) or clash(source.own_names, other.own_names)
-                               for other in bundle))
+                   if bundle[0].compiler == source.compiler and bundle[0].by_compiler_only == source.by_compiler_only
+                   and len(bundle) < LARGEST_BUNDLE
+                   and not any(clash(source.own_names, other.own_names) for other in bundle))
         bundle = next(fitting, None)
         if bundle is None:
             bundles.append([source])
@@ -132,7 +103,7 @@ def bundles_of(sources):
 def problems_of(bundle, build_dir):
     """[(source, what is wrong with it)] of those that are not clean."""
     if len(bundle) == 1:
-        result = check(bundle[0], bundle[0].file, flags_of_all(bundle))
+        result = check(bundle[0], bundle[0].file)
         if result.returncode != 0:
             return [(bundle[0], result.stdout + result.stderr)]
     else:
@@ -140,22 +111,11 @@ def problems_of(bundle, build_dir):
         together.parent.mkdir(exist_ok=True)
         together.write_text("".join(f'#include "{source.file}"\n' for source in bundle))
         # A name in one source does not shadow that of another.
-        result = check(bundle[0], str(together), [*flags_of_all(bundle), "-Wno-shadow"])
-        if result.returncode != 0:
-            return [problem for part in parts_of(bundle, result.stdout + result.stderr)
-                    for problem in problems_of(part, build_dir)]
+        if check(bundle[0], str(together), "-Wno-shadow").returncode != 0:
+            half = len(bundle) // 2
+            return problems_of(bundle[:half], build_dir) + problems_of(bundle[half:], build_dir)
     remember(bundle)
     return []
-
-
-def parts_of(bundle, errors):
-    """Those in which errors stand, each alone, and the others; halves where errors stand nowhere, or everywhere."""
-    named = set(LOCATED_ERROR.findall(errors))
-    others = [source for source in bundle if source.file not in named]
-    if others and len(others) < len(bundle):
-        return [*([source] for source in bundle if source.file in named), others]
-    half = len(bundle) // 2
-    return [bundle[:half], bundle[half:]]
 
 
 def remember(sources):
