@@ -75,10 +75,10 @@ struct ImuResidualMemory {
 /// acceleration that the surroundings cause, and F_ext = M_x times it. (Derived.)
 ///
 /// The accelerometer is not filtered. Of the gyroscope, the change between samples is what counts, seen
-/// through an observer as that of the momentum: r_k = a r_{k-1} + (1 - a) ((w_k - w_{k-1}) / T -
-/// dw/dt_model). Both together give the acceleration by least squares, each weighed by its noise; that of the
-/// accelerometer grows with the slope of what is expected, for a wrong time of the sample is its largest
-/// error.
+/// through an observer as that of the momentum: r_k = a r_{k-1} + (1 - a) ((w_k - w_{k-1}) / T - mean of
+/// dw/dt_model since then). Both together give the acceleration by least squares, each weighed by its noise;
+/// that of the accelerometer grows with the slope of what is expected, for a wrong time of the sample is its
+/// largest error.
 ///
 /// Where the platform has fewer coordinates than the unit has axes, no acceleration of it explains all that
 /// they say: what is left, of which the mean square over its variance should be 1, monitors the unit.

@@ -7,7 +7,6 @@
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/laws/share_within.h"
-#include "systems/laws/wrench_reference.h"
 
 namespace flinch {
 namespace {
@@ -72,9 +71,8 @@ void TaskController::blend(Time now, const Blend& last, const TaskList& list, co
   }
   const auto reference_of = [&](ConstraintMode mode) -> PlatformVector {
     const TaskList served = by_priority(mode, kept, list);
-    if (settings_.level != TaskLevel::torque)
-      return task_reference(settings_.level, served, at, model, settings_.levels);
-    return wrench_reference(served, served.count > list.count, at, model, settings_.levels);
+    const bool constrained = served.count > list.count;
+    return task_reference(settings_.level, served, at, model, settings_.levels, constrained);
   };
   next.reference = reference_of(next.to);
   if (next.weight >= 1.0) return;

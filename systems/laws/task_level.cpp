@@ -44,7 +44,8 @@ PlatformVector acceleration_reference(const TaskList& list, const Kinematics& ki
 }  // namespace
 
 PlatformVector task_reference(TaskLevel level, const TaskList& list, const Kinematics& kinematics,
-                              const Dynamics& dynamics, const TaskLevelSettings& settings) noexcept {
+                              const Dynamics& dynamics, const TaskLevelSettings& settings,
+                              bool constrained) noexcept {
   if (!kinematics.valid || !dynamics.valid) return PlatformVector::Zero(drive_count(kinematics));
   switch (level) {
     case TaskLevel::velocity:
@@ -54,7 +55,7 @@ PlatformVector task_reference(TaskLevel level, const TaskList& list, const Kinem
     case TaskLevel::torque:
       break;
   }
-  return wrench_reference(list, false, kinematics, dynamics, settings);
+  return wrench_reference(list, constrained, kinematics, dynamics, settings);
 }
 
 JointVector task_torque(TaskLevel level, const PlatformVector& reference, const Kinematics& kinematics,

@@ -32,7 +32,7 @@ struct TaskLevelSettings {
 
 /// What the tasks of `list` want together, one entry a drive or platform coordinate: dq_a,ref [rad/s],
 /// ddq_a,ref [rad/s^2], or F_ref [N, Nm] without compensation of the robot's own dynamics. Tasks that are not
-/// valid are passed over.
+/// valid are passed over. `constrained`: it begins with constraints; see wrench_reference().
 ///
 ///   velocity       dsigma_ref = dsigma_d + k e
 ///   acceleration  ddsigma_ref = ddsigma_d + k e + d de
@@ -40,7 +40,8 @@ struct TaskLevelSettings {
 ///
 /// each less the task's drift, which (44b) omits. D_F is the factorisation damping (46) with its fallback.
 PlatformVector task_reference(TaskLevel level, const TaskList& list, const Kinematics& kinematics,
-                              const Dynamics& dynamics, const TaskLevelSettings& settings) noexcept;
+                              const Dynamics& dynamics, const TaskLevelSettings& settings,
+                              bool constrained = false) noexcept;
 
 /// The torques that follow a reference, those of the robot's own dynamics added:
 ///

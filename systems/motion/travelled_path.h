@@ -7,7 +7,7 @@
 
 namespace flinch {
 
-/// How far `displacement` moves E, and a point at `reach` from E besides [m].
+/// How far `displacement` moves a point at `reach` from E, at most [m].
 double farthest_moved(const ConfigurationSpace& space, const PlatformVector& displacement,
                       double reach) noexcept;
 

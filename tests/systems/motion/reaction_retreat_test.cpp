@@ -31,6 +31,13 @@ struct Travelling : Reaction {
   Eigen::Vector3d at;
 };
 
+struct RanIntoSomething : Travelling {
+  RanIntoSomething() : Travelling(v) {
+    know(-1, against, at, v);
+    begin();
+  }
+};
+
 TEST(Retreat, WhatTheRobotRanIntoIsLeftTheWayItCameWhateverWasTouched) {
   Travelling robot(v);
   robot.know(-1, against, robot.at, v);
@@ -62,9 +69,7 @@ TEST(Retreat, WhatTheRobotRanIntoIsLeftTheWayItCameWhateverWasTouched) {
 }
 
 TEST(Retreat, AnArrivedRetreatHoldsItsPlace) {
-  Travelling robot(v);
-  robot.know(-1, against, robot.at, v);
-  robot.begin();
+  RanIntoSomething robot;
   robot.know(-1, {0, 0, 0}, robot.at, {0, 0, 0});
   robot.go_on(1000ms);
   EXPECT_TRUE(robot.finished());
@@ -93,9 +98,7 @@ TEST(Retreat, WhatIsHardlyFeltLeadsNobodyBack) {
 }
 
 TEST(Retreat, WhoIsNotPushedBackAnyMoreIsBrakedAtOnce) {
-  Travelling robot(v);
-  robot.know(-1, against, robot.at, v);
-  robot.begin();
+  RanIntoSomething robot;
   robot.go_on(5ms);
   EXPECT_EQ(robot.kind(), ReactionKind::retreat);
   robot.know(-1, -against, robot.at, v);
@@ -108,9 +111,7 @@ TEST(Retreat, WhoWentBackOrGaveWayAndIsPushedFromBehindDoesNotReturnToWhatItLeft
   const Eigen::Vector3d behind = 0.12 / v.norm() * v;
   for (const Eigen::Vector3d& left : {Eigen::Vector3d(-behind), Eigen::Vector3d(0.06, 0.1, 0.0)}) {
     for (const Time after : {15ms, 100ms, 600ms}) {
-      Travelling robot(v);
-      robot.know(-1, against, robot.at, v);
-      robot.begin();
+      RanIntoSomething robot;
       const Eigen::Vector3d now = robot.at + left;
       robot.know(-1, {0, 0, 0}, now, {0, 0, 0});
       robot.go_on(after);
@@ -137,9 +138,7 @@ TEST(Retreat, WhoShallNotIsBraked) {
 
 TEST(Retreat, AClassThatBecomesKnownWithinTheTimeIsFollowedInItsPlaceLaterOnesAreNot) {
   for (const Time later : {0ms, 20ms, 21ms}) {
-    Travelling robot(v);
-    robot.know(-1, against, robot.at, v);
-    robot.begin();
+    RanIntoSomething robot;
     if (later > 1ms) robot.go_on(later - 1ms);
     robot.know(platform, against, robot.at, v);
     robot.go_on();
@@ -148,9 +147,7 @@ TEST(Retreat, AClassThatBecomesKnownWithinTheTimeIsFollowedInItsPlaceLaterOnesAr
 }
 
 TEST(Retreat, OneThatLeadsIntoSomethingIsDecidedAnew) {
-  Travelling robot(v);
-  robot.know(-1, against, robot.at, v);
-  robot.begin();
+  RanIntoSomething robot;
   robot.go_on(25ms);
   EXPECT_EQ(robot.kind(), ReactionKind::retreat);
   robot.know(-1, -against, robot.at, {0, 0, 0});
