@@ -180,16 +180,20 @@ void add_card(const DataSpec& spec, const std::map<std::string, std::size_t>& le
 
 }  // namespace
 
-ContactSamples simulate_contact(const DataSpec& spec, std::size_t number) {
+CampaignRun draw_contact(const DataSpec& spec, std::size_t number) {
   const Turn turn = turn_of(spec, number);
-  const DataPart& part = spec.parts[turn.part];
-  const std::size_t points = part.campaign.grid_points();
-  const CampaignRun run =
-      draw_run(part.campaign, turn.run % points * part.campaign.draws + turn.run / points);
+  const Campaign& campaign = spec.parts[turn.part].campaign;
+  const std::size_t points = campaign.grid_points();
+  return draw_run(campaign, turn.run % points * campaign.draws + turn.run / points);
+}
+
+ContactSamples simulate_contact(const DataSpec& spec, std::size_t number) {
+  const CampaignRun run = draw_contact(spec, number);
   const Recording recording = run_for_signals(run.scenario, sampled_signals(spec.samples));
   ContactSamples samples = out_of(run.scenario.file.string(), [&] {
     return contact_samples(recording, *run.scenario.robot.robot, spec.samples);
   });
+  const DataPart& part = spec.parts[turn_of(spec, number).part];
   for (DataSample& sample : samples.samples) {
     sample.run = static_cast<int>(number);
     sample.configuration = configuration_of(part, run, number);

@@ -8,6 +8,7 @@
 
 namespace flinch {
 
+struct CampaignRun;
 struct DataSpec;
 struct ContactSamples;
 
@@ -16,6 +17,9 @@ using DataProgress = std::function<bool(std::size_t done)>;
 
 /// Run `number` of the specification: which part it belongs to follows from the shares, what is drawn for it
 /// from the seed and its number alone.
+CampaignRun draw_contact(const DataSpec& spec, std::size_t number);
+
+/// What the first contact of that run is learned from.
 ContactSamples simulate_contact(const DataSpec& spec, std::size_t number);
 
 /// Makes the data set on `threads` threads (0: one a processor) and writes it to `file`; the same bits for
