@@ -40,6 +40,11 @@ std::string DiagramBuilder::path(PortId port) const {
   return own + port.owner->name() + "/" + port.owner->port_name(port);
 }
 
+PortId DiagramBuilder::add_export(std::string_view name, const ValueType& type, PortId inner) {
+  diagram_->outputs_.push_back({std::string(name), &type, nullptr, {inner}, false, {}});
+  return {diagram_.get(), PortId::Kind::output, static_cast<int>(diagram_->outputs_.size()) - 1};
+}
+
 void DiagramBuilder::add_wire(PortId from, PortId to) {
   const bool from_inside = is_child(from.owner) && from.kind == PortId::Kind::output;
   const bool from_outside = from.owner == diagram_.get() && from.kind == PortId::Kind::input;

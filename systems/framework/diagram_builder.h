@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -49,14 +50,14 @@ class DiagramBuilder {
 
   /// Gives the diagram an input.
   template <PortValue T>
-  InputPort<T> input(std::string name) {
-    return diagram_->input<T>(std::move(name));
+  InputPort<T> input(std::string_view name) {
+    return diagram_->input<T>(name);
   }
   /// Gives the diagram an input that may be left open where the diagram is nested: then a Constant of T's
   /// default value feeds it, which says "no data".
   template <PortValue T>
-  InputPort<T> optional_input(std::string name) {
-    const InputPort<T> own = input<T>(std::move(name));
+  InputPort<T> optional_input(std::string_view name) {
+    const InputPort<T> own = input<T>(name);
     diagram_->inputs_.back().stand_in = []() -> std::unique_ptr<System> {
       return std::make_unique<Constant<T>>(T{});
     };
@@ -64,16 +65,15 @@ class DiagramBuilder {
   }
   /// Gives the diagram an input which `inner` reads.
   template <class T>
-  InputPort<T> export_input(std::string name, InputPort<T> inner) {
-    const InputPort<T> own = input<T>(std::move(name));
+  InputPort<T> export_input(std::string_view name, InputPort<T> inner) {
+    const InputPort<T> own = input<T>(name);
     connect(own, inner);
     return own;
   }
   /// Gives the diagram an output that shows `inner`.
   template <class T>
-  OutputPort<T> export_output(std::string name, OutputPort<T> inner) {
-    diagram_->outputs_.push_back({std::move(name), &value_type<T>, nullptr, {inner.id}, false, {}});
-    return {{diagram_.get(), PortId::Kind::output, static_cast<int>(diagram_->outputs_.size()) - 1}};
+  OutputPort<T> export_output(std::string_view name, OutputPort<T> inner) {
+    return {add_export(name, value_type<T>, inner.id)};
   }
 
   /// Checks the wiring and fixes the order in which everything runs. Throws SetupError with all that is
@@ -83,6 +83,7 @@ class DiagramBuilder {
 
  private:
   void add_child(std::string name, std::unique_ptr<System> block);
+  PortId add_export(std::string_view name, const ValueType& type, PortId inner);
   void add_wire(PortId from, PortId to);
   bool is_wired(PortId to) const;
   void feed_open_inputs();

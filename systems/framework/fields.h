@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace flinch {
@@ -79,28 +80,24 @@ struct RowLayout {
 
 namespace internal {
 
-/// Calls leaf(name, unit, frame, scalar or matrix) for every leaf of `value`.
-template <class T, class Leaf>
-void visit_leaves(const std::string& name, const char* unit, const char* frame, T& value, Leaf&& leaf) {
-  using Value = std::remove_const_t<T>;
-  const auto joined = [&name](const std::string& part) { return name.empty() ? part : name + "." + part; };
-  if constexpr (HasFields<Value>) {
-    Value::fields(value,
-                  [&](const char* part, const char* part_unit, auto& member, const char* part_frame = "") {
-                    visit_leaves(joined(part), part_unit, part_frame, member, leaf);
-                  });
-  } else if constexpr (is_std_array<Value>) {
-    for (std::size_t i = 0; i < value.size(); ++i) {
-      visit_leaves(joined(std::to_string(i)), unit, frame, value[i], leaf);
-    }
-  } else {
-    static_assert(Scalar<Value> || BoundedMatrix<Value>,
-                  "a field must be a number, a bounded matrix or have fields");
-    leaf(name.empty() ? std::string("value") : name, unit, frame, value);
-  }
-}
+/// Collects the fields of a layout. It knows the name of the value that is just being laid out.
+class LayoutBuilder {
+ public:
+  /// Goes on with a part of that value, or with an element of an array. Returns what leave() needs.
+  std::size_t enter(const char* part);
+  std::size_t enter(std::size_t element);
+  void leave(std::size_t entered);
 
-/// As visit_leaves, but without building names: for the loop.
+  /// That value is a field: a number, or a matrix of at most `capacity` numbers.
+  void add(Field::Kind kind, int capacity, bool resizable, const char* unit, const char* frame);
+
+  RowLayout layout;
+
+ private:
+  std::string name_;
+};
+
+/// Calls leaf(scalar or matrix) for every leaf of `value`.
 template <class T, class Leaf>
 void for_each_leaf(T& value, Leaf& leaf) {
   using Value = std::remove_const_t<T>;
@@ -122,18 +119,30 @@ constexpr Field::Kind kind_of() {
   return Field::Kind::integer;
 }
 
+/// Lays a value out, leaf by leaf.
 template <class T>
-Field field_of(const T&) {
-  Field field;
-  if constexpr (Scalar<T>) {
-    field.kind = kind_of<T>();
+void lay_out(LayoutBuilder& builder, const char* unit, const char* frame, T& value) {
+  if constexpr (HasFields<T>) {
+    T::fields(value,
+              [&builder](const char* part, const char* part_unit, auto& member, const char* part_frame = "") {
+                const std::size_t entered = builder.enter(part);
+                lay_out(builder, part_unit, part_frame, member);
+                builder.leave(entered);
+              });
+  } else if constexpr (is_std_array<T>) {
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      const std::size_t entered = builder.enter(i);
+      lay_out(builder, unit, frame, value[i]);
+      builder.leave(entered);
+    }
+  } else if constexpr (Scalar<T>) {
+    builder.add(kind_of<T>(), 1, false, unit, frame);
   } else {
+    static_assert(BoundedMatrix<T>, "a field must be a number, a bounded matrix or have fields");
     static_assert(std::is_same_v<typename T::Scalar, double>);
-    field.kind = Field::Kind::real;
-    field.capacity = T::MaxSizeAtCompileTime;
-    field.resizable = T::SizeAtCompileTime == Eigen::Dynamic;
+    builder.add(Field::Kind::real, T::MaxSizeAtCompileTime, T::SizeAtCompileTime == Eigen::Dynamic, unit,
+                frame);
   }
-  return field;
 }
 
 /// Eight bytes of a row: a real or an integer, as the field's kind says.
@@ -226,18 +235,10 @@ struct RowReader {
 /// The layout of a row that holds a T.
 template <Recordable T>
 RowLayout row_layout() {
-  RowLayout layout;
+  internal::LayoutBuilder builder;
   T value{};
-  internal::visit_leaves(
-      "", "", "", value, [&](std::string name, const char* unit, const char* frame, const auto& leaf) {
-        Field field = internal::field_of(leaf);
-        field.name = std::move(name);
-        field.unit = unit;
-        field.frame = frame;
-        layout.numbers += static_cast<std::size_t>(field.capacity) + (field.resizable ? 2U : 0U);
-        layout.fields.push_back(std::move(field));
-      });
-  return layout;
+  internal::lay_out(builder, "", "", value);
+  return std::move(builder.layout);
 }
 
 /// Writes `value` into a row of row_layout<T>().numbers numbers. Never allocates.

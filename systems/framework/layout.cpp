@@ -5,7 +5,7 @@
 namespace flinch {
 
 Layout::Layout() {
-  add(value_type<Time>, value_type<Time>.make_default());
+  add(value_type<Time>, make_value(value_type<Time>));
   add(value_type<Time>, std::make_shared<const Time>(never));
   put(Clock().id, time);
 }

@@ -52,7 +52,7 @@ void Scheduler::lay_out_inputs() {
   for (std::size_t i = 0; i < root_.inputs().size(); ++i) {
     const ValueType& type = *root_.inputs()[i].type;
     layout.put({&root_, PortId::Kind::input, static_cast<int>(i)},
-               Place::fixed(layout.add(type, type.make_default())));
+               Place::fixed(layout.add(type, make_value(type))));
   }
 }
 
@@ -64,11 +64,10 @@ void Scheduler::lay_out_outputs() {
     const ValueType& type = *output_of(nodes_[node]).type;
     const auto kept = kept_.find(port);
     if (kept == kept_.end()) {
-      layout.put(port, Place::fixed(layout.add(type, type.make_default())));
+      layout.put(port, Place::fixed(layout.add(type, make_value(type))));
     } else {
       auto& [state, turns] = kept->second;
-      turns =
-          layout.add_turns(type, state ? variable(*state).initial : type.make_default(), type.make_default());
+      turns = layout.add_turns(type, state ? variable(*state).initial : make_value(type), make_value(type));
       layout.put(port, Place::moving(turns.next));
       if (!state) continue;
       layout.put(*state, Place::moving(turns.now));
@@ -145,7 +144,7 @@ void Scheduler::add_outputs() {
 
 void Scheduler::hold_from(std::size_t call, const System::Occasion& occasion) {
   const Place when = occasion.when ? root_.layout_.place(*occasion.when) : Place();
-  const auto computed = Place::fixed(root_.layout_.add(value_type<bool>, value_type<bool>.make_default()));
+  const auto computed = Place::fixed(root_.layout_.add(value_type<bool>, make_value(value_type<bool>)));
   root_.held_outputs_.push_back({occasion.every, when, call, call, computed, {}});
 }
 

@@ -36,7 +36,7 @@ bool System::declared(PortId port) const {
   }
 }
 
-std::vector<PortId> System::own(std::vector<PortId> ports) const {
+std::vector<PortId> System::own(PortIds ports) const {
   for (const PortId& port : ports) {
     if (!declared(port)) {
       throw SetupError(std::string("a function of block type ") + typeid(*this).name() +
@@ -52,8 +52,37 @@ void System::refuse_function_of(const std::type_info& other) const {
                    other.name() + "; name functions of the block itself");
 }
 
-Update System::add_keep(std::optional<Every> every, PortId state, PortId kept) {
-  updates_.push_back({own({state}).front(), nullptr, own({kept}), every});
+PortId System::add_input(std::string_view name, const ValueType& type) {
+  inputs_.push_back({std::string(name), &type});
+  return {this, PortId::Kind::input, static_cast<int>(inputs_.size()) - 1};
+}
+
+PortId System::add_state(std::string_view name, const ValueType& type, const void* initial) {
+  states_.push_back({std::string(name), &type, make_value(type, initial)});
+  return {this, PortId::Kind::state, static_cast<int>(states_.size()) - 1};
+}
+
+PortId System::add_output(std::string_view name, const ValueType& type, BlockFunction function, PortIds reads,
+                          bool intermediate, const Occasion& occasion) {
+  if (occasion.when) own({*occasion.when});
+  outputs_.push_back({std::string(name), &type, function, own(reads), intermediate, occasion});
+  return {this, PortId::Kind::output, static_cast<int>(outputs_.size()) - 1};
+}
+
+Update System::add_update(PortId written, BlockFunction function, PortIds reads,
+                          const std::optional<Every>& every) {
+  own({written});
+  updates_.push_back({written, function, own(reads), every});
+  return {};
+}
+
+Update System::add_keep(const std::optional<Every>& every, PortId state, PortId kept) {
+  return add_update(state, nullptr, {kept}, every);
+}
+
+Derivative System::add_derivative(PortId integrated, BlockFunction function, PortIds reads) {
+  own({integrated});
+  derivatives_.push_back({integrated, function, own(reads), std::nullopt});
   return {};
 }
 

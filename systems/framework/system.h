@@ -1,9 +1,10 @@
 #pragma once
 
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <string>
-#include <tuple>
+#include <string_view>
 #include <type_traits>
 #include <typeinfo>
 #include <utility>
@@ -92,57 +93,53 @@ class System {
 
   /// Declares an input.
   template <PortValue T>
-  InputPort<T> input(std::string name) {
-    inputs_.push_back({std::move(name), &value_type<T>});
-    return {{this, PortId::Kind::input, static_cast<int>(inputs_.size()) - 1}};
+  InputPort<T> input(std::string_view name) {
+    return {add_input(name, value_type<T>)};
   }
 
   /// Declares a state with its value at time zero.
   template <PortValue T>
-  State<T> state(std::string name, T initial = T{}) {
-    states_.push_back({std::move(name), &value_type<T>, std::make_shared<const T>(std::move(initial))});
-    return {{this, PortId::Kind::state, static_cast<int>(states_.size()) - 1}};
+  State<T> state(std::string_view name, const T& initial = T{}) {
+    return {add_state(name, value_type<T>, &initial)};
   }
 
   /// Declares an output that `function` computes from `reads`: inputs, states, other outputs, `clock`.
   template <auto function, class... Reads>
-  auto output(std::string name, Reads... reads) {
+  auto output(std::string_view name, Reads... reads) {
     using Value = typename internal::Signature<function>::Result;
-    return OutputPort<Value>{
-        add_output<function, typename Reads::Value...>({}, std::move(name), {reads.id...}, false)};
+    return OutputPort<Value>{add_output<function, typename Reads::Value...>({}, name, {reads.id...}, false)};
   }
 
   /// The same, but computed only at the first tick and when due; in between it holds its value. Outputs that
   /// read nothing but what is held for the same reason need not say so: they are held as well.
   template <auto function, class... Reads>
-  auto output(Every every, std::string name, Reads... reads) {
+  auto output(Every every, std::string_view name, Reads... reads) {
     using Value = typename internal::Signature<function>::Result;
-    return OutputPort<Value>{add_output<function, typename Reads::Value...>(
-        {every, std::nullopt}, std::move(name), {reads.id...}, false)};
+    return OutputPort<Value>{
+        add_output<function, typename Reads::Value...>({every, std::nullopt}, name, {reads.id...}, false)};
   }
 
   /// The same, but computed only at the first tick and when a condition is true.
   template <auto function, class... Reads>
-  auto output(When when, std::string name, Reads... reads) {
+  auto output(When when, std::string_view name, Reads... reads) {
     using Value = typename internal::Signature<function>::Result;
-    return OutputPort<Value>{add_output<function, typename Reads::Value...>(
-        {std::nullopt, when.condition}, std::move(name), {reads.id...}, false)};
+    return OutputPort<Value>{add_output<function, typename Reads::Value...>({std::nullopt, when.condition},
+                                                                            name, {reads.id...}, false)};
   }
 
   /// Declares a result that only functions of this block read.
   template <auto function, class... Reads>
-  auto intermediate(std::string name, Reads... reads) {
+  auto intermediate(std::string_view name, Reads... reads) {
     using Value = typename internal::Signature<function>::Result;
-    return Intermediate<Value>{
-        add_output<function, typename Reads::Value...>({}, std::move(name), {reads.id...}, true)};
+    return Intermediate<Value>{add_output<function, typename Reads::Value...>({}, name, {reads.id...}, true)};
   }
 
   /// The same, but computed only at the first tick and when a condition is true.
   template <auto function, class... Reads>
-  auto intermediate(When when, std::string name, Reads... reads) {
+  auto intermediate(When when, std::string_view name, Reads... reads) {
     using Value = typename internal::Signature<function>::Result;
-    return Intermediate<Value>{add_output<function, typename Reads::Value...>(
-        {std::nullopt, when.condition}, std::move(name), {reads.id...}, true)};
+    return Intermediate<Value>{add_output<function, typename Reads::Value...>({std::nullopt, when.condition},
+                                                                              name, {reads.id...}, true)};
   }
 
   /// Declares that at every tick `function`, evaluated from `reads`, becomes the next value of `written`.
@@ -176,9 +173,7 @@ class System {
     internal::check_result<function, T>();
     internal::check_arguments<function, typename Reads::Value...>();
     check_owner<function>();
-    own({integrated.id});
-    derivatives_.push_back({integrated.id, internal::call<function>, own({reads.id...}), std::nullopt});
-    return {};
+    return add_derivative(integrated.id, internal::call<function>, {reads.id...});
   }
 
   /// The time of the tick, as an argument of functions.
@@ -188,25 +183,22 @@ class System {
   friend class Diagram;
   friend class DiagramBuilder;
 
+  using PortIds = std::initializer_list<PortId>;
+
   template <auto function, class... Values>
-  PortId add_output(Occasion occasion, std::string name, std::vector<PortId> reads, bool intermediate) {
+  PortId add_output(const Occasion& occasion, std::string_view name, PortIds reads, bool intermediate) {
     using Value = typename internal::Signature<function>::Result;
     internal::check_arguments<function, Values...>();
     check_owner<function>();
-    if (occasion.when) own({*occasion.when});
-    outputs_.push_back({std::move(name), &value_type<Value>, internal::call<function>, own(std::move(reads)),
-                        intermediate, occasion});
-    return {this, PortId::Kind::output, static_cast<int>(outputs_.size()) - 1};
+    return add_output(name, value_type<Value>, internal::call<function>, reads, intermediate, occasion);
   }
 
   template <auto function, class T, class... Values>
-  Update add_update(std::optional<Every> every, PortId written, std::vector<PortId> reads) {
+  Update add_update(const std::optional<Every>& every, PortId written, PortIds reads) {
     internal::check_result<function, T>();
     internal::check_arguments<function, Values...>();
     check_owner<function>();
-    own({written});
-    updates_.push_back({written, internal::call<function>, own(std::move(reads)), every});
-    return {};
+    return add_update(written, internal::call<function>, reads, every);
   }
 
   /// Throws SetupError for a function of another block.
@@ -219,10 +211,18 @@ class System {
   }
   [[noreturn]] void refuse_function_of(const std::type_info& other) const;
 
-  Update add_keep(std::optional<Every> every, PortId state, PortId kept);
+  // What the templates above come to. Only these know the lists, so that each declaration of a block compiles
+  // to one call.
+  PortId add_input(std::string_view name, const ValueType& type);
+  PortId add_state(std::string_view name, const ValueType& type, const void* initial);
+  PortId add_output(std::string_view name, const ValueType& type, BlockFunction function, PortIds reads,
+                    bool intermediate, const Occasion& occasion);
+  Update add_update(PortId written, BlockFunction function, PortIds reads, const std::optional<Every>& every);
+  Update add_keep(const std::optional<Every>& every, PortId state, PortId kept);
+  Derivative add_derivative(PortId integrated, BlockFunction function, PortIds reads);
 
   /// Returns `ports` when all are declared and of this block; throws SetupError otherwise.
-  std::vector<PortId> own(std::vector<PortId> ports) const;
+  std::vector<PortId> own(PortIds ports) const;
   bool declared(PortId port) const;
 
   std::string name_;

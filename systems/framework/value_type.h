@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <new>
 #include <span>
 #include <type_traits>
 #include <typeinfo>
@@ -16,7 +17,7 @@ struct ValueType {
   const std::type_info* id;
   std::size_t size;
   std::size_t alignment;
-  std::shared_ptr<const void> (*make_default)();
+  void (*construct)(void* to);  ///< the default value
   void (*copy_construct)(void* to, const void* from);
   void (*copy_assign)(void* to, const void* from);
   void (*destroy)(void*);
@@ -50,7 +51,7 @@ constexpr ValueType make_value_type() {
   type.id = &typeid(T);
   type.size = sizeof(T);
   type.alignment = alignof(T);
-  type.make_default = [] { return std::shared_ptr<const void>(std::make_shared<const T>()); };
+  type.construct = [](void* to) { ::new (to) T(); };
   type.copy_construct = [](void* to, const void* from) { ::new (to) T(*static_cast<const T*>(from)); };
   type.copy_assign = [](void* to, const void* from) { *static_cast<T*>(to) = *static_cast<const T*>(from); };
   type.destroy = [](void* value) { static_cast<T*>(value)->~T(); };
@@ -74,5 +75,9 @@ constexpr ValueType make_value_type() {
 /// The description of T; one object a type.
 template <PortValue T>
 inline constexpr ValueType value_type = internal::make_value_type<T>();
+
+/// A value of `type` on the heap: the default value, or a copy of the one at `value`.
+std::shared_ptr<const void> make_value(const ValueType& type);
+std::shared_ptr<const void> make_value(const ValueType& type, const void* value);
 
 }  // namespace flinch
