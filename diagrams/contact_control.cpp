@@ -322,7 +322,7 @@ void show_isolation(const Path& path, const Isolation& isolation, OtherStages& s
   }
 }
 
-/// The torques of laws that are not followed, the constraints of all, and the energies of the followed ones.
+/// The torques of laws that are not followed, the constraints of all, energies and task of the followed ones.
 void show_laws(const Path& path, const Laws& laws, OtherStages& shown) {
   shown.torques = show_torques(path, laws);
   for (const AddedStages<LawPorts>* kind : {&laws.nominal, &laws.reaction}) {
@@ -335,6 +335,9 @@ void show_laws(const Path& path, const Laws& laws, OtherStages& shown) {
     if (!kind->all.empty() && kind->port().energies)
       shown.energies.push_back({name, path.builder.export_output(name, *kind->port().energies)});
   }
+  if (!laws.reaction.all.empty() && laws.reaction.port().task)
+    shown.tasks.push_back(
+        {"reaction_task", path.builder.export_output("reaction_task", *laws.reaction.port().task)});
 }
 
 void show(const Path& path, const AddedStages<OutputPort<ContactDetection>>& detectors,

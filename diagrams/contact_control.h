@@ -34,6 +34,8 @@ struct OtherStages {
   std::vector<Named<OutputPort<ConstraintState>>> constraints;
   /// Of the followed laws, where they serve tasks by torques: "energies_nominal" and "energies_reaction".
   std::vector<Named<OutputPort<TaskEnergies>>> energies;
+  /// What the followed law of the reaction leads, where it serves tasks: "reaction_task".
+  std::vector<Named<OutputPort<FollowedTask>>> tasks;
   /// What detectors take for the loads of the drives, "load_" + their name.
   std::vector<Named<OutputPort<DriveLoad>>> loads;
 };

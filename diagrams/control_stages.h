@@ -13,6 +13,7 @@
 #include "systems/signals/contact_phase.h"
 #include "systems/signals/drive_reading.h"
 #include "systems/signals/drive_torque.h"
+#include "systems/signals/followed_task.h"
 #include "systems/signals/imu_reading.h"
 #include "systems/signals/joint_motion.h"
 #include "systems/signals/joint_reading.h"
@@ -97,6 +98,7 @@ struct LawPorts {
   OutputPort<PlatformReference> reference;
   std::optional<OutputPort<ConstraintState>> constraints{};  ///< of a law that keeps some
   std::optional<OutputPort<TaskEnergies>> energies{};        ///< of a law that serves tasks by torques
+  std::optional<OutputPort<FollowedTask>> task{};            ///< of a reaction that serves tasks
   bool at_once = false;  ///< a reaction that is not blended in: as fast as torques may change
 };
 

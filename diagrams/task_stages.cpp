@@ -66,8 +66,10 @@ LawPorts add_reaction_with(const StageSite& site, TaskLevel level, const Constra
   builder.connect(given.isolation_wrench, task.estimate);
   builder.connect(given.classification, task.classification);
   builder.connect(given.location, task.location);
-  return add_controller(site, level, constraints, ConstraintWatch::Role::reacting, given,
-                        {task.goals, task.reference});
+  LawPorts law = add_controller(site, level, constraints, ConstraintWatch::Role::reacting, given,
+                                {task.goals, task.reference});
+  law.task = task.served;
+  return law;
 }
 
 LawPorts add_reaction(const StageSite& site, TaskLevel level, const ReactionPorts& given) {

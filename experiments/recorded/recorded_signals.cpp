@@ -62,6 +62,7 @@ void export_control(DiagramBuilder& builder, const ContactControl& control) {
   show(control.others.clouds);
   show(control.others.constraints);
   show(control.others.energies);
+  show(control.others.tasks);
   show(control.others.loads);
 }
 

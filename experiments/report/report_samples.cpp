@@ -10,6 +10,7 @@
 
 #include "experiments/report/drawn_robot.h"
 #include "experiments/report/page_samples.h"
+#include "experiments/report/reaction_lane.h"
 #include "experiments/report/task_energy_columns.h"
 #include "experiments/report/vector_columns.h"
 #include "experiments/verdict/recorded_estimate.h"
@@ -346,8 +347,7 @@ class Isolation {
       location_error_ = page.column("location_error");
       force_error_ = page.column("force_error");
     }
-    const bool has_particles = recording.find("particles_particle_filter") != nullptr;
-    if (has_particles && simulated) add_particles(recording);
+    if (simulated && recording.find("particles_particle_filter") != nullptr) add_particles(recording);
   }
 
   void show(std::size_t sample, const RunSample& run, const Truth* truth, double hardness) {
@@ -419,6 +419,7 @@ void add_samples(const ParallelRobot& robot, const Recording& recording, Report&
   EstimatesSideBySide estimates(robot.space(), recording, page, report);
   Drives drives(robot, recording, simulated, page);
   Constraints constraints(recording, page);
+  ReactionLane reaction(recording.find("reaction_task") != nullptr, robot.legs(), page);
   TaskEnergyColumns energies(recording, page);
   Isolation isolation(robot, recording, simulated, page);
   ObstacleColumns obstacles(recording, report.obstacles.size(), robot.space().translations(), page);
@@ -436,6 +437,7 @@ void add_samples(const ParallelRobot& robot, const Recording& recording, Report&
     estimates.show(k);
     drives.show(k, truth);
     constraints.show(k);
+    reaction.show(now.task, hardness);
     energies.show(k, now.mode);
     isolation.show(k, now, truth, hardness);
     obstacles.show(k, hardness);

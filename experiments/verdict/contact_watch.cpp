@@ -15,9 +15,12 @@ void ContactWatch::see(const RunSample& now, double period) {
       pending_clamping_ = "leg" + std::to_string(BodyId::from_index(now.body).leg() + 1) + "_clamping";
     }
     if (touches) extend(now, period);
-    if (now.time < last_ + Verdict::same_contact) note_detections(now);
-    if (now.time < last_ + Verdict::same_contact) note_classification(now);
-    if (now.time < last_ + Verdict::same_contact) note_braking(now);
+    if (now.time < last_ + Verdict::same_contact) {
+      note_detections(now);
+      note_classification(now);
+      note_braking(now);
+      note_task(now);
+    }
   }
   before_ = now;
 }
@@ -51,6 +54,13 @@ void ContactWatch::note_braking(const RunSample& now) {
   if (contact.could_stop || !found.valid || to_seconds(found.judged) < contact.onset) return;
   contact.could_stop = found.stays_inside;
   if (std::isfinite(found.duration)) contact.stop_duration = found.duration;
+}
+
+void ContactWatch::note_task(const RunSample& now) {
+  ContactVerdict& contact = contacts_.back();
+  if (!now.task.valid || !contact.detected) return;
+  std::vector<TaskBegin>& tasks = contact.reaction_tasks;
+  if (tasks.empty() || tasks.back().task != now.task) tasks.push_back({now.task, now.time});
 }
 
 std::vector<ContactVerdict> ContactWatch::contacts() const {

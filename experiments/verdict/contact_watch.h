@@ -28,6 +28,7 @@ class ContactWatch {
   void note_detections(const RunSample& now);
   void note_classification(const RunSample& now);
   void note_braking(const RunSample& now);
+  void note_task(const RunSample& now);
   double onset_share(const RunSample& now) const;
   void extend(const RunSample& now, double period);
   void name_body(const RunSample& now, ContactVerdict& contact);

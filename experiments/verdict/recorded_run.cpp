@@ -113,9 +113,9 @@ void compare_motion(const Configuration& pose, const PlatformVector& velocity, c
 }  // namespace
 
 bool is_judged(const std::string& path) {
-  static constexpr std::array judged = {"detection",      "reaction", "wrench",       "reference",
-                                        "gate",           "truth",    "contact",      "location",
-                                        "classification", "measures", "plausibility", "braking"};
+  static constexpr std::array judged = {
+      "detection", "reaction",       "wrench",   "reference",    "gate",    "truth",        "contact",
+      "location",  "classification", "measures", "plausibility", "braking", "reaction_task"};
   return path.starts_with(detection_of) || std::find(judged.begin(), judged.end(), path) != judged.end();
 }
 
@@ -142,6 +142,7 @@ struct RecordedRun::Signals {
     if (recording.find("location") != nullptr) location.emplace(recording, "location");
     if (recording.find("measures") != nullptr) measures.emplace(recording, "measures");
     if (recording.find("braking") != nullptr) braking.emplace(recording, "braking");
+    if (recording.find("reaction_task") != nullptr) task.emplace(recording, "reaction_task");
     if (records(recording, "contact", "self_contact")) self_contact.emplace(recording, "contact");
     if (records(recording, "plausibility", "imu_doubt")) doubts.emplace(recording, "plausibility");
     if (recording.find("tick_timing") != nullptr) timing.emplace(recording, "tick_timing");
@@ -167,6 +168,7 @@ struct RecordedRun::Signals {
   std::optional<RecordedValues<ContactLocation>> location;
   std::optional<RecordedValues<WorkspaceMeasures>> measures;
   std::optional<RecordedValues<BrakingStatus>> braking;
+  std::optional<RecordedValues<FollowedTask>> task;
   std::optional<RecordedValues<RecordedSelfContact>> self_contact;
   std::optional<RecordedValues<RecordedContact>> contact;
   std::optional<RecordedValues<RecordedTruth>> truth;
@@ -206,6 +208,7 @@ RunSample RecordedRun::operator[](std::size_t sample) const {
     now.noticed_by.push_back(detection[sample].present_level != ContactLevel::none);
   }
   now.mode = signals.reaction[sample].mode;
+  if (signals.task) now.task = (*signals.task)[sample];
   now.gate = signals.gate[sample];
   const bool is_noticed = now.detection.level != ContactLevel::none;
   if (signals.braking && is_noticed) now.braking = (*signals.braking)[sample];

@@ -13,6 +13,7 @@
 #include "systems/signals/braking_status.h"
 #include "systems/signals/contact_detection.h"
 #include "systems/signals/contact_location.h"
+#include "systems/signals/followed_task.h"
 #include "systems/signals/gate_status.h"
 #include "systems/signals/reaction_state.h"
 
@@ -54,6 +55,7 @@ struct RunSample {
   /// `RecordedRun::estimators`.
   std::vector<bool> noticed_by;
   ReactionMode mode = ReactionMode::stopped;
+  FollowedTask task;  ///< of a reaction that serves tasks
   GateStatus gate;
   BrakingStatus braking;
   RecordedDoubts doubts;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "systems/signals/followed_task.h"
 #include "systems/signals/imu_doubt.h"
 
 namespace flinch {
@@ -38,6 +39,12 @@ struct DetectionBy {
   std::optional<double> detected;  ///< [s]; none: never
 };
 
+/// A task that a reaction followed.
+struct TaskBegin {
+  FollowedTask task;
+  double time = 0.0;  ///< from when on [s]
+};
+
 /// One contact: from the first force above `contact_force`, or push with a moment above `contact_moment`, to
 /// the last, where interruptions shorter than `same_contact` do not count.
 struct ContactVerdict {
@@ -60,6 +67,9 @@ struct ContactVerdict {
   /// was not in its nominal motion, or keeps none.
   std::optional<bool> could_stop;
   std::optional<double> stop_duration;  ///< of the shortest straight stop from there [s]; none: none possible
+  /// What the reaction followed since it was noticed, one after the other; empty: it did not react, or serves
+  /// no tasks.
+  std::vector<TaskBegin> reaction_tasks;
   std::optional<double> removed;        ///< t_rem; none: still touching at the end [s]
   double speed = 0.0;                   ///< of the platform at the onset [m/s]
   double peak_force = 0.0;              ///< of one touching body [N]

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "experiments/verdict/task_words.h"
 #include "experiments/verdict/verdict.h"
 #include "systems/foundation/json_text.h"
 
@@ -29,6 +30,17 @@ Json by_estimator(const ContactVerdict& contact) {
   return times;
 }
 
+/// What the reaction did, and since when.
+Json reaction_tasks_json(const ContactVerdict& contact) {
+  Json tasks = Json::array();
+  for (const auto& [task, time] : contact.reaction_tasks) {
+    tasks.push_back({{"task", word(task.kind)},
+                     {"leg", task.leg < 0 ? Json(nullptr) : Json(task.leg + 1)},
+                     {"ms", milliseconds(contact.onset, time)}});
+  }
+  return tasks;
+}
+
 Json contact_json(const ContactVerdict& contact) {
   return {{"body", contact.body.empty() ? Json(nullptr) : Json(contact.body)},
           {"pushed", contact.is_push},
@@ -42,6 +54,7 @@ Json contact_json(const ContactVerdict& contact) {
           {"force_error_N", contact.force_error ? Json(*contact.force_error) : Json(nullptr)},
           {"could_stop_within_limits", contact.could_stop ? Json(*contact.could_stop) : Json(nullptr)},
           {"stop_ms", milliseconds(0.0, contact.stop_duration)},
+          {"reaction_tasks", reaction_tasks_json(contact)},
           {"removal_ms", milliseconds(contact.onset, contact.removed)},
           {"peak_force_N", contact.peak_force},
           {"limit_N", contact.limit},
@@ -86,6 +99,14 @@ std::string classified_line(const ContactVerdict& contact) {
                         contact.force_error.value_or(0.0));
   }
   return line + "\n";
+}
+
+/// What the reaction did.
+std::string reaction_lines(const ContactVerdict& contact) {
+  std::string lines;
+  for (const auto& [task, time] : contact.reaction_tasks)
+    lines += fmt::format("  {} after {:.1f} ms\n", in_words(task), 1e3 * (time - contact.onset));
+  return lines;
 }
 
 /// Whether the limits could still be kept.
@@ -136,7 +157,7 @@ std::string verdict_table(const Verdict& verdict, const RunFacts& facts) {
                                  "m/s", "noticed ms", "removed ms", "peak N", "limit N", "within");
   for (const ContactVerdict& contact : verdict.contacts) {
     text += contact_line(contact) + by_estimator_lines(contact) + classified_line(contact) +
-            braking_line(contact);
+            braking_line(contact) + reaction_lines(contact);
   }
   text += no_contact_line(verdict);
   text += fmt::format(

@@ -426,6 +426,11 @@ void ReactionTask::follow(Time now, const ReactionPlan& plan, const Kinematics& 
   followed = {at.valid, at.valid && rests, at.pose, rest, rest};
 }
 
+void ReactionTask::tell(const ReactionState& state, const ReactionPlan& plan, FollowedTask& told) const {
+  const bool leads_leg = moves_joints(plan.kind) || plan.kind == ReactionKind::second_link;
+  told = {is_reacting(state.mode), plan.kind, leads_leg ? plan.leg : -1};
+}
+
 TaskGains ReactionTask::gains_of(const ReactionPlan& plan, int rows) const {
   const TaskGains& one = plan.kind == ReactionKind::platform      ? settings_.platform
                          : plan.kind == ReactionKind::second_link ? settings_.second_link

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -14,22 +13,13 @@
 #include "systems/robot/parallel_robot.h"
 #include "systems/signals/contact_classes.h"
 #include "systems/signals/contact_location.h"
+#include "systems/signals/followed_task.h"
 #include "systems/signals/platform_reference.h"
 #include "systems/signals/reaction_state.h"
 #include "systems/signals/task_list.h"
 #include "systems/signals/wrench_estimate.h"
 
 namespace flinch {
-
-/// What a reaction does about a contact. [SafePR] (26)-(31)
-enum class ReactionKind : std::uint8_t {
-  brake,       ///< nothing to give way to: what touches the robot is not known, or the force has no direction
-  retreat,     ///< the same, but the robot ran into it: the platform goes back the way it came
-  platform,    ///< the platform moves along the force
-  first_link,  ///< the drive of a first link turns away
-  second_link,  ///< the point that is touched moves along the force
-  opening,      ///< the links of a leg that clamps open
-};
 
 /// What was decided when the reaction began, and how far it has come.
 struct ReactionPlan {
@@ -97,6 +87,7 @@ class ReactionTask final : public System {
  public:
   OutputPort<TaskList> goals = output<&ReactionTask::lead>("goals", clock, plan_, kinematics);
   OutputPort<ReactionKind> kind = output<&ReactionTask::kind_of>("kind", plan_);
+  OutputPort<FollowedTask> served = output<&ReactionTask::tell>("served", reaction, plan_);
   /// `finished` when it holds a place; where there is nothing to give way to, when that is decided. Tasks
   /// leave part of the pose free, and constraints come before a place that is held: the pose is the measured
   /// one.
@@ -113,6 +104,7 @@ class ReactionTask final : public System {
             const ContactClassification& touched, const ContactLocation& place, ReactionPlan& next) const;
   void lead(Time now, const ReactionPlan& plan, const Kinematics& at, TaskList& list) const;
   ReactionKind kind_of(const ReactionPlan& plan) const { return plan.kind; }
+  void tell(const ReactionState& state, const ReactionPlan& plan, FollowedTask& told) const;
   void follow(Time now, const ReactionPlan& plan, const Kinematics& at, PlatformReference& followed) const;
 
   /// Decides about kind, leg, point and direction.

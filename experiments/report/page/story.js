@@ -5,6 +5,7 @@
 function storyEvents() {
   const events = report.contacts.flatMap(contactEvents);
   for (const lane of report.lanes.filter((each) => each.name === "mode")) events.push(...laneEvents(lane));
+  for (const lane of report.lanes.filter((each) => each.name === "reaction")) events.push(...reactions(lane));
   for (const lane of report.lanes.filter((each) => each.name === "torque gate")) events.push(...closings(lane));
   events.sort((a, b) => a.time - b.time);
   return events;
@@ -34,6 +35,12 @@ function removal(contact) {
 function laneEvents(lane) {
   return laneSpans(lane).slice(1).filter((span) => span.state >= 0).map((span) =>
     ({ time: span.from, kind: "state", text: `${capitalised(lane.name)}: ${lane.states[span.state]}.` }));
+}
+
+/** What the robot does about a contact, as the states of the lane say it. */
+function reactions(lane) {
+  return laneSpans(lane).filter((span) => span.state > 0).map((span) =>
+    ({ time: span.from, kind: "state", text: `The robot ${lane.states[span.state]}.` }));
 }
 
 /** The torque gate closes: why is known of the first time. */

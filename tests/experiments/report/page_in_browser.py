@@ -73,6 +73,10 @@ def tells_the_verdict(page):
     closes = page.value("report.lanes.some(lane => lane.name === 'torque gate' && laneSpans(lane).some(span => lane.states[span.state] === 'closed'))")
     page.expect(not closes or page.value("byId('events').textContent.includes(`The torque gate closes: ${report.fault}`)"),
                 "what happened does not tell that the gate closed")
+    untold = page.value("report.lanes.filter(lane => lane.name === 'reaction').flatMap(lane => lane.changes)"
+                        ".map(([, state]) => report.lanes.find(lane => lane.name === 'reaction').states[state])"
+                        ".filter(told => told !== 'none' && !byId('events').textContent.includes(`The robot ${told}.`))")
+    page.expect(untold == [], f"what happened does not tell that the robot {untold}")
     wrong = re.findall(r"\b(?:the both|NaN|undefined|null|Infinity|\[object \w+\])", text)
     page.expect(not wrong, f"the text of the page contains {wrong}")
 

@@ -54,7 +54,8 @@ class SampleExperiment {
     report_.lanes = {{"contact (true)", {"none", "platform"}, {}},
                      {"detector", {"quiet", "contact"}, {}},
                      {"mode", {"nominal", "reaction", "hold"}, {}},
-                     {"constraint", {"none", "σκ", "σsc"}, {}}};
+                     {"constraint", {"none", "σκ", "σsc"}, {}},
+                     {"reaction", {"none", "goes back the way it came"}, {}}};
   }
 
   Report run() {
@@ -158,6 +159,7 @@ class SampleExperiment {
     report_.lanes[1].state.push_back(estimate_.head<2>().cwiseAbs().maxCoeff() >= 10.0 ? 1 : 0);
     report_.lanes[2].state.push_back(std::isnan(detected) ? 0 : t < detected + 0.32 ? 1 : 2);
     report_.lanes[3].state.push_back(!std::isnan(detected) && kappa > 8.4 && t < detected + 0.4 ? 1 : 0);
+    report_.lanes[4].state.push_back(std::isnan(detected) ? 0 : 1);
   }
 
   static constexpr int approach_ = 900;

@@ -67,6 +67,28 @@ TEST(ExperimentPage, DrawsTheLyapunovFunctionOfWhatTheLawOfTheModeServes) {
       << "its laws serve no tasks";
 }
 
+/// Below a force that it never reaches nothing has a direction: the robot goes back.
+TEST(ExperimentPage, TellsSinceWhenTheRobotGoesBackTheWayItCame) {
+  SimulatedScenario scenario =
+      read_simulated_scenario(FLINCH_SOURCE_DIR "/apps/scenarios/platform_reaction.yaml");
+  scenario.control.tasks.reaction.force_to_go_by = 1000.0;
+  const Recording recording = run_experiment(scenario);
+  const Verdict verdict = judge(recording, scenario.robot.robot->space(), {}, {});
+  const Report report = experiment_report(scenario, recording, verdict);
+  const auto lane = std::find_if(report.lanes.begin(), report.lanes.end(),
+                                 [](const ReportLane& each) { return each.name == "reaction"; });
+  ASSERT_NE(lane, report.lanes.end());
+  const auto begin =
+      std::find_if(lane->state.begin(), lane->state.end(), [](int state) { return state > 0; });
+  ASSERT_NE(begin, lane->state.end());
+  EXPECT_EQ(lane->states.at(static_cast<std::size_t>(*begin)),
+            "goes back the way it came, class or direction not known");
+  const TaskBegin& told = verdict.contacts.at(0).reaction_tasks.at(0);
+  EXPECT_EQ(told.task.kind, ReactionKind::retreat);
+  EXPECT_NEAR(told.time, report.start + report.period * static_cast<double>(begin - lane->state.begin()),
+              1e-9);
+}
+
 TEST(ExperimentPage, WorksInChromium) {
   const test::TemporaryFolder folder;
   const std::filesystem::path page = folder / "page.html";

@@ -12,6 +12,7 @@
 #include "systems/signals/braking_status.h"
 #include "systems/signals/contact_classes.h"
 #include "systems/signals/contact_detection.h"
+#include "systems/signals/followed_task.h"
 #include "systems/signals/gate_status.h"
 #include "systems/signals/platform_reference.h"
 #include "systems/signals/plausibility.h"
@@ -34,6 +35,7 @@ struct Moment {
   Plausibility plausibility;
   BrakingStatus braking;
   ContactClassification classification;
+  FollowedTask task;
 };
 
 /// A recording made up tick by tick: the robot rests where it shall, nothing touches it and nothing is
@@ -101,7 +103,8 @@ class SyntheticRun {
                          signal("joints_link", &Moment::joints_link),
                          signal("plausibility", &Moment::plausibility),
                          signal("braking", &Moment::braking),
-                         signal("classification", &Moment::classification)};
+                         signal("classification", &Moment::classification),
+                         signal("reaction_task", &Moment::task)};
     return recording;
   }
 

@@ -64,6 +64,24 @@ TEST(VerdictTable, TellsWhetherTheRobotCouldStopWithinItsLimits) {
   EXPECT_THAT(verdict_json(verdict, {}), HasSubstr(R"("could_stop_within_limits":false,"stop_ms":null)"));
 }
 
+TEST(VerdictOutput, TellsWhatTheReactionDid) {
+  Verdict verdict = verdict_with_contact();
+  EXPECT_THAT(verdict_json(verdict, {}), HasSubstr(R"("reaction_tasks":[])"));
+  verdict.contacts[0].reaction_tasks = {{{true, ReactionKind::retreat, -1}, 0.525},
+                                        {{true, ReactionKind::opening, 1}, 0.75}};
+  EXPECT_THAT(
+      verdict_table(verdict, {}),
+      ::testing::AllOf(HasSubstr("  goes back the way it came, class or direction not known after 25.0 ms\n"),
+                       HasSubstr("  opens leg 2 after 250.0 ms\n")));
+  const auto tasks = nlohmann::json::parse(verdict_json(verdict, {}))["contacts"][0]["reaction_tasks"];
+  ASSERT_EQ(tasks.size(), 2U);
+  EXPECT_EQ(tasks[0]["task"], "retreat");
+  EXPECT_TRUE(tasks[0]["leg"].is_null());
+  EXPECT_NEAR(tasks[0]["ms"].get<double>(), 25.0, 1e-9);
+  EXPECT_EQ(tasks[1]["task"], "opening");
+  EXPECT_EQ(tasks[1]["leg"], 2);
+}
+
 TEST(VerdictJson, IsOneLineThatHoldsTheTable) {
   const std::string text = verdict_json(verdict_with_contact(), {.wall = 0.5, .seed = 7});
   EXPECT_EQ(text.find('\n'), std::string::npos);

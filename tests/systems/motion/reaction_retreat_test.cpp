@@ -146,6 +146,14 @@ TEST(Retreat, AClassThatBecomesKnownWithinTheTimeIsFollowedInItsPlaceLaterOnesAr
   }
 }
 
+TEST(Retreat, IsToldFromTheDetectionOn) {
+  Travelling robot(v);
+  robot.know(-1, against, robot.at, v);
+  EXPECT_FALSE(robot.ticking.get(robot.block.served).valid) << "nothing was noticed yet";
+  robot.begin();
+  EXPECT_EQ(robot.ticking.get(robot.block.served), (FollowedTask{true, ReactionKind::retreat, -1}));
+}
+
 TEST(Retreat, OneThatLeadsIntoSomethingIsDecidedAnew) {
   RanIntoSomething robot;
   robot.go_on(25ms);

@@ -1,0 +1,22 @@
+#include "experiments/verdict/task_words.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace flinch {
+namespace {
+
+TEST(TheWordsOfATask, TellEveryTaskOfEveryLegApart) {
+  std::set<std::string> told;
+  for (const FollowedTask& task : followed_tasks(6)) told.insert(in_words(task));
+  EXPECT_EQ(told.size(), 3U + 3U * 6U);
+}
+
+TEST(TheWordsOfATask, CountLegsFromOne) {
+  EXPECT_EQ(in_words({true, ReactionKind::opening, 1}), "opens leg 2");
+  EXPECT_STREQ(word(ReactionKind::opening), "opening");
+}
+
+}  // namespace
+}  // namespace flinch
