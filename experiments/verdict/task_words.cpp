@@ -13,7 +13,10 @@ static_assert(words.size() == static_cast<std::size_t>(opening) + 1);
 
 }  // namespace
 
-const char* word(ReactionKind kind) { return words[static_cast<std::size_t>(kind)]; }
+const char* word(ReactionKind kind) {
+  const auto index = static_cast<std::size_t>(kind);
+  return index < words.size() ? words[index] : "unknown";
+}
 
 std::string in_words(const FollowedTask& task) {
   const std::string leg = std::to_string(task.leg + 1);

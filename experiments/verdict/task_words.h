@@ -7,7 +7,8 @@
 
 namespace flinch {
 
-/// What a reaction does, in one word, as in `--json`: "retreat".
+/// What a reaction does, in one word, as in `--json`: "retreat". A number of a recording that stands for none
+/// is "unknown".
 const char* word(ReactionKind kind);
 
 /// What the robot does, without it: "opens leg 2". For a task that is valid.

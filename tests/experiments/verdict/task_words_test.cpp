@@ -18,5 +18,9 @@ TEST(TheWordsOfATask, CountLegsFromOne) {
   EXPECT_STREQ(word(ReactionKind::opening), "opening");
 }
 
+TEST(TheWordsOfATask, AreUnknownForANumberThatNoTaskHas) {
+  EXPECT_STREQ(word(static_cast<ReactionKind>(200)), "unknown");
+}
+
 }  // namespace
 }  // namespace flinch
