@@ -24,16 +24,16 @@ ErrorFeatures first_guess(std::span<const ErrorSample> samples) {
   return guess;
 }
 
-double variance(const ErrorFeatures& sizes, const ErrorFeatures& features) {
-  double sum = 0.0;
-  for (std::size_t j = 0; j < sizes.size(); ++j) sum += sizes[j] * features[j];
+double variance(const ErrorFeatures& sizes, const ErrorSample& sample) {
+  double sum = sample.known;
+  for (std::size_t j = 0; j < sizes.size(); ++j) sum += sizes[j] * sample.features[j];
   return sum;
 }
 
 }  // namespace
 
-/// Maximises the likelihood of v = sum of theta_j phi_j by multiplicative steps, which keep theta positive
-/// and never lessen it (Fevotte and Idier 2011):
+/// Maximises the likelihood of v = known + sum of theta_j phi_j by multiplicative steps, which keep theta
+/// positive and never lessen it (Fevotte and Idier 2011):
 ///   theta_j <- theta_j sqrt(sum(phi_j e^2 / v^2) / sum(phi_j / v))
 ResidualErrors fit_error_sizes(std::span<const ErrorSample> samples) {
   ErrorFeatures sizes = first_guess(samples);
@@ -41,7 +41,7 @@ ResidualErrors fit_error_sizes(std::span<const ErrorSample> samples) {
   for (int i = 0; i < iterations; ++i) {
     ErrorFeatures seen{}, expected{};
     for (const ErrorSample& sample : samples) {
-      const double v = variance(sizes, sample.features);
+      const double v = variance(sizes, sample);
       for (std::size_t j = 0; j < sizes.size(); ++j) {
         seen[j] += sample.features[j] * sample.squared / (v * v);
         expected[j] += sample.features[j] / v;

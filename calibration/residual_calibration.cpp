@@ -74,6 +74,7 @@ ResidualErrors fit(const std::vector<ResidualRecording>& recordings, const std::
         ErrorSample& sample = samples.emplace_back();
         sample.squared = seen->effort[i] * seen->effort[i];
         sample.features = error_features(memory.seen.load, *seen, i);
+        sample.known = rising_variance(*seen);
         // The level is seen with the torque itself: it would count twice.
         if (!statistic.needs_settling) sample.features[2] = 0.0;
       }

@@ -24,10 +24,15 @@ ErrorFeatures error_features(const DriveLoad& load, const DriveResidual& seen, i
           square(seen.slope[drive])};
 }
 
+double rising_variance(const DriveResidual& seen) {
+  return seen.rising.squaredNorm() / static_cast<double>(seen.rising.size());
+}
+
 double surprise(const DriveLoad& load, const DriveResidual& seen, const ResidualErrors& errors) {
+  const double rising = rising_variance(seen);
   double sum = 0.0;
   for (int i = 0; i < seen.effort.size(); ++i)
-    sum += square(seen.effort[i]) / errors.variance(error_features(load, seen, i));
+    sum += square(seen.effort[i]) / (errors.variance(error_features(load, seen, i)) + rising);
   return std::isfinite(sum) ? std::sqrt(sum) : std::numeric_limits<double>::infinity();
 }
 

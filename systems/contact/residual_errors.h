@@ -24,6 +24,10 @@ struct ResidualErrors {
 /// Of a drive under `load`, whose residual is seen as `seen`: its level, or its change.
 ErrorFeatures error_features(const DriveLoad& load, const DriveResidual& seen, int drive);
 
+/// The variance that each drive's error has besides, by how far the drives may have gone: the mean of the
+/// squares of `rising`, for what one drive makes of a force shows at all of them [Nm^2 or N^2].
+double rising_variance(const DriveResidual& seen);
+
 /// The length of the residual once each drive's is divided by its deviation, sqrt(sum of r_i^2 / v_i): its
 /// square is distributed as chi-square where the errors are as assumed. Infinite where it is not finite.
 double surprise(const DriveLoad& load, const DriveResidual& seen, const ResidualErrors& errors);

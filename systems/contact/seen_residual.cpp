@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "systems/signals/driven_share.h"
 #include "systems/signals/sample_at.h"
 
 namespace flinch {
@@ -14,14 +15,15 @@ bool is_usable(const WrenchEstimate& estimate) {
 }
 
 DriveResidual minus(const DriveResidual& a, const DriveResidual& b) {
-  return {a.effort - b.effort, a.torque - b.torque, a.friction - b.friction, a.slope - b.slope};
+  return {a.effort - b.effort, a.torque - b.torque, a.friction - b.friction, a.slope - b.slope,
+          a.rising - b.rising};
 }
 
 /// a + share (b - a)
 DriveResidual towards(const DriveResidual& a, const DriveResidual& b, double share) {
   const DriveResidual way = minus(b, a);
   return {a.effort + share * way.effort, a.torque + share * way.torque, a.friction + share * way.friction,
-          a.slope + share * way.slope};
+          a.slope + share * way.slope, a.rising + share * way.rising};
 }
 
 /// The load between two ticks, as if it changed evenly.
@@ -37,15 +39,17 @@ DriveLoad between(const Around<DriveLoad>& around, Time time) {
   return load;
 }
 
-/// The slope of the torque in the hold in which `then` lies, which the drives reach some time after the tick
-/// before; zero where it is not known.
-JointVector held_slope(const DriveLoad& then, const DriveLoad& fresh, const LoadHistory& past,
-                       const Sampling& sampling) {
+/// Of the hold in which `then` lies, which the drives reach some time after the tick before: the slope of the
+/// torque, and how much of its step is in doubt at that instant. Both are zero where it is not known.
+void see_hold(const DriveLoad& then, const DriveLoad& fresh, const LoadHistory& past,
+              const Sampling& sampling, DriveResidual& level) {
   const DriveLoad* const after = past.around(then.acquired, fresh.valid ? &fresh : nullptr).after;
   const DriveLoad* const before = past.last_before(then.acquired);
   if (after == nullptr || before == nullptr || sampling.interrupted(before->acquired, after->acquired))
-    return JointVector::Zero(then.torque.size());
-  return (after->torque - before->torque) / to_seconds(after->acquired - before->acquired);
+    return;
+  level.slope = (after->torque - before->torque) / to_seconds(after->acquired - before->acquired);
+  if (then.acquired < after->acquired)
+    level.rising = driven_doubt(then.acquired - before->acquired) * (after->torque - before->torque);
 }
 
 /// Passes a load through the filters of an answer, which have settled on it where it is the first one; `T` is
@@ -82,12 +86,10 @@ void follow_residual(const WrenchEstimate& estimate, const DriveLoad& fresh, con
   const bool continued = memory.started && !tracking.sampling.interrupted(memory.acquired, estimate.acquired);
   const double T = to_seconds(estimate.acquired - memory.acquired);
   const AnsweredLoad load = answered(*then, tracking.answer, !continued, T, next);
-  DriveResidual level{estimate.drive_torque, load.torque, load.friction,
-                      JointVector::Zero(load.torque.size())};
-  if (continued) {
-    level.slope = tracking.answer.filters > 0 ? JointVector((load.torque - memory.seen.level.torque) / T)
-                                              : held_slope(*then, fresh, past, tracking.sampling);
-  }
+  const JointVector none = JointVector::Zero(load.torque.size());
+  DriveResidual level{estimate.drive_torque, load.torque, load.friction, none, none};
+  if (continued && tracking.answer.filters > 0) level.slope = (load.torque - memory.seen.level.torque) / T;
+  if (continued && tracking.answer.filters == 0) see_hold(*then, fresh, past, tracking.sampling, level);
   if (!continued) {
     next.mean = level;
     next.since = now;

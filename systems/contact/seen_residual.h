@@ -18,6 +18,7 @@ struct DriveResidual {
   JointVector torque;    ///< of the drives
   JointVector friction;  ///< that the model expects
   JointVector slope;     ///< of the torque [Nm/s or N/s]
+  JointVector rising;    ///< of the torque, by which the drives may have gone further, see `driven_doubt`
 };
 
 /// A residual as it is, and what of it is new. All of it was acquired at one time.

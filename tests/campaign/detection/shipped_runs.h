@@ -11,10 +11,12 @@
 
 namespace flinch::test {
 
-/// A campaign that ships, with so many draws at each point of its grid.
-inline Campaign shipped(const std::string& name, std::size_t draws) {
+/// A campaign that ships, with so many draws at each point of its grid, and with keys `set` as `--set` does.
+inline Campaign shipped(const std::string& name, std::size_t draws,
+                        const std::vector<std::string>& set = {}) {
   CampaignOverrides fewer;
   fewer.draws = draws;
+  fewer.set = set;
   return read_campaign(std::string(FLINCH_SOURCE_DIR "/apps/campaigns/") + name + ".yaml", fewer);
 }
 

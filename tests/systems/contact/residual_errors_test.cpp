@@ -19,7 +19,8 @@ TEST(ErrorVariance, IsTheSumOfIndependentParts) {
   const DriveResidual seen{.effort = Eigen::Vector3d::Zero(),
                            .torque = Eigen::Vector3d(1.0, 3.0, 0.0),
                            .friction = Eigen::Vector3d(0.5, 0.0, 0.0),
-                           .slope = Eigen::Vector3d(0.0, 0.0, 500.0)};
+                           .slope = Eigen::Vector3d(0.0, 0.0, 500.0),
+                           .rising = Eigen::Vector3d::Zero()};
   const ResidualErrors errors{
       .noise = 0.1, .speed = 0.2, .load = 0.01, .torque = 0.5, .friction = 0.4, .lag = 2e-4};
   // 0.1^2 + (0.2 2)^2 + (0.01 10)^2 + (0.5 1)^2 + (0.4 0.5)^2
@@ -38,10 +39,13 @@ TEST(Surprise, HasASquareThatIsChiSquareForErrorsAsAssumed) {
     DriveResidual seen{.effort = Eigen::Vector3d::Zero(),
                        .torque = Eigen::Vector3d::Constant(random.uniform(-3.0, 3.0)),
                        .friction = Eigen::Vector3d::Constant(random.uniform(-0.6, 0.6)),
-                       .slope = Eigen::Vector3d::Constant(random.uniform(-1e3, 1e3))};
+                       .slope = Eigen::Vector3d::Constant(random.uniform(-1e3, 1e3)),
+                       .rising = Eigen::Vector3d::Zero()};
+    const double rising = random.uniform(0.0, 0.5);
+    seen.rising[k % 3] = std::sqrt(3.0) * rising;
     for (int i = 0; i < 3; ++i) {
       const ErrorFeatures features = error_features(load, seen, i);
-      seen.effort[i] = std::sqrt(errors.variance(features)) * random.normal();
+      seen.effort[i] = std::sqrt(errors.variance(features)) * random.normal() + rising * random.normal();
     }
     const double square = std::pow(surprise(load, seen, errors), 2);
     sum += square / trials;
@@ -55,7 +59,8 @@ TEST(Surprise, OfWhatIsNotFiniteIsInfinite) {
   const DriveResidual seen{.effort = Eigen::Vector3d(std::nan(""), 0.0, 0.0),
                            .torque = Eigen::Vector3d::Zero(),
                            .friction = Eigen::Vector3d::Zero(),
-                           .slope = Eigen::Vector3d::Zero()};
+                           .slope = Eigen::Vector3d::Zero(),
+                           .rising = Eigen::Vector3d::Zero()};
   EXPECT_EQ(surprise(load, seen, {.noise = 1.0}), INFINITY);
 }
 

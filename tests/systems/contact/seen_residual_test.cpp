@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "systems/estimators/disturbance_filter.h"
+#include "systems/signals/driven_share.h"
 #include "tests/support/answer_of_filters.h"
 #include "tests/support/planar_bench.h"
 #include "tests/support/ticking.h"
@@ -129,6 +130,37 @@ TEST(SeenResidual, HasTheSlopeOfTheTorqueThatTheDrivesHeldAtItsInstant) {
       EXPECT_NEAR(memory.seen.level.slope[0], expected, 1e-9)
           << k << ", " << to_seconds(before) << " s before";
     }
+  }
+}
+
+// A drive that steps from 1 to 3 Nm at a tick: soon after it anything between has to be expected, later not.
+TEST(SeenResidual, DoubtsHowFarTheDrivesHaveGoneSoonAfterATick) {
+  for (const Time since_tick : {50us, 300us, 700us, 1000us}) {
+    LoadHistory past;
+    ResidualMemory memory, next;
+    for (int k = 1; k < 20; ++k) {
+      DriveLoad load = at_rest;
+      load.acquired = k * 1ms;
+      load.torque[0] = k < 10 ? 1.0 : 3.0;
+      WrenchEstimate estimate = estimate_of(Eigen::Vector3d::Zero());
+      estimate.acquired = load.acquired - 1ms + since_tick;
+      follow_residual(estimate, load, past, load.acquired, {}, memory, next);
+      past.push(load);
+      memory = next;
+      const double from = 1.0 + 2.0 * (2.0 * driven_share(since_tick) - 1.0);  // the slowest
+      const double half = k == 10 && since_tick < 1ms ? 0.5 * (3.0 - from) : 0.0;
+      EXPECT_NEAR(memory.seen.level.rising[0], half, 1e-12) << k << ", " << to_seconds(since_tick) << " s";
+      EXPECT_EQ(memory.seen.level.rising[1], 0.0);
+    }
+  }
+}
+
+TEST(SeenResidual, OfADisturbanceFilterLivesOnTheTicks) {
+  Follower follower(three_poles);
+  DriveLoad load = at_rest;
+  for (int k = 0; k < 20; ++k) {
+    load.torque[0] = k % 2;
+    EXPECT_EQ(follower.see(estimate_of(Eigen::Vector3d::Zero()), load).level.rising, Eigen::Vector3d::Zero());
   }
 }
 

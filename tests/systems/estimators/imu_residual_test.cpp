@@ -27,14 +27,14 @@ class ImuResidualTest : public testing::Test {
     test::Posture at(*robot_, zero, zero, now);
     if (moves_) at.platform.velocity[0] = 0.02;  // no rest to learn a bias from
     JointVector acted = torque;
-    if (before_tick_ > Time::zero())  // reached in 0.3 ms, then held
+    if (before_tick_ > Time::zero())  // half at once, all in 0.6 ms, then held
       acted = torque_before_ +
-              std::min(1.0, (1e-3 - to_seconds(before_tick_)) / 3e-4) * (torque - torque_before_);
+              std::min(1.0, 0.5 + (1e-3 - to_seconds(before_tick_)) / 1.2e-3) * (torque - torque_before_);
     const PlatformVector acceleration = *forward_dynamics(at.kinematics, at.dynamics, acted, push);
     const double angular = (*forward_dynamics(at.kinematics, at.dynamics, torque, push))[2];
     const double angular_before = (*forward_dynamics(at.kinematics, at.dynamics, torque_before_, push))[2];
     const auto turned_in = [&](double time) {  // since the tick before, of a sample between two ticks
-      const double reached = time < 3e-4 ? time * time / 6e-4 : time - 1.5e-4;
+      const double reached = time < 6e-4 ? time / 2.0 + time * time / 2.4e-3 : time - 1.5e-4;
       return time * angular_before + reached * (angular - angular_before);
     };
     const bool between = before_tick_ > Time::zero();
