@@ -149,12 +149,15 @@ Six second_difference(const ImuErrors& errors, std::size_t age, const ImuSpread&
                  of_a * a.turning - 2.0 * b.turning + of_c * c.turning, rest);
 }
 
-/// What the drives' own noise makes of it, which the model follows up to a part of a sample.
+/// What the drives' own noise makes of it, which the model follows up to a part of a sample, and up to how
+/// far they have gone at each.
 Six driven(const ImuErrors& errors, std::size_t age, const ImuSpread& rest) {
   const auto [a, b, c, of_a, of_c] = Bend(errors, age);
-  return weighed(of_a * a.expected_force - 2.0 * b.expected_force + of_c * c.expected_force,
-                 of_a * to_seconds(a.spacing) * (a.turning_slope - b.turning_slope), rest)
-      .cwiseAbs();
+  const Eigen::Vector3d rising =
+      of_a * a.rising.cwiseAbs() + 2.0 * b.rising.cwiseAbs() + of_c * c.rising.cwiseAbs();
+  const Eigen::Vector3d bent = of_a * a.expected_force - 2.0 * b.expected_force + of_c * c.expected_force;
+  return weighed(bent.cwiseAbs() + rising,
+                 (of_a * to_seconds(a.spacing) * (a.turning_slope - b.turning_slope)).cwiseAbs(), rest);
 }
 
 /// A second difference of white noise has six times its variance, where samples are equally far apart.

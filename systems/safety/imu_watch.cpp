@@ -117,21 +117,28 @@ Padded<max_dof> line_velocity(const Motions& motions, int age, int h) {
 }
 double line_deviation(int h) { return 1.0 / (std::sqrt(h * (h + 1.0) * (2.0 * h + 1.0) / 3.0) * T); }
 
-/// The motion at `time`, between those of `age` and of the tick before or after it.
-TickMotion motion_at(const Motions& motions, int age, Time time, const ConfigurationSpace& space) {
+/// The motion at an instant, and by how much its acceleration is in doubt, see `driven_doubt`.
+struct MotionThen {
+  TickMotion motion;
+  Padded<max_dof> rising = Padded<max_dof>::Zero();
+};
+
+/// At `time`, between those of `age` and of the tick before or after it.
+MotionThen motion_at(const Motions& motions, int age, Time time, const ConfigurationSpace& space) {
   const auto nearest = static_cast<std::size_t>(age);
   const Time later = time - motions.back(nearest).time;
-  if (later == Time::zero()) return motions.back(nearest);
+  if (later == Time::zero()) return {motions.back(nearest)};
   const TickMotion& before = motions.back(later > Time::zero() ? nearest : nearest + 1);
   const TickMotion& after = motions.back(later > Time::zero() ? nearest - 1 : nearest);
   const double share = to_seconds(time - before.time) / to_seconds(after.time - before.time);
-  TickMotion motion = before;
-  motion.time = time;
-  motion.pose =
+  const Padded<max_dof> step = after.acceleration - before.acceleration;
+  MotionThen then{before, driven_doubt(time - before.time) * step};
+  then.motion.time = time;
+  then.motion.pose =
       padded(space.plus(before.pose.head(space.stored()), share * after.step.head(space.dimension())));
-  motion.velocity += share * (after.velocity - before.velocity);
-  motion.acceleration += driven_share(time - before.time) * (after.acceleration - before.acceleration);
-  return motion;
+  then.motion.velocity += share * (after.velocity - before.velocity);
+  then.motion.acceleration += driven_share(time - before.time) * step;
+  return then;
 }
 
 /// The step in the tick that begins at `time`, which is one at least before the latest.
@@ -189,13 +196,14 @@ struct Claim {
   const Rows& rows;        ///< from the platform's acceleration
   Eigen::Vector3d beyond;  ///< what the model expects
   Eigen::Vector3d slope;   ///< d/dt of what it expects
+  Eigen::Vector3d rising;  ///< doubt about what the drives make of it
   double noise;            ///< deviation of a sample
 };
 
 /// Whether a sensor claims what the encoders, who show `around` beyond the model, do not confirm.
 bool contradicted(const Comparison& at, const Padded<max_dof>& around, const Claim& claim) {
   constexpr int wide = widest, narrow = 3;
-  const double unsure = jitter * claim.slope.norm();
+  const double unsure = jitter * claim.slope.norm() + claim.rising.norm();
   if (is_own_noise(claim.beyond, claim.noise, at.limit, unsure)) return false;
   const Eigen::Vector3d ahead = claim.rows * around;
   const Eigen::Vector3d long_since = claim.rows * unexplained(at.motions, at.age - at.ahead + wide, wide);
@@ -219,13 +227,13 @@ bool contradicted(const Comparison& at, const Padded<max_dof>& around, const Cla
 /// What the accelerometer claims in the latest sample.
 Claim force_claim(const Comparison& at, const ImuErrors& errors) {
   const ImuError& now = errors.back(0);
-  return {at.force, now.force, now.force_slope, at.noise.force};
+  return {at.force, now.force, now.force_slope, now.rising, at.noise.force};
 }
 
 /// What the gyroscope claims by its change from the sample before; nothing in a first sample.
 Claim turning_claim(const Comparison& at, const ImuErrors& errors) {
-  Claim claim{at.turning, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
-              std::sqrt(2.0) * at.noise.turning / at.spacing};
+  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+  Claim claim{at.turning, none, none, none, std::sqrt(2.0) * at.noise.turning / at.spacing};
   if (errors.held() < 2) return claim;
   const ImuError &now = errors.back(0), &before = errors.back(1);
   const Eigen::Vector3d change =
@@ -293,7 +301,7 @@ void judge(ImuWatch& watch, const Motions& motions, const ImuErrors& errors, con
   }
   const int age = *nearest;
   const ConfigurationSpace space = tick.robot.space();
-  const TickMotion then = motion_at(motions, age, reading.acquired, space);
+  const auto [then, rising] = motion_at(motions, age, reading.acquired, space);
   const int ahead = std::min(age, 4);
   const int n = space.dimension();
   const Time spacing = errors.held() > 0 ? reading.acquired - watch.before.acquired : period;
@@ -321,6 +329,7 @@ void judge(ImuWatch& watch, const Motions& motions, const ImuErrors& errors, con
   if (errors.held() > 0)
     error.force_slope = (error.expected_force - errors.back(0).expected_force) / at.spacing;
   error.turning_slope = at.turning * then.acceleration;
+  error.rising = at.force * rising;
   const Padded<max_dof> after = step_from(motions, then.time);
   const Padded<max_dof> change = after - step_from(motions, then.time - spacing);
   error.force_unseen = error.force + at.force * (then.acceleration - change / (T * at.spacing));

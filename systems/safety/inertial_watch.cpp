@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "systems/robot/imu_mount.h"
 #include "systems/robot/spatial_motion.h"
@@ -83,12 +84,46 @@ void judge_turning(InertialWatch& watch, const Motions& motions, const Plausibil
        GateFault::motion_contradicted);
 }
 
-void take_acceleration(InertialWatch& watch, const Eigen::Vector3d& acceleration) {
+void take_acceleration(InertialWatch& watch, const Eigen::Vector3d& acceleration, Time measured) {
   constexpr std::size_t window = InertialWatch::window;
   const Eigen::Vector3d& before = watch.acceleration[(watch.accelerations + window - 1) % window];
   const std::size_t place = watch.accelerations++ % window;
   watch.change[place] = (acceleration - before).norm();
   watch.acceleration[place] = acceleration;
+  watch.measured[place] = measured;
+}
+
+/// Velocity at `time`, between those of the ticks around it; none where they are not known.
+std::optional<Eigen::Vector3d> velocity_at(const Motions& motions, Time time) {
+  const SensorPointMotion* const nearest = motion_at(motions, time);
+  if (nearest == nullptr || nearest->time == time)
+    return nearest ? std::optional(nearest->velocity) : std::nullopt;
+  const Time later = time - nearest->time;
+  const SensorPointMotion* const other =
+      motion_at(motions, nearest->time + (later > Time::zero() ? period : -period));
+  if (other == nullptr) return std::nullopt;
+  const double share = to_seconds(later) / to_seconds(other->time - nearest->time);
+  return nearest->velocity + share * (other->velocity - nearest->velocity);
+}
+
+/// The accelerations of a window.
+struct SummedUp {
+  Time from{};                              ///< of the first
+  Eigen::Vector3d velocity{0.0, 0.0, 0.0};  ///< by trapezoids [m/s]
+  double variation = 0.0;                   ///< in total, from zero and back [m/s^2]
+};
+SummedUp summed_up(const InertialWatch& watch) {
+  constexpr std::size_t window = InertialWatch::window;
+  const auto place = [&watch](std::size_t k) { return (watch.accelerations + k) % window; };
+  const auto time = [&](std::size_t k) { return watch.measured[place(std::min(k, window - 1))]; };
+  SummedUp sum{.from = time(0)};
+  for (std::size_t k = 0; k < window; ++k) {
+    const Time around = time(k + 1) - time(k == 0 ? 0 : k - 1);
+    sum.velocity += 0.5 * to_seconds(around) * watch.acceleration[place(k)];
+    if (k > 0) sum.variation += watch.change[place(k)];
+  }
+  sum.variation += watch.acceleration[place(0)].norm() + watch.acceleration[place(window - 1)].norm();
+  return sum;
 }
 
 /// The change of velocity over a window, as the encoders tell it and as the accelerometer sums it up. Where
@@ -96,27 +131,17 @@ void take_acceleration(InertialWatch& watch, const Eigen::Vector3d& acceleration
 void judge_velocity(InertialWatch& watch, const Motions& motions, const PlausibilityTick& tick,
                     const ImuReading& imu, const Spread& spread, const SensorPointMotion& now,
                     Plausibility& found) {
-  take_acceleration(watch, now.axes * (imu.specific_force - watch.accelerometer.mean) + tick.robot.gravity());
+  take_acceleration(watch, now.axes * (imu.specific_force - watch.accelerometer.mean) + tick.robot.gravity(),
+                    imu.acquired);
   if (!tick.free) watch.accelerations = 0;
   double ratio = 0.0;
-  const SensorPointMotion* const before =
-      motion_at(motions, now.time - static_cast<Time::rep>(InertialWatch::window - 1) * period);
-  if (watch.accelerations >= InertialWatch::window && before != nullptr) {
-    const auto at = [&watch](std::size_t k) -> const Eigen::Vector3d& {
-      return watch.acceleration[(watch.accelerations + k) % InertialWatch::window];
-    };
-    const Eigen::Vector3d& first = at(0);
-    const Eigen::Vector3d& last = at(InertialWatch::window - 1);
-    Eigen::Vector3d sum = 0.5 * (first + last);  // trapezoids
-    double variation = first.norm() + last.norm();
-    for (std::size_t k = 1; k < InertialWatch::window; ++k) {
-      variation += watch.change[(watch.accelerations + k) % InertialWatch::window];
-      if (k + 1 < InertialWatch::window) sum += at(k);
-    }
+  const SummedUp sum = summed_up(watch);
+  const auto before = velocity_at(motions, sum.from), after = velocity_at(motions, imu.acquired);
+  if (watch.accelerations >= InertialWatch::window && before && after) {
     const double noise =
         std::sqrt(2.0) * spread.velocity + to_seconds(period) * 4.0 * watch.accelerometer.deviation;
-    const double limit = tick.limits.inertial * noise + tick.limits.acceleration_time * variation;
-    const Eigen::Vector3d apart = now.velocity - before->velocity - to_seconds(period) * sum;
+    const double limit = tick.limits.inertial * noise + tick.limits.acceleration_time * sum.variation;
+    const Eigen::Vector3d apart = *after - *before - sum.velocity;
     ratio = apart.head(tick.robot.space().translations()).norm() / limit;
   }
   note(found, PlausibilityCheck::accelerometer, std::min({watch.outside[0], watch.outside[1], ratio}),

@@ -32,7 +32,7 @@ struct LearnedBias {
 /// Encoders against the inertial measurement unit: both see the same motion, whatever caused it. The unit's
 /// samples are late; each is compared with what the encoders said of its instant, give or take a tick.
 struct InertialWatch {
-  static constexpr std::size_t window = 16;  ///< ticks over which velocities are compared
+  static constexpr std::size_t window = 16;  ///< samples over which velocities are compared
   using Motions = Ring<SensorPointMotion, 32>;
 
   Motions motion;
@@ -40,6 +40,7 @@ struct InertialWatch {
   Time acquired = -24h;                                ///< of the last one that was compared
   std::array<Eigen::Vector3d, window> acceleration{};  ///< in the base frame, a ring [m/s^2]
   std::array<double, window> change{};                 ///< |a - a of the one before|, likewise
+  std::array<Time, window> measured{};                 ///< when, likewise
   std::size_t accelerations = 0;                       ///< in a row without a gap
   std::array<Eigen::Vector3d, 4> turning{};            ///< differences of rates, a ring [rad/s]
   std::size_t turnings = 0;
