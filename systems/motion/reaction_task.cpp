@@ -178,19 +178,27 @@ void ReactionTask::go_back(const TravelledPath& travelled, const Kinematics& at,
   const ConfigurationSpace& space = robot_->space();
   const double reach = largest_reach(at, space.translations());
   const PlatformVector back = travelled.way_back(space, at.pose, settings_.displacement, reach);
-  if (back.size() == 0) return;
-  if (!(pushed_along(back, at, contact) >= least_push * settings_.released_force)) return;
+  if (back.size() == 0 || !contact.valid || contact.wrench_in_base.size() != space.dimension()) return;
+  if (!(force_along(back, contact.wrench_in_base, at) >= least_push * settings_.released_force)) return;
   plan.kind = ReactionKind::retreat;
   plan.way = back;
   plan.from = at.pose;
 }
 
-double ReactionTask::pushed_along(const PlatformVector& way, const Kinematics& at,
-                                  const WrenchEstimate& contact) const {
+double ReactionTask::force_along(const PlatformVector& way, const PlatformVector& wrench,
+                                 const Kinematics& at) const {
   const ConfigurationSpace& space = robot_->space();
-  if (!contact.valid || contact.wrench_in_base.size() != space.dimension()) return 0.0;
-  return contact.wrench_in_base.dot(way) /
-         farthest_moved(space, way, largest_reach(at, space.translations()));
+  return wrench.dot(way) / farthest_moved(space, way, largest_reach(at, space.translations()));
+}
+
+bool ReactionTask::is_pushed_on(Time now, const ReactionPlan& plan, const Kinematics& at,
+                                const Dynamics& model, const WrenchEstimate& contact) const {
+  const VectorMotion wanted = plan.motion.evaluate(to_seconds(now - plan.begin));
+  if (!at.valid || !model.valid || !wanted.valid) return true;
+  if (!contact.valid || contact.wrench_in_base.size() != robot_->dof()) return true;
+  const double inertial = std::abs(force_along(plan.way, model.M_x * wanted.acceleration, at));
+  const double most = least_push * settings_.released_force + settings_.inertial_share * inertial;
+  return !(force_along(plan.way, contact.wrench_in_base, at) > -most);
 }
 
 Task ReactionTask::task_of(const ReactionPlan& plan, const Kinematics& at) const {
@@ -299,7 +307,7 @@ void ReactionTask::plan(Time now, const ReactionPlan& last, const TravelledPath&
     next = ReactionPlan();
     classify(at, contact, touched, place, next);
     const bool goes_on = !begins && last.kind == ReactionKind::retreat && next.kind == ReactionKind::brake &&
-                         pushed_along(last.way, at, contact) > -least_push * settings_.released_force;
+                         !is_pushed_on(now, last, at, model, contact);
     if (!goes_on) {
       if (next.kind == ReactionKind::brake) go_back(travelled, at, contact, next);
       begin(now, at, model, contact, next);

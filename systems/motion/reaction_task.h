@@ -113,8 +113,12 @@ class ReactionTask final : public System {
   /// Decides about what is not known.
   void go_back(const TravelledPath& travelled, const Kinematics& at, const WrenchEstimate& contact,
                ReactionPlan& plan) const;
-  /// Work of what is felt on `way`, by the length of that [N]; 0 where it is not known.
-  double pushed_along(const PlatformVector& way, const Kinematics& at, const WrenchEstimate& contact) const;
+  /// Work of `wrench` on `way`, by the length of that [N].
+  double force_along(const PlatformVector& way, const PlatformVector& wrench, const Kinematics& at) const;
+  /// What is felt pushes against the way of a retreat, by more than its own acceleration makes the robot feel
+  /// where its model is a little wrong; or is not known.
+  bool is_pushed_on(Time now, const ReactionPlan& plan, const Kinematics& at, const Dynamics& model,
+                    const WrenchEstimate& contact) const;
   void begin(Time now, const Kinematics& at, const Dynamics& model, const WrenchEstimate& contact,
              ReactionPlan& plan) const;
   /// Plans from `task`, moving with `rate`.

@@ -106,6 +106,26 @@ TEST(Retreat, WhoIsNotPushedBackAnyMoreIsBrakedAtOnce) {
   EXPECT_EQ(robot.kind(), ReactionKind::brake);
 }
 
+// A robot that is lighter than its model feels that it is pushed the way it is accelerated, one that is
+// heavier the other way.
+TEST(Retreat, WhatItsOwnAccelerationMakesTheRobotFeelStopsNobodyAPushStopsHim) {
+  for (const double error : {-0.04, 0.04, -0.2}) {
+    RanIntoSomething robot;
+    double most = 0.0;
+    for (Time t{}; t < 20ms; t += 1ms) {
+      const TaskList& list = robot.go_on();
+      if (list.count != 2) break;
+      Eigen::Vector3d acceleration;
+      acceleration << list.goals[0].reference.acceleration, list.goals[1].reference.acceleration;
+      const Eigen::Vector3d felt = error * (robot.posture->dynamics.M_x * acceleration);
+      most = std::max(most, felt.norm());
+      robot.know(-1, felt, robot.at, v);
+    }
+    EXPECT_GT(most, 1.0) << "N: the test means something";
+    EXPECT_EQ(robot.kind(), error > -0.1 ? ReactionKind::retreat : ReactionKind::brake) << error;
+  }
+}
+
 // What is felt then pushes it to where it was touched first.
 TEST(Retreat, WhoWentBackOrGaveWayAndIsPushedFromBehindDoesNotReturnToWhatItLeft) {
   const Eigen::Vector3d behind = 0.12 / v.norm() * v;
