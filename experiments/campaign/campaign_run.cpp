@@ -117,16 +117,16 @@ void make_hand(Draft& draft) {
 }
 
 /// The robot when a moving obstacle meets it: half-way through its motion, or where it holds still.
-HalfWay meeting_of(const CampaignContact& settings, RobotFiles& robots, const Draft& draft) {
+HalfWay meeting_of(const CampaignContact& settings, RobotFiles& robots, const Draft& draft,
+                   const Scenario& scenario) {
   if (settings.by == CampaignContact::By::pushing) {
-    const SimulatedScenario scenario = parse_simulated_scenario(draft.root(), draft.file(), robots);
-    const ParallelRobot& robot = *scenario.robot.robot;
+    const SimulatedScenario simulated = parse_simulated_scenario(draft.root(), draft.file(), robots);
+    const ParallelRobot& robot = *simulated.robot.robot;
     HalfWay at{{}, push_begin};
-    robot.kinematics(scenario.station.bench.initial_pose.value_or(robot.home_pose()),
+    robot.kinematics(simulated.station.bench.initial_pose.value_or(robot.home_pose()),
                      PlatformVector::Zero(robot.dof()), at.now);
     return at;
   }
-  const Scenario scenario = parse_scenario(draft.root(), draft.file(), robots);
   HalfWay at = half_way_through(scenario);
   if (const std::optional<Time> start = scenario.control.trajectory.start) at.time += to_seconds(*start);
   return at;
@@ -146,7 +146,7 @@ bool move_obstacle(const CampaignContact& settings, RobotFiles& robots, Draft& d
     throw SetupError("there is no entry in 'obstacles', or a 'pylon' before it, so 'contact' can move none");
   }
   const ParallelRobot& robot = *scenario.robot.robot;
-  const HalfWay at = meeting_of(settings, robots, draft);
+  const HalfWay at = meeting_of(settings, robots, draft, scenario);
   const auto contact = draw_touch(robot, at.now, kind, scenario.obstacles.front().shape, random);
   if (!contact) return false;
   expect(contact->body, draft, run);
