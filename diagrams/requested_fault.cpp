@@ -214,12 +214,13 @@ void set_signal(RequestedFault& fault, const std::string& text) {
   fault.index = number - 1;
 }
 
+std::vector<std::string> fault_kinds() { return list_of(kinds, &KindWords::name); }
+
 FaultKind fault_kind(const std::string& text) {
   const auto found =
       std::find_if(kinds.begin(), kinds.end(), [&](const KindWords& each) { return each.name == text; });
   if (found != kinds.end()) return found->kind;
-  throw SetupError("'" + text + "' is no kind of fault" +
-                   did_you_mean(text, list_of(kinds, &KindWords::name)));
+  throw SetupError("'" + text + "' is no kind of fault" + did_you_mean(text, fault_kinds()));
 }
 
 RequestedFault parse_fault(const std::string& text, const ParallelRobot& robot) {

@@ -73,6 +73,8 @@ void require_possible(const std::vector<RequestedFault>& faults, const FaultPlac
 /// Throws SetupError with the nearest name where there is none called so.
 void set_signal(RequestedFault& fault, const std::string& text);
 FaultKind fault_kind(const std::string& text);
+/// The words that it understands.
+std::vector<std::string> fault_kinds();
 
 /// Reads "SIGNAL:KIND@TIME[:SIZE]", such as "encoder2:drifting@0.5:-5"; TIME in seconds. Throws SetupError
 /// with all that is wrong with it, for `robot` too.

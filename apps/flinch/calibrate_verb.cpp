@@ -8,6 +8,7 @@
 #include "calibration/threshold_calibration.h"
 #include "calibration/thresholds_output.h"
 #include "diagrams/fused_detector.h"
+#include "systems/config/file_kind.h"
 #include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
@@ -30,6 +31,7 @@ FreeMotions read_motions(const CalibrateThresholdsOptions& options, const Thresh
   std::vector<std::string> problems;
   for (const std::filesystem::path& file : options.recordings) {
     try {
+      require_no_kind(file, "a recording");
       Recording recording = open_recording(file);
       tell_if_partial(recording, options.common);
       Scenario scenario = scenario_of(recording, file);

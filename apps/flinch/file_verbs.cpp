@@ -30,6 +30,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Report recorded_report(const std::filesystem::path& file, const CommonOptions& common) {
+  require_no_kind(file, "a recording");
   const Recording recording = open_recording(file);
   tell_if_partial(recording, common);
   const Scenario scenario = scenario_of(recording, file);

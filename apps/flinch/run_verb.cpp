@@ -11,6 +11,7 @@
 #include "apps/flinch/stop_watch.h"
 #include "experiments/recorded/replay.h"
 #include "experiments/report/run_folder.h"
+#include "systems/config/file_kind.h"
 #include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recording.h"
@@ -47,6 +48,7 @@ Scenario scenario_to_replay(const Recording& recorded, const RunOptions& options
 }
 
 ExitStatus run_recorded(const RunOptions& options) {
+  require_no_kind(options.input, "a recording");
   const Recording recorded = read_recording(options.input);
   tell_if_partial(recorded, options.common);
   Scenario scenario = scenario_to_replay(recorded, options);

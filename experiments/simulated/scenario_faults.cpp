@@ -12,7 +12,7 @@ std::optional<RequestedFault> read_fault(ConfigReader& entry, const ParallelRobo
   std::string signal, kind;
   double size = 0.0;
   entry.required().text("signal", signal);
-  entry.required().text("kind", kind);
+  entry.required().word("kind", kind, fault_kinds());
   entry.required().duration("time", fault.begin, between(0.0, 3600.0));
   const bool sized = entry.has("size");
   if (sized) entry.number("size", unit::none, size);

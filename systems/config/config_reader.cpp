@@ -172,6 +172,13 @@ void ConfigReader::text(std::string_view name, std::string& value) {
   document_->add_value(found, value, unit::none);
 }
 
+void ConfigReader::word(std::string_view name, std::string& value, const std::vector<std::string>& known) {
+  const auto standard = std::find(known.begin(), known.end(), value);
+  const auto place = static_cast<std::size_t>(standard - known.begin());
+  const auto chosen = choose(name, known, standard == known.end() ? std::nullopt : std::optional(place));
+  if (chosen) value = known[*chosen];
+}
+
 void ConfigReader::words(std::string_view name, std::vector<std::string>& values,
                          const std::vector<std::string>& known) {
   const FoundValue found = document_->find(*section_, name, unit::none, required_);

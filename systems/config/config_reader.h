@@ -76,6 +76,8 @@ class ConfigReader {
   /// true or false.
   void flag(std::string_view name, bool& value);
   void text(std::string_view name, std::string& value);
+  /// One of `known`.
+  void word(std::string_view name, std::string& value, const std::vector<std::string>& known);
   /// A list of one word or more, each of them one of `known` and none twice.
   void words(std::string_view name, std::vector<std::string>& values, const std::vector<std::string>& known);
   /// A list of one value or more of any kind, as they stand there.

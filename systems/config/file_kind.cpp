@@ -65,6 +65,12 @@ const KindOfFile* kind_shown(const Keys& keys) {
   return kind == kinds().end() ? nullptr : &*kind;
 }
 
+void refuse(ConfigReader file, const KindOfFile& found, const std::string& wanted) {
+  file.leave_rest_unread();
+  file.problem("", std::string("is ") + found.is + ", not " + wanted + "; " + found.use);
+  file.finish();
+}
+
 }  // namespace
 
 std::optional<FileKind> kind_of(const std::filesystem::path& file) {
@@ -78,10 +84,13 @@ void require_kind(const ConfigReader& file, FileKind wanted) {
                                        [wanted](const KindOfFile& one) { return one.kind == wanted; });
   const KindOfFile* const found = kind_shown(keys);
   if (shows(keys, expected) || found == nullptr) return;
-  ConfigReader refused = file;
-  refused.leave_rest_unread();
-  refused.problem("", std::string("is ") + found->is + ", not " + expected.is + "; " + found->use);
-  refused.finish();
+  refuse(file, *found, expected.is);
+}
+
+void require_no_kind(const std::filesystem::path& file, const std::string& wanted) {
+  if (file.extension() != ".yaml" && file.extension() != ".yml") return;
+  const ConfigReader reader = ConfigReader::open(file);
+  if (const KindOfFile* const found = kind_shown(reader.keys())) refuse(reader, *found, wanted);
 }
 
 }  // namespace flinch

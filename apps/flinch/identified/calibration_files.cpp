@@ -12,6 +12,7 @@
 #include "calibration/calibration_output.h"
 #include "calibration/calibration_page.h"
 #include "experiments/scenario/scenario_calibrations.h"
+#include "systems/config/file_kind.h"
 #include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/foundation/sha256.h"
@@ -34,6 +35,7 @@ std::vector<OpenedRecording> open_recordings(const std::vector<std::filesystem::
   std::vector<std::string> problems;
   for (const std::filesystem::path& file : files) {
     try {
+      require_no_kind(file, "a recording");
       OpenedRecording one{{file.string(), {}}, open_recording(file), {}};
       tell_if_partial(one.recording, common);
       one.source.sha256 = sha256_of(file);

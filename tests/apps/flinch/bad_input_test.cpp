@@ -181,10 +181,19 @@ TEST_F(BadInput, RecordingWithoutItsEnd) {
 }
 
 TEST_F(BadInput, RecordingThatIsNoRecording) {
-  EXPECT_THAT(complaint({"report", place.at(collision), "--out", place.at("out/report.html")}),
-              StartsWith("error: " + place.at(collision) + ": this is no whole flinch recording"));
+  place.write("notes.txt", "not recorded by anything\n");
+  EXPECT_THAT(complaint({"report", place.at("notes.txt"), "--out", place.at("out/report.html")}),
+              StartsWith("error: " + place.at("notes.txt") + ": this is no whole flinch recording"));
   EXPECT_EQ(complaint({"report", place.at("out/none.h5")}),
             "error: " + place.at("out/none.h5") + ": there is no such file\n");
+}
+
+TEST_F(BadInput, ScenarioInThePlaceOfARecording) {
+  const std::string what = "is a scenario, not a recording; 'flinch run' runs it";
+  EXPECT_THAT(complaint({"report", place.at(collision)}), HasSubstr(what));
+  EXPECT_THAT(complaint({"run", "--station", "recorded", place.at(collision)}), HasSubstr(what));
+  EXPECT_THAT(complaint({"calibrate", "thresholds", place.at(collision), "--out", place.at("out/t.yaml")}),
+              HasSubstr(what));
 }
 
 TEST_F(BadInput, PipeThatNobodyWritesTo) {

@@ -49,6 +49,11 @@ TEST(ScenarioFaults, AreToldWithTheirPlaceWhereTheyCannotBe) {
   EXPECT_THAT(problems_with("  - {signal: drive1, kind: offf, time_s: 0.1}\n"),
               ElementsAre(HasSubstr("did you mean 'off'?")));
   EXPECT_THAT(problems_with("  - {signal: drive1, kind: off}\n"), Contains(HasSubstr("time")));
+  const std::string words = "off, stuck, noise, wrong, drifting, scaled, delayed";
+  EXPECT_THAT(problems_with("  - {signal: drive1, kind: broken, time_s: 0.1}\n"),
+              ElementsAre(testing::AllOf(HasSubstr("faults[0].kind: is 'broken'"), HasSubstr(words))));
+  EXPECT_THAT(problems_with("  - {signal: drive1, time_s: 0.1}\n"),
+              ElementsAre(testing::AllOf(HasSubstr("faults[0].kind: is missing"), HasSubstr(words))));
 }
 
 TEST(ScenarioFaults, SpoilWhatTheControlPathIsToldAndWhatIsRecorded) {
