@@ -34,11 +34,13 @@ void follow(Time now, const ConstraintLimit& limit, Time dwell, const ReactionSt
   glide.active = was_active ? now - glide.outside < dwell : !inside;
   const bool stays = state.mode == ReactionMode::hold && is_inside(limit, limit.safety, sigma);
   const bool begins = !was_active || (stays && state.entered(ReactionMode::hold, now));
-  if (!glide.active || !begins) return;
+  const bool goes_on = was_active && state.entered(ReactionMode::react, now);
+  if (!glide.active || !(begins || goes_on)) return;
   const double velocity = stays ? 0.0 : std::clamp(rate, -limit.glide.velocity, limit.glide.velocity);
+  const ScalarMotion reference = goes_on ? glide.profile.evaluate(to_seconds(now - glide.begin))
+                                         : ScalarMotion{sigma, velocity, 0.0, 0.0};
   glide.begin = now;
-  glide.profile =
-      JerkLimitedProfile::plan({sigma, velocity, 0.0, 0.0}, stays ? sigma : limit.safety, limit.glide);
+  glide.profile = JerkLimitedProfile::plan(reference, stays ? sigma : limit.safety, limit.glide);
 }
 
 TaskGoal goal_of(Time now, const Task& task, const ConstraintLimit& limit, const Glide& glide) {

@@ -128,6 +128,23 @@ TEST(ConstraintWatch, InHoldAMeasureInsideItsSafetyValueIsKeptWhereItIs) {
   }
 }
 
+TEST(ConstraintWatch, AReactionThatIsTakenUpAnewLeadsAMeasureOnFromWhereHoldKeptIt) {
+  const ConstraintSettings settings;
+  Watch watch(settings);
+  watch.at(near_singularity);
+  const double held = watch.at(near_singularity, {0, 0, 0}, ReactionMode::hold).sigma_kappa.reference;
+  for (int tick = 0; tick < 100; ++tick) watch.at(near_singularity, {0, 0, 0}, ReactionMode::hold);
+  double before = watch.at(near_singularity).sigma_kappa.reference;
+  EXPECT_NEAR(before, held, 1e-12) << "without a step";
+  EXPECT_NEAR(watch.goal(0).reference.rate[0], 0.0, 1e-12);
+  for (int tick = 0; tick < 1000; ++tick) {
+    const double now = watch.at(near_singularity).sigma_kappa.reference;
+    EXPECT_LT(std::abs(now - before), 1.01e-3 * settings.sigma_kappa.glide.velocity);
+    before = now;
+  }
+  EXPECT_DOUBLE_EQ(before, settings.sigma_kappa.safety);
+}
+
 TEST(ConstraintWatch, InHoldAMeasureBeyondItsSafetyValueIsLedBack) {
   const Eigen::Vector3d beyond(0.0, 0.0, -0.45);
   Watch watch;
