@@ -139,8 +139,8 @@ DataSet read(const std::filesystem::path& file) {
   if (says != format) {
     throw SetupError(says.starts_with("flinch contacts ")
                          ? "is a data set of another version ('" + says +
-                               "'); make it anew with `flinch dataset`"
-                         : "this is no data set of contacts; `flinch dataset` makes one");
+                               "'); make it anew with 'flinch dataset'"
+                         : "this is no data set of contacts; 'flinch dataset' makes one");
   }
   for (const std::string& name : names) data.card[name] = internal::read_text(hdf5, name);
   data.robot_file = data.card["robot.file"];

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <functional>
+#include <limits>
 #include <new>
 #include <nlohmann/json.hpp>
 
@@ -184,6 +185,7 @@ void add_campaign_verb(CLI::App& app, Verbs& verbs) {
       ->check(problem_with_seed)
       ->type_name("N");
   verb.add_option("--run", options.run, "Do only this run of the table again, with recording and report")
+      ->check(between(0, std::numeric_limits<int>::max()))
       ->type_name("NUMBER");
   verb.add_option("--classifier", options.classifier,
                   "Model (ONNX) of flinch train that tells what is touched [as the scenarios say]")

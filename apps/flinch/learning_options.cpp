@@ -40,7 +40,7 @@ void add_train_verb(CLI::App& app, Verbs& verbs) {
                             ->delimiter(',')
                             ->allow_extra_args(false)
                             ->check(between(1, 1000))
-                            ->type_name("N,N...");
+                            ->type_name("N,N");
   CLI::Option* l2 = verb.add_option("--l2", options.l2, "Weight of the squared weights [of the question]")
                         ->check(within(0.0, 1e6))
                         ->type_name("X");
@@ -64,7 +64,7 @@ void add_train_verb(CLI::App& app, Verbs& verbs) {
   verb.add_option("--configurations", options.configurations, "Only samples of these, such as 0,1 [all]")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->type_name("N,N...");
+      ->type_name("N,N");
   verb.add_option("--seed", options.seed, "Of weights and folds [1]")
       ->check(problem_with_seed)
       ->type_name("N");
@@ -89,7 +89,7 @@ void add_evaluate_verb(CLI::App& app, Verbs& verbs) {
   verb.add_option("--configurations", options.configurations, "Only samples of these, such as 1,2 [all]")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->type_name("N,N...");
+      ->type_name("N,N");
   verb.add_option("--out", options.out, "The page [DATA_MODEL.html beside the data]")->type_name("PAGE.html");
   add_threads(verb, options.threads, "At once [one a processor]");
 }

@@ -13,20 +13,21 @@
 namespace flinch {
 
 /// Checks without a name of their own, which would stand in the help beside the option's.
-inline CLI::Validator between(int low, int high) { return CLI::Range(low, high).description(""); }
-
-/// The same for real numbers; no NaN is between any.
-inline CLI::Validator within(double low, double high) {
+template <class Number>
+CLI::Validator from_to(Number low, Number high, const std::string& what) {
   return CLI::Validator(
-      [low, high](const std::string& text) {
-        double value = 0.0;
+      [low, high, what](const std::string& text) {
+        Number value{};
         const bool is_number = CLI::detail::lexical_cast(text, value);
         if (is_number && value >= low && value <= high) return std::string();
-        return "is '" + text + "'; it must be a number from " + CLI::detail::to_string(low) + " to " +
+        return "is '" + text + "'; it must be a " + what + " from " + CLI::detail::to_string(low) + " to " +
                CLI::detail::to_string(high);
       },
       "");
 }
+inline CLI::Validator between(int low, int high) { return from_to(low, high, "whole number"); }
+/// No NaN is within any.
+inline CLI::Validator within(double low, double high) { return from_to(low, high, "number"); }
 
 /// What is wrong with `text` as a seed; "" if nothing is.
 std::string problem_with_seed(const std::string& text);

@@ -79,7 +79,7 @@ TEST_F(DataSetFile, OfAnotherVersionMustBeMadeAnew) {
   });
   EXPECT_THAT(test::problems_of([&] { read_data_set(file()); }),
               testing::ElementsAre(file().string() + ": is a data set of another version ('flinch contacts "
-                                                     "1'); make it anew with `flinch dataset`"));
+                                                     "1'); make it anew with 'flinch dataset'"));
 }
 
 TEST_F(DataSetFile, SurvivesBytesThatChange) {

@@ -11,6 +11,7 @@
 #include "apps/flinch/stop_watch.h"
 #include "learning/onnx_file.h"
 #include "learning/train_classifier.h"
+#include "systems/config/file_kind.h"
 #include "systems/foundation/json_text.h"
 #include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/result_file.h"
@@ -65,6 +66,7 @@ void print_table(const TrainedClassifier& trained, const ClassifierTraining& tra
 ExitStatus train(const TrainOptions& options) {
   require_place(options.out, {options.data});
   const ClassifierTraining training = training_of(options);
+  require_no_kind(options.data, "a data set");
   const DataSet data = read_data_set(options.data);
   const StopWatch watch;
   TrainedClassifier trained;

@@ -115,7 +115,7 @@ TEST_F(FileVerbs, CheckClassifiersAndWhatMakesTheirData) {
       0);
   const std::string recording = place.at("out/run.h5");
   EXPECT_EQ(flinch({"train", recording, "-o", place.at("model.onnx")}).err,
-            "error: " + recording + ": this is no data set of contacts; `flinch dataset` makes one\n");
+            "error: " + recording + ": this is no data set of contacts; 'flinch dataset' makes one\n");
 }
 #endif
 
