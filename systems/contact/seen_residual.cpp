@@ -47,9 +47,12 @@ void see_hold(const DriveLoad& then, const DriveLoad& fresh, const LoadHistory& 
   const DriveLoad* const before = past.last_before(then.acquired);
   if (after == nullptr || before == nullptr || sampling.interrupted(before->acquired, after->acquired))
     return;
-  level.slope = (after->torque - before->torque) / to_seconds(after->acquired - before->acquired);
-  if (then.acquired < after->acquired)
-    level.rising = driven_doubt(then.acquired - before->acquired) * (after->torque - before->torque);
+  const Time hold = after->acquired - before->acquired;
+  level.slope = (after->torque - before->torque) / to_seconds(hold);
+  if (then.acquired == after->acquired) return;
+  const bool tick_lost = hold > sampling.period + sampling.period / 2;  // of its torque nothing is known
+  const double doubt = tick_lost ? 1.0 : driven_doubt(then.acquired - before->acquired);
+  level.rising = doubt * (after->torque - before->torque);
 }
 
 /// Passes a load through the filters of an answer, which have settled on it where it is the first one; `T` is

@@ -155,6 +155,23 @@ TEST(SeenResidual, DoubtsHowFarTheDrivesHaveGoneSoonAfterATick) {
   }
 }
 
+// Nobody says when within the gap the torque changed.
+TEST(SeenResidual, DoubtsTheWholeStepWhereATickIsLost) {
+  LoadHistory past;
+  ResidualMemory memory, next;
+  for (const int k : {1, 2, 3, 5, 6}) {
+    DriveLoad load = at_rest;
+    load.acquired = k * 1ms;
+    load.torque[0] = k < 5 ? 1.0 : 3.0;
+    WrenchEstimate estimate = estimate_of(Eigen::Vector3d::Zero());
+    estimate.acquired = load.acquired - (k == 5 ? 1200us : 50us);
+    follow_residual(estimate, load, past, load.acquired, {}, memory, next);
+    past.push(load);
+    memory = next;
+    EXPECT_EQ(memory.seen.level.rising[0], k == 5 ? 2.0 : 0.0) << k;
+  }
+}
+
 TEST(SeenResidual, OfADisturbanceFilterLivesOnTheTicks) {
   Follower follower(three_poles);
   DriveLoad load = at_rest;
