@@ -58,7 +58,7 @@ void ContactWatch::note_braking(const RunSample& now) {
 
 void ContactWatch::note_task(const RunSample& now) {
   ContactVerdict& contact = contacts_.back();
-  if (!now.task.valid || !contact.detected) return;
+  if (!now.task.valid || !contact.detected || now.mode == ReactionMode::hold) return;
   std::vector<TaskBegin>& tasks = contact.reaction_tasks;
   if (tasks.empty() || tasks.back().task != now.task) tasks.push_back({now.task, now.time});
 }

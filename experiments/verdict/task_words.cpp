@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 namespace flinch {
 namespace {
@@ -19,10 +20,10 @@ const char* word(ReactionKind kind) {
 }
 
 std::string in_words(const FollowedTask& task) {
-  const std::string leg = std::to_string(task.leg + 1);
+  const std::string leg = std::to_string(std::int64_t{task.leg} + 1);
   switch (task.kind) {
     case brake:
-      break;
+      return "is braked and yields";
     case retreat:
       return "goes back the way it came, class or direction not known";
     case platform:
@@ -34,7 +35,7 @@ std::string in_words(const FollowedTask& task) {
     case opening:
       return "opens leg " + leg;
   }
-  return "is braked and yields";
+  return "does what is not known";
 }
 
 std::vector<FollowedTask> followed_tasks(int legs) {

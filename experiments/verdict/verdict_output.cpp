@@ -35,7 +35,7 @@ Json reaction_tasks_json(const ContactVerdict& contact) {
   Json tasks = Json::array();
   for (const auto& [task, time] : contact.reaction_tasks) {
     tasks.push_back({{"task", word(task.kind)},
-                     {"leg", task.leg < 0 ? Json(nullptr) : Json(task.leg + 1)},
+                     {"leg", task.leg < 0 ? Json(nullptr) : Json(std::int64_t{task.leg} + 1)},
                      {"ms", milliseconds(contact.onset, time)}});
   }
   return tasks;
@@ -105,7 +105,7 @@ std::string classified_line(const ContactVerdict& contact) {
 std::string reaction_lines(const ContactVerdict& contact) {
   std::string lines;
   for (const auto& [task, time] : contact.reaction_tasks)
-    lines += fmt::format("  {} after {:.1f} ms\n", in_words(task), 1e3 * (time - contact.onset));
+    lines += fmt::format("  after {:.1f} ms it {}\n", 1e3 * (time - contact.onset), in_words(task));
   return lines;
 }
 

@@ -57,11 +57,13 @@ TEST(ContactWatch, KnowsNoDurationOfAStopThatIsNotPossible) {
   EXPECT_EQ(contact.stop_duration, std::nullopt);
 }
 
-// From the detection on: what went on before was about another contact.
+// From the detection on, and not of a place that is held: what led there was about another contact.
 TEST(ContactWatch, TellsOfEachContactWhichTasksTheReactionFollowed) {
   const FollowedTask braked{true, ReactionKind::brake, -1}, retreats{true, ReactionKind::retreat, -1};
   SyntheticRun run = touched_twice();
   for (int k = 110; k < 700; ++k) run.at(k).task = k < 112 ? braked : retreats;
+  for (int k = 110; k < 700; ++k)
+    run.at(k).reaction.mode = k >= 300 && k < 415 ? ReactionMode::hold : ReactionMode::react;
   const Verdict verdict = judged(run);
   const std::vector<TaskBegin>& first = verdict.contacts.at(0).reaction_tasks;
   ASSERT_EQ(first.size(), 2U);
@@ -70,7 +72,7 @@ TEST(ContactWatch, TellsOfEachContactWhichTasksTheReactionFollowed) {
   EXPECT_NEAR(first[1].time, 0.112, 1e-9);
   const std::vector<TaskBegin>& second = verdict.contacts.at(1).reaction_tasks;
   ASSERT_EQ(second.size(), 1U);
-  EXPECT_NEAR(second[0].time, 0.410, 1e-9);
+  EXPECT_NEAR(second[0].time, 0.415, 1e-9);
 }
 
 TEST(ContactWatch, SaysNothingOfAStopThatNobodyJudged) {

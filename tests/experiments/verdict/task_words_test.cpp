@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <set>
 
 namespace flinch {
@@ -20,6 +21,8 @@ TEST(TheWordsOfATask, CountLegsFromOne) {
 
 TEST(TheWordsOfATask, AreUnknownForANumberThatNoTaskHas) {
   EXPECT_STREQ(word(static_cast<ReactionKind>(200)), "unknown");
+  EXPECT_EQ(in_words({true, static_cast<ReactionKind>(200), 0}), "does what is not known");
+  EXPECT_EQ(in_words({true, ReactionKind::opening, std::numeric_limits<int>::max()}), "opens leg 2147483648");
 }
 
 }  // namespace

@@ -69,10 +69,10 @@ TEST(VerdictOutput, TellsWhatTheReactionDid) {
   EXPECT_THAT(verdict_json(verdict, {}), HasSubstr(R"("reaction_tasks":[])"));
   verdict.contacts[0].reaction_tasks = {{{true, ReactionKind::retreat, -1}, 0.525},
                                         {{true, ReactionKind::opening, 1}, 0.75}};
-  EXPECT_THAT(
-      verdict_table(verdict, {}),
-      ::testing::AllOf(HasSubstr("  goes back the way it came, class or direction not known after 25.0 ms\n"),
-                       HasSubstr("  opens leg 2 after 250.0 ms\n")));
+  EXPECT_THAT(verdict_table(verdict, {}),
+              ::testing::AllOf(
+                  HasSubstr("  after 25.0 ms it goes back the way it came, class or direction not known\n"),
+                  HasSubstr("  after 250.0 ms it opens leg 2\n")));
   const auto tasks = nlohmann::json::parse(verdict_json(verdict, {}))["contacts"][0]["reaction_tasks"];
   ASSERT_EQ(tasks.size(), 2U);
   EXPECT_EQ(tasks[0]["task"], "retreat");
