@@ -68,7 +68,7 @@ LawPorts add_reaction_with(const StageSite& site, TaskLevel level, const Constra
   builder.connect(given.location, task.location);
   LawPorts law = add_controller(site, level, constraints, ConstraintWatch::Role::reacting, given,
                                 {task.goals, task.reference});
-  law.task = task.served;
+  law.task = task.followed_task;
   return law;
 }
 

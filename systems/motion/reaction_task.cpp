@@ -191,8 +191,8 @@ double ReactionTask::force_along(const PlatformVector& way, const PlatformVector
   return wrench.dot(way) / farthest_moved(space, way, largest_reach(at, space.translations()));
 }
 
-bool ReactionTask::is_pushed_on(Time now, const ReactionPlan& plan, const Kinematics& at,
-                                const Dynamics& model, const WrenchEstimate& contact) const {
+bool ReactionTask::is_pushed_against(Time now, const ReactionPlan& plan, const Kinematics& at,
+                                     const Dynamics& model, const WrenchEstimate& contact) const {
   const VectorMotion wanted = plan.motion.evaluate(to_seconds(now - plan.begin));
   if (!at.valid || !model.valid || !wanted.valid) return true;
   if (!contact.valid || contact.wrench_in_base.size() != robot_->dof()) return true;
@@ -307,7 +307,7 @@ void ReactionTask::plan(Time now, const ReactionPlan& last, const TravelledPath&
     next = ReactionPlan();
     classify(at, contact, touched, place, next);
     const bool goes_on = !begins && last.kind == ReactionKind::retreat && next.kind == ReactionKind::brake &&
-                         !is_pushed_on(now, last, at, model, contact);
+                         !is_pushed_against(now, last, at, model, contact);
     if (!goes_on) {
       if (next.kind == ReactionKind::brake) go_back(travelled, at, contact, next);
       begin(now, at, model, contact, next);

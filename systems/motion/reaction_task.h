@@ -61,8 +61,8 @@ inline constexpr bool never_allocates<ReactionPlan> =
 /// Where the class is not accepted, or the force has no direction yet, the platform goes straight back to
 /// where it was `displacement` before, if what it feels pushes it there: it has run into something, and was
 /// free of it there, whatever was touched. Otherwise the list has no task: the robot is braked. For
-/// `decide_within` after the detection it may still be decided, and whoever is not pushed back any more is
-/// braked. When the motion is over nobody goes back. (Derived.)
+/// `decide_within` after the detection it may still be decided, and whoever is pushed against his way back,
+/// or does not know by what, is braked. When the motion is over nobody goes back. (Derived.)
 /// Displacements of legs are opposite to those printed, which press a first link against what it clamps.
 class ReactionTask final : public System {
   State<ReactionPlan> last_ = state<ReactionPlan>("last");
@@ -87,7 +87,7 @@ class ReactionTask final : public System {
  public:
   OutputPort<TaskList> goals = output<&ReactionTask::lead>("goals", clock, plan_, kinematics);
   OutputPort<ReactionKind> kind = output<&ReactionTask::kind_of>("kind", plan_);
-  OutputPort<FollowedTask> served = output<&ReactionTask::tell>("served", reaction, plan_);
+  OutputPort<FollowedTask> followed_task = output<&ReactionTask::tell>("followed_task", reaction, plan_);
   /// `finished` when it holds a place; where there is nothing to give way to, when that is decided. Tasks
   /// leave part of the pose free, and constraints come before a place that is held: the pose is the measured
   /// one.
@@ -117,8 +117,8 @@ class ReactionTask final : public System {
   double force_along(const PlatformVector& way, const PlatformVector& wrench, const Kinematics& at) const;
   /// What is felt pushes against the way of a retreat, by more than its own acceleration makes the robot feel
   /// where its model is a little wrong; or is not known.
-  bool is_pushed_on(Time now, const ReactionPlan& plan, const Kinematics& at, const Dynamics& model,
-                    const WrenchEstimate& contact) const;
+  bool is_pushed_against(Time now, const ReactionPlan& plan, const Kinematics& at, const Dynamics& model,
+                         const WrenchEstimate& contact) const;
   void begin(Time now, const Kinematics& at, const Dynamics& model, const WrenchEstimate& contact,
              ReactionPlan& plan) const;
   /// Plans from `task`, moving with `rate`.

@@ -97,7 +97,7 @@ TEST(Retreat, WhatIsHardlyFeltLeadsNobodyBack) {
   }
 }
 
-TEST(Retreat, WhoIsNotPushedBackAnyMoreIsBrakedAtOnce) {
+TEST(Retreat, WhoIsPushedAgainstHisWayIsBrakedAtOnce) {
   RanIntoSomething robot;
   robot.go_on(5ms);
   EXPECT_EQ(robot.kind(), ReactionKind::retreat);
@@ -124,6 +124,33 @@ TEST(Retreat, WhatItsOwnAccelerationMakesTheRobotFeelStopsNobodyAPushStopsHim) {
     EXPECT_GT(most, 1.0) << "N: the test means something";
     EXPECT_EQ(robot.kind(), error > -0.1 ? ReactionKind::retreat : ReactionKind::brake) << error;
   }
+}
+
+// What it may feel of its own acceleration hides a weaker push for as long as the acceleration lasts.
+TEST(Retreat, WhoIsPushedFromBehindByEightNewtonIsBrakedWithin50Milliseconds) {
+  for (const double newton : {8.0, 11.0}) {
+    RanIntoSomething robot;
+    robot.go_on(5ms);
+    robot.know(-1, -newton / against.head<2>().norm() * Eigen::Vector3d(against[0], against[1], 0.0),
+               robot.at, v);
+    Time braked{};
+    while (braked < 1000ms && robot.kind() == ReactionKind::retreat) {
+      robot.go_on();
+      braked += 1ms;
+    }
+    std::printf("pushed from behind by %2.0f N: braked after %lld ms\n", newton,
+                static_cast<long long>(braked / 1ms));
+    EXPECT_LE(braked, 50ms) << newton;
+  }
+}
+
+TEST(Retreat, WhoDoesNotKnowWhatHeFeelsIsBraked) {
+  RanIntoSomething robot;
+  robot.go_on(5ms);
+  ASSERT_EQ(robot.kind(), ReactionKind::retreat);
+  robot.ticking.set(robot.estimate, WrenchEstimate{});
+  robot.go_on();
+  EXPECT_EQ(robot.kind(), ReactionKind::brake);
 }
 
 // What is felt then pushes it to where it was touched first.
@@ -169,9 +196,9 @@ TEST(Retreat, AClassThatBecomesKnownWithinTheTimeIsFollowedInItsPlaceLaterOnesAr
 TEST(Retreat, IsToldFromTheDetectionOn) {
   Travelling robot(v);
   robot.know(-1, against, robot.at, v);
-  EXPECT_FALSE(robot.ticking.get(robot.block.served).valid) << "nothing was noticed yet";
+  EXPECT_FALSE(robot.ticking.get(robot.block.followed_task).valid) << "nothing was noticed yet";
   robot.begin();
-  EXPECT_EQ(robot.ticking.get(robot.block.served), (FollowedTask{true, ReactionKind::retreat, -1}));
+  EXPECT_EQ(robot.ticking.get(robot.block.followed_task), (FollowedTask{true, ReactionKind::retreat, -1}));
 }
 
 TEST(Retreat, OneThatLeadsIntoSomethingIsDecidedAnew) {
