@@ -10,7 +10,7 @@ namespace flinch {
 struct ErrorSample {
   double squared = 0.0;  ///< [Nm^2 or N^2]
   ErrorFeatures features{};
-  double known = 0.0;  ///< part of its variance that needs not be found [Nm^2 or N^2]
+  double known = 0.0;  ///< part of its variance that need not be found [Nm^2 or N^2]
 };
 
 /// The sizes of errors under which these samples, taken as normal and independent, are most likely. What does

@@ -6,9 +6,9 @@
 
 namespace flinch {
 
-/// Drives are commanded at ticks and hold what they reach. Some reach it at once, the slowest evenly in this
-/// time; which of them they are, nobody says. In the middle they are as late in the mean as a current loop
-/// with a bandwidth of 1 kHz. (Derived.)
+/// Drives are commanded at ticks and hold what they reach. Some reach it at once, some evenly in this time;
+/// which of them they are, nobody says. In the middle they are as late in the mean as a current loop with a
+/// bandwidth of 1 kHz; slower loops are left to the lag that is calibrated. (Derived.)
 inline constexpr Time drive_rise = 600us;
 
 /// How far, `since_tick` after a tick, the drives have gone from the torque of that tick to that of the
