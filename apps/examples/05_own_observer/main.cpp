@@ -11,34 +11,23 @@
 
 using namespace flinch;
 
-namespace {
-
-bool compare() {
-  SimulatedScenario scenario = read_simulated_scenario("apps/scenarios/platform_collision.yaml");
-  scenario.control.stages.estimators.follow(my_observer(40.0));  // twice as fast as flinch's of this scenario
-
-  const Recording recording = run_experiment(scenario);
-  const RunFolder own = make_run_folder("out/example_05");
-  const Verdict verdict = conclude_run(scenario, recording, "out/example_05");  // run.h5, report.html
-  std::printf("%s", verdict_table(verdict, {.wall = 0.0, .seed = scenario.seed}).c_str());
-
-  const SimulatedScenario as_shipped = read_simulated_scenario(scenario.file);
-  const Verdict flinchs_own = judge(run_experiment(as_shipped), as_shipped.robot.robot->space(), {}, {});
-  const auto delay = [](const Verdict& seen) {
-    const ContactVerdict& contact = seen.contacts.at(0);
-    return contact.detected.value_or(1.0) - contact.onset;
-  };
-  std::printf("my observer: %.1f ms, flinch's: %.1f ms\n", 1e3 * delay(verdict), 1e3 * delay(flinchs_own));
-  return verdict.good() && delay(verdict) < delay(flinchs_own);
+static double delay(const Verdict& seen) {
+  const ContactVerdict& contact = seen.contacts.at(0);
+  return contact.detected.value_or(1.0) - contact.onset;
 }
 
-}  // namespace
+int main() try {
+  SimulatedScenario scenario = read_simulated_scenario("apps/scenarios/platform_collision.yaml");
+  const Verdict flinchs_own = judge_experiment(scenario);
+  scenario.control.stages.estimators.follow(my_observer(40.0));  // twice as fast as flinch's of this scenario
 
-int main() {
-  try {
-    return compare() ? 0 : 1;
-  } catch (const SetupError& error) {  // says all that is wrong
-    std::fprintf(stderr, "error: %s\n", error.what());
-    return 2;
-  }
+  const RunFolder own = make_run_folder("out/example_05");
+  const Verdict verdict =
+      conclude_run(scenario, run_experiment(scenario), "out/example_05");  // run.h5, report.html
+  std::printf("%s", verdict_table(verdict, {.wall = 0.0, .seed = scenario.seed}).c_str());
+  std::printf("my observer: %.1f ms, flinch's: %.1f ms\n", 1e3 * delay(verdict), 1e3 * delay(flinchs_own));
+  return verdict.good() && delay(verdict) < delay(flinchs_own) ? 0 : 1;
+} catch (const SetupError& error) {  // says all that is wrong
+  std::fprintf(stderr, "error: %s\n", error.what());
+  return 2;
 }

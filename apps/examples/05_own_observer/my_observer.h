@@ -28,14 +28,14 @@ class MyObserver final : public flinch::System {
   flinch::InputPort<flinch::DriveTorque> torque = input<flinch::DriveTorque>("torque");
 
  private:
-  flinch::OutputPort<Prediction> next_ =
-      output<&MyObserver::predict>("next", clock, last_, kinematics, dynamics, torque);
+  flinch::Intermediate<Prediction> next_ =
+      intermediate<&MyObserver::predict>("next", clock, last_, kinematics, dynamics, torque);
 
  public:
   flinch::OutputPort<flinch::WrenchEstimate> wrench = output<&MyObserver::read>("wrench", next_);
 
  private:
-  flinch::Update remember_ = update<&MyObserver::remember>(last_, next_);
+  flinch::Update remember_ = keep(last_, next_);
 
   Prediction predict(flinch::Time now, const Prediction& last, const flinch::Kinematics& at,
                      const flinch::Dynamics& model, const flinch::DriveTorque& drives) const {
@@ -54,7 +54,6 @@ class MyObserver final : public flinch::System {
     return next;
   }
   flinch::WrenchEstimate read(const Prediction& next) const { return next.estimate; }
-  Prediction remember(const Prediction& next) const { return next; }
 
   double k_;
 };
