@@ -45,21 +45,22 @@ FeatureSet features_for(const ClassifierModel& model, const DataSet& data) {
         "the metadata of the model do not say which question it answers; 'flinch.question' must be touched, "
         "body, clamping or chain");
   }
-  FeatureSet features(question_named(question), data.robot);
-  Findings found;
+  const Question asked = question_named(question);
   const std::string fitted = value_of(model, "robot.fingerprint");
   if (!fitted.empty() && fitted != fingerprint(data.robot_text, data.robot_file)) {
-    found.add(fmt::format(
+    throw SetupError(fmt::format(
         "the model was trained for the robot '{}', the data are of '{}', or of one with other parameters; "
         "train it anew with data of this robot",
         value_of(model, "robot.name"), data.robot->name()));
   }
+  FeatureSet features(asked, data.robot);
   const std::string told = value_of(model, "features.check");
-  if (fitted == fingerprint(data.robot_text, data.robot_file) && !told.empty() && told != features.check()) {
-    found.add(
+  if (!fitted.empty() && !told.empty() && told != features.check()) {
+    throw SetupError(
         "the features that the model was trained with were made otherwise, by another version of flinch; "
         "train it anew");
   }
+  Findings found;
   compare(model.features, features.names(), "feature", found);
   compare(model.classes, features.classes(), "class", found);
   throw_if_any(found.take());

@@ -9,8 +9,9 @@ namespace flinch {
 /// with other features than this version's.
 void check_features(const ClassifierModel& model);
 
-/// How the questions of a model are asked about a data set. Throws SetupError with all that speaks against
-/// it: another robot, features in another order, other classes.
+/// How the questions of a model are asked about a data set. Throws SetupError where they cannot be: about
+/// another robot or by features of another version, which is all that is told then; or else with all features
+/// and classes that are others.
 FeatureSet features_for(const ClassifierModel& model, const DataSet& data);
 
 }  // namespace flinch

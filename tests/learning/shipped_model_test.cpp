@@ -4,7 +4,9 @@
 #include "learning/evaluation.h"
 #include "learning/model_questions.h"
 #include "learning/onnx_file.h"
+#include "systems/config/robot_file.h"
 #include "tests/learning/contact_examples.h"
+#include "tests/support/file_bytes.h"
 #include "tests/support/problems_of.h"
 
 namespace flinch {
@@ -27,6 +29,32 @@ TEST(ShippedModel, IsRefusedWithoutARobotWhereItsFeaturesAreThoseOfAnotherVersio
               testing::ElementsAre(testing::HasSubstr(" of the model is missing and must be ")));
   model.provenance["question"] = "body";
   EXPECT_NO_THROW(check_features(model)) << "its features are those of a robot";
+}
+
+/// Without samples; it has another number of legs and other bodies.
+DataSet of_five_bar() {
+  const std::string file = FLINCH_SOURCE_DIR "/apps/robots/five_bar.yaml";
+  DataSet data;
+  data.robot_file = file;
+  data.robot_text = test::bytes_of(file);
+  data.robot = parse_robot_file(data.robot_text, file).robot;
+  return data;
+}
+
+TEST(ShippedModel, IsRefusedOnceForAnotherRobot) {
+  EXPECT_THAT(
+      test::problems_of([] { features_for(shipped(), of_five_bar()); }),
+      testing::ElementsAre("the model was trained for the robot 'planar 3-RRR bench', the data are of "
+                           "'five-bar', or of one with other parameters; train it anew with data of "
+                           "this robot"));
+}
+
+TEST(ShippedModel, IsRefusedOnceWhereItsFeaturesWereMadeOtherwise) {
+  ClassifierModel model = shipped();
+  model.provenance["features.check"] = "1";
+  model.features.pop_back();
+  EXPECT_THAT(test::problems_of([&] { features_for(model, test::contact_examples(1, 1)); }),
+              testing::ElementsAre(testing::HasSubstr("by another version of flinch")));
 }
 
 TEST(ShippedModel, TellsContactsThatNoSimulationMade) {
