@@ -11,33 +11,25 @@
 #include <set>
 #include <thread>
 
+#include "learning/folds.h"
 #include "systems/contact/wrench_uncertainty.h"
+#include "systems/foundation/nearest_name.h"
 #include "systems/foundation/setup_error.h"
-#include "systems/framework/random.h"
 
 namespace flinch {
 namespace {
 
-/// The fold of each question: runs are dealt out in an order that follows from the seed.
-std::vector<int> folds_of(const TrainingSet& set, int folds, std::uint64_t seed) {
-  std::vector<int> groups(set.groups);
-  std::sort(groups.begin(), groups.end());
-  groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
-  if (groups.size() < static_cast<std::size_t>(folds)) {
-    throw SetupError(
-        fmt::format("there are {} runs to learn from; {} folds need at least as many", groups.size(), folds));
+const std::vector<std::string> folds_names = {"run", "configuration"};
+
+/// The fold of each question. What is kept together, a run or a configuration, is dealt out.
+std::vector<int> folds_of(const Questions& questions, const DataSet& data, const ClassifierTraining& training,
+                          std::uint64_t seed) {
+  std::vector<int> groups = questions.set.groups;
+  if (training.folds_by == FoldsBy::configuration) {
+    std::transform(questions.samples.begin(), questions.samples.end(), groups.begin(),
+                   [&data](std::size_t sample) { return data.samples[sample].configuration; });
   }
-  RandomGenerator random(derive_seed(seed, "folds"));
-  std::vector<std::size_t> place(groups.size());
-  for (std::size_t i = 0; i < place.size(); ++i) place[i] = i;
-  for (std::size_t i = place.size(); i > 1; --i) std::swap(place[i - 1], place[random() % i]);
-  std::vector<int> fold;
-  for (const int group : set.groups) {
-    const auto found = std::lower_bound(groups.begin(), groups.end(), group) - groups.begin();
-    fold.push_back(
-        static_cast<int>(place[static_cast<std::size_t>(found)] % static_cast<std::size_t>(folds)));
-  }
-  return fold;
+  return folds_of_groups(groups, training.folds, seed, name_of(training.folds_by) + "s");
 }
 
 Questions in_fold(const Questions& questions, const std::vector<int>& fold, int number, bool is_in) {
@@ -150,6 +142,7 @@ void describe(const DataSet& data, const ClassifierTraining& training, const Fea
                       {"hidden_layers", fmt::format("{}", fmt::join(settings.hidden, ", "))},
                       {"l2", fmt::format("{}", settings.l2)},
                       {"epochs", fmt::format("{}", settings.epochs)},
+                      {"folds_by", name_of(training.folds_by)},
                       {"seed", fmt::format("{}", settings.seed)},
                       {"temperature", fmt::format("{:.4f}", result.temperature)},
                       {"cross_validated_accuracy",
@@ -158,6 +151,15 @@ void describe(const DataSet& data, const ClassifierTraining& training, const Fea
 }
 
 }  // namespace
+
+std::string name_of(FoldsBy folds_by) { return folds_names[static_cast<std::size_t>(folds_by)]; }
+
+FoldsBy folds_by_named(const std::string& name) {
+  const auto found = std::find(folds_names.begin(), folds_names.end(), name);
+  if (found == folds_names.end())
+    throw SetupError("'" + name + "' is neither run nor configuration" + did_you_mean(name, folds_names));
+  return static_cast<FoldsBy>(found - folds_names.begin());
+}
 
 TrainingSettings standard_settings(Question question) {
   TrainingSettings settings;
@@ -216,7 +218,7 @@ TrainedClassifier train_classifier(const DataSet& data, const ClassifierTraining
     throw SetupError("the data hold fewer than two of the classes that '" + name_of(training.question) +
                      "' is about");
   }
-  const std::vector<int> fold = folds_of(questions.set, training.folds, candidates.front().seed);
+  const std::vector<int> fold = folds_of(questions, data, training, candidates.front().seed);
   const auto folds = static_cast<std::size_t>(training.folds);
 
   std::vector<std::vector<Answered>> parts(candidates.size() * folds);

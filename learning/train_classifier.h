@@ -9,11 +9,21 @@
 
 namespace flinch {
 
+/// What a fold keeps together. By run a cross-validation tells how well contacts are told where others were
+/// learned from in the same configuration; by configuration, where none was.
+enum class FoldsBy { run, configuration };
+
+/// "run", "configuration".
+std::string name_of(FoldsBy folds_by);
+/// Throws SetupError with the names that there are.
+FoldsBy folds_by_named(const std::string& name);
+
 /// How a classifier is made from a data set.
 struct ClassifierTraining {
   Question question = Question::touched;
   std::vector<TrainingSettings> candidates;  ///< the best in cross-validation is taken; one: no search
-  int folds = 5;                             ///< of the cross-validation, by runs
+  int folds = 5;                             ///< of the cross-validation
+  FoldsBy folds_by = FoldsBy::run;           ///< of which none is in two folds
   SampleFilter filter;
   /// Largest share of wrong answers among those that are believed; from which confidence on that holds is
   /// found in the cross-validation.
@@ -40,7 +50,7 @@ struct TrainedClassifier {
 /// The size (WrenchUncertainty::size) that 19 of 20 wrenches of `samples` have at least; 0 without any.
 double least_wrench_of(const DataSet& data, const std::vector<std::size_t>& samples);
 
-/// Trains in folds that keep runs together: each candidate on all folds but one, asked about that one. From
+/// Trains in folds that keep runs, or configurations, together: each candidate on all folds but one, asked about that one. From
 /// the answers of the best come temperature (Guo et al., ICML 2017) and acceptance; then it is trained on
 /// all. The same bits for any number of threads. Throws SetupError for data that cannot be learned from.
 TrainedClassifier train_classifier(const DataSet& data, const ClassifierTraining& training,

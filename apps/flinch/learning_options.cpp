@@ -61,6 +61,9 @@ void add_train_verb(CLI::App& app, Verbs& verbs) {
   verb.add_option("--folds", options.folds, "Of the cross-validation [5]")
       ->check(between(2, 100))
       ->type_name("N");
+  verb.add_option("--folds-by", options.folds_by,
+                  "What no two folds share: run, or configuration, of which there must be several [run]")
+      ->type_name("NAME");
   verb.add_option("--configurations", options.configurations, "Only samples of these, such as 0,1 [all]")
       ->delimiter(',')
       ->allow_extra_args(false)

@@ -37,6 +37,7 @@ struct TrainOptions {
   std::optional<std::size_t> threads;
   std::vector<int> configurations;
   int folds = 5;
+  std::string folds_by = "run";
   bool grid = false;
 };
 

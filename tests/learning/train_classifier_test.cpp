@@ -1,6 +1,8 @@
 #include "learning/train_classifier.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
 
 #include "learning/model_questions.h"
 #include "learning/onnx_file.h"
@@ -70,6 +72,37 @@ TEST(TrainClassifier, TakesTheBestOfItsCandidates) {
   EXPECT_EQ(trained.settings.learning_rate, training.candidates[1].learning_rate);
   EXPECT_EQ(trained.accuracies.size(), 3U);
   EXPECT_GT(trained.accuracies[1], trained.accuracies[0]);
+}
+
+/// Contacts that one wrench in each configuration gives away, and nothing besides.
+DataSet contacts_known_by_heart() {
+  DataSet data = test::contact_examples(600, 1);
+  const ContactClasses classes = classes_of(*data.robot);
+  for (std::size_t i = 0; i < data.samples.size(); ++i) {
+    DataSample& sample = data.samples[i];
+    sample.configuration = static_cast<int>(i % 12);
+    sample.touched = (5 * sample.configuration) % classes.bodies();
+    sample.pose = data.robot->home_pose();
+    const double angle = 2.0 * M_PI * sample.configuration / 12.0;
+    for (CourseMoment& moment : sample.course)
+      moment.wrench_in_base = Eigen::Vector3d(30.0 * std::cos(angle), 30.0 * std::sin(angle), 0.0);
+  }
+  return data;
+}
+
+TEST(TrainClassifier, AsksAboutConfigurationsThatItHasNotLearnedFromWhereFoldsAreByConfiguration) {
+  const DataSet data = contacts_known_by_heart();
+  ClassifierTraining training = quick(Question::body);
+  training.candidates.front().learning_rate = 1e-2;
+  EXPECT_GT(train_classifier(data, training).accuracies.front(), 0.95);
+  training.folds_by = FoldsBy::configuration;
+  const TrainedClassifier trained = train_classifier(data, training);
+  EXPECT_LT(trained.accuracies.front(), 0.3);
+  EXPECT_EQ(trained.model.provenance.at("folds_by"), "configuration");
+  training.folds = 13;
+  EXPECT_THAT(
+      test::problems_of([&] { train_classifier(data, training); }),
+      testing::ElementsAre("there are 12 configurations to learn from; 13 folds need at least as many"));
 }
 
 TEST(TrainClassifier, HasTheGridOfThePapers) {

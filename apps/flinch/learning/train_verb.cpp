@@ -34,6 +34,7 @@ ClassifierTraining training_of(const TrainOptions& options) {
   settings.seed = options.seed.value_or(settings.seed);
   training.candidates = options.grid ? paper_grid(settings) : std::vector{settings};
   training.folds = options.folds;
+  training.folds_by = out_of("--folds-by", [&] { return folds_by_named(options.folds_by); });
   training.filter.configurations = options.configurations;
   training.threads = options.threads.value_or(0);
   throw_if_any(problems_with(settings));
@@ -52,8 +53,9 @@ void print_table(const TrainedClassifier& trained, const ClassifierTraining& tra
   const Evaluation& expected = trained.expected;
   fmt::print("question:           {}\nhidden layers:      {}\nsamples:            {}\n",
              name_of(training.question), fmt::join(trained.settings.hidden, ", "), expected.samples);
-  fmt::print("accuracy:           {:.2f} %, balanced over classes, in {} folds that keep runs together\n",
-             100.0 * expected.confusion.balanced_accuracy().value_or(0.0), training.folds);
+  fmt::print("accuracy:           {:.2f} %, balanced over classes, in {} folds that keep {}s together\n",
+             100.0 * expected.confusion.balanced_accuracy().value_or(0.0), training.folds,
+             name_of(training.folds_by));
   fmt::print("calibration error:  {:.4f} at temperature {:.3f}\n", expected.calibration_error,
              trained.temperature);
   fmt::print("accepted from:      {:.3f}; below are {:.1f} %, of the others {:.2f} % are wrong\n",

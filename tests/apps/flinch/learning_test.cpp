@@ -122,6 +122,9 @@ TEST_F(LearningVerbs, SayOnceWhatIsWrongWithAFile) {
   EXPECT_EQ(other.status, 2);
   EXPECT_THAT(other.err, HasSubstr("did you mean 'chain'?"));
   EXPECT_FALSE(std::filesystem::exists(place.at("x.onnx")));
+  const Outcome folds = flinch({"train", data(), "-o", place.at("x.onnx"), "--folds-by", "configurations"});
+  EXPECT_EQ(folds.status, 2);
+  EXPECT_THAT(folds.err, HasSubstr("did you mean 'configuration'?"));
 }
 
 }  // namespace
