@@ -10,6 +10,7 @@
 #include "systems/foundation/fnv1a.h"
 #include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/foundation/sha256.h"
 #include "systems/framework/hdf5_object.h"
 
 namespace flinch {
@@ -208,7 +209,9 @@ void write_data_set(const DataSet& data, const std::filesystem::path& file) {
 }
 
 DataSet read_data_set(const std::filesystem::path& file) {
-  return out_of(file.string(), [&file] { return read(file); });
+  DataSet data = out_of(file.string(), [&file] { return read(file); });
+  data.sha256 = sha256_of(file);
+  return data;
 }
 
 }  // namespace flinch

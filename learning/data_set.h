@@ -42,8 +42,9 @@ struct DataSet {
   std::string robot_file;  ///< its name, for people
   std::string robot_text;
   std::shared_ptr<const ParallelRobot> robot;
-  /// What made it: title, spec, seed, version, counts.
+  /// What made it: title, specification, seed, version, counts.
   std::map<std::string, std::string> card;
+  std::string sha256;  ///< of the file that it was read from; "": of none
   std::vector<DataSample> samples;
 };
 

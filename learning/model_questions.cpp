@@ -2,6 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <sstream>
+
 #include "systems/contact/evidence_features.h"
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
@@ -25,6 +28,22 @@ void compare(const std::vector<std::string>& of_model, const std::vector<std::st
                           what, i + 1, mine, right));
     return;
   }
+}
+
+std::string card_of(const DataSet& data, const std::string& key) {
+  const auto found = data.card.find(key);
+  return found == data.card.end() ? "" : found->second;
+}
+
+/// Configurations as they stand in the metadata, "0, 2"; none means all, on either side.
+bool share_one(const std::string& learned, const std::vector<int>& asked) {
+  if (learned.empty() || asked.empty()) return true;
+  std::istringstream numbers(learned);
+  for (std::string number; std::getline(numbers >> std::ws, number, ',');) {
+    if (std::any_of(asked.begin(), asked.end(), [&](int each) { return std::to_string(each) == number; }))
+      return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -65,6 +84,21 @@ FeatureSet features_for(const ClassifierModel& model, const DataSet& data) {
   compare(model.classes, features.classes(), "class", found);
   throw_if_any(found.take());
   return features;
+}
+
+std::string warning_of_learned(const ClassifierModel& model, const DataSet& data,
+                               const std::vector<int>& configurations) {
+  const auto is_of_model = [&model](const std::string& key, const std::string& value) {
+    return !value.empty() && value_of(model, key) == value;
+  };
+  const bool is_same_draw =
+      is_of_model("data.title", card_of(data, "title")) && is_of_model("data.seed", card_of(data, "seed"));
+  const bool is_same_file = is_of_model("data.sha256", data.sha256);
+  if (!is_same_file && !is_same_draw) return "";
+  if (!share_one(value_of(model, "data.configurations"), configurations)) return "";
+  return std::string("the model has learned from ") +
+         (is_same_file ? "these data" : "data of the same title and seed") +
+         "; the figures tell what it remembers, not how well it does with contacts that are new to it";
 }
 
 }  // namespace flinch

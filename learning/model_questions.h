@@ -14,4 +14,10 @@ void check_features(const ClassifierModel& model);
 /// and classes that are others.
 FeatureSet features_for(const ClassifierModel& model, const DataSet& data);
 
+/// One sentence where the model has learned from the data, or from data of the same title and seed, of which
+/// the smaller are part of the larger, and in one of the `configurations` (empty: all); "" otherwise, and
+/// where the model does not say.
+std::string warning_of_learned(const ClassifierModel& model, const DataSet& data,
+                               const std::vector<int>& configurations);
+
 }  // namespace flinch

@@ -130,10 +130,13 @@ void describe(const DataSet& data, const ClassifierTraining& training, const Fea
     const auto found = data.card.find(key);
     return found == data.card.end() ? std::string() : found->second;
   };
+  const std::string configurations = fmt::format("{}", fmt::join(training.filter.configurations, ", "));
   model.provenance = {{"question", name_of(training.question)},
                       {"robot.name", data.robot->name()},
                       {"robot.fingerprint", fingerprint(data.robot_text, data.robot_file)},
                       {"features.check", features.check()},
+                      {"data.sha256", data.sha256},
+                      {"data.configurations", configurations},
                       {"data.title", card("title")},
                       {"data.seed", card("seed")},
                       {"data.runs", card("runs")},
@@ -141,7 +144,10 @@ void describe(const DataSet& data, const ClassifierTraining& training, const Fea
                       {"flinch.version", FLINCH_VERSION},
                       {"hidden_layers", fmt::format("{}", fmt::join(settings.hidden, ", "))},
                       {"l2", fmt::format("{}", settings.l2)},
+                      {"learning_rate", fmt::format("{}", settings.learning_rate)},
                       {"epochs", fmt::format("{}", settings.epochs)},
+                      {"batch", fmt::format("{}", settings.batch)},
+                      {"folds", fmt::format("{}", training.folds)},
                       {"folds_by", name_of(training.folds_by)},
                       {"seed", fmt::format("{}", settings.seed)},
                       {"temperature", fmt::format("{:.4f}", result.temperature)},

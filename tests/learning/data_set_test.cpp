@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "systems/config/robot_file.h"
+#include "systems/foundation/sha256.h"
 #include "systems/framework/hdf5_object.h"
 #include "systems/framework/random.h"
 #include "tests/learning/contact_examples.h"
@@ -33,6 +34,7 @@ TEST_F(DataSetFile, ComesBackBitForBitFromItsFile) {
   EXPECT_EQ(read.card, data.card);
   EXPECT_EQ(read.robot_text, data.robot_text);
   EXPECT_EQ(read.robot_file, data.robot_file);
+  EXPECT_EQ(read.sha256, sha256(test::bytes_of(file)));
   ASSERT_EQ(read.samples.size(), data.samples.size());
   for (std::size_t i = 0; i < data.samples.size(); ++i) {
     const DataSample &a = read.samples[i], &b = data.samples[i];

@@ -105,6 +105,23 @@ TEST(TrainClassifier, AsksAboutConfigurationsThatItHasNotLearnedFromWhereFoldsAr
       testing::ElementsAre("there are 12 configurations to learn from; 13 folds need at least as many"));
 }
 
+TEST(TrainClassifier, TellsWhatItWasTrainedWith) {
+  DataSet data = test::contact_examples(100, 1);
+  data.sha256 = std::string(64, '7');
+  ClassifierTraining training = quick(Question::body);
+  training.candidates.front().epochs = 1;
+  training.candidates.front().batch = 128;
+  training.filter.configurations = {0, 2};
+  const std::string bytes = onnx_bytes(train_classifier(data, training).model);
+  const auto told = parse_onnx(bytes, "model.onnx").provenance;
+  EXPECT_EQ(told.at("data.sha256"), data.sha256);
+  EXPECT_EQ(told.at("data.configurations"), "0, 2");
+  EXPECT_EQ(told.at("learning_rate"), "0.001");
+  EXPECT_EQ(told.at("batch"), "128");
+  EXPECT_EQ(told.at("folds"), "3");
+  EXPECT_EQ(told.at("folds_by"), "run");
+}
+
 TEST(TrainClassifier, HasTheGridOfThePapers) {
   const auto grid = paper_grid(standard_settings(Question::body));
   EXPECT_EQ(grid.size(), 80U);
@@ -162,6 +179,42 @@ TEST(FeaturesFor, RefusesOtherRobotsAndFeaturesInAnotherOrder) {
   swapped.provenance.erase("question");
   EXPECT_THAT(test::problems_of([&] { features_for(swapped, data); }),
               testing::ElementsAre(testing::HasSubstr("do not say which question it answers")));
+}
+
+ClassifierModel learned_from(const std::map<std::string, std::string>& provenance) {
+  ClassifierModel model;
+  model.provenance = provenance;
+  return model;
+}
+
+TEST(WarningOfLearned, KnowsDataByTheirFileAndByTheirTitleAndSeed) {
+  DataSet data = test::contact_examples(1, 1);  // title "Examples", seed 1
+  data.sha256 = "abc";
+  const auto warning = [&data](const std::map<std::string, std::string>& provenance) {
+    return warning_of_learned(learned_from(provenance), data, {});
+  };
+  EXPECT_EQ(warning({{"data.sha256", "abc"}}),
+            "the model has learned from these data; the figures tell what it remembers, not how well it does "
+            "with contacts that are new to it");
+  EXPECT_THAT(warning({{"data.title", "Examples"}, {"data.seed", "1"}}),
+              testing::StartsWith("the model has learned from data of the same title and seed; "));
+  EXPECT_EQ(warning({{"data.sha256", "abd"}}), "");
+  EXPECT_EQ(warning({{"data.title", "Examples"}, {"data.seed", "2"}}), "");
+  EXPECT_EQ(warning({{"data.title", "Others"}, {"data.seed", "1"}}), "");
+  EXPECT_EQ(warning({}), "") << "a model that does not say";
+  data.sha256.clear();
+  data.card.erase("seed");
+  EXPECT_EQ(warning({{"data.sha256", ""}, {"data.title", "Examples"}, {"data.seed", ""}}), "")
+      << "recordings";
+}
+
+TEST(WarningOfLearned, IsNotGivenForOtherConfigurations) {
+  const DataSet data = test::contact_examples(1, 1);
+  const ClassifierModel model =
+      learned_from({{"data.title", "Examples"}, {"data.seed", "1"}, {"data.configurations", "0, 12"}});
+  EXPECT_EQ(warning_of_learned(model, data, {1, 2}), "");
+  EXPECT_NE(warning_of_learned(model, data, {2, 12}), "");
+  EXPECT_NE(warning_of_learned(model, data, {}), "");
 }
 
 }  // namespace

@@ -58,6 +58,8 @@ ExitStatus evaluate(const EvaluateOptions& options) {
   const ClassifierModel model = read_onnx(options.model);
   const DataSet data = read_data_set(options.data);
   const FeatureSet features = out_of(options.model.string(), [&] { return features_for(model, data); });
+  const std::string learned = warning_of_learned(model, data, options.configurations);
+  if (!learned.empty()) fmt::print(stderr, "warning: {}: {}\n", options.data.string(), learned);
   const NeuralNetwork network(model.network);
   const std::string moment = options.at.empty() ? standard_moment(data) : options.at;
   check_moment(moment);

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -16,8 +17,10 @@ namespace {
 
 using test::flinch;
 using test::Outcome;
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// A small data set and its model.
 class LearningVerbs : public ::testing::Test {
@@ -70,6 +73,32 @@ TEST_F(LearningVerbs, EvaluateWithTheKeysOfTheDocument) {
   const Outcome misspelt = evaluate({"--at", "erly"});
   EXPECT_EQ(misspelt.status, 2);
   EXPECT_THAT(misspelt.err, HasSubstr("did you mean 'early'?"));
+}
+
+TEST_F(LearningVerbs, WarnWhereAModelIsAskedWhatItHasLearned) {
+  EXPECT_THAT(evaluate({"--quiet"}).err,
+              AllOf(HasSubstr("warning: " + data() + ": the model has learned from these data; "),
+                    Not(HasSubstr("same title"))));
+  const Outcome shipped =
+      flinch({"evaluate", FLINCH_SOURCE_DIR "/apps/models/bodies.onnx", data(), "--quiet"});
+  EXPECT_EQ(shipped.status, 0) << shipped.err;
+  EXPECT_EQ(shipped.err, "") << "it has learned from contacts of seed 1, these are of seed 5";
+}
+
+TEST_F(LearningVerbs, SayOnceThatAModelIsForAnotherRobot) {
+  ASSERT_EQ(
+      flinch({"run", place.at("scenarios/five_bar_collision.yaml"), "--out", place.at("five_bar"), "--quiet"})
+          .status,
+      0);
+  place.write("five_bar.yaml", "recordings: [{file: five_bar/run.h5, touched: platform}]\n");
+  const Outcome made_of =
+      flinch({"dataset", place.at("five_bar.yaml"), "--out", place.at("five_bar.h5"), "--quiet"});
+  ASSERT_EQ(made_of.status, 0) << made_of.err;
+  const Outcome other =
+      flinch({"evaluate", FLINCH_SOURCE_DIR "/apps/models/bodies.onnx", place.at("five_bar.h5")});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.err, HasSubstr("train it anew with data of this robot"));
+  EXPECT_EQ(std::count(other.err.begin(), other.err.end(), '\n'), 1) << other.err;
 }
 
 TEST_F(LearningVerbs, MakeAModelThatARunCanFollow) {
