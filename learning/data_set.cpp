@@ -186,11 +186,11 @@ std::string counts_table(const DataSet& data) {
     runs.insert(sample.run);
   }
   std::string text =
-      fmt::format("{:<16} {:<16} {:>8} {:>10}\n", "configuration", "touched", "runs", "samples");
+      fmt::format("{:<20} {:<16} {:>8} {:>10}\n", "configuration", "touched", "runs", "samples");
   for (const auto& [place, count] : counts) {
     const std::string where =
-        is_each ? std::to_string(place.first) : fmt::format("any of {}", configurations.size());
-    text += fmt::format("{:<16} {:<16} {:>8} {:>10}\n", where, classes.name(place.second),
+        is_each ? std::to_string(place.first) : fmt::format("all {} together", configurations.size());
+    text += fmt::format("{:<20} {:<16} {:>8} {:>10}\n", where, classes.name(place.second),
                         count.second.size(), count.first);
   }
   return text;

@@ -153,7 +153,7 @@ std::string reject_chart(const Evaluation& chosen) {
 std::string card_of(const std::map<std::string, std::string>& values) {
   std::string html = "<dl class=\"made\">";
   for (const auto& [key, value] : values) {
-    if (key == "counts" || value.empty()) continue;
+    if (key == "counts" || key.ends_with(".text") || value.empty()) continue;
     html += "<dt>" + escaped(key) + "</dt><dd>" + escaped(value) + "</dd>\n";
   }
   return html + "</dl>\n";

@@ -183,7 +183,8 @@ Campaign read_campaign(const std::filesystem::path& file, const CampaignOverride
   campaign.file = file;
   campaign.name = file.stem().string();
   campaign.title = campaign.name;
-  ConfigReader reader = ConfigReader::open(file);
+  campaign.file_text = read_config_file(file);
+  ConfigReader reader = ConfigReader::parse(campaign.file_text, file.string());
   require_kind(reader, FileKind::campaign);
   reader.text("title", campaign.title);
   reader.text("description", campaign.description);
@@ -220,8 +221,10 @@ Campaign read_campaign(const std::filesystem::path& file, const CampaignOverride
   for (const std::filesystem::path& file_of_scenario : campaign.scenarios) {
     campaign.scenario_texts.push_back(read_config_file(file_of_scenario));
     campaign.scenario_nodes.push_back(parse_yaml(campaign.scenario_texts.back(), file_of_scenario.string()));
-    campaign.robot_texts.push_back(
-        parse_scenario(campaign.scenario_nodes.back(), file_of_scenario, *campaign.robots).robot_text);
+    const Scenario scenario =
+        parse_scenario(campaign.scenario_nodes.back(), file_of_scenario, *campaign.robots);
+    campaign.robot_texts.push_back(scenario.robot_text);
+    for (const ParameterFile& found : scenario.calibrations) campaign.robot_texts.push_back(found.text);
   }
   return campaign;
 }

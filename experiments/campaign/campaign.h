@@ -61,6 +61,7 @@ struct CampaignAddition {
 /// Many runs of scenarios that differ in some of their keys. docs/files.md has the keys of the file.
 struct Campaign {
   std::filesystem::path file;
+  std::string file_text;
   std::string name;  ///< the file's name without ".yaml"
   std::string title;
   std::string description;
@@ -74,7 +75,7 @@ struct Campaign {
   std::vector<std::filesystem::path> scenarios;
   std::vector<std::string> scenario_texts;
   std::vector<std::shared_ptr<const ConfigNode>> scenario_nodes;  ///< of these texts
-  std::vector<std::string> robot_texts;
+  std::vector<std::string> robot_texts;  ///< and those of the calibrations that robot or scenario name
   std::vector<CampaignAxis> grid;
   std::vector<CampaignDraw> drawn;
   std::optional<CampaignContact> contact;

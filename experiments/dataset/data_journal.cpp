@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <cstring>
-#include <optional>
 #include <utility>
 
 #include "experiments/dataset/data_spec.h"
@@ -134,6 +133,20 @@ void DataJournal::read(const std::string& header, const ParallelRobot& robot) {
                        ": holds a run of another length than its samples; begin anew with --fresh");
     runs_.insert(*run);
   }
+}
+
+std::optional<std::size_t> DataJournal::first_with_samples() const {
+  for (const auto& [run, samples] : runs_)
+    if (!samples.samples.empty()) return run;
+  return std::nullopt;
+}
+
+void DataJournal::require_same(std::size_t run, const ContactSamples& made) const {
+  if (frame_of(run, runs_.at(run)) == frame_of(run, made)) return;
+  throw SetupError(
+      fmt::format("{}: run {} comes out otherwise now: another build of the program has made it, or "
+                  "what the runs are made of has changed; begin anew with --fresh",
+                  file_.string(), run));
 }
 
 void DataJournal::add(std::size_t run, const ContactSamples& samples) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <optional>
 
 #include "experiments/dataset/contact_samples.h"
 
@@ -22,6 +23,13 @@ class DataJournal {
 
   /// What is done, by number of the run.
   const std::map<std::size_t, ContactSamples>& runs() const { return runs_; }
+
+  /// The first run that is done and has samples.
+  std::optional<std::size_t> first_with_samples() const;
+
+  /// Throws SetupError where the run that is done has other samples than when it is `made` again: another
+  /// build of the program has made the journal, or files have changed that the specification does not know.
+  void require_same(std::size_t run, const ContactSamples& made) const;
 
   /// Throws SetupError where the disk does not take it.
   void add(std::size_t run, const ContactSamples& samples);

@@ -3,10 +3,12 @@
 #include <algorithm>
 
 #include "experiments/campaign/campaign_run.h"
+#include "systems/config/config_file.h"
 #include "systems/config/config_reader.h"
 #include "systems/config/file_kind.h"
 #include "systems/config/parsed.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/foundation/sha256.h"
 #include "systems/framework/random.h"
 
 namespace flinch {
@@ -41,6 +43,7 @@ DataRecording read_recording_entry(ConfigReader& reader) {
   reader.required().file("file", recording.file);
   reader.text("touched", recording.touched);
   reader.integer("configuration", recording.configuration, 0, 1'000'000);
+  recording.sha256 = sha256_of(recording.file);
   return recording;
 }
 
@@ -61,14 +64,19 @@ std::string DataSpec::identity() const {
   for (const DataPart& part : parts) {
     text += "part " + std::to_string(part.share) + " " + part.configuration + "\n" + part.campaign.identity();
   }
+  for (const DataRecording& recording : recordings) {
+    text += "recording " + recording.sha256 + " " + recording.touched + " " +
+            std::to_string(recording.configuration) + "\n";
+  }
   return text;
 }
 
 DataSpec read_data_spec(const std::filesystem::path& file, const DataSpecOverrides& overrides) {
   DataSpec spec;
   spec.file = file;
+  spec.file_text = read_config_file(file);
   spec.title = file.stem().string();
-  ConfigReader reader = ConfigReader::open(file);
+  ConfigReader reader = ConfigReader::parse(spec.file_text, file.string());
   require_kind(reader, FileKind::data_spec);
   reader.text("title", spec.title);
   reader.text("description", spec.description);

@@ -31,6 +31,7 @@ struct DataPart {
 /// Contacts from a recording of a robot, real or simulated.
 struct DataRecording {
   std::filesystem::path file;
+  std::string sha256;   ///< of the file
   std::string touched;  ///< name of the class; "": the truth that the recording holds
   int configuration = 0;
 };
@@ -38,6 +39,7 @@ struct DataRecording {
 /// What a data set is made of. docs/files.md has the keys of the file.
 struct DataSpec {
   std::filesystem::path file;
+  std::string file_text;
   std::string title, description;
   std::uint64_t seed = 1;
   std::size_t runs = 1000;  ///< of all parts together

@@ -17,6 +17,7 @@
 #include "experiments/simulated/experiment.h"
 #include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/foundation/sha256.h"
 #include "systems/framework/recording.h"
 
 namespace flinch {
@@ -163,12 +164,37 @@ void add_recordings(const DataSpec& spec, DataSet& data) {
   }
 }
 
+/// The files that decide about the data, as they were read before the first run.
+void add_sources(const DataSpec& spec, DataSet& data) {
+  const auto add = [&data](const std::string& name, const std::filesystem::path& file,
+                           const std::string& text) {
+    data.card[name + ".file"] = file.filename().string();
+    data.card[name + ".text"] = text;
+  };
+  data.card["identity"] = sha256(spec.identity());
+  add("spec", spec.file, spec.file_text);
+  for (std::size_t i = 0; i < spec.parts.size(); ++i) {
+    const Campaign& campaign = spec.parts[i].campaign;
+    const std::string name = fmt::format("campaign.{}", i + 1);
+    add(name, campaign.file, campaign.file_text);
+    for (std::size_t k = 0; k < campaign.scenarios.size(); ++k)
+      add(fmt::format("{}.scenario.{}", name, k + 1), campaign.scenarios[k], campaign.scenario_texts[k]);
+  }
+  for (std::size_t i = 0; i < spec.recordings.size(); ++i) {
+    const std::string name = fmt::format("recording.{}", i + 1);
+    data.card[name + ".file"] = spec.recordings[i].file.filename().string();
+    data.card[name + ".sha256"] = spec.recordings[i].sha256;
+  }
+}
+
 void add_card(const DataSpec& spec, const std::map<std::string, std::size_t>& left_out, DataSet& data) {
   data.card["title"] = spec.title;
   data.card["description"] = spec.description;
-  data.card["spec.file"] = spec.file.filename().string();
-  data.card["seed"] = std::to_string(spec.seed);
-  data.card["runs"] = std::to_string(spec.runs);
+  add_sources(spec, data);
+  if (!spec.parts.empty()) {  // of what is simulated
+    data.card["seed"] = std::to_string(spec.seed);
+    data.card["runs"] = std::to_string(spec.runs);
+  }
   data.card["flinch.version"] = FLINCH_VERSION;
   data.card["wrench"] = spec.samples.wrench;
   data.card["counts"] = counts_table(data);
@@ -205,6 +231,8 @@ DataSet make_data_set(const DataSpec& spec, const std::filesystem::path& file, s
                       const DataProgress& progress) {
   DataSet data = without_samples(spec);
   DataJournal journal(file.string() + ".part", spec, *data.robot);
+  if (const auto done = journal.first_with_samples())
+    journal.require_same(*done, simulate_contact(spec, *done));
   if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
   if (!spec.parts.empty()) Workers(spec, journal).run(threads, progress);
   std::map<std::string, std::size_t> left_out;

@@ -24,8 +24,9 @@ ContactSamples simulate_contact(const DataSpec& spec, std::size_t number);
 
 /// Makes the data set on `threads` threads (0: one a processor) and writes it to `file`; the same bits for
 /// any number of threads. Until it is whole, `file`.part keeps the runs that are done, from which the same
-/// call goes on. Throws SetupError for runs that cannot be made, for recordings that are no good or of
-/// another robot, and where it was stopped.
+/// call goes on; before that one of them is made again, and must be the same. Throws SetupError where it is
+/// not, for runs that cannot be made, for recordings that are no good or of another robot, and where it was
+/// stopped.
 DataSet make_data_set(const DataSpec& spec, const std::filesystem::path& file, std::size_t threads = 0,
                       const DataProgress& progress = {});
 

@@ -119,9 +119,22 @@ TEST(DataSet, CountsRunsAndSamplesOfEveryClass) {
     data.samples[i].configuration = 1;
   }
   EXPECT_EQ(counts_table(data),
-            "configuration    touched              runs    samples\n"
-            "1                platform                1          2\n"
-            "1                leg1_clamping           1          1\n");
+            "configuration        touched              runs    samples\n"
+            "1                    platform                1          2\n"
+            "1                    leg1_clamping           1          1\n");
+}
+
+TEST(DataSet, SaysThatItCountsMoreThanTenConfigurationsTogether) {
+  DataSet data = test::contact_examples(11, 1);
+  for (std::size_t i = 0; i < data.samples.size(); ++i) {
+    data.samples[i].touched = 0;
+    data.samples[i].configuration = static_cast<int>(i);
+  }
+  EXPECT_EQ(counts_table(data),
+            "configuration        touched              runs    samples\n"
+            "all 11 together      platform               11         11\n");
+  data.samples.pop_back();
+  EXPECT_THAT(counts_table(data), testing::HasSubstr("\n9                    platform                1"));
 }
 
 }  // namespace

@@ -42,16 +42,17 @@ ExitStatus dataset(const DatasetOptions& options) {
     });
   }
   std::signal(SIGINT, SIG_DFL);
+  const std::size_t runs = (spec.parts.empty() ? 0 : spec.runs) + spec.recordings.size();
   if (options.common.json) {
     const nlohmann::ordered_json summary = {{"data", file.string()},
-                                            {"runs", spec.runs},
+                                            {"runs", runs},
                                             {"samples", data.samples.size()},
                                             {"seed", spec.seed},
                                             {"wall_s", watch.seconds()}};
     fmt::print("{}\n", json_text(summary));
     return ExitStatus::done;
   }
-  fmt::print("{}: {} runs, {} samples, {:.1f} s\n\n{}", spec.title, spec.runs, data.samples.size(),
+  fmt::print("{}: {} runs, {} samples, {:.1f} s\n\n{}", spec.title, runs, data.samples.size(),
              watch.seconds(), counts_table(data));
   if (!data.card["left_out"].empty()) fmt::print("\nruns that were left out\n{}", data.card["left_out"]);
   if (!options.common.quiet) fmt::print(stderr, "data:      {}\n", file.string());

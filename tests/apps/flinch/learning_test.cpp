@@ -94,6 +94,7 @@ TEST_F(LearningVerbs, SayOnceThatAModelIsForAnotherRobot) {
   const Outcome made_of =
       flinch({"dataset", place.at("five_bar.yaml"), "--out", place.at("five_bar.h5"), "--quiet"});
   ASSERT_EQ(made_of.status, 0) << made_of.err;
+  EXPECT_THAT(made_of.out, HasSubstr(": 1 runs, "));
   const Outcome other =
       flinch({"evaluate", FLINCH_SOURCE_DIR "/apps/models/bodies.onnx", place.at("five_bar.h5")});
   EXPECT_EQ(other.status, 2);

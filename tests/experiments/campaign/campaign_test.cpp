@@ -5,6 +5,7 @@
 
 #include "experiments/campaign/campaign_run.h"
 #include "systems/config/config_node.h"
+#include "systems/config/parameter_file.h"
 #include "systems/config/yaml_text.h"
 #include "systems/foundation/setup_error.h"
 #include "tests/experiments/campaign/small_campaign.h"
@@ -167,6 +168,28 @@ TEST(TheIdentityOfACampaign, ChangesWithWhateverDecidesAboutItsResults) {
   EXPECT_NE(read_campaign(file, {.set = {"motion.speed_m_per_s=0.5"}}).identity(), campaign.identity());
   place.replace("robots/planar_3rrr.yaml", "# The platform. Its", "# The platform, whose");
   EXPECT_NE(read_campaign(file).identity(), campaign.identity()) << "the file of the robot counts, too";
+}
+
+TEST(Campaign, HasAnotherIdentityWithAnotherCalibrationOfItsRobot) {
+  const test::Workplace place;
+  test::small_campaign(place);
+  const std::string robot = test::bytes_of(place / "robots/planar_3rrr.yaml");
+  place.write("robots/planar_3rrr.yaml", robot + "\ncalibrations: [{file: found.yaml}]\n");
+  const auto identity = [&](double constant) {
+    ParameterFile found;
+    found.kind = "torque-constant";
+    found.date = "2026-11-22";
+    found.robot = {"planar_3rrr.yaml", calibrated_robot_hash(robot)};
+    for (int i = 0; i < 3; ++i) {
+      found.parameters.push_back({.name = "drives.torque_constant_Nm_per_A[" + std::to_string(i) + "]",
+                                  .value = constant,
+                                  .belongs_to = "robot"});
+    }
+    place.write("robots/found.yaml", parameter_file_text(found));
+    return read_campaign(place / "campaigns/small.yaml").identity();
+  };
+  EXPECT_EQ(identity(7.0), identity(7.0));
+  EXPECT_NE(identity(7.0), identity(7.1));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "experiments/simulated/experiment.h"
 #include "experiments/simulated/simulated_scenario.h"
 #include "systems/foundation/fnv1a.h"
+#include "systems/foundation/sha256.h"
 #include "systems/framework/recording.h"
 #include "tests/support/problems_of.h"
 #include "tests/support/workplace.h"
@@ -52,6 +53,38 @@ TEST_F(MakeDataSet, GoesOnWhereItWasStopped) {
   place.write("part.h5.part", left);
   EXPECT_THAT(test::problems_of([&] { make_data_set(few(8, 3), place / "part.h5", 1); }),
               testing::ElementsAre(testing::HasSubstr("holds the samples of another specification")));
+}
+
+TEST_F(MakeDataSet, GoesOnWithNoRunThatComesOutOtherwise) {
+  EXPECT_FALSE(test::problems_of([&] {
+                 make_data_set(few(8), place / "part.h5", 1, [](std::size_t done) { return done < 3; });
+               }).empty());
+  const std::string left = test::bytes_of(place / "part.h5.part");
+  const std::size_t first = left.find('\n') + 1;
+  std::uint64_t start[2] = {0, 0};
+  std::memcpy(start, left.data() + first, sizeof start);
+  std::string frame = left.substr(first + sizeof start, start[0]);
+  frame.back() = static_cast<char>(frame.back() ^ 1);  // the sign or exponent of one number
+  start[1] = fnv1a(frame);
+  place.write("part.h5.part", left.substr(0, first) +
+                                  std::string(reinterpret_cast<const char*>(start), sizeof start) + frame);
+  EXPECT_THAT(test::problems_of([&] { make_data_set(few(8), place / "part.h5", 1); }),
+              testing::ElementsAre(testing::HasSubstr("part.h5.part: run 0 comes out otherwise now")));
+}
+
+TEST_F(MakeDataSet, KeepsTheTextsThatDecideAboutTheData) {
+  make_data_set(few(2), place / "data.h5", 2);
+  const auto card = read_data_set(place / "data.h5").card;
+  const auto shipped = [](const std::string& file) {
+    return test::bytes_of(FLINCH_SOURCE_DIR "/apps/models/" + file);
+  };
+  EXPECT_EQ(card.at("spec.text"), shipped("bodies.yaml"));
+  EXPECT_EQ(card.at("campaign.2.file"), "clamped.yaml");
+  EXPECT_EQ(card.at("campaign.2.text"), shipped("bodies/clamped.yaml"));
+  EXPECT_EQ(card.at("campaign.2.scenario.1.file"), "moving_robot.yaml");
+  EXPECT_EQ(card.at("campaign.2.scenario.1.text"), shipped("bodies/moving_robot.yaml"));
+  EXPECT_EQ(card.at("campaign.5.scenario.1.text"), shipped("bodies/held_robot.yaml"));
+  EXPECT_EQ(card.at("identity"), sha256(few(2).identity()));
 }
 
 TEST_F(MakeDataSet, SaysWhatToDoWithRunsOfAnotherLayout) {
@@ -128,6 +161,8 @@ TEST_F(MakeDataSet, TakesLabelledRecordings) {
         << "the label, or else the truth";
     EXPECT_EQ(sample.configuration, sample.run == 0 ? 4 : 0);
   }
+  EXPECT_EQ(data.card.at("recording.1.sha256"), sha256(test::bytes_of(place / "run.h5")));
+  EXPECT_FALSE(data.card.contains("seed")) << "nothing was drawn";
   place.write("spec.yaml", "recordings: [{file: run.h5, touched: leg2_link3}]\n");
   EXPECT_THAT(
       test::problems_of([&] { make_data_set(read_data_spec(place / "spec.yaml"), place / "data.h5", 1); }),
@@ -144,6 +179,29 @@ TEST_F(MakeDataSet, RefusesPartsOfAnotherRobot) {
   EXPECT_THAT(
       test::problems_of([&] { make_data_set(read_data_spec(place / "spec.yaml"), place / "data.h5", 1); }),
       testing::ElementsAre(testing::HasSubstr("b.h5: is of another robot than what stands before it")));
+}
+
+TEST(DataSpec, HasTheIdentityOfWhatItIsMadeOf) {
+  const test::Workplace place;
+  const auto identity = [&place](const std::string& spec) {
+    place.write("spec.yaml", spec);
+    return read_data_spec(place / "spec.yaml").identity();
+  };
+  place.write("run.h5", "one");
+  place.write("campaign.yaml", "scenario: scenarios/platform_collision.yaml\nruns: 2\n");
+  const std::string spec =
+      "runs: 9\ncontacts: [{campaign: campaign.yaml}]\nrecordings: [{file: run.h5, touched: platform}]\n";
+  const std::string before = identity(spec);
+  EXPECT_EQ(identity("title: other words\n" + spec), before);
+  EXPECT_NE(identity("seed: 2\n" + spec), before);
+  EXPECT_NE(identity("samples: {every: 2}\n" + spec), before);
+  place.write("run.h5", "two");
+  EXPECT_NE(identity(spec), before) << "another recording";
+  place.write("run.h5", "one");
+  EXPECT_EQ(identity(spec), before);
+  const std::string robot = test::bytes_of(place / "robots/planar_3rrr.yaml");
+  place.write("robots/planar_3rrr.yaml", robot + "\n# another word\n");
+  EXPECT_NE(identity(spec), before) << "another robot file";
 }
 
 TEST(DataSpec, NamesAllThatIsWrong) {
