@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "learning/onnx_graph.h"
+#include "systems/foundation/nearest_name.h"
 #include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/readable_file.h"
 #include "systems/foundation/result_file.h"
@@ -214,6 +215,17 @@ const onnx::TensorProto* constant_of(const onnx::NodeProto& node) {
   return nullptr;
 }
 
+void require_one_output(const onnx::GraphProto& graph) {
+  if (graph.output_size() == 1) return;
+  std::vector<std::string> names;
+  for (const onnx::ValueInfoProto& output : graph.output()) names.push_back("'" + output.name() + "'");
+  throw SetupError(
+      "the graph has " + std::to_string(names.size()) + " outputs" + (names.empty() ? "" : ": ") +
+      listed(names) +
+      "; it must have 1, the probabilities: leave out the others when exporting (skl2onnx: the option "
+      "zipmap=False, then select_model_inputs_outputs(model, 'probabilities'))");
+}
+
 OnnxGraph graph_of(const onnx::ModelProto& model) {
   const onnx::GraphProto& proto = model.graph();
   OnnxGraph graph;
@@ -227,8 +239,7 @@ OnnxGraph graph_of(const onnx::ModelProto& model) {
       throw SetupError("the graph has several inputs: '" + graph.input + "', '" + input.name() + "'");
     graph.input = input.name();
   }
-  if (proto.output_size() != 1)
-    throw SetupError("the graph has " + std::to_string(proto.output_size()) + " outputs; it must have 1");
+  require_one_output(proto);
   graph.output = proto.output(0).name();
   for (int i = 0; i < proto.node_size(); ++i) {
     const onnx::NodeProto& node = proto.node(i);

@@ -18,6 +18,7 @@ class Assembly {
 
   void add(const OnnxNode& node) {
     node_ = &node;
+    if (node.type == "Identity" || node.type == "Cast") return hand_on();
     if (is_finished_) fail("stands after the softmax, which must be the last");
     if (node.type == "Gemm") return add_gemm();
     if (node.type == "MatMul") return add_product();
@@ -28,7 +29,7 @@ class Assembly {
     if (node.type == "Relu") return activate(Activation::relu);
     if (node.type == "Sigmoid") return activate(Activation::sigmoid);
     if (node.type == "Softmax") return finish();
-    fail("is none of Sub, Div, Gemm, MatMul, Add, Tanh, Relu, Sigmoid, Softmax");
+    fail("is none of Sub, Div, Gemm, MatMul, Add, Tanh, Relu, Sigmoid, Softmax, Identity, Cast");
   }
 
   NetworkParameters take() {
@@ -162,6 +163,15 @@ class Assembly {
     if (scale.size() == 0) scale.setOnes(inputs);
     if (mean.size() == 1) mean = Eigen::VectorXd::Constant(inputs, mean[0]);
     if (scale.size() == 1) scale = Eigen::VectorXd::Constant(inputs, scale[0]);
+  }
+
+  /// What other programs leave in a graph though it computes nothing.
+  void hand_on() {
+    need_inputs(1, 1);
+    need_value();
+    const double type = number("to", 1.0);
+    if (type != 1.0 && type != 11.0) fail("makes other numbers than float (1) or double (11)");
+    pass_on();
   }
 
   void activate(Activation activation) {

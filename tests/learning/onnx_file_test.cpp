@@ -109,6 +109,17 @@ TEST(OnnxFile, RefusesToWriteAModelThatIsNotWhole) {
                                    "the class 'collision' is named twice"));
 }
 
+TEST(OnnxFile, NamesTheOutputsWhereThereAreSeveral) {
+  // Messages that follow one another are merged: ModelProto.graph (7) with a GraphProto.output (12) more.
+  const std::string label = "\x3a\x09\x62\x07\x0a\x05label";
+  EXPECT_THAT(
+      test::problems_of([&] { parse_onnx(onnx_bytes(example()) + label, "model.onnx"); }),
+      testing::ElementsAre(
+          "model.onnx: the graph has 2 outputs: 'probabilities', 'label'; it must have 1, the "
+          "probabilities: leave out the others when exporting (skl2onnx: the option zipmap=False, then "
+          "select_model_inputs_outputs(model, 'probabilities'))"));
+}
+
 // ---------------------------------------------------------------- graphs of other programs
 
 OnnxTensor tensor(const Eigen::MatrixXd& values) { return {2, values}; }
@@ -144,6 +155,22 @@ TEST(OnnxGraph, ComputesWhatItsNodesSay) {
   EXPECT_NEAR(outputs(0, 0), 1.0 / (1.0 + std::exp(-12.0)), 1e-14);
 }
 
+TEST(OnnxGraph, ServesTheLayoutOfScikitLearnsNetworks) {
+  OnnxGraph graph = foreign();
+  graph.nodes.front().inputs.front() = "cast_input";
+  graph.nodes.insert(graph.nodes.begin(), {"Cast", "Cast", {"x"}, "cast_input", {{"to", 1.0}}});
+  graph.nodes.back().output = "out_activations_result";
+  graph.nodes.push_back({"Identity", "Identity", {"out_activations_result"}, "y", {}});
+  const NeuralNetwork network(network_of(graph)), same(network_of(foreign()));
+  NeuralNetwork::Values outputs, wanted;
+  ASSERT_TRUE(network.evaluate(Eigen::Vector2d(3.0, 2.0), outputs));
+  ASSERT_TRUE(same.evaluate(Eigen::Vector2d(3.0, 2.0), wanted));
+  EXPECT_EQ(outputs, wanted);
+  graph.nodes.front().numbers["to"] = 7.0;
+  EXPECT_THAT(test::problems_of([&] { network_of(graph); }),
+              testing::ElementsAre("node 'Cast' (Cast) makes other numbers than float (1) or double (11)"));
+}
+
 TEST(OnnxGraph, NamesTheNodeThatItDoesNotServe) {
   const auto problem = [](auto&& spoil) {
     OnnxGraph graph = foreign();
@@ -151,7 +178,8 @@ TEST(OnnxGraph, NamesTheNodeThatItDoesNotServe) {
     return test::problems_of([&] { network_of(graph); }).front();
   };
   EXPECT_EQ(problem([](OnnxGraph& g) { g.nodes[4].type = "Gelu"; }),
-            "node '/1/Relu' (Gelu) is none of Sub, Div, Gemm, MatMul, Add, Tanh, Relu, Sigmoid, Softmax");
+            "node '/1/Relu' (Gelu) is none of Sub, Div, Gemm, MatMul, Add, Tanh, Relu, Sigmoid, Softmax, "
+            "Identity, Cast");
   EXPECT_EQ(problem([](OnnxGraph& g) { g.nodes[5].numbers["alpha"] = 0.5; }),
             "node '/2/Gemm' (Gemm) has an alpha or beta that is not 1");
   EXPECT_EQ(problem([](OnnxGraph& g) { g.nodes[5].numbers["transB"] = 1.0; }),
