@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
+#include "learning/onnx_file.h"
 #include "tests/apps/flinch/documented_keys.h"
 #include "tests/apps/flinch/program.h"
 #include "tests/support/workplace.h"
@@ -100,6 +102,37 @@ TEST_F(LearningVerbs, SayOnceThatAModelIsForAnotherRobot) {
   EXPECT_EQ(other.status, 2);
   EXPECT_THAT(other.err, HasSubstr("train it anew with data of this robot"));
   EXPECT_EQ(std::count(other.err.begin(), other.err.end(), '\n'), 1) << other.err;
+}
+
+TEST_F(LearningVerbs, TakeTheBestNetworkOfTheGrid) {
+  const Outcome outcome = flinch({"train", data(), "-o", place.at("chain.onnx"), "--question", "chain",
+                                  "--grid", "--epochs", "2", "--folds", "2", "--threads", "2", "--quiet"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  std::istringstream lines(outcome.out);
+  std::string line;
+  std::getline(lines, line);
+  struct Tried {
+    std::size_t layers = 0;
+    int width = 0;
+    double l2 = 0.0, accuracy = 0.0;
+  };
+  std::vector<Tried> table;
+  for (Tried tried; std::getline(lines, line);) {
+    std::istringstream row(line);
+    if (row >> tried.layers >> tried.width >> tried.l2 >> tried.accuracy) table.push_back(tried);
+  }
+  ASSERT_EQ(table.size(), 80U) << outcome.out;
+  const auto is_worse = [](const Tried& a, const Tried& b) { return a.accuracy < b.accuracy; };
+  const auto [worst, best] = std::minmax_element(table.begin(), table.end(), is_worse);
+  EXPECT_LT(worst->accuracy, best->accuracy);
+  const ClassifierModel model = read_onnx(place.at("chain.onnx"));
+  const auto chosen = std::find_if(table.begin(), table.end(), [&model](const Tried& tried) {
+    return model.network.layers.size() == tried.layers + 1 &&
+           model.network.layers.front().weights.rows() == tried.width &&
+           std::stod(model.provenance.at("l2")) == tried.l2;
+  });
+  ASSERT_NE(chosen, table.end());
+  EXPECT_EQ(chosen->accuracy, best->accuracy);
 }
 
 TEST_F(LearningVerbs, MakeAModelThatARunCanFollow) {
