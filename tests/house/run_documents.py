@@ -5,9 +5,10 @@ Usage: run_documents.py [FILE.md...]     without files: README.md and docs/
 import re
 import subprocess
 import sys
+import textwrap
 import tree
 
-BLOCK = re.compile(r"^```sh\n(.*?)^```", re.MULTILINE | re.DOTALL)
+BLOCK = re.compile(r"^( *)```sh\n(.*?)^\1```", re.MULTILINE | re.DOTALL)  # indented in lists
 
 
 def documents():
@@ -18,7 +19,8 @@ def documents():
 
 problems = []
 for path in documents():
-    for block in BLOCK.findall((tree.ROOT / path).read_text()):
+    for _, indented in BLOCK.findall((tree.ROOT / path).read_text()):
+        block = textwrap.dedent(indented)
         print(f"--- {path}\n{block}", flush=True)
         if subprocess.run(["bash", "-euo", "pipefail", "-c", block], cwd=tree.ROOT).returncode != 0:
             problems.append(f"{path}: this failed:\n{block}")
