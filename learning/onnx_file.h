@@ -13,10 +13,10 @@ namespace flinch {
 std::string onnx_bytes(const ClassifierModel& model);
 void write_onnx(const ClassifierModel& model, const std::filesystem::path& file);
 
-/// Reads a classifier, written by us or exported by another program: one chain of Sub and Div by constants,
-/// Gemm, MatMul and Add, Tanh, Relu, Sigmoid, and Softmax at the end, in float or double, with one input and
-/// one output. Whatever else is in the file, or what is broken, is told by the name of its node. The file may be hostile. Throws SetupError
-/// with all that is wrong, each after the name of the file.
+/// Reads a classifier, written by us or exported by another program: one chain, from one input to one output,
+/// of Sub and Div by constants, Gemm, MatMul and Add, Tanh, Relu, Sigmoid, Softmax at the end, and Identity
+/// and Cast anywhere, in float or double. Whatever else is in the file, or what is broken, is told by its
+/// name. The file may be hostile. Throws SetupError with all that is wrong, each after the name of the file.
 ClassifierModel read_onnx(const std::filesystem::path& file);
 /// The same for bytes that came from `file`.
 ClassifierModel parse_onnx(const std::string& bytes, const std::string& file);

@@ -50,9 +50,10 @@ struct TrainedClassifier {
 /// The size (WrenchUncertainty::size) that 19 of 20 wrenches of `samples` have at least; 0 without any.
 double least_wrench_of(const DataSet& data, const std::vector<std::size_t>& samples);
 
-/// Trains in folds that keep runs, or configurations, together: each candidate on all folds but one, asked about that one. From
-/// the answers of the best come temperature (Guo et al., ICML 2017) and acceptance; then it is trained on
-/// all. The same bits for any number of threads. Throws SetupError for data that cannot be learned from.
+/// Trains in folds that keep runs, or configurations, together: each candidate on all folds but one, asked
+/// about that one. From the answers of the best come temperature (Guo et al., ICML 2017) and acceptance; then
+/// it is trained on all. The same bits for any number of threads. Throws SetupError for data that cannot be
+/// learned from.
 TrainedClassifier train_classifier(const DataSet& data, const ClassifierTraining& training,
                                    const TrainingProgress& progress = {});
 

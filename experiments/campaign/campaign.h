@@ -61,8 +61,8 @@ struct CampaignAddition {
 /// Many runs of scenarios that differ in some of their keys. docs/files.md has the keys of the file.
 struct Campaign {
   std::filesystem::path file;
-  std::string file_text;
-  std::string name;  ///< the file's name without ".yaml"
+  std::string file_text;  ///< of that file
+  std::string name;       ///< the file's name without ".yaml"
   std::string title;
   std::string description;
   std::uint64_t seed = 1;

@@ -39,7 +39,7 @@ struct DataRecording {
 /// What a data set is made of. docs/files.md has the keys of the file.
 struct DataSpec {
   std::filesystem::path file;
-  std::string file_text;
+  std::string file_text;  ///< of that file
   std::string title, description;
   std::uint64_t seed = 1;
   std::size_t runs = 1000;  ///< of all parts together

@@ -1,8 +1,12 @@
-// How well the shipped model tells contacts that nobody has learned from, as the table of docs/theory.md says.
-// FLINCH_CLASSIFIED in the environment says of how many runs; 4000 are those of that table.
+// How well the shipped model tells contacts that nobody has learned from, as the table of docs/theory.md
+// says. FLINCH_CLASSIFIED in the environment says of how many runs; 4000 are those of that table.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "experiments/dataset/data_spec.h"
 #include "experiments/dataset/make_data_set.h"

@@ -1,5 +1,5 @@
-// How well a model does that has learned from some hundred runs only, as docs/theory.md says: by the same calls
-// as the commands there.
+// How well a model does that has learned from some hundred runs only, as docs/theory.md says: by the same
+// calls as the commands there.
 #include <gtest/gtest.h>
 
 #include <cmath>
