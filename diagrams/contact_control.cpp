@@ -1,5 +1,6 @@
 #include "diagrams/contact_control.h"
 
+#include <optional>
 #include <utility>
 
 #include "diagrams/added_stages.h"
@@ -94,12 +95,19 @@ WatchedImu add_imu(const Path& path) {
           path.builder.add<PlausibilityMonitor>("plausibility_monitor", path.robot, limits)};
 }
 
+/// That of the velocity, where the torque is to lag as it does.
+std::optional<LowPassSettings> torque_low_pass(const ContactControlSettings& settings) {
+  if (!settings.aligned_with_velocity) return std::nullopt;
+  return settings.velocity_filter.low_pass;
+}
+
 MotionPorts add_motion(const Path& path, const SensedPorts& sensed, OutputPort<JointMotion> joint_motion,
                        OutputPort<ImuReading> imu) {
   auto& pose =
       path.builder.add<ForwardKinematics>("forward_kinematics", path.robot, path.settings.forward_kinematics);
   auto& model = path.builder.add<RobotModel>("model", path.robot);
-  auto& torque = path.builder.add<DriveTorqueMapping>("drive_torque", path.robot, path.settings.drive_torque);
+  auto& torque = path.builder.add<DriveTorqueMapping>("drive_torque", path.robot, path.settings.drive_torque,
+                                                      torque_low_pass(path.settings));
   path.builder.connect(sensed.joints, pose.joints);
   path.builder.connect(joint_motion, pose.motion);
   path.builder.connect(pose.platform, model.platform);

@@ -40,8 +40,9 @@ struct ContactControlSettings {
   // ---- what the sensors say
   VelocityFilterSettings velocity_filter;  ///< 30 Hz
   ForwardKinematicsSettings forward_kinematics;
-  /// 6.1 Nm/A until calibrated, [ICRA23] III-B; filtered as the velocity is.
-  DriveTorqueSettings drive_torque{.torque_constant = {}, .low_pass = LowPassSettings{}, .sampling = {}};
+  DriveTorqueSettings drive_torque;  ///< 6.1 Nm/A until calibrated, [ICRA23] III-B
+  /// The drive torques go through the low pass of `velocity_filter`, so that they lag as the velocity does.
+  bool aligned_with_velocity = true;
 
   ImuMount imu_mount;  ///< pose 1 of [RAL25] V-B; for all that reads the IMU
   ImuFilterSettings imu_ekf = published_imu_filter();

@@ -48,9 +48,7 @@ void read_sensing(ConfigReader& control, const ParallelRobot& robot, ContactCont
   const bool turn = robot.drive_kind(0) == DriveKind::revolute;
   drives.numbers(turn ? "torque_constant" : "force_constant", turn ? unit::Nm_per_A : unit::N_per_A,
                  entries(settings.drive_torque.torque_constant), positive);
-  bool aligned = settings.drive_torque.low_pass.has_value();
-  drives.flag("aligned_with_velocity", aligned);
-  settings.drive_torque.low_pass = aligned ? std::optional(settings.velocity_filter.low_pass) : std::nullopt;
+  drives.flag("aligned_with_velocity", settings.aligned_with_velocity);
 }
 
 /// A threshold of a hard contact against that of a reaction. `unit`: as a person writes it.

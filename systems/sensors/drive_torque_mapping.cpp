@@ -10,28 +10,29 @@
 namespace flinch {
 namespace {
 
-std::vector<std::string> problems(const DriveTorqueSettings& settings, const JointVector& constants,
-                                  int drives) {
+std::vector<std::string> problems(const JointVector& constants, int drives,
+                                  const std::optional<LowPassSettings>& low_pass) {
   Findings found;
   found.require(constants.size() == drives, "torque_constant has " + std::to_string(constants.size()) +
                                                 " entries; the robot has " + std::to_string(drives) +
                                                 " drives");
   found.require(constants.allFinite() && (constants.array() > 0.0).all(),
                 "torque_constant has an entry that is not positive [Nm/A]");
-  if (settings.low_pass) found.add_all(problems(*settings.low_pass));
+  if (low_pass) found.add_all(problems(*low_pass));
   return found.take();
 }
 
 }  // namespace
 
 DriveTorqueMapping::DriveTorqueMapping(const std::shared_ptr<const ParallelRobot>& robot,
-                                       const DriveTorqueSettings& settings)
+                                       const DriveTorqueSettings& settings,
+                                       const std::optional<LowPassSettings>& aligned_with)
     : torque_constant_(settings.torque_constant), sampling_(settings.sampling) {
   if (torque_constant_.size() == 0) {
     torque_constant_ = default_drives(robot->drive_kind(0), robot->drives()).torque_constant;
   }
-  throw_if_any(problems(settings, torque_constant_, robot->drives()));
-  if (settings.low_pass) low_pass_.emplace(*settings.low_pass);
+  throw_if_any(problems(torque_constant_, robot->drives(), aligned_with));
+  if (aligned_with) low_pass_.emplace(*aligned_with);
   keep(Every{sampling_.period}, memory_, next_);
 }
 

@@ -16,8 +16,6 @@ namespace flinch {
 struct DriveTorqueSettings {
   /// k_t of each drive [Nm/A or N/A]; empty: 6.1 for each, until calibrated. [ICRA23] III-B
   JointVector torque_constant;
-  /// Aligns the torque with the velocity: that of the velocity filter. None: the torque as it is.
-  std::optional<LowPassSettings> low_pass;
   Sampling sampling;
 };
 
@@ -44,8 +42,10 @@ class DriveTorqueMapping final : public System {
   State<DriveTorqueMemory> memory_ = state<DriveTorqueMemory>("memory");
 
  public:
+  /// `aligned_with`: the low pass of the velocity with which the torque is aligned; none: the torque as it is.
   /// Throws SetupError unless there is a positive torque constant for each drive.
-  DriveTorqueMapping(const std::shared_ptr<const ParallelRobot>& robot, const DriveTorqueSettings& settings);
+  DriveTorqueMapping(const std::shared_ptr<const ParallelRobot>& robot, const DriveTorqueSettings& settings,
+                     const std::optional<LowPassSettings>& aligned_with = std::nullopt);
 
   InputPort<DriveReading> drives = input<DriveReading>("drives");
   InputPort<StationStatus> status = input<StationStatus>("status");  ///< for the brakes

@@ -2,6 +2,8 @@
 // Every number contains the setting of the block's inputs and one tick of a diagram that holds nothing else.
 #include <benchmark/benchmark.h>
 
+#include <optional>
+
 #include "systems/contact/contact_detector.h"
 #include "systems/estimators/momentum_observer.h"
 #include "systems/model/forward_kinematics.h"
@@ -88,10 +90,9 @@ void run(benchmark::State& state, Ticking& ticking, Set set) {
   for (auto unused : state) tick();
 }
 
-DriveTorqueSettings drive_settings(bool aligned) {
-  DriveTorqueSettings settings{JointVector::Ones(3), {}, {}};
-  if (aligned) settings.low_pass = LowPassSettings{};
-  return settings;
+DriveTorqueMapping& add_drive_torque(DiagramBuilder& builder, const char* name, bool aligned) {
+  return builder.add<DriveTorqueMapping>(name, bench(), DriveTorqueSettings{JointVector::Ones(3), {}},
+                                         aligned ? std::optional(LowPassSettings{}) : std::nullopt);
 }
 
 MomentumObserverSettings observer_settings() {
@@ -137,7 +138,7 @@ BENCHMARK(RobotModelTick);
 
 void DriveTorqueMappingTick(benchmark::State& state) {
   DiagramBuilder builder;
-  auto& block = builder.add<DriveTorqueMapping>("block", bench(), drive_settings(state.range(0) != 0));
+  auto& block = add_drive_torque(builder, "block", state.range(0) != 0);
   builder.connect(builder.optional_input<StationStatus>("brakes"), block.status);
   const auto drives = builder.export_input("drives", block.drives);
   Ticking ticking(builder);
@@ -181,7 +182,7 @@ void WholeChainTick(benchmark::State& state) {
   auto& velocity = builder.add<VelocityFilter>("velocity", bench());
   auto& pose = builder.add<ForwardKinematics>("pose", bench());
   auto& model = builder.add<RobotModel>("model", bench());
-  auto& torque = builder.add<DriveTorqueMapping>("torque", bench(), drive_settings(true));
+  auto& torque = add_drive_torque(builder, "torque", true);
   builder.connect(builder.optional_input<StationStatus>("brakes"), torque.status);
   auto& observer = builder.add<MomentumObserver>("observer", bench(), observer_settings());
   auto& detector = builder.add<ContactDetector>("detector", bench());

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include "systems/foundation/setup_error.h"
@@ -86,6 +87,30 @@ TEST(ContactControl, FollowsTheSquareAndFeelsNothing) {
   EXPECT_LT(force, 5.0);
   EXPECT_LT(moment, 0.3);
   EXPECT_TRUE(bench.context.get(bench.control.reference).finished);
+}
+
+// y = a y + (1 - a) k_t i with a = (2 - w T) / (2 + w T), from currents that are read again here.
+TEST(ContactControl, AlignsTheTorqueWithWhateverFilterTheVelocityHas) {
+  for (const double cutoff : {30.0, 60.0}) {
+    for (const bool aligned : {true, false}) {
+      Experiment experiment = collision(0.5);
+      experiment.control.velocity_filter.low_pass.cutoff_frequency = cutoff;  // [Hz]
+      experiment.control.aligned_with_velocity = aligned;
+      Bench bench(experiment);
+      bench.run(300ms);
+      const double wT = 2.0 * std::numbers::pi * cutoff * 1e-3;
+      const double a = aligned ? (2.0 - wT) / (2.0 + wT) : 0.0;
+      JointVector expected = bench.context.get(bench.control.drive_torque).torque;
+      double largest = 0.0;  // [Nm]
+      bench.run(300ms, [&] {
+        const JointVector held = 6.1 * bench.context.get(bench.station.drives).current;
+        expected = a * expected + (1.0 - a) * held;
+        largest = std::max(largest, (held - expected).norm());
+        ASSERT_LT((bench.context.get(bench.control.drive_torque).torque - expected).norm(), 1e-12);
+      });
+      EXPECT_EQ(largest > 1.0, aligned) << "the filter has something to do";
+    }
+  }
 }
 
 TEST(ContactControl, GivesWayToAWeakForceByForceOverStiffness) {

@@ -106,7 +106,7 @@ TEST(Scenario, BeginsWithTheSettingsOfItsRobotAsCppDoes) {
   const ContactControlSettings own = settings_for(*file.robot, file.drives, file.limits);
   const ContactControlSettings& read = scenario.control;
   EXPECT_EQ(read.drive_torque.torque_constant, own.drive_torque.torque_constant);
-  EXPECT_EQ(read.drive_torque.low_pass.has_value(), own.drive_torque.low_pass.has_value());
+  EXPECT_EQ(read.aligned_with_velocity, own.aligned_with_velocity);
   EXPECT_EQ(read.faults.max_joint_speed, own.faults.max_joint_speed);
   EXPECT_EQ(read.faults.max_unseen_current, own.faults.max_unseen_current);
   EXPECT_EQ(read.torque_gate.max_torque, own.torque_gate.max_torque);

@@ -104,7 +104,7 @@ double percentile(std::vector<double>& values, double share) {
 SimulatedScenario scenario_of(const RobotTrial& trial, std::uint64_t seed, bool reacts) {
   const std::string file = trial.realistic ? "scenarios/square_realistic.yaml" : "scenarios/square.yaml";
   SimulatedScenario scenario = read_simulated_scenario(shipped(file), seed);
-  if (!trial.aligned) scenario.control.drive_torque.low_pass.reset();
+  scenario.control.aligned_with_velocity = trial.aligned;
   if (!reacts) scenario.control.contact_detector = {.reaction = {1e6, 1e6}, .hard = {1e6, 1e6}};
   if (trial.motion != FreeMotion::square) {
     scenario.control.trajectory.path = random_motion(scenario.robot, trial.motion, seed);

@@ -57,7 +57,7 @@ class Chain {
     auto& pose = builder_.add<ForwardKinematics>("pose", robot);
     auto& model = builder_.add<RobotModel>("model", robot);
     auto& torque =
-        builder_.add<DriveTorqueMapping>("torque", robot, DriveTorqueSettings{JointVector::Ones(3), {}, {}});
+        builder_.add<DriveTorqueMapping>("torque", robot, DriveTorqueSettings{JointVector::Ones(3), {}});
     filter_ = &builder_.add<DisturbanceFilter>("filter", robot, DisturbanceFilterSettings{});
     builder_.connect(builder_.optional_input<StationStatus>("brakes"), torque.status);
     builder_.connect(plant.joints, noise.exact);

@@ -148,7 +148,7 @@ double residual_with_exact_velocity(TorqueTiming timing) {
   auto& motion = builder.add<ExactMotion>("motion");
   auto& model = builder.add<RobotModel>("model", robot);
   auto& torque =
-      builder.add<DriveTorqueMapping>("torque", robot, DriveTorqueSettings{JointVector::Ones(3), {}, {}});
+      builder.add<DriveTorqueMapping>("torque", robot, DriveTorqueSettings{JointVector::Ones(3), {}});
   builder.connect(builder.optional_input<StationStatus>("brakes"), torque.status);
   auto& observer = builder.add<MomentumObserver>("observer", robot, observer_settings(135.0, timing));
   builder.connect(plant.state, motion.state);
@@ -212,7 +212,7 @@ class MeasuredChain {
   explicit MeasuredChain(const ChainSettings& settings, const PlatformVector& wrench = no_contact,
                          Time begin = 0ms) {
     const auto robot = bench();
-    DriveTorqueSettings drives{JointVector::Ones(3), settings.torque, {}};
+    const DriveTorqueSettings drives{JointVector::Ones(3), {}};
     DiagramBuilder builder("measured");
     auto& plant = test::add_moving_robot(builder, robot, wrench, begin);
     auto& encoders = builder.add<LossyEncoders>("encoders", settings.missing, settings.of_every);
@@ -220,7 +220,7 @@ class MeasuredChain {
         builder.add<VelocityFilter>("velocity", robot, VelocityFilterSettings{settings.velocity, {}});
     auto& pose = builder.add<ForwardKinematics>("pose", robot);
     auto& model = builder.add<RobotModel>("model", robot);
-    auto& torque = builder.add<DriveTorqueMapping>("torque", robot, drives);
+    auto& torque = builder.add<DriveTorqueMapping>("torque", robot, drives, settings.torque);
     builder.connect(builder.optional_input<StationStatus>("brakes"), torque.status);
     auto& observer =
         builder.add<MomentumObserver>("observer", robot, observer_settings(settings.gain, settings.timing));

@@ -22,16 +22,17 @@ std::shared_ptr<const PlanarRrr> bench() {
   return std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::nominal, BenchFriction::none));
 }
 
-DriveTorqueSettings unit_drives(std::optional<LowPassForm> form) {
-  DriveTorqueSettings settings;
-  settings.torque_constant = JointVector::Ones(3);
-  if (form) settings.low_pass = LowPassSettings{30.0, *form};
-  return settings;
+/// Aligned with a velocity of this form, or not.
+DriveTorqueMapping& add_mapping(DiagramBuilder& builder, std::optional<LowPassForm> form,
+                                const JointVector& torque_constant = JointVector::Ones(3)) {
+  const auto aligned_with = form ? std::optional(LowPassSettings{30.0, *form}) : std::nullopt;
+  return builder.add<DriveTorqueMapping>("mapping", bench(), DriveTorqueSettings{torque_constant, {}},
+                                         aligned_with);
 }
 
 struct Mapping {
-  explicit Mapping(const DriveTorqueSettings& settings)
-      : block(builder.add<DriveTorqueMapping>("mapping", bench(), settings)),
+  explicit Mapping(std::optional<LowPassForm> form, const JointVector& torque_constant = JointVector::Ones(3))
+      : block(add_mapping(builder, form, torque_constant)),
         drives(builder.export_input("drives", block.drives)),
         status(builder.export_input("status", block.status)),
         ticking(builder) {}
@@ -52,7 +53,7 @@ struct Mapping {
 };
 
 TEST(DriveTorqueMapping, BeginsItsLowPassAnewWhenTheBrakesOpen) {
-  Mapping mapping(unit_drives(LowPassForm::tustin));
+  Mapping mapping(LowPassForm::tustin);
   StationStatus station{.acquired = 0ms, .valid = true, .enabled = true, .braked = true};
   mapping.ticking.set(mapping.status, station);
   for (int k = 0; k < 5; ++k) EXPECT_TRUE(mapping.see(JointVector::Zero(3)).braked);
@@ -65,9 +66,7 @@ TEST(DriveTorqueMapping, BeginsItsLowPassAnewWhenTheBrakesOpen) {
 }
 
 TEST(DriveTorqueMapping, MultipliesEachCurrentByTheConstantOfItsDrive) {
-  DriveTorqueSettings settings;
-  settings.torque_constant = JointVector{{6.021, 6.6116, 6.7315}};
-  Mapping mapping(settings);
+  Mapping mapping(std::nullopt, JointVector{{6.021, 6.6116, 6.7315}});
   mapping.miss();
   const DriveTorque& torque = mapping.see(JointVector{{1.0, -2.0, 0.5}});
   EXPECT_TRUE(torque.valid);
@@ -77,7 +76,7 @@ TEST(DriveTorqueMapping, MultipliesEachCurrentByTheConstantOfItsDrive) {
 
 TEST(DriveTorqueMapping, IsNotValidWhereTheReadingIsNot) {
   for (const auto form : {std::optional<LowPassForm>(), std::optional(LowPassForm::tustin)}) {
-    Mapping mapping(unit_drives(form));
+    Mapping mapping(form);
     mapping.see(JointVector::Ones(3));
     const DriveReading unusable[] = {{1ms, false, JointVector::Ones(3)},
                                      {1ms, true, JointVector::Constant(3, nan)},
@@ -100,7 +99,7 @@ TEST_P(AlignedTorque, LagsAsTheVelocityDoes) {
   DiagramBuilder builder("both");
   auto& velocity =
       builder.add<VelocityFilter>("velocity", bench(), VelocityFilterSettings{{30.0, GetParam()}, {}});
-  auto& mapping = builder.add<DriveTorqueMapping>("mapping", bench(), unit_drives(GetParam()));
+  auto& mapping = add_mapping(builder, GetParam());
   builder.connect(builder.optional_input<StationStatus>("brakes"), mapping.status);
   const auto joints = builder.export_input("joints", velocity.joints);
   const auto drives = builder.export_input("drives", mapping.drives);
@@ -126,7 +125,7 @@ TEST_P(AlignedTorque, ExplainsTheChangeOfTheFilteredMomentumAsTheMeanOfItsTwoEnd
   DiagramBuilder builder("mass");
   auto& velocity =
       builder.add<VelocityFilter>("velocity", bench(), VelocityFilterSettings{{30.0, GetParam()}, {}});
-  auto& mapping = builder.add<DriveTorqueMapping>("mapping", bench(), unit_drives(GetParam()));
+  auto& mapping = add_mapping(builder, GetParam());
   builder.connect(builder.optional_input<StationStatus>("brakes"), mapping.status);
   const auto joints = builder.export_input("joints", velocity.joints);
   const auto drives = builder.export_input("drives", mapping.drives);
@@ -158,7 +157,7 @@ TEST_P(AlignedTorque, ExplainsTheChangeOfTheFilteredMomentumAsTheMeanOfItsTwoEnd
 
 TEST_P(AlignedTorque, GoesOnAcrossAShortGapAndStartsAnewAfterAnInterruption) {
   for (int missing = 1; missing <= 4; ++missing) {
-    Mapping mapping(unit_drives(GetParam()));
+    Mapping mapping(GetParam());
     for (int k = 0; k < 5; ++k) mapping.see(JointVector::Ones(3));
     for (int k = 0; k < missing; ++k) EXPECT_FALSE(mapping.miss().valid);
     const DriveTorque& torque = mapping.see(JointVector::Constant(3, 5.0));
@@ -173,14 +172,14 @@ TEST_P(AlignedTorque, GoesOnAcrossAShortGapAndStartsAnewAfterAnInterruption) {
 }
 
 TEST_P(AlignedTorque, DoesNotTakeTheSameReadingTwice) {
-  Mapping mapping(unit_drives(GetParam()));
+  Mapping mapping(GetParam());
   mapping.see(JointVector::Zero(3));
   const JointVector once = mapping.see({1ms, true, JointVector::Ones(3)}).torque;
   EXPECT_EQ(mapping.see({1ms, true, JointVector::Ones(3)}).torque, once);
 }
 
 TEST(DriveTorqueMapping, DoesNotAllocate) {
-  Mapping mapping(unit_drives(LowPassForm::tustin));
+  Mapping mapping(LowPassForm::tustin);
   const test::AllocationCounter allocations;
   for (int k = 0; k < 20; ++k) mapping.see(JointVector::Ones(3));
   mapping.miss();
@@ -188,11 +187,9 @@ TEST(DriveTorqueMapping, DoesNotAllocate) {
 }
 
 TEST(DriveTorqueMapping, SaysAllThatIsWrongWithItsSettings) {
-  DriveTorqueSettings settings;
-  settings.torque_constant = JointVector{{6.1, 0.0}};
-  settings.low_pass = LowPassSettings{0.0, LowPassForm::tustin};
+  const DriveTorqueSettings settings{JointVector{{6.1, 0.0}}, {}};
   try {
-    DriveTorqueMapping mapping(bench(), settings);
+    DriveTorqueMapping mapping(bench(), settings, LowPassSettings{0.0, LowPassForm::tustin});
     FAIL();
   } catch (const SetupError& error) {
     EXPECT_EQ(error.problems().size(), 3U) << error.what();
