@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "systems/estimators/chain_observability.h"
+#include "systems/estimators/innovation_mean.h"
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
 
@@ -28,12 +30,18 @@ struct Gains {
   double position, velocity, acceleration;
 };
 
-/// Deviation of d for white noise of deviation 1 in the position: root of the sum of the squares of its
-/// answer to a single wrong sample.
-double noise_gain(double pole, double T) {
+/// For white noise of deviation 1 in the position: roots of the sums of the squares of their answers to a
+/// single wrong sample.
+struct NoiseGains {
+  double error = 0.0;       ///< deviation of d
+  double innovation = 0.0;  ///< and of the innovation
+};
+
+NoiseGains noise_gains(double pole, double T) {
   const Gains gains(std::exp(-pole * T));
   const double forgotten = 60.0 / (pole * T);  // steps: of the answer exp(-60) is left
-  double q = 0.0, v = 0.0, d = 0.0, sum = 0.0;
+  double q = 0.0, v = 0.0, d = 0.0;
+  NoiseGains sums;
   for (int k = 0; k < forgotten; ++k) {
     q += v * T + 0.5 * d * T * T;
     v += d * T;
@@ -41,9 +49,10 @@ double noise_gain(double pole, double T) {
     q += gains.position * innovation;
     v += gains.velocity * innovation / T;
     d += gains.acceleration * innovation / (T * T);
-    sum += d * d;
+    sums.error += d * d;
+    sums.innovation += innovation * innovation;
   }
-  return std::sqrt(sum);
+  return {std::sqrt(sums.error), std::sqrt(sums.innovation)};
 }
 
 }  // namespace
@@ -52,8 +61,10 @@ DisturbanceFilter::DisturbanceFilter(std::shared_ptr<const ParallelRobot> robot,
                                      const DisturbanceFilterSettings& settings)
     : robot_(std::move(robot)), settings_(settings) {
   throw_if_any(problems(settings));
-  error_deviation_ =
-      settings.encoder_deviation * noise_gain(settings.pole, to_seconds(settings.sampling.period));
+  const NoiseGains noise = noise_gains(settings.pole, to_seconds(settings.sampling.period));
+  error_deviation_ = settings.encoder_deviation * noise.error;
+  innovation_deviation_ = settings.encoder_deviation * noise.innovation;
+  observability_ = chain_observability<3>();
   settling_time_ = from_seconds(settling_time_constants / settings.pole);
   keep(Every{settings_.sampling.period}, memory_, next_);
 }
@@ -76,6 +87,7 @@ void DisturbanceFilter::advance(const JointReading& reading, const PlatformMotio
     return;
   }
   const bool continued = memory.started && memory.error.allFinite() && memory.velocity.allFinite() &&
+                         std::isfinite(memory.innovation) &&
                          !sampling.interrupted(memory.acquired, reading.acquired);
   next.braked = drives.braked;
   if (continued && !drives.braked && !memory.braked) {
@@ -84,6 +96,7 @@ void DisturbanceFilter::advance(const JointReading& reading, const PlatformMotio
     next.position = reading.active;
     next.velocity = at.rates.active;
     next.error.setZero(robot_->drives());
+    next.innovation = 1.0;
   }
   next.started = true;
   next.since = continued ? memory.since : now;
@@ -103,6 +116,8 @@ void DisturbanceFilter::step(const DisturbanceFilterMemory& memory, const JointV
   next.position += gains.position * innovation;
   next.velocity += gains.velocity / T * innovation;
   next.error = memory.error + gains.acceleration / (T * T) * innovation;
+  const double squares = innovation.squaredNorm() / (innovation_deviation_ * innovation_deviation_);
+  next.innovation = innovation_mean(memory.innovation, squares, robot_->drives(), T);
 }
 
 /// Of the drives, under a torque that they held for the step after `memory`, in its middle. Zero where the
@@ -136,6 +151,7 @@ void DisturbanceFilter::read(const DisturbanceFilterMemory& next, const Kinemati
   result.wrench_in_base = from_drives * next.error;
   result.drive_torque = at.J_x_qa.transpose() * result.wrench_in_base;  // [SafePR] (6b)
   result.standard_deviation = error_deviation_ * from_drives.rowwise().norm();
+  result.health = {.fallen_back = false, .innovation = next.innovation, .observability = observability_};
 }
 
 }  // namespace flinch

@@ -28,6 +28,7 @@ struct DisturbanceFilterMemory {
   JointVector position;
   JointVector velocity;
   JointVector error;  ///< acceleration that the model does not explain [rad/s^2 or m/s^2]
+  double innovation = 1.0;
   Configuration pose;
   PlatformMatrix J_x_qa;
 };
@@ -83,7 +84,9 @@ class DisturbanceFilter final : public System {
 
   std::shared_ptr<const ParallelRobot> robot_;
   DisturbanceFilterSettings settings_;
-  double error_deviation_;  ///< of d [rad/s^2 or m/s^2]
+  double error_deviation_;       ///< of d, where only the encoders err [rad/s^2 or m/s^2]
+  double innovation_deviation_;  ///< likewise [rad or m]
+  double observability_;
   Time settling_time_;
 };
 

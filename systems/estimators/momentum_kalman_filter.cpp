@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "systems/estimators/chain_observability.h"
 #include "systems/estimators/innovation_mean.h"
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
@@ -67,16 +68,6 @@ double slowest_time_constant(const MomentumNoise& noise, const Eigen::Matrix2d& 
   return T / -std::log(radius);
 }
 
-/// Of [C; C A; C A^2], its columns scaled to length one: the period does not matter then.
-double observability_of_a_force() {
-  Eigen::Matrix<double, 3, 2> O;
-  O << 1.0, 0.0, 1.0, 1.0, 1.0, 2.0;
-  O.colwise().normalize();
-  const Eigen::Vector2d squares =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(O.transpose() * O).eigenvalues();
-  return std::sqrt(squares[0] / squares[1]);
-}
-
 std::vector<std::string> problems(const MomentumNoise& noise, const std::string& of) {
   Findings found(of);
   found.positive("momentum_deviation", noise.momentum_deviation);
@@ -99,7 +90,7 @@ MomentumKalmanMethod::MomentumKalmanMethod(int translations, int rotations,
                                            const MomentumKalmanFilterSettings& settings)
     : translations_(translations),
       noise_{settings.translation, settings.rotation},
-      observability_(observability_of_a_force()) {
+      observability_(chain_observability<2>()) {
   const double T = to_seconds(settings.inputs.sampling.period);
   double slowest = 0.0;
   for (std::size_t kind = 0; kind < noise_.size(); ++kind) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "systems/estimators/chain_observability.h"
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/random.h"
@@ -51,7 +52,8 @@ SlidingModeMethod::SlidingModeMethod(int translations, const SlidingModeObserver
     : translations_(translations),
       gains_{Gains(settings.force_rate, settings.damping), Gains(settings.moment_rate, settings.damping)},
       substep_(to_seconds(settings.inputs.sampling.period) / settings.substeps),
-      settling_time_(settings.convergence_time) {
+      settling_time_(settings.convergence_time),
+      observability_(chain_observability<2>()) {
   const double T = to_seconds(settings.inputs.sampling.period), settled = to_seconds(settling_time_);
   const SlidingModeMethod rotation(*this, 0), translation(*this, 1);
   deviation_ = {deviation_in_trial(translation, T, settings.deviation.translation, settled),
@@ -62,6 +64,7 @@ void SlidingModeMethod::describe(const Memory& memory, WrenchEstimate& estimate)
   estimate.standard_deviation.resize(memory.wrench.size());
   for (int i = 0; i < static_cast<int>(memory.wrench.size()); ++i)
     estimate.standard_deviation[i] = deviation_[i < translations_ ? 0 : 1];
+  estimate.health.observability = observability_;
 }
 
 void SlidingModeMethod::advance(const Memory& memory, const MomentumStep& step, Memory& next) const {

@@ -62,6 +62,7 @@ class SlidingModeMethod {
   std::array<Gains, 2> gains_;
   double substep_;  // the longest [s]
   Time settling_time_;
+  double observability_;
   std::array<double, 2> deviation_{};  ///< of a force and of a moment [N, Nm]
 };
 

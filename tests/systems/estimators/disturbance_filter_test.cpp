@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "systems/foundation/setup_error.h"
@@ -113,6 +114,19 @@ TEST(DisturbanceFilter, TellsTheDeviationThatTheNoiseOfTheEncodersCauses) {
     ratio += (seen.wrench_in_base - expected).cwiseQuotient(seen.standard_deviation).cwiseAbs2() / 5900.0;
   }
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(std::sqrt(ratio[i]), 1.0, 0.15) << i;
+}
+
+TEST(DisturbanceFilter, NoticesNoiseThatItWasNotToldOf) {
+  for (const double times : {0.0, 1.0, 3.0}) {
+    Chain chain(PlatformVector::Zero(3), times * DisturbanceFilterSettings{}.encoder_deviation);
+    double mean = 0.0;
+    for (int k = 0; k < 6000; ++k) {
+      const EstimatorHealth& health = chain.tick().health;
+      if (k >= 1000) mean += health.innovation / 5000.0;
+    }
+    std::printf("encoders %.0f times as noisy as told: innovation %.3f\n", times, mean);
+    EXPECT_NEAR(mean, times * times, 0.05 + 0.05 * times * times);
+  }
 }
 
 TEST(DisturbanceFilter, AsksForSettingsThatArePositive) {
