@@ -73,6 +73,37 @@ std::string residuals_yaml(const ThresholdFindings& found) {
   return text;
 }
 
+std::string listed(const std::vector<CalibrationSource>& files) {
+  std::string text;
+  for (const CalibrationSource& of : files) text += fmt::format("#   {}, sha256 {}\n", of.file, of.sha256);
+  return text;
+}
+
+/// What the thresholds rest on, as lines of comment.
+std::string provenance(const ThresholdFindings& found, const std::string& date) {
+  const ThresholdGoal& goal = found.goal;
+  std::string text = fmt::format(
+      "# Thresholds for {} false alarms an hour of each estimator, kept with a confidence of {:.0f} %.\n"
+      "# Made by flinch " FLINCH_VERSION " on {} from\n",
+      goal.false_alarms_per_hour, 100.0 * goal.confidence, date);
+  text += listed(found.recordings);
+  if (!found.with.empty()) text += "# played again with\n" + listed(found.with);
+  text += fmt::format("# Largest of each, and {:.3g} x that, [RAL25] V-C:\n", goal.safety_factor);
+  for (const EstimatorThresholds& of : found.estimators) {
+    text += fmt::format("#   {}, {:.1f} s: {:.4g} N, {:.4g} N", of.estimator, seconds(of.stretches, goal),
+                        of.force.largest, of.force.papers_rule);
+    if (of.moment.value > 0.0)
+      text += fmt::format("; {:.4g} Nm, {:.4g} Nm", of.moment.largest, of.moment.papers_rule);
+    text += "\n";
+  }
+  for (const CalibratedResidual& residual : found.residuals) {
+    for (const auto& [part, of] : parts(residual))
+      text += fmt::format("#   {} of the fused detector, {}, {:.1f} s: {:.4g}\n", part, residual.estimator,
+                          seconds(residual.stretches, goal), of.threshold.largest);
+  }
+  return text;
+}
+
 Json json_of(const CalibratedSurprise& of) {
   return {{"value", of.threshold.value},     {"best_guess", of.threshold.best_guess},
           {"largest", of.threshold.largest}, {"noise", of.errors.noise},
@@ -125,12 +156,8 @@ std::string thresholds_json(const ThresholdFindings& found) {
                         {"fused_detector", residuals}});
 }
 
-std::string thresholds_yaml(const ThresholdFindings& found) {
-  std::string text = fmt::format(
-      "# Thresholds for {} false alarms an hour of each estimator, kept with a confidence of {:.0f} %. "
-      "From:\n",
-      found.goal.false_alarms_per_hour, 100.0 * found.goal.confidence);
-  for (const std::string& recording : found.recordings) text += "#   " + recording + "\n";
+std::string thresholds_yaml(const ThresholdFindings& found, const std::string& date) {
+  std::string text = provenance(found, date);
   text += "# Belongs into the section 'control' of a scenario.\ncontact_detector:\n  by_estimator:\n";
   for (const EstimatorThresholds& of : found.estimators) {
     text += fmt::format("    - {{estimator: {}, reaction_force_N: {:.4g}", of.estimator, of.force.value);

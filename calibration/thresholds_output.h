@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/calibration_result.h"
 #include "calibration/residual_calibration.h"
 
 namespace flinch {
@@ -12,15 +13,16 @@ struct ThresholdFindings {
   ThresholdGoal goal{};
   std::vector<EstimatorThresholds> estimators{};
   std::vector<CalibratedResidual> residuals{};  ///< empty: no fused detector told the loads of the drives
-  std::vector<std::string> recordings{};        ///< names of the files that they come from
+  std::vector<CalibrationSource> recordings{};  ///< that they come from
+  std::vector<CalibrationSource> with{};        ///< parameter files with which these were played again
   bool drives_turn = true;
 };
 
 /// As a table for people; as one JSON object on one line, to which later versions add keys and rename none;
 /// and as the sections `contact_detector` and `fused_detector` of `control` in a scenario file, with what
-/// they come from above.
+/// they come from above: made on `date`, "2026-11-22".
 std::string thresholds_table(const ThresholdFindings& found);
 std::string thresholds_json(const ThresholdFindings& found);
-std::string thresholds_yaml(const ThresholdFindings& found);
+std::string thresholds_yaml(const ThresholdFindings& found, const std::string& date);
 
 }  // namespace flinch

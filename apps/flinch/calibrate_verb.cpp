@@ -4,6 +4,7 @@
 #include "apps/flinch/command_line.h"
 #include "apps/flinch/conclusion.h"
 #include "apps/flinch/simulated/simulated_parts.h"
+#include "apps/flinch/today.h"
 #include "calibration/contact_free_peaks.h"
 #include "calibration/threshold_calibration.h"
 #include "calibration/thresholds_output.h"
@@ -12,6 +13,7 @@
 #include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/foundation/sha256.h"
 #include "systems/framework/recording.h"
 
 namespace flinch {
@@ -71,14 +73,15 @@ ExitStatus calibrate_thresholds(const CalibrateThresholdsOptions& options) {
   found.goal.false_alarms_per_hour = options.rate;
   found.goal.confidence = options.confidence;
   found.goal.safety_factor = options.safety_factor;
-  for (const std::filesystem::path& file : options.recordings) found.recordings.push_back(file.string());
   const FreeMotions motions = read_motions(options, found.goal);
+  for (const std::filesystem::path& file : options.recordings)
+    found.recordings.push_back({file.string(), sha256_of(file)});
   found.estimators = calibrate_thresholds(pooled(motions.peaks), found.goal);
   found.residuals = residuals_of(motions, found.goal);
   found.drives_turn = motions.scenarios.front().robot.robot->drive_kind(0) == DriveKind::revolute;
   fmt::print("{}", options.common.json ? thresholds_json(found) + "\n" : thresholds_table(found));
   if (options.out.empty()) return ExitStatus::done;
-  write_result(options.out, thresholds_yaml(found));
+  write_result(options.out, thresholds_yaml(found, today()));
   if (!options.common.quiet) fmt::print(stderr, "thresholds: {}\n", options.out.string());
   return ExitStatus::done;
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "calibration/threshold_calibration.h"
 
@@ -20,7 +21,7 @@ const ThresholdFindings some = {
                     .moment = {0.5, 0.4, 0.3, 0.6}},
                    {.estimator = "filter", .stretches = 180, .force = {7.5, 7.0, 5.0, 10.0}, .moment = {}}},
     .residuals = {},
-    .recordings = {"a/run.h5"}};
+    .recordings = {{"a/run.h5", "0123abcd"}}};
 
 ThresholdFindings with_a_residual(bool drives_turn) {
   ThresholdFindings found = some;
@@ -51,20 +52,35 @@ TEST(TheObject, HasEveryNumber) {
 }
 
 TEST(TheSection, IsWhatAScenarioTakes) {
-  EXPECT_EQ(
-      thresholds_yaml(some),
-      "# Thresholds for 0.5 false alarms an hour of each estimator, kept with a confidence of 95 %. From:\n"
-      "#   a/run.h5\n"
-      "# Belongs into the section 'control' of a scenario.\n"
-      "contact_detector:\n"
-      "  by_estimator:\n"
-      "    - {estimator: observer, reaction_force_N: 6.25, reaction_moment_Nm: 0.5}\n"
-      "    - {estimator: filter, reaction_force_N: 7.5}\n");
+  EXPECT_EQ(std::regex_replace(thresholds_yaml(some, "2026-11-22"), std::regex(R"(flinch \d+\.\d+\.\d+)"),
+                               "flinch V"),
+            "# Thresholds for 0.5 false alarms an hour of each estimator, kept with a confidence of 95 %.\n"
+            "# Made by flinch V on 2026-11-22 from\n"
+            "#   a/run.h5, sha256 0123abcd\n"
+            "# Largest of each, and 2 x that, [RAL25] V-C:\n"
+            "#   observer, 90.0 s: 4 N, 8 N; 0.3 Nm, 0.6 Nm\n"
+            "#   filter, 90.0 s: 5 N, 10 N\n"
+            "# Belongs into the section 'control' of a scenario.\n"
+            "contact_detector:\n"
+            "  by_estimator:\n"
+            "    - {estimator: observer, reaction_force_N: 6.25, reaction_moment_Nm: 0.5}\n"
+            "    - {estimator: filter, reaction_force_N: 7.5}\n");
+}
+
+TEST(TheSection, SaysWhichParameterFilesItRestsOnAndHowSurprisingTheMotionWas) {
+  ThresholdFindings found = with_a_residual(true);
+  found.with = {{"b/dynamics.yaml", "4567"}};
+  found.residuals[0].level.threshold.largest = 6.5;
+  found.residuals[0].change.threshold.largest = 7.25;
+  const std::string section = thresholds_yaml(found, "2026-11-22");
+  EXPECT_THAT(section, HasSubstr("\n# played again with\n#   b/dynamics.yaml, sha256 4567\n"));
+  EXPECT_THAT(section, HasSubstr("\n#   level of the fused detector, filter, 90.0 s: 6.5\n"));
+  EXPECT_THAT(section, HasSubstr("\n#   change of the fused detector, filter, 90.0 s: 7.25\n"));
 }
 
 TEST(TheSection, OfAFusedDetectorHasTheUnitsOfTheDrives) {
   EXPECT_THAT(
-      thresholds_yaml(with_a_residual(true)),
+      thresholds_yaml(with_a_residual(true), "2026-11-22"),
       HasSubstr("fused_detector:\n"
                 "  residuals:\n"
                 "    - estimator: filter\n"
@@ -72,7 +88,8 @@ TEST(TheSection, OfAFusedDetectorHasTheUnitsOfTheDrives) {
                 "0.125, friction: 0.75, lag_ms: 500}\n"
                 "      change: {threshold: 9.5, noise_Nm: 0.5, speed_Nms_per_rad: 0.25, load: 0.0625, "
                 "torque: 0.5, friction: 1, lag_ms: 250}\n"));
-  EXPECT_THAT(thresholds_yaml(with_a_residual(false)), HasSubstr("noise_N: 0.25, speed_Ns_per_m: 0.5"));
+  EXPECT_THAT(thresholds_yaml(with_a_residual(false), "2026-11-22"),
+              HasSubstr("noise_N: 0.25, speed_Ns_per_m: 0.5"));
 }
 
 TEST(TheObject, HasTheResidualsOfAFusedDetector) {

@@ -7,6 +7,7 @@
 
 #include "apps/flinch/identified/calibration_files.h"
 #include "apps/flinch/progress.h"
+#include "apps/flinch/today.h"
 #include "calibration/calibration_output.h"
 #include "calibration/contact_free_peaks.h"
 #include "calibration/threshold_calibration.h"
@@ -235,8 +236,9 @@ class All {
     const ParallelRobot& robot = *files_.motion.front().scenario.robot.robot;
     ThresholdFindings found{.estimators = after_, .drives_turn = robot.drive_kind(0) == DriveKind::revolute};
     found.goal.false_alarms_per_hour = options_.rate;
-    for (const OpenedRecording& file : files_.motion) found.recordings.push_back(file.source.file);
-    write_result(out_ / "thresholds.yaml", thresholds_yaml(found));
+    for (const OpenedRecording& file : files_.motion) found.recordings.push_back(file.source);
+    for (const ParameterFile& file : calibrations_) found.with.push_back(source_of(file.file));
+    write_result(out_ / "thresholds.yaml", thresholds_yaml(found, today()));
   }
 
   static Json threshold_json(const std::vector<EstimatorThresholds>& thresholds) {

@@ -1,14 +1,13 @@
 #include "apps/flinch/identified/calibration_files.h"
 
-#include <fmt/chrono.h>
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <ctime>
 #include <vector>
 
 #include "apps/flinch/conclusion.h"
 #include "apps/flinch/simulated/simulated_parts.h"
+#include "apps/flinch/today.h"
 #include "calibration/calibration_output.h"
 #include "calibration/calibration_page.h"
 #include "experiments/scenario/scenario_calibrations.h"
@@ -19,8 +18,6 @@
 
 namespace flinch {
 namespace {
-
-std::string today() { return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr))); }
 
 void note_robot(const Scenario& scenario, CalibrationResult& result) {
   result.robot_file = scenario.robot_file.string();

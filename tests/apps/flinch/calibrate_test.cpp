@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "systems/foundation/sha256.h"
 #include "tests/apps/flinch/documented_keys.h"
 #include "tests/apps/flinch/program.h"
 #include "tests/support/workplace.h"
@@ -49,6 +50,8 @@ TEST_F(CalibrateThresholds, FindsThoseOfEachEstimatorAndAScenarioTakesThem) {
   }
   // The section goes into 'control', which is one level deeper.
   std::string section = test::bytes_of(place / "thresholds.yaml");
+  EXPECT_THAT(section,
+              HasSubstr("#   " + recording + ", sha256 " + sha256(test::bytes_of(recording)) + "\n"));
   section.erase(0, section.find("contact_detector:"));
   for (std::size_t at = section.find('\n'); at + 1 < section.size(); at = section.find('\n', at + 1))
     section.insert(at + 1, "  ");
