@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
+#include "diagrams/estimator_stages.h"
 #include "experiments/campaign/campaign.h"
 #include "experiments/campaign/campaign_run.h"
 #include "experiments/simulated/experiment.h"
@@ -74,6 +77,32 @@ TEST_F(ACampaign, HasRunsThatGiveTheSameAlone) {
     const Verdict verdict = judge(recording, alone.robot.robot->space(), alone.expected, alone.force_limits);
     EXPECT_EQ(csv_row(result_of(run, verdict)), csv_row(whole[number]));
   }
+}
+
+TEST(ACampaignOverEstimators, GivesWhateverIsFollowedTheBitsOfARun) {
+  const test::Workplace place;
+  test::small_campaign(place, 1);
+  std::string followed;
+  for (const WrenchEstimator& stage : estimator_stages()) followed += ", [" + stage.name + "]";
+  place.replace("campaigns/small.yaml", "contact: {body: [platform, link2]}", "contact: {body: [link2]}");
+  place.replace("campaigns/small.yaml",
+                "control.momentum_observer.gain_per_s, values: [[20, 20, 20], [40, 40, 40]]",
+                "control.estimators, values: [" + followed.substr(2) + "]");
+  const Campaign campaign =
+      read_campaign(place / "campaigns/small.yaml", {.set = {"control.accelerations=[extended_imu_ekf]"}});
+  ASSERT_EQ(campaign.runs(), estimator_stages().size());
+  std::set<double> errors;
+  std::filesystem::create_directories(place / "out");
+  for (const RunResult& result : run_campaign(campaign, place / "out", 2)) {
+    const CampaignRun run = draw_run(campaign, result.run);
+    place.write("scenarios/alone.yaml", run.scenario.text);
+    const SimulatedScenario alone = read_simulated_scenario(place / "scenarios/alone.yaml");
+    const Verdict verdict =
+        judge(run_experiment(alone), alone.robot.robot->space(), alone.expected, alone.force_limits);
+    EXPECT_EQ(csv_row(result_of(run, verdict)), csv_row(result)) << result.values.front().second;
+    errors.insert(result.observer_error_force);
+  }
+  EXPECT_EQ(errors.size(), campaign.runs()) << "each has an error of its own";
 }
 
 TEST_F(ACampaign, RunsBodiesIntoThePylon) {

@@ -170,7 +170,9 @@ TEST_P(Estimator, IsNotValidWhereReadingsAreMissingBrokenOrLate) {
       if (k >= begin && k < end) spoil(now, good[begin - 1]);
       const WrenchEstimate& estimate = control.see(now);
       ASSERT_TRUE(estimate.wrench_in_base.allFinite() && estimate.drive_torque.allFinite()) << name;
-      ASSERT_TRUE(estimate.standard_deviation.allFinite()) << name;
+      const PlatformVector& deviation = estimate.standard_deviation;
+      ASSERT_TRUE(deviation.allFinite()) << name;
+      ASSERT_TRUE(!estimate.valid || k < begin - 50 || deviation.size() == 3) << name << " at " << k;
       const bool is_before = k >= begin - 50 && k < begin, has_recovered = k + 1 == good.size();
       const bool is_lost = k >= begin + 3 && k < end;
       if (is_before || is_lost || has_recovered) {
@@ -182,6 +184,19 @@ TEST_P(Estimator, IsNotValidWhereReadingsAreMissingBrokenOrLate) {
 
 /// Moves, and nothing touches it.
 const std::string moves = "duration_s: 1.4\nmotion: {kind: square, start_ms: 300}\n";
+
+TEST_P(Estimator, TellsHowUncertainEachComponentIsInFreeMotion) {
+  const SimulatedScenario free = scenario("planar_3rrr", GetParam(), never_reacts + moves);
+  const Recording recording = run_experiment(free);
+  const auto estimates = read<WrenchEstimate>(recording, "wrench");
+  for (std::size_t k = 500; k < recording.samples(); ++k) {
+    const WrenchEstimate& estimate = estimates[k];
+    ASSERT_TRUE(estimate.valid) << k;
+    ASSERT_EQ(estimate.standard_deviation.size(), 3) << k;
+    ASSERT_TRUE(estimate.standard_deviation.allFinite()) << k;
+    ASSERT_GT(estimate.standard_deviation.minCoeff(), 0.0) << k;
+  }
+}
 
 bool needs_imu(const std::string& estimator) {
   return estimator.starts_with("direct") || estimator.starts_with("imu");
