@@ -12,6 +12,7 @@
 
 #include "calibration/contact_free_motion.h"
 #include "calibration/threshold_calibration.h"
+#include "diagrams/estimator_stages.h"
 #include "experiments/simulated/experiment.h"
 #include "experiments/simulated/simulated_scenario.h"
 #include "experiments/verdict/recorded_estimate.h"
@@ -37,11 +38,14 @@ using OfRobot = std::vector<Error>;
 /// By estimator, of each robot.
 using Errors = std::map<std::string, std::vector<OfRobot>>;
 
-Errors errors_of(int robots) {
+/// `besides`: an estimator that runs beside those of the scenario; empty: none.
+Errors errors_of(int robots, const std::string& besides = "") {
   Errors errors;
   for (int robot = 0; robot < robots; ++robot) {
-    const SimulatedScenario scenario = read_simulated_scenario(
+    SimulatedScenario scenario = read_simulated_scenario(
         FLINCH_SOURCE_DIR "/apps/scenarios/random_motion.yaml", 101 + static_cast<std::uint64_t>(robot));
+    for (const WrenchEstimator& stage : estimator_stages())
+      if (stage.name == besides) scenario.control.stages.estimators.add(stage);
     const Recording recording = run_experiment(scenario);
     const auto loads = read<DriveLoad>(recording, "load_fused_detector");
     const auto motions = read<PlatformMotion>(recording, "motion");
@@ -105,6 +109,16 @@ TEST(ErrorsOfEstimators, HardlyGrowWithTheSpeedAndThresholdsThatDoAreLessThanAFi
     EXPECT_LT(force_exceeded(each, 0.9, 1.2), 1.5 * force_exceeded(each, 0.0, 0.1)) << estimator;
     EXPECT_GT(growing, 0.8 * same) << estimator << ": a robot at rest gains less than a fifth";
   }
+}
+
+// It knows neither bias nor delay of the IMU.
+TEST(ErrorsOfEstimators, OfTheFilterAsPrintedNeedAThresholdAboveSixtyNewtons) {
+  const Errors errors = errors_of(test::wanted("FLINCH_ROBOTS", 3), "direct_imu_ekf");
+  const double printed = threshold_at_rest(errors.at("direct_imu_ekf"), 0.0);
+  const double extended = threshold_at_rest(errors.at("direct_extended_imu_ekf"), 0.0);
+  std::printf("threshold of direct_imu_ekf %.1f N, of direct_extended_imu_ekf %.1f N\n", printed, extended);
+  EXPECT_GT(printed, 60.0);
+  EXPECT_LT(extended, 15.0);
 }
 
 }  // namespace
