@@ -39,7 +39,8 @@ SimulatedImu::SimulatedImu(const SimulatedImuSettings& settings, const Mechanism
       space_(robot.space()),
       gravity_(robot.gravity()),
       R_SE_(platform_to_sensor(settings.mount())),
-      accelerometer_bias_(draw_bias(settings.accelerometer_bias, derive_seed(seed, "accelerometer bias"))),
+      accelerometer_bias_(settings.fixed_accelerometer_bias.value_or(
+          draw_bias(settings.accelerometer_bias, derive_seed(seed, "accelerometer bias")))),
       gyroscope_bias_(draw_bias(settings.gyroscope_bias, derive_seed(seed, "gyroscope bias"))),
       noise_(state<NormalNumbers<6>>("noise", NormalNumbers<6>(6, derive_seed(seed, "noise")))) {
   std::vector<std::string> all = problems(settings);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,11 +31,12 @@ struct SimulatedImuSettings {
 
   double accelerometer_density = 180e-6 * standard_gravity;  ///< Noise [m/s^2/sqrt(Hz)].
   double gyroscope_density = 0.007 * degree;                 ///< [rad/s/sqrt(Hz)]
-  /// Each axis has a constant one of at most this [m/s^2].
+  /// Each axis has a constant one of at most this [m/s^2], drawn where it is not `fixed_accelerometer_bias`.
   double accelerometer_bias = 0.04 * standard_gravity;
-  double gyroscope_bias = 3.0 * degree;            ///< [rad/s]
-  double accelerometer_resolution = 2.99e-4;       ///< [m/s^2]
-  double gyroscope_resolution = 1.91e-3 * degree;  ///< [rad/s]
+  std::optional<Eigen::Vector3d> fixed_accelerometer_bias{};  ///< In the sensor's axes [m/s^2].
+  double gyroscope_bias = 3.0 * degree;                       ///< [rad/s]
+  double accelerometer_resolution = 2.99e-4;                  ///< [m/s^2]
+  double gyroscope_resolution = 1.91e-3 * degree;             ///< [rad/s]
 
   ImuClockSettings clock;
   Time delay = 3500us;  ///< From measurement to delivery, at the first tick thereafter.

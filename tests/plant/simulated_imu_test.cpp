@@ -235,6 +235,9 @@ TEST(SimulatedImu, NoiseHasTheDeviationOfItsDensityAndBiasesStayWithinTheirLimit
     EXPECT_GT(each.accelerometer_bias().norm(), 0.0);
     EXPECT_LE(each.gyroscope_bias().cwiseAbs().maxCoeff(), settings.gyroscope_bias);
   }
+  settings.fixed_accelerometer_bias = Eigen::Vector3d(0.3, -0.2, 0.1);
+  EXPECT_EQ(SimulatedImu(settings, *test::individual_bench(), 1).accelerometer_bias(),
+            Eigen::Vector3d(0.3, -0.2, 0.1));
 }
 
 TEST(SimulatedImu, QuantisesWithItsResolutions) {

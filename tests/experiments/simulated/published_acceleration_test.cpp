@@ -25,6 +25,9 @@ namespace {
 
 constexpr std::size_t first = 400;  // the motion has begun
 
+constexpr double g = 9.80665;                                            // [m/s^2]
+const Eigen::Vector3d worst_bias = Eigen::Vector3d::Constant(0.04 * g);  // in every axis, [RAL25] IV-A
+
 /// The square of the paper, 1.41 m/s and 12.44 m/s^2, with an IMU of this sort.
 SimulatedScenario square(const std::string& imu) {
   const test::Workplace place;
@@ -36,6 +39,13 @@ SimulatedScenario square(const std::string& imu) {
               "sensors:\n  imu: {" +
                   imu + "}\n");
   return read_simulated_scenario(place / "scenarios/square.yaml");
+}
+
+/// The same, with an accelerometer that has all of that bias.
+SimulatedScenario square_with_bias(const std::string& imu) {
+  SimulatedScenario scenario = square(imu);
+  scenario.station.imu.fixed_accelerometer_bias = worst_bias;
+  return scenario;
 }
 
 Recording run(const SimulatedScenario& scenario) {
@@ -82,18 +92,22 @@ Fidelity fidelity(const Recording& recording, const std::string& path, int coord
   return fidelity(estimate, reference);
 }
 
-/// Of the pose, differentiated twice and low-passed at 20 Hz.
-Fidelity differentiated(const Recording& recording, int coordinate) {
+/// Of the pose, differentiated twice and low-passed at 20 Hz, once or after each differentiation.
+Fidelity differentiated(const Recording& recording, int coordinate, int passes) {
   const auto motion = read<PlatformMotion>(recording, "motion");
   const std::vector<double> truth = recording.column("truth", "acceleration", coordinate);
   constexpr double T = 1e-3, w = 2.0 * std::numbers::pi * 20.0;
   std::vector<double> estimate, reference;
-  double filtered = 0.0;
+  std::vector<double> filtered(static_cast<std::size_t>(passes), 0.0);
   for (std::size_t k = first - 100; k < recording.samples(); ++k) {
     const auto x = [&](std::size_t i) { return motion[i].pose[coordinate]; };
-    filtered += (1.0 - std::exp(-w * T)) * ((x(k) - 2.0 * x(k - 1) + x(k - 2)) / (T * T) - filtered);
+    double signal = (x(k) - 2.0 * x(k - 1) + x(k - 2)) / (T * T);
+    for (double& each : filtered) {
+      each += (1.0 - std::exp(-w * T)) * (signal - each);
+      signal = each;
+    }
     if (k < first) continue;
-    estimate.push_back(filtered);
+    estimate.push_back(signal);
     reference.push_back(truth[k]);
   }
   return fidelity(estimate, reference);
@@ -124,20 +138,23 @@ TEST(PublishedAcceleration, IsAsGoodAsPrintedFromTheFilterAsPrinted) {
   const Recording recording =
       run(square("delay_us: 0, accelerometer_bias_m_per_s2: 0, gyroscope_bias_deg_per_s: 0"));
   print("EKF as printed, noise", recording, "acceleration");
-  print("differentiated twice, 20 Hz", differentiated(recording, 0), differentiated(recording, 1),
-        differentiated(recording, 2));
+  for (const int passes : {1, 2})
+    print(passes == 1 ? "differentiated twice, 20 Hz" : "differentiated twice, 20 Hz each time",
+          differentiated(recording, 0, passes), differentiated(recording, 1, passes),
+          differentiated(recording, 2, passes));
   for (const int coordinate : {0, 1}) {
     const Fidelity seen = fidelity(recording, "acceleration", coordinate);
     EXPECT_LT(seen.nrmse, 0.012);
     EXPECT_GE(seen.snr, 25.0);
-    EXPECT_GT(differentiated(recording, coordinate).nrmse, 4.0 * seen.nrmse);
+    EXPECT_GT(differentiated(recording, coordinate, 1).nrmse, 4.0 * seen.nrmse);
+    EXPECT_NEAR(differentiated(recording, coordinate, 2).snr, 8.0, 1.0);  // as printed
   }
-  print("EKF as printed, noise and bias", run(square("delay_us: 0")), "acceleration");
-  print("EKF as printed, noise, bias and delay", run(square("delay_us: 3500")), "acceleration");
+  print("EKF as printed, noise and bias", run(square_with_bias("delay_us: 0")), "acceleration");
+  print("EKF as printed, noise, bias and delay", run(square_with_bias("delay_us: 3500")), "acceleration");
 }
 
 TEST(PublishedAcceleration, IsAsGoodFromTheExtendedFilterInSpiteOfBiasAndDelay) {
-  const Recording recording = run(square("delay_us: 3500"));
+  const Recording recording = run(square_with_bias("delay_us: 3500"));
   print("extended EKF, noise, bias and delay", recording, "acceleration_extended_imu_ekf");
   for (const int coordinate : {0, 1}) {
     const Fidelity seen = fidelity(recording, "acceleration_extended_imu_ekf", coordinate);
@@ -147,7 +164,7 @@ TEST(PublishedAcceleration, IsAsGoodFromTheExtendedFilterInSpiteOfBiasAndDelay) 
 }
 
 TEST(PublishedAcceleration, LeadsToTheBiasOfTheAccelerometer) {
-  const SimulatedScenario scenario = square("delay_us: 0");
+  const SimulatedScenario scenario = square_with_bias("delay_us: 0");
   const Recording recording = run(scenario);
   const auto truth = read<PlantTruth>(recording, "truth");
   const auto imu = read<ImuReading>(recording, "imu");
@@ -160,8 +177,8 @@ TEST(PublishedAcceleration, LeadsToTheBiasOfTheAccelerometer) {
         platform_to_sensor({}) * specific_force(now, ImuMount{}.position_in_platform, robot.gravity());
     bias += (imu[k].specific_force - ideal) / static_cast<double>(recording.samples() - first);
   }
-  EXPECT_GT(bias.head<2>().norm(), 0.05);
-  const Recording late = run(square("delay_us: 3500"));
+  EXPECT_LT((bias - worst_bias).lpNorm<Eigen::Infinity>(), 0.002) << "as the readings show it";
+  const Recording late = run(square_with_bias("delay_us: 3500"));
   const auto estimated = read<ImuBias>(late, "control/extended_imu_ekf/bias");
   const Eigen::Vector3d error = estimated[recording.samples() - 1].accelerometer - bias;
   std::printf("bias of the accelerometer missed by %.4f %.4f %.4f m/s^2\n", error.x(), error.y(), error.z());
