@@ -97,8 +97,7 @@ WatchedImu add_imu(const Path& path) {
 
 /// That of the velocity, where the torque is to lag as it does.
 std::optional<LowPassSettings> torque_low_pass(const ContactControlSettings& settings) {
-  if (!settings.aligned_with_velocity) return std::nullopt;
-  return settings.velocity_filter.low_pass;
+  return settings.aligned_with_velocity ? std::optional(settings.velocity_filter.low_pass) : std::nullopt;
 }
 
 MotionPorts add_motion(const Path& path, const SensedPorts& sensed, OutputPort<JointMotion> joint_motion,

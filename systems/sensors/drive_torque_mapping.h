@@ -42,8 +42,8 @@ class DriveTorqueMapping final : public System {
   State<DriveTorqueMemory> memory_ = state<DriveTorqueMemory>("memory");
 
  public:
-  /// `aligned_with`: the low pass of the velocity with which the torque is aligned; none: the torque as it is.
-  /// Throws SetupError unless there is a positive torque constant for each drive.
+  /// `aligned_with`: the low pass of the velocity with which the torque is aligned; none: the torque as it
+  /// is. Throws SetupError unless there is a positive torque constant for each drive.
   DriveTorqueMapping(const std::shared_ptr<const ParallelRobot>& robot, const DriveTorqueSettings& settings,
                      const std::optional<LowPassSettings>& aligned_with = std::nullopt);
 

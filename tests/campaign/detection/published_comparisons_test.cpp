@@ -61,8 +61,8 @@ TEST(Ral25TableII, HasTheImuFirstTheSecondLinkAfterTheFirstAndClampingsLast) {
   EXPECT_LT(platform(1) - platform(4), platform(1) / 3.0);
   EXPECT_GT(observer[4 * bodies + 3], observer[1 * bodies + 3]);
 
-  // Table III: by how much the IMU is earlier than the observer at 135 1/s; 50, 40, 32, 17 % in the paper, where
-  // both have 29 N.
+  // Table III: by how much the IMU is earlier than the observer at 135 1/s; 50, 40, 32, 17 % in the paper,
+  // where both have 29 N.
   for (const std::size_t thresholds : {std::size_t{2}, gains}) {
     std::printf(thresholds == gains ? "  Table III, at the same threshold:"
                                     : "  Table III, each at its own:");
