@@ -68,6 +68,25 @@ class RanksOfACampaign : public ::testing::Test {
     return static_cast<std::size_t>(std::count(journal.begin(), journal.end(), '\n'));
   }
 
+  /// Kills rank 2 once there are so many rows; returns whether there was one.
+  bool lose_a_rank(test::OtherProgram& program, std::size_t least_rows) const {
+    while (program.is_running() && rows() < least_rows) std::this_thread::sleep_for(1ms);
+    const pid_t rank = program_with(place.at("campaigns/few.yaml"), "OMPI_COMM_WORLD_RANK=2");
+    return rank > 0 && kill(rank, SIGKILL) == 0;
+  }
+
+  /// The job that ships, as Slurm starts it with three processors.
+  test::OtherProgram::Start job(const std::vector<std::string>& more = {}) const {
+    test::OtherProgram::Start start = mpirun(3, more);
+    start.command.erase(start.command.begin(), start.command.begin() + 6);  // up to "campaign"
+    start.command.insert(start.command.begin(),
+                         {"/bin/sh", FLINCH_SOURCE_DIR "/apps/campaigns/campaign_job.sh"});
+    start.environment["SLURM_NTASKS"] = "3";
+    start.environment["FLINCH"] = FLINCH_PROGRAM;
+    start.environment["OMPI_MCA_rmaps_base_oversubscribe"] = "1";
+    return start;
+  }
+
   void expect_the_table_of_one_thread() const {
     std::filesystem::create_directories(place / "alone");
     run_campaign(read_campaign(place / "campaigns/few.yaml"), place / "alone", 1);
@@ -93,10 +112,7 @@ TEST_F(RanksOfACampaign, AreResumedWhereOneWasLost) {
   write_campaign(150);
   {
     test::OtherProgram program(mpirun(3));
-    while (program.is_running() && rows() < 10) std::this_thread::sleep_for(1ms);
-    const pid_t rank = program_with(place.at("campaigns/few.yaml"), "OMPI_COMM_WORLD_RANK=2");
-    ASSERT_GT(rank, 0) << program.output();
-    kill(rank, SIGKILL);
+    ASSERT_TRUE(lose_a_rank(program, 10)) << program.output();
     const std::optional<int> status = program.wait(60s);
     ASSERT_TRUE(status.has_value()) << "it still runs";
     EXPECT_NE(*status, 0);
@@ -106,6 +122,22 @@ TEST_F(RanksOfACampaign, AreResumedWhereOneWasLost) {
   test::OtherProgram program(mpirun(2));
   EXPECT_EQ(program.wait(300s), 0) << program.output();
   expect_the_table_of_one_thread();
+}
+
+TEST_F(RanksOfACampaign, AreCalledAgainByTheirJobWhereOneWasLost) {
+  write_campaign(150);
+  test::OtherProgram program(job({"--fresh"}));
+  ASSERT_TRUE(lose_a_rank(program, 10)) << program.output();
+  EXPECT_EQ(program.wait(300s), 0) << program.output();
+  EXPECT_NE(program.output().find("call 2 of 5 does the runs that are left"), std::string::npos);
+  EXPECT_EQ(program.output().find("call 3 of 5"), std::string::npos);
+  expect_the_table_of_one_thread();
+}
+
+TEST_F(RanksOfACampaign, AreNotCalledAgainByTheirJobForWhatIsWrong) {
+  test::OtherProgram program(job({"--set", "control.contact_detector.reacton_force_N=8"}));
+  EXPECT_EQ(program.wait(60s), 2) << program.output();
+  EXPECT_EQ(program.output().find("does the runs that are left"), std::string::npos);
 }
 
 TEST_F(RanksOfACampaign, SayWhatIsWrongOnceAndEnd) {
