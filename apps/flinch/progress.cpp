@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -29,34 +30,44 @@ Progress::~Progress() {
   if (drawn_) fmt::print(stderr, "\r\x1b[K");
 }
 
-void Progress::show(double share) {
+void Progress::show(double share, double share_before) {
   if (quiet_) return;
   share = std::clamp(share, 0.0, 1.0);
+  const std::string left = time_left(seconds_since(started_), share, share_before);
   if (terminal_) {
-    draw_bar(share);
+    draw_bar(share, left);
   } else {
-    print_line(share);
+    print_line(share, left);
   }
 }
 
-void Progress::draw_bar(double share) {
+void Progress::draw_bar(double share, const std::string& time_left) {
   constexpr int width = 30;
   if (drawn_ && seconds_since(last_drawn_) < 0.05) return;
   last_drawn_ = steady_clock::now();
   drawn_ = true;
   const int full = static_cast<int>(share * width);
-  const double elapsed = seconds_since(started_);
-  const double left = share > 0.01 ? elapsed * (1.0 - share) / share : 0.0;
-  fmt::print(stderr, "\r\x1b[K{} [{:#<{}}{:.<{}}] {:3.0f} %  {:.1f} s left", what_, "", full, "",
-             width - full, 100 * share, left);
+  fmt::print(stderr, "\r\x1b[K{} [{:#<{}}{:.<{}}] {:3.0f} %  {}", what_, "", full, "", width - full,
+             100 * share, time_left);
   std::fflush(stderr);
 }
 
-void Progress::print_line(double share) {
+void Progress::print_line(double share, const std::string& time_left) {
   const int quarters = static_cast<int>(share * 4.0);
   if (quarters <= quarters_) return;
   quarters_ = quarters;
-  fmt::print(stderr, "{}: {} %\n", what_, 25 * quarters);
+  fmt::print(stderr, "{}: {} %{}\n", what_, 25 * quarters, time_left.empty() ? "" : ", " + time_left);
+}
+
+std::string time_left(double elapsed, double share, double share_before) {
+  constexpr double least = 0.01;  // of what is to be done
+  const double done = share - share_before, all = 1.0 - share_before;
+  if (done <= least * all || share >= 1.0) return "";
+  const double seconds = elapsed * (1.0 - share) / done;
+  if (seconds < 100.0) return fmt::format("{:.1f} s left", seconds);
+  const auto minutes = std::llround(std::min(seconds / 60.0, 1e9));
+  if (minutes < 100) return fmt::format("{} min left", minutes);
+  return fmt::format("{} h {:02} min left", minutes / 60, minutes % 60);
 }
 
 }  // namespace flinch

@@ -6,7 +6,7 @@
 namespace flinch {
 
 /// Tells on stderr how far something has come: a bar that redraws itself on a terminal; where stderr is a
-/// pipe or file, a plain line at every quarter. Says nothing when quiet. The clock is the wall's and only
+/// pipe or file, a plain line at every quarter. Both say how long the rest will take. Says nothing when quiet. The clock is the wall's and only
 /// paces the display.
 class Progress {
  public:
@@ -15,12 +15,12 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
   ~Progress();
 
-  /// `share` of the work is done, 0 ... 1.
-  void show(double share);
+  /// `share` of the work is done, 0 ... 1; `share_before` of it was so before this program began.
+  void show(double share, double share_before = 0.0);
 
  private:
-  void draw_bar(double share);
-  void print_line(double share);
+  void draw_bar(double share, const std::string& time_left);
+  void print_line(double share, const std::string& time_left);
 
   std::string what_;
   bool quiet_;
@@ -30,5 +30,9 @@ class Progress {
   std::chrono::steady_clock::time_point started_;
   std::chrono::steady_clock::time_point last_drawn_;
 };
+
+/// "2 h 05 min left": how long the rest takes where `share_before` ... `share` took `elapsed` [s]; "" where too
+/// little was done to tell.
+std::string time_left(double elapsed, double share, double share_before = 0.0);
 
 }  // namespace flinch
