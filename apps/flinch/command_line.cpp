@@ -190,6 +190,9 @@ void add_campaign_verb(CLI::App& app, Verbs& verbs) {
   verb.add_option("--classifier", options.classifier,
                   "Model (ONNX) of flinch train that tells what is touched [as the scenarios say]")
       ->type_name("MODEL.onnx");
+  verb.add_option("--false-alarms", options.false_alarms,
+                  "Results of another campaign with the same grid whose false alarms the report shows")
+      ->type_name("RESULTS.csv");
   verb.add_option("--out", options.out, "Folder for results.csv and results.h5 [out/NAME]")->type_name("DIR");
   add_threads(verb, options.threads, "Runs at once [one a processor]");
   verb.add_flag("--fresh", options.fresh, "Begin anew, whatever the folder holds already");

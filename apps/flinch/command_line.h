@@ -53,9 +53,10 @@ struct CampaignOptions {
   std::optional<std::size_t> runs;  ///< at each point of the grid
   std::optional<std::uint64_t> seed;
   std::optional<std::size_t> threads;
-  std::optional<std::size_t> run;    ///< only this one, with recording and page
-  std::filesystem::path classifier;  ///< a model to follow; empty: as the scenarios say
-  bool fresh = false;                ///< whatever the folder holds
+  std::optional<std::size_t> run;      ///< only this one, with recording and page
+  std::filesystem::path classifier;    ///< a model to follow; empty: as the scenarios say
+  std::filesystem::path false_alarms;  ///< results.csv of a campaign that counts them; empty: none
+  bool fresh = false;                  ///< whatever the folder holds
 };
 
 struct CalibrateThresholdsOptions {

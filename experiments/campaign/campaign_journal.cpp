@@ -3,6 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
 
 #include "experiments/campaign/campaign.h"
 #include "systems/foundation/fnv1a.h"
@@ -28,6 +31,50 @@ std::string first_line(const Campaign& campaign) {
   return fmt::format("flinch campaign {:016x}", fnv1a(campaign.identity()));
 }
 
+SetupError cannot_be_read(const std::filesystem::path& file) {
+  return SetupError(file.string() + ": what was written there cannot be read");
+}
+
+/// Where the rows of a journal stand.
+class WrittenRows {
+ public:
+  WrittenRows(std::filesystem::path file, std::size_t rows)
+      : file_(std::move(file)), stream_(file_, std::ios::binary) {
+    rows_.reserve(rows);
+  }
+
+  std::size_t size() const { return rows_.size(); }
+  void add(std::size_t run, const std::vector<std::string>& names, std::streamoff at) {
+    auto header = std::find(headers_.begin(), headers_.end(), names);
+    if (header == headers_.end()) header = headers_.insert(header, names);
+    rows_.push_back({run, static_cast<std::size_t>(header - headers_.begin()), at});
+  }
+  void sort() {
+    std::sort(rows_.begin(), rows_.end(), [](const Row& a, const Row& b) { return a.run < b.run; });
+  }
+
+  RunResult read(std::size_t place) {
+    const Row& row = rows_[place];
+    std::string line;
+    std::getline(stream_.seekg(row.at), line);
+    std::optional<RunResult> result = parse_csv_row(headers_[row.header], unsealed(line));
+    if (!result || result->run != row.run) throw cannot_be_read(file_);
+    return std::move(*result);
+  }
+
+ private:
+  struct Row {
+    std::size_t run;
+    std::size_t header;
+    std::streamoff at;
+  };
+
+  std::filesystem::path file_;
+  std::ifstream stream_;
+  std::vector<std::vector<std::string>> headers_;
+  std::vector<Row> rows_;
+};
+
 }  // namespace
 
 CampaignJournal::CampaignJournal(const std::filesystem::path& folder, const Campaign& campaign)
@@ -38,7 +85,7 @@ CampaignJournal::CampaignJournal(const std::filesystem::path& folder, const Camp
   remove_link(anew);
   stream_.open(anew, std::ios::binary);
   stream_ << first_line_ << "\n";
-  read(std::move(before), [&](RunResult&& result) { add(result); });
+  read(std::move(before), [&](const RunResult& result, const auto&, std::streamoff) { add(result); });
   std::error_code error;
   std::filesystem::rename(anew, file_, error);
   if (!stream_.flush() || error) throw SetupError(file_.string() + ": the file cannot be written");
@@ -56,28 +103,28 @@ std::ifstream CampaignJournal::rows() const {
   return stream;
 }
 
-void CampaignJournal::read(std::ifstream rows, const std::function<void(RunResult&&)>& take) const {
+void CampaignJournal::read(std::ifstream rows, const TakeRow& take) const {
   std::vector<std::string> names;
   std::string line;
-  while (std::getline(rows, line)) {
+  for (std::streamoff at = rows.tellg(); std::getline(rows, line); at = rows.tellg()) {
     const std::string row = unsealed(line);
     if (row.starts_with(first_column)) {
       names = csv_cells(row);
       continue;
     }
-    auto result = parse_csv_row(names, row);
-    if (result && result->run < is_done_.size()) take(std::move(*result));
+    const auto result = parse_csv_row(names, row);
+    if (result && result->run < is_done_.size()) take(*result, names, at);
   }
 }
 
-std::vector<RunResult> CampaignJournal::results() const {
-  std::vector<RunResult> results;
-  results.reserve(done_);
-  read(rows(), [&](RunResult&& result) { results.push_back(std::move(result)); });
-  if (results.size() != done_) throw SetupError(file_.string() + ": what was written there cannot be read");
-  std::sort(results.begin(), results.end(),
-            [](const RunResult& a, const RunResult& b) { return a.run < b.run; });
-  return results;
+CampaignResults CampaignJournal::results() const {
+  auto written = std::make_shared<WrittenRows>(file_, done_);
+  read(rows(), [&](const RunResult& result, const std::vector<std::string>& names, std::streamoff at) {
+    written->add(result.run, names, at);
+  });
+  if (written->size() != done_) throw cannot_be_read(file_);
+  written->sort();
+  return {written->size(), [written](std::size_t place) { return written->read(place); }};
 }
 
 std::string CampaignJournal::lines_of(const RunResult& result) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/campaign/campaign_results.h"
 #include "experiments/campaign/run_result.h"
 
 namespace flinch {
@@ -28,15 +29,18 @@ class CampaignJournal {
   /// Throws SetupError where the disk does not take it. A run that is done already is left as it is.
   void add(const RunResult& result);
 
-  /// All that is done, in the order of the numbers, from the file: while runs are added nothing of them stays
-  /// in memory. Throws SetupError where the file cannot be read.
-  std::vector<RunResult> results() const;
+  /// All that is done, in the order of the numbers. What stays in memory of a run is where its row stands in
+  /// the file. Throws SetupError where the file cannot be read; so does reading a result.
+  CampaignResults results() const;
 
  private:
+  /// Told of a whole row: its result, the header that it stands below, and its place in the file.
+  using TakeRow =
+      std::function<void(const RunResult&, const std::vector<std::string>& names, std::streamoff at)>;
+
   /// The file's rows; at their end where there is no file. Throws SetupError for that of another campaign.
   std::ifstream rows() const;
-  /// Calls `take` with each of them that is whole.
-  void read(std::ifstream rows, const std::function<void(RunResult&&)>& take) const;
+  void read(std::ifstream rows, const TakeRow& take) const;
   /// The result's row, after its header where that is another than the last one's.
   std::string lines_of(const RunResult& result);
 

@@ -5,9 +5,14 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "experiments/campaign/campaign.h"
+#include "experiments/campaign/campaign_results.h"
 #include "experiments/campaign/campaign_run.h"
+#include "experiments/campaign/counted_alarms.h"
 #include "experiments/campaign/exact_bounds.h"
 #include "experiments/campaign/page/campaign_page_template.h"
 #include "experiments/campaign/reaction_summary.h"
@@ -27,33 +32,6 @@ constexpr std::size_t runs_of_a_sort = 12;  // to look at
 Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 Json known(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
-/// False alarms of an estimator at one place in the grid, in all scenarios and whatever was touched then.
-struct Alarms {
-  std::size_t count = 0;
-  double hours = 0.0;
-
-  double rate() const { return hours > 0.0 ? static_cast<double>(count) / hours : 0.0; }
-};
-
-using Place = std::vector<std::pair<std::string, std::string>>;
-using AlarmsAt = std::map<std::pair<Place, std::string>, Alarms>;
-
-std::pair<Place, std::string> in_any_scenario(const CampaignGroup& group) {
-  Place place = group.at;
-  std::erase_if(place, [](const auto& entry) { return entry.first == "scenario"; });
-  return {std::move(place), group.estimator};
-}
-
-AlarmsAt alarms_of(const std::vector<CampaignGroup>& groups) {
-  AlarmsAt alarms;
-  for (const CampaignGroup& group : groups) {
-    Alarms& here = alarms[in_any_scenario(group)];
-    here.count += group.false_alarms;
-    here.hours += group.contact_free / 3600.0;
-  }
-  return alarms;
-}
-
 Json group_json(const CampaignGroup& group, const Alarms& alarms) {
   Json quantiles = Json::array();
   for (const auto& time : group.quantiles) quantiles.push_back(known(time));
@@ -71,29 +49,31 @@ Json group_json(const CampaignGroup& group, const Alarms& alarms) {
           {"rate", group.false_alarms_per_hour},
           {"rate_at_most", finite(group.false_alarms_per_hour_at_most)},
           {"alarms", alarms.count},
+          {"alarm_hours", alarms.hours},
           {"alarm_rate", alarms.rate()},
           {"alarm_rate_at_most", finite(upper_rate(alarms.count, alarms.hours))}};
 }
 
-/// Why one looks at a run, and how badly one must: faults first, then false alarms, missed and slow contacts,
-/// of the detector that the robot followed.
+/// Why one looks at a run: the worst sort first, of the detector that the robot followed.
 struct Reason {
+  enum class Sort { fault, false_alarm, missed, slow };
+  Sort sort;
   std::string why;
-  double weight = 0.0;
+  double time = 0.0;  ///< of slow contacts, until they were noticed [s]
 };
 
-Reason reason_for(const RunResult& result, double missed_after) {
-  constexpr double fault = 4.0, false_alarm = 3.0, missed = 2.0;  // seconds are less
-  if (!result.fault.empty()) return {"fault: " + result.fault, fault};
+std::optional<Reason> reason_for(const RunResult& result, double missed_after) {
+  if (!result.fault.empty()) return Reason{Reason::Sort::fault, "fault: " + result.fault};
   const EstimatorResult& followed = result.estimators.front();
-  if (followed.false_alarm) return {"false alarm", false_alarm};
-  if (result.body == "none") return {};
-  if (!followed.detection_time || *followed.detection_time > missed_after) return {"missed", missed};
-  return {"slow", *followed.detection_time};
+  if (followed.false_alarm) return Reason{Reason::Sort::false_alarm, "false alarm"};
+  if (result.body == "none") return std::nullopt;
+  const std::optional<double>& time = followed.detection_time;
+  if (!time || *time > missed_after) return Reason{Reason::Sort::missed, "missed"};
+  return *time > 0.0 ? std::optional(Reason{Reason::Sort::slow, "slow", *time}) : std::nullopt;
 }
 
 /// Pairs of key and value.
-Json pairs(const Place& values) {
+Json pairs(const std::vector<std::pair<std::string, std::string>>& values) {
   Json list = Json::array();
   for (const auto& [key, value] : values) list.push_back(Json::array({key, value}));
   return list;
@@ -105,25 +85,29 @@ Json drawn_for(const Campaign& campaign, const RunResult& result) {
 }
 
 /// The worst runs of each sort, the worst first.
-Json runs_to_look_at(const Campaign& campaign, const std::vector<RunResult>& results, std::size_t places) {
-  std::vector<std::pair<Reason, const RunResult*>> worst;
+Json runs_to_look_at(const Campaign& campaign, const CampaignResults& results, std::size_t places) {
+  std::map<Reason::Sort, std::vector<std::pair<Reason, RunResult>>> worst;
   for (const RunResult& result : results) {
-    if (Reason reason = reason_for(result, campaign.missed_after); reason.weight > 0.0)
-      worst.emplace_back(std::move(reason), &result);
+    std::optional<Reason> reason = reason_for(result, campaign.missed_after);
+    if (!reason) continue;
+    auto& runs = worst[reason->sort];
+    const auto after = std::find_if(runs.begin(), runs.end(),
+                                    [&](const auto& run) { return run.first.time < reason->time; });
+    if (after == runs.end() && runs.size() == runs_of_a_sort) continue;
+    runs.insert(after, {std::move(*reason), result});
+    if (runs.size() > runs_of_a_sort) runs.pop_back();
   }
-  std::stable_sort(worst.begin(), worst.end(),
-                   [](const auto& a, const auto& b) { return a.first.weight > b.first.weight; });
-  std::map<double, std::size_t> taken;  // by sort: of slow ones, those below a second
   Json list = Json::array();
-  for (const auto& [reason, result] : worst) {
-    if (taken[std::max(1.0, reason.weight)]++ >= runs_of_a_sort) continue;
-    list.push_back({{"run", result->run},
-                    {"why", reason.why},
-                    {"point", result->point % places},
-                    {"body", result->body},
-                    {"time", known(result->estimators.front().detection_time)},
-                    {"speed", known(result->speed)},
-                    {"drawn", drawn_for(campaign, *result)}});
+  for (const auto& [sort, runs] : worst) {
+    for (const auto& [reason, result] : runs) {
+      list.push_back({{"run", result.run},
+                      {"why", reason.why},
+                      {"point", result.point % places},
+                      {"body", result.body},
+                      {"time", known(result.estimators.front().detection_time)},
+                      {"speed", known(result.speed)},
+                      {"drawn", drawn_for(campaign, result)}});
+    }
   }
   return list;
 }
@@ -147,10 +131,10 @@ Json reaction_of(const RunResult& result) {
 }
 
 /// The limits are those of the first run.
-Json reaction_dots(const Campaign& campaign, const std::vector<RunResult>& results) {
+Json reaction_dots(const Campaign& campaign, const CampaignResults& results) {
   Json runs = Json::array(), fits = Json::array();
   for (const RunResult& result : results) runs.push_back(reaction_of(result));
-  for (const ForceFit& fit : reactions_of(results).fits) {
+  for (const ForceFit& fit : reactions_of(results, campaign.missed_after).fits) {
     fits.push_back(
         {{"body", fit.body}, {"slope", fit.slope}, {"intercept", fit.intercept}, {"pearson", fit.pearson}});
   }
@@ -181,25 +165,21 @@ Json texts_of(const Campaign& campaign) {
 
 }  // namespace
 
-std::string campaign_page(const Campaign& campaign, const std::vector<RunResult>& results,
-                          const std::vector<CampaignGroup>& groups, const std::string& call) {
+std::string campaign_page(const Campaign& campaign, const CampaignResults& results,
+                          const std::vector<CampaignGroup>& groups, const CountedAlarms& alarms,
+                          const std::string& call) {
   const std::size_t places =
       campaign.grid_points() / (campaign.contact ? campaign.contact->bodies.size() : 1);
-  const AlarmsAt alarms = alarms_of(groups);
   Json list = Json::array();
   Json points(places, Json::array());
   std::vector<std::string> estimators;
   for (const CampaignGroup& group : groups) {
     points[group.place] = pairs(place_of(group, campaign));
     add_new(group.estimator, estimators);
-    list.push_back(group_json(group, alarms.at(in_any_scenario(group))));
+    list.push_back(group_json(group, alarms.of(group)));
   }
-  std::size_t faults = 0;
   double simulated = 0.0;
-  for (const RunResult& result : results) {
-    faults += result.fault.empty() ? 0U : 1U;
-    simulated += result.simulated;
-  }
+  for (const RunResult& result : results) simulated += result.simulated;
   const Json provenance = pairs({{"Version", "flinch " FLINCH_VERSION},
                                  {"File", campaign.file.filename().string()},
                                  {"Seed", std::to_string(campaign.seed)},
@@ -208,12 +188,13 @@ std::string campaign_page(const Campaign& campaign, const std::vector<RunResult>
                {"description", campaign.description},
                {"runs", campaign.runs()},
                {"draws", campaign.draws},
-               {"faults", faults},
+               {"faults", faulted_runs(results)},
                {"simulated_h", simulated / 3600.0},
                {"missed_after", campaign.missed_after},
                {"points", points},
                {"estimators", estimators},
                {"groups", list},
+               {"alarm_table", alarms.table().string()},
                {"look", runs_to_look_at(campaign, results, places)},
                {"call", call},
                {"provenance", provenance},
@@ -223,10 +204,10 @@ std::string campaign_page(const Campaign& campaign, const std::vector<RunResult>
          std::string(campaign_page_template_after_data);
 }
 
-void write_campaign_page(const Campaign& campaign, const std::vector<RunResult>& results,
-                         const std::vector<CampaignGroup>& groups, const std::string& call,
-                         const std::filesystem::path& file) {
-  write_result(file, campaign_page(campaign, results, groups, call));
+void write_campaign_page(const Campaign& campaign, const CampaignResults& results,
+                         const std::vector<CampaignGroup>& groups, const CountedAlarms& alarms,
+                         const std::string& call, const std::filesystem::path& file) {
+  write_result(file, campaign_page(campaign, results, groups, alarms, call));
 }
 
 }  // namespace flinch

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -32,43 +33,6 @@ std::vector<std::pair<std::string, std::string>> axes_of(const Campaign& campaig
   return {result.values.begin(), result.values.begin() + static_cast<std::ptrdiff_t>(count)};
 }
 
-/// What the runs of a group add up to.
-struct Collected {
-  CampaignGroup group;
-  std::vector<double> times;
-
-  void add(const RunResult& result, const EstimatorResult& estimator, double missed_after) {
-    ++group.n;
-    group.faults += result.fault.empty() ? 0U : 1U;
-    group.false_alarms += estimator.false_alarm ? 1U : 0U;
-    group.contact_free += estimator.contact_free;
-    const auto keep_largest = [](double value, double& largest) { largest = std::max(largest, value); };
-    keep_largest(result.observer_error_force, group.largest_observer_error_force);
-    keep_largest(result.observer_error_moment, group.largest_observer_error_moment);
-    keep_largest(result.tracking_error, group.largest_tracking_error);
-    if (result.body == "none" || estimator.false_alarm) return;
-    ++group.contacts;
-    if (estimator.detection_time && *estimator.detection_time <= missed_after) {
-      times.push_back(*estimator.detection_time);
-    } else {
-      ++group.missed;
-    }
-  }
-
-  CampaignGroup finished() {
-    if (group.contacts > 0) group.missed_at_most = upper_share(group.missed, group.contacts);
-    static constexpr std::array shares = {0.1, 0.25, 0.5, 0.75, 0.9};
-    for (std::size_t i = 0; i < shares.size(); ++i)
-      group.quantiles[i] = quantile(times, group.contacts, shares[i]);
-    group.median = group.quantiles[2];
-    group.p90 = group.quantiles[4];
-    const double hours = group.contact_free / 3600.0;
-    group.false_alarms_per_hour = hours > 0.0 ? static_cast<double>(group.false_alarms) / hours : 0.0;
-    group.false_alarms_per_hour_at_most = upper_rate(group.false_alarms, hours);
-    return std::move(group);
-  }
-};
-
 std::string milliseconds(std::optional<double> time) {
   return time ? fmt::format("{:.1f}", 1e3 * *time) : "-";
 }
@@ -84,25 +48,72 @@ std::string line_of(const std::vector<std::pair<std::string, std::string>>& plac
 
 }  // namespace
 
-std::vector<CampaignGroup> groups_of(const Campaign& campaign, const std::vector<RunResult>& results) {
+void CollectedGroup::add(const RunResult& result, const EstimatorResult& estimator, double missed_after) {
+  ++group_.n;
+  group_.faults += result.fault.empty() ? 0U : 1U;
+  group_.false_alarms += estimator.false_alarm ? 1U : 0U;
+  group_.contact_free += estimator.contact_free;
+  const auto keep_largest = [](double value, double& largest) { largest = std::max(largest, value); };
+  keep_largest(result.observer_error_force, group_.largest_observer_error_force);
+  keep_largest(result.observer_error_moment, group_.largest_observer_error_moment);
+  keep_largest(result.tracking_error, group_.largest_tracking_error);
+  if (result.body == "none" || estimator.false_alarm) return;
+  ++group_.contacts;
+  if (estimator.detection_time && *estimator.detection_time <= missed_after) {
+    times_.push_back(*estimator.detection_time);
+  } else {
+    ++group_.missed;
+  }
+}
+
+CampaignGroup CollectedGroup::group() const {
+  CampaignGroup group = group_;
+  if (group.contacts > 0) group.missed_at_most = upper_share(group.missed, group.contacts);
+  static constexpr std::array shares = {0.1, 0.25, 0.5, 0.75, 0.9};
+  for (std::size_t i = 0; i < shares.size(); ++i)
+    group.quantiles[i] = quantile(times_, group.contacts, shares[i]);
+  group.median = group.quantiles[2];
+  group.p90 = group.quantiles[4];
+  const double hours = group.contact_free / 3600.0;
+  group.false_alarms_per_hour = hours > 0.0 ? static_cast<double>(group.false_alarms) / hours : 0.0;
+  group.false_alarms_per_hour_at_most = upper_rate(group.false_alarms, hours);
+  return group;
+}
+
+std::vector<CampaignGroup> groups_of(const Campaign& campaign, const CampaignResults& results) {
   const std::size_t bodies = campaign.contact ? campaign.contact->bodies.size() : 1;
+  struct Collected {
+    std::vector<std::pair<std::string, std::string>> at;
+    std::string estimator;
+    CollectedGroup runs;
+  };
   // Place of the point and of the estimator, and the body.
   std::map<std::tuple<std::size_t, std::string, std::size_t>, Collected> collected;
   for (const RunResult& result : results) {
     // The last digit of a point is the body that was drawn; runs are grouped by what was touched.
     const std::size_t point = result.point % (campaign.grid_points() / bodies);
     for (std::size_t i = 0; i < result.estimators.size(); ++i) {
-      Collected& group = collected[{point, result.body, i}];
-      group.group.place = point;
-      group.group.at = axes_of(campaign, result);
-      group.group.body = result.body;
-      group.group.estimator = result.estimators[i].name;
-      group.add(result, result.estimators[i], campaign.missed_after);
+      Collected& here = collected[{point, result.body, i}];
+      if (here.estimator.empty()) {
+        here.at = axes_of(campaign, result);
+        here.estimator = result.estimators[i].name;
+      }
+      here.runs.add(result, result.estimators[i], campaign.missed_after);
     }
   }
   std::vector<CampaignGroup> groups;
-  for (auto& [key, group] : collected) groups.push_back(group.finished());
+  for (const auto& [key, here] : collected) {
+    CampaignGroup& group = groups.emplace_back(here.runs.group());
+    std::tie(group.place, group.body, std::ignore) = key;
+    group.at = here.at;
+    group.estimator = here.estimator;
+  }
   return groups;
+}
+
+std::size_t faulted_runs(const CampaignResults& results) {
+  return static_cast<std::size_t>(std::count_if(
+      results.begin(), results.end(), [](const RunResult& result) { return !result.fault.empty(); }));
 }
 
 std::vector<std::pair<std::string, std::string>> place_of(const CampaignGroup& group,
@@ -144,12 +155,10 @@ std::string campaign_table(const Campaign& campaign, const std::vector<CampaignG
   return text;
 }
 
-std::string campaign_json(const Campaign& campaign, const std::vector<CampaignGroup>& groups,
-                          const CampaignPace& pace) {
+std::string campaign_json(const Campaign& campaign, const CampaignResults& results,
+                          const std::vector<CampaignGroup>& groups, const CampaignPace& pace) {
   Json list = Json::array();
-  std::size_t failed = 0;
   for (const CampaignGroup& group : groups) {
-    failed += group.faults;
     Json at = Json::object();
     for (const auto& [key, value] : group.at) at[key] = value;
     list.push_back(
@@ -174,7 +183,7 @@ std::string campaign_json(const Campaign& campaign, const std::vector<CampaignGr
   const double rate = pace.wall > 0.0 ? static_cast<double>(pace.runs_now) / pace.wall : 0.0;
   return json_text(Json{{"campaign", campaign.name},
                         {"runs", campaign.runs()},
-                        {"failed", failed},
+                        {"failed", faulted_runs(results)},
                         {"wall_s", pace.wall},
                         {"runs_per_s", rate},
                         {"groups", list}});

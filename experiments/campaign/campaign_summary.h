@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/campaign/campaign_results.h"
 #include "experiments/campaign/run_result.h"
 
 namespace flinch {
@@ -40,8 +41,24 @@ struct CampaignGroup {
   double largest_tracking_error = 0.0;         ///< [m]
 };
 
+/// Adds runs up to a group.
+class CollectedGroup {
+ public:
+  /// `missed_after`: a contact that is noticed later counts as missed [s].
+  void add(const RunResult& result, const EstimatorResult& estimator, double missed_after);
+  /// What they add up to. Place, grid, body and estimator are left to who knows them.
+  CampaignGroup group() const;
+
+ private:
+  CampaignGroup group_;
+  std::vector<double> times_;  ///< of the contacts that were noticed [s]
+};
+
 /// By point of the grid, then by body.
-std::vector<CampaignGroup> groups_of(const Campaign& campaign, const std::vector<RunResult>& results);
+std::vector<CampaignGroup> groups_of(const Campaign& campaign, const CampaignResults& results);
+
+/// Runs that a fault ended.
+std::size_t faulted_runs(const CampaignResults& results);
 
 /// Where a group stands in the grid, without the axes that have one value only.
 std::vector<std::pair<std::string, std::string>> place_of(const CampaignGroup& group,
@@ -57,7 +74,7 @@ struct CampaignPace {
 /// and rename none.
 std::string campaign_table(const Campaign& campaign, const std::vector<CampaignGroup>& groups,
                            const CampaignPace& pace);
-std::string campaign_json(const Campaign& campaign, const std::vector<CampaignGroup>& groups,
-                          const CampaignPace& pace);
+std::string campaign_json(const Campaign& campaign, const CampaignResults& results,
+                          const std::vector<CampaignGroup>& groups, const CampaignPace& pace);
 
 }  // namespace flinch

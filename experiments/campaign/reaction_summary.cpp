@@ -26,12 +26,20 @@ std::optional<double> quantile(std::vector<double> values, std::size_t count, do
 
 struct Collected {
   ReactionGroup group;
+  CollectedGroup noticed;
+  std::string estimator;
   std::vector<double> removals, peaks;
 
-  void add(const RunResult& result) {
+  void add(const RunResult& result, double missed_after) {
     ++group.n;
-    const bool noticed = !result.estimators.empty() && result.estimators.front().detection_time.has_value();
-    group.detected += noticed ? 1U : 0U;
+    if (!result.estimators.empty()) {
+      const EstimatorResult& followed = result.estimators.front();
+      if (group.n == 1) estimator = followed.name;
+      if (estimator != followed.name) estimator.clear();
+      noticed.add(result, followed, missed_after);
+    }
+    const bool detected = !result.estimators.empty() && result.estimators.front().detection_time.has_value();
+    group.detected += detected ? 1U : 0U;
     if (result.removal_time) removals.push_back(*result.removal_time);
     if (result.peak_force) peaks.push_back(*result.peak_force);
     group.over_limit += result.over_limit > 0.0 ? 1U : 0U;
@@ -46,6 +54,8 @@ struct Collected {
   }
 
   ReactionGroup finished() {
+    group.noticed = noticed.group();
+    group.noticed.estimator = estimator;
     group.removed_median = quantile(removals, group.n, 0.5);
     group.removed_p95 = quantile(removals, group.n, 0.95);
     group.removed_largest = quantile(removals, removals.size(), 1.0);
@@ -61,6 +71,20 @@ std::string text_of(std::optional<double> value, double scale) {
 
 Json json_of(std::optional<double> value, double scale = 1.0) {
   return value ? Json(scale * *value) : Json(nullptr);
+}
+
+Json noticed_json(const CampaignGroup& noticed) {
+  const double most = noticed.false_alarms_per_hour_at_most;
+  return {{"estimator", noticed.estimator.empty() ? Json(nullptr) : Json(noticed.estimator)},
+          {"contacts", noticed.contacts},
+          {"missed", noticed.missed},
+          {"missed_share_at_most", json_of(noticed.missed_at_most)},
+          {"median_ms", json_of(noticed.median, 1e3)},
+          {"p90_ms", json_of(noticed.p90, 1e3)},
+          {"false_alarms", noticed.false_alarms},
+          {"contact_free_h", noticed.contact_free / 3600.0},
+          {"false_alarms_per_h", noticed.false_alarms_per_hour},
+          {"false_alarms_per_h_at_most", std::isfinite(most) ? Json(most) : Json(nullptr)}};
 }
 
 bool is_judged(const ReactionGroup& group) { return group.could_stop + group.could_not_stop > 0; }
@@ -115,7 +139,7 @@ std::optional<ForceFit> fit_line(const std::vector<double>& x, const std::vector
   return fit;
 }
 
-ReactionSummary reactions_of(const std::vector<RunResult>& results) {
+ReactionSummary reactions_of(const CampaignResults& results, double missed_after) {
   std::map<std::pair<std::string, std::string>, Collected> collected;
   std::map<std::string, std::pair<std::vector<double>, std::vector<double>>> forces;
   for (const RunResult& result : results) {
@@ -123,7 +147,7 @@ ReactionSummary reactions_of(const std::vector<RunResult>& results) {
     Collected& group = collected[{level_of(result.law), body}];
     group.group.level = level_of(result.law);
     group.group.body = body;
-    group.add(result);
+    group.add(result, missed_after);
     if (!result.speed || !result.peak_force) continue;
     forces[body].first.push_back(*result.speed);
     forces[body].second.push_back(*result.peak_force);
@@ -188,6 +212,7 @@ std::string reactions_json(const Campaign& campaign, const ReactionSummary& summ
                       {"violations_could_stop", could_stop_json(group, group.violations_could_stop)},
                       {"self_collisions", group.self_collisions},
                       {"gate_faults", group.gate_faults}});
+    groups.back().update(noticed_json(group.noticed));
   }
   for (const ForceFit& fit : summary.fits) {
     fits.push_back({{"body", fit.body},

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/campaign/campaign_results.h"
 #include "experiments/campaign/campaign_summary.h"
 #include "experiments/campaign/run_result.h"
 
@@ -16,6 +17,7 @@ struct ReactionGroup {
   std::string body;   ///< that was meant to be touched, else that was
   std::size_t n = 0;
   std::size_t detected = 0;
+  CampaignGroup noticed;  ///< how, by the estimator that was followed; it has no name where that differs
   std::optional<double> removed_median, removed_p95;  ///< from the onset; none where more stayed [s]
   std::optional<double> removed_largest;              ///< of those that were removed [s]
   std::optional<double> peak_median, peak_largest;    ///< [N]
@@ -44,8 +46,8 @@ struct ReactionSummary {
   std::vector<ForceFit> fits;         ///< of each body over all levels, with three or more runs
 };
 
-/// The limits of sigma_kappa and sigma_sc are those of the runs.
-ReactionSummary reactions_of(const std::vector<RunResult>& results);
+/// The limits of sigma_kappa and sigma_sc are those of the runs. `missed_after`: as in Campaign [s].
+ReactionSummary reactions_of(const CampaignResults& results, double missed_after = 0.1);
 
 /// "velocity" of "velocity_reaction"; other laws as they are called.
 std::string level_of(const std::string& law);

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "experiments/campaign/campaign_results.h"
 #include "experiments/campaign/run_result.h"
 #include "systems/foundation/result_file.h"
 #include "systems/framework/table_file.h"
@@ -21,67 +24,96 @@ std::optional<double> number(const std::string& cell) {
   return error == std::errc{} && rest == end ? std::optional(value) : std::nullopt;
 }
 
-/// Numbers where every cell is one or empty; texts otherwise, and for seeds, which have more digits.
-TableColumn column_of(const std::string& name, const std::vector<std::string>& cells) {
-  std::vector<double> numbers;
-  for (const std::string& cell : cells) {
-    const auto value = number(cell);
-    if (!value || name == "seed" || name == "fault") return {name, cells};
-    numbers.push_back(*value);
-  }
-  return {name, numbers};
-}
-
-/// The columns of all results, each once, with a cell for each result: "" where it has no such column.
-struct Cells {
-  explicit Cells(const std::vector<RunResult>& results) {
-    std::string last_header;
-    std::vector<std::size_t> places;
-    for (std::size_t row = 0; row < results.size(); ++row) {
-      if (std::string header = csv_header(results[row]); header != last_header) {
-        last_header = std::move(header);
-        places.clear();
-        for (const std::string& name : csv_cells(last_header))
-          places.push_back(place_of(name, results.size()));
-      }
-      std::vector<std::string> cells = csv_cells(csv_row(results[row]));
-      for (std::size_t i = 0; i < cells.size(); ++i) columns[places[i]][row] = std::move(cells[i]);
+/// The columns of all results, each once.
+class Columns {
+ public:
+  explicit Columns(const CampaignResults& results) {
+    for (const RunResult& result : results) {
+      const std::vector<std::string> cells = cells_of(result);
+      for (std::size_t i = 0; i < cells.size(); ++i) columns_[i].hold(cells[i]);
     }
   }
 
-  std::string line(std::size_t row) const {
-    std::string text;
-    for (const auto& column : columns)
-      text += (&column == &columns.front() ? "" : ",") + csv_cell(column[row]);
-    return text;
+  /// A cell for each column known so far: "" where the result has no such column.
+  std::vector<std::string> cells_of(const RunResult& result) {
+    if (std::string header = csv_header(result); header != last_header_) {
+      last_header_ = std::move(header);
+      places_.clear();
+      for (const std::string& name : csv_cells(last_header_)) places_.push_back(place_of(name));
+    }
+    std::vector<std::string> own = csv_cells(csv_row(result));
+    std::vector<std::string> cells(columns_.size());
+    for (std::size_t i = 0; i < own.size(); ++i) cells[places_[i]] = std::move(own[i]);
+    return cells;
   }
 
-  std::vector<std::string> names;
-  std::vector<std::vector<std::string>> columns;
+  std::vector<std::string> names() const {
+    std::vector<std::string> names;
+    for (const Column& column : columns_) names.push_back(column.name);
+    return names;
+  }
+
+  std::vector<TableColumn> of_table() const {
+    std::vector<TableColumn> columns;
+    for (const Column& column : columns_)
+      columns.push_back({column.name, column.has_numbers ? std::nullopt : std::optional(column.width)});
+    return columns;
+  }
 
  private:
-  std::size_t place_of(const std::string& name, std::size_t rows) {
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
-    names.push_back(name);
-    columns.emplace_back(rows);
-    return names.size() - 1;
+  /// Of numbers where every cell is one or empty; of texts otherwise, and of seeds, which have more digits.
+  struct Column {
+    std::string name;
+    bool has_numbers = true;
+    std::size_t width = 0;
+
+    void hold(const std::string& cell) {
+      has_numbers = has_numbers && name != "seed" && name != "fault" && number(cell).has_value();
+      width = std::max(width, cell.size());
+    }
+  };
+
+  std::size_t place_of(const std::string& name) {
+    const auto found = std::find_if(columns_.begin(), columns_.end(),
+                                    [&](const Column& column) { return column.name == name; });
+    const auto place = static_cast<std::size_t>(found - columns_.begin());
+    if (found == columns_.end()) columns_.push_back({.name = name});
+    return place;
   }
+
+  std::vector<Column> columns_;
+  std::string last_header_;
+  std::vector<std::size_t> places_;  ///< of its names
 };
+
+std::string csv_line(const std::vector<std::string>& cells) {
+  std::string line;
+  for (const std::string& cell : cells) line += (&cell == &cells.front() ? "" : ",") + csv_cell(cell);
+  return line + "\n";
+}
 
 }  // namespace
 
-void write_results(const std::vector<RunResult>& results, const std::filesystem::path& folder) {
-  const Cells cells(results);
-  std::string text;
-  for (const std::string& name : cells.names) text += (text.empty() ? "" : ",") + csv_cell(name);
-  text += "\n";
-  for (std::size_t row = 0; row < results.size(); ++row) text += cells.line(row) + "\n";
-  write_result(folder / "results.csv", text);
-  std::vector<TableColumn> columns;
-  for (std::size_t i = 0; i < cells.names.size(); ++i)
-    columns.push_back(column_of(cells.names[i], cells.columns[i]));
-  write_table(columns, {{"format", "flinch campaign"}}, folder / "results.h5");
+void write_results(const CampaignResults& results, const std::filesystem::path& folder) {
+  Columns columns(results);
+  ResultFile csv(folder / "results.csv");
+  csv.write(csv_line(columns.names()));
+  for (const RunResult& result : results) csv.write(csv_line(columns.cells_of(result)));
+  csv.finish();
+
+  const std::vector<TableColumn> of_table = columns.of_table();
+  const auto row = [&](std::size_t place) {
+    std::vector<TableCell> cells;
+    for (std::string& cell : columns.cells_of(results[place])) {
+      if (of_table[cells.size()].width) {
+        cells.emplace_back(std::move(cell));
+      } else {
+        cells.emplace_back(*number(cell));
+      }
+    }
+    return cells;
+  };
+  write_table(of_table, results.size(), row, {{"format", "flinch campaign"}}, folder / "results.h5");
 }
 
 }  // namespace flinch

@@ -88,9 +88,9 @@ void work(const Campaign& campaign, WorkList& list) {
 
 RunResult simulate_run(const CampaignRun& run) { return result_of(run, judge_experiment(run.scenario)); }
 
-std::vector<RunResult> run_campaign(const Campaign& campaign, const std::filesystem::path& folder,
-                                    std::size_t threads, const CampaignProgress& progress,
-                                    CampaignHelpers* helpers) {
+CampaignResults run_campaign(const Campaign& campaign, const std::filesystem::path& folder,
+                             std::size_t threads, const CampaignProgress& progress,
+                             CampaignHelpers* helpers) {
   CampaignJournal journal(folder, campaign);
   const std::size_t done_before = journal.done();
   WorkList list(journal, campaign.runs());
@@ -108,7 +108,7 @@ std::vector<RunResult> run_campaign(const Campaign& campaign, const std::filesys
     }
   }
   list.rethrow_problem();
-  std::vector<RunResult> results = journal.results();
+  CampaignResults results = journal.results();
   if (results.size() == campaign.runs()) write_results(results, folder);
   return results;
 }

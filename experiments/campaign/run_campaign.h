@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
-#include <vector>
 
+#include "experiments/campaign/campaign_results.h"
 #include "experiments/campaign/run_result.h"
 
 namespace flinch {
@@ -25,8 +25,8 @@ RunResult simulate_run(const CampaignRun& run);
 /// results.csv and results.h5, are written once all are done; until then `folder` holds results.part, from
 /// which the same call goes on. `helpers` do runs as well; null: there are none. Throws SetupError for a run
 /// that cannot be made, with its number and what was drawn for it.
-std::vector<RunResult> run_campaign(const Campaign& campaign, const std::filesystem::path& folder,
-                                    std::size_t threads = 0, const CampaignProgress& progress = {},
-                                    CampaignHelpers* helpers = nullptr);
+CampaignResults run_campaign(const Campaign& campaign, const std::filesystem::path& folder,
+                             std::size_t threads = 0, const CampaignProgress& progress = {},
+                             CampaignHelpers* helpers = nullptr);
 
 }  // namespace flinch

@@ -193,33 +193,29 @@ void write_integer(Hdf5Object::Id object, const std::string& name, std::int64_t 
   check(H5Awrite(attribute, H5T_NATIVE_INT64, &value), "writing the attribute '" + name + "'");
 }
 
-namespace {
-
-void write_column(Hdf5Object::Id parent, const std::string& name, hid_t type_in_file, hid_t type_in_memory,
-                  std::size_t size, const void* values) {
-  const hsize_t length = size;
+Hdf5Object make_column(Hdf5Object::Id parent, const std::string& name, std::size_t rows,
+                       std::optional<std::size_t> text_width) {
+  const hsize_t length = rows;
   const Hdf5Object space(H5Screate_simple(1, &length, nullptr), H5Sclose, "making a column");
   const Hdf5Object properties = timeless(H5P_DATASET_CREATE);
-  const Hdf5Object column(
-      H5Dcreate2(parent, name.c_str(), type_in_file, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose,
-      "making the column '" + name + "'");
-  check(H5Dwrite(column, type_in_memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values),
-        "writing the column '" + name + "'");
+  const std::string doing = "making the column '" + name + "'";
+  const auto make = [&](hid_t type) -> Hdf5Object {
+    return {H5Dcreate2(parent, name.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose,
+            doing};
+  };
+  return text_width ? make(text_type(*text_width)) : make(H5T_IEEE_F64LE);
 }
 
-}  // namespace
-
-void write_reals(Hdf5Object::Id parent, const std::string& name, const std::vector<double>& values) {
-  write_column(parent, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values.size(), values.data());
-}
-
-void write_texts(Hdf5Object::Id parent, const std::string& name, const std::vector<std::string>& values) {
-  std::size_t width = 1;
-  for (const std::string& value : values) width = std::max(width, value.size());
-  std::string rows;
-  for (const std::string& value : values) rows += value + std::string(width - value.size(), '\0');
-  const Hdf5Object type = text_type(width);
-  write_column(parent, name, type, type, values.size(), rows.data());
+void write_cells(Hdf5Object::Id column, std::size_t first, std::size_t rows, const void* cells) {
+  if (rows == 0) return;
+  const hsize_t start = first, count = rows;
+  const Hdf5Object in_file(H5Dget_space(column), H5Sclose, "reading the size of a column");
+  const Hdf5Object in_memory(H5Screate_simple(1, &count, nullptr), H5Sclose, "making a data space");
+  check(H5Sselect_hyperslab(in_file, H5S_SELECT_SET, &start, nullptr, &count, nullptr),
+        "choosing rows of a column");
+  const Hdf5Object type(H5Dget_type(column), H5Tclose, "reading the type of a column");
+  const hid_t in_memory_type = H5Tget_class(type) == H5T_FLOAT ? H5T_NATIVE_DOUBLE : hid_t{type};
+  check(H5Dwrite(column, in_memory_type, in_memory, in_file, H5P_DEFAULT, cells), "writing a column");
 }
 
 std::string read_text(Hdf5Object::Id object, const std::string& name) {

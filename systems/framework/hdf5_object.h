@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -64,9 +65,11 @@ std::string read_text(Hdf5Object::Id object, const std::string& name);
 std::int64_t read_integer(Hdf5Object::Id object, const std::string& name);
 std::vector<std::string> attribute_names(Hdf5Object::Id object);
 
-/// Writes a dataset of one column.
-void write_reals(Hdf5Object::Id parent, const std::string& name, const std::vector<double>& values);
-void write_texts(Hdf5Object::Id parent, const std::string& name, const std::vector<std::string>& values);
+/// Makes a dataset of one column and `rows` rows: of texts of `text_width` bytes, without it of real numbers.
+Hdf5Object make_column(Hdf5Object::Id parent, const std::string& name, std::size_t rows,
+                       std::optional<std::size_t> text_width = std::nullopt);
+/// Writes `rows` of its cells, which lie one behind the other, from row `first` on.
+void write_cells(Hdf5Object::Id column, std::size_t first, std::size_t rows, const void* cells);
 
 /// Makes a table of numbers that rows can be appended to, compressed in chunks of `chunk_rows`.
 Hdf5Object make_table(Hdf5Object::Id parent, const std::string& name, Field::Kind kind, std::size_t columns,

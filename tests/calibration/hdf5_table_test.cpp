@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "systems/framework/hdf5_object.h"
+#include "tests/support/hdf5_columns.h"
 #include "tests/support/problems_of.h"
 #include "tests/support/temporary_folder.h"
 
@@ -34,7 +35,7 @@ std::vector<std::string> problems(const std::filesystem::path& file, const std::
 
 TEST_F(Hdf5Table, ReadsDataSetsOfOneDimensionAndOfTwoOfAnyNumbers) {
   const auto file = written([](Hdf5Object::Id id) {
-    internal::write_reals(id, "t", {0.0, 0.5, 1.0});
+    test::write_reals(id, "t", {0.0, 0.5, 1.0});
     const Hdf5Object counts = internal::make_table(id, "counts", Field::Kind::integer, 2, 10);
     std::vector<internal::Number> numbers(6);
     for (int i = 0; i < 6; ++i) numbers[static_cast<std::size_t>(i)].integer = 10 * i;
@@ -53,10 +54,10 @@ TEST_F(Hdf5Table, BelievesTheStoredSizeOfAChunkAsFarAsTheFileIsLong) {
 
 TEST_F(Hdf5Table, NamesRowAndColumnOfWhatIsWrong) {
   const auto file = written([](Hdf5Object::Id id) {
-    internal::write_reals(id, "t", {0.0, 0.5, 1.0});
-    internal::write_reals(id, "q", {0.0, std::nan(""), 1.0});
-    internal::write_reals(id, "short", {0.0});
-    internal::write_texts(id, "words", {"a", "b", "c"});
+    test::write_reals(id, "t", {0.0, 0.5, 1.0});
+    test::write_reals(id, "q", {0.0, std::nan(""), 1.0});
+    test::write_reals(id, "short", {0.0});
+    test::write_texts(id, "words", {"a", "b", "c"});
   });
   EXPECT_THAT(problems(file, {"t", "q"}),
               ElementsAre(HasSubstr("table.h5:2: column 'q' is no finite number")));

@@ -16,6 +16,7 @@
 #include "systems/signals/force_torque_reading.h"
 #include "systems/signals/joint_reading.h"
 #include "tests/identification/recorded.h"
+#include "tests/support/hdf5_columns.h"
 #include "tests/support/problems_of.h"
 #include "tests/support/sanitized.h"
 
@@ -97,7 +98,7 @@ void write_hdf5_log(const CsvTable& table, const std::filesystem::path& file) {
     const internal::Hdf5Object group = internal::make_group(id, "log");
     std::vector<double> time(rows);
     for (std::size_t k = 0; k < rows; ++k) time[k] = table.values(static_cast<Eigen::Index>(k), 0);
-    internal::write_reals(group, "t_ms", time);
+    test::write_reals(group, "t_ms", time);
     std::vector<internal::Number> numbers;
     for (std::size_t k = 0; k < rows; ++k) {
       for (Eigen::Index column = 1; column < table.values.cols(); ++column) {

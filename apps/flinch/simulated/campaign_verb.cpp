@@ -3,6 +3,8 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <memory>
+#include <optional>
 
 #include "apps/flinch/command_line.h"
 #include "apps/flinch/conclusion.h"
@@ -12,8 +14,10 @@
 #include "experiments/campaign/campaign.h"
 #include "experiments/campaign/campaign_helpers.h"
 #include "experiments/campaign/campaign_page.h"
+#include "experiments/campaign/campaign_results.h"
 #include "experiments/campaign/campaign_run.h"
 #include "experiments/campaign/campaign_summary.h"
+#include "experiments/campaign/counted_alarms.h"
 #include "experiments/campaign/reaction_summary.h"
 #include "experiments/campaign/run_campaign.h"
 #include "experiments/report/run_folder.h"
@@ -73,15 +77,15 @@ RunFolder campaign_folder(const CampaignOptions& options, const Campaign& campai
   return folder;
 }
 
-void print(const Campaign& campaign, const std::vector<RunResult>& results,
-           const std::vector<CampaignGroup>& groups, const CampaignPace& pace, bool json) {
+void print(const Campaign& campaign, const CampaignResults& results, const std::vector<CampaignGroup>& groups,
+           const CampaignPace& pace, bool json) {
   if (campaign.summary == Campaign::Summary::reactions) {
-    const ReactionSummary summary = reactions_of(results);
+    const ReactionSummary summary = reactions_of(results, campaign.missed_after);
     fmt::print("{}",
                json ? reactions_json(campaign, summary, pace) + "\n" : reactions_table(campaign, summary));
   } else {
-    fmt::print("{}",
-               json ? campaign_json(campaign, groups, pace) + "\n" : campaign_table(campaign, groups, pace));
+    fmt::print("{}", json ? campaign_json(campaign, results, groups, pace) + "\n"
+                          : campaign_table(campaign, groups, pace));
   }
 }
 
@@ -101,20 +105,22 @@ ExitStatus campaign(const CampaignOptions& options) {
     return ExitStatus::done;
   }
   check_campaign(campaign);  // before anything is written
+  std::optional<CountedAlarms> alarms;
+  if (!options.false_alarms.empty()) alarms.emplace(campaign, options.false_alarms);
   const RunFolder folder = campaign_folder(options, campaign);
   const StopWatch watch;
-  std::vector<RunResult> results;
   std::size_t before = campaign.runs();
   std::signal(SIGINT, [](int) { interrupted = 1; });
-  {
+  const CampaignResults results = [&] {
     Progress progress("campaign " + campaign.name, options.common.quiet || options.common.json);
     const auto show = [&](std::size_t done, std::size_t done_before) {
       before = done_before;
-      progress.show(static_cast<double>(done) / static_cast<double>(campaign.runs()));
+      const auto runs = static_cast<double>(campaign.runs());
+      progress.show(static_cast<double>(done) / runs, static_cast<double>(done_before) / runs);
       return interrupted == 0;
     };
-    results = run_campaign(campaign, folder, options.threads.value_or(helpers ? 1 : 0), show, helpers.get());
-  }
+    return run_campaign(campaign, folder, options.threads.value_or(helpers ? 1 : 0), show, helpers.get());
+  }();
   std::signal(SIGINT, SIG_DFL);
   if (results.size() < campaign.runs()) {
     throw SetupError(fmt::format("stopped after {} of {} runs; the same call goes on from there",
@@ -124,7 +130,8 @@ ExitStatus campaign(const CampaignOptions& options) {
   const std::vector<CampaignGroup> groups = groups_of(campaign, results);
   print(campaign, results, groups, pace, options.common.json);
   const std::filesystem::path page = folder.path / "campaign.html";
-  write_campaign_page(campaign, results, groups, options.common.command_line, page);
+  write_campaign_page(campaign, results, groups, alarms.value_or(CountedAlarms(groups)),
+                      options.common.command_line, page);
   if (!options.common.quiet) {
     fmt::print(stderr, "results:   {}\nreport:    {}\n", (folder.path / "results.csv").string(),
                page.string());

@@ -8,6 +8,10 @@ function showTrade() {
   const isTrade = told.some(({ alarms }) => alarms > 0) && new Set(told.map(rateOf)).size > 1;
   byId("trade").hidden = !isTrade;
   if (!isTrade) return;
+  const hours = told.map(({ alarm_hours }) => alarm_hours);
+  const [least, most] = [Math.min(...hours), Math.max(...hours)].map((each) => number(each, 2));
+  byId("trade-source").textContent = `counted in ${least} to ${most} h at each point ` +
+    (campaign.alarm_table ? `in ${campaign.alarm_table}` : "before the contacts of this campaign");
   const bodies = [...new Set(told.map((group) => group.body))];
   byId("trade-panels").replaceChildren(...bodies.map((body) => tradePanel(body, told.filter((group) => group.body === body), told)));
   byId("trade-legend").replaceChildren(...campaign.estimators.map((estimator) => {

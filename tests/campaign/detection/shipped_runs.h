@@ -22,7 +22,8 @@ inline Campaign shipped(const std::string& name, std::size_t draws,
 
 inline std::vector<RunResult> runs_of(const Campaign& campaign) {
   const TemporaryFolder folder;
-  return run_campaign(campaign, folder.path(), 2);
+  const CampaignResults results = run_campaign(campaign, folder.path(), 2);
+  return {results.begin(), results.end()};
 }
 
 inline std::vector<RunResult> shipped_runs(const std::string& name, std::size_t draws) {

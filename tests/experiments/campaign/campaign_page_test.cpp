@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/campaign/campaign.h"
+#include "experiments/campaign/counted_alarms.h"
+#include "experiments/campaign/results_file.h"
 #include "experiments/campaign/run_result.h"
 #include "tests/experiments/campaign/small_campaign.h"
 
@@ -53,7 +55,8 @@ class TheCampaignPage : public ::testing::Test {
   Campaign campaign = some_campaign(12);
   std::vector<RunResult> results = some_results();
   std::vector<CampaignGroup> groups = groups_of(campaign, results);
-  std::string page = campaign_page(campaign, results, groups, "flinch campaign some.yaml");
+  std::string page =
+      campaign_page(campaign, results, groups, CountedAlarms(groups), "flinch campaign some.yaml");
 };
 
 TEST_F(TheCampaignPage, NeedsNothingElse) {
@@ -75,6 +78,21 @@ TEST_F(TheCampaignPage, TellsTheGroupsWithTheirBounds) {
   EXPECT_NEAR(group["quantiles"][2], *groups[0].median, 1e-12);
   EXPECT_EQ(group["false_alarms"], 1);
   EXPECT_NEAR(group["alarm_rate_at_most"], groups[0].false_alarms_per_hour_at_most, 1e-9);
+}
+
+TEST_F(TheCampaignPage, ShowsTheFalseAlarmsOfAnotherCampaignWhereTheyAreGiven) {
+  const test::TemporaryFolder folder;
+  RunResult hours;
+  hours.estimators = {{.name = "observer", .false_alarm = true, .contact_free = 36000.0}};
+  write_results({hours, hours}, folder.path());
+  const CountedAlarms alarms(campaign, folder / "results.csv");
+  const json data = data_of(campaign_page(campaign, results, groups, alarms, ""));
+  EXPECT_EQ(data["alarm_table"], (folder / "results.csv").string());
+  EXPECT_EQ(data["groups"][0]["alarms"], 2);
+  EXPECT_NEAR(data["groups"][0]["alarm_hours"], 20.0, 1e-9);
+  EXPECT_NEAR(data["groups"][0]["alarm_rate"], 0.1, 1e-9);
+  EXPECT_EQ(data["groups"][0]["false_alarms"], 1) << "the campaign's own";
+  EXPECT_EQ(data_of(page)["alarm_table"], "");
 }
 
 TEST_F(TheCampaignPage, HasAColumnForTheGridAndOneForTheEstimator) {
@@ -107,7 +125,7 @@ TEST_F(TheCampaignPage, HasADotForEachReactionAndTheLimitsOfTheScenario) {
     results[i].speed = 0.1 * static_cast<double>(i);
     results[i].peak_force = 20.0 + 12.0 * static_cast<double>(i);
   }
-  const json shown = data_of(campaign_page(reactions, results, {}, ""))["reactions"];
+  const json shown = data_of(campaign_page(reactions, results, {}, CountedAlarms({}), ""))["reactions"];
   ASSERT_EQ(shown["runs"].size(), results.size());
   const json& dot = shown["runs"][2];
   EXPECT_EQ(dot["level"], "torque");

@@ -61,14 +61,29 @@ TEST(AContactAfterAFalseAlarm, IsNoContactThatWasNoticedOrMissed) {
   EXPECT_EQ(groups[0].contacts, 1U);
 }
 
+TEST(ARunThatAFaultEnded, FailedOnceHoweverManyEstimatorsThereAre) {
+  RunResult bad = contact(4e-3);
+  for (const char* name : {"filter", "imu"}) bad.estimators.push_back({.name = name});
+  bad.fault = "the encoders are silent";
+  RunResult good = bad;
+  good.fault.clear();
+  const Campaign campaign = without_grid(3);
+  const CampaignResults results = {bad, good, bad};
+  const auto json = nlohmann::json::parse(campaign_json(campaign, results, groups_of(campaign, results), {}));
+  EXPECT_EQ(json["failed"], 2);
+  ASSERT_EQ(json["groups"].size(), 3U);
+  for (const auto& group : json["groups"]) EXPECT_EQ(group["faults"], 2);
+}
+
 TEST(TheTables, HaveOneGroupForEachBody) {
   const Campaign campaign = without_grid(3);
-  const auto groups =
-      groups_of(campaign, {contact(4e-3), contact(5e-3, "link1"), contact(std::nullopt, "none")});
+  const CampaignResults results = {contact(4e-3), contact(5e-3, "link1"), contact(std::nullopt, "none")};
+  const auto groups = groups_of(campaign, results);
   EXPECT_EQ(groups.size(), 3U);
   const std::string table = campaign_table(campaign, groups, {.runs_now = 3, .wall = 0.5});
   EXPECT_THAT(table, HasSubstr("Some contacts: 3 runs, 3 of them now, 6 a second"));
-  const auto json = nlohmann::json::parse(campaign_json(campaign, groups, {.runs_now = 3, .wall = 0.5}));
+  const auto json =
+      nlohmann::json::parse(campaign_json(campaign, results, groups, {.runs_now = 3, .wall = 0.5}));
   EXPECT_EQ(json["campaign"], "some");
   EXPECT_EQ(json["runs"], 3);
   EXPECT_EQ(json["failed"], 0);

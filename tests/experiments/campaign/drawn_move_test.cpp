@@ -65,7 +65,7 @@ TEST(ADrawnPush, StretchesItsSpringByTheForceAndGoesBack) {
 
 class CampaignOf : public ::testing::Test {
  protected:
-  std::vector<RunResult> run(const std::string& name) {
+  CampaignResults run(const std::string& name) {
     const Campaign campaign =
         read_campaign(FLINCH_SOURCE_DIR "/apps/models/bodies/" + name, {.set = {}, .draws = 8});
     std::filesystem::create_directories(place / "out");
@@ -75,7 +75,7 @@ class CampaignOf : public ::testing::Test {
 };
 
 /// Whether what was touched first is of the kind that was to be touched.
-double share_touched_as_drawn(const std::vector<RunResult>& results) {
+double share_touched_as_drawn(const CampaignResults& results) {
   int right = 0;
   for (const RunResult& result : results) {
     for (const auto& [key, value] : result.values)

@@ -82,6 +82,39 @@ TEST(ReactionSummary, CountsNoStopsWhereNobodyJudgedThem) {
     EXPECT_TRUE(groups[1][key].is_null()) << key;
 }
 
+TEST(ReactionSummary, TellsHowContactsWereNoticedAsThatOfDetectionsDoes) {
+  std::vector<RunResult> runs;
+  for (int i = 1; i <= 9; ++i) {
+    runs.push_back(run("torque_reaction", "platform", 0.1, 1.0, 100.0));
+    runs.back().estimators = {{.name = "observer", .detection_time = 1e-3 * i, .contact_free = 360.0},
+                              {.name = "filter"}};
+  }
+  runs.push_back(runs.back());
+  runs.back().estimators[0].detection_time = 0.06;
+  runs.push_back(runs.front());
+  runs.back().estimators[0].false_alarm = true;
+  const auto group = nlohmann::json::parse(reactions_json({}, reactions_of(runs, 0.05), {}))["groups"][0];
+  EXPECT_EQ(group["estimator"], "observer");
+  EXPECT_EQ(group["n"], 11);
+  EXPECT_EQ(group["contacts"], 10);
+  EXPECT_EQ(group["missed"], 1) << "it was noticed later than that";
+  EXPECT_NEAR(group["median_ms"], 5.0, 1e-9);
+  EXPECT_NEAR(group["p90_ms"], 9.0, 1e-9);
+  EXPECT_NEAR(group["missed_share_at_most"], 0.3942, 1e-4);  // 1 of 10, Clopper and Pearson
+  EXPECT_EQ(group["false_alarms"], 1);
+  EXPECT_NEAR(group["false_alarms_per_h"], 1.0 / 1.1, 1e-9);
+  EXPECT_NEAR(group["false_alarms_per_h_at_most"], 4.7439 / 1.1, 1e-3);
+}
+
+TEST(ReactionSummary, NamesNoEstimatorWhereSeveralWereFollowed) {
+  RunResult other = run("torque_reaction", "platform", 0.1, 1.0, 100.0);
+  other.estimators.front().name = "filter";
+  const ReactionSummary summary =
+      reactions_of({run("torque_reaction", "platform", 0.1, 1.0, 100.0), other, other});
+  EXPECT_EQ(summary.groups[0].noticed.contacts, 3U);
+  EXPECT_TRUE(nlohmann::json::parse(reactions_json({}, summary, {}))["groups"][0]["estimator"].is_null());
+}
+
 // A contact that is not over at the end has no time of removal: it counts as longer than all others.
 TEST(ReactionSummary, AContactThatStaysIsLongerThanAllOthers) {
   RunResult stays = run("torque_reaction", "platform", 0.0, 1.0, 100.0);

@@ -37,7 +37,7 @@ class ACampaign : public ::testing::Test {
 
   test::Workplace place;
   Campaign campaign;
-  std::vector<RunResult> whole;
+  CampaignResults whole{0, {}};
 };
 
 TEST_F(ACampaign, GivesTheSameTableForAnyNumberOfThreads) {

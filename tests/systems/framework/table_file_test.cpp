@@ -18,13 +18,18 @@ namespace {
 class ATableFile : public ::testing::Test {
  protected:
   const test::TemporaryFolder folder;
-  const std::vector<TableColumn> columns = {
-      {"time_s", std::vector<double>{0.1, std::numeric_limits<double>::quiet_NaN(), -3e-300}},
-      {"obstacles[0].name", std::vector<std::string>{"pylon", "", "a longer name"}}};
+  const std::vector<TableColumn> columns = {{"time_s"}, {"obstacles[0].name", 13}};
+  const std::vector<std::vector<TableCell>> cells = {
+      {0.1, "pylon"}, {std::numeric_limits<double>::quiet_NaN(), ""}, {-3e-300, "a longer name"}};
+
+  void write(const std::string& name, const std::map<std::string, std::string>& attributes = {}) const {
+    write_table(
+        columns, cells.size(), [&](std::size_t row) { return cells[row]; }, attributes, folder / name);
+  }
 };
 
 TEST_F(ATableFile, HoldsEveryColumn) {
-  write_table(columns, {{"format", "a table"}}, folder / "table.h5");
+  write("table.h5", {{"format", "a table"}});
   const hid_t file = H5Fopen((folder / "table.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   const hid_t numbers = H5Dopen2(file, "time_s", H5P_DEFAULT);
   std::array<double, 3> read{};
@@ -47,14 +52,46 @@ TEST_F(ATableFile, HoldsEveryColumn) {
 }
 
 TEST_F(ATableFile, IsTheSameForTheSameTable) {
-  write_table(columns, {}, folder / "a.h5");
-  write_table(columns, {}, folder / "b.h5");
+  write("a.h5");
+  write("b.h5");
   EXPECT_EQ(test::bytes_of(folder / "a.h5"), test::bytes_of(folder / "b.h5"));
 }
 
-TEST_F(ATableFile, ThatCannotBeWrittenIsToldOf) {
-  EXPECT_THROW(write_table(columns, {}, folder / "nowhere" / "a.h5"), SetupError);
+TEST_F(ATableFile, HoldsMoreRowsThanAreWrittenAtOnce) {
+  constexpr std::size_t many = 5000;
+  const auto row = [](std::size_t k) {
+    return std::vector<TableCell>{static_cast<double>(k), std::to_string(k)};
+  };
+  write_table({{"number"}, {"text", 4}}, many, row, {}, folder / "table.h5");
+  const hid_t file = H5Fopen((folder / "table.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const hid_t numbers = H5Dopen2(file, "number", H5P_DEFAULT), texts = H5Dopen2(file, "text", H5P_DEFAULT);
+  std::vector<double> read(many);
+  ASSERT_GE(H5Dread(numbers, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, read.data()), 0);
+  const hid_t type = H5Dget_type(texts);
+  ASSERT_EQ(H5Tget_size(type), 4U);
+  std::string letters(4 * many, '?');
+  ASSERT_GE(H5Dread(texts, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, letters.data()), 0);
+  for (std::size_t k = 0; k < many; ++k) {
+    ASSERT_EQ(read[k], static_cast<double>(k));
+    ASSERT_EQ(letters.substr(4 * k, std::to_string(k).size()), std::to_string(k));
+  }
+  H5Tclose(type);
+  H5Dclose(texts);
+  H5Dclose(numbers);
+  H5Fclose(file);
 }
+
+TEST_F(ATableFile, RefusesACellThatDoesNotFitItsColumn) {
+  for (const std::vector<TableCell>& row :
+       std::vector<std::vector<TableCell>>{{0.1, "fourteen bytes"}, {0.1, 0.2}, {"text", "text"}}) {
+    EXPECT_THROW(write_table(
+                     columns, 1, [&](std::size_t) { return row; }, {}, folder / "a.h5"),
+                 SetupError);
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.h5"));
+  }
+}
+
+TEST_F(ATableFile, ThatCannotBeWrittenIsToldOf) { EXPECT_THROW(write("nowhere/a.h5"), SetupError); }
 
 }  // namespace
 }  // namespace flinch
