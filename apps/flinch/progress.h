@@ -6,8 +6,8 @@
 namespace flinch {
 
 /// Tells on stderr how far something has come: a bar that redraws itself on a terminal; where stderr is a
-/// pipe or file, a plain line at every quarter. Both say how long the rest will take. Says nothing when quiet. The clock is the wall's and only
-/// paces the display.
+/// pipe or file, a plain line at every quarter. Both say how long the rest will take. Says nothing when
+/// quiet. The clock is the wall's, and nothing but the display depends on it.
 class Progress {
  public:
   Progress(std::string what, bool quiet);
@@ -31,8 +31,8 @@ class Progress {
   std::chrono::steady_clock::time_point last_drawn_;
 };
 
-/// "2 h 05 min left": how long the rest takes where `share_before` ... `share` took `elapsed` [s]; "" where too
-/// little was done to tell.
+/// "2 h 05 min left": how long the rest takes where `share_before` ... `share` took `elapsed` [s]; "" where
+/// too little was done to tell.
 std::string time_left(double elapsed, double share, double share_before = 0.0);
 
 }  // namespace flinch

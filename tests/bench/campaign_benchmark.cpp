@@ -1,8 +1,8 @@
 // A run of a campaign: drawn, built, simulated for 1.2 s and judged, without page or recording.
 // `per_4_cores` is how many four processors do in a second, by the processor time that a run takes, whatever
-// else the machine does. `efficiency` is that of whole campaigns in parallel: runs a second of processor time with
-// a thread for each processor, over those with one; `busy` is the share of the processors' time that it used
-// meanwhile, which other programs make smaller.
+// else the machine does. `efficiency` is that of whole campaigns in parallel: runs a second of processor time
+// with a thread for each processor, over those with one; `busy` is the share of the processors' time that it
+// used meanwhile, which other programs make smaller.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -45,7 +45,7 @@ Used time_of(const Campaign& campaign, std::size_t threads) {
 
 void campaign_in_parallel(benchmark::State& state) {
   const Campaign campaign =
-      read_campaign(FLINCH_SOURCE_DIR "/apps/campaigns/random_contacts.yaml", {.draws = 50});
+      read_campaign(FLINCH_SOURCE_DIR "/apps/campaigns/random_contacts.yaml", {.draws = 20});
   const std::size_t processors = std::max(1U, std::thread::hardware_concurrency());
   Used alone, together;
   for (auto _ : state) {
@@ -58,7 +58,7 @@ void campaign_in_parallel(benchmark::State& state) {
   state.counters["busy"] = together.processor / (together.wall * static_cast<double>(processors));
 }
 
-BENCHMARK(campaign_in_parallel)->Unit(benchmark::kSecond)->Iterations(3);
+BENCHMARK(campaign_in_parallel)->Unit(benchmark::kSecond)->Iterations(1);
 BENCHMARK_CAPTURE(run_of_a_campaign, of_robots_like_their_model, "none")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(run_of_a_campaign, of_realistic_robots, "bench")->Unit(benchmark::kMillisecond);
 
