@@ -89,6 +89,14 @@ LawPorts add_strict_reaction(const StageSite& site, TaskLevel level, const React
   return law;
 }
 
+/// The speed of the platform's origin at which, at home and whichever way it goes, the first drive reaches
+/// `drive_speed` [m/s].
+double platform_speed_at_home(const ParallelRobot& robot, double drive_speed) {
+  Kinematics home;
+  robot.kinematics(robot.home_pose(), PlatformVector::Zero(robot.dof()), home);
+  return drive_speed / home.J_qa_x.leftCols(robot.space().translations()).rowwise().norm().maxCoeff();
+}
+
 template <auto add>
 ControlLaw law(const char* name, TaskLevel level) {
   return {name,
@@ -110,13 +118,16 @@ std::vector<ControlLaw> task_reaction_stages() {
           law<add_strict_reaction>("strict_reaction", TaskLevel::torque)};
 }
 
-void keep_constraints_strictly(ContactControlSettings& settings) {
+void keep_constraints_strictly(const ParallelRobot& robot, ContactControlSettings& settings) {
+  constexpr double speed_share = 0.58;
   const ConstraintSettings& constraints = settings.tasks.constraints;
   PlaceLimits& limits = settings.limits.limits;
   settings.limits.use = LimitKeeperSettings::Use::always;
   limits.max_condition_number = std::min(limits.max_condition_number, constraints.sigma_kappa.safety);
   limits.workspace.min_self_collision_distance =
       std::max(limits.workspace.min_self_collision_distance, constraints.sigma_sc.safety);
+  const double speed = speed_share * platform_speed_at_home(robot, settings.limits.max_drive_speed);
+  settings.limits.max_platform_speed = std::min(settings.limits.max_platform_speed, speed);
 }
 
 }  // namespace flinch

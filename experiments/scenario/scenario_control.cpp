@@ -108,13 +108,17 @@ void read_laws(ConfigReader& control, const ParallelRobot& robot, ContactControl
   retraction.number("stiffness_share", unit::none, settings.reaction_stiffness, fraction);
   read_limits(retraction.section("limits"), settings.retraction.limits);
 
-  const std::vector<std::string> laws = names_of(settings.stages.reaction_laws);
-  if (std::find(laws.begin(), laws.end(), "strict_reaction") != laws.end())
-    keep_constraints_strictly(settings);
+  const bool is_strict = followed_name(settings.stages.reaction_laws) == "strict_reaction";
+  if (is_strict) keep_constraints_strictly(robot, settings);
   ConfigReader limits = control.section("limits");
   using Use = LimitKeeperSettings::Use;
   limits.choice("keep", settings.limits.use,
                 {{"never", Use::never}, {"after_contact", Use::after_contact}, {"always", Use::always}});
+  if (is_strict && settings.limits.use == Use::never) {
+    limits.problem("keep",
+                   "is 'never', but strict_reaction leaves all limits to this; keep them 'always' or "
+                   "'after_contact', or follow torque_reaction, whose tasks lead to them");
+  }
   limits.number("max_condition_number", unit::none, settings.limits.limits.max_condition_number, positive);
   limits.number("min_self_collision_distance", unit::m,
                 settings.limits.limits.workspace.min_self_collision_distance, not_negative);

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
 #include <optional>
 
 #include "diagrams/isolation_stages.h"
@@ -10,6 +13,7 @@
 #include "systems/framework/constant.h"
 #include "tests/diagrams/contact_bench.h"
 #include "tests/support/allocations.h"
+#include "tests/support/planar_bench.h"
 
 namespace flinch {
 namespace {
@@ -53,7 +57,7 @@ class TaskStages : public ::testing::TestWithParam<int> {
     Experiment experiment = collision(speed);
     experiment.control.stages.nominal_laws.follow(tracking());
     experiment.control.stages.reaction_laws.follow(told(reaction(), 0));
-    if (GetParam() == strict) keep_constraints_strictly(experiment.control);
+    if (GetParam() == strict) keep_constraints_strictly(*test::planar_bench(), experiment.control);
     return experiment;
   }
 };
@@ -185,17 +189,37 @@ TEST(TheStrictReaction, LetsTheLimitKeeperHoldTheSafetyValuesOfTheConstraints) {
   ContactControlSettings settings;
   settings.tasks.constraints.sigma_kappa.safety = 9.0;
   settings.tasks.constraints.sigma_sc.safety = 0.12;
-  keep_constraints_strictly(settings);
+  keep_constraints_strictly(*test::planar_bench(), settings);
   EXPECT_EQ(settings.limits.use, LimitKeeperSettings::Use::always);
   EXPECT_EQ(settings.limits.limits.max_condition_number, 9.0);
   EXPECT_EQ(settings.limits.limits.workspace.min_self_collision_distance, 0.12);
 }
 
+// Where each drive is at its limit, whichever way the platform moves: the least of all directions.
+TEST(TheStrictReaction, LimitsThePlatformsSpeedByThatOfTheDrives) {
+  const auto robot = test::planar_bench();
+  ContactControlSettings settings;
+  settings.limits.max_drive_speed = 7.6;
+  keep_constraints_strictly(*robot, settings);
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3600; ++k) {
+    const double angle = k * std::numbers::pi / 1800.0;
+    Kinematics moving;
+    robot->kinematics(robot->home_pose(), Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0), moving);
+    least = std::min(least, 7.6 / moving.rates.active.lpNorm<Eigen::Infinity>());
+  }
+  EXPECT_NEAR(settings.limits.max_platform_speed, 0.58 * least, 1e-5);
+  EXPECT_NEAR(settings.limits.max_platform_speed, 2.1, 0.1);
+}
+
 TEST(TheStrictReaction, NeverLoosensALimitOfTheRobot) {
   ContactControlSettings settings;
+  settings.limits.max_platform_speed = 0.5;
+  settings.limits.max_drive_speed = 7.6;
   settings.limits.limits.max_condition_number = 5.0;
   settings.limits.limits.workspace.min_self_collision_distance = 0.3;
-  keep_constraints_strictly(settings);
+  keep_constraints_strictly(*test::planar_bench(), settings);
+  EXPECT_EQ(settings.limits.max_platform_speed, 0.5);
   EXPECT_EQ(settings.limits.limits.max_condition_number, 5.0);
   EXPECT_EQ(settings.limits.limits.workspace.min_self_collision_distance, 0.3);
 }

@@ -128,6 +128,37 @@ TEST(Scenario, HasTheDefaultsOfThePapers) {
   EXPECT_EQ(scenario.force_limits.quasi_static, 140.0);
 }
 
+// It leaves all limits to what `limits` keeps.
+TEST(Scenario, OfTheStrictReactionKeepsLimits) {
+  const test::Workplace place;
+  const auto with = [](const std::string& control) {
+    return std::string(least) + "control: {" + control + "}\n";
+  };
+  const ContactControlSettings strict = scenario_of(place, with("reaction_laws: [strict_reaction]")).control;
+  EXPECT_EQ(strict.limits.use, LimitKeeperSettings::Use::always);
+  EXPECT_EQ(strict.limits.limits.max_condition_number, strict.tasks.constraints.sigma_kappa.safety);
+  EXPECT_LT(strict.limits.max_platform_speed, 3.0);
+  EXPECT_THAT(problems_with(place, with("reaction_laws: [strict_reaction], limits: {keep: never}")),
+              ElementsAre(HasSubstr("own.yaml:3: control.limits.keep: is 'never', but strict_reaction")));
+  EXPECT_THAT(problems_with(place, with("reaction_laws: [strict_reaction], limits: {keep: after_contact}")),
+              IsEmpty());
+  EXPECT_THAT(problems_with(place, with("reaction_laws: [torque_reaction], limits: {keep: never}")),
+              IsEmpty());
+}
+
+// A law that runs for comparison acts on nothing.
+TEST(Scenario, KeepsTheLimitsOfTheReactionThatIsFollowed) {
+  const test::Workplace place;
+  const auto limits_with = [&place](const std::string& follow) {
+    return scenario_of(place, std::string(least) +
+                                  "control: {reaction_laws: [torque_reaction, strict_reaction]" + follow +
+                                  "}\n")
+        .control.limits.use;
+  };
+  EXPECT_EQ(limits_with(""), LimitKeeperSettings::Use::after_contact);
+  EXPECT_EQ(limits_with(", follow: {reaction_law: strict_reaction}"), LimitKeeperSettings::Use::always);
+}
+
 TEST(Scenario, SaysWhatARobotMayDoThatIsBroughtBack) {
   const test::Workplace place;
   const Scenario scenario =
