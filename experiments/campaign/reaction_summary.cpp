@@ -45,6 +45,11 @@ struct Collected {
     group.over_limit += result.over_limit > 0.0 ? 1U : 0U;
     group.violations_sigma_kappa += result.violates_sigma_kappa ? 1U : 0U;
     group.violations_sigma_sc += result.violates_sigma_sc ? 1U : 0U;
+    if (result.starts_inside.value_or(false)) {
+      ++group.starts_inside;
+      group.starts_inside_violations_sigma_kappa += result.violates_sigma_kappa ? 1U : 0U;
+      group.starts_inside_violations_sigma_sc += result.violates_sigma_sc ? 1U : 0U;
+    }
     group.final_inside += result.ends_inside ? 1U : 0U;
     if (result.could_stop) ++(*result.could_stop ? group.could_stop : group.could_not_stop);
     const bool violates = result.violates_sigma_kappa || result.violates_sigma_sc;
@@ -89,12 +94,12 @@ Json noticed_json(const CampaignGroup& noticed) {
 
 bool is_judged(const ReactionGroup& group) { return group.could_stop + group.could_not_stop > 0; }
 
-/// Null for levels that keep no limits, which nobody judged.
+/// Null for levels that do not keep the safety values, which nobody judged.
 Json could_stop_json(const ReactionGroup& group, std::size_t count) {
   return is_judged(group) ? Json(count) : Json(nullptr);
 }
 
-/// Of the levels that keep limits.
+/// Of the levels that keep the safety values.
 std::string could_stop_lines(const ReactionSummary& summary) {
   std::string text;
   for (const ReactionGroup& group : summary.groups) {
@@ -103,8 +108,8 @@ std::string could_stop_lines(const ReactionSummary& summary) {
                         group.could_not_stop, group.violations_could_stop);
   }
   if (text.empty()) return "";
-  return fmt::format("\nwhen noticed, within the limits\n{:<14} {:<10} {:>5} {:>10} {:>13}\n{}", "level",
-                     "body", "could", "could not", "could, beyond", text);
+  return fmt::format("\nwhen noticed, within the safety values\n{:<14} {:<10} {:>5} {:>10} {:>13}\n{}",
+                     "level", "body", "could", "could not", "could, beyond", text);
 }
 
 }  // namespace
@@ -165,20 +170,23 @@ ReactionSummary reactions_of(const CampaignResults& results, double missed_after
 
 std::string reactions_table(const Campaign& campaign, const ReactionSummary& summary) {
   std::string text = fmt::format("{}: {} runs\n\n", campaign.title, campaign.runs());
-  text += fmt::format("{:<14} {:<10} {:>5} {:>8} {:>17} {:>13} {:>10} {:>10} {:>10} {:>7} {:>7} {:>7}\n",
-                      "level", "body", "runs", "noticed", "removed ms", "peak N", "over", "kappa", "sc",
-                      "inside", "self", "gate");
-  text += fmt::format("{:<14} {:<10} {:>5} {:>8} {:>17} {:>13} {:>10} {:>10} {:>10} {:>7} {:>7} {:>7}\n", "",
-                      "", "", "", "median/p95/most", "median/most", "limit", "violated", "violated", "at end",
-                      "contact", "faults");
+  const auto add_line = [&text](const auto&... cells) {
+    text += fmt::format(
+        "{:<14} {:<10} {:>5} {:>8} {:>17} {:>13} {:>6} {:>7} {:>10} {:>10} {:>7} {:>7} {:>7}\n", cells...);
+  };
+  add_line("level", "body", "runs", "noticed", "removed ms", "peak N", "over", "starts", "kappa", "sc",
+           "inside", "self", "gate");
+  add_line("", "", "", "", "median/p95/most", "median/most", "limit", "inside", "of it/all", "of it/all",
+           "at end", "contact", "faults");
   for (const ReactionGroup& group : summary.groups) {
-    text += fmt::format("{:<14} {:<10} {:>5} {:>8} {:>17} {:>13} {:>10} {:>10} {:>10} {:>7} {:>7} {:>7}\n",
-                        group.level, group.body, group.n, group.detected,
-                        text_of(group.removed_median, 1e3) + "/" + text_of(group.removed_p95, 1e3) + "/" +
-                            text_of(group.removed_largest, 1e3),
-                        text_of(group.peak_median, 1.0) + "/" + text_of(group.peak_largest, 1.0),
-                        group.over_limit, group.violations_sigma_kappa, group.violations_sigma_sc,
-                        group.final_inside, group.self_collisions, group.gate_faults);
+    add_line(group.level, group.body, group.n, group.detected,
+             text_of(group.removed_median, 1e3) + "/" + text_of(group.removed_p95, 1e3) + "/" +
+                 text_of(group.removed_largest, 1e3),
+             text_of(group.peak_median, 1.0) + "/" + text_of(group.peak_largest, 1.0), group.over_limit,
+             group.starts_inside,
+             fmt::format("{}/{}", group.starts_inside_violations_sigma_kappa, group.violations_sigma_kappa),
+             fmt::format("{}/{}", group.starts_inside_violations_sigma_sc, group.violations_sigma_sc),
+             group.final_inside, group.self_collisions, group.gate_faults);
   }
   text += could_stop_lines(summary) + "\npeak force over speed\n";
   for (const ForceFit& fit : summary.fits) {
@@ -206,6 +214,9 @@ std::string reactions_json(const Campaign& campaign, const ReactionSummary& summ
                       {"over_limit", group.over_limit},
                       {"violations_sigma_kappa", group.violations_sigma_kappa},
                       {"violations_sigma_sc", group.violations_sigma_sc},
+                      {"starts_inside", group.starts_inside},
+                      {"starts_inside_violations_sigma_kappa", group.starts_inside_violations_sigma_kappa},
+                      {"starts_inside_violations_sigma_sc", group.starts_inside_violations_sigma_sc},
                       {"final_inside", group.final_inside},
                       {"could_stop", could_stop_json(group, group.could_stop)},
                       {"could_not_stop", could_stop_json(group, group.could_not_stop)},

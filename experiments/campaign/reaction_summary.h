@@ -22,11 +22,13 @@ struct ReactionGroup {
   std::optional<double> removed_largest;              ///< of those that were removed [s]
   std::optional<double> peak_median, peak_largest;    ///< [N]
   std::size_t over_limit = 0;                         ///< runs with a force above its limit
-  std::size_t violations_sigma_kappa = 0;             ///< beyond the safety value at any time
+  std::size_t violations_sigma_kappa = 0;             ///< runs beyond the safety value, see RunResult
   std::size_t violations_sigma_sc = 0;
+  std::size_t starts_inside = 0;  ///< runs that start within both safety values, and of these beyond them:
+  std::size_t starts_inside_violations_sigma_kappa = 0, starts_inside_violations_sigma_sc = 0;
   std::size_t final_inside = 0;  ///< runs that ended within 5 % of sigma_kappa's and 5 mm of sigma_sc's limit
-  /// Runs whose robot could, and could not, stop within its limits when it noticed the contact, and how many
-  /// of the former went beyond a safety value nevertheless.
+  /// Runs whose robot keeps the safety values and could, and could not, stop within them when it noticed the
+  /// contact, and how many of the former went beyond one nevertheless.
   std::size_t could_stop = 0, could_not_stop = 0, violations_could_stop = 0;
   std::size_t self_collisions = 0;
   std::size_t gate_faults = 0;

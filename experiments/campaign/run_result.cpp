@@ -4,9 +4,11 @@
 #include <charconv>
 #include <cmath>
 
+#include "diagrams/contact_control_settings.h"
 #include "experiments/campaign/campaign_run.h"
 #include "experiments/verdict/verdict.h"
 #include "systems/config/parsed.h"
+#include "systems/laws/limit_keeper.h"
 #include "systems/motion/constraint_settings.h"
 
 namespace flinch {
@@ -20,20 +22,39 @@ std::string kind_of(const std::string& body) {
 /// Limits are kept to this share.
 constexpr double exactly = 1e-6;
 
-void note_constraints(const Verdict& verdict, const ConstraintSettings& limits, RunResult& result) {
+bool exceeds_sigma_kappa(double measure, const ConstraintSettings& limits) {
+  return measure > (1.0 + exactly) * limits.sigma_kappa.safety;
+}
+bool exceeds_sigma_sc(double measure, const ConstraintSettings& limits) {
+  return measure < (1.0 - exactly) * limits.sigma_sc.safety;
+}
+
+/// Whether the limits that the robot keeps are no wider than the safety values.
+bool keeps_safety_values(const LimitKeeperSettings& kept, const ConstraintSettings& limits) {
+  return kept.limits.max_condition_number <= limits.sigma_kappa.safety &&
+         kept.limits.workspace.min_self_collision_distance >= limits.sigma_sc.safety;
+}
+
+void note_constraints(const Verdict& verdict, const ContactControlSettings& control, RunResult& result) {
+  const ConstraintSettings& limits = control.tasks.constraints;
+  const bool from_the_start = control.limits.use == LimitKeeperSettings::Use::always;
+  const auto& [sigma_kappa, sigma_sc] = from_the_start ? verdict.measures : verdict.measures_once_detected;
   result.self_contact = verdict.self_contact;
-  if (verdict.sigma_kappa) {
-    result.sigma_kappa_most = verdict.sigma_kappa->most;
-    result.sigma_kappa_last = verdict.sigma_kappa->last;
-    result.violates_sigma_kappa = verdict.sigma_kappa->most > (1.0 + exactly) * limits.sigma_kappa.safety;
+  if (verdict.measures.sigma_kappa && verdict.measures.sigma_sc) {
+    result.starts_inside = !exceeds_sigma_kappa(verdict.measures.sigma_kappa->first, limits) &&
+                           !exceeds_sigma_sc(verdict.measures.sigma_sc->first, limits);
   }
-  if (verdict.sigma_sc) {
-    result.sigma_sc_least = verdict.sigma_sc->least;
-    result.sigma_sc_last = verdict.sigma_sc->last;
-    const bool kappa_ends =
-        verdict.sigma_kappa && verdict.sigma_kappa->last <= 1.05 * limits.sigma_kappa.safety;
-    result.ends_inside = kappa_ends && verdict.sigma_sc->last >= limits.sigma_sc.safety - 0.005;
-    result.violates_sigma_sc = verdict.sigma_sc->least < (1.0 - exactly) * limits.sigma_sc.safety;
+  if (sigma_kappa) {
+    result.sigma_kappa_most = sigma_kappa->most;
+    result.sigma_kappa_last = sigma_kappa->last;
+    result.violates_sigma_kappa = exceeds_sigma_kappa(sigma_kappa->most, limits);
+  }
+  if (sigma_sc) {
+    result.sigma_sc_least = sigma_sc->least;
+    result.sigma_sc_last = sigma_sc->last;
+    const bool kappa_ends = sigma_kappa && sigma_kappa->last <= 1.05 * limits.sigma_kappa.safety;
+    result.ends_inside = kappa_ends && sigma_sc->last >= limits.sigma_sc.safety - 0.005;
+    result.violates_sigma_sc = exceeds_sigma_sc(sigma_sc->least, limits);
   }
 }
 
@@ -100,6 +121,7 @@ void columns(Result& result, Visit&& visit, VisitValues&& visit_values) {
   visit("sigma_kappa_last", result.sigma_kappa_last);
   visit("sigma_sc_least_m", result.sigma_sc_least);
   visit("sigma_sc_last_m", result.sigma_sc_last);
+  visit("starts_inside", result.starts_inside);
   visit("violates_sigma_kappa", result.violates_sigma_kappa);
   visit("violates_sigma_sc", result.violates_sigma_sc);
   visit("ends_inside", result.ends_inside);
@@ -149,9 +171,10 @@ RunResult result_of(const CampaignRun& run, const Verdict& verdict) {
   result.observer_error_force = verdict.max_observer_error_force;
   result.observer_error_moment = verdict.max_observer_error_moment;
   result.tracking_error = verdict.max_tracking_error;
-  result.law = followed_name(run.scenario.control.stages.reaction_laws);
+  const ContactControlSettings& control = run.scenario.control;
+  result.law = followed_name(control.stages.reaction_laws);
   result.meant = kind_of(run.scenario.expected.contact.value_or(""));
-  note_constraints(verdict, run.scenario.control.tasks.constraints, result);
+  note_constraints(verdict, control, result);
   for (const ContactVerdict& contact : verdict.contacts) result.over_limit += contact.over_limit;
   const std::optional<double> onset =
       verdict.contacts.empty() ? std::nullopt : std::optional(verdict.contacts.front().onset);
@@ -159,7 +182,7 @@ RunResult result_of(const CampaignRun& run, const Verdict& verdict) {
   if (!verdict.contacts.empty()) {
     const ContactVerdict& first = verdict.contacts.front();
     result.body = first.is_push ? "push" : kind_of(first.body);
-    result.could_stop = first.could_stop;
+    if (keeps_safety_values(control.limits, control.tasks.constraints)) result.could_stop = first.could_stop;
     if (first.removed) result.removal_time = *first.removed - first.onset;
     result.speed = first.speed;
     result.peak_force = first.peak_force;

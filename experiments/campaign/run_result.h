@@ -43,14 +43,16 @@ struct RunResult {
   /// What the scenario means to be touched, as `body`; "" where it does not say.
   std::string meant;
   std::string law;  ///< of the reaction: "torque_reaction"
-  // From the first detection on.
+  // Of the true robot, from the first detection on; where limits are kept always, from the start.
   std::optional<double> sigma_kappa_most, sigma_kappa_last;
   std::optional<double> sigma_sc_least, sigma_sc_last;  ///< [m]
+  std::optional<bool> starts_inside;                    ///< the run, within both safety values
   bool violates_sigma_kappa = false;                    ///< beyond its safety value
   bool violates_sigma_sc = false;                       ///< likewise
   bool ends_inside = false;  ///< at the end within 5 % of sigma_kappa's and 5 mm of sigma_sc's safety value
   bool self_contact = false;
-  /// Whether the robot could stop within its limits when it noticed the first contact; none: not judged.
+  /// Whether the robot could stop within both safety values when it noticed the first contact; none: not
+  /// judged, or it keeps wider limits.
   std::optional<bool> could_stop;
   double observer_error_force = 0.0;   ///< as in Verdict [N]
   double observer_error_moment = 0.0;  ///< [Nm]

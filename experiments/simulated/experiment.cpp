@@ -7,6 +7,7 @@
 #include "experiments/recorded/robot_as_drawn.h"
 #include "experiments/simulated/closed_loop.h"
 #include "experiments/simulated/simulated_scenario.h"
+#include "experiments/simulated/true_measures.h"
 #include "experiments/verdict/recorded_run.h"
 #include "experiments/verdict/run_watch.h"
 #include "experiments/verdict/verdict.h"
@@ -44,6 +45,9 @@ Experiment build(const SimulatedScenario& scenario, const ContactControlSettings
   const auto target = builder.export_input("target", control.target);
   builder.export_output("truth", station.plant_truth);
   builder.export_output("contact", station.contact_truth);
+  auto& measures = builder.add<TrueMeasures>("true_measures", scenario.station.bench.robot);
+  builder.connect(station.platform_truth, measures.platform);
+  builder.export_output("true_measures", measures.measures);
   const Obstacles& obstacles = scenario.station.bench.obstacles;
   if (std::any_of(obstacles.begin(), obstacles.end(), [](const auto& each) { return each->moves(); })) {
     builder.export_output("obstacles", station.obstacle_truth);

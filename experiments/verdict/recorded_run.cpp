@@ -114,8 +114,8 @@ void compare_motion(const Configuration& pose, const PlatformVector& velocity, c
 
 bool is_judged(const std::string& path) {
   static constexpr std::array judged = {
-      "detection", "reaction",       "wrench",   "reference",    "gate",    "truth",        "contact",
-      "location",  "classification", "measures", "plausibility", "braking", "reaction_task"};
+      "detection", "reaction",       "wrench",        "reference",    "gate",    "truth",        "contact",
+      "location",  "classification", "true_measures", "plausibility", "braking", "reaction_task"};
   return path.starts_with(detection_of) || std::find(judged.begin(), judged.end(), path) != judged.end();
 }
 
@@ -140,7 +140,9 @@ struct RecordedRun::Signals {
     class_names = class_names_of(recording);
     if (recording.find("classification") != nullptr) classification.emplace(recording, "classification");
     if (recording.find("location") != nullptr) location.emplace(recording, "location");
-    if (recording.find("measures") != nullptr) measures.emplace(recording, "measures");
+    const bool is_true = witness == Witness::truth && recording.find("true_measures") != nullptr;
+    const char* const measured = is_true ? "true_measures" : "measures";
+    if (recording.find(measured) != nullptr) measures.emplace(recording, measured);
     if (recording.find("braking") != nullptr) braking.emplace(recording, "braking");
     if (recording.find("reaction_task") != nullptr) task.emplace(recording, "reaction_task");
     if (records(recording, "contact", "self_contact")) self_contact.emplace(recording, "contact");

@@ -37,7 +37,8 @@ struct RunSample {
   bool estimate_valid = false;
   double observer_error_force = 0.0;   ///< of the estimate, largest component [N]
   double observer_error_moment = 0.0;  ///< likewise [Nm]
-  /// Of the pose that the controller measured; not numbers where it knew none, or they were not recorded.
+  /// Of the true pose, where that was recorded, else of the one that the controller measured; not numbers
+  /// where there was none.
   double sigma_kappa = std::numeric_limits<double>::quiet_NaN();
   double sigma_sc = std::numeric_limits<double>::quiet_NaN();  ///< likewise [m]
   bool self_contact = false;  ///< bodies of the robot touch one another, as far as that is known

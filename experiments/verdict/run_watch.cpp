@@ -40,8 +40,13 @@ class DetectionWatch {
 
 void extend(double measure, std::optional<MeasureRange>& range) {
   if (std::isnan(measure)) return;
-  if (!range) range = {measure, measure, measure};
-  *range = {std::min(range->least, measure), std::max(range->most, measure), measure};
+  if (!range) range = {measure, measure, measure, measure};
+  *range = {range->first, std::min(range->least, measure), std::max(range->most, measure), measure};
+}
+
+void extend(const RunSample& now, MeasureRanges& ranges) {
+  extend(now.sigma_kappa, ranges.sigma_kappa);
+  extend(now.sigma_sc, ranges.sigma_sc);
 }
 
 void note_first(const RunSample& now, Verdict& verdict) {
@@ -155,10 +160,8 @@ void RunWatch::see(const RunSample& now) {
   if (!so_far.was_touched) measure_errors(now, verdict);
   if (now.is_true) verdict.loop_closure = std::max(verdict.loop_closure.value_or(0.0), now.loop_closure);
   verdict.self_contact |= now.self_contact;
-  if (!verdict.detections.empty()) {
-    extend(now.sigma_kappa, verdict.sigma_kappa);
-    extend(now.sigma_sc, verdict.sigma_sc);
-  }
+  extend(now, verdict.measures);
+  if (!verdict.detections.empty()) extend(now, verdict.measures_once_detected);
   so_far.gate = now.gate;
   so_far.gate_opens |= now.gate.phase == GatePhase::open;
   so_far.faults.see(now, verdict);

@@ -84,9 +84,17 @@ struct ContactVerdict {
 
 /// How far a measure of the workspace went.
 struct MeasureRange {
+  double first = 0.0;
   double least = 0.0;
   double most = 0.0;
   double last = 0.0;
+};
+
+/// How far both measures that laws keep within limits went, over a part of a run; none: nobody recorded
+/// them, or there is no such part.
+struct MeasureRanges {
+  std::optional<MeasureRange> sigma_kappa;
+  std::optional<MeasureRange> sigma_sc;  ///< [m]
 };
 
 /// What a verdict rests on, besides what the controller itself says.
@@ -115,11 +123,10 @@ struct Verdict {
   double max_tracking_error = 0.0;         ///< in the nominal mode, before anything touches the robot [m]
   double max_orientation_error = 0.0;      ///< likewise [rad]
   std::optional<double> loop_closure;      ///< largest miss of a leg; of simulations [m]
-  /// From the first detection on; none: nothing was detected, or nobody recorded them.
-  std::optional<MeasureRange> sigma_kappa;
-  std::optional<MeasureRange> sigma_sc;  ///< likewise [m]
-  bool self_contact = false;             ///< bodies of the robot touched one another
-  std::string fault;                     ///< why the torque gate closed; "" if it did not
+  MeasureRanges measures;                  ///< of the whole run
+  MeasureRanges measures_once_detected;    ///< from the first detection on
+  bool self_contact = false;               ///< bodies of the robot touched one another
+  std::string fault;                       ///< why the torque gate closed; "" if it did not
   /// The first doubt about the IMU, and when it came up [s]; none: it was believed.
   ImuDoubt imu_doubt = ImuDoubt::none;
   double imu_doubted = 0.0;

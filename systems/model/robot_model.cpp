@@ -4,6 +4,16 @@
 
 namespace flinch {
 
+WorkspaceMeasures workspace_measures(const Mechanism& robot, const Kinematics& now) {
+  if (!now.reachable) return {};
+  return {.valid = true,
+          .sigma_kappa = now.sigma_kappa,
+          .sigma_sc = self_collision_distance(robot, now),
+          .det_A = now.det_A,
+          .det_B = now.det_B,
+          .largest_passive_angle = now.joints.passive.lpNorm<Eigen::Infinity>()};
+}
+
 void MotionModel::kinematics_of(const PlatformMotion& motion, Kinematics& result) const {
   if (motion.valid()) {
     robot_->kinematics(motion.pose, motion.velocity, result);
@@ -17,13 +27,7 @@ void MotionModel::dynamics_of(const Kinematics& now, Dynamics& result) const {
 }
 
 WorkspaceMeasures RobotModel::measures_of(const Kinematics& now) const {
-  if (!now.reachable) return {};
-  return {.valid = true,
-          .sigma_kappa = now.sigma_kappa,
-          .sigma_sc = self_collision_distance(robot(), now),
-          .det_A = now.det_A,
-          .det_B = now.det_B,
-          .largest_passive_angle = now.joints.passive.lpNorm<Eigen::Infinity>()};
+  return workspace_measures(robot(), now);
 }
 
 }  // namespace flinch

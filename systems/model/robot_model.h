@@ -9,6 +9,9 @@
 
 namespace flinch {
 
+/// How near `robot` is to what it must stay away from; not valid where it cannot be.
+WorkspaceMeasures workspace_measures(const Mechanism& robot, const Kinematics& now);
+
 /// The robot's kinematics and equations of motion at a motion. Where that is not valid or the model cannot
 /// serve it, the outputs are finite and marked invalid.
 class MotionModel : public System {

@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "systems/model/robot_model.h"
-#include "systems/robot/link_segments.h"
 #include "systems/robot/planar_rrr.h"
 #include "systems/robot/planar_rrr_presets.h"
 #include "systems/signals/joint_motion.h"
@@ -32,12 +31,7 @@ struct Posture {
     joints = {acquired, true, true, kinematics.joints.active, kinematics.joints.passive};
     motion = {acquired, true, kinematics.joints.active, kinematics.rates.active};
     platform = {acquired, PlatformMotion::Status::valid, pose, velocity};
-    measures = {.valid = true,
-                .sigma_kappa = kinematics.sigma_kappa,
-                .sigma_sc = self_collision_distance(robot, kinematics),
-                .det_A = kinematics.det_A,
-                .det_B = kinematics.det_B,
-                .largest_passive_angle = kinematics.joints.passive.lpNorm<Eigen::Infinity>()};
+    measures = workspace_measures(robot, kinematics);
   }
 };
 

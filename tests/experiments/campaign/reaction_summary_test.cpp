@@ -115,6 +115,26 @@ TEST(ReactionSummary, NamesNoEstimatorWhereSeveralWereFollowed) {
   EXPECT_TRUE(nlohmann::json::parse(reactions_json({}, summary, {}))["groups"][0]["estimator"].is_null());
 }
 
+// Who starts outside of a limit does not break it.
+TEST(ReactionSummary, CountsTheViolationsOfRunsThatStartWithinBothLimitsApart) {
+  RunResult inside = run("torque_reaction", "platform", 0.1, 1.0, 100.0), outside = inside, beyond = inside;
+  inside.starts_inside = beyond.starts_inside = true;
+  outside.starts_inside = false;
+  outside.violates_sigma_kappa = outside.violates_sigma_sc = beyond.violates_sigma_sc = true;
+  const ReactionSummary summary = reactions_of({inside, inside, outside, beyond});
+  const ReactionGroup& group = summary.groups.at(0);
+  EXPECT_EQ(group.starts_inside, 3U);
+  EXPECT_EQ(group.violations_sigma_kappa, 1U);
+  EXPECT_EQ(group.violations_sigma_sc, 2U);
+  EXPECT_EQ(group.starts_inside_violations_sigma_kappa, 0U);
+  EXPECT_EQ(group.starts_inside_violations_sigma_sc, 1U);
+  const auto json = nlohmann::json::parse(reactions_json({}, summary, {}))["groups"][0];
+  EXPECT_EQ(json["starts_inside"], 3);
+  EXPECT_EQ(json["starts_inside_violations_sigma_kappa"], 0);
+  EXPECT_EQ(json["starts_inside_violations_sigma_sc"], 1);
+  EXPECT_THAT(reactions_table({}, summary), testing::ContainsRegex("3 +0/1 +1/2"));
+}
+
 // A contact that is not over at the end has no time of removal: it counts as longer than all others.
 TEST(ReactionSummary, AContactThatStaysIsLongerThanAllOthers) {
   RunResult stays = run("torque_reaction", "platform", 0.0, 1.0, 100.0);

@@ -3,8 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+
+#include "diagrams/task_stages.h"
 #include "experiments/campaign/campaign_run.h"
 #include "experiments/verdict/verdict.h"
+#include "systems/laws/limit_keeper.h"
+#include "tests/support/planar_bench.h"
 
 namespace flinch {
 namespace {
@@ -84,12 +90,70 @@ TEST(AResult, CountsFromTheOnsetOfTheFirstContact) {
 }
 
 TEST(AResult, TellsWhetherTheRobotCouldStopWhenItNoticedTheFirstContact) {
+  CampaignRun strict;
+  keep_constraints_strictly(*test::planar_bench(), strict.scenario.control);
   Verdict verdict = verdict_with(0.5, {0.51, 0.52}, {0.51, 0.52});
-  EXPECT_EQ(result_of(CampaignRun(), verdict).could_stop, std::nullopt);
+  EXPECT_EQ(result_of(strict, verdict).could_stop, std::nullopt);
   verdict.contacts[0].could_stop = false;
-  const RunResult result = result_of(CampaignRun(), verdict);
+  const RunResult result = result_of(strict, verdict);
   EXPECT_EQ(result.could_stop, false);
   EXPECT_EQ(parse_csv_row(csv_cells(csv_header(result)), csv_row(result))->could_stop, false);
+}
+
+// Violations are those of the safety values, so a stop within the limits of the gate says nothing about them.
+TEST(AResult, TellsOfNoStopWithinLimitsThatAreWiderThanTheSafetyValues) {
+  Verdict verdict = verdict_with(0.5, {0.51, 0.52}, {0.51, 0.52});
+  verdict.contacts[0].could_stop = true;
+  EXPECT_EQ(result_of(CampaignRun(), verdict).could_stop, std::nullopt);
+}
+
+/// Of a run that starts at the first pair of condition number and distance and goes to the second before the
+/// detection, and is at the third from then on.
+Verdict verdict_of_places(std::array<std::array<double, 2>, 3> at) {
+  Verdict verdict;
+  const auto range = [&at](std::size_t i, std::size_t from) {
+    MeasureRange found{at[from][i], at[from][i], at[from][i], at[2][i]};
+    for (std::size_t k = from; k < at.size(); ++k) {
+      found.least = std::min(found.least, at[k][i]);
+      found.most = std::max(found.most, at[k][i]);
+    }
+    return found;
+  };
+  verdict.measures = {range(0, 0), range(1, 0)};
+  verdict.measures_once_detected = {range(0, 2), range(1, 2)};
+  return verdict;
+}
+
+TEST(AResult, IsOfTheTimeFromTheDetectionOn) {
+  const RunResult result =
+      result_of(CampaignRun(), verdict_of_places({{{10.0, 0.18}, {16.0, 0.16}, {14.0, 0.171}}}));
+  EXPECT_EQ(result.starts_inside, true);
+  EXPECT_FALSE(result.violates_sigma_kappa || result.violates_sigma_sc);
+  EXPECT_EQ(result.sigma_kappa_most, 14.0);
+  EXPECT_EQ(result.sigma_sc_least, 0.171);
+  EXPECT_EQ(parse_csv_row(csv_cells(csv_header(result)), csv_row(result))->starts_inside, true);
+}
+
+TEST(AResult, IsOfTheWholeTimeWhereLimitsAreKeptAlways) {
+  CampaignRun run;
+  run.scenario.control.limits.use = LimitKeeperSettings::Use::always;
+  const RunResult result = result_of(run, verdict_of_places({{{10.0, 0.18}, {16.0, 0.16}, {14.0, 0.171}}}));
+  EXPECT_TRUE(result.violates_sigma_kappa && result.violates_sigma_sc);
+  EXPECT_EQ(result.sigma_kappa_most, 16.0);
+  EXPECT_EQ(result.sigma_sc_least, 0.16);
+  Verdict unnoticed = verdict_of_places({{{10.0, 0.18}, {16.0, 0.16}, {14.0, 0.171}}});
+  unnoticed.measures_once_detected = {};
+  EXPECT_TRUE(result_of(run, unnoticed).violates_sigma_kappa);
+}
+
+TEST(AResult, SaysWhoStartsOutsideAndNothingWhereNobodyMeasured) {
+  EXPECT_EQ(
+      result_of(CampaignRun(), verdict_of_places({{{15.1, 0.18}, {10.0, 0.18}, {10.0, 0.18}}})).starts_inside,
+      false);
+  EXPECT_EQ(result_of(CampaignRun(), verdict_of_places({{{10.0, 0.169}, {10.0, 0.18}, {10.0, 0.18}}}))
+                .starts_inside,
+            false);
+  EXPECT_EQ(result_of(CampaignRun(), Verdict()).starts_inside, std::nullopt);
 }
 
 TEST(AResult, IsAFalseAlarmWhereSomethingWasDetectedBeforeAnythingTouched) {

@@ -17,6 +17,7 @@
 #include "systems/signals/platform_reference.h"
 #include "systems/signals/plausibility.h"
 #include "systems/signals/reaction_state.h"
+#include "systems/signals/workspace_measures.h"
 #include "systems/signals/wrench_estimate.h"
 
 namespace flinch::test {
@@ -36,6 +37,8 @@ struct Moment {
   BrakingStatus braking;
   ContactClassification classification;
   FollowedTask task;
+  WorkspaceMeasures measured;  ///< by the controller
+  WorkspaceMeasures true_measures;
 };
 
 /// A recording made up tick by tick: the robot rests where it shall, nothing touches it and nothing is
@@ -104,7 +107,9 @@ class SyntheticRun {
                          signal("plausibility", &Moment::plausibility),
                          signal("braking", &Moment::braking),
                          signal("classification", &Moment::classification),
-                         signal("reaction_task", &Moment::task)};
+                         signal("reaction_task", &Moment::task),
+                         signal("measures", &Moment::measured),
+                         signal("true_measures", &Moment::true_measures)};
     return recording;
   }
 
