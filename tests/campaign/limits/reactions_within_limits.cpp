@@ -10,6 +10,7 @@
 #include "experiments/simulated/experiment.h"
 #include "experiments/verdict/recorded_truth.h"
 #include "systems/framework/recorded_values.h"
+#include "systems/laws/limit_keeper.h"
 #include "systems/robot/contact_jacobian.h"
 #include "systems/robot/link_segments.h"
 #include "systems/safety/fault_table.h"
@@ -154,6 +155,7 @@ ReactionOutcome outcome_of(const CampaignRun& run) {
   const Mechanism& robot = *run.scenario.robot.robot;
   outcome.speed = number_of(run, "motion.speed_m_per_s");
   const int translations = robot.space().translations();
+  const bool from_the_start = run.scenario.control.limits.use == LimitKeeperSettings::Use::always;
   Touching touching;
   Holding holding;
   double detected = 0.0;
@@ -170,12 +172,12 @@ ReactionOutcome outcome_of(const CampaignRun& run) {
     holding.see(time, modes[k].mode, contact.strongest.force_in_base.norm(),
                 truth.velocity.head(translations).norm(), outcome);
     if (contact.in_contact && !outcome.touched) measure_unavoidable(run, truth, contact, outcome);
+    const bool is_noticed = outcome.detected || detections[k].level != ContactLevel::none;
+    if (k == 0 || from_the_start || is_noticed) measure_place(robot, truth, outcome);
     if (k == 0) {
-      measure_place(robot, truth, outcome);
       outcome.starts_inside = outcome.sigma_kappa <= sigma_kappa_s && outcome.sigma_sc >= sigma_sc_s;
     }
-    if (!outcome.detected && detections[k].level == ContactLevel::none) continue;
-    measure_place(robot, truth, outcome);
+    if (!is_noticed) continue;
     if (!outcome.struck && modes[k].mode == ReactionMode::zero_g) {
       outcome.struck = true;
       detected = time;

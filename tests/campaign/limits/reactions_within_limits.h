@@ -13,7 +13,8 @@ inline constexpr double sigma_kappa_s = 15.0;
 inline constexpr double sigma_sc_s = 0.17;  // [m]
 inline constexpr double at_rest = 0.02;     // [m/s]
 
-/// What the true robot did in one run of a campaign, from the detection of a contact on.
+/// What the true robot did in one run of a campaign, from the detection of a contact on; its place where
+/// limits are kept always, from the first tick on.
 struct ReactionOutcome {
   std::size_t number = 0;  ///< of the run
   std::string law;         ///< of the reaction
