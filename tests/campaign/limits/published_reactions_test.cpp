@@ -1,0 +1,109 @@
+// The 72 experiments of [SafePR] V-G, whole: how soon contacts are over, with which force, and where the robot
+// ends.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "experiments/campaign/campaign.h"
+#include "experiments/campaign/campaign_run.h"
+#include "experiments/campaign/reaction_summary.h"
+#include "experiments/campaign/run_campaign.h"
+#include "experiments/campaign/run_result.h"
+
+namespace flinch {
+namespace {
+
+constexpr double collision_asked = 0.125, clamping_asked = 0.275;  // [s]
+constexpr double slowest = 0.1;                                    // [m/s]
+
+std::vector<RunResult> results_of(const char* name) {
+  const Campaign campaign = read_campaign(std::filesystem::path(FLINCH_SOURCE_DIR) / "apps/campaigns" / name);
+  std::vector<RunResult> results(campaign.runs());
+  std::atomic<std::size_t> next = 0;
+  std::vector<std::jthread> workers;
+  for (int i = 0; i < 2; ++i) {
+    workers.emplace_back([&] {
+      for (std::size_t run = next++; run < results.size(); run = next++)
+        results[run] = simulate_run(draw_run(campaign, run));
+    });
+  }
+  workers.clear();
+  return results;
+}
+
+std::string name_of(const RunResult& run) {
+  return level_of(run.law) + ", " + body_of(run) + ", " + std::to_string(run.speed.value_or(0.0)) + " m/s";
+}
+
+bool is_slowest(const RunResult& run) { return run.speed.value_or(0.0) < 1.5 * slowest; }
+
+double asked_of(const RunResult& run) {
+  return body_of(run) == "clamping" ? clamping_asked : collision_asked;
+}
+
+void print(const std::vector<RunResult>& runs) {
+  for (const ForceFit& fit : reactions_of(runs).fits)
+    std::printf("  %-10s %.0f N + %.0f N/(m/s), r = %.3f\n", fit.body.c_str(), fit.intercept, fit.slope,
+                fit.pearson);
+  for (const ReactionGroup& group : reactions_of(runs).groups)
+    std::printf("  %-12s %-10s removed %.0f ms (median), %.0f ms (longest); beyond kappa %zu, sc %zu\n",
+                group.level.c_str(), group.body.c_str(), 1e3 * group.removed_median.value_or(9.0),
+                1e3 * group.removed_largest.value_or(9.0), group.violations_sigma_kappa,
+                group.violations_sigma_sc);
+}
+
+/// What both detectors must bring about: each contact is noticed, over, below its limits and without a fault.
+void expect_good(const std::vector<RunResult>& runs) {
+  ASSERT_EQ(runs.size(), 72U);
+  std::size_t inside = 0;
+  for (const RunResult& run : runs) {
+    EXPECT_TRUE(run.estimators.at(0).detection_time) << name_of(run);
+    EXPECT_TRUE(run.removal_time) << name_of(run);
+    EXPECT_EQ(run.over_limit, 0.0) << name_of(run);
+    EXPECT_EQ(run.fault, "") << name_of(run);
+    EXPECT_FALSE(run.self_contact) << name_of(run);
+    EXPECT_EQ(run.starts_inside, true) << name_of(run);
+    inside += run.ends_inside ? 1U : 0U;
+  }
+  EXPECT_GE(inside, 65U) << "in 90 % of 72 both measures end inside";
+}
+
+// Forces that rise slowly reach the thresholds of the papers late, slow_clamping_test.cpp.
+TEST(ThePublishedReactions, AreOverInTimeButForTheSlowestOfSecondLinksAndClampings) {
+  const std::vector<RunResult> runs = results_of("safepr_72.yaml");
+  print(runs);
+  expect_good(runs);
+  std::size_t late = 0;
+  for (const RunResult& run : runs) {
+    const double removed = run.removal_time.value_or(9.0);
+    if (removed <= asked_of(run)) continue;
+    ++late;
+    EXPECT_TRUE(is_slowest(run)) << name_of(run);
+    EXPECT_TRUE(body_of(run) == "link2" || body_of(run) == "clamping") << name_of(run);
+    std::printf("  late: %s, %.0f ms\n", name_of(run).c_str(), 1e3 * removed);
+    EXPECT_LT(removed, body_of(run) == "link2" ? 0.25 : 0.55) << name_of(run);
+  }
+  EXPECT_EQ(late, 6U) << "both on three levels, docs/theory.md";
+  const std::vector<ForceFit> fits = reactions_of(runs).fits;
+  EXPECT_EQ(fits.size(), 4U);
+  for (const ForceFit& fit : fits) EXPECT_GE(fit.pearson, 0.95) << fit.body;
+}
+
+// What is noticed so soon hardly grows with the speed where a leg clamps.
+TEST(ThePublishedReactions, AreAllOverInTimeWhereTheFusedDetectorNoticesThem) {
+  const std::vector<RunResult> runs = results_of("safepr_72_fused.yaml");
+  print(runs);
+  expect_good(runs);
+  for (const RunResult& run : runs) EXPECT_LE(run.removal_time.value_or(9.0), asked_of(run)) << name_of(run);
+  const std::vector<ForceFit> fits = reactions_of(runs).fits;
+  EXPECT_EQ(fits.size(), 4U);
+  for (const ForceFit& fit : fits) EXPECT_GE(fit.pearson, fit.body == "clamping" ? 0.9 : 0.95) << fit.body;
+}
+
+}  // namespace
+}  // namespace flinch
