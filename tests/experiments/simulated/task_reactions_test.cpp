@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <string>
 
 #include "experiments/simulated/experiment.h"
@@ -69,15 +70,21 @@ Shown run(const SimulatedScenario& scenario) {
   return shown;
 }
 
-// [SafePR] V-B: less than 10 mm on every level.
+// [SafePR] V-B: less than 10 mm on every level, and orientations that are nearer on the acceleration and the
+// torque level than on the velocity level, which is up to 9 degrees off there. Here the torque level's is
+// not, docs/theory.md.
 TEST(TaskTracking, FollowsTheSquareOnEveryLevel) {
+  std::map<std::string, double> orientation;  // largest error [rad]
   for (const std::string level : {"velocity", "acceleration", "torque"}) {
     const Shown shown = run(scenario("square_tasks", "[torque_tracking]", "[" + level + "_tracking]"));
     EXPECT_TRUE(shown.verdict.good()) << level;
     EXPECT_LT(shown.verdict.max_tracking_error, 0.010) << level;
-    std::printf("  %s level: %.2f mm, %.2f deg\n", level.c_str(), 1e3 * shown.verdict.max_tracking_error,
-                shown.verdict.max_orientation_error * 180.0 / M_PI);
+    orientation[level] = shown.verdict.max_orientation_error;
+    EXPECT_LT(orientation[level], 0.5 * M_PI / 180.0) << level;
+    std::printf("  %s level: %.2f mm, %.3f deg\n", level.c_str(), 1e3 * shown.verdict.max_tracking_error,
+                orientation[level] * 180.0 / M_PI);
   }
+  EXPECT_LT(orientation["acceleration"], orientation["velocity"]);
 }
 
 // [SafePR] V-D, left.
