@@ -155,7 +155,10 @@ ReactionOutcome outcome_of(const CampaignRun& run) {
   const Mechanism& robot = *run.scenario.robot.robot;
   outcome.speed = number_of(run, "motion.speed_m_per_s");
   const int translations = robot.space().translations();
-  const bool from_the_start = run.scenario.control.limits.use == LimitKeeperSettings::Use::always;
+  const LimitKeeperSettings& kept = run.scenario.control.limits;
+  const bool from_the_start = kept.use == LimitKeeperSettings::Use::always;
+  const bool keeps_safety_values = kept.limits.max_condition_number <= sigma_kappa_s &&
+                                   kept.limits.workspace.min_self_collision_distance >= sigma_sc_s;
   Touching touching;
   Holding holding;
   double detected = 0.0;
@@ -185,7 +188,7 @@ ReactionOutcome outcome_of(const CampaignRun& run) {
     }
     if (!outcome.detected) detected = time;
     outcome.detected = true;
-    note_stop(robot, truth, brakings[k], outcome);
+    if (keeps_safety_values) note_stop(robot, truth, brakings[k], outcome);
     if (truth.velocity.head(translations).norm() > at_rest) {
       outcome.rest.reset();
     } else if (!outcome.rest) {

@@ -23,8 +23,8 @@ struct ReactionOutcome {
   bool detected = false;
   bool starts_inside = false;  ///< at the start both measures are within their safety values
   bool struck = false;         ///< a contact got hard: zero gravity
-  /// At the detection it could still stop within the limits that it keeps, as the robot itself judges; none:
-  /// it keeps none, or noticed nothing.
+  /// At the detection it could still stop within the safety values, as the robot itself judges; none: it does
+  /// not keep these, or noticed nothing.
   std::optional<bool> says_it_could_stop;
   bool could_stop = false;        ///< the same of the true robot then; means nothing where that one is none
   bool is_lost = false;           ///< at a tick the true robot had no kinematics: the measures leave that out
