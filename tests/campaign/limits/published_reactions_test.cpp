@@ -1,5 +1,5 @@
-// The 72 experiments of [SafePR] V-G, whole: how soon contacts are over, with which force, and where the robot
-// ends.
+// The 72 experiments of [SafePR] V-G, whole: how soon contacts are over, with which force, and where robots
+// end.
 #include <gtest/gtest.h>
 
 #include <atomic>
