@@ -12,6 +12,7 @@
 #include "experiments/scenario/scenario.h"
 #include "experiments/verdict/recorded_run.h"
 #include "experiments/verdict/verdict.h"
+#include "experiments/verdict/body_regions.h"
 #include "systems/framework/recording.h"
 #include "systems/robot/parallel_robot.h"
 
@@ -35,7 +36,21 @@ std::string object_of(const ContactVerdict& contact, const std::vector<ScenarioO
   return place < obstacles.size() ? obstacles[place].name : "obstacle";
 }
 
-ReportContact report_contact(const ContactVerdict& contact, const std::vector<ScenarioObstacle>& obstacles) {
+/// The limit that decides, whose it is and where it is from.
+void judge_force(const ContactVerdict& contact, const ForceLimits& limits, ReportContact& row) {
+  const bool lasts = contact.limit_name == "quasi-static";
+  row.peak_force = contact.peak_force;
+  row.peak_time = contact.peak_time;
+  if (lasts) row.lasting_force = contact.lasting_force;
+  row.force_limit = contact.limit;
+  row.limit_name = fmt::format("{}, {}; {}", contact.limit_name, region_of(limits),
+                               lasts ? limits.quasi_static_source : limits.transient_source);
+  row.over_limit = contact.over_limit;
+  row.within_limit = contact.within_limit;
+}
+
+ReportContact report_contact(const ContactVerdict& contact, const ForceLimits& limits,
+                             const std::vector<ScenarioObstacle>& obstacles) {
   ReportContact row;
   row.body = spoken(contact.body);
   if (contact.body.ends_with("clamping")) row.clamping_leg = "leg " + contact.body.substr(3, 1);
@@ -49,11 +64,7 @@ ReportContact report_contact(const ContactVerdict& contact, const std::vector<Sc
   row.could_stop = contact.could_stop;
   row.removed = contact.removed;
   row.speed = contact.speed;
-  row.peak_force = contact.peak_force;
-  row.peak_time = contact.peak_time;
-  row.force_limit = contact.limit;
-  row.limit_name = "ISO/TS 15066, " + contact.limit_name + ", hand, as quoted in [SafePR]";
-  row.within_limit = contact.within_limit;
+  judge_force(contact, limits, row);
   return row;
 }
 
@@ -208,7 +219,7 @@ Report experiment_report(const Scenario& scenario, const Recording& recording, c
   report.fault = verdict.fault;
   report.contacts_known = verdict.witness != Witness::none;
   for (const ContactVerdict& contact : verdict.contacts)
-    report.contacts.push_back(report_contact(contact, scenario.obstacles));
+    report.contacts.push_back(report_contact(contact, verdict.limits, scenario.obstacles));
   report.measures = measures(verdict, scenario.expected);
   const ParallelRobot& robot = *scenario.robot.robot;
   report.robot = drawn_robot(robot);

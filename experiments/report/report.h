@@ -29,13 +29,16 @@ struct ReportContact {
   std::vector<std::pair<std::string, std::optional<double>>> detected_by;
   /// It could still stop within its limits when it noticed the contact; none: nobody judged that.
   std::optional<bool> could_stop;
-  std::optional<double> removed;      ///< t_rem: the contact is over [s].
-  std::optional<double> speed;        ///< Of the platform when it touched [m/s].
-  double peak_force = 0.0;            ///< f_c,max: largest true contact force [N].
-  std::optional<double> peak_time;    ///< When [s].
-  std::optional<double> force_limit;  ///< That the peak is judged against [N].
-  std::string limit_name;             ///< Where the limit comes from: "ISO/TS 15066, transient, hand".
-  bool within_limit = false;          ///< The verdict on `peak_force`.
+  std::optional<double> removed;    ///< t_rem: the contact is over [s].
+  std::optional<double> speed;      ///< Of the platform when it touched [m/s].
+  double peak_force = 0.0;          ///< f_c,max: largest true contact force [N].
+  std::optional<double> peak_time;  ///< When [s].
+  /// Largest force after the transient duration, where that decides, and not the peak [N].
+  std::optional<double> lasting_force;
+  std::optional<double> force_limit;  ///< That the force is judged against [N].
+  std::string limit_name;             ///< Its kind, the region of the body, and its source.
+  double over_limit = 0.0;            ///< How long the force was above the limit of its time [s].
+  bool within_limit = false;          ///< The verdict on the force.
 };
 
 /// A number of the verdict table other than the contacts: observer error, tracking error, loop closure.

@@ -50,8 +50,10 @@ json encode(const ReportContact& contact) {
           {"speed", rounded(contact.speed)},
           {"peak_force", rounded(contact.peak_force)},
           {"peak_time", rounded(contact.peak_time)},
+          {"lasting_force", rounded(contact.lasting_force)},
           {"force_limit", rounded(contact.force_limit)},
           {"limit_name", contact.limit_name},
+          {"over_limit", rounded(contact.over_limit)},
           {"within_limit", contact.within_limit}};
 }
 

@@ -58,8 +58,12 @@ void read_force_limits(ConfigReader reader, ForceLimits& limits) {
     reader.problem("region", "is '" + region + "', which is no region of the body that has limits" +
                                  did_you_mean(region, names));
   }
+  const ForceLimits of_region = limits;
   reader.number("transient", unit::N, limits.transient, positive);
   reader.number("quasi_static", unit::N, limits.quasi_static, positive);
+  const std::string by_hand = "set by the scenario";
+  if (limits.transient != of_region.transient) limits.transient_source = by_hand;
+  if (limits.quasi_static != of_region.quasi_static) limits.quasi_static_source = by_hand;
   reader.number("transient_duration", unit::s, limits.transient_duration, positive);
 }
 

@@ -45,7 +45,14 @@ ForceLimits force_limits_of(const BodyRegion& region) {
   limits.region = region.name;
   limits.transient = region.transient.force;
   limits.quasi_static = region.quasi_static.force;
+  limits.transient_source = region.transient.source;
+  limits.quasi_static_source = region.quasi_static.source;
   return limits;
+}
+
+std::string region_of(const ForceLimits& limits) {
+  const BodyRegion* const known = find_body_region(limits.region);
+  return known == nullptr ? limits.region : std::string(known->title);
 }
 
 }  // namespace flinch

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -31,5 +32,8 @@ const BodyRegion* find_body_region(std::string_view name);
 
 /// Its limits, the transient ones for half a second.
 ForceLimits force_limits_of(const BodyRegion& region);
+
+/// The region of `limits` as people read it; its name where it is none of these.
+std::string region_of(const ForceLimits& limits);
 
 }  // namespace flinch

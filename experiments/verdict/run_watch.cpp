@@ -129,6 +129,7 @@ struct RunWatch::Parts {
   Parts(const RecordedRun& run, const ForceLimits& limits)
       : period(run.period()), contacts(limits, run.estimators()) {
     verdict.witness = run.witness();
+    verdict.limits = limits;
     for (const std::string& estimator : run.estimators())
       verdict.first_noticed.push_back({estimator, std::nullopt});
   }

@@ -20,6 +20,8 @@ struct ForceLimits {
   double transient = 280.0;         ///< for the first `transient_duration` of a contact [N]
   double quasi_static = 140.0;      ///< for what lasts longer [N]
   double transient_duration = 0.5;  ///< [s]
+  std::string transient_source = "[SafePR] V-G, which quotes ISO/TS 15066";  ///< where the number is from
+  std::string quasi_static_source = transient_source;                        ///< likewise
 };
 
 /// What a run is expected to show; what is not given is not judged.
@@ -113,6 +115,7 @@ struct Verdict {
   static constexpr double same_contact = 0.1;  ///< [s]
 
   Witness witness = Witness::truth;
+  ForceLimits limits;  ///< that contacts are judged by
   std::vector<ContactVerdict> contacts;
   /// When each estimator first noticed anything at all, in the order of `ContactVerdict::detected_by`.
   std::vector<DetectionBy> first_noticed;

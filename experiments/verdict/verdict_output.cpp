@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "experiments/verdict/body_regions.h"
 #include "experiments/verdict/task_words.h"
 #include "experiments/verdict/verdict.h"
 #include "systems/foundation/json_text.h"
@@ -72,10 +73,31 @@ std::string told_body(const ContactVerdict& contact) {
 }
 
 std::string contact_line(const ContactVerdict& contact) {
-  return fmt::format("{:<15} {:>8.3f} {:>6.2f} {:>10} {:>10} {:>8.0f} {:>8.0f}  {}\n", told_body(contact),
-                     contact.onset, contact.speed, milliseconds_text(contact.onset, contact.detected),
+  return fmt::format("{:<15} {:>8.3f} {:>6.2f} {:>10} {:>10} {:>8.0f} {:>8.0f}  {:<12} {:>8.0f}  {}\n",
+                     told_body(contact), contact.onset, contact.speed,
+                     milliseconds_text(contact.onset, contact.detected),
                      milliseconds_text(contact.onset, contact.removed), contact.peak_force, contact.limit,
-                     contact.within_limit ? "yes" : "NO");
+                     contact.limit_name, 1e3 * contact.over_limit, contact.within_limit ? "yes" : "NO");
+}
+
+/// What contacts are judged by, and where the numbers are from.
+std::string limit_lines(const Verdict& verdict) {
+  if (verdict.contacts.empty()) return "";
+  const ForceLimits& limits = verdict.limits;
+  return fmt::format(
+      "\nforce limits       {}\n  transient        {:.0f} N, {}\n  quasi-static     {:.0f} N after {:.0f} "
+      "ms, {}\n",
+      region_of(limits), limits.transient, limits.transient_source, limits.quasi_static,
+      1e3 * limits.transient_duration, limits.quasi_static_source);
+}
+
+Json limits_json(const ForceLimits& limits) {
+  return {{"region", limits.region},
+          {"transient_N", limits.transient},
+          {"transient_source", limits.transient_source},
+          {"quasi_static_N", limits.quasi_static},
+          {"quasi_static_source", limits.quasi_static_source},
+          {"transient_duration_ms", 1e3 * limits.transient_duration}};
 }
 
 /// Where several estimators ran: what each of them would have noticed when.
@@ -153,13 +175,14 @@ const char* name(Witness witness) {
 }  // namespace
 
 std::string verdict_table(const Verdict& verdict, const RunFacts& facts) {
-  std::string text = fmt::format("{:<15} {:>8} {:>6} {:>10} {:>10} {:>8} {:>8}  {}\n", "contact with", "at s",
-                                 "m/s", "noticed ms", "removed ms", "peak N", "limit N", "within");
+  std::string text =
+      fmt::format("{:<15} {:>8} {:>6} {:>10} {:>10} {:>8} {:>8}  {:<12} {:>8}  {}\n", "contact with", "at s",
+                  "m/s", "noticed ms", "removed ms", "peak N", "limit N", "", "above ms", "within");
   for (const ContactVerdict& contact : verdict.contacts) {
     text += contact_line(contact) + by_estimator_lines(contact) + classified_line(contact) +
             braking_line(contact) + reaction_lines(contact);
   }
-  text += no_contact_line(verdict);
+  text += no_contact_line(verdict) + limit_lines(verdict);
   text += fmt::format(
       "\nfalse detections   {}\nobserver error     {:.2f} N, {:.3f} Nm before any contact\n"
       "tracking error     {:.2f} mm, {:.2f} deg before any contact\n",
@@ -186,6 +209,7 @@ std::string verdict_json(const Verdict& verdict, const RunFacts& facts) {
       {"verdict", verdict.good() ? "good" : "bad"},
       {"witness", name(verdict.witness)},
       {"contacts", contacts},
+      {"force_limits", limits_json(verdict.limits)},
       {"detections_s", verdict.detections},
       {"false_detections", verdict.false_detections},
       {"max_observer_error_N", verdict.max_observer_error_force},

@@ -70,8 +70,13 @@ function contactEnd(contact) {
   return contact.removed ?? wholeRun[1];
 }
 
+/** The peak, or what lasted where only that is above its limit. */
+function judgedForce(contact) {
+  return contact.lasting_force ?? contact.peak_force;
+}
+
 /** The contact that is closest to, or furthest above, its limit. */
 function worstContact() {
-  const severity = (contact) => contact.peak_force / (contact.force_limit ?? Infinity);
+  const severity = (contact) => judgedForce(contact) / (contact.force_limit ?? Infinity);
   return report.contacts.reduce((worst, next) => (!worst || severity(next) > severity(worst) ? next : worst), null);
 }

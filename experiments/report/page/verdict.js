@@ -59,7 +59,9 @@ function pressed(contact) {
   const peak = `The force peaked at ${fixed(contact.peak_force, 0)} N`;
   if (contact.force_limit === null) return `${peak}.`;
   const limit = `${fixed(contact.force_limit, 0)} N`;
-  return contact.within_limit ? `${peak}, within the limit of ${limit}.` : `${peak}: more than the limit of ${limit}.`;
+  if (contact.within_limit) return `${peak}, within the limit of ${limit}.`;
+  const stayed = contact.lasting_force === null ? "" : ` and stayed at ${fixed(contact.lasting_force, 0)} N`;
+  return `${peak}${stayed}: more than the limit of ${limit}.`;
 }
 
 /** Four large numbers of the worst contact. */
@@ -72,7 +74,7 @@ function showFigures() {
     [contact.speed === null ? none : fixed(contact.speed, 2), "m/s", "platform, at contact"],
     [since(contact.detected), "ms", contact.detected === null ? "never noticed" : "to notice"],
     [since(contact.removed), "ms", contact.removed === null ? "never removed" : "until removed"],
-    [fixed(contact.peak_force, 0), "N", contact.force_limit === null ? "at most" : `of ${fixed(contact.force_limit, 0)} N allowed`],
+    [fixed(judgedForce(contact), 0), "N", contact.force_limit === null ? "at most" : `of ${fixed(contact.force_limit, 0)} N allowed`],
   ];
   byId("figures").replaceChildren(...figures.map(([value, unit, caption]) =>
     element("p", { class: "figure" },
@@ -94,7 +96,7 @@ function showContacts() {
   byId("contacts").hidden = report.contacts.length === 0;
   byId("contacts").replaceChildren(element("table", { "aria-label": "Contacts" },
     tableHead([["Body"], ["At", "n"], ["Speed", "n"], ["Detected after", "n"], ["Removed after", "n"],
-      ["Peak force and limit"], ["Within limit"]]),
+      ["Force and limit"], ["Within limit"]]),
     element("tbody", {}, ...report.contacts.map(contactRow))));
 }
 
@@ -127,6 +129,11 @@ function braking(contact) {
     contact.could_stop ? "could stop within its limits" : "could not stop within its limits");
 }
 
+/** How long the force was above the limit of its time. */
+function aboveLimit(contact) {
+  return contact.over_limit > 0 ? element("small", { class: "bad" }, `above it for ${milliseconds(contact.over_limit)}`) : "";
+}
+
 /** What the robot took the body for, where it said so. */
 function isolation(contact) {
   if (!contact.isolated_body) return "";
@@ -134,14 +141,14 @@ function isolation(contact) {
   return element("small", { class: right ? "" : "bad" }, right ? "isolated correctly" : `taken for ${withArticle(contact.isolated_body)}`);
 }
 
-/** Peak force as a bar against the limit, which is a tick at a fixed place. */
+/** The force that decides as a bar against the limit, which is a tick at a fixed place. */
 function forceBar(contact) {
   if (contact.force_limit === null) return `${fixed(contact.peak_force, 0)} N`;
-  const share = Math.min(1, contact.peak_force / contact.force_limit / 1.25);
+  const share = Math.min(1, judgedForce(contact) / contact.force_limit / 1.25);
   const bar = element("span", { class: contact.within_limit ? "bar" : "bar over", "aria-hidden": "true" });
   bar.style.setProperty("--share", `${100 * share}%`);
-  const text = `${fixed(contact.peak_force, 0)} N of ${fixed(contact.force_limit, 0)} N`;
-  return element("span", { class: "force" }, text, bar, element("small", {}, contact.limit_name));
+  const text = `${fixed(judgedForce(contact), 0)} N of ${fixed(contact.force_limit, 0)} N`;
+  return element("span", { class: "force" }, text, bar, element("small", {}, contact.limit_name), aboveLimit(contact));
 }
 
 function showMeasures() {

@@ -77,6 +77,8 @@ def tells_the_verdict(page):
                         ".map(([, state]) => report.lanes.find(lane => lane.name === 'reaction').states[state])"
                         ".filter(told => told !== 'none' && !byId('events').textContent.includes(`The robot ${told}.`))")
     page.expect(untold == [], f"what happened does not tell that the robot {untold}")
+    above = page.value("report.contacts.filter(c => c.force_limit !== null && c.over_limit > 0).length")
+    page.expect(text.count("above it for") == above, f"the table does not tell how long {above} contacts were above their limit")
     wrong = re.findall(r"\b(?:the both|NaN|undefined|null|Infinity|\[object \w+\])", text)
     page.expect(not wrong, f"the text of the page contains {wrong}")
 

@@ -167,8 +167,12 @@ TEST(ReportPage, TellsInChromiumOfAClampingAndOfTheGateThatCloses) {
   report.contacts[0].clamping_leg = "leg 1";
   report.contacts[0].object = "pylon";
   report.contacts[0].detected = 1e-3;
+  report.contacts[0].peak_force = report.contacts[0].lasting_force.emplace(150.0);
+  report.contacts[0].force_limit = 140.0;
+  report.contacts[0].over_limit = 0.02;
   report.fault = "the encoders are silent";
-  report.lanes = {{"torque gate", {"waiting", "open", "closed"}, {1, 1, 2}}};
+  report.lanes = {{"limits", {"not kept", "kept", "rotation, more than the drives have"}, {1, 2, 0}},
+                  {"torque gate", {"waiting", "open", "closed"}, {1, 1, 2}}};
   expect_to_work(report);
 }
 

@@ -159,6 +159,23 @@ TEST(Scenario, KeepsTheLimitsOfTheReactionThatIsFollowed) {
   EXPECT_EQ(limits_with(", follow: {reaction_law: strict_reaction}"), LimitKeeperSettings::Use::always);
 }
 
+TEST(Scenario, SaysWhereTheForceLimitsAreFrom) {
+  const test::Workplace place;
+  const std::string legs = std::string(least) + "force_limits: {region: lower_leg";
+  const ForceLimits leg = scenario_of(place, legs + "}\n").force_limits;
+  EXPECT_EQ(leg.transient, 260.0);
+  EXPECT_THAT(leg.transient_source, HasSubstr("twice the quasi-static force"));
+  EXPECT_THAT(leg.quasi_static_source, HasSubstr("Table A.2"));
+
+  const ForceLimits own = scenario_of(place, legs + ", transient_N: 100}\n").force_limits;
+  EXPECT_EQ(own.region, "lower_leg");
+  EXPECT_EQ(own.transient_source, "set by the scenario");
+  EXPECT_EQ(own.quasi_static_source, leg.quasi_static_source);
+
+  const ForceLimits same = scenario_of(place, legs + ", transient_N: 260}\n").force_limits;
+  EXPECT_EQ(same.transient_source, leg.transient_source) << "it is that number";
+}
+
 TEST(Scenario, SaysWhatARobotMayDoThatIsBroughtBack) {
   const test::Workplace place;
   const Scenario scenario =

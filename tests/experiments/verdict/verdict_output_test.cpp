@@ -82,6 +82,31 @@ TEST(VerdictOutput, TellsWhatTheReactionDid) {
   EXPECT_EQ(tasks[1]["leg"], 2);
 }
 
+TEST(VerdictOutput, TellsByWhichLimitsAndForHowLongAForceWasAboveThem) {
+  Verdict verdict = verdict_with_contact();
+  verdict.limits = {.region = "lower_leg",
+                    .transient = 100.0,
+                    .quasi_static = 130.0,
+                    .transient_source = "set by the scenario",
+                    .quasi_static_source = "a table"};
+  verdict.contacts[0].limit = 100.0;
+  verdict.contacts[0].over_limit = 0.012;
+  verdict.contacts[0].within_limit = false;
+  const std::string table = verdict_table(verdict, {});
+  EXPECT_THAT(table, HasSubstr("     100      100  transient          12  NO\n"));
+  EXPECT_THAT(table, HasSubstr("force limits       lower leg\n"
+                               "  transient        100 N, set by the scenario\n"
+                               "  quasi-static     130 N after 500 ms, a table\n"));
+  const auto json = nlohmann::json::parse(verdict_json(verdict, {}));
+  EXPECT_EQ(json["force_limits"], nlohmann::json({{"region", "lower_leg"},
+                                                  {"transient_N", 100.0},
+                                                  {"transient_source", "set by the scenario"},
+                                                  {"quasi_static_N", 130.0},
+                                                  {"quasi_static_source", "a table"},
+                                                  {"transient_duration_ms", 500.0}}));
+  EXPECT_THAT(verdict_table(Verdict(), {}), Not(HasSubstr("force limits"))) << "nothing was judged";
+}
+
 TEST(VerdictJson, IsOneLineThatHoldsTheTable) {
   const std::string text = verdict_json(verdict_with_contact(), {.wall = 0.5, .seed = 7});
   EXPECT_EQ(text.find('\n'), std::string::npos);
