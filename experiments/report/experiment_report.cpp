@@ -2,17 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "experiments/recorded/robot_as_drawn.h"
 #include "experiments/report/drawn_robot.h"
+#include "experiments/report/limit_lane.h"
 #include "experiments/report/page_samples.h"
 #include "experiments/report/report_samples.h"
 #include "experiments/scenario/scenario.h"
+#include "experiments/verdict/body_regions.h"
 #include "experiments/verdict/recorded_run.h"
 #include "experiments/verdict/verdict.h"
-#include "experiments/verdict/body_regions.h"
 #include "systems/framework/recording.h"
 #include "systems/robot/parallel_robot.h"
 
@@ -129,34 +131,61 @@ std::string thinning(const Recording& recording) {
       together);
 }
 
-/// The limits that laws keep which serve tasks, where one of them is followed.
-void add_constraints(const ContactControlSettings& control, std::vector<ReportBound>& lines) {
-  const ConstraintSettings& constraints = control.tasks.constraints;
-  const bool serves_tasks = followed_name(control.stages.reaction_laws).ends_with("_reaction") ||
-                            followed_name(control.stages.nominal_laws).ends_with("_tracking");
-  if (!serves_tasks || constraints.kept == ConstraintsKept::never) return;
-  lines.push_back({"sigma_kappa", "activation value", constraints.sigma_kappa.activation});
-  lines.push_back({"sigma_kappa", "safety value", constraints.sigma_kappa.safety});
-  lines.push_back({"sigma_sc", "activation value", constraints.sigma_sc.activation});
-  lines.push_back({"sigma_sc", "safety value", constraints.sigma_sc.safety});
+/// The lines across the charts. Those of one value are one line.
+class Bounds {
+ public:
+  void add(const std::string& chart, const std::string& name, double value) {
+    if (!std::isfinite(value)) return;
+    for (ReportBound& line : lines) {
+      if (line.chart != chart || line.value != value) continue;
+      if (line.name.find(name) == std::string::npos) line.name += ", " + name;
+      return;
+    }
+    lines.push_back({chart, name, value});
+  }
+
+  std::vector<ReportBound> lines;
+};
+
+/// The values to which a task law has led the measures of the workspace in this run.
+void add_led(const ConstraintSettings& constraints, const Report& report, Bounds& bounds) {
+  if (report.columns.count("sigma_kappa_reference") == 0) return;
+  bounds.add("sigma_kappa", "activation value", constraints.sigma_kappa.activation);
+  bounds.add("sigma_kappa", "safety value", constraints.sigma_kappa.safety);
+  bounds.add("sigma_sc", "activation value", constraints.sigma_sc.activation);
+  bounds.add("sigma_sc", "safety value", constraints.sigma_sc.safety);
 }
 
-std::vector<ReportBound> bounds(const Scenario& scenario, const Verdict& verdict) {
+/// The limits within which torques were kept in this run.
+void add_kept(const LimitKeeperSettings& limits, const Report& report, Bounds& bounds) {
+  const bool were_kept = std::any_of(report.lanes.begin(), report.lanes.end(),
+                                     [](const ReportLane& lane) { return lane.name == LimitLane::name; });
+  if (!were_kept) return;
+  const std::string kept = "limit that is kept";
+  bounds.add("sigma_kappa", kept, limits.limits.max_condition_number);
+  if (limits.limits.workspace.min_self_collision_distance > 0.0)
+    bounds.add("sigma_sc", kept, limits.limits.workspace.min_self_collision_distance);
+  bounds.add("speed", kept, limits.max_platform_speed);
+}
+
+std::vector<ReportBound> bounds_of(const Scenario& scenario, const Verdict& verdict, const Report& report) {
   const ContactDetectorSettings detector =
       scenario.control.detector_of(followed_name(scenario.control.stages.estimators));
-  std::vector<ReportBound> lines;
+  Bounds bounds;
   for (const double sign : {1.0, -1.0}) {
-    lines.push_back({"force", "reaction threshold", sign * detector.reaction.force});
-    lines.push_back({"force", "hard threshold", sign * detector.hard.force});
-    lines.push_back({"moment", "reaction threshold", sign * detector.reaction.moment});
-    lines.push_back({"moment", "hard threshold", sign * detector.hard.moment});
+    bounds.add("force", "reaction threshold", sign * detector.reaction.force);
+    bounds.add("force", "hard threshold", sign * detector.hard.force);
+    bounds.add("moment", "reaction threshold", sign * detector.reaction.moment);
+    bounds.add("moment", "hard threshold", sign * detector.hard.moment);
   }
   for (const ContactVerdict& contact : verdict.contacts) {
-    lines.push_back({"contact_force", contact.limit_name + " limit", contact.limit});
+    bounds.add("contact_force", "transient limit", verdict.limits.transient);
+    if (contact.lasting_force) bounds.add("contact_force", "quasi-static limit", verdict.limits.quasi_static);
   }
-  lines.push_back({"sigma_sc", "torque gate closes", scenario.robot.limits.min_self_collision_distance});
-  add_constraints(scenario.control, lines);
-  return lines;
+  add_led(scenario.control.tasks.constraints, report, bounds);
+  add_kept(scenario.control.limits, report, bounds);
+  bounds.add("sigma_sc", "torque gate closes", scenario.robot.limits.min_self_collision_distance);
+  return bounds.lines;
 }
 
 std::vector<ReportParameter> parameters(const std::string& group, const std::vector<ReadValue>& values) {
@@ -228,7 +257,7 @@ Report experiment_report(const Scenario& scenario, const Recording& recording, c
     report.obstacles.push_back(drawn_obstacle(obstacle.name, obstacle.shape, obstacle.position_in_base));
   }
   add_samples(robot, recording, report);
-  report.bounds = bounds(scenario, verdict);
+  report.bounds = bounds_of(scenario, verdict, report);
   report.parameters = scenario_parameters(scenario);
   for (ReportParameter& row : parameters("robot", scenario.robot.values))
     report.parameters.push_back(std::move(row));

@@ -22,6 +22,11 @@ std::size_t PageSamples::lane(std::string name, std::vector<std::string> states)
   return states_.size() - 1;
 }
 
+int PageSamples::add_state(std::size_t lane, std::string name) {
+  lanes_[lane].states.push_back(std::move(name));
+  return static_cast<int>(lanes_[lane].states.size()) - 1;
+}
+
 void PageSamples::begin() { ++samples_; }
 
 // What has no weight, or no value, gives way to anything.

@@ -24,6 +24,8 @@ class PageSamples {
   /// Makes a column, or a lane, and says by which number it is filled.
   std::size_t column(std::string name);
   std::size_t lane(std::string name, std::vector<std::string> states);
+  /// Adds a state to a lane, and says its number.
+  int add_state(std::size_t lane, std::string name);
 
   /// Begins a sample; it fills all columns and lanes.
   void begin();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "experiments/report/drawn_robot.h"
+#include "experiments/report/limit_lane.h"
 #include "experiments/report/page_samples.h"
 #include "experiments/report/reaction_lane.h"
 #include "experiments/report/task_energy_columns.h"
@@ -314,14 +315,24 @@ class Constraints {
       const ConstraintState state = law[sample];
       if (state.watched) kept = state;
     }
+    was_kept_ = was_kept_ || kept.watched;
     const int mode = kept.watched ? static_cast<int>(kept.mode) : 4;
     page_.set_state(lane_, mode, mode == 4 ? -1 : mode);
     page_.set(sigma_kappa_, kept.sigma_kappa.active ? kept.sigma_kappa.reference : no_value);
     page_.set(sigma_sc_, kept.sigma_sc.active ? kept.sigma_sc.reference : no_value);
   }
 
+  /// Of laws that leave limits to others, and where nothing was kept.
+  void drop_unless_kept(Report& report) const {
+    if (was_kept_) return;
+    std::erase_if(report.lanes, [](const ReportLane& lane) { return lane.name == "constraints"; });
+    report.columns.erase("sigma_kappa_reference");
+    report.columns.erase("sigma_sc_reference");
+  }
+
  private:
   PageSamples& page_;
+  bool was_kept_ = false;
   std::vector<RecordedValues<ConstraintState>> laws_;
   std::size_t lane_ = 0, sigma_kappa_ = 0, sigma_sc_ = 0;
 };
@@ -419,6 +430,7 @@ void add_samples(const ParallelRobot& robot, const Recording& recording, Report&
   EstimatesSideBySide estimates(robot.space(), recording, page, report);
   Drives drives(robot, recording, simulated, page);
   Constraints constraints(recording, page);
+  LimitLane limits(recording, page);
   ReactionLane reaction(recording.find("reaction_task") != nullptr, robot.legs(), page);
   TaskEnergyColumns energies(recording, page);
   Isolation isolation(robot, recording, simulated, page);
@@ -437,6 +449,7 @@ void add_samples(const ParallelRobot& robot, const Recording& recording, Report&
     estimates.show(k);
     drives.show(k, truth);
     constraints.show(k);
+    limits.show(k);
     reaction.show(now.task, hardness);
     energies.show(k, now.mode);
     isolation.show(k, now, truth, hardness);
@@ -444,6 +457,8 @@ void add_samples(const ParallelRobot& robot, const Recording& recording, Report&
   }
   page.finish(report);
   obstacles.drop_those_at_rest(report);
+  constraints.drop_unless_kept(report);
+  limits.drop_unless_kept(report);
   add_elbows(robot, report);
 }
 

@@ -17,8 +17,6 @@ constexpr double slack_price = 1e4;  // above every multiplier: the slack is use
 constexpr double share_of_torque_rate = 0.75;  // that a_2 may ask for
 constexpr double smallest_reach = 1e-3;        // share of the reach along a direction
 constexpr double slowest_direction = 0.1;      // share of a speed limit below which it cannot bind
-constexpr std::uint32_t platform_speed_bit = 1U << 16U;
-constexpr std::uint32_t drive_speed_bit = 1U << 17U;
 
 /// How the platform accelerates under torques: dv = G tau + dv_0.
 struct Motion {
@@ -109,7 +107,7 @@ class Programme {
       const double speed = direction.norm();
       if (speed > slowest_direction * settings_.max_platform_speed) {
         accelerate(-direction / speed, -settings_.speed_rate * (settings_.max_platform_speed - speed),
-                   platform_speed_bit);
+                   LimitStatus::platform_speed);
       }
     }
     if (!std::isfinite(settings_.max_drive_speed)) return;
@@ -120,7 +118,7 @@ class Programme {
       const double sign = rate > 0.0 ? 1.0 : -1.0;
       const double room = settings_.max_drive_speed - std::abs(rate);
       accelerate(-sign * at_.J_qa_x.row(i).transpose(), sign * drift[i] - settings_.speed_rate * room,
-                 drive_speed_bit);
+                 LimitStatus::drive_speed);
     }
   }
 

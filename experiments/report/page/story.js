@@ -6,6 +6,7 @@ function storyEvents() {
   const events = report.contacts.flatMap(contactEvents);
   for (const lane of report.lanes.filter((each) => each.name === "mode")) events.push(...laneEvents(lane));
   for (const lane of report.lanes.filter((each) => each.name === "reaction")) events.push(...reactions(lane));
+  for (const lane of report.lanes.filter((each) => each.name === "limits")) events.push(...limitsBeyondTheDrives(lane));
   for (const lane of report.lanes.filter((each) => each.name === "torque gate")) events.push(...closings(lane));
   events.sort((a, b) => a.time - b.time);
   return events;
@@ -41,6 +42,12 @@ function laneEvents(lane) {
 function reactions(lane) {
   return laneSpans(lane).filter((span) => span.state > 0).map((span) =>
     ({ time: span.from, kind: "state", text: `The robot ${lane.states[span.state]}.` }));
+}
+
+/** Limits ask for more than the drives have, or nobody knew how to keep them. */
+function limitsBeyondTheDrives(lane) {
+  return laneSpans(lane).filter((span) => /more than the drives have|could not be kept/.test(lane.states[span.state])).map((span) =>
+    ({ time: span.from, kind: "state", text: `Limits: ${lane.states[span.state]}.` }));
 }
 
 /** The torque gate closes: why is known of the first time. */

@@ -2,14 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <set>
+#include <string>
+#include <utility>
 
 #include "experiments/report/experiment_report.h"
 #include "experiments/report/report_page.h"
 #include "experiments/simulated/experiment.h"
 #include "experiments/simulated/simulated_scenario.h"
+#include "experiments/verdict/body_regions.h"
 #include "experiments/verdict/verdict.h"
 #include "plant/obstacle_path.h"
+#include "systems/config/config_file.h"
 #include "systems/framework/recording.h"
 #include "tests/experiments/report/chromium.h"
 #include "tests/support/temporary_folder.h"
@@ -87,6 +93,107 @@ TEST(ExperimentPage, TellsSinceWhenTheRobotGoesBackTheWayItCame) {
   EXPECT_EQ(told.task.kind, ReactionKind::retreat);
   EXPECT_NEAR(told.time, report.start + report.period * static_cast<double>(begin - lane->state.begin()),
               1e-9);
+}
+
+/// The lines across a chart, by name.
+std::map<std::string, double> lines_across(const Report& report, const std::string& chart) {
+  std::map<std::string, double> lines;
+  for (const ReportBound& bound : report.bounds) {
+    if (bound.chart == chart) lines[bound.name] = bound.value;
+  }
+  return lines;
+}
+
+const ReportLane* lane_of(const Report& report, const std::string& name) {
+  const auto found = std::find_if(report.lanes.begin(), report.lanes.end(),
+                                  [&name](const ReportLane& lane) { return lane.name == name; });
+  return found == report.lanes.end() ? nullptr : &*found;
+}
+
+/// The names of the states in which a lane ever is.
+std::set<std::string> states_of(const ReportLane& lane) {
+  std::set<std::string> names;
+  for (const int state : lane.state) names.insert(lane.states.at(static_cast<std::size_t>(state)));
+  return names;
+}
+
+/// A retreat that would end in a leg, its laws and limits in place of those of the file.
+Report retreat(const std::string& law, const std::string& limits) {
+  const std::filesystem::path file = FLINCH_SOURCE_DIR "/apps/scenarios/reaction_near_itself.yaml";
+  std::string text = read_config_file(file);
+  for (const auto& [from, to] : {std::pair<std::string, std::string>("[torque_reaction]", "[" + law + "]"),
+                                 {"limits: {keep: never}", "limits: {" + limits + "}"}})
+    text.replace(text.find(from), from.size(), to);
+  const SimulatedScenario scenario = parse_simulated_scenario(text, file);
+  const Recording recording = run_experiment(scenario);
+  return experiment_report(
+      scenario, recording,
+      judge(recording, scenario.robot.robot->space(), scenario.expected, scenario.force_limits));
+}
+
+TEST(ExperimentPage, ShowsOfALevelThatLeadsItsConstraintsWhereItLeadsThem) {
+  const Report report = retreat("torque_reaction", "keep: never");
+  ASSERT_NE(lane_of(report, "constraints"), nullptr);
+  EXPECT_EQ(states_of(*lane_of(report, "constraints")).count("self-collision"), 1U);
+  EXPECT_EQ(lane_of(report, "limits"), nullptr) << "nobody keeps them";
+  EXPECT_EQ(lines_across(report, "sigma_sc"),
+            (std::map<std::string, double>{
+                {"activation value", 0.178}, {"safety value", 0.17}, {"torque gate closes", 0.05}}));
+  EXPECT_EQ(report.columns.count("sigma_sc_reference"), 1U);
+}
+
+TEST(ExperimentPage, ShowsOfTheStrictLevelTheLimitsThatItKeepsAndNoActivation) {
+  const Report report = retreat("strict_reaction", "keep: always");
+  EXPECT_EQ(lane_of(report, "constraints"), nullptr);
+  EXPECT_EQ(report.columns.count("sigma_kappa_reference") + report.columns.count("sigma_sc_reference"), 0U);
+  ASSERT_NE(lane_of(report, "limits"), nullptr);
+  const std::set<std::string> states = states_of(*lane_of(report, "limits"));
+  EXPECT_EQ(states.count("kept") + states.count("self-collision"), 2U);
+  EXPECT_EQ(lines_across(report, "sigma_kappa"),
+            (std::map<std::string, double>{{"limit that is kept", 15.0}}));
+  EXPECT_EQ(lines_across(report, "sigma_sc"),
+            (std::map<std::string, double>{{"limit that is kept", 0.17}, {"torque gate closes", 0.05}}));
+}
+
+TEST(ExperimentPage, ShowsTheLimitsThatTheDefaultReactionKeepsOfAnyMechanism) {
+  for (const std::string name : {"platform_collision", "five_bar_collision", "hexapod_collision"}) {
+    const Report report = report_of(FLINCH_SOURCE_DIR "/apps/scenarios/" + name + ".yaml");
+    ASSERT_NE(lane_of(report, "limits"), nullptr) << name;
+    const std::set<std::string> states = states_of(*lane_of(report, "limits"));
+    EXPECT_EQ(states.count("not kept") + states.count("kept"), 2U) << name << ": from the contact on";
+    EXPECT_EQ(lane_of(report, "constraints"), nullptr) << name;
+    EXPECT_EQ(lines_across(report, "sigma_sc").count("limit that is kept, torque gate closes"), 1U) << name;
+    EXPECT_EQ(lines_across(report, "sigma_kappa").size(), 0U) << name;
+  }
+}
+
+TEST(ExperimentPage, TellsWhoseForceLimitDecidesAndWhereItIsFrom) {
+  SimulatedScenario scenario =
+      read_simulated_scenario(FLINCH_SOURCE_DIR "/apps/scenarios/platform_collision.yaml");
+  scenario.force_limits = force_limits_of(*find_body_region("lower_leg"));
+  scenario.force_limits.transient = 100.0;
+  scenario.force_limits.transient_source = "set by the scenario";
+  const Recording recording = run_experiment(scenario);
+  const auto contact_by = [&](const ForceLimits& limits) {
+    const Verdict verdict = judge(recording, scenario.robot.robot->space(), scenario.expected, limits);
+    EXPECT_GT(verdict.contacts.at(0).over_limit, 0.0);
+    const ReportContact shown = experiment_report(scenario, recording, verdict).contacts.at(0);
+    EXPECT_EQ(shown.over_limit, verdict.contacts.at(0).over_limit);
+    return shown;
+  };
+  const ReportContact high = contact_by(scenario.force_limits);
+  EXPECT_EQ(high.limit_name, "transient, lower leg; set by the scenario");
+  EXPECT_EQ(high.force_limit, 100.0);
+  EXPECT_EQ(high.lasting_force, std::nullopt);
+
+  ForceLimits at_once = force_limits_of(*find_body_region("lower_leg"));
+  at_once.quasi_static = 20.0;
+  at_once.transient_duration = 0.02;
+  const ReportContact lasting = contact_by(at_once);
+  EXPECT_EQ(lasting.limit_name,
+            "quasi-static, lower leg; ISO/TS 15066:2016 Table A.2, from secondary sources");
+  ASSERT_TRUE(lasting.lasting_force);
+  EXPECT_GT(*lasting.lasting_force, 20.0);
 }
 
 TEST(ExperimentPage, WorksInChromium) {

@@ -14,9 +14,11 @@
 #include "systems/signals/contact_detection.h"
 #include "systems/signals/followed_task.h"
 #include "systems/signals/gate_status.h"
+#include "systems/signals/limit_status.h"
 #include "systems/signals/platform_reference.h"
 #include "systems/signals/plausibility.h"
 #include "systems/signals/reaction_state.h"
+#include "systems/signals/torque_command.h"
 #include "systems/signals/workspace_measures.h"
 #include "systems/signals/wrench_estimate.h"
 
@@ -39,6 +41,8 @@ struct Moment {
   FollowedTask task;
   WorkspaceMeasures measured;  ///< by the controller
   WorkspaceMeasures true_measures;
+  LimitStatus limits;
+  TorqueCommand torque;
 };
 
 /// A recording made up tick by tick: the robot rests where it shall, nothing touches it and nothing is
@@ -109,7 +113,9 @@ class SyntheticRun {
                          signal("classification", &Moment::classification),
                          signal("reaction_task", &Moment::task),
                          signal("measures", &Moment::measured),
-                         signal("true_measures", &Moment::true_measures)};
+                         signal("true_measures", &Moment::true_measures),
+                         signal("limits", &Moment::limits),
+                         signal("torque_command", &Moment::torque)};
     return recording;
   }
 
