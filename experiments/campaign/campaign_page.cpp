@@ -18,6 +18,8 @@
 #include "experiments/campaign/reaction_summary.h"
 #include "experiments/campaign/run_result.h"
 #include "experiments/report/script_data.h"
+#include "experiments/verdict/body_regions.h"
+#include "experiments/verdict/verdict.h"
 #include "systems/foundation/json_text.h"
 #include "systems/foundation/result_file.h"
 #include "systems/motion/constraint_settings.h"
@@ -51,7 +53,8 @@ Json group_json(const CampaignGroup& group, const Alarms& alarms) {
           {"alarms", alarms.count},
           {"alarm_hours", alarms.hours},
           {"alarm_rate", alarms.rate()},
-          {"alarm_rate_at_most", finite(upper_rate(alarms.count, alarms.hours))}};
+          {"alarm_rate_at_most", finite(upper_rate(alarms.count, alarms.hours))},
+          {"over_limit", group.longest_over_limit}};
 }
 
 /// Why one looks at a run: the worst sort first, of the detector that the robot followed.
@@ -122,29 +125,47 @@ Json reaction_of(const RunResult& result) {
           {"body", body_of(result)},
           {"speed", known(result.speed)},
           {"peak", known(result.peak_force)},
+          {"lasting", known(result.lasting_force)},
+          {"duration", known(result.removal_time)},
           {"detection", known(detection)},
           {"reaction", reaction},
           {"kappa", known(result.sigma_kappa_most)},
           {"sc", known(result.sigma_sc_least)},
+          {"kappa_best", known(result.sigma_kappa_least)},
+          {"sc_best", known(result.sigma_sc_most)},
           {"kappa_end", known(result.sigma_kappa_last)},
           {"sc_end", known(result.sigma_sc_last)}};
+}
+
+Json fit_of(const ForceFit& fit) {
+  return {{"body", fit.body},
+          {"n", fit.n},
+          {"slope", fit.slope},
+          {"intercept", fit.intercept},
+          {"pearson", fit.pearson},
+          {"speed_at_transient", known(fit.speed_at_transient)},
+          {"speed_at_quasi_static", known(fit.speed_at_quasi_static)}};
 }
 
 /// The limits are those of the first run.
 Json reaction_dots(const Campaign& campaign, const CampaignResults& results) {
   Json runs = Json::array(), fits = Json::array();
   for (const RunResult& result : results) runs.push_back(reaction_of(result));
-  for (const ForceFit& fit : reactions_of(results, campaign.missed_after).fits) {
-    fits.push_back(
-        {{"body", fit.body}, {"slope", fit.slope}, {"intercept", fit.intercept}, {"pearson", fit.pearson}});
-  }
+  const ReactionSummary summary = reactions_of(results, campaign.missed_after);
+  for (const ForceFit& fit : summary.fits) fits.push_back(fit_of(fit));
   const SimulatedScenario scenario = draw_run(campaign, 0).scenario;
   const ConstraintSettings& constraints = scenario.control.tasks.constraints;
+  const ForceLimits& forces = scenario.force_limits;
   return {{"runs", runs},
           {"fits", fits},
+          {"fit_of_all", summary.fit_of_all ? fit_of(*summary.fit_of_all) : Json(nullptr)},
           {"limits",
-           {{"transient", scenario.force_limits.transient},
-            {"quasi_static", scenario.force_limits.quasi_static},
+           {{"region", region_of(forces)},
+            {"transient", forces.transient},
+            {"transient_source", forces.transient_source},
+            {"transient_duration", forces.transient_duration},
+            {"quasi_static", forces.quasi_static},
+            {"quasi_static_source", forces.quasi_static_source},
             {"sigma_kappa", constraints.sigma_kappa.safety},
             {"sigma_sc", constraints.sigma_sc.safety}}}};
 }

@@ -57,6 +57,7 @@ void CollectedGroup::add(const RunResult& result, const EstimatorResult& estimat
   keep_largest(result.observer_error_force, group_.largest_observer_error_force);
   keep_largest(result.observer_error_moment, group_.largest_observer_error_moment);
   keep_largest(result.tracking_error, group_.largest_tracking_error);
+  keep_largest(result.over_limit, group_.longest_over_limit);
   if (result.body == "none" || estimator.false_alarm) return;
   ++group_.contacts;
   if (estimator.detection_time && *estimator.detection_time <= missed_after) {
@@ -178,7 +179,8 @@ std::string campaign_json(const Campaign& campaign, const CampaignResults& resul
          {"faults", group.faults},
          {"observer_error_force_N", group.largest_observer_error_force},
          {"observer_error_moment_Nm", group.largest_observer_error_moment},
-         {"tracking_error_m", group.largest_tracking_error}});
+         {"tracking_error_m", group.largest_tracking_error},
+         {"over_limit_ms_max", 1e3 * group.longest_over_limit}});
   }
   const double rate = pace.wall > 0.0 ? static_cast<double>(pace.runs_now) / pace.wall : 0.0;
   return json_text(Json{{"campaign", campaign.name},

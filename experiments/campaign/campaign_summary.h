@@ -39,6 +39,7 @@ struct CampaignGroup {
   double largest_observer_error_force = 0.0;   ///< [N]
   double largest_observer_error_moment = 0.0;  ///< [Nm]
   double largest_tracking_error = 0.0;         ///< [m]
+  double longest_over_limit = 0.0;             ///< above the limit of the force, in one run [s]
 };
 
 /// Adds runs up to a group.

@@ -43,6 +43,7 @@ struct Collected {
     if (result.removal_time) removals.push_back(*result.removal_time);
     if (result.peak_force) peaks.push_back(*result.peak_force);
     group.over_limit += result.over_limit > 0.0 ? 1U : 0U;
+    group.longest_over_limit = std::max(group.longest_over_limit, result.over_limit);
     group.violations_sigma_kappa += result.violates_sigma_kappa ? 1U : 0U;
     group.violations_sigma_sc += result.violates_sigma_sc ? 1U : 0U;
     if (result.starts_inside.value_or(false)) {
@@ -70,6 +71,46 @@ struct Collected {
   }
 };
 
+/// Speeds and forces of runs, and the limits where all have the same.
+struct Forces {
+  std::vector<double> speeds, peaks;
+  std::optional<double> transient, quasi_static;
+
+  void add(const RunResult& result) {
+    if (!result.speed || !result.peak_force) return;
+    const auto keep_common = [&](const std::optional<double>& limit, std::optional<double>& common) {
+      if (speeds.empty()) common = limit;
+      if (common != limit) common.reset();
+    };
+    keep_common(result.transient_limit, transient);
+    keep_common(result.quasi_static_limit, quasi_static);
+    speeds.push_back(*result.speed);
+    peaks.push_back(*result.peak_force);
+  }
+
+  std::optional<ForceFit> line(const std::string& body) const {
+    std::optional<ForceFit> fit = fit_line(speeds, peaks);
+    if (!fit) return fit;
+    fit->body = body;
+    const auto speed_at = [&](const std::optional<double>& force) -> std::optional<double> {
+      if (!force || !(fit->slope > 0.0) || *force < fit->intercept) return std::nullopt;
+      return (*force - fit->intercept) / fit->slope;
+    };
+    fit->speed_at_transient = speed_at(transient);
+    fit->speed_at_quasi_static = speed_at(quasi_static);
+    return fit;
+  }
+};
+
+std::string fit_line_text(const ForceFit& fit) {
+  const auto known = [](const std::optional<double>& speed) {
+    return speed ? fmt::format("{:.2f}", *speed) : std::string("-");
+  };
+  return fmt::format("{:<10} {:>5} {:>7.3f} {:>8.0f} {:>6.0f} {:>10} {:>12}\n", fit.body, fit.n, fit.pearson,
+                     fit.slope, fit.intercept, known(fit.speed_at_transient),
+                     known(fit.speed_at_quasi_static));
+}
+
 std::string text_of(std::optional<double> value, double scale) {
   return value ? fmt::format("{:.0f}", scale * *value) : "-";
 }
@@ -90,6 +131,16 @@ Json noticed_json(const CampaignGroup& noticed) {
           {"contact_free_h", noticed.contact_free / 3600.0},
           {"false_alarms_per_h", noticed.false_alarms_per_hour},
           {"false_alarms_per_h_at_most", std::isfinite(most) ? Json(most) : Json(nullptr)}};
+}
+
+Json fit_json(const ForceFit& fit) {
+  return {{"body", fit.body},
+          {"n", fit.n},
+          {"slope_N_s_per_m", fit.slope},
+          {"intercept_N", fit.intercept},
+          {"pearson", fit.pearson},
+          {"speed_at_transient_limit_m_per_s", json_of(fit.speed_at_transient)},
+          {"speed_at_quasi_static_limit_m_per_s", json_of(fit.speed_at_quasi_static)}};
 }
 
 bool is_judged(const ReactionGroup& group) { return group.could_stop + group.could_not_stop > 0; }
@@ -146,25 +197,23 @@ std::optional<ForceFit> fit_line(const std::vector<double>& x, const std::vector
 
 ReactionSummary reactions_of(const CampaignResults& results, double missed_after) {
   std::map<std::pair<std::string, std::string>, Collected> collected;
-  std::map<std::string, std::pair<std::vector<double>, std::vector<double>>> forces;
+  std::map<std::string, Forces> forces;
+  Forces of_all;
   for (const RunResult& result : results) {
     const std::string body = body_of(result);
     Collected& group = collected[{level_of(result.law), body}];
     group.group.level = level_of(result.law);
     group.group.body = body;
     group.add(result, missed_after);
-    if (!result.speed || !result.peak_force) continue;
-    forces[body].first.push_back(*result.speed);
-    forces[body].second.push_back(*result.peak_force);
+    forces[body].add(result);
+    of_all.add(result);
   }
   ReactionSummary summary;
   for (auto& [key, group] : collected) summary.groups.push_back(group.finished());
   for (const auto& [body, points] : forces) {
-    std::optional<ForceFit> fit = fit_line(points.first, points.second);
-    if (!fit) continue;
-    fit->body = body;
-    summary.fits.push_back(*fit);
+    if (const auto fit = points.line(body)) summary.fits.push_back(*fit);
   }
+  summary.fit_of_all = of_all.line("all");
   return summary;
 }
 
@@ -188,11 +237,12 @@ std::string reactions_table(const Campaign& campaign, const ReactionSummary& sum
              fmt::format("{}/{}", group.starts_inside_violations_sigma_sc, group.violations_sigma_sc),
              group.final_inside, group.self_collisions, group.gate_faults);
   }
-  text += could_stop_lines(summary) + "\npeak force over speed\n";
-  for (const ForceFit& fit : summary.fits) {
-    text += fmt::format("{:<10} {:>4} runs  {:>6.0f} N + {:>4.0f} N/(m/s)  r = {:.3f}\n", fit.body, fit.n,
-                        fit.intercept, fit.slope, fit.pearson);
-  }
+  text +=
+      could_stop_lines(summary) + "\npeak force over speed, and the speed at which it reaches the limits\n";
+  text += fmt::format("{:<10} {:>5} {:>7} {:>8} {:>6} {:>10} {:>12}\n", "body", "runs", "r", "N/(m/s)", "N",
+                      "transient", "quasi-static");
+  for (const ForceFit& fit : summary.fits) text += fit_line_text(fit);
+  if (summary.fit_of_all) text += fit_line_text(*summary.fit_of_all);
   return text;
 }
 
@@ -212,6 +262,7 @@ std::string reactions_json(const Campaign& campaign, const ReactionSummary& summ
                       {"peak_median_N", json_of(group.peak_median)},
                       {"peak_max_N", json_of(group.peak_largest)},
                       {"over_limit", group.over_limit},
+                      {"over_limit_ms_max", 1e3 * group.longest_over_limit},
                       {"violations_sigma_kappa", group.violations_sigma_kappa},
                       {"violations_sigma_sc", group.violations_sigma_sc},
                       {"starts_inside", group.starts_inside},
@@ -225,13 +276,7 @@ std::string reactions_json(const Campaign& campaign, const ReactionSummary& summ
                       {"gate_faults", group.gate_faults}});
     groups.back().update(noticed_json(group.noticed));
   }
-  for (const ForceFit& fit : summary.fits) {
-    fits.push_back({{"body", fit.body},
-                    {"n", fit.n},
-                    {"slope_N_s_per_m", fit.slope},
-                    {"intercept_N", fit.intercept},
-                    {"pearson", fit.pearson}});
-  }
+  for (const ForceFit& fit : summary.fits) fits.push_back(fit_json(fit));
   const double rate = pace.wall > 0.0 ? static_cast<double>(pace.runs_now) / pace.wall : 0.0;
   return json_text(Json{{"campaign", campaign.name},
                         {"runs", campaign.runs()},
@@ -239,7 +284,8 @@ std::string reactions_json(const Campaign& campaign, const ReactionSummary& summ
                         {"wall_s", pace.wall},
                         {"runs_per_s", rate},
                         {"groups", groups},
-                        {"fits", fits}});
+                        {"fits", fits},
+                        {"fit_of_all", summary.fit_of_all ? fit_json(*summary.fit_of_all) : Json(nullptr)}});
 }
 
 }  // namespace flinch

@@ -22,6 +22,7 @@ struct ReactionGroup {
   std::optional<double> removed_largest;              ///< of those that were removed [s]
   std::optional<double> peak_median, peak_largest;    ///< [N]
   std::size_t over_limit = 0;                         ///< runs with a force above its limit
+  double longest_over_limit = 0.0;                    ///< so long in one run [s]
   std::size_t violations_sigma_kappa = 0;             ///< runs beyond the safety value, see RunResult
   std::size_t violations_sigma_sc = 0;
   std::size_t starts_inside = 0;  ///< runs that start within both safety values, and of these beyond them:
@@ -41,11 +42,14 @@ struct ForceFit {
   double slope = 0.0;      ///< [N/(m/s)]
   double intercept = 0.0;  ///< [N]
   double pearson = 0.0;    ///< r
+  /// At which the line reaches the limits [m/s]; none where it does not, or limits differ between runs.
+  std::optional<double> speed_at_transient, speed_at_quasi_static;
 };
 
 struct ReactionSummary {
-  std::vector<ReactionGroup> groups;  ///< by level, then by body
-  std::vector<ForceFit> fits;         ///< of each body over all levels, with three or more runs
+  std::vector<ReactionGroup> groups;   ///< by level, then by body
+  std::vector<ForceFit> fits;          ///< of each body over all levels, with three or more runs
+  std::optional<ForceFit> fit_of_all;  ///< of all bodies together, likewise
 };
 
 /// The limits of sigma_kappa and sigma_sc are those of the runs. `missed_after`: as in Campaign [s].

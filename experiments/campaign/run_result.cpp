@@ -45,12 +45,14 @@ void note_constraints(const Verdict& verdict, const ContactControlSettings& cont
                            !exceeds_sigma_sc(verdict.measures.sigma_sc->first, limits);
   }
   if (sigma_kappa) {
+    result.sigma_kappa_least = sigma_kappa->least;
     result.sigma_kappa_most = sigma_kappa->most;
     result.sigma_kappa_last = sigma_kappa->last;
     result.violates_sigma_kappa = exceeds_sigma_kappa(sigma_kappa->most, limits);
   }
   if (sigma_sc) {
     result.sigma_sc_least = sigma_sc->least;
+    result.sigma_sc_most = sigma_sc->most;
     result.sigma_sc_last = sigma_sc->last;
     const bool kappa_ends = sigma_kappa && sigma_kappa->last <= 1.05 * limits.sigma_kappa.safety;
     result.ends_inside = kappa_ends && sigma_sc->last >= limits.sigma_sc.safety - 0.005;
@@ -114,12 +116,18 @@ void columns(Result& result, Visit&& visit, VisitValues&& visit_values) {
   visit("removal_time_s", result.removal_time);
   visit("speed_m_per_s", result.speed);
   visit("peak_force_N", result.peak_force);
+  visit("lasting_force_N", result.lasting_force);
   visit("over_limit_s", result.over_limit);
+  visit("transient_limit_N", result.transient_limit);
+  visit("quasi_static_limit_N", result.quasi_static_limit);
   visit("meant", result.meant);
   visit("law", result.law);
+  visit("class_right", result.class_right);
+  visit("sigma_kappa_least", result.sigma_kappa_least);
   visit("sigma_kappa_most", result.sigma_kappa_most);
   visit("sigma_kappa_last", result.sigma_kappa_last);
   visit("sigma_sc_least_m", result.sigma_sc_least);
+  visit("sigma_sc_most_m", result.sigma_sc_most);
   visit("sigma_sc_last_m", result.sigma_sc_last);
   visit("starts_inside", result.starts_inside);
   visit("violates_sigma_kappa", result.violates_sigma_kappa);
@@ -127,6 +135,7 @@ void columns(Result& result, Visit&& visit, VisitValues&& visit_values) {
   visit("ends_inside", result.ends_inside);
   visit("self_contact", result.self_contact);
   visit("could_stop", result.could_stop);
+  visit("drive_torque_most", result.largest_torque);
   visit("observer_error_force_N", result.observer_error_force);
   visit("observer_error_moment_Nm", result.observer_error_moment);
   visit("tracking_error_m", result.tracking_error);
@@ -168,6 +177,9 @@ RunResult result_of(const CampaignRun& run, const Verdict& verdict) {
   result.good = verdict.good();
   result.fault = verdict.fault;
   result.simulated = verdict.simulated;
+  result.transient_limit = verdict.limits.transient;
+  result.quasi_static_limit = verdict.limits.quasi_static;
+  result.largest_torque = verdict.largest_torque;
   result.observer_error_force = verdict.max_observer_error_force;
   result.observer_error_moment = verdict.max_observer_error_moment;
   result.tracking_error = verdict.max_tracking_error;
@@ -186,6 +198,9 @@ RunResult result_of(const CampaignRun& run, const Verdict& verdict) {
     if (first.removed) result.removal_time = *first.removed - first.onset;
     result.speed = first.speed;
     result.peak_force = first.peak_force;
+    result.lasting_force = first.lasting_force;
+    const bool is_known = !first.classified.empty() && !first.body.empty() && !first.is_push;
+    if (is_known) result.class_right = first.classified == first.body;
   }
   return result;
 }

@@ -39,25 +39,31 @@ struct RunResult {
   std::optional<double> removal_time;  ///< from the onset [s]
   std::optional<double> speed;         ///< of the platform at the onset [m/s]
   std::optional<double> peak_force;    ///< [N]
-  double over_limit = 0.0;             ///< time above the limit of the force, of all contacts [s]
+  /// Of what was touched first, the largest after the transient duration; none: it did not last so long [N].
+  std::optional<double> lasting_force;
+  double over_limit = 0.0;  ///< time above the limit of the force, of all contacts [s]
+  std::optional<double> transient_limit, quasi_static_limit;  ///< by which forces are judged [N]
+  /// Whether the robot took for touched what was; none: it was never sure, or nobody else knows.
+  std::optional<bool> class_right;
   /// What the scenario means to be touched, as `body`; "" where it does not say.
   std::string meant;
   std::string law;  ///< of the reaction: "torque_reaction"
   // Of the true robot, from the first detection on; where limits are kept always, from the start.
-  std::optional<double> sigma_kappa_most, sigma_kappa_last;
-  std::optional<double> sigma_sc_least, sigma_sc_last;  ///< [m]
-  std::optional<bool> starts_inside;                    ///< the run, within both safety values
-  bool violates_sigma_kappa = false;                    ///< beyond its safety value
-  bool violates_sigma_sc = false;                       ///< likewise
+  std::optional<double> sigma_kappa_least, sigma_kappa_most, sigma_kappa_last;
+  std::optional<double> sigma_sc_least, sigma_sc_most, sigma_sc_last;  ///< [m]
+  std::optional<bool> starts_inside;                                   ///< the run, within both safety values
+  bool violates_sigma_kappa = false;                                   ///< beyond its safety value
+  bool violates_sigma_sc = false;                                      ///< likewise
   bool ends_inside = false;  ///< at the end within 5 % of sigma_kappa's and 5 mm of sigma_sc's safety value
   bool self_contact = false;
   /// Whether the robot could stop within both safety values when it noticed the first contact; none: not
   /// judged, or it keeps wider limits.
   std::optional<bool> could_stop;
-  double observer_error_force = 0.0;   ///< as in Verdict [N]
-  double observer_error_moment = 0.0;  ///< [Nm]
-  double tracking_error = 0.0;         ///< [m]
-  double simulated = 0.0;              ///< [s]
+  std::optional<double> largest_torque;  ///< as in Verdict [Nm or N]
+  double observer_error_force = 0.0;     ///< as in Verdict [N]
+  double observer_error_moment = 0.0;    ///< [Nm]
+  double tracking_error = 0.0;           ///< [m]
+  double simulated = 0.0;                ///< [s]
 
   std::vector<EstimatorResult> estimators;  ///< first the one that the robot followed
 };

@@ -17,6 +17,7 @@
 #include "systems/signals/force_torque_reading.h"
 #include "systems/signals/platform_motion.h"
 #include "systems/signals/platform_reference.h"
+#include "systems/signals/torque_command.h"
 #include "systems/signals/workspace_measures.h"
 
 namespace flinch {
@@ -113,9 +114,10 @@ void compare_motion(const Configuration& pose, const PlatformVector& velocity, c
 }  // namespace
 
 bool is_judged(const std::string& path) {
-  static constexpr std::array judged = {
-      "detection", "reaction",       "wrench",        "reference",    "gate",    "truth",        "contact",
-      "location",  "classification", "true_measures", "plausibility", "braking", "reaction_task"};
+  static constexpr std::array judged = {"detection",      "reaction",      "wrench",       "reference",
+                                        "gate",           "truth",         "contact",      "location",
+                                        "classification", "true_measures", "plausibility", "braking",
+                                        "reaction_task",  "torque_command"};
   return path.starts_with(detection_of) || std::find(judged.begin(), judged.end(), path) != judged.end();
 }
 
@@ -143,6 +145,7 @@ struct RecordedRun::Signals {
     const bool is_true = witness == Witness::truth && recording.find("true_measures") != nullptr;
     const char* const measured = is_true ? "true_measures" : "measures";
     if (recording.find(measured) != nullptr) measures.emplace(recording, measured);
+    if (recording.find("torque_command") != nullptr) torque_command.emplace(recording, "torque_command");
     if (recording.find("braking") != nullptr) braking.emplace(recording, "braking");
     if (recording.find("reaction_task") != nullptr) task.emplace(recording, "reaction_task");
     if (records(recording, "contact", "self_contact")) self_contact.emplace(recording, "contact");
@@ -169,6 +172,7 @@ struct RecordedRun::Signals {
   std::optional<RecordedValues<ContactClassification>> classification;
   std::optional<RecordedValues<ContactLocation>> location;
   std::optional<RecordedValues<WorkspaceMeasures>> measures;
+  std::optional<RecordedValues<TorqueCommand>> torque_command;
   std::optional<RecordedValues<BrakingStatus>> braking;
   std::optional<RecordedValues<FollowedTask>> task;
   std::optional<RecordedValues<RecordedSelfContact>> self_contact;
@@ -234,6 +238,10 @@ RunSample RecordedRun::operator[](std::size_t sample) const {
       now.sigma_kappa = measures.sigma_kappa;
       now.sigma_sc = measures.sigma_sc;
     }
+  }
+  if (signals.torque_command) {
+    const TorqueCommand command = (*signals.torque_command)[sample];
+    if (command.valid) now.drive_torque = largest_component(command.torque);
   }
   if (signals.self_contact) now.self_contact = (*signals.self_contact)[sample].self_contact;
   const PlatformReference reference = signals.reference[sample];

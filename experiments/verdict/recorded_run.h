@@ -42,6 +42,8 @@ struct RunSample {
   double sigma_kappa = std::numeric_limits<double>::quiet_NaN();
   double sigma_sc = std::numeric_limits<double>::quiet_NaN();  ///< likewise [m]
   bool self_contact = false;  ///< bodies of the robot touch one another, as far as that is known
+  /// The largest magnitude of those that the drives are told; not a number where none is told [Nm or N].
+  double drive_torque = std::numeric_limits<double>::quiet_NaN();
   bool reference_valid = false;
   double position_error = 0.0;     ///< [m]
   double orientation_error = 0.0;  ///< [rad]

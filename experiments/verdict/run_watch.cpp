@@ -161,6 +161,8 @@ void RunWatch::see(const RunSample& now) {
   if (!so_far.was_touched) measure_errors(now, verdict);
   if (now.is_true) verdict.loop_closure = std::max(verdict.loop_closure.value_or(0.0), now.loop_closure);
   verdict.self_contact |= now.self_contact;
+  if (!std::isnan(now.drive_torque))
+    verdict.largest_torque = std::max(verdict.largest_torque.value_or(0.0), now.drive_torque);
   extend(now, verdict.measures);
   if (!verdict.detections.empty()) extend(now, verdict.measures_once_detected);
   so_far.gate = now.gate;

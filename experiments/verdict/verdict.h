@@ -129,6 +129,7 @@ struct Verdict {
   MeasureRanges measures;                  ///< of the whole run
   MeasureRanges measures_once_detected;    ///< from the first detection on
   bool self_contact = false;               ///< bodies of the robot touched one another
+  std::optional<double> largest_torque;    ///< that any drive was told [Nm or N]; none: none was, or recorded
   std::string fault;                       ///< why the torque gate closed; "" if it did not
   /// The first doubt about the IMU, and when it came up [s]; none: it was believed.
   ImuDoubt imu_doubt = ImuDoubt::none;

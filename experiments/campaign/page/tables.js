@@ -29,11 +29,12 @@ function showGroups() {
     cell(number(group.contact_free_h, 3)),
     cell(number(group.rate, 2)),
     cell(number(group.rate_at_most, 2), "n soft"),
+    cell(group.contacts > 0 ? inMs(group.over_limit, 0) : none, group.over_limit > 0 ? "n bad" : "n"),
     cell(String(group.faults), group.faults > 0 ? "n bad" : "n")));
   byId("group-table").replaceChildren(
     head([...(hasGrid ? [["Grid point"]] : []), ["Noticed by"], ["Touched"], ["Runs", "n"], ["Median, ms", "n"],
       ["Nine tenths, ms", "n"], ["Missed", "n"], ["Missed at most", "n"], ["False alarms", "n"], ["in hours", "n"],
-      ["per hour", "n"], ["False alarms at most, 1/h", "n"], ["Faults", "n"]]),
+      ["per hour", "n"], ["False alarms at most, 1/h", "n"], ["Above a force limit at most, ms", "n"], ["Faults", "n"]]),
     element("tbody", {}, ...rows));
 }
 

@@ -124,6 +124,7 @@ TEST_F(TheCampaignPage, HasADotForEachReactionAndTheLimitsOfTheScenario) {
     results[i].removal_time = 0.1;
     results[i].speed = 0.1 * static_cast<double>(i);
     results[i].peak_force = 20.0 + 12.0 * static_cast<double>(i);
+    results[i].transient_limit = 280.0;
   }
   const json shown = data_of(campaign_page(reactions, results, {}, CountedAlarms({}), ""))["reactions"];
   ASSERT_EQ(shown["runs"].size(), results.size());
@@ -135,6 +136,14 @@ TEST_F(TheCampaignPage, HasADotForEachReactionAndTheLimitsOfTheScenario) {
   EXPECT_TRUE(shown["runs"][4]["reaction"].is_null()) << "it was not noticed";
   EXPECT_TRUE(dot["kappa"].is_null());
   EXPECT_NEAR(shown["fits"][0]["slope"], 120.0, 1e-9);
+  EXPECT_NEAR(shown["fits"][0]["speed_at_transient"], 260.0 / 120.0, 1e-9);
+  EXPECT_TRUE(shown["fits"][0]["speed_at_quasi_static"].is_null());
+  EXPECT_EQ(shown["fit_of_all"]["n"], results.size());
+  EXPECT_NEAR(dot["duration"], 0.1, 1e-12);
+  EXPECT_TRUE(dot["lasting"].is_null());
+  EXPECT_EQ(shown["limits"]["region"], "hand and fingers");
+  EXPECT_THAT(shown["limits"]["transient_source"], HasSubstr("[SafePR]"));
+  EXPECT_EQ(shown["limits"]["transient_duration"], 0.5);
   EXPECT_EQ(shown["limits"]["transient"], 280.0);
   EXPECT_EQ(shown["limits"]["quasi_static"], 140.0);
   EXPECT_EQ(shown["limits"]["sigma_kappa"], 15.0);

@@ -75,6 +75,15 @@ TEST(ARunThatAFaultEnded, FailedOnceHoweverManyEstimatorsThereAre) {
   for (const auto& group : json["groups"]) EXPECT_EQ(group["faults"], 2);
 }
 
+TEST(AGroup, TellsHowLongForcesWereAboveTheirLimitAtMost) {
+  std::vector<RunResult> results = {contact(1e-3), contact(1e-3), contact(1e-3)};
+  results[0].over_limit = 0.004;
+  results[1].over_limit = 0.03;
+  const Campaign campaign = without_grid(3);
+  const auto json = nlohmann::json::parse(campaign_json(campaign, results, groups_of(campaign, results), {}));
+  EXPECT_EQ(json["groups"][0]["over_limit_ms_max"], 30.0);
+}
+
 TEST(TheTables, HaveOneGroupForEachBody) {
   const Campaign campaign = without_grid(3);
   const CampaignResults results = {contact(4e-3), contact(5e-3, "link1"), contact(std::nullopt, "none")};

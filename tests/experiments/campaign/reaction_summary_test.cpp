@@ -159,6 +159,57 @@ TEST(LineThroughForces, IsThatOfLeastSquares) {
   EXPECT_NEAR(scattered->pearson, 0.5, 1e-12);
 }
 
+/// A run that reached the force that a line has at its speed, judged by the limits of the hand.
+RunResult on_line(const std::string& body, double speed, double intercept, double slope) {
+  RunResult result = run("torque_reaction", body, 0.1, speed, intercept + slope * speed);
+  result.transient_limit = 280.0;
+  result.quasi_static_limit = 140.0;
+  return result;
+}
+
+// [SafePR] Table V, its lines of platform and clamping.
+TEST(LineThroughForces, IsFollowedToTheLimits) {
+  std::vector<RunResult> runs;
+  for (const double speed : {0.1, 0.7, 1.5}) {
+    runs.push_back(on_line("clamping", speed, 34.0, 94.0));
+    runs.push_back(on_line("platform", speed, 23.0, 132.0));
+  }
+  const ReactionSummary summary = reactions_of(runs);
+  ASSERT_EQ(summary.fits.size(), 2U);
+  EXPECT_NEAR(*summary.fits[0].speed_at_transient, 2.62, 0.005);
+  EXPECT_NEAR(*summary.fits[0].speed_at_quasi_static, 1.13, 0.005);
+  EXPECT_NEAR(*summary.fits[1].speed_at_transient, 1.95, 0.005);
+  ASSERT_TRUE(summary.fit_of_all);
+  EXPECT_EQ(summary.fit_of_all->n, 6U);
+  EXPECT_NEAR(summary.fit_of_all->slope, (94.0 + 132.0) / 2.0, 1e-9) << "both at the same speeds";
+  EXPECT_LT(summary.fit_of_all->pearson, 0.999);
+
+  const auto json = nlohmann::json::parse(reactions_json({}, summary, {}));
+  EXPECT_NEAR(json["fits"][1]["speed_at_transient_limit_m_per_s"].get<double>(), 1.95, 0.005);
+  EXPECT_EQ(json["fit_of_all"]["n"], 6);
+  EXPECT_THAT(reactions_table({}, summary), testing::HasSubstr("2.62"));
+}
+
+TEST(LineThroughForces, ReachesNoLimitThatDiffersBetweenRunsOrThatItMovesAwayFrom) {
+  std::vector<RunResult> runs = {on_line("platform", 0.1, 20.0, 100.0), on_line("platform", 0.5, 20.0, 100.0),
+                                 on_line("platform", 1.5, 20.0, 100.0)};
+  runs[1].quasi_static_limit = 65.0;
+  EXPECT_EQ(reactions_of(runs).fits.at(0).speed_at_quasi_static, std::nullopt);
+  EXPECT_NEAR(*reactions_of(runs).fits.at(0).speed_at_transient, 2.6, 1e-9);
+  const auto falling =
+      reactions_of({on_line("platform", 0.1, 100.0, -10.0), on_line("platform", 0.5, 100.0, -10.0),
+                    on_line("platform", 1.5, 100.0, -10.0)});
+  EXPECT_EQ(falling.fits.at(0).speed_at_transient, std::nullopt);
+}
+
+TEST(ReactionSummary, TellsHowLongAForceWasAboveItsLimitAtMost) {
+  RunResult briefly = run("torque_reaction", "platform", 0.1, 0.5, 300.0), longer = briefly;
+  briefly.over_limit = 0.002;
+  longer.over_limit = 0.01;
+  const auto summary = reactions_of({longer, briefly});
+  EXPECT_EQ(nlohmann::json::parse(reactions_json({}, summary, {}))["groups"][0]["over_limit_ms_max"], 10.0);
+}
+
 TEST(LineThroughForces, IsNoneWithoutEnoughPoints) {
   EXPECT_FALSE(fit_line({1.0, 2.0}, {1.0, 2.0}));
   EXPECT_FALSE(fit_line({1.0, 1.0, 1.0}, {1.0, 2.0, 3.0}));

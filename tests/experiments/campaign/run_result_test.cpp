@@ -156,6 +156,37 @@ TEST(AResult, SaysWhoStartsOutsideAndNothingWhereNobodyMeasured) {
   EXPECT_EQ(result_of(CampaignRun(), Verdict()).starts_inside, std::nullopt);
 }
 
+TEST(AResult, TellsHowFarMeasuresWentAndByWhichLimitsForcesAreJudged) {
+  Verdict verdict = verdict_with(0.5, {0.51, 0.52}, {0.51, 0.52});
+  verdict.measures_once_detected.sigma_kappa = {.first = 4.0, .least = 3.0, .most = 14.0, .last = 12.0};
+  verdict.measures_once_detected.sigma_sc = {.first = 0.25, .least = 0.18, .most = 0.3, .last = 0.2};
+  verdict.limits.transient = 65.0;
+  verdict.largest_torque = 88.0;
+  verdict.contacts[0].lasting_force = 30.0;
+  const RunResult result = result_of(CampaignRun(), verdict);
+  EXPECT_EQ(result.sigma_kappa_least, 3.0);
+  EXPECT_EQ(result.sigma_sc_most, 0.3);
+  EXPECT_EQ(result.transient_limit, 65.0);
+  EXPECT_EQ(result.quasi_static_limit, 140.0);
+  EXPECT_EQ(result.largest_torque, 88.0);
+  EXPECT_EQ(result.lasting_force, 30.0);
+  const auto read = parse_csv_row(csv_cells(csv_header(result)), csv_row(result));
+  ASSERT_TRUE(read);
+  EXPECT_EQ(csv_row(*read), csv_row(result));
+  EXPECT_EQ(read->largest_torque, 88.0);
+}
+
+TEST(AResult, TellsWhetherTheRobotTookForTouchedWhatWas) {
+  Verdict verdict = verdict_with(0.5, {0.51, 0.52}, {0.51, 0.52});
+  EXPECT_EQ(result_of(CampaignRun(), verdict).class_right, std::nullopt) << "it was never sure";
+  verdict.contacts[0].classified = "leg2_clamping";
+  EXPECT_EQ(result_of(CampaignRun(), verdict).class_right, false) << "another leg";
+  verdict.contacts[0].classified = "leg3_clamping";
+  EXPECT_EQ(result_of(CampaignRun(), verdict).class_right, true);
+  verdict.contacts[0].is_push = true;
+  EXPECT_EQ(result_of(CampaignRun(), verdict).class_right, std::nullopt);
+}
+
 TEST(AResult, IsAFalseAlarmWhereSomethingWasDetectedBeforeAnythingTouched) {
   const RunResult result = result_of(CampaignRun(), verdict_with(0.5, {std::nullopt, 0.2}, {0.51, 0.51}));
   EXPECT_FALSE(result.estimators[0].false_alarm);
