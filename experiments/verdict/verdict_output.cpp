@@ -177,7 +177,7 @@ const char* name(Witness witness) {
 std::string verdict_table(const Verdict& verdict, const RunFacts& facts) {
   std::string text =
       fmt::format("{:<15} {:>8} {:>6} {:>10} {:>10} {:>8} {:>8}  {:<12} {:>8}  {}\n", "contact with", "at s",
-                  "m/s", "noticed ms", "removed ms", "peak N", "limit N", "", "above ms", "within");
+                  "m/s", "noticed ms", "removed ms", "peak N", "limit N", "kind", "above ms", "within");
   for (const ContactVerdict& contact : verdict.contacts) {
     text += contact_line(contact) + by_estimator_lines(contact) + classified_line(contact) +
             braking_line(contact) + reaction_lines(contact);
