@@ -27,10 +27,10 @@ function showReactions() {
   const transient = 1000 * limits.transient_duration;
   const removed = { of: (run) => 1000 * (run.duration ?? Infinity), name: "ms until removed",
     last: Math.max(1.3 * transient, longestOf(runs, (run) => run.duration)) };
-  byId("contact-panels").replaceChildren(
-    dotPanel("Force and duration", runs, removed, { ...force, name: "N" }, byBody,
-      { across: limits.transient, lasting: { from: transient, limit: limits.quasi_static } }));
-  showLegend("contact-legend", bodies);
+  byId("contact-panels").replaceChildren(...bodies.map((body) =>
+    dotPanel(capitalised(body), runs.filter((run) => run.body === body), removed, { ...force, name: "N" }, byLevel,
+      { across: limits.transient, lasting: { from: transient, limit: limits.quasi_static } })));
+  showLegend("contact-legend", levels);
 
   const duration = (name, of) => ({ of: (run) => milliseconds(of(run)), last: longestOf(runs, of), name });
   const noticed = duration("ms until noticed", (run) => run.detection);
