@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "experiments/report/constraint_lane.h"
 #include "experiments/report/drawn_robot.h"
 #include "experiments/report/limit_lane.h"
 #include "experiments/report/page_samples.h"
@@ -19,7 +20,6 @@
 #include "experiments/verdict/recorded_truth.h"
 #include "systems/framework/recorded_values.h"
 #include "systems/robot/parallel_robot.h"
-#include "systems/signals/constraint_state.h"
 #include "systems/signals/contact_classes.h"
 #include "systems/signals/contact_location.h"
 #include "systems/signals/particle_cloud.h"
@@ -295,48 +295,6 @@ class States {
   std::size_t detector_ = 0, mode_ = 0, gate_ = 0;
 };
 
-/// Which constraints the laws that serve tasks keep before all others, and where they lead them.
-class Constraints {
- public:
-  Constraints(const Recording& recording, PageSamples& page) : page_(page) {
-    for (const Signal& signal : recording.signals) {
-      if (signal.path.starts_with("constraints_")) laws_.emplace_back(recording, signal.path);
-    }
-    if (laws_.empty()) return;
-    lane_ = page.lane("constraints", {"inside", "condition number", "self-collision", "both", "not kept"});
-    sigma_kappa_ = page.column("sigma_kappa_reference");
-    sigma_sc_ = page.column("sigma_sc_reference");
-  }
-
-  void show(std::size_t sample) {
-    if (laws_.empty()) return;
-    ConstraintState kept;  // of the law that is followed
-    for (const auto& law : laws_) {
-      const ConstraintState state = law[sample];
-      if (state.watched) kept = state;
-    }
-    was_kept_ = was_kept_ || kept.watched;
-    const int mode = kept.watched ? static_cast<int>(kept.mode) : 4;
-    page_.set_state(lane_, mode, mode == 4 ? -1 : mode);
-    page_.set(sigma_kappa_, kept.sigma_kappa.active ? kept.sigma_kappa.reference : no_value);
-    page_.set(sigma_sc_, kept.sigma_sc.active ? kept.sigma_sc.reference : no_value);
-  }
-
-  /// Of laws that leave limits to others, and where nothing was kept.
-  void drop_unless_kept(Report& report) const {
-    if (was_kept_) return;
-    std::erase_if(report.lanes, [](const ReportLane& lane) { return lane.name == "constraints"; });
-    report.columns.erase("sigma_kappa_reference");
-    report.columns.erase("sigma_sc_reference");
-  }
-
- private:
-  PageSamples& page_;
-  bool was_kept_ = false;
-  std::vector<RecordedValues<ConstraintState>> laws_;
-  std::size_t lane_ = 0, sigma_kappa_ = 0, sigma_sc_ = 0;
-};
-
 /// What the robot takes for touched, where, and how far off.
 class Isolation {
  public:
@@ -429,7 +387,7 @@ void add_samples(const ParallelRobot& robot, const Recording& recording, Report&
   Forces forces(robot, recording, simulated, page);
   EstimatesSideBySide estimates(robot.space(), recording, page, report);
   Drives drives(robot, recording, simulated, page);
-  Constraints constraints(recording, page);
+  ConstraintLane constraints(recording, page);
   LimitLane limits(recording, page);
   ReactionLane reaction(recording.find("reaction_task") != nullptr, robot.legs(), page);
   TaskEnergyColumns energies(recording, page);

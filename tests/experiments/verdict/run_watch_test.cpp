@@ -1,4 +1,3 @@
-// What becomes of the measures that laws keep within limits, by the best witness.
 #include "experiments/verdict/run_watch.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +15,9 @@ using test::SyntheticRun;
 
 constexpr ConfigurationSpace planar = ConfigurationSpace::Kind::planar_pose;
 
-Verdict judged(const SyntheticRun& run) { return judge(run.recording(), planar, {}, {}); }
+Verdict judged(const SyntheticRun& run, const ForceLimits& limits = {}) {
+  return judge(run.recording(), planar, {}, limits);
+}
 
 /// At these ticks, of the controller and of the truth.
 SyntheticRun measured_run() {
@@ -58,6 +59,19 @@ TEST(Measures, AreNoneWhereNothingIsDetectedAndWhereNobodyRecordedThem) {
   quiet.at(10).true_measures = {.valid = true, .sigma_kappa = 8.0, .sigma_sc = 0.18};
   EXPECT_EQ(judged(quiet).measures.sigma_sc->first, 0.18);
   EXPECT_FALSE(judged(quiet).measures_once_detected.sigma_sc);
+}
+
+TEST(ForceLimit, ByWhichContactsAreJudgedIsToldByTheVerdict) {
+  EXPECT_EQ(judged(SyntheticRun(10), {.region = "face", .transient = 65.0}).limits.region, "face");
+}
+
+TEST(LargestTorque, IsThatOfAnyDriveEitherWay) {
+  SyntheticRun run(10);
+  EXPECT_EQ(judged(run).largest_torque, std::nullopt);
+  run.at(3).torque = {.valid = true, .torque = Eigen::Vector3d(1.0, -7.0, 2.0)};
+  run.at(5).torque = {.valid = true, .torque = Eigen::Vector3d(6.0, 0.0, 0.0)};
+  run.at(6).torque = {.valid = false, .torque = Eigen::Vector3d(60.0, 0.0, 0.0)};
+  EXPECT_EQ(judged(run).largest_torque, 7.0);
 }
 
 }  // namespace

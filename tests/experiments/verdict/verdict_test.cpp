@@ -241,21 +241,6 @@ TEST(ForceLimit, IsTheOneOfTheScenario) {
   EXPECT_TRUE(contact_of(run, {.quasi_static = 50.0, .transient_duration = 0.2}).within_limit);
 }
 
-TEST(ForceLimit, ByWhichContactsAreJudgedIsToldByTheVerdict) {
-  EXPECT_EQ(judged(SyntheticRun(10), {}, {.region = "face", .transient = 65.0}).limits.region, "face");
-}
-
-// ---------------------------------------------------------------- torques
-
-TEST(LargestTorque, IsThatOfAnyDriveEitherWay) {
-  SyntheticRun run(10);
-  EXPECT_EQ(judged(run).largest_torque, std::nullopt);
-  run.at(3).torque = {.valid = true, .torque = Eigen::Vector3d(1.0, -7.0, 2.0)};
-  run.at(5).torque = {.valid = true, .torque = Eigen::Vector3d(6.0, 0.0, 0.0)};
-  run.at(6).torque = {.valid = false, .torque = Eigen::Vector3d(60.0, 0.0, 0.0)};
-  EXPECT_EQ(judged(run).largest_torque, 7.0);
-}
-
 // ---------------------------------------------------------------- false detections
 
 TEST(FalseDetection, IsOneWithNoTouchInTheLastTenthOfASecond) {
