@@ -132,6 +132,7 @@ void BenchOf<Robot>::meet(const Instant& now, int body, int other, const Surface
   const Eigen::Vector3d force = internal::contact_force(link_law_, gap, velocity);
   out.self_wrench +=
       robot_.wrench(now, body, gap.point, force) + robot_.wrench(now, other, gap.point, -force);
+  if (!out.self_contact) out.self_body = body, out.self_other = other;
   out.self_contact = true;
 }
 

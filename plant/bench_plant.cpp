@@ -116,6 +116,8 @@ void BenchPlant::tell_contact(const BenchSnapshot& bench, const ContactHistory& 
   out.end = history.end;
   out.peak_force = history.peak_force;
   out.self_contact = contacts.self_contact;
+  out.self_body = contacts.self_body;
+  out.self_other = contacts.self_other;
   out.self_wrench_in_base = contacts.self_wrench;
 }
 

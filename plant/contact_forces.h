@@ -40,6 +40,7 @@ struct ContactForces {
     self_wrench.setZero(dof);
     touch_count = 0;
     self_contact = false;
+    self_body = self_other = -1;
     for (Eigen::Vector3d& force : on_obstacle) force.setZero();
   }
 
@@ -49,6 +50,7 @@ struct ContactForces {
   std::array<Touch, static_cast<std::size_t>(max_touches)> touches;  ///< The first `touch_count` are used.
   int touch_count = 0;
   bool self_contact = false;
+  int self_body = -1, self_other = -1;  ///< BodyId::index() of two that meet: the first pair found.
 };
 
 template <>

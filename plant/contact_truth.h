@@ -57,6 +57,8 @@ struct ContactTruth {
   double peak_force = 0.0;    ///< greatest force of any single contact at the ticks since onset [N]
 
   bool self_contact = false;           ///< bodies of the robot touch one another
+  int self_body = -1;                  ///< BodyId::index() of one that does; -1: none
+  int self_other = -1;                 ///< and of the other
   PlatformVector self_wrench_in_base;  ///< what that does to the platform
 
   /// No contact, of a robot with `dof` coordinates in a space of `directions`.
@@ -100,6 +102,8 @@ struct ContactTruth {
     visit("end", "ns", self.end);
     visit("peak_force", "N", self.peak_force);
     visit("self_contact", "", self.self_contact);
+    visit("self_body", "", self.self_body);
+    visit("self_other", "", self.self_other);
     visit("self_wrench_in_base", "<wrench>", self.self_wrench_in_base, "base");
   }
 

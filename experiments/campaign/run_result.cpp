@@ -39,7 +39,7 @@ void note_constraints(const Verdict& verdict, const ContactControlSettings& cont
   const ConstraintSettings& limits = control.tasks.constraints;
   const bool from_the_start = control.limits.use == LimitKeeperSettings::Use::always;
   const auto& [sigma_kappa, sigma_sc] = from_the_start ? verdict.measures : verdict.measures_once_detected;
-  result.self_contact = verdict.self_contact;
+  result.self_contact = !verdict.self_contacts.empty();
   if (verdict.measures.sigma_kappa && verdict.measures.sigma_sc) {
     result.starts_inside = !exceeds_sigma_kappa(verdict.measures.sigma_kappa->first, limits) &&
                            !exceeds_sigma_sc(verdict.measures.sigma_sc->first, limits);

@@ -86,6 +86,8 @@ std::map<std::string, std::string> recorded_attributes(const Scenario& scenario,
   attributes["scenario.text"] = scenario.text;
   attributes["robot.file"] = scenario.robot_file.filename().string();
   attributes["robot.text"] = scenario.robot_text;
+  for (std::size_t i = 0; i < scenario.obstacles.size(); ++i)
+    attributes["obstacle." + std::to_string(i + 1) + ".name"] = scenario.obstacles[i].name;
   int number = 0;
   for (const ParameterFile& file : scenario.calibrations)
     attributes["calibration." + std::to_string(++number) + ".text"] = file.text;

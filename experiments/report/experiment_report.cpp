@@ -34,6 +34,7 @@ std::string spoken(const std::string& body) {
 /// The obstacle, or what else acted.
 std::string object_of(const ContactVerdict& contact, const std::vector<ScenarioObstacle>& obstacles) {
   if (contact.is_push) return "push";
+  if (!contact.obstacle_name.empty()) return contact.obstacle_name;
   const auto place = static_cast<std::size_t>(contact.obstacle);
   return place < obstacles.size() ? obstacles[place].name : "obstacle";
 }

@@ -13,6 +13,7 @@
 #include "experiments/verdict/recorded_truth.h"
 #include "systems/framework/recorded_values.h"
 #include "systems/framework/tick_timing.h"
+#include "systems/robot/body_id.h"
 #include "systems/signals/contact_classes.h"
 #include "systems/signals/force_torque_reading.h"
 #include "systems/signals/platform_motion.h"
@@ -83,23 +84,52 @@ void compare_estimate(const PlatformVector& estimate, const PlatformVector& exte
   now.observer_error_moment = largest_component(error.tail(space.rotations()));
 }
 
+/// The leg whose links an obstacle both touches, as far as touches are listed; -1: none.
+int clamped_leg(int obstacle, const std::vector<RecordedTouch>& touches) {
+  for (const RecordedTouch& a : touches) {
+    for (const RecordedTouch& b : touches) {
+      if (a.obstacle != obstacle || b.obstacle != obstacle || a.body >= b.body) continue;
+      const int leg = BodyId::from_index(a.body).leg();
+      if (leg >= 0 && leg == BodyId::from_index(b.body).leg()) return leg;
+    }
+  }
+  return -1;
+}
+
+RunLoad load_of(const RecordedTouch& touch) {
+  return {.obstacle = touch.obstacle,
+          .body = touch.body,
+          .contact_force = touch.force_in_base.norm(),
+          .touched_point = touch.point_in_base,
+          .touched_force = touch.force_in_base};
+}
+
+/// The hardest touch of each obstacle. Where but one touches, its clamping counts whatever is listed.
+std::vector<RunLoad> loads_of(const RecordedContact& contact, const std::vector<RecordedTouch>& touches) {
+  std::vector<RunLoad> loads{load_of(contact.strongest)};
+  for (const RecordedTouch& touch : touches) {
+    const auto same = [&touch](const RunLoad& load) { return load.obstacle == touch.obstacle; };
+    if (std::none_of(loads.begin(), loads.end(), same)) loads.push_back(load_of(touch));
+  }
+  if (!contact.clamping) return loads;
+  for (RunLoad& load : loads) load.clamped_leg = clamped_leg(load.obstacle, touches);
+  RunLoad& hardest = loads.front();
+  if (loads.size() == 1 && hardest.clamped_leg < 0)
+    hardest.clamped_leg = BodyId::from_index(hardest.body).leg();
+  return loads;
+}
+
 void add_truth(const RecordedTruth& truth, const RecordedContact& contact, ConfigurationSpace space,
                RunSample& now) {
   now.is_true = true;
-  now.body = contact.strongest.body;
-  now.obstacle = contact.strongest.obstacle;
-  now.clamping = contact.clamping;
-  now.contact_force = contact.strongest.force_in_base.norm();
-  now.touched_point = contact.strongest.point_in_base;
-  now.touched_force = contact.strongest.force_in_base;
   now.loop_closure = truth.loop_closure_error;
   const Strength external(truth.wrench_in_base, space);
   now.external_force = external.force;
   now.external_moment = external.moment;
   if (contact.wrench_in_base.size() != truth.wrench_in_base.size()) return;
   const Strength push(truth.wrench_in_base - contact.wrench_in_base, space);
-  now.push_force = push.force;
-  now.push_moment = push.moment;
+  now.loads.front().push_force = push.force;
+  now.loads.front().push_moment = push.moment;
 }
 
 void compare_motion(const Configuration& pose, const PlatformVector& velocity, const Configuration& reference,
@@ -148,7 +178,9 @@ struct RecordedRun::Signals {
     if (recording.find("torque_command") != nullptr) torque_command.emplace(recording, "torque_command");
     if (recording.find("braking") != nullptr) braking.emplace(recording, "braking");
     if (recording.find("reaction_task") != nullptr) task.emplace(recording, "reaction_task");
+    if (records(recording, "contact", "further.0.body")) further.emplace(recording, "contact");
     if (records(recording, "contact", "self_contact")) self_contact.emplace(recording, "contact");
+    if (records(recording, "contact", "self_body")) self_bodies.emplace(recording, "contact");
     if (records(recording, "plausibility", "imu_doubt")) doubts.emplace(recording, "plausibility");
     if (recording.find("tick_timing") != nullptr) timing.emplace(recording, "tick_timing");
     if (recording.find("joints_link") != nullptr) joints_link.emplace(recording, "joints_link");
@@ -176,12 +208,34 @@ struct RecordedRun::Signals {
   std::optional<RecordedValues<BrakingStatus>> braking;
   std::optional<RecordedValues<FollowedTask>> task;
   std::optional<RecordedValues<RecordedSelfContact>> self_contact;
+  std::optional<RecordedValues<RecordedSelfBodies>> self_bodies;
   std::optional<RecordedValues<RecordedContact>> contact;
+  std::optional<RecordedValues<RecordedFurtherTouches>> further;
   std::optional<RecordedValues<RecordedTruth>> truth;
   std::optional<RecordedValues<ForceTorqueReading>> force_torque;
   std::optional<RecordedValues<PlatformMotion>> motion;
   std::optional<RecordedValues<TickTiming>> timing;
   std::optional<RecordedValues<LinkStatus>> joints_link;
+
+  std::vector<RunLoad> loads(std::size_t sample, const RecordedContact& touched) const {
+    std::vector<RecordedTouch> touches{touched.strongest, touched.second};
+    if (further) {
+      for (const RecordedTouch& touch : (*further)[sample].further) touches.push_back(touch);
+    }
+    std::erase_if(touches, [](const RecordedTouch& touch) { return touch.body < 0; });
+    return loads_of(touched, touches);
+  }
+
+  /// Nothing where no bodies of the robot touch one another.
+  std::optional<SelfContact> self_touch(std::size_t sample) const {
+    if (!self_contact || !(*self_contact)[sample].self_contact) return std::nullopt;
+    SelfContact touch{.since = 0.0};
+    if (!self_bodies) return touch;
+    const RecordedSelfBodies bodies = (*self_bodies)[sample];
+    touch.body = body_name(BodyId::from_index(bodies.self_body));
+    touch.other = body_name(BodyId::from_index(bodies.self_other));
+    return touch;
+  }
 };
 
 RecordedRun::RecordedRun(const Recording& recording, ConfigurationSpace space)
@@ -190,6 +244,11 @@ RecordedRun::RecordedRun(const Recording& recording, ConfigurationSpace space)
       witness_(witness_of(recording)),
       signals_(std::make_unique<Signals>(recording, witness_, detections_of(recording))) {
   for (const auto& [name, path] : detections_of(recording)) estimators_.push_back(name);
+  for (int number = 1;; ++number) {
+    const std::string name = attribute(recording, "obstacle." + std::to_string(number) + ".name");
+    if (name.empty()) break;
+    obstacles_.push_back(name);
+  }
 }
 
 RecordedRun::~RecordedRun() = default;
@@ -243,12 +302,14 @@ RunSample RecordedRun::operator[](std::size_t sample) const {
     const TorqueCommand command = (*signals.torque_command)[sample];
     if (command.valid) now.drive_torque = largest_component(command.torque);
   }
-  if (signals.self_contact) now.self_contact = (*signals.self_contact)[sample].self_contact;
+  now.self_contact = signals.self_touch(sample);
   const PlatformReference reference = signals.reference[sample];
   now.reference_valid = reference.valid;
   if (signals.truth) {
     const RecordedTruth truth = (*signals.truth)[sample];
-    add_truth(truth, (*signals.contact)[sample], space_, now);
+    const RecordedContact contact = (*signals.contact)[sample];
+    now.loads = signals.loads(sample, contact);
+    add_truth(truth, contact, space_, now);
     compare_estimate(estimate.wrench_in_base, truth.wrench_in_base, space_, now);
     compare_motion(truth.pose, truth.velocity, reference.pose, space_, now);
     return now;
@@ -256,10 +317,12 @@ RunSample RecordedRun::operator[](std::size_t sample) const {
   const PlatformMotion motion = (*signals.motion)[sample];
   compare_estimate(estimate.wrench_in_base, PlatformVector::Zero(space_.dimension()), space_, now);
   compare_motion(motion.pose, motion.velocity, reference.pose, space_, now);
-  now.contact_force = std::nan("");
+  RunLoad& seen = now.loads.front();
+  seen.contact_force = std::nan("");
   if (signals.force_torque) {
+    seen.obstacle = 0;  // it carries the instrument
     const ForceTorqueReading reading = (*signals.force_torque)[sample];
-    if (reading.valid) now.contact_force = reading.force_in_base.head(space_.translations()).norm();
+    if (reading.valid) seen.contact_force = reading.force_in_base.head(space_.translations()).norm();
   }
   return now;
 }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,16 +20,32 @@
 
 namespace flinch {
 
+/// What one obstacle does to the robot at one sample. What nobody measured is not a number.
+struct RunLoad {
+  int obstacle = -1;              ///< its place in the list of obstacles; -1: none, or nobody saw which
+  int body = -1;                  ///< that it touches hardest, BodyId::index()
+  int clamped_leg = -1;           ///< whose links it both touches; -1: none
+  double contact_force = 0.0;     ///< of its hardest touch [N]
+  CartesianVector touched_point;  ///< where that is [m]; empty where nobody measured it
+  CartesianVector touched_force;  ///< and that force on the robot [N], likewise
+  double push_force = 0.0;        ///< of what acts on the platform without touching it [N]
+  double push_moment = 0.0;       ///< likewise [Nm]
+
+  /// Of the hardest touch or push; not a number where nobody measured it, as the next.
+  double force() const { return std::max(contact_force, push_force); }
+  bool pushes() const { return push_force >= contact_force; }
+  /// How hard the robot is touched or pushed, as a multiple of what counts as a contact.
+  double load() const {
+    return std::max(force() / Verdict::contact_force, push_moment / Verdict::contact_moment);
+  }
+};
+
 /// All that a verdict looks at, at one sample, whatever the mechanism. What nobody measured is not a number.
 struct RunSample {
   double time = 0.0;     ///< [s]
-  bool is_true = false;  ///< body, clamping, pushes and loop closure are known
-  int body = -1;         ///< that is touched hardest, BodyId::index()
-  int obstacle = -1;     ///< that touches hardest, by its place in the list of obstacles
-  bool clamping = false;
-  double contact_force = 0.0;  ///< of the hardest touch [N]
-  double push_force = 0.0;     ///< of what acts on the platform without touching it [N]
-  double push_moment = 0.0;    ///< likewise [Nm]
+  bool is_true = false;  ///< bodies, obstacles, clamping, pushes and loop closure are known
+  /// Of each obstacle that touches, the hardest first; at least one, which has the pushes as well.
+  std::vector<RunLoad> loads{RunLoad()};
   /// Of all that acts on the platform; 0 where only an instrument looked on [N].
   double external_force = 0.0;
   double external_moment = 0.0;  ///< likewise [Nm]
@@ -41,14 +58,12 @@ struct RunSample {
   /// where there was none.
   double sigma_kappa = std::numeric_limits<double>::quiet_NaN();
   double sigma_sc = std::numeric_limits<double>::quiet_NaN();  ///< likewise [m]
-  bool self_contact = false;  ///< bodies of the robot touch one another, as far as that is known
+  std::optional<SelfContact> self_contact;  ///< bodies of the robot that touch one another, if that is known
   /// The largest magnitude of those that the drives are told; not a number where none is told [Nm or N].
   double drive_torque = std::numeric_limits<double>::quiet_NaN();
   bool reference_valid = false;
   double position_error = 0.0;     ///< [m]
   double orientation_error = 0.0;  ///< [rad]
-  CartesianVector touched_point;   ///< where it is touched hardest [m]; empty where nobody measured it
-  CartesianVector touched_force;   ///< and that force [N], likewise
   /// What the followed classifier takes for touched, by name; "" while it has accepted nothing.
   std::string classified;
   double probability = 0.0;  ///< of that
@@ -66,16 +81,12 @@ struct RunSample {
   int unread_readings = 0;  ///< of the joints, that no tick has seen, since the start of the link
 
   /// Of the hardest touch or push; not a number where nobody measured it, as the next.
-  double force() const { return std::max(contact_force, push_force); }
-  bool is_pushed() const { return is_true && push_force >= contact_force; }
+  double force() const { return loads.front().force(); }
+  double load() const { return loads.front().load(); }
   /// Whether something touches or pushes the robot, as far as the witness knows.
   bool is_touched() const {
     return load() > 1.0 || external_force > Verdict::contact_force ||
            external_moment > Verdict::contact_moment;
-  }
-  /// How hard the robot is touched or pushed, as a multiple of what counts as a contact.
-  double load() const {
-    return std::max(force() / Verdict::contact_force, push_moment / Verdict::contact_moment);
   }
 };
 
@@ -95,6 +106,8 @@ class RecordedRun {
   /// The estimators that contact detectors follow, and other detectors by their own names, first the one that
   /// the robot follows: "" where the recording does not name it.
   const std::vector<std::string>& estimators() const { return estimators_; }
+  /// The names of the obstacles; none where the recording does not tell them.
+  const std::vector<std::string>& obstacles() const { return obstacles_; }
   std::size_t size() const;
   double period() const;    ///< [s]
   double duration() const;  ///< of all samples, each one period long [s]
@@ -107,6 +120,7 @@ class RecordedRun {
   ConfigurationSpace space_;
   Witness witness_;
   std::vector<std::string> estimators_;
+  std::vector<std::string> obstacles_;
   std::unique_ptr<Signals> signals_;
 };
 

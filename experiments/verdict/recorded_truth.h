@@ -60,13 +60,35 @@ struct RecordedContact {
   }
 };
 
-/// Read from the signal "contact", where it tells of that.
+/// Read from the signal "contact", where it tells of them.
+struct RecordedFurtherTouches {
+  std::array<RecordedTouch, 4> further;  ///< after the second, the hardest first
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("further", "", self.further);
+  }
+};
+
+/// Likewise.
 struct RecordedSelfContact {
   bool self_contact = false;
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("self_contact", "", self.self_contact);
+  }
+};
+
+/// Likewise: BodyId::index() of two bodies that touch one another.
+struct RecordedSelfBodies {
+  int self_body = -1;
+  int self_other = -1;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("self_body", "", self.self_body);
+    visit("self_other", "", self.self_other);
   }
 };
 

@@ -68,6 +68,14 @@ void measure_errors(const RunSample& now, Verdict& verdict) {
   keep_largest(now.orientation_error, verdict.max_orientation_error);
 }
 
+void note_self_contact(const SelfContact& found, double time, Verdict& verdict) {
+  const auto same = [&found](const SelfContact& seen) {
+    return seen.body == found.body && seen.other == found.other;
+  };
+  std::vector<SelfContact>& all = verdict.self_contacts;
+  if (std::none_of(all.begin(), all.end(), same)) all.push_back({found.body, found.other, time});
+}
+
 std::string description_of(GateFault fault) {
   for (const FaultRow& row : fault_table()) {
     if (row.fault == fault) return row.description;
@@ -127,7 +135,7 @@ class FaultWatch {
 
 struct RunWatch::Parts {
   Parts(const RecordedRun& run, const ForceLimits& limits)
-      : period(run.period()), contacts(limits, run.estimators()) {
+      : period(run.period()), contacts(limits, run.estimators(), run.obstacles()) {
     verdict.witness = run.witness();
     verdict.limits = limits;
     for (const std::string& estimator : run.estimators())
@@ -160,7 +168,7 @@ void RunWatch::see(const RunSample& now) {
   so_far.was_touched |= touched;
   if (!so_far.was_touched) measure_errors(now, verdict);
   if (now.is_true) verdict.loop_closure = std::max(verdict.loop_closure.value_or(0.0), now.loop_closure);
-  verdict.self_contact |= now.self_contact;
+  if (now.self_contact) note_self_contact(*now.self_contact, now.time, verdict);
   if (!std::isnan(now.drive_torque))
     verdict.largest_torque = std::max(verdict.largest_torque.value_or(0.0), now.drive_torque);
   extend(now, verdict.measures);

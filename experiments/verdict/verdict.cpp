@@ -29,14 +29,20 @@ void expect_contact(const Verdict& verdict, const Expectations& expected,
   }
 }
 
-std::string name_of(const ContactVerdict& contact) {
-  return contact.body.empty() ? "the pylon" : contact.body;
+/// What touched one another: the body, and the obstacle where more than one touched or nobody saw the body.
+std::string name_of(const ContactVerdict& contact, const Verdict& verdict) {
+  const std::string& obstacle = contact.obstacle_name;
+  if (contact.body.empty()) return obstacle.empty() ? "an obstacle" : obstacle;
+  const bool is_only_one =
+      std::all_of(verdict.contacts.begin(), verdict.contacts.end(),
+                  [&](const ContactVerdict& other) { return other.obstacle_name == obstacle; });
+  return is_only_one || obstacle.empty() ? contact.body : contact.body + " (" + obstacle + ")";
 }
 
 void judge_contacts(const Verdict& verdict, const Expectations& expected,
                     std::vector<std::string>& failures) {
   for (const ContactVerdict& contact : verdict.contacts) {
-    const std::string touched = name_of(contact);
+    const std::string touched = name_of(contact, verdict);
     const bool is_load = contact.is_push && expected.contact == "none";
     if (!contact.detected) {
       if (is_load) continue;
@@ -65,12 +71,21 @@ void remark_contacts(const Verdict& verdict, const Expectations& expected,
                      std::vector<std::string>& remarks) {
   for (const ContactVerdict& contact : verdict.contacts) {
     if (!contact.removed)
-      remarks.push_back("the contact with " + name_of(contact) + " was not over at the end");
+      remarks.push_back("the contact with " + name_of(contact, verdict) + " was not over at the end");
     const std::string body = body_of(contact, expected);
     if (contact.classified.empty() || body.empty() || contact.classified == body) continue;
     remarks.push_back(
         fmt::format("the contact with {} was taken for one with {}, sure by {:.1f} %; see control.isolation",
                     body, contact.classified, 100.0 * contact.probability));
+  }
+}
+
+void remark_self_contacts(const Verdict& verdict, std::vector<std::string>& remarks) {
+  for (const SelfContact& contact : verdict.self_contacts) {
+    remarks.push_back(
+        contact.body.empty()
+            ? fmt::format("bodies of the robot touched one another from {:.3f} s on", contact.since)
+            : fmt::format("{} touched {} from {:.3f} s on", contact.body, contact.other, contact.since));
   }
 }
 
@@ -101,6 +116,7 @@ Verdict judge(const RunWatch& watch, const Expectations& expected) {
   expect_contact(verdict, expected, verdict.failures);
   judge_contacts(verdict, expected, verdict.failures);
   remark_contacts(verdict, expected, verdict.remarks);
+  remark_self_contacts(verdict, verdict.remarks);
   remark_lost_sensors(verdict, verdict.remarks);
   verdict.failures.insert(verdict.failures.end(), of_the_gate.begin(), of_the_gate.end());
   if (verdict.false_detections > 0) verdict.failures.push_back("a contact was detected where there was none");

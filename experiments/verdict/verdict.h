@@ -47,15 +47,19 @@ struct TaskBegin {
   double time = 0.0;  ///< from when on [s]
 };
 
-/// One contact: from the first force above `contact_force`, or push with a moment above `contact_moment`, to
-/// the last, where interruptions shorter than `same_contact` do not count.
+/// One contact with one obstacle: from its first force above `contact_force`, or push with a moment above
+/// `contact_moment`, to the last, where interruptions shorter than `same_contact` do not count. A push is a
+/// contact by itself only where no obstacle touches; else it counts with what touches hardest.
 struct ContactVerdict {
-  std::string body;      ///< "platform", "leg1_link2"; "leg1_clamping" where both links of a leg are touched;
-                         ///< "" where nobody saw
-  int obstacle = -1;     ///< that touched hardest, by its place in the list of obstacles; -1: none seen
+  std::string body;   ///< "platform", "leg1_link2"; "leg1_clamping" where both links of a leg are touched;
+                      ///< "" where nobody saw
+  int obstacle = -1;  ///< by its place in the list of obstacles; -1: none seen, or pushes were harder
+  std::string obstacle_name;  ///< its name; "" where nobody knows
   bool is_push = false;  ///< something pushed the platform without touching it, as a scenario may ask for
   double onset = 0.0;    ///< t_c, when the force rose above `contact_force`, between samples [s]
-  std::optional<double> detected;  ///< t_det, when the estimate reached the reaction threshold [s]
+  /// t_det, when the estimate reached the reaction threshold [s]. It may be above it for another contact: what
+  /// is noticed once counts for all that have begun and are not over.
+  std::optional<double> detected;
   /// The same for every estimator that ran, as by a contact detector that followed it; first that which the
   /// robot followed.
   std::vector<DetectionBy> detected_by;
@@ -82,6 +86,13 @@ struct ContactVerdict {
   std::string limit_name;
   bool within_limit = false;  ///< both forces are
   double over_limit = 0.0;    ///< how long the force was above the limit of its time [s]
+};
+
+/// Two bodies of the robot that touched one another, by name; "" where nobody knows which.
+struct SelfContact {
+  std::string body{};
+  std::string other{};
+  double since = 0.0;  ///< first [s]
 };
 
 /// How far a measure of the workspace went.
@@ -128,7 +139,7 @@ struct Verdict {
   std::optional<double> loop_closure;      ///< largest miss of a leg; of simulations [m]
   MeasureRanges measures;                  ///< of the whole run
   MeasureRanges measures_once_detected;    ///< from the first detection on
-  bool self_contact = false;               ///< bodies of the robot touched one another
+  std::vector<SelfContact> self_contacts;  ///< each pair once, in the order of their first times
   std::optional<double> largest_torque;    ///< that any drive was told [Nm or N]; none: none was, or recorded
   std::string fault;                       ///< why the torque gate closed; "" if it did not
   /// The first doubt about the IMU, and when it came up [s]; none: it was believed.

@@ -44,6 +44,7 @@ Json reaction_tasks_json(const ContactVerdict& contact) {
 
 Json contact_json(const ContactVerdict& contact) {
   return {{"body", contact.body.empty() ? Json(nullptr) : Json(contact.body)},
+          {"obstacle", contact.obstacle_name.empty() ? Json(nullptr) : Json(contact.obstacle_name)},
           {"pushed", contact.is_push},
           {"detected", contact.detected.has_value()},
           {"detection_ms", milliseconds(contact.onset, contact.detected)},
@@ -98,6 +99,21 @@ Json limits_json(const ForceLimits& limits) {
           {"quasi_static_N", limits.quasi_static},
           {"quasi_static_source", limits.quasi_static_source},
           {"transient_duration_ms", 1e3 * limits.transient_duration}};
+}
+
+/// Where several obstacles touched the robot: which this is.
+std::string obstacle_line(const ContactVerdict& contact, const Verdict& verdict) {
+  if (verdict.contacts.size() < 2 || contact.obstacle_name.empty()) return "";
+  return "  by " + contact.obstacle_name + "\n";
+}
+
+Json self_contacts_json(const Verdict& verdict) {
+  Json contacts = Json::array();
+  for (const SelfContact& contact : verdict.self_contacts) {
+    const auto name = [](const std::string& body) { return body.empty() ? Json(nullptr) : Json(body); };
+    contacts.push_back({{"bodies", {name(contact.body), name(contact.other)}}, {"since_s", contact.since}});
+  }
+  return contacts;
 }
 
 /// Where several estimators ran: what each of them would have noticed when.
@@ -179,8 +195,8 @@ std::string verdict_table(const Verdict& verdict, const RunFacts& facts) {
       fmt::format("{:<15} {:>8} {:>6} {:>10} {:>10} {:>8} {:>8}  {:<12} {:>8}  {}\n", "contact with", "at s",
                   "m/s", "noticed ms", "removed ms", "peak N", "limit N", "kind", "above ms", "within");
   for (const ContactVerdict& contact : verdict.contacts) {
-    text += contact_line(contact) + by_estimator_lines(contact) + classified_line(contact) +
-            braking_line(contact) + reaction_lines(contact);
+    text += contact_line(contact) + obstacle_line(contact, verdict) + by_estimator_lines(contact) +
+            classified_line(contact) + braking_line(contact) + reaction_lines(contact);
   }
   text += no_contact_line(verdict) + limit_lines(verdict);
   text += fmt::format(
@@ -220,6 +236,7 @@ std::string verdict_json(const Verdict& verdict, const RunFacts& facts) {
       {"wall_s", facts.wall},
       {"seed", facts.seed},
       {"robot_drawn", robot_json(facts)},
+      {"self_contacts", self_contacts_json(verdict)},
       {"imu_doubt", imu_doubt_json(verdict)},
       {"passive_encoders_lost_s", verdict.passive_lost ? Json(*verdict.passive_lost) : Json(nullptr)},
       {"fault", verdict.fault},

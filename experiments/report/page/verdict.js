@@ -105,7 +105,7 @@ function contactRow(contact) {
   const go = element("button", { type: "button", class: "link", title: "Go to this contact" }, fixed(contact.start, 3) + " s");
   go.addEventListener("click", () => clock.seekTime(contact.start));
   return element("tr", {},
-    element("th", { scope: "row" }, capitalised(contact.body), isolation(contact)),
+    element("th", { scope: "row" }, capitalised(contact.body), touchedBy(contact), isolation(contact)),
     element("td", { class: "n" }, go),
     element("td", { class: "n" }, contact.speed === null ? none : `${fixed(contact.speed, 2)} m/s`),
     element("td", { class: contact.detected === null ? "n bad" : "n" },
@@ -114,6 +114,12 @@ function contactRow(contact) {
       contact.removed === null ? "not removed" : since(contact.removed)),
     element("td", {}, forceBar(contact)),
     judgement(contact.force_limit === null ? null : contact.within_limit));
+}
+
+/** By which obstacle, where several touched the robot. */
+function touchedBy(contact) {
+  const objects = new Set(report.contacts.map((each) => each.object));
+  return objects.size < 2 || !contact.object ? "" : element("small", {}, `by ${contact.object}`);
 }
 
 /** When each estimator's detector noticed the contact, where several ran. */

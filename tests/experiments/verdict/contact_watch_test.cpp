@@ -79,6 +79,52 @@ TEST(ContactWatch, SaysNothingOfAStopThatNobodyJudged) {
   EXPECT_EQ(judged(touched_twice()).contacts.at(0).could_stop, std::nullopt);
 }
 
+// The crate from 100 ms to 200 ms with 80 N; the hand from 120 ms to 300 ms with 30 N, so it is the weaker one
+// at first and alone after that.
+TEST(ContactWatch, TellsTwoObstaclesThatTouchAtOnceApart) {
+  SyntheticRun run(600);
+  run.touch(BodyId::platform(), 100, 200, 80.0);
+  for (int k = 100; k <= 200; ++k) run.at(k).contact.strongest.obstacle = 1;
+  run.touch_too(BodyId::link2(0), 120, 300, -30.0).notice(130, 320);
+  const Verdict verdict = judged(run);
+  ASSERT_EQ(verdict.contacts.size(), 2U);
+  const ContactVerdict &crate = verdict.contacts[0], &hand = verdict.contacts[1];
+  EXPECT_EQ(crate.obstacle_name, "crate");
+  EXPECT_EQ(crate.body, "platform");
+  EXPECT_EQ(crate.peak_force, 80.0);
+  EXPECT_NEAR(crate.onset, 0.099 + 0.001 / 80.0, 1e-12);
+  EXPECT_NEAR(crate.removed.value_or(-1.0), 0.201, 1e-12);
+  EXPECT_EQ(hand.obstacle_name, "hand");
+  EXPECT_EQ(hand.body, "leg1_link2");
+  EXPECT_EQ(hand.peak_force, 30.0);
+  EXPECT_NEAR(hand.onset, 0.119 + 0.001 / 30.0, 1e-12);
+  EXPECT_NEAR(hand.removed.value_or(-1.0), 0.301, 1e-12);
+  EXPECT_NEAR(crate.detected.value_or(-1.0), 0.130, 1e-12) << "noticed once, for both had begun";
+  EXPECT_EQ(hand.detected, crate.detected);
+}
+
+TEST(ContactWatch, TakesLinksOfALegThatTwoObstaclesTouchForNoClamping) {
+  SyntheticRun run(600);
+  run.touch(BodyId::link1(0), 100, 200, 80.0);
+  for (int k = 100; k <= 200; ++k) run.at(k).contact.strongest.obstacle = 1;
+  run.touch_too(BodyId::link2(0), 100, 200, -30.0).notice(130, 320);
+  const Verdict verdict = judged(run);
+  ASSERT_EQ(verdict.contacts.size(), 2U);
+  EXPECT_EQ(verdict.contacts[0].body, "leg1_link1");
+  EXPECT_EQ(verdict.contacts[1].body, "leg1_link2");
+}
+
+TEST(ContactWatch, RemarksBodiesOfTheRobotThatTouchOneAnother) {
+  SyntheticRun run(500);
+  for (int k = 250; k < 260; ++k) {
+    ContactTruth& contact = run.at(k).contact;
+    contact.self_contact = true;
+    contact.self_body = BodyId::link2(0).index();
+    contact.self_other = BodyId::link2(1).index();
+  }
+  EXPECT_THAT(judged(run).remarks, ::testing::ElementsAre("leg1_link2 touched leg2_link2 from 0.250 s on"));
+}
+
 TEST(ContactWatch, LetsAContactThatIsTakenForAnotherBeRemarked) {
   SyntheticRun run(500);
   run.touch(BodyId::platform(), 100, 150, 20.0).notice(110, 180).classify(112, BodyId::link2(0).index());

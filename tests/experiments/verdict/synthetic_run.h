@@ -64,6 +64,23 @@ class SyntheticRun {
     return *this;
   }
 
+  /// Two obstacles: the first touches `body` with `force` [N] along x as well as what else touches, from the
+  /// first tick to the last; what touches already is the second.
+  SyntheticRun& touch_too(BodyId body, int first, int last, double force) {
+    for (int k = first; k <= last; ++k) {
+      ContactTruth& contact = at(k).contact;
+      TouchTruth touch = contact.second;
+      touch.body = body.index();
+      touch.obstacle = 0;
+      touch.force_in_base = Eigen::Vector2d(force, 0.0);
+      if (contact.strongest.body >= 0) contact.strongest.obstacle = 1;
+      contact.add(touch);
+      contact.wrench_in_base[0] += force;
+      at(k).truth.wrench_in_base[0] += force;
+    }
+    return *this;
+  }
+
   /// A wrench acts on the platform without touching it, from the first tick to the last.
   SyntheticRun& push(int first, int last, const Eigen::Vector3d& wrench) {
     for (int k = first; k <= last; ++k) at(k).truth.wrench_in_base = at(k).contact.wrench_in_base + wrench;
@@ -94,6 +111,7 @@ class SyntheticRun {
   Recording recording() const {
     Recording recording;
     recording.period = 1ms;
+    recording.attributes = {{"obstacle.1.name", "hand"}, {"obstacle.2.name", "crate"}};
     for (int i = 0; i < classes.count(); ++i)
       recording.attributes["contact.classes"] += classes.name(i) + " ";
     for (std::size_t k = 0; k < moments_.size(); ++k) {
