@@ -57,8 +57,8 @@ struct ContactVerdict {
   std::string obstacle_name;  ///< its name; "" where nobody knows
   bool is_push = false;  ///< something pushed the platform without touching it, as a scenario may ask for
   double onset = 0.0;    ///< t_c, when the force rose above `contact_force`, between samples [s]
-  /// t_det, when the estimate reached the reaction threshold [s]. It may be above it for another contact: what
-  /// is noticed once counts for all that have begun and are not over.
+  /// t_det, when the estimate reached the reaction threshold [s]. It may be above it for another contact:
+  /// what is noticed once counts for all that have begun and are not over.
   std::optional<double> detected;
   /// The same for every estimator that ran, as by a contact detector that followed it; first that which the
   /// robot followed.

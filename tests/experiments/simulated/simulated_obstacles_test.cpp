@@ -3,11 +3,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
 #include "experiments/simulated/experiment.h"
 #include "experiments/simulated/simulated_scenario.h"
 #include "experiments/verdict/verdict.h"
 #include "plant/compliant_obstacle.h"
+#include "plant/contact_truth.h"
 #include "plant/hand.h"
+#include "systems/framework/recorded_values.h"
 #include "systems/framework/recording.h"
 #include "tests/support/problems_of.h"
 #include "tests/support/workplace.h"
@@ -86,6 +93,45 @@ TEST(ScenarioObstacles, AreToldApartByTheVerdict) {
   EXPECT_TRUE(verdict.contacts[0].detected.has_value());
   EXPECT_TRUE(verdict.contacts[0].removed.has_value());
   EXPECT_EQ(verdict.false_detections, 0);
+}
+
+/// A hand presses the platform from -x while a crate is driven in from +x.
+TEST(ScenarioObstacles, AreToldApartWhereTheyTouchAtOnce) {
+  const SimulatedScenario scenario = scenario_with(
+      "  - {name: hand, x_m: -0.24, y_m: 0, kind: hand, path: [{time_s: 0.4}, {time_s: 0.7, x_m: 0.08}, "
+      "{time_s: 1.0}]}\n"
+      "  - {name: crate, x_m: 0.25, y_m: 0, kind: path, path: [{time_s: 0.45}, {time_s: 0.75, x_m: -0.08}, "
+      "{time_s: 1.0}]}\n");
+  const Recording recording = run_experiment(scenario);
+  const Verdict verdict =
+      judge(recording, scenario.robot.robot->space(), scenario.expected, scenario.force_limits);
+  ASSERT_EQ(verdict.contacts.size(), 2U);
+  EXPECT_EQ(verdict.contacts[0].obstacle_name, "hand");
+  EXPECT_EQ(verdict.contacts[1].obstacle_name, "crate");
+  // The peaks of the truth, touch by touch.
+  std::array<double, 2> peak{}, first{INFINITY, INFINITY};
+  int both = 0;
+  const RecordedValues<ContactTruth> truth(recording, "contact");
+  for (std::size_t k = 0; k < truth.size(); ++k) {
+    const ContactTruth now = truth[k];
+    std::array<double, 2> force{};
+    for (const TouchTruth& touch : {now.strongest, now.second, now.further[0], now.further[1]}) {
+      if (touch.body < 0) continue;
+      const auto place = static_cast<std::size_t>(touch.obstacle);
+      force[place] = std::max(force[place], touch.force_in_base.norm());
+    }
+    for (std::size_t i = 0; i < 2; ++i) {
+      peak[i] = std::max(peak[i], force[i]);
+      if (force[i] > 1.0) first[i] = std::min(first[i], 1e-3 * static_cast<double>(k));
+    }
+    both += force[0] > 1.0 && force[1] > 1.0 ? 1 : 0;
+  }
+  EXPECT_GT(both, 20);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(verdict.contacts[i].peak_force, peak[i]);
+    EXPECT_LE(verdict.contacts[i].onset, first[i]);
+    EXPECT_GT(verdict.contacts[i].onset, first[i] - 1e-3);
+  }
 }
 
 TEST(ScenarioObstacles, HoldUntilTheyLetGo) {

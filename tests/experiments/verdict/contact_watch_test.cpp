@@ -79,8 +79,8 @@ TEST(ContactWatch, SaysNothingOfAStopThatNobodyJudged) {
   EXPECT_EQ(judged(touched_twice()).contacts.at(0).could_stop, std::nullopt);
 }
 
-// The crate from 100 ms to 200 ms with 80 N; the hand from 120 ms to 300 ms with 30 N, so it is the weaker one
-// at first and alone after that.
+// The crate from 100 ms to 200 ms with 80 N; the hand from 120 ms to 300 ms with 30 N, so it is the weaker
+// one at first and alone after that.
 TEST(ContactWatch, TellsTwoObstaclesThatTouchAtOnceApart) {
   SyntheticRun run(600);
   run.touch(BodyId::platform(), 100, 200, 80.0);
