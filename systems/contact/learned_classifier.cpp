@@ -50,7 +50,8 @@ void LearnedClassifier::classify(Time now, const ContactPhase& contact, const Ki
   Eigen::Index most_likely = 0;
   result.probability.maxCoeff(&most_likely);
   result.most_likely = static_cast<int>(most_likely);
-  result.several_contacts = seen.residual.minCoeff() > settings_.largest_residual;
+  result.residual = seen.residual.minCoeff();
+  result.several_contacts = result.residual > settings_.largest_residual;
   const bool is_large =
       WrenchUncertainty().size(robot_->space(), how.moments.front().wrench_in_base) >= settings_.least_wrench;
   result.accepted = result.confidence() >= settings_.accept && is_large && !result.several_contacts;

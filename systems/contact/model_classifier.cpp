@@ -29,7 +29,8 @@ void ModelClassifier::conclude(const ContactEvidence& seen, Memory& next) const 
   result.most_likely = static_cast<int>(most_likely);
   result.probability = (mean.array() - largest).max(-700.0).exp();
   result.probability /= result.probability.sum();
-  result.several_contacts = next.residual / next.weight > settings_.largest_residual;
+  result.residual = next.residual / next.weight;
+  result.several_contacts = result.residual > settings_.largest_residual;
   result.accepted = result.confidence() >= settings_.accept && !result.several_contacts;
 }
 

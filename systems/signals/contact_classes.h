@@ -55,6 +55,9 @@ struct ContactClassification {
   ClassVector probability;
   /// No single contact explains the wrench: several things touch the robot, or it is not as its model says.
   bool several_contacts = false;
+  /// e^T S^-1 e of the contact that explains the wrench best: S is the wrench's covariance, e what is left of
+  /// it. Above a limit there are `several_contacts`. Negative: this classifier does not look at it.
+  double residual = -1.0;
 
   /// Of the most likely class; 0 where there is none.
   double confidence() const {
@@ -69,6 +72,7 @@ struct ContactClassification {
     visit("most_likely", "", self.most_likely);
     visit("probability", "1", self.probability);
     visit("several_contacts", "", self.several_contacts);
+    visit("residual", "1", self.residual);
   }
 };
 

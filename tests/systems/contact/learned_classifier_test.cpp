@@ -95,6 +95,7 @@ TEST(LearnedClassifier, AcceptsWhatIsSureEnoughAndOneContact) {
   EXPECT_FALSE(Classifier().see(4, std::log(80.9)).accepted);
   const ContactClassification several = Classifier().see(4, 9.0, true, 15.1);
   EXPECT_TRUE(several.several_contacts);
+  EXPECT_EQ(several.residual, 15.1);
   EXPECT_FALSE(several.accepted);
 }
 

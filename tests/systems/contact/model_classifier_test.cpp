@@ -65,7 +65,10 @@ TEST(ModelClassifier, RejectsWhatNoSingleContactExplains) {
   const ContactClassification said = Classifier().see(4, 20.0, 20.0, 16.0);
   EXPECT_TRUE(said.valid && said.several_contacts);
   EXPECT_FALSE(said.accepted);
+  EXPECT_EQ(said.residual, 16.0);
   EXPECT_FALSE(Classifier().see(4, 20.0, 20.0, 14.0).several_contacts);
+  EXPECT_FALSE(Classifier({.largest_residual = 17.0}).see(4, 20.0, 20.0, 16.0).several_contacts);
+  EXPECT_LT(Classifier().see(4, 20.0, 20.0, 14.0, false).residual, 0.0) << "it has not looked";
 }
 
 TEST(ModelClassifier, ListensMoreToGreaterForces) {
