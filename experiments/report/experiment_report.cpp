@@ -58,6 +58,7 @@ ReportContact report_contact(const ContactVerdict& contact, const ForceLimits& l
   row.body = spoken(contact.body);
   if (contact.body.ends_with("clamping")) row.clamping_leg = "leg " + contact.body.substr(3, 1);
   if (!contact.classified.empty()) row.isolated_body = spoken(contact.classified);
+  row.several_contacts = contact.several_contacts.value_or(false);
   row.object = object_of(contact, obstacles);
   row.start = contact.onset;
   row.detected = contact.detected;

@@ -22,6 +22,7 @@ struct ReportContact {
   std::string body;                ///< Touched body as a reader says it: "platform", "second link of leg 1".
   std::string clamping_leg;        ///< "leg 1", whose links clamp the object; empty: it was a collision.
   std::string isolated_body;       ///< Body that the robot took it for; empty: it did not say.
+  bool several_contacts = false;   ///< The robot said that no single contact explains the wrench.
   std::string object;              ///< What it touched: "pylon"; "push": it was pushed without a touch.
   double start = 0.0;              ///< t_c: true contact force leaves zero [s].
   std::optional<double> detected;  ///< t_det: first tick with the detector's flag [s].

@@ -38,6 +38,7 @@ json encode(const ReportContact& contact) {
   return {{"body", contact.body},
           {"clamping_leg", contact.clamping_leg},
           {"isolated_body", contact.isolated_body},
+          {"several_contacts", contact.several_contacts},
           {"object", contact.object},
           {"start", rounded(contact.start)},
           {"detected", rounded(contact.detected)},

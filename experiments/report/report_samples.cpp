@@ -13,8 +13,10 @@
 #include "experiments/report/limit_lane.h"
 #include "experiments/report/page_samples.h"
 #include "experiments/report/reaction_lane.h"
+#include "experiments/report/taken_for_lane.h"
 #include "experiments/report/task_energy_columns.h"
 #include "experiments/report/vector_columns.h"
+#include "experiments/verdict/recorded_classification.h"
 #include "experiments/verdict/recorded_estimate.h"
 #include "experiments/verdict/recorded_run.h"
 #include "experiments/verdict/recorded_truth.h"
@@ -304,14 +306,11 @@ class Isolation {
     if (recording.find("classification") == nullptr || recording.find("location") == nullptr) return;
     classification_.emplace(recording, "classification");
     location_.emplace(recording, "location");
-    std::vector<std::string> names, states = {"nothing"};
-    for (int i = 0; i < classes_.count(); ++i) {
-      names.push_back("probability_" + classes_.name(i));
-      states.push_back(classes_.name(i));
-    }
+    std::vector<std::string> names;
+    for (int i = 0; i < classes_.count(); ++i) names.push_back("probability_" + classes_.name(i));
     probability_.emplace(page, names);
     point_.emplace(page, named("isolated_", robot.space_dimension()));
-    taken_for_ = page.lane("taken for", std::move(states));
+    taken_for_.emplace(classes_, page);
     if (simulated) {
       location_error_ = page.column("location_error");
       force_error_ = page.column("force_error");
@@ -321,9 +320,9 @@ class Isolation {
 
   void show(std::size_t sample, const RunSample& run, const Truth* truth, double hardness) {
     if (!classification_) return;
-    const ContactClassification said = (*classification_)[sample];
+    const RecordedClassification said = (*classification_)[sample];
     probability_->set(said.valid ? said.probability : ClassVector(), hardness);
-    page_.set_state(taken_for_, said.valid && said.accepted ? said.most_likely + 1 : 0, hardness);
+    taken_for_->show(said, hardness);
     const ContactLocation found = (*location_)[sample];
     const bool located = found.valid && found.located;
     point_->set(located ? found.point_in_base : CartesianVector(), hardness);
@@ -365,12 +364,13 @@ class Isolation {
   ContactClasses classes_;
   PageSamples& page_;
   Kinematics kinematics_;
-  std::optional<RecordedValues<ContactClassification>> classification_;
+  std::optional<RecordedValues<RecordedClassification>> classification_;
   std::optional<RecordedValues<ContactLocation>> location_;
   std::optional<RecordedValues<ParticleCloud>> cloud_;
   std::optional<VectorColumns> probability_, point_;
   std::vector<VectorColumns> particles_;
-  std::size_t taken_for_ = 0, location_error_ = 0, force_error_ = 0;
+  std::optional<TakenForLane> taken_for_;
+  std::size_t location_error_ = 0, force_error_ = 0;
 };
 
 }  // namespace

@@ -65,7 +65,9 @@ void ContactWatch::note_detections(const RunSample& now, ContactVerdict& contact
 
 void ContactWatch::note_classification(const RunSample& now, Watched& of) const {
   ContactVerdict& contact = of.seen;
-  if (now.classified.empty() || contact.classified_at || !contact.detected) return;
+  if (!contact.detected) return;
+  if (now.several_contacts) contact.several_contacts = now.several_contacts;
+  if (now.classified.empty() || contact.classified_at) return;
   contact.classified = now.classified;
   contact.classified_at = now.time;
   contact.probability = now.probability;

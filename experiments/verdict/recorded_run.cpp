@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "diagrams/link_status.h"
+#include "experiments/verdict/recorded_classification.h"
 #include "experiments/verdict/recorded_doubts.h"
 #include "experiments/verdict/recorded_estimate.h"
 #include "experiments/verdict/recorded_truth.h"
@@ -171,6 +172,7 @@ struct RecordedRun::Signals {
       detections_by.emplace_back(recording, detections[i].second);
     class_names = class_names_of(recording);
     if (recording.find("classification") != nullptr) classification.emplace(recording, "classification");
+    if (records(recording, "classification", "residual")) residual.emplace(recording, "classification");
     if (recording.find("location") != nullptr) location.emplace(recording, "location");
     const bool is_true = witness == Witness::truth && recording.find("true_measures") != nullptr;
     const char* const measured = is_true ? "true_measures" : "measures";
@@ -201,7 +203,8 @@ struct RecordedRun::Signals {
   RecordedValues<GateStatus> gate;
   std::optional<RecordedValues<RecordedDoubts>> doubts;
   std::vector<std::string> class_names;  // of what can be touched
-  std::optional<RecordedValues<ContactClassification>> classification;
+  std::optional<RecordedValues<RecordedClassification>> classification;
+  std::optional<RecordedValues<RecordedResidual>> residual;
   std::optional<RecordedValues<ContactLocation>> location;
   std::optional<RecordedValues<WorkspaceMeasures>> measures;
   std::optional<RecordedValues<TorqueCommand>> torque_command;
@@ -281,12 +284,14 @@ RunSample RecordedRun::operator[](std::size_t sample) const {
   if (signals.timing) now.lost_ticks = static_cast<int>((*signals.timing)[sample].lost_periods);
   if (signals.joints_link) now.unread_readings = static_cast<int>((*signals.joints_link)[sample].skipped);
   if (signals.classification) {
-    const ContactClassification said = (*signals.classification)[sample];
+    const RecordedClassification said = (*signals.classification)[sample];
     const auto number = static_cast<std::size_t>(said.most_likely);
     if (said.valid && said.accepted && number < signals.class_names.size()) {
       now.classified = signals.class_names[number];
       now.probability = said.confidence();
     }
+    const bool looks = signals.residual && (*signals.residual)[sample].residual >= 0.0;
+    if (said.valid && (looks || said.several_contacts)) now.several_contacts = said.several_contacts;
   }
   if (signals.location) now.location = (*signals.location)[sample];
   const RecordedEstimate estimate = signals.wrench[sample];

@@ -67,6 +67,8 @@ struct RunSample {
   /// What the followed classifier takes for touched, by name; "" while it has accepted nothing.
   std::string classified;
   double probability = 0.0;  ///< of that
+  /// Whether it says that no single contact explains the wrench; none: it says nothing, or does not look.
+  std::optional<bool> several_contacts;
   ContactLocation location;  ///< of the followed locator
   ContactDetection detection;
   /// Whether a detector notices something that follows the estimator of this name in

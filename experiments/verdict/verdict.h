@@ -65,8 +65,11 @@ struct ContactVerdict {
   std::vector<DetectionBy> detected_by;
   /// What the robot first took for touched, and acted upon; "" where it was never sure enough.
   std::string classified;
-  std::optional<double> classified_at;   ///< when [s]
-  double probability = 0.0;              ///< that it gave to this
+  std::optional<double> classified_at;  ///< when [s]
+  double probability = 0.0;             ///< that it gave to this
+  /// Whether the robot, in what it said last, found the wrench such as no single contact makes; none: its
+  /// classifier said nothing, or does not look.
+  std::optional<bool> several_contacts;
   std::optional<double> location_error;  ///< of where it placed the contact then [m]; none: it did not know
   std::optional<double> force_error;     ///< of the force there [N], likewise
   /// Whether the robot could still stop within the limits that it keeps when it noticed the contact; none: it

@@ -52,6 +52,7 @@ Json contact_json(const ContactVerdict& contact) {
           {"classified", contact.classified.empty() ? Json(nullptr) : Json(contact.classified)},
           {"classified_ms", milliseconds(contact.onset, contact.classified_at)},
           {"probability", contact.classified_at ? Json(contact.probability) : Json(nullptr)},
+          {"several_contacts", contact.several_contacts ? Json(*contact.several_contacts) : Json(nullptr)},
           {"location_error_mm", contact.location_error ? Json(1e3 * *contact.location_error) : Json(nullptr)},
           {"force_error_N", contact.force_error ? Json(*contact.force_error) : Json(nullptr)},
           {"could_stop_within_limits", contact.could_stop ? Json(*contact.could_stop) : Json(nullptr)},
@@ -129,14 +130,16 @@ std::string by_estimator_lines(const ContactVerdict& contact) {
 /// What the robot took for touched, and how far off.
 std::string classified_line(const ContactVerdict& contact) {
   if (!contact.detected) return "";
-  if (!contact.classified_at) return "  taken for: nothing that is sure enough to act upon\n";
+  const std::string several =
+      contact.several_contacts.value_or(false) ? "; no single contact explains the wrench" : "";
+  if (!contact.classified_at) return "  taken for: nothing that is sure enough to act upon" + several + "\n";
   std::string line = fmt::format("  taken for {} after {:.1f} ms, sure by {:.1f} %", contact.classified,
                                  1e3 * (*contact.classified_at - contact.onset), 100.0 * contact.probability);
   if (contact.location_error) {
     line += fmt::format("; placed {:.0f} mm off, force {:.0f} N off", 1e3 * *contact.location_error,
                         contact.force_error.value_or(0.0));
   }
-  return line + "\n";
+  return line + several + "\n";
 }
 
 /// What the reaction did.

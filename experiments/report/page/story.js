@@ -25,7 +25,8 @@ function contactEvents(contact) {
 function detection(contact) {
   const taken = contact.isolated_body ? ` and takes it for a contact of ${withArticle(contact.isolated_body)}` : "";
   const late = contact.could_stop === false ? " It could not stop within its limits any more." : "";
-  return `The robot notices${taken}.${late}`;
+  const several = contact.several_contacts ? " No single contact explains the wrench." : "";
+  return `The robot notices${taken}.${several}${late}`;
 }
 
 function removal(contact) {

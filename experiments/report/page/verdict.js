@@ -105,7 +105,7 @@ function contactRow(contact) {
   const go = element("button", { type: "button", class: "link", title: "Go to this contact" }, fixed(contact.start, 3) + " s");
   go.addEventListener("click", () => clock.seekTime(contact.start));
   return element("tr", {},
-    element("th", { scope: "row" }, capitalised(contact.body), touchedBy(contact), isolation(contact)),
+    element("th", { scope: "row" }, capitalised(contact.body), touchedBy(contact), isolation(contact), several(contact)),
     element("td", { class: "n" }, go),
     element("td", { class: "n" }, contact.speed === null ? none : `${fixed(contact.speed, 2)} m/s`),
     element("td", { class: contact.detected === null ? "n bad" : "n" },
@@ -145,6 +145,11 @@ function isolation(contact) {
   if (!contact.isolated_body) return "";
   const right = contact.isolated_body === contact.body;
   return element("small", { class: right ? "" : "bad" }, right ? "isolated correctly" : `taken for ${withArticle(contact.isolated_body)}`);
+}
+
+/** Whether the robot said that more than one thing touched it. */
+function several(contact) {
+  return contact.several_contacts ? element("small", { class: "bad" }, "no single contact explains the wrench") : "";
 }
 
 /** The force that decides as a bar against the limit, which is a tick at a fixed place. */

@@ -66,6 +66,10 @@ def tells_the_verdict(page):
                            ("#parameters tbody tr", "parameters"), ("#provenance div", "provenance")):
         rows = page.value(f"document.querySelectorAll({table!r}).length")
         page.expect(rows == page.value(f"report.{entries}.length"), f"{rows} rows for the {entries} of the report")
+    several = page.value("report.contacts.filter(c => c.several_contacts).length")
+    page.expect(several == page.value("[...document.querySelectorAll('#contacts tbody tr')]"
+                                      ".filter(row => row.textContent.includes('no single contact explains the wrench')).length"),
+                "the contacts that no single one explains are not told")
     text = page.value("document.body.innerText")
     clamped = page.value("report.contacts.map(c => c.clamping_leg && `${capitalised(c.clamping_leg)} clamped the ${c.object}`)"
                          ".filter(sentence => !byId('events').textContent.includes(sentence))")

@@ -165,6 +165,7 @@ TEST(ReportPage, TellsInChromiumOfAClampingAndOfTheGateThatCloses) {
   report.contacts.emplace_back();
   report.contacts[0].body = report.contacts[0].isolated_body = "both links of leg 1 (clamping)";
   report.contacts[0].clamping_leg = "leg 1";
+  report.contacts[0].several_contacts = true;
   report.contacts[0].object = "pylon";
   report.contacts[0].detected = 1e-3;
   report.contacts[0].peak_force = report.contacts[0].lasting_force.emplace(150.0);

@@ -139,5 +139,50 @@ TEST(ContactWatch, LetsAContactThatIsTakenForAnotherBeRemarked) {
   EXPECT_THAT(judged(right).remarks, ::testing::IsEmpty());
 }
 
+/// From this tick on its classifier says how well one contact explains the wrench, and judges it.
+void look_for_several(SyntheticRun& run, int first, bool several) {
+  for (int k = first; k < 700; ++k) {
+    ContactClassification& said = run.at(k).classification;
+    said.valid = true;
+    said.residual = several ? 16.0 : 1.0;
+    said.several_contacts = several;
+  }
+}
+
+TEST(ContactWatch, TellsWhatTheRobotSaidLastOfSeveralContacts) {
+  SyntheticRun run = touched_twice();
+  look_for_several(run, 110, false);
+  look_for_several(run, 112, true);
+  look_for_several(run, 415, false);
+  const Verdict verdict = judged(run);
+  EXPECT_EQ(verdict.contacts.at(0).several_contacts, true);
+  EXPECT_EQ(verdict.contacts.at(0).classified, "");
+  EXPECT_EQ(verdict.contacts.at(1).several_contacts, false);
+}
+
+TEST(ContactWatch, KnowsNothingOfSeveralContactsFromAClassifierThatDoesNotLook) {
+  EXPECT_EQ(judged(touched_twice()).contacts.at(0).several_contacts, std::nullopt) << "that says nothing";
+  SyntheticRun run = touched_twice();
+  run.classify(112, BodyId::platform().index());
+  EXPECT_EQ(judged(run).contacts.at(0).classified, "platform");
+  EXPECT_EQ(judged(run).contacts.at(0).several_contacts, std::nullopt);
+}
+
+/// As recordings of versions before `residual` are.
+TEST(ContactWatch, ReadsClassificationsThatWereRecordedWithoutAResidual) {
+  SyntheticRun run = touched_twice();
+  look_for_several(run, 112, false);
+  look_for_several(run, 412, true);
+  Recording recording = run.recording();
+  for (Signal& signal : recording.signals) {
+    if (signal.path != "classification") continue;
+    ASSERT_EQ(signal.layout.fields.back().name, "residual");
+    signal.layout.fields.back().name = "unknown";
+  }
+  const Verdict verdict = judge(recording, planar, {}, {});
+  EXPECT_EQ(verdict.contacts.at(0).several_contacts, std::nullopt) << "it may not have looked";
+  EXPECT_EQ(verdict.contacts.at(1).several_contacts, true);
+}
+
 }  // namespace
 }  // namespace flinch::test

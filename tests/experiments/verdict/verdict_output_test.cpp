@@ -64,6 +64,23 @@ TEST(VerdictTable, TellsWhetherTheRobotCouldStopWithinItsLimits) {
   EXPECT_THAT(verdict_json(verdict, {}), HasSubstr(R"("could_stop_within_limits":false,"stop_ms":null)"));
 }
 
+TEST(VerdictOutput, TellsWhetherSeveralThingsTouchedTheRobot) {
+  Verdict verdict = verdict_with_contact();
+  const std::string sentence = "; no single contact explains the wrench\n";
+  EXPECT_THAT(verdict_json(verdict, {}), HasSubstr(R"("several_contacts":null)"));
+  for (const bool several : {true, false}) {
+    verdict.contacts[0].several_contacts = several;
+    EXPECT_EQ(nlohmann::json::parse(verdict_json(verdict, {}))["contacts"][0]["several_contacts"], several);
+    const auto told = several ? ::testing::Matcher<std::string>(HasSubstr(sentence))
+                              : ::testing::Matcher<std::string>(Not(HasSubstr(sentence)));
+    EXPECT_THAT(verdict_table(verdict, {}), told);
+  }
+  verdict.contacts[0].several_contacts = true;
+  verdict.contacts[0].classified = "platform";
+  verdict.contacts[0].classified_at = 0.513;
+  EXPECT_THAT(verdict_table(verdict, {}), HasSubstr("sure by 0.0 %" + sentence)) << "what it said first";
+}
+
 TEST(VerdictOutput, TellsWhatTheReactionDid) {
   Verdict verdict = verdict_with_contact();
   EXPECT_THAT(verdict_json(verdict, {}), HasSubstr(R"("reaction_tasks":[])"));
