@@ -21,13 +21,15 @@ IsolationSettings read(const std::string& text) {
 
 TEST(ReadIsolation, TakesWhatTheFileSaysAndLeavesTheRest) {
   const IsolationSettings settings = read(
-      "isolation: {observer_gain_per_s: 200, force_deviation_N: 1.5, accept: 0.8, window_ms: 5, leaning: "
+      "isolation: {observer_gain_per_s: 200, force_deviation_N: 1.5, accept: 0.8, largest_residual: 20, "
+      "window_ms: 5, leaning: "
       "0.2, "
       "particles: 200, object_speed_m_per_s: 0.1}");
   EXPECT_EQ(settings.observer_gain, 200.0);
   EXPECT_EQ(settings.uncertainty.force, 1.5);
   EXPECT_EQ(settings.uncertainty.moment, IsolationSettings().uncertainty.moment);
   EXPECT_EQ(settings.model_classifier.accept, 0.8);
+  EXPECT_EQ(settings.model_classifier.largest_residual, 20.0);
   EXPECT_EQ(settings.model_classifier.window, 5ms);
   EXPECT_EQ(settings.closed_form.leaning, 0.2);
   EXPECT_EQ(settings.particle_filter.leaning, 0.2);
@@ -38,10 +40,10 @@ TEST(ReadIsolation, TakesWhatTheFileSaysAndLeavesTheRest) {
 
 TEST(ReadIsolation, RefusesWhatCannotBe) {
   try {
-    read("isolation: {accept: 1.5, particles: 100000, observer_gain_per_s: 0}");
+    read("isolation: {accept: 1.5, largest_residual: 0, particles: 100000, observer_gain_per_s: 0}");
     FAIL() << "was taken";
   } catch (const SetupError& error) {
-    EXPECT_EQ(error.problems().size(), 3u);
+    EXPECT_EQ(error.problems().size(), 4u);
   }
 }
 
