@@ -23,8 +23,9 @@ namespace flinch::test {
 class Touched {
  public:
   explicit Touched(const SimulatedScenario& scenario) : robot(scenario.robot.robot) {
-    recording_ = run_for_signals(scenario, {"truth", "contact", "detection", "classification", "location",
-                                            "location_particle_filter", "classification_decision_tree"});
+    recording_ = run_for_signals(
+        scenario, {"truth", "contact", "detection", "classification", "location", "location_particle_filter",
+                   "classification_decision_tree", "classification_model_classifier"});
   }
 
   std::size_t samples() const { return recording_.samples(); }
