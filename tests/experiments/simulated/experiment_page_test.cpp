@@ -196,6 +196,46 @@ TEST(ExperimentPage, TellsWhoseForceLimitDecidesAndWhereItIsFrom) {
   EXPECT_GT(*lasting.lasting_force, 20.0);
 }
 
+/// How many samples of a column have a value.
+std::ptrdiff_t shown(const Report& report, const std::string& column) {
+  const std::vector<double>& values = report.columns.at(column);
+  return std::count_if(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+}
+
+/// Of a scenario that lists no locators, and so has all of them.
+TEST(ExperimentPage, ShowsWhatIsTouchedHowFarOffItIsPlacedAndTheParticles) {
+  const Report report = report_of(FLINCH_SOURCE_DIR "/apps/scenarios/second_link_collision.yaml");
+  EXPECT_GT(shown(report, "probability_leg1_link2"), 0);
+  EXPECT_GT(shown(report, "location_error"), 0);
+  EXPECT_GT(shown(report, "force_error"), 0);
+  for (int i = 1; i <= most_page_particles; ++i) {
+    const std::string particle = "particle_" + std::to_string(i);
+    EXPECT_GT(shown(report, particle + "_x"), 0) << particle;
+    EXPECT_EQ(shown(report, particle + "_x"), shown(report, particle + "_y")) << particle;
+  }
+}
+
+/// Above a limit that no wrench passes nothing is explained by a single contact.
+TEST(ExperimentPage, TellsOfWrenchesThatNoSingleContactExplains) {
+  SimulatedScenario scenario =
+      read_simulated_scenario(FLINCH_SOURCE_DIR "/apps/scenarios/second_link_collision.yaml");
+  const auto told = [&scenario](double largest_residual) {
+    scenario.control.isolation.model_classifier.largest_residual = largest_residual;
+    const Recording recording = run_experiment(scenario);
+    const Report report =
+        experiment_report(scenario, recording, judge(recording, scenario.robot.robot->space(), {}, {}));
+    const auto lane = std::find_if(report.lanes.begin(), report.lanes.end(),
+                                   [](const ReportLane& each) { return each.name == "taken for"; });
+    EXPECT_EQ(lane->states.back(), "several contacts");
+    const auto last = static_cast<int>(lane->states.size()) - 1;
+    const bool in_lane = std::find(lane->state.begin(), lane->state.end(), last) != lane->state.end();
+    EXPECT_EQ(in_lane, report.contacts.at(0).several_contacts);
+    return in_lane;
+  };
+  EXPECT_TRUE(told(1e-12));
+  EXPECT_FALSE(told(15.0));
+}
+
 TEST(ExperimentPage, WorksInChromium) {
   const test::TemporaryFolder folder;
   const std::filesystem::path page = folder / "page.html";
