@@ -104,6 +104,16 @@ ContactClassifier learned_classifier_stage(LearnedClassifierSettings settings) {
           }};
 }
 
+ContactClassifier papers_classifier_stage(PapersClassifierSettings settings) {
+  return {"papers_classifier",
+          [settings = std::move(settings)](const StageSite& site, const ContactPorts& given) {
+            auto& classifier = site.builder.add<PapersClassifier>(site.name, site.robot, settings);
+            site.builder.connect(given.contact, classifier.phase);
+            site.builder.connect(given.features, classifier.features);
+            return classifier.classification;
+          }};
+}
+
 std::vector<ContactLocatorStage> locator_stages() {
   return {{"closed_form", add_closed_form}, {"particle_filter", add_particle_filter}};
 }

@@ -4,6 +4,7 @@
 
 #include "diagrams/control_stages.h"
 #include "systems/contact/learned_classifier.h"
+#include "systems/contact/papers_classifier.h"
 
 namespace flinch {
 
@@ -12,6 +13,9 @@ std::vector<ContactClassifier> classifier_stages();
 
 /// The classifier "learned_classifier", which needs a network and so is none of those.
 ContactClassifier learned_classifier_stage(LearnedClassifierSettings settings);
+
+/// The classifier "papers_classifier", which needs three.
+ContactClassifier papers_classifier_stage(PapersClassifierSettings settings);
 
 /// Every locator of flinch, likewise.
 std::vector<ContactLocatorStage> locator_stages();

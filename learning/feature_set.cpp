@@ -93,13 +93,7 @@ bool FeatureSet::inputs(const DataSample& sample, NeuralNetwork::Values& columns
   estimate.wrench_in_base = wrench;
   estimate.drive_torque = drive_torques(now, wrench);
   const ContactFeatures features = contact_features(*robot_, now, estimate, FeatureSettings());
-  const FeatureVector all = feature_vector(features);
-  const std::vector<FeatureName> every = feature_names(*robot_);
-  columns.resize(static_cast<Eigen::Index>(names_.size()), 1);
-  Eigen::Index row = 0;
-  for (std::size_t i = 0; i < every.size(); ++i) {
-    if (is_told(question_, every[i].name)) columns(row++, 0) = all[static_cast<Eigen::Index>(i)];
-  }
+  columns = question_ == Question::body ? feature_vector(features) : clamping_vector(features);
   return features.valid;
 }
 

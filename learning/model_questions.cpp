@@ -57,14 +57,18 @@ void check_features(const ClassifierModel& model) {
   throw_if_any(found.take());
 }
 
-FeatureSet features_for(const ClassifierModel& model, const DataSet& data) {
+Question question_of(const ClassifierModel& model) {
   const std::string question = value_of(model, "question");
   if (question.empty()) {
     throw SetupError(
         "the metadata of the model do not say which question it answers; 'flinch.question' must be touched, "
         "body, clamping or chain");
   }
-  const Question asked = question_named(question);
+  return question_named(question);
+}
+
+FeatureSet features_for(const ClassifierModel& model, const DataSet& data) {
+  const Question asked = question_of(model);
   const std::string fitted = value_of(model, "robot.fingerprint");
   if (!fitted.empty() && fitted != fingerprint(data.robot_text, data.robot_file)) {
     throw SetupError(fmt::format(

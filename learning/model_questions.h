@@ -9,6 +9,9 @@ namespace flinch {
 /// with other features than this version's.
 void check_features(const ClassifierModel& model);
 
+/// What the metadata of a model say that it answers. Throws SetupError where they do not.
+Question question_of(const ClassifierModel& model);
+
 /// How the questions of a model are asked about a data set. Throws SetupError where they cannot be: about
 /// another robot or by features of another version, which is all that is told then; or else with all features
 /// and classes that are others.

@@ -113,8 +113,11 @@ void add_run_verb(CLI::App& app, Verbs& verbs) {
           "With --station recorded: the scenario whose control path shall run [that of the recording]")
       ->type_name("SCENARIO.yaml");
   run_verb
-      .add_option("--classifier", verbs.run.classifier,
-                  "Model (ONNX) of flinch train that tells what is touched [as the scenario says]")
+      .add_option(
+          "--classifier", verbs.run.classifier,
+          "Model (ONNX) of flinch train that tells what is touched; of the papers' questions all three, "
+          "each with an option of its own [as the scenario says]")
+      ->allow_extra_args(false)
       ->type_name("MODEL.onnx");
   run_verb.add_option("--out", verbs.run.out, "Folder for run.h5 and report.html [out/NAME]")
       ->type_name("DIR");
@@ -187,8 +190,11 @@ void add_campaign_verb(CLI::App& app, Verbs& verbs) {
   verb.add_option("--run", options.run, "Do only this run of the table again, with recording and report")
       ->check(between(0, std::numeric_limits<int>::max()))
       ->type_name("NUMBER");
-  verb.add_option("--classifier", options.classifier,
-                  "Model (ONNX) of flinch train that tells what is touched [as the scenarios say]")
+  verb.add_option(
+          "--classifier", options.classifier,
+          "Model (ONNX) of flinch train that tells what is touched; of the papers' questions all three, "
+          "each with an option of its own [as the scenarios say]")
+      ->allow_extra_args(false)
       ->type_name("MODEL.onnx");
   verb.add_option("--false-alarms", options.false_alarms,
                   "Results of another campaign with the same grid whose false alarms the report shows")

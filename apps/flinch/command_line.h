@@ -34,7 +34,7 @@ struct RunOptions {
   std::filesystem::path out;    ///< empty: out/NAME
   std::optional<std::uint64_t> seed;
   StationKind station = StationKind::simulated;
-  std::filesystem::path classifier;  ///< a model to follow; empty: as the scenario says
+  std::vector<std::filesystem::path> classifier;  ///< models to follow; none: as the scenario says
   std::filesystem::path control;  ///< a scenario whose control path replaces the recorded one's; empty: none
   std::vector<std::string> faults;  ///< on request, SIGNAL:KIND@TIME[:SIZE]
 
@@ -53,10 +53,10 @@ struct CampaignOptions {
   std::optional<std::size_t> runs;  ///< at each point of the grid
   std::optional<std::uint64_t> seed;
   std::optional<std::size_t> threads;
-  std::optional<std::size_t> run;      ///< only this one, with recording and page
-  std::filesystem::path classifier;    ///< a model to follow; empty: as the scenarios say
-  std::filesystem::path false_alarms;  ///< results.csv of a campaign that counts them; empty: none
-  bool fresh = false;                  ///< whatever the folder holds
+  std::optional<std::size_t> run;                 ///< only this one, with recording and page
+  std::vector<std::filesystem::path> classifier;  ///< models to follow; none: as the scenarios say
+  std::filesystem::path false_alarms;             ///< results.csv of a campaign that counts them; empty: none
+  bool fresh = false;                             ///< whatever the folder holds
 };
 
 struct CalibrateThresholdsOptions {

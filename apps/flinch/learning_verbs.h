@@ -61,8 +61,9 @@ void check_classifier(const std::filesystem::path& model);
 void check_data_set(const std::filesystem::path& data);
 void check_data_spec(const std::filesystem::path& spec);
 
-/// What lets the control path of scenarios follow the classifier of a model. Throws SetupError where that
-/// cannot be read; the function, which threads may share, where it is not for the robot of the scenario.
-std::function<void(Scenario&)> classifier_of(const std::filesystem::path& model);
+/// What lets the control path of scenarios follow the classifier of `models`: one of the question `touched`,
+/// or the three of the papers in any order. Throws SetupError where one cannot be read or they do not make
+/// one classifier; the function, which threads may share, where they are not for the robot of the scenario.
+std::function<void(Scenario&)> classifier_of(const std::vector<std::filesystem::path>& models);
 
 }  // namespace flinch

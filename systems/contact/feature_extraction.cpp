@@ -54,6 +54,12 @@ FeatureVector feature_vector(const ContactFeatures& features) noexcept {
   return vector;
 }
 
+FeatureVector clamping_vector(const ContactFeatures& features) noexcept {
+  FeatureVector vector(features.wrench_in_base.size() + features.distance.size());
+  vector << features.wrench_in_base, features.distance;
+  return vector;
+}
+
 std::vector<FeatureName> feature_names(const ParallelRobot& robot) {
   const std::array<std::string, 3> axes = {"x", "y", "z"};
   const auto translations = static_cast<std::size_t>(robot.space().translations());

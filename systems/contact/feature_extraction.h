@@ -26,6 +26,9 @@ ContactFeatures contact_features(const ParallelRobot& robot, const Kinematics& k
 using FeatureVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4 * max_dof, 1>;
 FeatureVector feature_vector(const ContactFeatures& features) noexcept;
 
+/// Those that tell whether and which leg is clamped: wrench, distances. [SafePR] III-E, V-F1
+FeatureVector clamping_vector(const ContactFeatures& features) noexcept;
+
 struct FeatureName {
   std::string name;  ///< "force_x", "moment_z", "drive_torque_1", "distance_1", "angle_1"
   std::string unit;  ///< SI

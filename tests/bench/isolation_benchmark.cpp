@@ -10,6 +10,7 @@
 #include "systems/contact/feature_extraction.h"
 #include "systems/contact/link_particles.h"
 #include "systems/contact/neural_network.h"
+#include "systems/contact/papers_classifier.h"
 #include "systems/contact/touch_hypotheses.h"
 #include "systems/contact/wrench_uncertainty.h"
 #include "systems/framework/random.h"
@@ -81,17 +82,17 @@ NeuralNetwork network(int inputs, const std::vector<int>& widths, NetworkResult 
 /// [SafePR] III: the features, then clamping or not, which leg, which body.
 void PapersFeaturesAndNetworks(benchmark::State& state) {
   const Touch touch;
-  const NeuralNetwork body = network(12, {30, 30, 30, 30, 7}, NetworkResult::softmax_of_outputs);
-  const NeuralNetwork clamping = network(6, {30, 30, 30, 30, 30, 2}, NetworkResult::softmax_of_outputs);
-  const NeuralNetwork chain = network(6, {25, 25, 25, 25, 25, 3}, NetworkResult::softmax_of_outputs);
-  NeuralNetwork::Values inputs, few, outputs;
+  const auto papers = [](int inputs, const std::vector<int>& widths) {
+    return std::make_shared<NeuralNetwork>(network(inputs, widths, NetworkResult::softmax_of_outputs));
+  };
+  const PapersClassifier classifier(touch.robot, {.clamping = papers(6, {30, 30, 30, 30, 30, 2}),
+                                                  .chain = papers(6, {25, 25, 25, 25, 25, 3}),
+                                                  .body = papers(12, {30, 30, 30, 30, 7})});
+  ClassVector probability;
   compare(state, touch, [&] {
-    inputs = feature_vector(contact_features(*touch.robot, touch.k, touch.estimate, FeatureSettings()));
-    few.resize(6, 1);
-    few << inputs.topRows(3), inputs.middleRows(6, 3);
-    benchmark::DoNotOptimize(clamping.evaluate(few, outputs));
-    benchmark::DoNotOptimize(chain.evaluate(few, outputs));
-    benchmark::DoNotOptimize(body.evaluate(inputs, outputs));
+    const ContactFeatures features =
+        contact_features(*touch.robot, touch.k, touch.estimate, FeatureSettings());
+    benchmark::DoNotOptimize(classifier.ask(features, probability));
   });
 }
 BENCHMARK(PapersFeaturesAndNetworks);

@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <memory>
+
 #include "systems/foundation/setup_error.h"
 #include "tests/diagrams/contact_bench.h"
 #include "tests/support/allocations.h"
@@ -63,6 +66,36 @@ TEST(IsolationStages, RunSideBySideAndNeverAllocate) {
   const auto& tree = bench.context.get(bench.control.others.classifications[0].port);
   ASSERT_TRUE(tree.valid);
   EXPECT_EQ(ContactClasses(7, 3).leg(tree.most_likely), 0);
+}
+
+/// A network that says the same of everything: scores for its answers.
+std::shared_ptr<const NeuralNetwork> always(int inputs, const Eigen::VectorXd& scores) {
+  NetworkParameters parameters;
+  parameters.layers.push_back({Eigen::MatrixXd::Zero(scores.size(), inputs), scores, Activation::none});
+  parameters.result = NetworkResult::softmax_of_outputs;
+  return std::make_shared<NeuralNetwork>(parameters);
+}
+
+TEST(IsolationStages, FollowTheThreeNetworksOfThePapers) {
+  Experiment experiment = all_stages();
+  experiment.control.stages.classifiers.follow(papers_classifier_stage(
+      {.clamping = always(6, Eigen::Vector2d(std::log(19.0), 0.0)),
+       .chain = always(6, Eigen::Vector3d::Zero()),
+       .body = always(12, std::log(114.0) * Eigen::VectorXd::Unit(7, 4))}));  // 0.95 of the fifth
+  Bench bench(experiment);
+  bench.run(500ms);
+  EXPECT_FALSE(said(bench).valid);
+  bench.push(PlatformVector{{-45.0, 0.0, 2.0}});
+  bench.tick();
+  const test::AllocationCounter allocations;
+  bench.run(60ms);
+  EXPECT_EQ(allocations.count(), 0);
+  const ContactClassification classified = said(bench);
+  ASSERT_TRUE(classified.valid && classified.accepted);
+  EXPECT_EQ(classified.most_likely, 4);
+  EXPECT_NEAR(classified.confidence(), 0.95 * 0.95, 1e-9);
+  EXPECT_NEAR(classified.probability[8], 0.05 / 3.0, 1e-9);
+  EXPECT_EQ(bench.context.get(bench.control.location).body, 4);
 }
 
 TEST(IsolationStages, AreKnownByTheirNames) {

@@ -17,6 +17,8 @@ ExitStatus train(const TrainOptions&) { refuse("flinch train"); }
 ExitStatus evaluate(const EvaluateOptions&) { refuse("flinch evaluate"); }
 void check_classifier(const std::filesystem::path& model) { refuse(model.string()); }
 void check_data_set(const std::filesystem::path& data) { refuse(data.string()); }
-std::function<void(Scenario&)> classifier_of(const std::filesystem::path&) { refuse("--classifier"); }
+std::function<void(Scenario&)> classifier_of(const std::vector<std::filesystem::path>&) {
+  refuse("--classifier");
+}
 
 }  // namespace flinch

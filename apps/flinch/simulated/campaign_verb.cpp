@@ -96,7 +96,9 @@ ExitStatus campaign(const CampaignOptions& options) {
       read_campaign(options.file, {.set = options.set, .draws = options.runs, .seed = options.seed});
   if (!options.classifier.empty()) {
     const auto follow = classifier_of(options.classifier);
-    campaign.addition = {"classifier " + sha256_of(options.classifier), follow};
+    std::string name = "classifier";
+    for (const auto& model : options.classifier) name += " " + sha256_of(model);
+    campaign.addition = {name, follow};
   }
   if (options.run) return repeat_run(options, campaign);
   const std::unique_ptr<CampaignHelpers> helpers = helpers_of(campaign);

@@ -8,6 +8,9 @@
 #include <sstream>
 
 #include "learning/onnx_file.h"
+#include "systems/framework/recorded_values.h"
+#include "systems/framework/recording.h"
+#include "systems/signals/contact_classes.h"
 #include "tests/apps/flinch/documented_keys.h"
 #include "tests/apps/flinch/program.h"
 #include "tests/support/workplace.h"
@@ -170,6 +173,49 @@ TEST_F(LearningVerbs, MakeAModelThatEveryRunOfACampaignCanFollow) {
   const Outcome wrong = campaign("wrong", {"--classifier", place.at("campaigns/one.yaml")});
   EXPECT_EQ(wrong.status, 2);
   EXPECT_THAT(wrong.err, HasSubstr("this is no ONNX file"));
+}
+
+TEST_F(LearningVerbs, MakeThePapersThreeModelsThatARunCanFollow) {
+  std::vector<std::string> three;
+  const auto follow = [&](const std::string& scenario, const std::vector<std::string>& models) {
+    std::vector<std::string> words = {"run", place.at("scenarios/" + scenario), "--out", place.at("run"),
+                                      "--json"};
+    for (const std::string& each : models) words.insert(words.end(), {"--classifier", each});
+    return flinch(words);
+  };
+  for (const std::string question : {"clamping", "chain", "body"}) {
+    three.push_back(place.at(question + ".onnx"));
+    const Outcome made_it = flinch({"train", data(), "-o", three.back(), "--question", question, "--hidden",
+                                    "10,10", "--epochs", "10", "--folds", "3", "--threads", "2", "--quiet"});
+    ASSERT_EQ(made_it.status, 0) << made_it.err;
+  }
+  const Outcome outcome = follow("platform_collision.yaml", three);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Recording recording = read_recording(place.at("run/run.h5"));
+  EXPECT_NE(recording.find("classification_model_classifier"), nullptr) << "no longer the followed one";
+  const RecordedValues<ContactClassification> said(recording, "classification");
+  std::size_t told = 0;
+  for (std::size_t k = 0; k < recording.samples(); ++k) {
+    const ContactClassification now = said[k];
+    if (!now.valid) continue;
+    ++told;
+    ASSERT_EQ(now.probability.size(), 10);
+    EXPECT_NEAR(now.probability.sum(), 1.0, 1e-9);
+    EXPECT_GT(now.confidence(), 0.1) << "the largest of ten";
+  }
+  EXPECT_GT(told, 10U);
+  const Outcome missing = follow("platform_collision.yaml", {three[0], three[2]});
+  EXPECT_EQ(missing.status, 2);
+  EXPECT_THAT(missing.err, HasSubstr("the question 'chain' has no model"));
+  const Outcome twice = follow("platform_collision.yaml", {three[0], three[1], three[2], three[1]});
+  EXPECT_EQ(twice.status, 2);
+  EXPECT_THAT(twice.err, HasSubstr("both answer the question 'chain'"));
+  const Outcome mixed = follow("platform_collision.yaml", {model(), three[0]});
+  EXPECT_EQ(mixed.status, 2);
+  EXPECT_THAT(mixed.err, HasSubstr("a model of the question 'touched' needs no other beside it"));
+  const Outcome other = follow("five_bar_collision.yaml", three);
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.err, HasSubstr("body.onnx: the model was trained for the robot"));
 }
 
 TEST_F(LearningVerbs, SayOnceWhatIsWrongWithAFile) {
