@@ -49,7 +49,7 @@ class Contacts {
   Contacts(const std::vector<std::string>& bodies, std::size_t draws, std::uint64_t seed)
       : campaign_(read_campaign("apps/campaigns/touched_bodies.yaml",
                                 {.set = {"plant.realism=bench"}, .draws = draws, .seed = seed})),
-        follow_learned_(classifier_of("apps/models/bodies.onnx")) {
+        follow_learned_(classifier_of({"apps/models/bodies.onnx"})) {
     campaign_.contact->bodies = bodies;
   }
 
