@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "systems/contact/feature_extraction.h"
+#include "systems/contact/wrench_uncertainty.h"
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
 
@@ -27,13 +28,14 @@ void check(const std::shared_ptr<const NeuralNetwork>& network, const std::strin
 
 PapersClassifier::PapersClassifier(const std::shared_ptr<const ParallelRobot>& robot,
                                    PapersClassifierSettings settings)
-    : classes_(robot->body_count(), robot->legs()), settings_(std::move(settings)) {
+    : space_(robot->space()), classes_(robot->body_count(), robot->legs()), settings_(std::move(settings)) {
   Findings found("papers classifier: ");
   const int few = robot->dof() + robot->legs();
   check(settings_.clamping, "clamping", few, 2, found);
   check(settings_.chain, "chain", few, classes_.legs(), found);
   check(settings_.body, "body", few + robot->drives() + robot->legs(), classes_.bodies(), found);
   found.require(settings_.accept >= 0.0 && settings_.accept <= 1.0, "accept must be between 0 and 1");
+  found.not_negative("least_wrench", settings_.least_wrench);
   throw_if_any(found.take());
 }
 
@@ -55,6 +57,10 @@ void PapersClassifier::classify(Time now, const ContactPhase& contact, const Con
                                 const ContactClassification& last, ContactClassification& result) const {
   result = contact.active && !contact.begins(now) ? last : ContactClassification();
   if (!contact.active || result.valid || !ask(seen, result.probability)) return;
+  if (WrenchUncertainty().size(space_, seen.wrench_in_base) < settings_.least_wrench) {
+    result.probability.resize(0);
+    return;
+  }
   result.acquired = seen.acquired;
   result.valid = true;
   Eigen::Index most_likely = 0;

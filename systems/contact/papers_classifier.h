@@ -17,10 +17,13 @@ struct PapersClassifierSettings {
   std::shared_ptr<const NeuralNetwork> chain;     ///< of `clamping_vector`: which leg is clamped; III-E2
   std::shared_ptr<const NeuralNetwork> body;      ///< of `feature_vector`: which body is touched; III-C
   double accept = 0.9;                            ///< least probability to act upon
+  /// Least size of the wrench to be asked about (WrenchUncertainty::size): that of which they have learned.
+  double least_wrench = 0.0;
 };
 
 /// Classifies the contact as the papers do: whether a leg is clamped; then which leg, or with which body the
-/// robot collides. The first features after the detection decide; the answer stands until the contact ends.
+/// robot collides. The first features after the detection decide whose wrench is large enough; the answer
+/// stands until the contact ends.
 class PapersClassifier final : public System {
   State<ContactClassification> last_ = state<ContactClassification>("last");
 
@@ -44,6 +47,7 @@ class PapersClassifier final : public System {
   void classify(Time now, const ContactPhase& contact, const ContactFeatures& seen,
                 const ContactClassification& last, ContactClassification& result) const;
 
+  ConfigurationSpace space_;
   ContactClasses classes_;
   PapersClassifierSettings settings_;
 };

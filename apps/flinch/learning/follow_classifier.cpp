@@ -76,14 +76,19 @@ ContactClassifier learned_stage(const ReadModel& read, const ModelClassifierSett
                                    .largest_residual = of_scenario.largest_residual});
 }
 
-/// What is accepted then is accepted by each network alone, for a product is at most as large as its factors.
+/// What is accepted then is accepted by each network alone, for a product is at most as large as its factors,
+/// and asked about only what all of them have learned of.
 ContactClassifier papers_stage(const ReadModels& models) {
-  double accept = 0.0;
-  for (const auto& [question, read] : models) accept = std::max(accept, read.model.accepted_from);
+  double accept = 0.0, least_wrench = 0.0;
+  for (const auto& [question, read] : models) {
+    accept = std::max(accept, read.model.accepted_from);
+    least_wrench = std::max(least_wrench, read.model.least_wrench);
+  }
   return papers_classifier_stage({.clamping = models.at(Question::clamping).network,
                                   .chain = models.at(Question::chain).network,
                                   .body = models.at(Question::body).network,
-                                  .accept = accept});
+                                  .accept = accept,
+                                  .least_wrench = least_wrench});
 }
 
 }  // namespace

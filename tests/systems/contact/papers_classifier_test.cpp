@@ -115,6 +115,17 @@ TEST(PapersClassifier, StandsByItsFirstAnswerUntilTheContactEnds) {
   EXPECT_NE(classifier.see(classifier.of(other_push)).probability, first.probability);
 }
 
+TEST(PapersClassifier, WaitsForAWrenchAsLargeAsThoseOfWhichItHasLearned) {
+  PapersClassifierSettings settings = networks();
+  settings.least_wrench = std::hypot(push.head(2).norm() / 2.0, push[2] / 0.2);
+  Classifier classifier(settings);
+  const ContactClassification small = classifier.see(classifier.of(0.99 * push));
+  EXPECT_FALSE(small.valid);
+  EXPECT_EQ(small.probability.size(), 0);
+  EXPECT_TRUE(classifier.see(classifier.of(1.01 * push)).valid);
+  EXPECT_TRUE(classifier.see(classifier.of(0.99 * push)).valid) << "what it has said stands";
+}
+
 TEST(PapersClassifier, SaysNothingOfFeaturesThatCannotBeUsed) {
   Classifier classifier;
   ContactFeatures broken = classifier.of(push), short_of_a_leg = classifier.of(push);
