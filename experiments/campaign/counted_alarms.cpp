@@ -72,9 +72,10 @@ AlarmColumns columns_of(const Campaign& campaign, const std::vector<std::string>
 }
 
 double seconds_in(const std::string& cell) {
-  double seconds = std::numeric_limits<double>::quiet_NaN();
-  std::from_chars(cell.data(), cell.data() + cell.size(), seconds);
-  return seconds;
+  double seconds = 0.0;
+  const char* const end = cell.data() + cell.size();
+  const auto [rest, error] = std::from_chars(cell.data(), end, seconds);
+  return error == std::errc{} && rest == end ? seconds : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace
@@ -113,8 +114,10 @@ bool CountedAlarms::add(const Campaign& campaign, const AlarmColumns& columns,
     if (cells[estimator.contact_free].empty()) continue;  // it did not run in that scenario
     const double seconds = seconds_in(cells[estimator.contact_free]);
     if (!std::isfinite(seconds) || seconds < 0.0) return false;
+    const std::string& alarm = cells[estimator.false_alarm];
+    if (alarm != "0" && alarm != "1") return false;
     Alarms& here = alarms_[{grid, estimator.name}];
-    here.count += cells[estimator.false_alarm] == "1" ? 1U : 0U;
+    here.count += alarm == "1" ? 1U : 0U;
     here.hours += seconds / seconds_an_hour;
   }
   return true;

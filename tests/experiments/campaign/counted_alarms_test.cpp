@@ -76,7 +76,8 @@ TEST_F(FalseAlarmsOfAnotherCampaign, AreRefusedFromWhatIsNoTable) {
   EXPECT_THAT(test::problems_of([&] { CountedAlarms(campaign, place / "text.csv"); }),
               ::testing::Contains(HasSubstr("no results.csv of flinch campaign")));
   const std::string header = gains + ",filter.false_alarm,filter.contact_free_s\n";
-  for (const std::string row : {"a,0", "a,0,nan", "a,0,inf", "a,0,-1", "a,0,text", "a,0,1\"", "a,0,1,2"}) {
+  for (const std::string row :
+       {"a,0", "a,0,nan", "a,0,inf", "a,0,-1", "a,0,text", "a,0,1\"", "a,0,1,2", "a,2,1", "a,,1", "a,0,1x"}) {
     place.write("bad.csv", header + row + "\n");
     EXPECT_THAT(test::problems_of([&] { CountedAlarms(campaign, place / "bad.csv"); }),
                 ElementsAre(HasSubstr("bad.csv:2: is no row")))
