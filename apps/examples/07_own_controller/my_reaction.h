@@ -22,9 +22,10 @@ class MyReaction final : public flinch::System {
  private:
   flinch::TorqueCommand give_way(flinch::Time now, const flinch::WrenchEstimate& touch,
                                  const flinch::JointMotion& motion) const {
+    if (!motion.valid) return {.computed = now, .valid = false, .torque = {}};
     flinch::JointVector asked = -d_ * motion.velocity;
     if (touch.valid) asked += a_ * touch.drive_torque;
-    return {.computed = now, .valid = motion.valid, .torque = asked};
+    return {.computed = now, .valid = true, .torque = asked};
   }
   /// It leads nowhere, so it never ends by itself.
   flinch::PlatformReference stay(const flinch::Kinematics& at) const {
