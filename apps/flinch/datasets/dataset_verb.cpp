@@ -3,6 +3,7 @@
 
 #include <csignal>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "apps/flinch/conclusion.h"
 #include "apps/flinch/learning_verbs.h"
@@ -36,8 +37,11 @@ ExitStatus dataset(const DatasetOptions& options) {
   std::signal(SIGINT, [](int) { interrupted = 1; });
   {
     Progress progress("data set " + spec.file.stem().string(), options.common.quiet || options.common.json);
+    std::optional<double> before;  // done by an earlier call
     data = make_data_set(spec, file, options.threads.value_or(0), [&](std::size_t done) {
-      progress.show(static_cast<double>(done) / static_cast<double>(spec.runs));
+      const double share = static_cast<double>(done) / static_cast<double>(spec.runs);
+      if (!before) before = share;
+      progress.show(share, *before);
       return interrupted == 0;
     });
   }

@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <memory>
 #include <optional>
+#include <set>
+#include <string>
 
 #include "apps/flinch/command_line.h"
 #include "apps/flinch/conclusion.h"
@@ -96,8 +98,10 @@ ExitStatus campaign(const CampaignOptions& options) {
       read_campaign(options.file, {.set = options.set, .draws = options.runs, .seed = options.seed});
   if (!options.classifier.empty()) {
     const auto follow = classifier_of(options.classifier);
+    std::set<std::string> models;  // in whatever order they are given
+    for (const auto& model : options.classifier) models.insert(sha256_of(model));
     std::string name = "classifier";
-    for (const auto& model : options.classifier) name += " " + sha256_of(model);
+    for (const std::string& model : models) name += " " + model;
     campaign.addition = {name, follow};
   }
   if (options.run) return repeat_run(options, campaign);
