@@ -18,15 +18,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The smallest time within which at least this share of all contacts was noticed; none where more were
-/// missed.
-std::optional<double> quantile(std::vector<double> times, std::size_t contacts, double share) {
-  const auto place = static_cast<std::size_t>(std::ceil(share * static_cast<double>(contacts)));
-  if (place == 0 || place > times.size()) return std::nullopt;
-  std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(place - 1), times.end());
-  return times[place - 1];
-}
-
 /// The scenario and the axes of the grid, without what was drawn.
 std::vector<std::pair<std::string, std::string>> axes_of(const Campaign& campaign, const RunResult& result) {
   const std::size_t count = campaign.grid.size() + (campaign.scenarios.size() > 1 ? 1U : 0U);
@@ -47,6 +38,13 @@ std::string line_of(const std::vector<std::pair<std::string, std::string>>& plac
 }
 
 }  // namespace
+
+std::optional<double> quantile(std::vector<double> values, std::size_t count, double share) {
+  const auto place = static_cast<std::size_t>(std::ceil(share * static_cast<double>(count)));
+  if (place == 0 || place > values.size()) return std::nullopt;
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(place - 1), values.end());
+  return values[place - 1];
+}
 
 void CollectedGroup::add(const RunResult& result, const EstimatorResult& estimator, double missed_after) {
   ++group_.n;

@@ -42,6 +42,9 @@ struct CampaignGroup {
   double longest_over_limit = 0.0;             ///< above the limit of the force, in one run [s]
 };
 
+/// The smallest value within which at least this share of `count` lies; none where fewer are known.
+std::optional<double> quantile(std::vector<double> values, std::size_t count, double share);
+
 /// Adds runs up to a group.
 class CollectedGroup {
  public:

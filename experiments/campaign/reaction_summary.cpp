@@ -16,14 +16,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The smallest value within which at least this share of `count` lies; none where fewer are known.
-std::optional<double> quantile(std::vector<double> values, std::size_t count, double share) {
-  const auto place = static_cast<std::size_t>(std::ceil(share * static_cast<double>(count)));
-  if (place == 0 || place > values.size()) return std::nullopt;
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(place - 1), values.end());
-  return values[place - 1];
-}
-
 struct Collected {
   ReactionGroup group;
   CollectedGroup noticed;

@@ -13,6 +13,7 @@
 #include "learning/model_questions.h"
 #include "learning/onnx_file.h"
 #include "tests/campaign/classification/documented_figures.h"
+#include "tests/campaign/classification/named_moments.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/wanted.h"
 
@@ -20,13 +21,6 @@ namespace flinch {
 namespace {
 
 constexpr int all_runs = 4000;
-
-struct NamedMoment {
-  const char* name;
-  int which;
-};
-constexpr std::array moments{NamedMoment{"early", Moment::early}, NamedMoment{"detected", Moment::detected},
-                             NamedMoment{"later", Moment::later}};
 
 /// The columns of the table, in its order; shares in percent.
 struct Row {
@@ -111,7 +105,7 @@ TEST(ShippedModel, TellsContactsAsWellAsIsStated) {
   const test::TemporaryFolder folder;
   const DataSet data = make_data_set(spec, folder / "data.h5");
   const ClassifierModel model = read_onnx(FLINCH_SOURCE_DIR "/apps/models/bodies.onnx");
-  for (const NamedMoment& moment : moments) {
+  for (const NamedMoment& moment : named_moments) {
     const auto stated = documented(moment.name);
     ASSERT_TRUE(stated) << "docs/theory.md has no such row: " << moment.name;
     const Seen seen(model, data, moment);

@@ -25,6 +25,7 @@
 #include "plant/plant_truth.h"
 #include "systems/framework/recorded_values.h"
 #include "systems/signals/contact_detection.h"
+#include "tests/campaign/classification/named_moments.h"
 #include "tests/support/wanted.h"
 
 namespace flinch {
@@ -145,23 +146,16 @@ std::vector<double> beyond_one_contact(const std::vector<Contact>& contacts) {
   return all;
 }
 
-struct Moments {
-  const char* name;
-  int which;
-};
-constexpr std::array moments{Moments{"early", Moment::early}, Moments{"detected", Moment::detected},
-                             Moments{"later", Moment::later}};
-
 /// Clampings of a sort, and how many of them were told as such, at each moment.
 struct Told {
-  std::array<int, moments.size()> all{}, right{};
+  std::array<int, named_moments.size()> all{}, right{};
 
   double share(std::size_t moment) const {
     return all[moment] > 0 ? static_cast<double>(right[moment]) / all[moment] : 1.0;
   }
   void print(const std::string& sort) const {
     std::printf("| %-45s |", sort.c_str());
-    for (std::size_t i = 0; i < moments.size(); ++i)
+    for (std::size_t i = 0; i < named_moments.size(); ++i)
       std::printf(" %5.1f %% of %4d |", 100.0 * share(i), all[i]);
     std::printf("\n");
   }
@@ -174,8 +168,8 @@ std::vector<Told> count(const std::vector<Contact>& contacts, const std::vector<
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const auto place = std::upper_bound(limits.begin(), limits.end(), by[i]) - limits.begin();
     Told& sort = sorts[static_cast<std::size_t>(place)];
-    for (std::size_t k = 0; k < moments.size(); ++k) {
-      if ((contacts[i].estimated.moment & moments[k].which) == 0) continue;
+    for (std::size_t k = 0; k < named_moments.size(); ++k) {
+      if ((contacts[i].estimated.moment & named_moments[k].which) == 0) continue;
       ++sort.all[k];
       sort.right[k] += told[i] ? 1 : 0;
     }
@@ -220,14 +214,14 @@ TEST(TellableClampings, AreThoseWhoseLinksHaveBothBeenTouchedForAWhile) {
   print("one contact would make the true wrench to within", {"0.5 N", "2 N", "more"},
         count(clampings, told, beyond_one_contact(clampings), {0.5, 2.0}));
   const bool is_whole = runs >= all_asked;
-  for (std::size_t moment = 0; moment < moments.size(); ++moment) {
-    EXPECT_GT(by_time.back().share(moment), is_whole ? 0.94 : 0.85) << moments[moment].name;
-    EXPECT_GT(by_share.back().share(moment), is_whole ? 0.94 : 0.85) << moments[moment].name;
+  for (std::size_t moment = 0; moment < named_moments.size(); ++moment) {
+    EXPECT_GT(by_time.back().share(moment), is_whole ? 0.94 : 0.85) << named_moments[moment].name;
+    EXPECT_GT(by_share.back().share(moment), is_whole ? 0.94 : 0.85) << named_moments[moment].name;
   }
   if (is_whole) {
     constexpr std::array asked{0.93, 0.96, 0.97};
-    for (std::size_t moment = 0; moment < moments.size(); ++moment)
-      EXPECT_GT(by_apart.front().share(moment), asked[moment]) << moments[moment].name;
+    for (std::size_t moment = 0; moment < named_moments.size(); ++moment)
+      EXPECT_GT(by_apart.front().share(moment), asked[moment]) << named_moments[moment].name;
     EXPECT_LT(by_time.front().share(2), 0.6) << "these can be told now: theory.md says otherwise";
   }
 }
@@ -242,7 +236,7 @@ Evaluation learned(const std::string& what, const DataSet& taught, const DataSet
   const Questions lessons = questions_of(taught, features, {}, false);
   const NeuralNetwork network(train_network(lessons.set, features.outputs(), settings));
   Evaluation seen;
-  for (const Moments& moment : moments) {
+  for (const NamedMoment& moment : named_moments) {
     const Questions questions = questions_of(asked, features, {moment.which, {}}, false);
     seen = evaluate(answers_of(network, questions, asked), features, 0.0, moment.name);
     std::printf("| %-10s | %-8s | %5.1f %% | %5.1f %% | %5.1f %% | %5.2f %% |\n", what.c_str(), moment.name,

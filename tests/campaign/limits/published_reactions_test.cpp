@@ -2,18 +2,16 @@
 // end.
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cstdio>
 #include <filesystem>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "experiments/campaign/campaign.h"
-#include "experiments/campaign/campaign_run.h"
 #include "experiments/campaign/reaction_summary.h"
 #include "experiments/campaign/run_campaign.h"
 #include "experiments/campaign/run_result.h"
+#include "tests/support/temporary_folder.h"
 
 namespace flinch {
 namespace {
@@ -23,17 +21,9 @@ constexpr double slowest = 0.1;                                    // [m/s]
 
 std::vector<RunResult> results_of(const char* name) {
   const Campaign campaign = read_campaign(std::filesystem::path(FLINCH_SOURCE_DIR) / "apps/campaigns" / name);
-  std::vector<RunResult> results(campaign.runs());
-  std::atomic<std::size_t> next = 0;
-  std::vector<std::jthread> workers;
-  for (int i = 0; i < 2; ++i) {
-    workers.emplace_back([&] {
-      for (std::size_t run = next++; run < results.size(); run = next++)
-        results[run] = simulate_run(draw_run(campaign, run));
-    });
-  }
-  workers.clear();
-  return results;
+  const test::TemporaryFolder folder;
+  const CampaignResults results = run_campaign(campaign, folder.path(), 2);
+  return {results.begin(), results.end()};
 }
 
 std::string name_of(const RunResult& run) {
