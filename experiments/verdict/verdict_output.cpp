@@ -102,7 +102,7 @@ Json limits_json(const ForceLimits& limits) {
           {"transient_duration_ms", 1e3 * limits.transient_duration}};
 }
 
-/// Where several obstacles touched the robot: which this is.
+/// Where there were several contacts: with which obstacle this is one.
 std::string obstacle_line(const ContactVerdict& contact, const Verdict& verdict) {
   if (verdict.contacts.size() < 2 || contact.obstacle_name.empty()) return "";
   return "  by " + contact.obstacle_name + "\n";
