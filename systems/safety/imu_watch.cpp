@@ -141,15 +141,38 @@ MotionThen motion_at(const Motions& motions, int age, Time time, const Configura
   return then;
 }
 
-/// The step in the tick that begins at `time`, which is one at least before the latest.
-Padded<max_dof> step_from(const Motions& motions, Time time) {
+/// Where in the motions a time lies: `age` is that of the last before it, from which it is `share` of a tick.
+struct TickPlace {
   std::size_t age = 1;
-  while (age + 1 < motions.held() && motions.back(age).time > time) ++age;
-  const TickMotion& before = motions.back(age);
-  const Padded<max_dof>& step = motions.back(age - 1).step;
-  if (before.time >= time || age < 2) return step;
-  const double share = to_seconds(time - before.time) / T;
-  return step + share * (motions.back(age - 2).step - step);
+  double share = 0.0;
+};
+TickPlace place_of(const Motions& motions, Time time) {
+  TickPlace place;
+  while (place.age + 1 < motions.held() && motions.back(place.age).time > time) ++place.age;
+  const Time before = motions.back(place.age).time;
+  if (before < time && place.age >= 2) place.share = to_seconds(time - before) / T;
+  return place;
+}
+
+/// The step in the tick that begins at a place, which is one at least before the latest.
+Padded<max_dof> step_from(const Motions& motions, const TickPlace& place) {
+  const Padded<max_dof>& step = motions.back(place.age - 1).step;
+  if (place.share == 0.0) return step;
+  return step + place.share * (motions.back(place.age - 2).step - step);
+}
+
+/// By how much the step from `later` is larger than that from `earlier`, beyond what the drives make of it:
+/// in the tick before a motion they give its acceleration, so the steps around one differ by the mean of two.
+Padded<max_dof> unexplained_change(const Motions& motions, const TickPlace& earlier, const TickPlace& later) {
+  const auto bend = [&motions](std::size_t age) -> Padded<max_dof> {  // of the steps that meet in age + 1
+    const TickMotion &after = motions.back(age), &before = motions.back(age + 1);
+    return after.step - before.step - 0.5 * T * T * (after.acceleration + before.acceleration);
+  };
+  Padded<max_dof> change = Padded<max_dof>::Zero();
+  for (std::size_t age = later.age - 1; age + 1 < earlier.age; ++age) change += bend(age);
+  if (later.share > 0.0) change += later.share * bend(later.age - 2);
+  if (earlier.share > 0.0) change -= earlier.share * bend(earlier.age - 2);
+  return change;
 }
 
 /// A range that grows by what is significant.
@@ -330,11 +353,13 @@ void judge(ImuWatch& watch, const Motions& motions, const ImuErrors& errors, con
     error.force_slope = (error.expected_force - errors.back(0).expected_force) / at.spacing;
   error.turning_slope = at.turning * then.acceleration;
   error.rising = at.force * rising;
-  const Padded<max_dof> after = step_from(motions, then.time);
-  const Padded<max_dof> change = after - step_from(motions, then.time - spacing);
-  error.force_unseen = error.force + at.force * (then.acceleration - change / (T * at.spacing));
-  error.turning_unseen = error.turning + error.expected_turning -
-                         at.turning * (after + step_from(motions, then.time - period)) / (2.0 * T);
+  const TickPlace now = place_of(motions, then.time);
+  const TickPlace before = place_of(motions, then.time - spacing);
+  error.force_unseen = error.force - at.force * unexplained_change(motions, before, now) / (T * at.spacing);
+  error.turning_unseen =
+      error.turning + error.expected_turning -
+      at.turning * (step_from(motions, now) + step_from(motions, place_of(motions, then.time - period))) /
+          (2.0 * T);
   watch.errors.push(error);
   watch.errors.newest.jumps = jumped(errors, 0, rest);
   const bool is_rest = at.noise.force == rest.force && at.noise.turning == rest.turning;
