@@ -12,8 +12,8 @@
 namespace flinch {
 namespace {
 
-/// Cogging of screws, of which the model does not know, shakes the platform faster than the IMU can tell: it is
-/// called noisy, and so it is.
+/// Cogging of screws, of which the model does not know, shakes the platform faster than the IMU can tell: it
+/// is called noisy, and so it is.
 bool is_shaken(const std::filesystem::path& scenario) {
   return scenario.stem().string().starts_with("hexapod_calibration_");
 }
