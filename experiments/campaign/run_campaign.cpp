@@ -1,5 +1,7 @@
 #include "experiments/campaign/run_campaign.h"
 
+#include <fmt/core.h>
+
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -14,6 +16,7 @@
 #include "experiments/campaign/results_file.h"
 #include "experiments/simulated/experiment.h"
 #include "experiments/verdict/verdict.h"
+#include "systems/foundation/setup_error.h"
 
 namespace flinch {
 namespace {
@@ -84,6 +87,18 @@ void work(const Campaign& campaign, WorkList& list) {
   }
 }
 
+/// A run that is done is simulated once more: were it another now, rows of two programs would stand in one table.
+void require_same_outcome(const Campaign& campaign, const CampaignJournal& journal,
+                          const std::filesystem::path& folder) {
+  if (journal.done() == 0 || journal.done() == campaign.runs()) return;
+  const RunResult before = journal.results()[0];
+  if (csv_row(simulate_run(draw_run(campaign, before.run))) == csv_row(before)) return;
+  throw SetupError(fmt::format(
+      "{}: run {} comes out otherwise now: another build of the program or another machine has made it; "
+      "go on with that one, choose another folder with --out, or begin anew with --fresh",
+      folder.string(), before.run));
+}
+
 }  // namespace
 
 RunResult simulate_run(const CampaignRun& run) { return result_of(run, judge_experiment(run.scenario)); }
@@ -92,6 +107,7 @@ CampaignResults run_campaign(const Campaign& campaign, const std::filesystem::pa
                              std::size_t threads, const CampaignProgress& progress,
                              CampaignHelpers* helpers) {
   CampaignJournal journal(folder, campaign);
+  require_same_outcome(campaign, journal, folder);
   const std::size_t done_before = journal.done();
   WorkList list(journal, campaign.runs());
   if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());

@@ -6,6 +6,7 @@
 
 #include "diagrams/estimator_stages.h"
 #include "experiments/campaign/campaign.h"
+#include "experiments/campaign/campaign_journal.h"
 #include "experiments/campaign/campaign_run.h"
 #include "experiments/simulated/experiment.h"
 #include "experiments/verdict/verdict.h"
@@ -13,6 +14,7 @@
 #include "systems/framework/recording.h"
 #include "systems/robot/parallel_robot.h"
 #include "tests/experiments/campaign/small_campaign.h"
+#include "tests/support/problems_of.h"
 
 namespace flinch {
 namespace {
@@ -63,6 +65,25 @@ TEST_F(ACampaign, GivesTheSameTableHoweverOftenItIsStoppedOnTheWay) {
   }
   EXPECT_EQ(last, campaign.runs());
   run_campaign(campaign, place / "other", 2);
+  expect_the_same_tables();
+}
+
+TEST_F(ACampaign, DoesNotGoOnWhereAnotherProgramBegan) {
+  const auto go_on_after = [&](double peak_force_of_the_program) {
+    RunResult first = whole[2];
+    first.peak_force = peak_force_of_the_program;
+    std::filesystem::remove(place / "other/results.part");
+    CampaignJournal(place / "other", campaign).add(first);
+    return test::problems_of([&] { run_campaign(campaign, place / "other", 2); });
+  };
+  ASSERT_TRUE(whole[2].peak_force);
+  const auto problems = go_on_after(*whole[2].peak_force + 1e-6);
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems.front().find((place / "other").string() + ": run 2 comes out otherwise now"), 0U)
+      << problems.front();
+  EXPECT_FALSE(std::filesystem::exists(place / "other/results.csv"));
+
+  EXPECT_TRUE(go_on_after(*whole[2].peak_force).empty());
   expect_the_same_tables();
 }
 
