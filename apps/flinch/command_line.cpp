@@ -124,6 +124,11 @@ void add_run_verb(CLI::App& app, Verbs& verbs) {
   run_verb.add_option("--seed", verbs.run.seed, "Seed of all noise, instead of the scenario's")
       ->check(problem_with_seed)
       ->type_name("N");
+  run_verb
+      .add_option("--set", verbs.run.set,
+                  "Value of a key of the scenario, instead of the file's; any number of times")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
   add_fault(run_verb, verbs.run.faults);
   add_bus(run_verb, verbs.run.bus);
   run_verb

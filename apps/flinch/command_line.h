@@ -33,6 +33,7 @@ struct RunOptions {
   std::filesystem::path input;  ///< a scenario; with a recorded station, the recording
   std::filesystem::path out;    ///< empty: out/NAME
   std::optional<std::uint64_t> seed;
+  std::vector<std::string> set;  ///< values of keys of the scenario, KEY=VALUE
   StationKind station = StationKind::simulated;
   std::vector<std::filesystem::path> classifier;  ///< models to follow; none: as the scenario says
   std::filesystem::path control;  ///< a scenario whose control path replaces the recorded one's; empty: none

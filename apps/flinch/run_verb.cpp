@@ -86,6 +86,11 @@ void check(const RunOptions& options) {
   if (options.seed && options.station != StationKind::simulated) {
     problems.push_back("--seed: only a simulated station has noise that could be drawn anew");
   }
+  if (!options.set.empty() && options.station == StationKind::recorded) {
+    problems.push_back(
+        "--set: the scenario of a recording stays as it was; write its 'scenario.text' to a file, change it "
+        "there and give it with --control");
+  }
   if (!options.faults.empty() && options.station == StationKind::dds) {
     problems.push_back(
         "--fault: a robot on the bus has its own faults; 'flinch serve' makes them for one that is "

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "experiments/scenario/key_values.h"
 #include "experiments/scenario/robot_files.h"
 #include "experiments/scenario/scenario.h"
 #include "systems/config/config_file.h"
@@ -68,31 +70,12 @@ CampaignAxis read_axis(ConfigReader& reader) {
   return axis;
 }
 
-/// A value of the command line, which has no lines.
-std::shared_ptr<const ConfigNode> without_lines(const ConfigNode& node) {
-  auto copy = std::make_shared<ConfigNode>(node);
-  copy->line = 0;
-  for (auto& item : copy->items) item = without_lines(*item);
-  for (ConfigNode::Entry& entry : copy->entries) {
-    entry.line = 0;
-    entry.value = without_lines(*entry.value);
-  }
-  return copy;
-}
-
 /// "a.b=1,2" as an axis of the grid.
 CampaignAxis parsed_axis(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  const std::string place = "--set " + text;
-  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
-    throw SetupError(place + ": is not of the form KEY=VALUE,VALUE,...");
-  }
-  const std::shared_ptr<const ConfigNode> list = parse_yaml("[" + text.substr(equals + 1) + "]", place);
-  CampaignAxis axis{text.substr(0, equals), {}};
-  const std::string problem = problem_with_key(axis.key);
-  if (!problem.empty()) throw SetupError(place + ": the key " + problem);
-  for (const auto& value : list->items) axis.values.push_back(without_lines(*value));
-  return axis;
+  KeyValues given = parse_key_values(text);
+  const std::string problem = problem_with_key(given.key);
+  if (!problem.empty()) throw SetupError("--set " + text + ": the key " + problem);
+  return {std::move(given.key), std::move(given.values)};
 }
 
 /// The axis takes the place of whatever the file says of its key.

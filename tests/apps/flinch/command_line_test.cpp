@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -39,6 +40,45 @@ class CommandLine : public ::testing::Test {
 
   test::Workplace place;
 };
+
+// ---------------------------------------------------------------- values of keys
+
+template <class Rows>
+bool is_same(const Rows& some, const Rows& others) {
+  return !some.empty() && some.size() == others.size() &&
+         std::memcmp(some.data(), others.data(), some.size() * sizeof(some[0])) == 0;
+}
+
+TEST_F(CommandLine, SetsKeysOfTheScenarioAsAFileWouldHaveThem) {
+  EXPECT_EQ(run(collision, {"--set", "duration_s=0.4", "--set", "pylon.radius_mm=30", "--json"}).status, 1);
+  const Recording set = read_recording(place / "out/run.h5");
+  place.replace(collision, "duration_s: 1.2", "duration_s: 0.4");
+  place.replace(collision, "radius_mm: 40", "radius_mm: 30");
+  EXPECT_EQ(run(collision).status, 1);
+  const Recording written = read_recording(place / "out/run.h5");
+  ASSERT_EQ(set.signals.size(), written.signals.size());
+  ASSERT_EQ(set.samples(), 400U);
+  for (std::size_t i = 0; i < set.signals.size(); ++i)
+    EXPECT_TRUE(is_same(set.signals[i].rows, written.signals[i].rows)) << set.signals[i].path;
+  // What the recording keeps is enough to repeat the run.
+  place.write("scenarios/again.yaml", set.attributes.at("scenario.text"));
+  EXPECT_EQ(run("scenarios/again.yaml").status, 1);
+  EXPECT_EQ(read_recording(place / "out/run.h5").signals.size(), set.signals.size());
+}
+
+TEST_F(CommandLine, SaysOfEachValueThatIsSetWhatIsWrongWithIt) {
+  const Outcome outcome = run(collision, {"--set", "duration_s=1,2", "--set", "pylon", "--set", "robot.x=3"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err,
+              AllOf(HasSubstr("--set duration_s=1,2: gives several values, and a run takes one"),
+                    HasSubstr("--set pylon: is not of the form KEY=VALUE"), HasSubstr("--set robot.x=3: ")));
+  const Outcome unknown = run(collision, {"--set", "pylon.radios_mm=30"});
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_THAT(
+      unknown.err,
+      HasSubstr("--set pylon.radios_mm=30: pylon.radios_mm: is not a known key; did you mean 'radius_m'?"));
+  EXPECT_FALSE(std::filesystem::exists(place / "out"));
+}
 
 // ---------------------------------------------------------------- exit status
 
