@@ -1,13 +1,19 @@
 #include "systems/contact/contact_locator.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/robot/contact_jacobian.h"
 #include "systems/robot/line_of_action.h"
+#include "systems/robot/rotation.h"
 
 namespace flinch {
 namespace {
@@ -31,26 +37,89 @@ Eigen::Matrix3d platform_axes(const ParallelRobot& robot, const Kinematics& kine
   return axes;
 }
 
-/// Standard deviation of a line of action across itself: that of the moment about a point on it, over the
-/// force. `arm`: from the platform's origin to that point.
-double line_deviation(const ConfigurationSpace& space, const PlatformMatrix& covariance,
-                      const Eigen::Vector3d& arm, double force) {
+/// Covariance of how far the errors of a wrench move its line of action across itself [m^2], base frame.
+/// `arm`: from the platform's origin to a point on the line.
+Eigen::Matrix3d shift_covariance(const ConfigurationSpace& space, const PlatformMatrix& covariance,
+                                 const Eigen::Vector3d& arm, const Eigen::Vector3d& force) {
+  constexpr double anywhere = 1e3;  // [m]
   const int directions = space.translations(), rotations = space.rotations();
-  if (rotations == 0) return 0.0;
-  PlatformMatrix about_line = PlatformMatrix::Identity(space.dimension(), space.dimension());
-  for (int i = 0; i < directions; ++i) {
-    const Eigen::Vector3d unit = in_space(CartesianVector::Unit(directions, i));
-    about_line.col(i).tail(rotations) = -arm.cross(unit).tail(rotations);
+  const Eigen::Vector3d along = force.normalized();
+  if (rotations == 0) {  // such a wrench does not tell where its line lies
+    Eigen::Matrix3d across = -along * along.transpose();
+    across.diagonal().head(directions).array() += 1.0;
+    return anywhere * anywhere * across;
   }
-  const PlatformMatrix of_line = about_line * covariance * about_line.transpose();
-  return std::sqrt(of_line.diagonal().tail(rotations).mean()) / force;
+  const Eigen::Matrix3d of_moment = cross_matrix(along) / force.norm();  // about the point on the line
+  CartesianJacobian of_wrench(3, space.dimension());
+  of_wrench.leftCols(directions) = -(of_moment * cross_matrix(arm)).leftCols(directions);
+  of_wrench.rightCols(rotations) = of_moment.rightCols(rotations);
+  return of_wrench * covariance * of_wrench.transpose();
+}
+
+/// Lines parallel to one, evenly spaced along an axis across it from one edge of an outline to the other, or
+/// as far as errors may have moved the nearest of them.
+struct ParallelLines {
+  static constexpr int most = 9;
+  int count = 1;
+  std::array<double, most> shift{0.0};
+  std::array<double, most> likelihood{1.0};  // over that of the nearest
+
+  ParallelLines() = default;
+  ParallelLines(const Outline& outline, const Eigen::Vector3d& on_line, const Eigen::Vector3d& axis,
+                double deviation)
+      : count(most) {
+    constexpr double reach = 4.0;
+    const double first = axis.dot(outline.farthest(-axis) - on_line);
+    const double last = axis.dot(outline.farthest(axis) - on_line);
+    const double nearest = std::max(first, std::min(0.0, last));
+    const double low = std::max(first, nearest - reach * deviation);
+    const double high = std::min(last, nearest + reach * deviation);
+    for (std::size_t i = 0; i < most; ++i) {
+      shift[i] = low + (static_cast<double>(i) + 0.5) / most * (high - low);
+      likelihood[i] = std::exp(-0.5 * (shift[i] * shift[i] - nearest * nearest) / (deviation * deviation));
+    }
+  }
+};
+
+/// Root mean square distance from `point` of where lines enter the outline, over all that hit it, each as
+/// likely as errors of `covariance` move the measured one there. (Derived.)
+double entry_deviation(const Outline& outline, const Eigen::Vector3d& on_line,
+                       const Eigen::Vector3d& direction, const Eigen::Matrix3d& covariance,
+                       const Eigen::Vector3d& point, int directions) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(covariance);  // the smallest: along the line
+  constexpr double least = 1e-9;  // of a deviation; rounding may leave less than nothing [m]
+  const auto along_axis = [&](int axis) {
+    return ParallelLines(outline, on_line, principal.eigenvectors().col(axis),
+                         std::sqrt(std::max(principal.eigenvalues()[axis], least * least)));
+  };
+  const ParallelLines widest = along_axis(2);
+  const ParallelLines other = directions == 3 ? along_axis(1) : ParallelLines();
+  double likelihood = 0.0, squares = 0.0;
+  for (int i = 0; i < widest.count; ++i) {
+    for (int j = 0; j < other.count; ++j) {
+      const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+      const Eigen::Vector3d moved = on_line + widest.shift[a] * principal.eigenvectors().col(2) +
+                                    other.shift[b] * principal.eigenvectors().col(1);
+      const LinePassage passage = outline.passage(moved, direction);
+      if (!passage.hits) continue;
+      const double share = widest.likelihood[a] * other.likelihood[b];
+      likelihood += share;
+      squares += share * (moved + passage.enter * direction - point).squaredNorm();
+    }
+  }
+  return likelihood > 0.0 ? std::sqrt(squares / likelihood) : 0.0;
 }
 
 }  // namespace
 
+double unexplained(const PlatformVector& missed, const PlatformMatrix& covariance) noexcept {
+  return missed.dot(covariance.llt().solve(missed));
+}
+
 ContactLocation locate_on_platform(const ParallelRobot& robot, const Kinematics& kinematics,
                                    const Outline& platform, const PlatformVector& wrench,
-                                   const PlatformMatrix& covariance, double least_force) noexcept {
+                                   const PlatformMatrix& noise, const PlatformMatrix& errors,
+                                   double least_force) noexcept {
   ContactLocation location;
   const LineOfAction line = line_of_action(robot.space(), wrench, least_force);
   if (!line.valid || !kinematics.valid) return location;
@@ -59,7 +128,7 @@ ContactLocation locate_on_platform(const ParallelRobot& robot, const Kinematics&
   location.body = BodyId::platform().index();
   location.force_in_base = wrench.head(directions);
   location.force_deviation =
-      std::sqrt(line.direction.dot(covariance.topLeftCorner(directions, directions) * line.direction));
+      std::sqrt(line.direction.dot(errors.topLeftCorner(directions, directions) * line.direction));
   const Eigen::Matrix3d axes = platform_axes(robot, kinematics);
   const Eigen::Vector3d origin = in_space(kinematics.pose.head(directions));
   const Eigen::Vector3d lever = axes.transpose() * in_space(line.lever);
@@ -71,7 +140,12 @@ ContactLocation locate_on_platform(const ParallelRobot& robot, const Kinematics&
   if (line.has_lever && !passage.hits) point = platform.farthest(lever.normalized());
   const Eigen::Vector3d arm = axes * point;
   location.point_in_base = (origin + arm).head(directions);
-  location.point_deviation = line_deviation(robot.space(), covariance, arm, location.force_in_base.norm());
+  const Eigen::Matrix3d shift =
+      shift_covariance(robot.space(), errors, arm, in_space(location.force_in_base));
+  location.point_deviation =
+      entry_deviation(platform, lever, direction, axes.transpose() * shift * axes, point, directions);
+  const ContactJacobian J = robot.contact_jacobian(kinematics, BodyId::platform(), point.head(directions));
+  location.residual = unexplained(wrench - platform_wrench(J, location.force_in_base), noise);
   return location;
 }
 
@@ -138,7 +212,7 @@ ContactLocation ContactLocator::locate(const ContactPhase& contact, const Contac
     const PlatformMatrix errors = uncertainty_.errors(robot_->space(), F, lately.wrench_in_base);
     const BodyId body = ContactClasses::body(touched.most_likely);
     if (body.is_platform()) {
-      found = locate_on_platform(*robot_, now, platform_, F, errors, settings_.least_force);
+      found = locate_on_platform(*robot_, now, platform_, F, noise, errors, settings_.least_force);
     } else if (F.head(robot_->space_dimension()).norm() >= settings_.least_force) {
       found = locate_on_link(link_contact_map(*robot_, now, body), body, F, noise, errors, settings_);
     }

@@ -22,11 +22,14 @@ struct ContactLocatorSettings {
   double leaning = 0.15;
 };
 
-/// Where the line of action of `wrench` enters the platform: the point of a push, [SafePR] III-A, with its
-/// deviation across the line. Where it misses the platform, the nearest point of the outline, not located.
+/// Where the line of action of `wrench` enters the platform: the point of a push, [SafePR] III-A. Where it
+/// misses the platform, the nearest point of the outline, not located. The point is as uncertain as it moves
+/// on the outline with the line, of lines that hit it: near a tangent more than the line itself, and never
+/// more than the outline is wide. `noise` and `errors` as for links.
 ContactLocation locate_on_platform(const ParallelRobot& robot, const Kinematics& kinematics,
                                    const Outline& platform, const PlatformVector& wrench,
-                                   const PlatformMatrix& covariance, double least_force) noexcept;
+                                   const PlatformMatrix& noise, const PlatformMatrix& errors,
+                                   double least_force) noexcept;
 
 /// Where `link` is pushed, by `link_push`, which takes the push as orthogonal. What it tells of place and
 /// force is as uncertain as the wrench is and as friction lets the force lean. `noise`: covariance of the
@@ -38,6 +41,9 @@ ContactLocation locate_on_link(const LinkContactMap& map, BodyId link, const Pla
 /// The point at `fraction` of a link on the side from which a force pushes it [m].
 CartesianVector pushed_point(const LinkContactMap& link, double fraction,
                              const CartesianVector& force) noexcept;
+
+/// e^T S^-1 e of what a contact leaves of a wrench, e; S: the wrench's `covariance`.
+double unexplained(const PlatformVector& missed, const PlatformMatrix& covariance) noexcept;
 
 /// Says in closed form where the classified body is touched, anew at every tick of the contact. Of a
 /// clamping, and of contacts that are not classified, it knows no place.

@@ -17,11 +17,12 @@ struct ContactLocation {
   double fraction = 0.0;  ///< of the axis of a link, from its proximal joint on; 0 for the platform
   CartesianVector point_in_base;  ///< on the outline of the body [m]
   CartesianVector force_in_base;  ///< on the robot [N]
-  double point_deviation = 0.0;   ///< standard deviation along the link or across the line of action [m]
+  double point_deviation = 0.0;   ///< standard deviation along the link or on the platform's outline [m]
   double force_deviation = 0.0;   ///< of the force's size [N]
   /// Of (fraction, force across the link [N]), links only.
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
-  /// e^T S^-1 e where the wrench misses the nearest that such a contact can make by e.
+  /// e^T S^-1 e of what the contact leaves of the wrench, e, S being the covariance that its noise is told to
+  /// have. Of a place in closed form that is confined to its link: as before that.
   double residual = 0.0;
 
   template <class Self, class Visit>

@@ -1,6 +1,8 @@
 #include "systems/contact/contact_locator.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <optional>
 #include <random>
@@ -11,6 +13,7 @@
 #include "systems/robot/five_bar_presets.h"
 #include "systems/robot/hexapod.h"
 #include "systems/robot/hexapod_presets.h"
+#include "systems/robot/line_of_action.h"
 #include "tests/support/allocations.h"
 #include "tests/support/ticking.h"
 #include "tests/systems/contact/touched_robot.h"
@@ -24,7 +27,7 @@ PlatformMatrix noise(const ParallelRobot& robot) {
 
 ContactLocation on_platform(const ParallelRobot& robot, const Kinematics& k, const PlatformVector& wrench) {
   const Outline outline(robot.body(BodyId::platform()).shapes);
-  return locate_on_platform(robot, k, outline, wrench, noise(robot), 1.0);
+  return locate_on_platform(robot, k, outline, wrench, noise(robot), noise(robot), 1.0);
 }
 
 TEST(LocateOnPlatform, FindsThePointOfAPushAnywhereAroundIt) {
@@ -46,7 +49,7 @@ TEST(LocateOnPlatform, FindsThePointOfAPushAnywhereAroundIt) {
   }
 }
 
-TEST(LocateOnPlatform, ItsDeviationIsThatOfTheLineOfActionAcrossItself) {
+TEST(LocateOnPlatform, IsOffByAsMuchAsItsDeviationSays) {
   const auto robot = test::touched_bench();
   const Outline outline(robot->body(BodyId::platform()).shapes);
   const PlatformVector deviation{{1.5, 1.5, 0.1}};
@@ -59,13 +62,166 @@ TEST(LocateOnPlatform, ItsDeviationIsThatOfTheLineOfActionAcrossItself) {
     const Eigen::Vector2d force = -40.0 * rotate(arm.normalized(), unit_vector(random.uniform(-0.6, 0.6)));
     PlatformVector wrench{{force.x(), force.y(), arm.x() * force.y() - arm.y() * force.x()}};
     for (int i = 0; i < 3; ++i) wrench[i] += deviation[i] * random.normal();
-    const ContactLocation found = locate_on_platform(*robot, k, outline, wrench, S, 1.0);
-    const CartesianVector along = found.force_in_base.normalized();
+    const ContactLocation found = locate_on_platform(*robot, k, outline, wrench, S, S, 1.0);
+    ASSERT_TRUE(found.located);
     const CartesianVector off = found.point_in_base - CartesianVector(k.pose.head<2>() + arm);
-    if (found.located)
-      squared += std::pow((along[0] * off[1] - along[1] * off[0]) / found.point_deviation, 2) / pushes;
+    squared += off.squaredNorm() / (found.point_deviation * found.point_deviation) / pushes;
   }
   EXPECT_NEAR(squared, 1.0, 0.1);
+}
+
+/// Lines graze the platform that are measured less than so many of their deviations within a tangent.
+constexpr double grazing = 3.0;
+
+/// The mean squared error of the place over what its deviation says, and what that would be of a place that
+/// moves as far as its line.
+struct GrazingErrors {
+  int count = 0;
+  double squared = 0.0, squared_by_line = 0.0, widest = 0.0;
+
+  void add(const ContactLocation& found, const CartesianVector& place, double line_deviation) {
+    const double off = (found.point_in_base - place).squaredNorm();
+    ++count;
+    squared += off / (found.point_deviation * found.point_deviation);
+    squared_by_line += off / (line_deviation * line_deviation);
+    widest = std::max(widest, found.point_deviation);
+  }
+  void print(const char* outline) const {
+    std::printf(
+        "  %d grazing lines, %s: squared error %.2f of 1, by the line's deviation %.1f; widest %.0f mm\n",
+        count, outline, squared / count, squared_by_line / count, 1e3 * widest);
+  }
+};
+
+/// Where a line through `on_line` along `direction` enters a box about the origin, face by face.
+Eigen::Vector3d entry_of_box(const Eigen::Vector3d& half, const Eigen::Vector3d& on_line,
+                             const Eigen::Vector3d& direction) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (direction[axis] == 0.0) continue;
+    const double face = direction[axis] > 0.0 ? -half[axis] : half[axis];
+    const Eigen::Vector3d at = on_line + (face - on_line[axis]) / direction[axis] * direction;
+    if (((at.cwiseAbs() - half).array() < 1e-9).all()) return at;
+  }
+  ADD_FAILURE() << "the line misses the box";
+  return Eigen::Vector3d::Zero();
+}
+
+TEST(LocateOnPlatform, IsOffByAsMuchAsItsDeviationSaysWhereLinesGrazeACircleOrABox) {
+  const auto robot = test::touched_bench();
+  constexpr double radius = 0.137, size = 40.0;
+  const Eigen::Vector3d half(0.1, 0.06, 0.02);
+  const PlatformVector deviation{{0.5, 0.5, 0.2}};
+  const PlatformMatrix S = deviation.cwiseAbs2().asDiagonal();
+  for (const bool is_box : {false, true}) {
+    const Outline outline({is_box ? Shape(Box{.half_lengths = half}) : Shape(Sphere{.radius = radius})});
+    RandomGenerator random(4);
+    GrazingErrors errors;
+    for (const Kinematics& k : test::random_kinematics(*robot, 6000)) {
+      const Eigen::Vector2d n = unit_vector(random.uniform(-M_PI, M_PI));
+      const Eigen::Vector2d side =
+          rotate(n, Eigen::Vector2d(0.0, random.uniform(-1.0, 1.0) < 0.0 ? -1.0 : 1.0));
+      const double edge = is_box ? half.head<2>().dot(side.cwiseAbs()) : radius;
+      const double line_deviation = std::hypot(deviation[2], deviation[0] * edge) / size;
+      const double offset = edge - random.uniform(0.0, 2.0 * grazing * line_deviation);
+      const Eigen::Vector2d on_line = offset * side;
+      const Eigen::Vector2d arm =
+          is_box ? Eigen::Vector2d(
+                       entry_of_box(half, {on_line.x(), on_line.y(), 0.0}, {n.x(), n.y(), 0.0}).head<2>())
+                 : Eigen::Vector2d(on_line - std::sqrt(radius * radius - offset * offset) * n);
+      const Eigen::Vector2d turn = unit_vector(k.pose[2]);
+      const Eigen::Vector2d force = size * rotate(n, turn), arm_in_base = rotate(arm, turn);
+      PlatformVector wrench{
+          {force.x(), force.y(), arm_in_base.x() * force.y() - arm_in_base.y() * force.x()}};
+      for (int i = 0; i < 3; ++i) wrench[i] += deviation[i] * random.normal();
+      const double measured = std::abs(wrench[2]) / wrench.head<2>().norm();
+      const ContactLocation found = locate_on_platform(*robot, k, outline, wrench, S, S, 1.0);
+      if (found.located && measured > edge - grazing * line_deviation)
+        errors.add(found, Eigen::Vector2d(k.pose.head<2>() + arm_in_base), line_deviation);
+    }
+    errors.print(is_box ? "box" : "circle");
+    ASSERT_GT(errors.count, 1500);
+    EXPECT_NEAR(errors.squared / errors.count, 1.0, 0.1);
+    EXPECT_LT(errors.widest, is_box ? 2.0 * half.norm() : 2.0 * radius);
+  }
+}
+
+TEST(LocateOnPlatform, IsOffByAsMuchAsItsDeviationSaysWhereLinesGrazeASphereInSpace) {
+  const Hexapod robot(hexapod_robot());
+  const Kinematics k = test::at_home(robot);
+  constexpr double radius = 0.2, size = 40.0;
+  const Outline outline({Sphere{.radius = radius}});
+  const PlatformVector deviation{{0.5, 0.5, 0.5, 0.2, 0.2, 0.2}};
+  const PlatformMatrix S = deviation.cwiseAbs2().asDiagonal();
+  const double line_deviation = std::hypot(0.2, 0.5 * radius) / size;
+  RandomGenerator random(5);
+  const auto direction = [&random] {
+    return Eigen::Vector3d(random.normal(), random.normal(), random.normal()).normalized();
+  };
+  GrazingErrors errors;
+  for (int i = 0; i < 6000; ++i) {
+    const Eigen::Vector3d n = direction();
+    const Eigen::Vector3d side = n.cross(direction()).normalized();
+    const double least = radius - 2.0 * grazing * line_deviation;  // uniform over the ring
+    const double offset = std::sqrt(random.uniform(least * least, radius * radius));
+    const Eigen::Vector3d arm = offset * side - std::sqrt(radius * radius - offset * offset) * n;
+    PlatformVector wrench(6);
+    wrench << size * n, arm.cross(size * n);
+    for (int entry = 0; entry < 6; ++entry) wrench[entry] += deviation[entry] * random.normal();
+    const LineOfAction line = line_of_action(robot.space(), wrench, 1.0);
+    const ContactLocation found = locate_on_platform(robot, k, outline, wrench, S, S, 1.0);
+    if (found.located && line.lever.norm() > radius - grazing * line_deviation)
+      errors.add(found, Eigen::Vector3d(k.pose.head<3>() + arm), line_deviation);
+  }
+  errors.print("sphere in space");
+  ASSERT_GT(errors.count, 1500);
+  EXPECT_NEAR(errors.squared / errors.count, 1.0, 0.1);
+  EXPECT_LT(errors.widest, 2.0 * radius);
+}
+
+TEST(LocateOnPlatform, IsAnywhereOnItWhereTheLineMayLieAnywhere) {
+  const auto robot = test::touched_bench();
+  const Kinematics k = test::at_home(*robot);
+  const Outline outline({Box{.half_lengths = {0.01, 0.3, 0.01}}});
+  const PlatformMatrix S = PlatformVector{{1.0, 1.0, 1e6}}.asDiagonal();
+  const ContactLocation found =
+      locate_on_platform(*robot, k, outline, PlatformVector{{-20.0, 0.0, 0.0}}, S, S, 1.0);
+  ASSERT_TRUE(found.located);
+  EXPECT_NEAR(found.point_deviation, 0.6 / std::sqrt(12.0), 0.02 * 0.6 / std::sqrt(12.0));
+}
+
+TEST(LocateOnPlatform, IsSureOfItsErrorsForForcesOfAnySize) {
+  const auto bench = test::touched_bench();
+  const Hexapod hexapod(hexapod_robot());
+  for (double size = 1.0; size < 5e9; size *= 10.0) {  // as large as is usable
+    for (const ParallelRobot* robot :
+         {static_cast<const ParallelRobot*>(bench.get()), static_cast<const ParallelRobot*>(&hexapod)}) {
+      PlatformVector wrench = PlatformVector::Constant(robot->dof(), 0.01);
+      wrench[0] = -1.0;
+      const PlatformMatrix S = WrenchUncertainty{.share_of_force = 0.0, .share_of_lever = 0.0}.covariance(
+          robot->space(), size * wrench);
+      const Outline outline(robot->body(BodyId::platform()).shapes);
+      const ContactLocation found =
+          locate_on_platform(*robot, test::at_home(*robot), outline, size * wrench, S, S, 0.5);
+      EXPECT_TRUE(found.located) << size;
+      EXPECT_GT(found.point_deviation, 0.0) << size;
+      EXPECT_LT(found.point_deviation, 0.5) << size;
+      EXPECT_TRUE(std::isfinite(found.residual)) << size;
+    }
+  }
+}
+
+TEST(LocateOnPlatform, LeavesOfTheWrenchWhatNoPushThereMakes) {
+  const auto robot = test::touched_bench();
+  const Kinematics k = test::at_home(*robot);
+  const PlatformMatrix S = noise(*robot);
+  EXPECT_LT(on_platform(*robot, k, PlatformVector{{-20.0, 3.0, 1.0}}).residual, 1e-20);
+  // A line 0.3 m above the centre, of which 0.137 m are on the platform.
+  EXPECT_NEAR(on_platform(*robot, k, PlatformVector{{-20.0, 0.0, 6.0}}).residual,
+              std::pow(6.0 - 20.0 * 0.137, 2) / S(2, 2), 1e-9);
+  const Hexapod hexapod(hexapod_robot());
+  const PlatformVector push{{-30.0, 0.0, 0.0, 1.5, 0.0, 0.0}};  // with a moment about its own line
+  EXPECT_NEAR(on_platform(hexapod, test::at_home(hexapod), push).residual, 1.5 * 1.5 / noise(hexapod)(3, 3),
+              1e-9);
 }
 
 TEST(LocateOnPlatform, GivesTheNearestPointWhereTheLineMisses) {
@@ -88,6 +244,9 @@ TEST(LocateOnPlatform, KnowsNoPointOfAPlatformThatCannotTurnAndFindsThoseOfAPris
   EXPECT_TRUE(unknown.valid);
   EXPECT_FALSE(unknown.located);
   EXPECT_TRUE(unknown.point_in_base.allFinite());
+  const double five_bar_radius = five_bar_robot().platform_radius;
+  EXPECT_GT(unknown.point_deviation, 0.5 * five_bar_radius);
+  EXPECT_LT(unknown.point_deviation, 2.0 * five_bar_radius);
   const Hexapod hexapod(hexapod_robot());
   const Kinematics k = test::at_home(hexapod);
   const PlatformVector push{{-30.0, 0.0, 0.0, 0.0, 0.0, 0.0}};  // through the origin of E, along -x
