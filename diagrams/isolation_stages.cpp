@@ -50,8 +50,8 @@ LocatorPorts add_closed_form(const StageSite& site, const ClassifiedPorts& given
 LocatorPorts add_particle_filter(const StageSite& site, const ClassifiedPorts& given) {
   const IsolationSettings& settings = site.settings.isolation;
   auto& locator =
-      site.builder.add<ParticleLocator>(site.name, site.robot, settings.particle_filter, settings.uncertainty,
-                                        derive_seed(settings.particle_seed, site.name));
+      site.builder.add<ParticleLocator>(site.name, site.robot, settings.particle_filter, settings.closed_form,
+                                        settings.uncertainty, derive_seed(settings.particle_seed, site.name));
   connect_locator(site, given, locator);
   return {.location = locator.location, .cloud = locator.cloud};
 }

@@ -4,23 +4,20 @@
 #include <cmath>
 #include <utility>
 
-#include "systems/contact/contact_locator.h"
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
-namespace {
-
-constexpr double largest_deviation = ContactLocatorSettings().largest_deviation;
-
-}  // namespace
 
 ParticleLocator::ParticleLocator(std::shared_ptr<const ParallelRobot> robot,
-                                 const LinkParticleSettings& settings, const WrenchUncertainty& uncertainty,
-                                 std::uint64_t seed)
+                                 const LinkParticleSettings& settings,
+                                 const ContactLocatorSettings& closed_form,
+                                 const WrenchUncertainty& uncertainty, std::uint64_t seed)
     : robot_(std::move(robot)),
       classes_(robot_->body_count(), robot_->legs()),
+      platform_(robot_->body(BodyId::platform()).shapes),
       settings_(settings),
+      closed_form_(closed_form),
       uncertainty_(uncertainty) {
   Findings found("particle filter: ");
   found.require(settings.particles > 0 && settings.particles <= max_particles,
@@ -30,9 +27,11 @@ ParticleLocator::ParticleLocator(std::shared_ptr<const ParallelRobot> robot,
   found.positive("across_variance", settings.across_variance, "N^2");
   found.positive("torque_variance", settings.torque_variance);
   found.not_negative("leaning", settings.leaning);
+  found.positive("least_force", closed_form.least_force, "N");
+  found.positive("largest_deviation", closed_form.largest_deviation);
   uncertainty.find_problems(found);
   throw_if_any(found.take());
-  memory_ = state<Memory>("memory", Memory{LinkParticles(seed), -1, {}, {}});
+  memory_ = state<Memory>("memory", Memory{LinkParticles(seed), -1, {}});
   next_ = intermediate<&ParticleLocator::advance>("next", clock, phase, classification, kinematics, wrench,
                                                   change, memory_);
   location = output<&ParticleLocator::read>("location", next_, wrench);
@@ -45,49 +44,60 @@ void ParticleLocator::advance(Time now, const ContactPhase& contact, const Conta
                               const WrenchEstimate& lately, const Memory& memory, Memory& next) const {
   next.particles.take(memory.particles);
   next.body = memory.body;
-  next.estimate = {};
-  next.link = {};
+  next.location = {};
   const int number = touched.most_likely;
-  const bool on_link2 = contact.active && touched.valid && classes_.contains(number) &&
-                        !classes_.is_clamping(number) && ContactClasses::body(number).is_link2();
+  const bool collides =
+      contact.active && touched.valid && classes_.contains(number) && !classes_.is_clamping(number);
+  const bool on_link2 = collides && ContactClasses::body(number).is_link2();
   if (!on_link2) {
     next.particles.clear();
     next.body = -1;
-    return;
   }
-  if (!estimate.valid || !at.valid || !usable(estimate.wrench_in_base, robot_->dof())) return;
-  if (!lately.valid || !usable(lately.wrench_in_base, robot_->dof())) return;
-  next.link = link_contact_map(*robot_, at, BodyId::from_index(number));
-  if (next.body != number || contact.begins(now)) {
-    const LinkPush push =
-        link_push(next.link, estimate.wrench_in_base,
-                  uncertainty_.covariance(robot_->space(), estimate.wrench_in_base), largest_deviation);
-    next.particles.begin(next.link, at, push, estimate.drive_torque, settings_);
-    next.body = number;
+  const bool can_be_read = collides && at.valid && estimate.valid &&
+                           usable(estimate.wrench_in_base, robot_->dof()) && lately.valid &&
+                           usable(lately.wrench_in_base, robot_->dof());
+  if (!can_be_read) return;
+  const PlatformVector& F = estimate.wrench_in_base;
+  const PlatformMatrix noise = uncertainty_.covariance(robot_->space(), F);
+  const PlatformMatrix errors = uncertainty_.errors(robot_->space(), F, lately.wrench_in_base);
+  if (ContactClasses::body(number).is_platform())
+    next.location = locate_on_platform(*robot_, at, platform_, F, noise, errors, closed_form_.least_force);
+  if (on_link2) {
+    const LinkContactMap link = link_contact_map(*robot_, at, BodyId::from_index(number));
+    if (next.body != number || contact.begins(now)) {
+      const LinkPush push = link_push(link, F, noise, closed_form_.largest_deviation);
+      next.particles.begin(link, at, push, estimate.drive_torque, settings_);
+      next.body = number;
+    }
+    const LinkParticleEstimate mean = next.particles.step(link, at, estimate.drive_torque, settings_);
+    if (mean.valid) next.location = locate_on_link2(link, mean, F, noise, errors);
+    next.location.body = number;
   }
-  next.estimate = next.particles.step(next.link, at, estimate.drive_torque, settings_);
-  if (!next.estimate.valid) return;
-  // Particles take the errors of the torques as new at every tick. Those of the wrench stay, and move all of
-  // them alike.
-  next.estimate.covariance +=
-      push_covariance(next.link, next.estimate.fraction, next.estimate.force.head(next.link.axes.cols()),
-                      uncertainty_.errors(robot_->space(), estimate.wrench_in_base, lately.wrench_in_base));
 }
 
 ContactLocation ParticleLocator::read(const Memory& next, const WrenchEstimate& estimate) const {
-  ContactLocation found;
+  ContactLocation found = next.location;
   found.acquired = estimate.acquired;
-  if (!next.estimate.valid || !next.link.valid) return found;
-  const LinkParticleEstimate& mean = next.estimate;
-  found.valid = mean.covariance.allFinite();
-  found.body = next.body;
+  return found;
+}
+
+ContactLocation ParticleLocator::locate_on_link2(const LinkContactMap& link, const LinkParticleEstimate& mean,
+                                                 const PlatformVector& felt, const PlatformMatrix& noise,
+                                                 const PlatformMatrix& errors) const {
+  const CartesianVector force = mean.force.head(link.axes.cols());
+  ContactLocation found;
+  // Particles take the errors of the torques as new at every tick. Those of the wrench stay, and move all of
+  // them alike.
+  found.covariance = mean.covariance + push_covariance(link, mean.fraction, force, errors);
+  found.valid = found.covariance.allFinite();
   found.fraction = mean.fraction;
-  found.force_in_base = next.link.axes * mean.force.head(next.link.axes.cols());
-  found.point_in_base = pushed_point(next.link, mean.fraction, found.force_in_base);
-  found.covariance = mean.covariance;
-  found.point_deviation = next.link.length * std::sqrt(mean.covariance(0, 0));
-  found.force_deviation = std::sqrt(mean.covariance(1, 1));
-  found.located = std::sqrt(mean.covariance(0, 0)) <= largest_deviation;
+  found.force_in_base = link.axes * force;
+  found.point_in_base = pushed_point(link, mean.fraction, found.force_in_base);
+  const double deviation = std::sqrt(found.covariance(0, 0));
+  found.point_deviation = link.length * deviation;
+  found.force_deviation = std::sqrt(found.covariance(1, 1));
+  found.located = deviation <= closed_form_.largest_deviation;
+  found.residual = unexplained(felt - (link.at_joint + mean.fraction * link.along) * force, noise);
   return found;
 }
 

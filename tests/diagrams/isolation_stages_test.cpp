@@ -41,6 +41,10 @@ TEST(IsolationStages, ClassifyAndLocateAPushOnThePlatform) {
   ASSERT_TRUE(location.valid && location.located);
   EXPECT_NEAR((location.point_in_base - CartesianVector(bench.pose().head<2>())).norm(), 0.137, 1e-9);
   EXPECT_NEAR(location.force_in_base[0], -45.0, 5.0);
+  const ContactLocation by_particles = bench.context.get(bench.control.others.locations[0].port);
+  ASSERT_TRUE(by_particles.valid && by_particles.located);
+  EXPECT_EQ(by_particles.point_in_base, location.point_in_base);
+  EXPECT_EQ(by_particles.residual, location.residual);
 }
 
 TEST(IsolationStages, RunSideBySideAndNeverAllocate) {

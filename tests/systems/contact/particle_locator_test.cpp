@@ -1,5 +1,6 @@
 #include "systems/contact/particle_locator.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "systems/foundation/setup_error.h"
@@ -13,13 +14,15 @@ namespace {
 struct Block {
   explicit Block(std::uint64_t seed = 1, const LinkParticleSettings& settings = {},
                  const WrenchUncertainty& uncertainty = {})
-      : block(builder.add<ParticleLocator>("locator", robot, settings, uncertainty, seed)),
+      : block(builder.add<ParticleLocator>("locator", robot, settings, ContactLocatorSettings(), uncertainty,
+                                           seed)),
+        closed_form(builder.add<ContactLocator>("closed_form", robot, ContactLocatorSettings(), uncertainty)),
         phase(builder.export_input("phase", block.phase)),
         classification(builder.export_input("classification", block.classification)),
         kinematics(builder.export_input("kinematics", block.kinematics)),
         wrench(builder.export_input("wrench", block.wrench)),
         change(builder.export_input("change", block.change)),
-        ticking(builder) {
+        ticking(with_closed_form(builder)) {
     ticking.set(kinematics, k);
     ticking.set(change, test::estimate_of(k, PlatformVector::Zero(robot->dof())));
   }
@@ -44,6 +47,7 @@ struct Block {
   Kinematics k = test::at_home(*robot);
   DiagramBuilder builder;
   ParticleLocator& block;
+  ContactLocator& closed_form;  ///< sees the same
   InputPort<ContactPhase> phase;
   InputPort<ContactClassification> classification;
   InputPort<Kinematics> kinematics;
@@ -51,6 +55,15 @@ struct Block {
   test::Ticking ticking;
 
  private:
+  DiagramBuilder& with_closed_form(DiagramBuilder& of) {
+    of.connect(phase, closed_form.phase);
+    of.connect(classification, closed_form.classification);
+    of.connect(kinematics, closed_form.kinematics);
+    of.connect(wrench, closed_form.wrench);
+    of.connect(change, closed_form.change);
+    return of;
+  }
+
   bool active_ = false;
   Time since_{};
 };
@@ -82,9 +95,89 @@ TEST(ParticleLocator, BeginsAnewWithAnotherLinkAndWithAnotherContact) {
   EXPECT_NEAR(locator.see(link2_of_leg2, locator.push(1, 0.9)).fraction, 0.9, 0.1);
 }
 
-TEST(ParticleLocator, SaysNothingOfOtherBodies) {
+TEST(ParticleLocator, SaysNothingOfFirstLinksAndClamping) {
   Block locator;
-  for (const int number : {0, 1, 7}) EXPECT_FALSE(locator.see(number, locator.push(0, 0.5)).valid);
+  for (const int number : {1, 7, 99, -1}) EXPECT_FALSE(locator.see(number, locator.push(0, 0.5)).valid);
+}
+
+constexpr int platform = ContactClasses::collision(BodyId::platform());
+
+TEST(ParticleLocator, PlacesAPushOnThePlatformWhereTheClosedFormDoes) {
+  Block locator;
+  RandomGenerator random(2);
+  int located = 0;
+  for (const Kinematics& k : test::random_kinematics(*locator.robot, 200)) {
+    const PlatformVector wrench{{40.0 * random.normal(), 40.0 * random.normal(), 4.0 * random.normal()}};
+    locator.k = k;
+    locator.ticking.set(locator.kinematics, k);
+    locator.ticking.set(locator.change, test::estimate_of(k, 0.2 * wrench));
+    const test::AllocationCounter allocations;
+    const ContactLocation found = locator.see(platform, wrench);
+    EXPECT_EQ(allocations.count(), 0);
+    const ContactLocation& expected = locator.ticking.get(locator.closed_form.location);
+    ASSERT_TRUE(found.valid && expected.valid);
+    located += found.located;
+    EXPECT_EQ(found.acquired, expected.acquired);
+    EXPECT_EQ(found.located, expected.located);
+    EXPECT_EQ(found.body, expected.body);
+    EXPECT_EQ(found.point_in_base, expected.point_in_base);
+    EXPECT_EQ(found.force_in_base, expected.force_in_base);
+    EXPECT_EQ(found.point_deviation, expected.point_deviation);
+    EXPECT_EQ(found.force_deviation, expected.force_deviation);
+    EXPECT_EQ(found.residual, expected.residual);
+    EXPECT_EQ(locator.ticking.get(locator.block.cloud).count, 0);
+  }
+  EXPECT_GT(located, 50);
+  EXPECT_LT(located, 200);
+}
+
+TEST(ParticleLocator, LeavesOfTheWrenchWhatItsContactDoesNotMake) {
+  const WrenchUncertainty uncertainty;
+  Block locator(1, {}, uncertainty);
+  RandomGenerator random(9);
+  double largest = 0.0;
+  for (const Kinematics& k : test::random_kinematics(*locator.robot, 100)) {
+    locator.k = k;
+    locator.ticking.set(locator.kinematics, k);
+    const BodyId link = BodyId::link2(static_cast<int>(random() % 3));
+    const PlatformVector wrench =
+        test::wrench_on_link(*locator.robot, k, link, random.uniform(0.0, 1.0), {0.0, 50.0}) +
+        PlatformVector{{3.0 * random.normal(), 3.0 * random.normal(), 0.3 * random.normal()}};
+    locator.see(-1, wrench);
+    for (int i = 0; i < 5; ++i) {
+      const ContactLocation found = locator.see(link.index(), wrench);
+      ASSERT_TRUE(found.valid);
+      const CartesianVector in_body = locator.robot->axis_point(link, found.fraction);
+      const PlatformVector missed =
+          wrench - platform_wrench(locator.robot->contact_jacobian(k, link, in_body), found.force_in_base);
+      const double force = wrench.head<2>().norm();
+      const double of_force = std::hypot(uncertainty.force, uncertainty.share_of_force * force);
+      const double of_moment = std::hypot(uncertainty.moment, uncertainty.share_of_lever * force);
+      const double expected =
+          std::pow(missed.head<2>().norm() / of_force, 2) + std::pow(missed[2] / of_moment, 2);
+      EXPECT_NEAR(found.residual, expected, 1e-9 * (1.0 + expected));
+      largest = std::max(largest, found.residual);
+    }
+  }
+  EXPECT_GT(largest, 1.0);
+}
+
+TEST(ParticleLocator, SaysNothingOfWhatCannotBeUsed) {
+  Block locator;
+  const PlatformVector push = locator.push(1, 0.7), nothing = PlatformVector::Constant(3, std::nan(""));
+  for (const int number : {platform, link2_of_leg2}) {
+    EXPECT_TRUE(locator.see(number, push).valid);
+    EXPECT_FALSE(locator.see(number, nothing).valid);
+    locator.ticking.set(locator.kinematics, Kinematics());
+    EXPECT_FALSE(locator.see(number, push).valid);
+    locator.ticking.set(locator.kinematics, locator.k);
+    locator.ticking.set(locator.change, WrenchEstimate());
+    EXPECT_FALSE(locator.see(number, push).valid);
+    locator.ticking.set(locator.change, test::estimate_of(locator.k, PlatformVector::Zero(3)));
+    EXPECT_TRUE(locator.see(number, push).valid);
+  }
+  EXPECT_FALSE(locator.see(platform, PlatformVector{{0.0, 0.0, 4.0}}).valid)
+      << "a moment has no line of action";
 }
 
 TEST(ParticleLocator, IsTheSameForTheSameSeed) {
@@ -153,9 +246,10 @@ TEST(ParticleLocator, CoversPushesThatLeanForAsLongAsTheyLast) {
 
 TEST(ParticleLocator, AsksForAsManyParticlesAsThereIsRoomFor) {
   const auto robot = test::touched_bench();
-  EXPECT_THROW(ParticleLocator(robot, {.particles = 0}, {}, 1), SetupError);
-  EXPECT_THROW(ParticleLocator(robot, {.particles = max_particles + 1}, {}, 1), SetupError);
-  EXPECT_THROW(ParticleLocator(robot, {.torque_variance = 0.0}, {}, 1), SetupError);
+  EXPECT_THROW(ParticleLocator(robot, {.particles = 0}, {}, {}, 1), SetupError);
+  EXPECT_THROW(ParticleLocator(robot, {.particles = max_particles + 1}, {}, {}, 1), SetupError);
+  EXPECT_THROW(ParticleLocator(robot, {.torque_variance = 0.0}, {}, {}, 1), SetupError);
+  EXPECT_THROW(ParticleLocator(robot, {}, {.least_force = 0.0}, {}, 1), SetupError);
 }
 
 }  // namespace
