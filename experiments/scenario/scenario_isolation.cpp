@@ -13,6 +13,7 @@ void read_isolation(ConfigReader isolation, IsolationSettings& settings) {
   isolation.number("object_speed", unit::m_per_s, settings.hypotheses.object_speed, positive);
   isolation.number("friction", unit::none, settings.hypotheses.friction, not_negative);
   isolation.number("accept", unit::none, settings.model_classifier.accept, fraction);
+  settings.decision_tree.accept = settings.model_classifier.accept;
   isolation.number("largest_residual", unit::none, settings.model_classifier.largest_residual, positive);
   isolation.duration("window", settings.model_classifier.window, not_negative);
   isolation.number("leaning", unit::none, settings.closed_form.leaning, not_negative);

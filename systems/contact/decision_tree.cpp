@@ -60,7 +60,18 @@ DecisionTree::DecisionTree(const std::shared_ptr<const ParallelRobot>& robot,
   found.not_negative("tie", settings.tie, "m");
   found.positive("parallel", settings.parallel, "rad");
   found.positive("clamping_elbow", settings.clamping_elbow, "rad");
+  for (const double right : {settings.right_of_platform, settings.right_of_link1, settings.right_of_link2,
+                             settings.right_of_clamping})
+    found.require(right >= 0.0 && right <= 1.0, "shares of right answers must be between 0 and 1");
+  found.require(settings.accept > 0.0 && settings.accept <= 1.0, "accept must be above 0 and at most 1");
   throw_if_any(found.take());
+}
+
+double DecisionTree::share_right(int said) const {
+  if (classes_.is_clamping(said)) return settings_.right_of_clamping;
+  const BodyId body = ContactClasses::body(said);
+  if (body.is_platform()) return settings_.right_of_platform;
+  return body.is_link1() ? settings_.right_of_link1 : settings_.right_of_link2;
 }
 
 ContactClassification DecisionTree::classify(const ContactPhase& contact, const ContactFeatures& now,
@@ -72,8 +83,11 @@ ContactClassification DecisionTree::classify(const ContactPhase& contact, const 
   result.most_likely = decide(now, elbow_angles(at, classes_.legs()), classes_, settings_);
   if (result.most_likely < 0) return result;
   result.acquired = now.acquired;
-  result.valid = result.accepted = true;
-  result.probability = ClassVector::Unit(classes_.count(), result.most_likely);
+  result.valid = true;
+  const double right = share_right(result.most_likely);
+  result.probability.setConstant(classes_.count(), (1.0 - right) / (classes_.count() - 1));
+  result.probability[result.most_likely] = right;
+  result.accepted = result.confidence() >= settings_.accept;
   return result;
 }
 

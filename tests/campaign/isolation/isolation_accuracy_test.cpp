@@ -9,10 +9,13 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <optional>
+#include <string>
 
 #include "experiments/campaign/campaign.h"
 #include "experiments/campaign/campaign_run.h"
+#include "systems/contact/decision_tree.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/random.h"
 #include "tests/campaign/isolation/touched_bodies.h"
@@ -30,9 +33,43 @@ double quantile(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
+/// How often answers of the decision tree are right, by what they name.
+struct TreeAnswers {
+  struct Count {
+    std::size_t right = 0, all = 0;
+  };
+  std::map<std::string, Count> of;
+
+  void add(const ContactClasses& classes, int said, int truth) {
+    Count& count = of[test::sort_of(classes, said)];
+    ++count.all;
+    count.right += said == truth;
+  }
+
+  /// Whether the tree says of its answers what these show of them.
+  void compare(const std::string& robots) const {
+    const DecisionTreeSettings tree;
+    const std::map<std::string, double> stated{{"platform", tree.right_of_platform},
+                                               {"first link", tree.right_of_link1},
+                                               {"second link", tree.right_of_link2},
+                                               {"clamping", tree.right_of_clamping}};
+    for (const auto& [sort, probability] : stated) {
+      const auto found = of.find(sort);
+      ASSERT_NE(found, of.end()) << sort;
+      const auto [right, all] = found->second;
+      std::printf("  the decision tree says %s of %s robots: right in %s; as it states %.2f\n", sort.c_str(),
+                  robots.c_str(), test::share(right, all).c_str(), probability);
+      const auto [low, high] = test::bounds(right, all, 0.999);
+      EXPECT_GE(probability, low) << sort;
+      EXPECT_LE(probability, high) << sort;
+    }
+  }
+};
+
 /// What was found of many contacts so many milliseconds after their detection.
 struct Findings {
   Balance body, clamping, chain, tree;
+  TreeAnswers tree_answers;
   int contacts = 0, accepted = 0, wrong_of_accepted = 0, single_taken_for_several = 0;
   std::vector<double> on_platform, on_link2, force;  // errors [m, m, N]
   int located = 0, covered = 0;
@@ -57,6 +94,7 @@ struct Findings {
     }
     const auto by_tree = run.at<ContactClassification>("classification_decision_tree", sample);
     tree.add(truth, by_tree.most_likely == truth);
+    if (by_tree.valid) tree_answers.add(classes, by_tree.most_likely, truth);
     accepted += said.accepted;
     wrong_of_accepted += said.accepted && said.most_likely != truth;
     single_taken_for_several += said.several_contacts && !classes.is_clamping(truth);
@@ -138,6 +176,7 @@ TEST(IsolationAccuracy, OfRandomCollisionsAndClampings) {
     EXPECT_LT(of_point[point][1].wrong_of_accepted, 0.03 * of_point[point][1].contacts);
     EXPECT_GT(of_point[point][1].covered, 0.8 * of_point[point][1].located);
   }
+  of_point[1][1].tree_answers.compare(names[1]);
 }
 
 /// A robot that holds its place and is pushed slowly across a second link, as by hand.

@@ -24,7 +24,6 @@
 #include "experiments/campaign/campaign.h"
 #include "experiments/campaign/campaign_run.h"
 #include "experiments/campaign/drawn_contact.h"
-#include "experiments/campaign/exact_bounds.h"
 #include "plant/obstacle.h"
 #include "systems/contact/touch_hypotheses.h"
 #include "systems/framework/random.h"
@@ -34,6 +33,9 @@
 namespace flinch {
 namespace {
 
+using test::bounds;
+using test::share;
+using test::sort_of;
 using test::Touched;
 
 constexpr std::size_t window = 10;       // after the detection, when the answer stands [samples, ms]
@@ -123,18 +125,6 @@ double missed_by_one(const Touched& run, std::size_t detection) {
   return weights > 0.0 ? sum / weights : 0.0;
 }
 
-/// Two-sided exact bounds of a share, at 95 %.
-std::array<double, 2> bounds(std::size_t events, std::size_t trials) {
-  return {1.0 - upper_share(trials - events, trials, 0.975), upper_share(events, trials, 0.975)};
-}
-
-std::string share(std::size_t events, std::size_t trials) {
-  const auto [low, high] = bounds(events, trials);
-  char text[100];
-  std::snprintf(text, sizeof text, "%zu of %zu (%.1f to %.1f %%)", events, trials, 100.0 * low, 100.0 * high);
-  return text;
-}
-
 constexpr std::array limits{2.0, 3.0, 4.0, 6.0, 9.0, 12.0, 15.0, 20.0, 30.0};
 
 /// What a classifier said of contacts of one sort when its answer stood.
@@ -188,12 +178,6 @@ void print_shares(const std::array<BySort, 2>& answers) {
 void add(const Touched& run, std::size_t sample, const std::string& sort, std::array<BySort, 2>& answers) {
   for (std::size_t c = 0; c < classifiers.size(); ++c)
     answers[c][sort].add(run.at<ContactClassification>(classifiers[c].second, sample));
-}
-
-std::string sort_of(const ContactClasses& classes, int touched) {
-  if (classes.is_clamping(touched)) return "clamping";
-  const BodyId body = ContactClasses::body(touched);
-  return body.is_platform() ? "platform" : (body.is_link1() ? "first link" : "second link");
 }
 
 TEST(SeveralContacts, AreSeldomSaidOfOne) {

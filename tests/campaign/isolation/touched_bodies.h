@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "experiments/campaign/exact_bounds.h"
 #include "experiments/simulated/experiment.h"
 #include "experiments/simulated/simulated_scenario.h"
 #include "plant/contact_truth.h"
@@ -18,6 +21,25 @@
 
 /// Contacts of simulated robots, as the control path isolates them.
 namespace flinch::test {
+
+inline std::string sort_of(const ContactClasses& classes, int touched) {
+  if (classes.is_clamping(touched)) return "clamping";
+  const BodyId body = ContactClasses::body(touched);
+  return body.is_platform() ? "platform" : (body.is_link1() ? "first link" : "second link");
+}
+
+/// Two-sided exact bounds of a share.
+inline std::array<double, 2> bounds(std::size_t events, std::size_t trials, double confidence = 0.95) {
+  const double of_a_side = 0.5 * (1.0 + confidence);
+  return {1.0 - upper_share(trials - events, trials, of_a_side), upper_share(events, trials, of_a_side)};
+}
+
+inline std::string share(std::size_t events, std::size_t trials) {
+  const auto [low, high] = bounds(events, trials);
+  char text[100];
+  std::snprintf(text, sizeof text, "%zu of %zu (%.1f to %.1f %%)", events, trials, 100.0 * low, 100.0 * high);
+  return text;
+}
 
 /// What was recorded of one contact, sample by sample.
 class Touched {

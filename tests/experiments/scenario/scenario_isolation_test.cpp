@@ -29,6 +29,7 @@ TEST(ReadIsolation, TakesWhatTheFileSaysAndLeavesTheRest) {
   EXPECT_EQ(settings.uncertainty.force, 1.5);
   EXPECT_EQ(settings.uncertainty.moment, IsolationSettings().uncertainty.moment);
   EXPECT_EQ(settings.model_classifier.accept, 0.8);
+  EXPECT_EQ(settings.decision_tree.accept, 0.8);
   EXPECT_EQ(settings.model_classifier.largest_residual, 20.0);
   EXPECT_EQ(settings.model_classifier.window, 5ms);
   EXPECT_EQ(settings.closed_form.leaning, 0.2);

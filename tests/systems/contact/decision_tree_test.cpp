@@ -1,5 +1,7 @@
 #include "systems/contact/decision_tree.h"
 
+#include <cmath>
+#include <map>
 #include <numbers>
 
 #include "systems/contact/feature_extraction.h"
@@ -70,22 +72,79 @@ TEST(DecisionTree, SaysNothingOfFeaturesThatAreNotThere) {
   EXPECT_EQ(decide(features, JointVector::Zero(3), classes, {}), -1);
 }
 
-TEST(DecisionTree, AnswersAtTheDetectionAndKeepsItUntilTheContactEnds) {
-  const Bench bench;
-  DiagramBuilder builder;
-  auto& block = builder.add<DecisionTree>("tree", bench.robot, DecisionTreeSettings{});
-  const auto phase = builder.export_input("phase", block.phase);
-  const auto features = builder.export_input("features", block.features);
-  const auto kinematics = builder.export_input("kinematics", block.kinematics);
-  test::Ticking ticking(builder);
-  ticking.set(kinematics, bench.home);
-  const auto see = [&](bool active, const PlatformVector& wrench) {
+struct Tree {
+  explicit Tree(const DecisionTreeSettings& settings = {})
+      : block(builder.add<DecisionTree>("tree", bench.robot, settings)),
+        phase(builder.export_input("phase", block.phase)),
+        features(builder.export_input("features", block.features)),
+        kinematics(builder.export_input("kinematics", block.kinematics)),
+        ticking(builder) {}
+
+  ContactClassification see(bool active, const PlatformVector& wrench, const Kinematics& k) {
+    ticking.set(kinematics, k);
     ticking.set(phase, ContactPhase{active, {}});
-    ticking.set(features,
-                contact_features(*bench.robot, bench.home, test::estimate_of(bench.home, wrench), {}));
+    ticking.set(features, contact_features(*bench.robot, k, test::estimate_of(k, wrench), {}));
     ticking.tick();
     return ticking.get(block.classification);
-  };
+  }
+  ContactClassification see(bool active, const PlatformVector& wrench) {
+    return see(active, wrench, bench.home);
+  }
+
+  Bench bench;
+  DiagramBuilder builder;
+  DecisionTree& block;
+  InputPort<ContactPhase> phase;
+  InputPort<ContactFeatures> features;
+  InputPort<Kinematics> kinematics;
+  test::Ticking ticking;
+};
+
+TEST(DecisionTree, IsAsSureAsAnswersOfThatSortAreRight) {
+  const DecisionTreeSettings settings{.right_of_platform = 0.8,
+                                      .right_of_link1 = 0.6,
+                                      .right_of_link2 = 0.5,
+                                      .right_of_clamping = 0.3,
+                                      .accept = 0.6};
+  Tree tree(settings);
+  std::map<int, int> said;
+  for (const Kinematics& k : test::random_kinematics(*tree.bench.robot, 200)) {
+    for (const double fraction : {0.1, 0.7}) {
+      const PlatformVector push =
+          test::wrench_on_link(*tree.bench.robot, k, BodyId::link2(1), fraction, {0.0, 40.0});
+      for (const PlatformVector& wrench : {push, PlatformVector(PlatformVector{{0.0, 40.0, 0.0}})}) {
+        tree.see(false, wrench, k);
+        const ContactClassification answer = tree.see(true, wrench, k);
+        ASSERT_TRUE(answer.valid);
+        const int number = answer.most_likely;
+        const BodyId body = BodyId::from_index(number);
+        const double right = classes.is_clamping(number) ? 0.3
+                             : body.is_platform()        ? 0.8
+                             : body.is_link1()           ? 0.6
+                                                         : 0.5;
+        EXPECT_EQ(answer.confidence(), right);
+        EXPECT_EQ(answer.accepted, right >= settings.accept);
+        ASSERT_EQ(answer.probability.size(), classes.count());
+        EXPECT_NEAR(answer.probability.sum(), 1.0, 1e-12);
+        EXPECT_NEAR(answer.probability[(number + 1) % classes.count()], (1.0 - right) / 9.0, 1e-15);
+        ++said[static_cast<int>(std::lround(10.0 * right))];
+      }
+    }
+  }
+  EXPECT_EQ(said.size(), 4U) << "an answer of every sort";
+}
+
+TEST(DecisionTree, IsByDefaultNotActedUponButOfThePlatform) {
+  const DecisionTreeSettings settings;
+  EXPECT_GE(settings.right_of_platform, settings.accept);
+  for (const double right : {settings.right_of_link1, settings.right_of_link2, settings.right_of_clamping})
+    EXPECT_LT(right, settings.accept);
+}
+
+TEST(DecisionTree, AnswersAtTheDetectionAndKeepsItUntilTheContactEnds) {
+  Tree tree;
+  const Bench& bench = tree.bench;
+  const auto see = [&](bool active, const PlatformVector& wrench) { return tree.see(active, wrench); };
   const PlatformVector on_platform{{0.0, 40.0, 0.0}};
   const PlatformVector on_link =
       test::wrench_on_link(*bench.robot, bench.home, BodyId::link2(2), 0.8, {0.0, 40.0});
@@ -93,17 +152,20 @@ TEST(DecisionTree, AnswersAtTheDetectionAndKeepsItUntilTheContactEnds) {
   EXPECT_FALSE(see(false, on_platform).valid);
   EXPECT_FALSE(see(true, PlatformVector::Zero(3)).valid);
   const ContactClassification first = see(true, on_platform);
-  EXPECT_TRUE(first.valid && first.accepted);
+  EXPECT_TRUE(first.valid);
   EXPECT_EQ(first.most_likely, 0);
-  EXPECT_EQ(first.confidence(), 1.0);
   EXPECT_EQ(see(true, on_link).most_likely, 0);
   EXPECT_FALSE(see(false, on_link).valid);
   EXPECT_EQ(see(true, on_link).most_likely, ContactClasses::collision(BodyId::link2(2)));
   EXPECT_EQ(allocations.count(), 0);
 }
 
-TEST(DecisionTree, AsksForPositiveLimits) {
-  EXPECT_THROW(DecisionTree(test::touched_bench(), {.leg_distance = 0.0}), SetupError);
+TEST(DecisionTree, AsksForPositiveLimitsAndShares) {
+  const auto robot = test::touched_bench();
+  EXPECT_THROW(DecisionTree(robot, {.leg_distance = 0.0}), SetupError);
+  EXPECT_THROW(DecisionTree(robot, {.right_of_link1 = 1.1}), SetupError);
+  EXPECT_THROW(DecisionTree(robot, {.right_of_clamping = std::nan("")}), SetupError);
+  EXPECT_THROW(DecisionTree(robot, {.accept = 0.0}), SetupError);
 }
 
 }  // namespace
