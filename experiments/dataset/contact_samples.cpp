@@ -128,6 +128,22 @@ struct Moments {
   std::size_t end = 0;
 };
 
+/// How far a recording has come towards samples.
+struct Progress {
+  bool begun = false, noticed = false;
+  bool labelled = false;   ///< At some tick after that one thing touched.
+  bool estimated = false;  ///< At one of those the wrench was known.
+  bool chosen = false;     ///< One of those was asked for.
+
+  std::string lacks() const {
+    if (!begun) return "nothing touched";
+    if (!noticed) return "not noticed";
+    if (!labelled) return "noticed, but at no tick did one thing touch";
+    if (estimated && !chosen) return "noticed, but at no tick that 'samples' asks for";
+    return "noticed, but wrench or motion were not known";
+  }
+};
+
 /// None where something was not known at one of its moments.
 std::optional<CourseMoments> course_at(std::size_t tick, Time period,
                                        const RecordedValues<RecordedEstimate>& estimates,
@@ -161,27 +177,33 @@ ContactSamples contact_samples(const Recording& recording, const ParallelRobot& 
   const auto estimates = read<RecordedEstimate>(recording, wrench_of(choice, recording));
   const double period = to_seconds(recording.period);
   ContactSamples result;
+  Progress progress{.noticed = moments.early.has_value()};
   for (std::size_t tick = 0; tick < recording.samples(); ++tick) {
     const double time = static_cast<double>(tick) * period;
     label.see(tick, time);
     if (moments.early && tick == *moments.early && !label.begun())
       return {{}, "noticed before anything touched"};
     if (!moments.early || tick < *moments.early) continue;
+    if (label.touched() < 0) continue;
+    progress.labelled = true;
     const RecordedEstimate estimate = estimates[tick];
-    if (!estimate.valid || label.touched() < 0) continue;
+    if (!estimate.valid) continue;
+    progress.estimated = true;
     const int moment = moments.at(tick);
     const bool is_due = (tick - *moments.early) % static_cast<std::size_t>(choice.every) == 0;
     const double force = estimate.wrench_in_base.head(robot.space().translations()).norm();
     const bool is_chosen = choice.from_force ? force >= *choice.from_force && is_due
                                              : tick <= moments.end && (moment != 0 || is_due);
     if (!is_chosen) continue;
+    progress.chosen = true;
     const auto course = course_at(tick, recording.period, estimates, motions);
     if (!course) continue;
     const double early = static_cast<double>(*moments.early) * period;
     result.samples.push_back({0, 0, moment, label.touched(), time - label.onset(early), time - early,
                               label.force(), motions[tick].pose, *course});
   }
-  if (result.samples.empty()) result.left_out = label.begun() ? "not noticed" : "nothing touched";
+  progress.begun = label.begun();
+  if (result.samples.empty()) result.left_out = progress.lacks();
   return result;
 }
 
