@@ -6,7 +6,7 @@
 
 namespace flinch {
 
-std::vector<std::string> contacts_at_start(const BenchSettings& settings) {
+std::vector<ContactAtStart> contacts_at_start(const BenchSettings& settings) {
   const std::unique_ptr<const BenchDynamics> bench = BenchDynamics::make(settings);
   const Mechanism& robot = bench->robot();
   BenchSnapshot start;
@@ -14,16 +14,16 @@ std::vector<std::string> contacts_at_start(const BenchSettings& settings) {
   resting.torque.setZero(robot.drives());
   bench->snapshot(bench->initial_state(), resting, PlatformVector::Zero(robot.dof()), bench->initial_step(),
                   0.0, start);
-  std::vector<std::string> found;
+  std::vector<ContactAtStart> found;
   for (int i = 0; i < start.contacts.touch_count; ++i) {
     const Touch& touch = start.contacts.touches[static_cast<std::size_t>(i)];
+    const auto obstacle = static_cast<std::size_t>(touch.obstacle);
     std::ostringstream sentence;
     sentence.precision(3);
     sentence << "begins in contact: " << robot.body(BodyId::from_index(touch.body)).name << " is "
-             << 1e3 * touch.depth << " mm deep in "
-             << settings.obstacles[static_cast<std::size_t>(touch.obstacle)]->form().name
+             << 1e3 * touch.depth << " mm deep in " << settings.obstacles[obstacle]->form().name
              << "; move the obstacle or the start";
-    found.push_back(sentence.str());
+    found.push_back({obstacle, sentence.str()});
   }
   return found;
 }

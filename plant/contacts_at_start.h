@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -7,8 +8,13 @@
 
 namespace flinch {
 
-/// Every contact of the robot with an obstacle before anything has moved, one sentence each that names body,
-/// obstacle and depth: a scene that cannot be meant. `settings` must be without problems.
-std::vector<std::string> contacts_at_start(const BenchSettings& settings);
+/// A contact of the robot with an obstacle before anything has moved: a scene that cannot be meant.
+struct ContactAtStart {
+  std::size_t obstacle = 0;  ///< Its place in the scene.
+  std::string complaint;     ///< A sentence that names body, obstacle and depth.
+};
+
+/// All of them. `settings` must be without problems.
+std::vector<ContactAtStart> contacts_at_start(const BenchSettings& settings);
 
 }  // namespace flinch

@@ -214,6 +214,12 @@ WrenchRamp read_ramp(ConfigReader reader, const ConfigurationSpace& space) {
   return ramp;
 }
 
+/// Of the pylon, which comes first, or of an entry of the list.
+std::string key_of_obstacle(const ConfigReader& file, std::size_t obstacle) {
+  const std::size_t pylons = file.has("pylon") ? 1 : 0;
+  return obstacle < pylons ? "pylon" : "obstacles[" + std::to_string(obstacle - pylons) + "]";
+}
+
 }  // namespace
 
 void read_station(ConfigReader& file, const Scenario& scenario, SimulatedStationSettings& station,
@@ -236,7 +242,8 @@ void read_station(ConfigReader& file, const Scenario& scenario, SimulatedStation
   specimen = draw_specimen(realism, *scenario.robot.robot, scenario.robot.drives.max_torque, scenario.seed);
   station = with_specimen(std::move(station), specimen);
   if (file.good()) {
-    for (const std::string& contact : contacts_at_start(station.bench)) file.problem("", contact);
+    for (const ContactAtStart& contact : contacts_at_start(station.bench))
+      file.problem(key_of_obstacle(file, contact.obstacle), contact.complaint);
   }
 }
 

@@ -22,7 +22,6 @@
 namespace flinch {
 namespace {
 
-using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -63,9 +62,18 @@ TEST(ScenarioObstacles, AreOfTheKindThatTheyName) {
   EXPECT_EQ(obstacles[3]->holding()->end, 2.0);
 }
 
-TEST(ScenarioObstacles, MayNotBeginInContact) {
-  EXPECT_THAT(problems_with("  - {name: post, x_m: 0.15, y_m: 0}\n"),
-              Contains(HasSubstr("begins in contact: platform is 27 mm deep in post")));
+TEST(ScenarioObstacles, MayNotBeginInContactAndAreNamedByTheirOwnLine) {
+  const std::string post = "  - {name: post, x_m: 0.15, y_m: 0}\n";
+  EXPECT_THAT(
+      problems_with("  - {name: far, x_m: 0.7, y_m: 0.7}\n" + post),
+      ElementsAre(
+          HasSubstr("own.yaml:5: obstacles[1]: begins in contact: platform is 27 mm deep in post"),
+          HasSubstr("own.yaml:5: obstacles[1]: begins in contact: leg1_link2 is 33.6 mm deep in post")));
+  EXPECT_THAT(
+      test::problems_of([&] { scenario_with(post, "pylon: {x_m: -0.15, y_m: 0}\n"); }),
+      ElementsAre(HasSubstr("own.yaml:3: pylon: begins in contact: platform is 27 mm deep in pylon"),
+                  HasSubstr("own.yaml:5: obstacles[0]: begins in contact: platform is 27 mm deep in post"),
+                  HasSubstr("own.yaml:5: obstacles[0]: begins in contact: leg1_link2 is 33.6 mm deep")));
 }
 
 TEST(ScenarioObstacles, AreRefusedWhereTheyCannotBeToldApartOrMoveBackInTime) {
