@@ -37,8 +37,8 @@ class Solid {
   AxisBox box(const Placement& at) const noexcept;
 
   /// Where `a` and `b` are nearest: normal from a towards b. Distances of spheres and capsules are exact to
-  /// rounding, those of hulls and boxes to 1e-12 m, and where they overlap by more than some centimetres to a
-  /// millimetre; a box has no rounded edges. Infinite where the search finds nothing. Never allocates; keeps
+  /// rounding, those of hulls and boxes to 1e-12 m, and where they overlap by more than 20 mm to some
+  /// millimetres; a box has no rounded edges. Infinite where the search finds nothing. Never allocates; keeps
   /// nothing from call to call.
   friend SurfaceGap nearest(const Solid& a, const Placement& at_a, const Solid& b,
                             const Placement& at_b) noexcept;

@@ -1,6 +1,7 @@
 #include "plant/obstacle.h"
 
 #include "systems/foundation/findings.h"
+#include "systems/robot/convex_hull.h"
 
 namespace flinch {
 namespace {
@@ -15,8 +16,8 @@ void check(const Box& box, Findings& found) {
 
 void check(const ConvexHull& hull, Findings& found) {
   found.not_negative("margin", hull.margin, "m");
-  found.require(hull.points.size() >= 4,
-                "points has " + std::to_string(hull.points.size()) + " entries; a hull needs at least 4");
+  const std::string complaint = complaint_about_points(hull);
+  found.require(complaint.empty(), "points " + complaint);
 }
 
 }  // namespace

@@ -91,6 +91,13 @@ bool stands_free(const Mechanism& robot, const Kinematics& now, const Shape& sha
   return true;
 }
 
+/// The obstacle is moved away from a body, so it must be in that body at first.
+void check_lies_about_position(const Shape& shape) {
+  const Solid point(Sphere{.radius = 1e-6});
+  if (nearest(Solid(shape), {}, point, {}).gap < 0.0) return;
+  throw SetupError("'contact' cannot place the obstacle: its position is not within its points");
+}
+
 const PlatformPath& path_of(const Scenario& scenario) {
   const std::optional<PlatformPath>& path = scenario.control.trajectory.path;
   if (!path) throw SetupError("the scenario has no motion, so nothing runs into an obstacle");
@@ -188,6 +195,7 @@ std::optional<DrawnContact> clamp(const Mechanism& robot, const Instant& instant
 
 std::optional<DrawnContact> draw_contact(const Scenario& scenario, const std::string& kind,
                                          const Shape& shape, RandomGenerator& random, double largest_gap) {
+  check_lies_about_position(shape);
   const ParallelRobot& robot = *scenario.robot.robot;
   const Instant instant = half_way(scenario);
   if (!instant.now.reachable || !instant.later.reachable) return std::nullopt;
@@ -205,6 +213,7 @@ std::optional<DrawnContact> draw_contact(const Scenario& scenario, const std::st
 
 std::optional<DrawnContact> draw_touch(const ParallelRobot& robot, const Kinematics& now,
                                        const std::string& kind, const Shape& shape, RandomGenerator& random) {
+  check_lies_about_position(shape);
   if (!now.reachable) return std::nullopt;
   Eigen::Vector3d normal = random_direction(robot, random);
   if (kind == "platform") {

@@ -33,14 +33,15 @@ struct HalfWay {
 /// touches both, or one that is drawn, with a gap of up to `largest_gap` [m] to the other.
 /// None where that body does not move (at least 0.02 m/s there), the leg opens, or another body is in the
 /// way; another draw may do.
-/// Throws SetupError where the robot has no such body.
+/// Throws SetupError where the robot has no such body, or a hull does not hold the obstacle's position.
 std::optional<DrawnContact> draw_contact(const Scenario& scenario, const std::string& kind,
                                          const Shape& shape, RandomGenerator& random,
                                          double largest_gap = 0.0);
 
 /// Draws a place for an obstacle of `shape` so that it touches a body from any side, wherever that moves: the
 /// platform from a direction that is drawn, a link on either side between 10 and 90 % of its length. None
-/// where another body is in the way. `kind` is that of a body, no clamping.
+/// where another body is in the way. `kind` is that of a body, no clamping. Throws SetupError where a hull does
+/// not hold the obstacle's position.
 std::optional<DrawnContact> draw_touch(const ParallelRobot& robot, const Kinematics& now,
                                        const std::string& kind, const Shape& shape, RandomGenerator& random);
 

@@ -4,17 +4,21 @@
 #include <array>
 
 #include "systems/config/config_reader.h"
+#include "systems/robot/convex_hull.h"
+#include "systems/robot/rotation.h"
 
 namespace flinch {
 namespace {
 
-enum class Outline { sphere, capsule, box };
+enum class Outline { sphere, capsule, box, hull };
+
+constexpr double default_radius = 0.04;  // [m]
 
 std::span<double> entries(Eigen::Vector3d& vector) { return {vector.data(), 3}; }
 
 ScenarioObstacle read_pylon(ConfigReader reader) {
   ScenarioObstacle pylon{.name = "pylon"};
-  double radius = 0.04;
+  double radius = default_radius;
   reader.required().number("x", unit::m, pylon.position_in_base.x());
   reader.required().number("y", unit::m, pylon.position_in_base.y());
   reader.number("radius", unit::m, radius, positive);
@@ -22,24 +26,64 @@ ScenarioObstacle read_pylon(ConfigReader reader) {
   return pylon;
 }
 
+/// The axes of a shape that is turned by a rotation vector against the base frame.
+Eigen::Matrix3d read_axes(ConfigReader& reader) {
+  Eigen::Vector3d rotation(0.0, 0.0, 0.0);
+  reader.numbers("rotation", unit::rad, entries(rotation));
+  return rotation_matrix(quaternion_exp(rotation));
+}
+
+Shape read_capsule(ConfigReader& reader) {
+  Eigen::Vector3d axis(0.0, 0.0, 0.2);
+  double radius = default_radius;
+  reader.number("radius", unit::m, radius, positive);
+  reader.numbers("axis", unit::m, entries(axis));
+  return Capsule{.begin = -0.5 * axis, .end = 0.5 * axis, .radius = radius};
+}
+
+Shape read_box(ConfigReader& reader) {
+  Eigen::Vector3d size(0.1, 0.1, 0.1);
+  reader.numbers("size", unit::m, entries(size), positive);
+  return Box{.axes = read_axes(reader), .half_lengths = 0.5 * size};
+}
+
+/// A sphere in the place of one that is no good.
+Shape read_hull(ConfigReader& reader) {
+  ConvexHull hull;
+  const Eigen::Matrix3d axes = read_axes(reader);
+  for (ConfigReader& corner : reader.required().sections("points")) {
+    Eigen::Vector3d point(0.0, 0.0, 0.0);
+    corner.required().number("x", unit::m, point.x());
+    corner.required().number("y", unit::m, point.y());
+    corner.required().number("z", unit::m, point.z());
+    hull.points.emplace_back(axes * point);
+  }
+  const std::string complaint = complaint_about_points(hull);
+  if (complaint.empty()) return hull;
+  reader.problem("points", complaint);
+  return Sphere{.radius = default_radius};
+}
+
 Shape read_shape(ConfigReader& reader) {
   Outline outline = Outline::sphere;
-  double radius = 0.04;
-  Eigen::Vector3d axis(0.0, 0.0, 0.2), size(0.1, 0.1, 0.1);
-  const bool is_known = reader.choice(
-      "shape", outline, {{"sphere", Outline::sphere}, {"capsule", Outline::capsule}, {"box", Outline::box}});
+  const bool is_known = reader.choice("shape", outline,
+                                      {{"sphere", Outline::sphere},
+                                       {"capsule", Outline::capsule},
+                                       {"box", Outline::box},
+                                       {"hull", Outline::hull}});
   if (!is_known) reader.leave_rest_unread();
-  if (outline != Outline::box) reader.number("radius", unit::m, radius, positive);
-  if (outline == Outline::capsule) reader.numbers("axis", unit::m, entries(axis));
-  if (outline == Outline::box) reader.numbers("size", unit::m, entries(size), positive);
   switch (outline) {
     case Outline::capsule:
-      return Capsule{.begin = -0.5 * axis, .end = 0.5 * axis, .radius = radius};
+      return read_capsule(reader);
     case Outline::box:
-      return Box{.half_lengths = 0.5 * size};
+      return read_box(reader);
+    case Outline::hull:
+      return read_hull(reader);
     case Outline::sphere:
       break;
   }
+  double radius = default_radius;
+  reader.number("radius", unit::m, radius, positive);
   return Sphere{.radius = radius};
 }
 

@@ -162,6 +162,10 @@ void ConfigDocument::add_value(const FoundValue& found, std::string value, const
   values_.push_back({found.key, std::move(value), std::string(unit.symbol), found.node != nullptr});
 }
 
+void ConfigDocument::add_list(const FoundValue& found) {
+  places_.push_back({found.key, found.written, found.place});
+}
+
 void ConfigDocument::add_problem(const FoundValue& found, const std::string& complaint) {
   add(found.place, found.key, found.written, complaint);
 }

@@ -72,6 +72,8 @@ class ConfigDocument {
   bool has(ConfigSection& section, std::string_view name);
 
   void add_value(const FoundValue& found, std::string value, const Unit& unit);
+  /// Where a list of sections stands, for problems of the list.
+  void add_list(const FoundValue& found);
   void add_problem(const FoundValue& found, const std::string& complaint);
   /// A problem of the value or section called `key`, told unless that has a problem of its own.
   void add_consequence(const std::string& key, const std::string& complaint);

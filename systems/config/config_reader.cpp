@@ -307,6 +307,7 @@ std::vector<ConfigReader> ConfigReader::read_sections(std::string_view name, Cou
   const FoundValue found = document_->find(*section_, name, unit::none, required_);
   std::vector<ConfigReader> readers;
   if (found.node == nullptr) return readers;
+  document_->add_list(found);
   const std::string complaint = complaint_about_list(*found.node, count, "mappings");
   if (!complaint.empty()) document_->add_problem(found, complaint);
 

@@ -169,6 +169,39 @@ TEST(BoxesThatOverlap, PenetrateAsFarAlongTheBestOfFifteenAxes) {
   EXPECT_GT(shallow, pairs / 8);
 }
 
+// Two shapes in Bullet, one outline: each search ends early, if it does, at another place.
+TEST(HullOfTheCornersOfABox, IsAsFarFromAnythingAsTheBox) {
+  RandomShapes random(6);
+  double from_round = 0.0, from_prism = 0.0, deep_in_prism = 0.0;
+  int overlapping = 0;
+  for (int i = 0; i < pairs; ++i) {
+    const Box box = random.box();
+    const auto points = corners(box, {});
+    const Solid as_box(box), as_hull(ConvexHull{.points = {points.begin(), points.end()}});
+    const Placement at = random.placement(0.1), at_other = random.placement(0.25);
+    const auto compare = [&](const Solid& other, double& worst, double& worst_deep) {
+      const double of_box = nearest(as_box, at, other, at_other).gap;
+      const double of_hull = nearest(as_hull, at, other, at_other).gap;
+      double& kept = of_box > -0.02 ? worst : worst_deep;
+      kept = std::max(kept, std::abs(of_hull - of_box));
+      overlapping += of_box < 0.0 ? 1 : 0;
+    };
+    compare(Solid(random.sphere()), from_round, from_round);
+    compare(Solid(random.capsule()), from_round, from_round);
+    compare(Solid(random.prism(12)), from_prism, deep_in_prism);
+    const AxisBox around_box = as_box.box(at), around_hull = as_hull.box(at);
+    EXPECT_GE((around_box.low - around_hull.low).minCoeff(), -1e-12);
+    EXPECT_GE((around_hull.high - around_box.high).minCoeff(), -1e-12);
+  }
+  std::cout << "hull and box: from round shapes " << from_round << " m, from a prism " << from_prism
+            << " m up to a depth of 20 mm and " << deep_in_prism << " m beyond it, " << overlapping
+            << " overlap\n";
+  EXPECT_LT(from_round, 1e-10);
+  EXPECT_LT(from_prism, 1e-10);
+  EXPECT_LT(deep_in_prism, 5e-3) << "the search ends early where hulls lie deep in one another";
+  EXPECT_GT(overlapping, pairs / 4);
+}
+
 // ---------------------------------------------------------------- certificates
 
 std::vector<Eigen::Vector3d> placed(const ConvexHull& hull, const Placement& at) {

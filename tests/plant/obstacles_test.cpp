@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -46,6 +47,17 @@ TEST(ObstaclePath, RefusesTimesThatDoNotRiseAndNoPlaces) {
   ASSERT_EQ(path.problems("hand.").size(), 1U);
   EXPECT_EQ(path.problems("hand.")[0],
             "hand.path[1].time is 1 s; it must be later than that of the place before");
+}
+
+// ---------------------------------------------------------------- shapes
+
+TEST(Obstacle, RefusesAHullOfPointsInAPlane) {
+  ObstacleForm form = test::post_form(0.5, 0.0);
+  form.shape = ConvexHull{.points = {{0.0, 0.0, 0.1}, {0.1, 0.0, 0.1}, {0.0, 0.1, 0.1}, {0.1, 0.1, 0.1}}};
+  EXPECT_THAT(FixedObstacle(form).problems("post."),
+              testing::ElementsAre("post.points lie in a plane; the hull must be at least 0.1 mm thick"));
+  std::get<ConvexHull>(form.shape).points.emplace_back(0.0, 0.0, 0.2);
+  EXPECT_THAT(FixedObstacle(form).problems("post."), testing::IsEmpty());
 }
 
 // ---------------------------------------------------------------- hands

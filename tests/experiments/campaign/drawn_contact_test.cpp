@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "experiments/scenario/scenario.h"
+#include "systems/foundation/setup_error.h"
 #include "systems/framework/random.h"
 #include "systems/robot/parallel_robot.h"
 #include "tests/support/workplace.h"
@@ -121,6 +123,33 @@ TEST(ADrawnContact, WithThePlatformIsOnTheSideToWhichItMoves) {
         EXPECT_GT(away.dot(Eigen::Vector2d(now.velocity.head<2>())), 0.0);
       });
   EXPECT_GT(found, 50);
+}
+
+ConvexHull prism(double low_x, double high_x) {
+  ConvexHull hull;
+  for (const double x : {low_x, high_x}) {
+    for (const double y : {-0.02, 0.03}) {
+      for (const double z : {-0.05, 0.05}) hull.points.emplace_back(x, y, z);
+    }
+  }
+  return hull;
+}
+
+TEST(ADrawnContact, PlacesAHullThatHoldsItsPosition) {
+  const Scenario scenario = moving();
+  const Eigen::Vector2d platform = half_way(scenario).pose.head<2>();
+  RandomGenerator random(4);
+  int found = 0;
+  for (int i = 0; i < 100; ++i) {
+    const auto contact = draw_contact(scenario, "platform", prism(-0.01, 0.04), random);
+    if (!contact) continue;
+    ++found;
+    const Eigen::Vector2d from = platform - contact->position_in_base.head<2>();
+    const Eigen::Vector2d nearest(std::clamp(from.x(), -0.01, 0.04), std::clamp(from.y(), -0.02, 0.03));
+    EXPECT_NEAR((from - nearest).norm(), 0.137, 1e-9) << "the radius of the platform";
+  }
+  EXPECT_GT(found, 20);
+  EXPECT_THROW(draw_contact(scenario, "platform", prism(0.01, 0.04), random), SetupError);
 }
 
 TEST(ADrawnContact, IsFoundInSpaceToo) {

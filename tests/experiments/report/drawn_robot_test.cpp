@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include "experiments/report/report_page.h"
 #include "systems/robot/five_bar.h"
@@ -124,6 +126,27 @@ TEST_P(DrawnRobot, WorksInChromium) {
 
 INSTANTIATE_TEST_SUITE_P(Every, DrawnRobot, testing::Values(planar, five_bar, hexapod),
                          [](const auto& drawn) { return std::string(drawn.param.name); });
+
+TEST(DrawnObstacle, IsTheHullOfItsCornersWhereverItIsTurned) {
+  Box box{.half_lengths = {0.1, 0.1, 0.05}};
+  box.axes = Eigen::AngleAxisd(M_PI / 4.0, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const ReportObstacle of_box = drawn_obstacle("box", box, {1.0, 2.0, 3.0});
+  ConvexHull hull;
+  for (const double z : {-0.05, 0.05}) {
+    for (const auto& [x, y] : {std::pair(0.0, -1.0), {-1.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}})
+      hull.points.emplace_back(0.1 * M_SQRT2 * x, 0.1 * M_SQRT2 * y, z);
+  }
+  const ReportObstacle of_hull = drawn_obstacle("hull", hull, {1.0, 2.0, 3.0});
+  EXPECT_EQ(of_box.radius, 0.0);
+  EXPECT_EQ(of_hull.radius, 0.0);
+  ASSERT_EQ(of_box.points.size(), 8U);
+  ASSERT_EQ(of_hull.points.size(), 8U);
+  for (const ReportPoint& corner : of_box.points) {
+    EXPECT_TRUE(std::any_of(of_hull.points.begin(), of_hull.points.end(), [&](const ReportPoint& point) {
+      return (vector(point) - vector(corner)).norm() < 1e-14;
+    }));
+  }
+}
 
 TEST(DrawnRobotOutOfReach, HasNoElbows) {
   Report report = circling(*planar.robot);

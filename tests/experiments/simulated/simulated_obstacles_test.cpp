@@ -14,6 +14,7 @@
 #include "plant/compliant_obstacle.h"
 #include "plant/contact_truth.h"
 #include "plant/hand.h"
+#include "plant/narrow_phase.h"
 #include "systems/framework/recorded_values.h"
 #include "systems/framework/recording.h"
 #include "tests/support/problems_of.h"
@@ -74,6 +75,87 @@ TEST(ScenarioObstacles, MayNotBeginInContactAndAreNamedByTheirOwnLine) {
       ElementsAre(HasSubstr("own.yaml:3: pylon: begins in contact: platform is 27 mm deep in pylon"),
                   HasSubstr("own.yaml:5: obstacles[0]: begins in contact: platform is 27 mm deep in post"),
                   HasSubstr("own.yaml:5: obstacles[0]: begins in contact: leg1_link2 is 33.6 mm deep")));
+}
+
+// ---------------------------------------------------------------- boxes that are turned, and hulls
+
+/// The eight corners of a cube of 100 mm about its position, one on each line.
+const std::string cube_corners =
+    "[{x_mm: -50, y_mm: -50, z_mm: -50},\n {x_mm: 50, y_mm: -50, z_mm: -50},\n"
+    " {x_mm: -50, y_mm: 50, z_mm: -50},\n {x_mm: 50, y_mm: 50, z_mm: -50},\n"
+    " {x_mm: -50, y_mm: -50, z_mm: 50},\n {x_mm: 50, y_mm: -50, z_mm: 50},\n"
+    " {x_mm: -50, y_mm: 50, z_mm: 50},\n {x_mm: 50, y_mm: 50, z_mm: 50}]";
+
+const std::string standing_on_its_edge = "x_m: 0.5, y_m: 0, rotation_deg: [0, 0, 45]";
+
+/// Of the platform at home from the obstacle.
+double gap_to_platform(const SimulatedScenario& scenario) {
+  const ParallelRobot& robot = *scenario.robot.robot;
+  const ObstacleForm& form = scenario.station.bench.obstacles.front()->form();
+  Placement home;
+  home.origin.head<2>() = robot.home_pose().head<2>();
+  return nearest(Solid(robot.body(BodyId::platform()).shapes.front()), home, Solid(form.shape),
+                 {.origin = form.position_in_base})
+      .gap;
+}
+
+TEST(ScenarioObstacles, MayBeTurned) {
+  const double from_edge = 0.5 - 0.05 * std::sqrt(2.0) - 0.137;  // less half a diagonal and the platform
+  EXPECT_NEAR(gap_to_platform(scenario_with("  - {shape: box, " + standing_on_its_edge + "}\n")), from_edge,
+              1e-12);
+  EXPECT_NEAR(gap_to_platform(scenario_with("  - {shape: hull, points: " + cube_corners + ", " +
+                                            standing_on_its_edge + "}\n")),
+              from_edge, 1e-12);
+  // About the diagonal of the cube x goes to y and back to x after 120 degrees.
+  const std::string turned = "rotation_deg: [69.2820323027551, 69.2820323027551, 69.2820323027551]";
+  EXPECT_NEAR(gap_to_platform(scenario_with("  - {shape: box, x_m: 0.5, y_m: 0, size_mm: [40, 60, 80], " +
+                                            turned + "}\n")),
+              0.5 - 0.04 - 0.137, 1e-12)
+      << "its edge of 80 mm lies along x now";
+}
+
+TEST(ScenarioObstacles, AreStruckAlikeAsBoxAndAsHull) {
+  const std::string crate =
+      "x_mm: -260, y_mm: -20, rotation_deg: [20, 10, 30], kind: path, path: [{time_s: 0.4}, {time_s: 0.6, "
+      "x_mm: "
+      "90}]}\n";
+  const Verdict of_box = verdict_on(scenario_with("  - {name: crate, shape: box, " + crate));
+  const Verdict of_hull =
+      verdict_on(scenario_with("  - {name: crate, shape: hull, points: " + cube_corners + ", " + crate));
+  ASSERT_EQ(of_box.contacts.size(), 1U);
+  ASSERT_EQ(of_hull.contacts.size(), 1U);
+  EXPECT_EQ(of_box.contacts[0].body, "platform");
+  EXPECT_EQ(of_hull.contacts[0].body, "platform");
+  EXPECT_GT(of_box.contacts[0].peak_force, 20.0);
+  EXPECT_NEAR(of_hull.contacts[0].peak_force, of_box.contacts[0].peak_force, 1e-6);
+  EXPECT_NEAR(of_hull.contacts[0].onset, of_box.contacts[0].onset, 1e-9);
+}
+
+TEST(ScenarioObstacles, AreRefusedAsHullsThatEncloseNothing) {
+  const auto hull = [](const std::string& points) {
+    return "  - {name: far, x_m: 0.7, y_m: 0.7}\n  - {x_m: 0.7, y_m: -0.7, shape: hull,\n     " + points +
+           "}\n";
+  };
+  EXPECT_THAT(
+      problems_with(hull("points: [{x_m: 0, y_m: 0, z_m: 0}, {x_m: 0, y_m: 1, z_m: 0}]")),
+      ElementsAre(HasSubstr("own.yaml:6: obstacles[1].points: has 2 entries; a hull needs at least 4")));
+  EXPECT_THAT(
+      problems_with(hull("points: [{x_m: 0, y_m: 0, z_m: 0}, {x_m: 0, y_m: 1, z_m: 0}, {x_m: 1, y_m: 0, z_m: "
+                         "0}, {x_m: 1, y_m: 1, z_m: 0}]")),
+      ElementsAre(
+          HasSubstr("own.yaml:6: obstacles[1].points: lie in a plane; the hull must be at least 0.1 mm")));
+  std::string many = "points: [";
+  for (int i = 0; i < 129; ++i) many += "{x_mm: " + std::to_string(i % 7) + ", y_mm: 0, z_mm: 0}, ";
+  EXPECT_THAT(problems_with(hull(many + "]")),
+              ElementsAre(HasSubstr(
+                  "own.yaml:6: obstacles[1].points: has 129 entries; a hull may have at most 128")));
+  EXPECT_THAT(problems_with(hull("rotation_deg: [0, 0, 0]")),
+              ElementsAre(HasSubstr("own.yaml:5: obstacles[1].points: is missing")));
+  EXPECT_THAT(problems_with(hull("points: [{x_m: 0, y_m: 0, z_m: 0}, {x_m: 0, y_m: 1}]")),
+              ElementsAre(HasSubstr("own.yaml:6: obstacles[1].points[1].z_m: is missing")));
+  EXPECT_THAT(problems_with("  - {x_m: 0.7, y_m: 0.7, rotation_deg: [0, 0, 45]}\n"),
+              ElementsAre(HasSubstr("own.yaml:4: obstacles[0].rotation_deg: is not a known key")))
+      << "a sphere looks alike from all sides";
 }
 
 TEST(ScenarioObstacles, AreRefusedWhereTheyCannotBeToldApartOrMoveBackInTime) {
