@@ -40,8 +40,8 @@ std::optional<DrawnContact> draw_contact(const Scenario& scenario, const std::st
 
 /// Draws a place for an obstacle of `shape` so that it touches a body from any side, wherever that moves: the
 /// platform from a direction that is drawn, a link on either side between 10 and 90 % of its length. None
-/// where another body is in the way. `kind` is that of a body, no clamping. Throws SetupError where a hull does
-/// not hold the obstacle's position.
+/// where another body is in the way. `kind` is that of a body, no clamping. Throws SetupError where a hull
+/// does not hold the obstacle's position.
 std::optional<DrawnContact> draw_touch(const ParallelRobot& robot, const Kinematics& now,
                                        const std::string& kind, const Shape& shape, RandomGenerator& random);
 
