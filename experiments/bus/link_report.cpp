@@ -97,7 +97,8 @@ std::string LinkReport::json() const {
       {"late_starts", loop.late_starts},
       {"overruns", loop.overruns},
       {"lost_periods", loop.lost_periods},
-      {"active_rad", json_of(pose.joints.valid, pose.joints.active)},
+      {"active", json_of(pose.joints.valid, pose.joints.active)},
+      {"active_rad", json_of(pose.joints.valid, pose.joints.active)},  // the older name, for drives that turn
       {"passive_rad", json_of(pose.joints.passive_valid, pose.joints.passive)},
       {"platform", json_of(pose.platform.has_value(), pose.platform.value_or(Configuration()))},
       {"closure_error_m", pose.closure_error ? Json(*pose.closure_error) : Json(nullptr)},

@@ -36,6 +36,19 @@ TEST(LinkReport, HasNothingAgainstAGoodLink) {
   EXPECT_TRUE(json["platform"].is_null());
 }
 
+TEST(LinkReport, TellsWhereTheDrivesAreWhetherTheyTurnOrSlide) {
+  LinkReport report = good_report();
+  EXPECT_TRUE(nlohmann::json::parse(report.json())["active"].is_null());
+  report.pose.joints.valid = true;
+  report.pose.joints.active = Eigen::Vector3d(0.703, 0.71, 0.72);
+  for (const DriveKind drives : {DriveKind::revolute, DriveKind::prismatic}) {
+    report.pose.drives = drives;
+    const auto json = nlohmann::json::parse(report.json());
+    EXPECT_EQ(json["active"], nlohmann::json({0.703, 0.71, 0.72}));
+    EXPECT_EQ(json["active_rad"], json["active"]) << "what was called so keeps its name";
+  }
+}
+
 TEST(LinkReport, ObjectsToCommandsThatNobodyObeys) {
   LinkReport report = good_report();
   report.times.round_trip = {};
