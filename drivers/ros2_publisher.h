@@ -28,10 +28,9 @@ struct Ros2Sources {
 
 struct Ros2Settings {
   std::vector<std::string> joint_names;  ///< one a drive
+  ConfigurationSpace space;              ///< of the robot: what the entries of a wrench mean
   std::string base_frame = "base";
   std::string imu_frame = "imu";
-  /// Of the robot: what the entries of a wrench mean.
-  ConfigurationSpace space = ConfigurationSpace::Kind::planar_pose;
   int ticks_between_messages = 1;  ///< 1: every tick
 };
 

@@ -61,8 +61,9 @@ std::string SeenPose::text() const {
       "robot     drives at " + (turns ? in_degrees(joints.active) : in_millimetres(joints.active));
   if (joints.passive_valid && joints.passive.size() > 0) text += "; elbows at " + in_degrees(joints.passive);
   text += "\n          ";
-  if (!platform) return text + "these drive angles fit no pose of the platform: check signs and zeros\n";
-  text += "platform at " + in_units(space.difference(*platform, space.origin()), space.translations());
+  if (!platform || !space)
+    return text + "these drive angles fit no pose of the platform: check signs and zeros\n";
+  text += "platform at " + in_units(space->difference(*platform, space->origin()), space->translations());
   if (closure_error) {
     text += fmt::format("; the elbows miss it by {:.1f} mm", 1e3 * *closure_error);
     if (*closure_error > plausible_closure) text += ": check signs and zeros";

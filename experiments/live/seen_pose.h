@@ -10,8 +10,8 @@ namespace flinch {
 
 /// Where a robot stands by its encoders: what shows whether their signs, zeros and units are right.
 struct SeenPose {
-  ConfigurationSpace space = ConfigurationSpace::Kind::planar_pose;  ///< of the robot
-  DriveKind drives{};                                                ///< likewise
+  std::optional<ConfigurationSpace> space;  ///< of the robot
+  DriveKind drives{};                       ///< likewise
   JointReading joints;
   std::optional<Configuration> platform;  ///< none: the drive positions fit no pose
   std::optional<double> closure_error;    ///< by which passive angles and platform disagree [m]

@@ -46,10 +46,10 @@ double PoseMotion::duration() const noexcept {
 PlatformReference PoseMotion::evaluate(double time) const noexcept {
   if (!valid_ || std::isnan(time)) {
     const PlatformVector rest = PlatformVector::Zero(displacement_.size());
-    return {false, false, space_.contains(start_) ? goal() : start_, rest, rest};
+    return {false, false, space_ && space_->contains(start_) ? goal() : start_, rest, rest};
   }
   const VectorMotion moved = translation_.evaluate(time), turned = rotation_.evaluate(time);
-  PlatformReference reference = chart_motion(space_, start_, stacked(moved.position, turned.position),
+  PlatformReference reference = chart_motion(*space_, start_, stacked(moved.position, turned.position),
                                              stacked(moved.velocity, turned.velocity),
                                              stacked(moved.acceleration, turned.acceleration));
   reference.finished = time >= duration();

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "systems/framework/never_allocates.h"
 #include "systems/motion/jerk_limited_profile.h"
 #include "systems/motion/synchronised_motion.h"
@@ -31,14 +33,14 @@ class PoseMotion {
   bool valid() const noexcept { return valid_; }
   /// Time until rest at the goal [s]; 0 if not valid.
   double duration() const noexcept;
-  Configuration goal() const noexcept { return space_.plus(start_, displacement_); }
+  Configuration goal() const noexcept { return space_ ? space_->plus(start_, displacement_) : start_; }
 
   /// Motion at `time` [s]: before the start that of time 0, from `duration()` on exactly rest at the goal.
   /// Not valid for a time that is NaN.
   PlatformReference evaluate(double time) const noexcept;
 
  private:
-  ConfigurationSpace space_ = ConfigurationSpace::Kind::planar_pose;
+  std::optional<ConfigurationSpace> space_;  ///< none: nothing has been planned
   Configuration start_;
   PlatformVector displacement_;
   SynchronisedMotion translation_;

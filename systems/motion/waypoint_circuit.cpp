@@ -61,7 +61,7 @@ WaypointCircuit WaypointCircuit::plan(const ConfigurationSpace& space,
 }
 
 PlatformReference WaypointCircuit::evaluate(double time) const noexcept {
-  const PlatformVector rest = PlatformVector::Zero(space_.dimension());
+  const PlatformVector rest = PlatformVector::Zero(space_ ? space_->dimension() : 0);
   const bool usable = valid_ && !std::isnan(time);
   const bool finished = usable && time >= duration();
   if (!usable || finished || time <= 0) return {usable, finished, first_, rest, rest};
@@ -71,8 +71,8 @@ PlatformReference WaypointCircuit::evaluate(double time) const noexcept {
                                   [in_lap](const Leg& leg) { return in_lap < leg.begin; });
   const Leg& leg = *(later - 1);
   const ScalarMotion share = leg.share.evaluate(in_lap - leg.begin);
-  return chart_motion(space_, leg.start, share.position * leg.displacement, share.velocity * leg.displacement,
-                      share.acceleration * leg.displacement);
+  return chart_motion(*space_, leg.start, share.position * leg.displacement,
+                      share.velocity * leg.displacement, share.acceleration * leg.displacement);
 }
 
 std::array<Configuration, 4> square_corners(const Configuration& centre, double side) noexcept {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 
 #include "systems/motion/jerk_limited_profile.h"
@@ -41,7 +42,7 @@ class WaypointCircuit {
   };
 
   std::array<Leg, max_waypoints> legs_;
-  ConfigurationSpace space_ = ConfigurationSpace::Kind::planar_pose;
+  std::optional<ConfigurationSpace> space_;  ///< none: nothing has been planned
   Configuration first_;
   int count_ = 0;
   int laps_ = 0;

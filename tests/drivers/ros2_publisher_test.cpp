@@ -87,8 +87,9 @@ TEST(Ros2Publisher, PublishesWhatItsMessagesMean) {
   Ros2Reader<sensor_msgs_msg_dds__Imu_> imu_data(bus, ros2_imu_topic);
   Ros2Reader<geometry_msgs_msg_dds__WrenchStamped_> contact(bus, ros2_contact_wrench_topic);
   Ros2Reader<diagnostic_msgs_msg_dds__DiagnosticArray_> diagnostics(bus, ros2_diagnostics_topic);
-  Ros2Publisher publisher(bus, *shown.diagram, shown.sources,
-                          {.joint_names = {"drive_1", "drive_2", "drive_3"}});
+  Ros2Publisher publisher(
+      bus, *shown.diagram, shown.sources,
+      {.joint_names = {"drive_1", "drive_2", "drive_3"}, .space = ConfigurationSpace::Kind::planar_pose});
   const auto tick = [&] {
     publisher.set_inputs(context);
     shown.diagram->evaluate(context);
@@ -153,7 +154,9 @@ TEST(Ros2Publisher, RefusesToPublishMoreThanOnceATick) {
   const DdsBus bus({.domain = test::free_domain()});
   const Shown shown = show();
   EXPECT_THROW(
-      Ros2Publisher(bus, *shown.diagram, shown.sources, {.joint_names = {}, .ticks_between_messages = 0}),
+      Ros2Publisher(
+          bus, *shown.diagram, shown.sources,
+          {.joint_names = {}, .space = ConfigurationSpace::Kind::plane, .ticks_between_messages = 0}),
       SetupError);
 }
 

@@ -11,8 +11,13 @@ MAY_NAME = {
     "plant/true_robot.cpp": "builds each anew with other parameters",
     "plant/bench_dynamics.cpp": "takes the closed forms where there are some",
     "experiments/scenario/scenario.cpp": "a stand-in where the robot file is no good",
+    "systems/robot/configuration_space.h": "says which spaces there are",
+    "systems/robot/configuration_space.cpp": "and how each is moved along",
+    "systems/robot/mechanism.h": "the space of a description that names none",
 }
-NAMES = (re.compile(r"\b(PlanarRrr|FiveBar|Hexapod)\w*|/(planar_rrr|five_bar|hexapod)\w*\.h\""), "names a mechanism")
+NAMES = (re.compile(r"\b(PlanarRrr|FiveBar|Hexapod)\w*|/(planar_rrr|five_bar|hexapod)\w*\.h\"|"
+                    r"\b(planar_pose|spatial_pose|Kind::plane|Kind::space)\b"),
+         "names a mechanism, or the space of one")
 RULES = [
     (re.compile(r"\b(Constant|Ones|setConstant|setOnes|Random)\(3\b|\bdof\(\) [=!]= 3\b|\b(leg|drive|joint) < 3\b"),
      "counts the coordinates, drives or legs of one mechanism"),

@@ -101,7 +101,9 @@ class Shown {
       : diagram_(builder.build()),
         context_(diagram_->make_context()),
         publisher_(bus, *diagram_, sources,
-                   {.joint_names = {"drive_1", "drive \"2\"", ""}, .imu_frame = "imu link"}) {}
+                   {.joint_names = {"drive_1", "drive \"2\"", ""},
+                    .space = ConfigurationSpace::Kind::planar_pose,
+                    .imu_frame = "imu link"}) {}
 
   void tick() {
     publisher_.set_inputs(context_);

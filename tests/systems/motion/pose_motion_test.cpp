@@ -153,6 +153,7 @@ TEST(PoseMotion, RestsAndIsNotValidOnBadInput) {
     EXPECT_EQ(motion.evaluate(0.1).velocity.norm(), 0.0);
   }
   EXPECT_FALSE(PoseMotion{}.evaluate(0.0).valid);
+  EXPECT_EQ(PoseMotion{}.goal().size(), 0) << "of no space";
   EXPECT_FALSE(PoseMotion::plan(plane, start, still, goal, limits).evaluate(not_a_number).valid);
 }
 

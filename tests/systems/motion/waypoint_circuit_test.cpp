@@ -154,6 +154,8 @@ TEST(WaypointCircuit, RestsAndIsNotValidOnBadInput) {
   }
   EXPECT_FALSE(WaypointCircuit::plan(plane, {}, limits).evaluate(0.0).valid);
   EXPECT_FALSE(square(1).evaluate(not_a_number).valid);
+  EXPECT_FALSE(WaypointCircuit{}.evaluate(0.0).valid);
+  EXPECT_EQ(WaypointCircuit{}.evaluate(0.0).velocity.size(), 0) << "of no space";
 }
 
 TEST(WaypointCircuit, NeedsNoHeap) {

@@ -37,15 +37,13 @@ TEST(ControlThread, TakesNoMemoryAndNoLockAndNeverCallsTheBus) {
   DdsStation station(bus, *experiment.diagram, experiment.station,
                      {.robot = robot_hash(scenario.robot_text), .realtime_priority = priority});
   OperatorPanel panel(experiment, station, no_interrupts);
-  Ros2Settings settings;
-  settings.joint_names = {"a", "b", "c"};
   Ros2Publisher ros2(bus, *experiment.diagram,
                      {.joint_motion = experiment.control.joint_motion,
                       .drive_torque = experiment.control.drive_torque,
                       .imu = experiment.station.imu,
                       .wrench = experiment.control.wrench_estimate,
                       .gate = experiment.control.gate},
-                     settings);
+                     {.joint_names = {"a", "b", "c"}, .space = scenario.robot.robot->space()});
   EventPublisher events(bus, *experiment.diagram,
                         {.detection = experiment.control.detection,
                          .reaction = experiment.control.reaction_state,
