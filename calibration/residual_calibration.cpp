@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <map>
+#include <optional>
 
 #include "calibration/contact_free_motion.h"
+#include "calibration/error_course.h"
 #include "calibration/error_sizes.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recorded_values.h"
@@ -84,9 +87,35 @@ ResidualErrors fit(const std::vector<ResidualRecording>& recordings, const std::
   return fit_error_sizes(samples);
 }
 
+/// The errors of each drive's change, divided by their deviations, as long as each goes on without a gap.
+std::vector<std::vector<double>> rows_of_changes(const std::vector<ResidualRecording>& recordings,
+                                                 const std::string& estimator, const ResidualErrors& errors) {
+  std::vector<std::vector<double>> all;
+  for (const ResidualRecording& each : recordings) {
+    std::vector<std::vector<double>> rows;  // that go on, one a drive
+    const auto end_rows = [&] {
+      std::move(rows.begin(), rows.end(), std::back_inserter(all));
+      rows.clear();
+    };
+    follow(each, estimator, [&](bool nominal, const ResidualMemory& memory) {
+      if (nominal && memory.started && !memory.seen.is_new) return;
+      const DriveResidual* const seen = change_statistic.of(nominal, memory.seen);
+      if (seen == nullptr) return end_rows();
+      const JointVector z = whitened(memory.seen.load, *seen, errors);
+      rows.resize(static_cast<std::size_t>(z.size()));
+      for (int i = 0; i < z.size(); ++i) rows[static_cast<std::size_t>(i)].push_back(z[i]);
+    });
+    end_rows();
+  }
+  return all;
+}
+
+/// How surprising a residual is at a tick; none where there is nothing to judge.
+using Surprise = std::function<std::optional<double>(bool nominal, const ResidualMemory& memory)>;
+
 /// The largest surprise of each stretch; ticks without one, as where the IMU is left out, are none of it.
 std::vector<double> peaks(const std::vector<ResidualRecording>& recordings, const std::string& estimator,
-                          const Statistic& statistic, const ResidualErrors& errors, Time stretch) {
+                          const Surprise& surprise_at, Time stretch) {
   std::vector<double> found;
   for (const ResidualRecording& each : recordings) {
     const auto length = static_cast<std::size_t>(std::max<std::int64_t>(1, stretch / each.recording->period));
@@ -94,16 +123,36 @@ std::vector<double> peaks(const std::vector<ResidualRecording>& recordings, cons
     double largest = 0.0;
     follow(each, estimator, [&](bool nominal, const ResidualMemory& memory) {
       const bool waits = nominal && memory.started && !memory.seen.is_new;
-      const DriveResidual* const seen = statistic.of(nominal, memory.seen);
-      if (seen == nullptr && !waits) return;
+      const std::optional<double> seen = surprise_at(nominal, memory);
+      if (!seen && !waits) return;
       if (ticks == 0) largest = 0.0;
-      if (seen != nullptr) largest = std::max(largest, surprise(memory.seen.load, *seen, errors));
+      if (seen) largest = std::max(largest, *seen);
       if (++ticks < length) return;
       found.push_back(largest);
       ticks = 0;
     });
   }
   return found;
+}
+
+Surprise surprise_of(const Statistic& statistic, const ResidualErrors& errors) {
+  return [=](bool nominal, const ResidualMemory& memory) -> std::optional<double> {
+    const DriveResidual* const seen = statistic.of(nominal, memory.seen);
+    if (seen == nullptr) return std::nullopt;
+    return surprise(memory.seen.load, *seen, errors);
+  };
+}
+
+/// Of onsets, as `WhitenedDetector` follows them.
+Surprise surprise_of(const OnsetRatio& ratio) {
+  return [=, onsets = OnsetMemory()](bool nominal,
+                                     const ResidualMemory& memory) mutable -> std::optional<double> {
+    OnsetMemory next;
+    ratio.follow(memory.seen, onsets, next);
+    onsets = next;
+    if (change_statistic.of(nominal, memory.seen) == nullptr) return std::nullopt;
+    return ratio.surprise(onsets);
+  };
 }
 
 }  // namespace
@@ -131,16 +180,20 @@ std::vector<CalibratedResidual> calibrate_residuals(const std::vector<ResidualRe
   for (const std::string& estimator : estimators) {
     CalibratedResidual& residual = all.emplace_back();
     residual.estimator = estimator;
-    const auto calibrate = [&](const Statistic& statistic, CalibratedSurprise& result) {
-      result.errors = fit(recordings, estimator, statistic);
-      const std::vector<double> largest =
-          peaks(recordings, estimator, statistic, result.errors, goal.stretch);
+    const auto calibrate = [&](const Surprise& surprise_at, CalibratedThreshold& threshold) {
+      const std::vector<double> largest = peaks(recordings, estimator, surprise_at, goal.stretch);
       require_enough(estimator, largest.size(), goal);
-      result.threshold = calibrated_threshold(largest, probability, goal);
+      threshold = calibrated_threshold(largest, probability, goal);
       residual.stretches = largest.size();
     };
-    calibrate(level_statistic, residual.level);
-    calibrate(change_statistic, residual.change);
+    residual.level.errors = fit(recordings, estimator, level_statistic);
+    calibrate(surprise_of(level_statistic, residual.level.errors), residual.level.threshold);
+    residual.change.errors = fit(recordings, estimator, change_statistic);
+    calibrate(surprise_of(change_statistic, residual.change.errors), residual.change.threshold);
+    residual.onset.course = fit_error_course(rows_of_changes(recordings, estimator, residual.change.errors));
+    const OnsetRatio ratio(residual.change.errors, residual.onset.course,
+                           recordings.front().tracking.at(estimator));
+    calibrate(surprise_of(ratio), residual.onset.threshold);
   }
   return all;
 }

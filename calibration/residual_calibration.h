@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "calibration/threshold_calibration.h"
+#include "systems/contact/onset_ratio.h"
 #include "systems/contact/residual_errors.h"
 #include "systems/robot/configuration_space.h"
 
@@ -26,10 +27,17 @@ struct CalibratedSurprise {
   CalibratedThreshold threshold;  ///< of what is left once the errors have deviation 1
 };
 
+/// When the onsets that a residual's change tells of are a contact.
+struct CalibratedOnset {
+  ErrorCourse course;  ///< of the change, divided by its deviation
+  CalibratedThreshold threshold;
+};
+
 struct CalibratedResidual {
   std::string estimator;
   std::size_t stretches = 0;
   CalibratedSurprise level, change;
+  CalibratedOnset onset;
 };
 
 /// Those of `wanted` that all recordings have an estimate of; none where one has no loads.
@@ -37,8 +45,8 @@ std::vector<std::string> calibrated_residuals(const std::vector<ResidualRecordin
                                               const std::vector<std::string>& wanted);
 
 /// Sizes of the errors, fitted to all recordings together, and thresholds, so that all residuals together
-/// give the rate of false alarms that is asked: each of their statistics has an equal share. Throws
-/// SetupError as `calibrate_thresholds`.
+/// give the rate of false alarms that is asked: the level of each, and its change or its onset, have an equal
+/// share. Throws SetupError as `calibrate_thresholds`.
 std::vector<CalibratedResidual> calibrate_residuals(const std::vector<ResidualRecording>& recordings,
                                                     const std::vector<std::string>& estimators,
                                                     const ThresholdGoal& goal);

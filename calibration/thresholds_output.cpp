@@ -2,6 +2,7 @@
 #include "systems/foundation/json_text.h"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <nlohmann/json.hpp>
@@ -58,6 +59,28 @@ std::string residuals_table(const ThresholdFindings& found) {
   return text;
 }
 
+std::string onset_row(const CalibratedResidual& residual) {
+  const CalibratedOnset& onset = residual.onset;
+  std::string row = fmt::format("{:<22} {:<6} {:>9.3g} {:>9.3g} {:>9.3g} {:>10.3f}", residual.estimator,
+                                "onset", onset.threshold.value, onset.threshold.best_guess,
+                                onset.threshold.largest, onset.course.innovation);
+  for (const double a : onset.course.prediction) row += fmt::format(" {:>7.3f}", a);
+  return row + "\n";
+}
+
+/// By the likelihood ratio of onsets, in place of the changes.
+std::string onsets_table(const ThresholdFindings& found) {
+  std::string text = fmt::format(
+      "\nthe same by rule: likelihood_ratio, onsets in place of changes; how these are told from the {} "
+      "before\n"
+      "{:<22} {:<6} {:>9} {:>9} {:>9} {:>10}",
+      ErrorCourse::order, "residual", "of", "threshold", "guess", "largest", "innovation");
+  for (int j = 1; j <= ErrorCourse::order; ++j) text += fmt::format(" {:>7}", fmt::format("a_{}", j));
+  text += "\n";
+  for (const CalibratedResidual& residual : found.residuals) text += onset_row(residual);
+  return text;
+}
+
 std::string residuals_yaml(const ThresholdFindings& found) {
   std::string text = "fused_detector:\n  residuals:\n";
   for (const CalibratedResidual& residual : found.residuals) {
@@ -69,6 +92,10 @@ std::string residuals_yaml(const ThresholdFindings& found) {
       text += fmt::format(", load: {:.4g}, torque: {:.4g}, friction: {:.4g}, lag_ms: {:.4g}}}\n",
                           of.errors.load, of.errors.torque, of.errors.friction, 1e3 * of.errors.lag);
     }
+    const CalibratedOnset& onset = residual.onset;
+    text +=
+        fmt::format("      onset: {{threshold: {:.4g}, innovation: {:.4g}, prediction: [{:.4g}]}}\n",
+                    onset.threshold.value, onset.course.innovation, fmt::join(onset.course.prediction, ", "));
   }
   return text;
 }
@@ -100,6 +127,8 @@ std::string provenance(const ThresholdFindings& found, const std::string& date) 
     for (const auto& [part, of] : parts(residual))
       text += fmt::format("#   {} of the fused detector, {}, {:.1f} s: {:.4g}\n", part, residual.estimator,
                           seconds(residual.stretches, goal), of.threshold.largest);
+    text += fmt::format("#   onset of the fused detector, {}, {:.1f} s: {:.4g}\n", residual.estimator,
+                        seconds(residual.stretches, goal), residual.onset.threshold.largest);
   }
   return text;
 }
@@ -110,6 +139,14 @@ Json json_of(const CalibratedSurprise& of) {
           {"speed", of.errors.speed},        {"load", of.errors.load},
           {"torque", of.errors.torque},      {"friction", of.errors.friction},
           {"lag_s", of.errors.lag}};
+}
+
+Json json_of(const CalibratedOnset& of) {
+  return {{"value", of.threshold.value},
+          {"best_guess", of.threshold.best_guess},
+          {"largest", of.threshold.largest},
+          {"innovation", of.course.innovation},
+          {"prediction", of.course.prediction}};
 }
 
 }  // namespace
@@ -125,7 +162,7 @@ std::string thresholds_table(const ThresholdFindings& found) {
     text += row(of.estimator, "force", of.force, "N");
     if (of.moment.value > 0.0) text += row("", "moment", of.moment, "Nm");
   }
-  if (!found.residuals.empty()) text += residuals_table(found);
+  if (!found.residuals.empty()) text += residuals_table(found) + onsets_table(found);
   if (!found.estimators.empty()) {
     text += fmt::format("\nfrom {:.1f} s of motion without contact, in stretches of {} s\n",
                         seconds(found.estimators.front().stretches, goal), to_seconds(goal.stretch));
@@ -147,7 +184,8 @@ std::string thresholds_json(const ThresholdFindings& found) {
     residuals.push_back({{"estimator", residual.estimator},
                          {"contact_free_s", seconds(residual.stretches, goal)},
                          {"level", json_of(residual.level)},
-                         {"change", json_of(residual.change)}});
+                         {"change", json_of(residual.change)},
+                         {"onset", json_of(residual.onset)}});
   }
   return json_text(Json{{"false_alarms_per_h", goal.false_alarms_per_hour},
                         {"confidence", goal.confidence},

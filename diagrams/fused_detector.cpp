@@ -47,11 +47,17 @@ OutputPort<WrenchEstimate> estimate_of(const std::string& name, const StageSite&
 OutputPort<ContactDetection> add_residual(const StageSite& site, const FusedResidual& residual,
                                           const EstimatePorts& given, const LaglessPorts& present,
                                           OutputPort<DriveLoad> load) {
-  const WhitenedDetectorSettings settings{.level = residual.level,
-                                          .change = residual.change,
-                                          .tracking = tracking_of(residual.estimator, site.settings),
-                                          .hard = site.settings.contact_detector.hard};
+  WhitenedDetectorSettings settings{.level = residual.level,
+                                    .change = residual.change,
+                                    .tracking = tracking_of(residual.estimator, site.settings),
+                                    .hard = site.settings.contact_detector.hard};
   const std::string name = site.name + "_by_" + residual.estimator;
+  if (site.settings.fused_detector.rule == ChangeRule::likelihood_ratio) {
+    if (!residual.onset)
+      throw SetupError(
+          name + ": has no onset, by which likelihood_ratio judges; flinch calibrate thresholds finds it");
+    settings.onset = residual.onset;
+  }
   auto& detector = site.builder.add<WhitenedDetector>(name, site.robot, settings);
   site.builder.connect(estimate_of(residual.estimator, site, given, present), detector.wrench);
   site.builder.connect(load, detector.load);

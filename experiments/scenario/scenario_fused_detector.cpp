@@ -21,6 +21,13 @@ void read(ConfigReader reader, bool drives_turn, SurpriseThreshold& limit) {
   reader.number("lag", unit::s, limit.errors.lag, not_negative);
 }
 
+void read(ConfigReader reader, OnsetThreshold& onset) {
+  ConfigReader needed = reader.required();
+  needed.number("threshold", unit::none, onset.threshold, positive);
+  needed.number("innovation", unit::none, onset.course.innovation, positive);
+  needed.numbers("prediction", unit::none, onset.course.prediction);
+}
+
 bool has(const std::vector<FusedResidual>& residuals, const std::string& estimator) {
   return std::any_of(residuals.begin(), residuals.end(),
                      [&](const FusedResidual& residual) { return residual.estimator == estimator; });
@@ -32,6 +39,8 @@ void read_fused_detector(ConfigReader fused, const ParallelRobot& robot,
                          const std::vector<std::string>& estimators, FusedDetectorSettings& settings) {
   const bool turn = robot.drive_kind(0) == DriveKind::revolute;
   fused.number("tracking", unit::per_s, settings.tracking.rate, positive);
+  fused.choice("rule", settings.rule,
+               {{"chi_square", ChangeRule::chi_square}, {"likelihood_ratio", ChangeRule::likelihood_ratio}});
   for (ConfigReader& own : fused.sections("residuals")) {
     FusedResidual residual;
     own.required().text("estimator", residual.estimator);
@@ -43,6 +52,12 @@ void read_fused_detector(ConfigReader fused, const ParallelRobot& robot,
     }
     read(own.section("level"), turn, residual.level);
     read(own.section("change"), turn, residual.change);
+    if (own.has("onset")) {
+      read(own.section("onset"), residual.onset.emplace());
+    } else if (settings.rule == ChangeRule::likelihood_ratio) {
+      own.problem(
+          "", "has no onset, which the rule likelihood_ratio needs; flinch calibrate thresholds finds it");
+    }
     settings.residuals.push_back(residual);
   }
 }

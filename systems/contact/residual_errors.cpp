@@ -28,6 +28,14 @@ double rising_variance(const DriveResidual& seen) {
   return seen.rising.squaredNorm() / static_cast<double>(seen.rising.size());
 }
 
+JointVector whitened(const DriveLoad& load, const DriveResidual& seen, const ResidualErrors& errors) {
+  const double rising = rising_variance(seen);
+  JointVector z = seen.effort;
+  for (int i = 0; i < z.size(); ++i)
+    z[i] /= std::sqrt(errors.variance(error_features(load, seen, i)) + rising);
+  return z;
+}
+
 double surprise(const DriveLoad& load, const DriveResidual& seen, const ResidualErrors& errors) {
   const double rising = rising_variance(seen);
   double sum = 0.0;

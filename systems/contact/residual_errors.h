@@ -28,6 +28,10 @@ ErrorFeatures error_features(const DriveLoad& load, const DriveResidual& seen, i
 /// squares of `rising`, for what one drive makes of a force shows at all of them [Nm^2 or N^2].
 double rising_variance(const DriveResidual& seen);
 
+/// The residual, each drive's divided by its deviation: normal, of variance 1, where the errors are as
+/// assumed.
+JointVector whitened(const DriveLoad& load, const DriveResidual& seen, const ResidualErrors& errors);
+
 /// The length of the residual once each drive's is divided by its deviation, sqrt(sum of r_i^2 / v_i): its
 /// square is distributed as chi-square where the errors are as assumed. Infinite where it is not finite.
 double surprise(const DriveLoad& load, const DriveResidual& seen, const ResidualErrors& errors);

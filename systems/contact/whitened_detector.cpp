@@ -20,10 +20,17 @@ void find_problems(const std::string& owner, const SurpriseThreshold& settings, 
   findings.not_negative(owner + ".lag", settings.errors.lag, "s");
 }
 
+void find_problems(const OnsetThreshold& settings, Findings& findings) {
+  findings.positive("onset.threshold", settings.threshold);
+  findings.positive("onset.innovation", settings.course.innovation);
+  findings.finite("onset.prediction", settings.course.prediction);
+}
+
 std::vector<std::string> problems(const WhitenedDetectorSettings& settings) {
   Findings found;
   find_problems("level", settings.level, found);
   find_problems("change", settings.change, found);
+  if (settings.onset) find_problems(*settings.onset, found);
   found.positive("tracking", settings.tracking.rate, "1/s");
   const EstimatorAnswer& answer = settings.tracking.answer;
   found.require(answer.filters >= 0 && answer.filters <= EstimatorAnswer::most,
@@ -44,25 +51,35 @@ WhitenedDetector::WhitenedDetector(const std::shared_ptr<const ParallelRobot>& r
                                    const WhitenedDetectorSettings& settings)
     : settings_(settings), hard_(of_components(settings.hard, *robot)) {
   throw_if_any(problems(settings));
+  if (settings.onset) onset_.emplace(settings.change.errors, settings.onset->course, settings.tracking);
   keep(Every{settings_.tracking.sampling.period}, memory_, next_);
+  keep(Every{settings_.tracking.sampling.period}, onsets_, next_onsets_);
   keep(Every{settings_.tracking.sampling.period}, previous_, contact);
 }
 
-ContactLevel WhitenedDetector::level(const SeenResidual& seen, const PlatformVector& estimate) const {
-  const bool touched = exceeds(seen.load, seen.level, settings_.level) ||
-                       (seen.settled && exceeds(seen.load, seen.change, settings_.change));
-  if (!touched) return ContactLevel::none;
-  return (estimate.array().abs() >= hard_.array()).any() ? ContactLevel::hard : ContactLevel::reaction;
+void WhitenedDetector::follow_onsets(const ResidualMemory& next, const OnsetMemory& onsets,
+                                     OnsetMemory& result) const {
+  result.samples = 0;
+  if (onset_) onset_->follow(next.seen, onsets, result);
 }
 
-void WhitenedDetector::detect(const ResidualMemory& next, const WrenchEstimate& estimate,
-                              const ResetCommand& command, const ContactDetection& previous, Time now,
-                              ContactDetection& result) const {
+bool WhitenedDetector::is_touched(const SeenResidual& seen, const OnsetMemory& onsets) const {
+  if (exceeds(seen.load, seen.level, settings_.level)) return true;
+  if (onset_) return onset_->surprise(onsets) >= settings_.onset->threshold;
+  return seen.settled && exceeds(seen.load, seen.change, settings_.change);
+}
+
+void WhitenedDetector::detect(const ResidualMemory& next, const OnsetMemory& onsets,
+                              const WrenchEstimate& estimate, const ResetCommand& command,
+                              const ContactDetection& previous, Time now, ContactDetection& result) const {
   result = command.reset ? ContactDetection() : previous;
   const bool has_estimate = estimate.valid && !estimate.health.fallen_back;
   result.valid = next.started && has_estimate && estimate.wrench_in_base.size() == hard_.size();
-  const bool is_judged = result.valid && next.seen.is_new;
-  result.present_level = is_judged ? level(next.seen, estimate.wrench_in_base) : ContactLevel::none;
+  result.present_level = ContactLevel::none;
+  if (result.valid && next.seen.is_new && is_touched(next.seen, onsets)) {
+    const bool hard = (estimate.wrench_in_base.array().abs() >= hard_.array()).any();
+    result.present_level = hard ? ContactLevel::hard : ContactLevel::reaction;
+  }
   if (result.level == ContactLevel::none && result.present_level != ContactLevel::none) {
     result.detected = now;
     result.wrench_in_base = estimate.wrench_in_base;

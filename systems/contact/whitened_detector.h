@@ -1,8 +1,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "systems/contact/contact_detector.h"
+#include "systems/contact/onset_ratio.h"
 #include "systems/contact/residual_errors.h"
 #include "systems/framework/system.h"
 #include "systems/signals/drive_load.h"
@@ -15,9 +17,16 @@ struct SurpriseThreshold {
   ResidualErrors errors;
 };
 
+/// Above which surprise a likelihood ratio of onsets is a contact, and how the errors go on.
+struct OnsetThreshold {
+  double threshold = 0.0;
+  ErrorCourse course;
+};
+
 struct WhitenedDetectorSettings {
-  SurpriseThreshold level;   ///< of the residual itself: what lasts
-  SurpriseThreshold change;  ///< of what is new of it: slow errors of the model are gone
+  SurpriseThreshold level;                ///< of the residual itself: what lasts
+  SurpriseThreshold change;               ///< of what is new of it: slow errors of the model are gone
+  std::optional<OnsetThreshold> onset{};  ///< in place of the threshold of the change
   ResidualTracking tracking;
   WrenchThreshold hard{60.0, 3.0};  ///< of the estimate, as of `ContactDetector`
 };
@@ -26,7 +35,7 @@ struct WhitenedDetectorSettings {
 /// its errors explain. Each drive's is divided by the deviation that its error has under its speed, torque
 /// and friction, as late as the estimator shows them (`ResidualErrors`, from motion without contact); the
 /// length of what is left is compared with a threshold. The same is done with the change of late, from which
-/// slow errors are gone. (Derived.)
+/// slow errors are gone, or with how the change has come about (`OnsetRatio`). (Derived.)
 ///
 /// The level latches as that of `ContactDetector`. In a tick whose estimate is not new nothing is noticed;
 /// where none has come for the longest hold, or it has fallen back to another estimator, the detection is
@@ -34,6 +43,7 @@ struct WhitenedDetectorSettings {
 class WhitenedDetector final : public System {
   State<LoadHistory> past_ = state<LoadHistory>("past");
   State<ResidualMemory> memory_ = state<ResidualMemory>("memory");
+  State<OnsetMemory> onsets_ = state<OnsetMemory>("onsets");
   State<ContactDetection> previous_ = state<ContactDetection>("previous");
 
  public:
@@ -48,10 +58,12 @@ class WhitenedDetector final : public System {
  private:
   Intermediate<ResidualMemory> next_ =
       intermediate<&WhitenedDetector::follow>("next", wrench, load, past_, memory_, clock);
+  Intermediate<OnsetMemory> next_onsets_ =
+      intermediate<&WhitenedDetector::follow_onsets>("next_onsets", next_, onsets_);
 
  public:
   OutputPort<ContactDetection> contact =
-      output<&WhitenedDetector::detect>("contact", next_, wrench, reset, previous_, clock);
+      output<&WhitenedDetector::detect>("contact", next_, next_onsets_, wrench, reset, previous_, clock);
 
  private:
   Update remember_ = update<&WhitenedDetector::remember>(past_, load);
@@ -60,14 +72,17 @@ class WhitenedDetector final : public System {
               const ResidualMemory& memory, Time now, ResidualMemory& next) const {
     follow_residual(estimate, fresh, past, now, settings_.tracking, memory, next);
   }
+  void follow_onsets(const ResidualMemory& next, const OnsetMemory& onsets, OnsetMemory& result) const;
   void remember(const DriveLoad& fresh, LoadHistory& past) const {
     if (fresh.valid) past.push(fresh);
   }
-  void detect(const ResidualMemory& next, const WrenchEstimate& estimate, const ResetCommand& command,
-              const ContactDetection& previous, Time now, ContactDetection& result) const;
-  ContactLevel level(const SeenResidual& seen, const PlatformVector& estimate) const;
+  void detect(const ResidualMemory& next, const OnsetMemory& onsets, const WrenchEstimate& estimate,
+              const ResetCommand& command, const ContactDetection& previous, Time now,
+              ContactDetection& result) const;
+  bool is_touched(const SeenResidual& seen, const OnsetMemory& onsets) const;
 
   WhitenedDetectorSettings settings_;
+  std::optional<OnsetRatio> onset_;
   PlatformVector hard_;
 };
 

@@ -32,7 +32,8 @@ ThresholdFindings with_a_residual(bool drives_turn) {
        .level = {{.noise = 0.25, .speed = 0.5, .load = 0.0, .torque = 0.125, .friction = 0.75, .lag = 0.5},
                  {8.0}},
        .change = {{.noise = 0.5, .speed = 0.25, .load = 0.0625, .torque = 0.5, .friction = 1.0, .lag = 0.25},
-                  {9.5}}}};
+                  {9.5}},
+       .onset = {{.prediction = {0.5, 0.25, 0.125, -0.0625}, .innovation = 0.375}, {6.5}}}};
   return found;
 }
 
@@ -72,22 +73,26 @@ TEST(TheSection, SaysWhichParameterFilesItRestsOnAndHowSurprisingTheMotionWas) {
   found.with = {{"b/dynamics.yaml", "4567"}};
   found.residuals[0].level.threshold.largest = 6.5;
   found.residuals[0].change.threshold.largest = 7.25;
+  found.residuals[0].onset.threshold.largest = 5.75;
   const std::string section = thresholds_yaml(found, "2026-11-22");
   EXPECT_THAT(section, HasSubstr("\n# played again with\n#   b/dynamics.yaml, sha256 4567\n"));
   EXPECT_THAT(section, HasSubstr("\n#   level of the fused detector, filter, 90.0 s: 6.5\n"));
   EXPECT_THAT(section, HasSubstr("\n#   change of the fused detector, filter, 90.0 s: 7.25\n"));
+  EXPECT_THAT(section, HasSubstr("\n#   onset of the fused detector, filter, 90.0 s: 5.75\n"));
 }
 
 TEST(TheSection, OfAFusedDetectorHasTheUnitsOfTheDrives) {
   EXPECT_THAT(
       thresholds_yaml(with_a_residual(true), "2026-11-22"),
-      HasSubstr("fused_detector:\n"
-                "  residuals:\n"
-                "    - estimator: filter\n"
-                "      level: {threshold: 8, noise_Nm: 0.25, speed_Nms_per_rad: 0.5, load: 0, torque: "
-                "0.125, friction: 0.75, lag_ms: 500}\n"
-                "      change: {threshold: 9.5, noise_Nm: 0.5, speed_Nms_per_rad: 0.25, load: 0.0625, "
-                "torque: 0.5, friction: 1, lag_ms: 250}\n"));
+      HasSubstr(
+          "fused_detector:\n"
+          "  residuals:\n"
+          "    - estimator: filter\n"
+          "      level: {threshold: 8, noise_Nm: 0.25, speed_Nms_per_rad: 0.5, load: 0, torque: "
+          "0.125, friction: 0.75, lag_ms: 500}\n"
+          "      change: {threshold: 9.5, noise_Nm: 0.5, speed_Nms_per_rad: 0.25, load: 0.0625, "
+          "torque: 0.5, friction: 1, lag_ms: 250}\n"
+          "      onset: {threshold: 6.5, innovation: 0.375, prediction: [0.5, 0.25, 0.125, -0.0625]}\n"));
   EXPECT_THAT(thresholds_yaml(with_a_residual(false), "2026-11-22"),
               HasSubstr("noise_N: 0.25, speed_Ns_per_m: 0.5"));
 }
@@ -97,6 +102,9 @@ TEST(TheObject, HasTheResidualsOfAFusedDetector) {
   EXPECT_EQ(json["fused_detector"][0]["estimator"], "filter");
   EXPECT_EQ(json["fused_detector"][0]["change"]["value"], 9.5);
   EXPECT_EQ(json["fused_detector"][0]["level"]["torque"], 0.125);
+  EXPECT_EQ(json["fused_detector"][0]["onset"]["value"], 6.5);
+  EXPECT_EQ(json["fused_detector"][0]["onset"]["innovation"], 0.375);
+  EXPECT_EQ(json["fused_detector"][0]["onset"]["prediction"][3], -0.0625);
   EXPECT_TRUE(nlohmann::json::parse(thresholds_json(some))["fused_detector"].empty());
 }
 

@@ -47,6 +47,20 @@ TEST(FusedDetector, NoticesAContactBeforeAThresholdOfTheMomentumObserverDoes) {
   EXPECT_GT(fused.state().since, plain.state().since - 100ms) << "not before there was one";
 }
 
+TEST(FusedDetector, JudgesByTheLikelihoodRatioOfOnsetsWhereThatIsTheRule) {
+  FusedDetectorSettings onsets = by_the_encoders();
+  onsets.rule = ChangeRule::likelihood_ratio;
+  EXPECT_THAT(complaint(onsets), HasSubstr("has no onset"));
+  onsets.residuals[0].level.threshold = onsets.residuals[0].change.threshold = 1e6;
+  onsets.residuals[0].onset = {.threshold = 8.0,
+                               .course = {.prediction = {0.9, 0.0, 0.0, 0.0}, .innovation = 0.4}};
+  Bench plain(collision(0.5)), fused(with_fused_detector(onsets));
+  ASSERT_TRUE(plain.run_until(react, 3s));
+  ASSERT_TRUE(fused.run_until(react, 3s));
+  EXPECT_LT(fused.state().since, plain.state().since - 5ms);
+  EXPECT_GT(fused.state().since, plain.state().since - 100ms) << "not before there was one";
+}
+
 TEST(FusedDetector, AddsAnEstimatorThatDoesNotRunAndUsesOneThatDoes) {
   Experiment both = with_fused_detector(by_the_encoders());
   for (const WrenchEstimator& stage : known_stages().estimators.all) {

@@ -76,6 +76,8 @@ TEST_F(CalibrateThresholds, FindsWhatTheFusedDetectorJudgesByAndAScenarioTakesIt
       EXPECT_LT(of[part]["value"], 15.0) << "a fifth of that is one deviation too few: " << of;
       EXPECT_GT(of[part]["noise"], 0.05) << "of the currents alone: " << of;
     }
+    EXPECT_GT(of["onset"]["value"], of["onset"]["largest"]) << of;
+    EXPECT_LT(of["onset"]["innovation"], 1.0) << "errors tell something of those that follow: " << of;
   }
   // The sections go into 'control', which is one level deeper.
   std::string section = test::bytes_of(place / "thresholds.yaml");
@@ -88,6 +90,11 @@ TEST_F(CalibrateThresholds, FindsWhatTheFusedDetectorJudgesByAndAScenarioTakesIt
   const auto by = nlohmann::json::parse(run.out)["contacts"][0]["detection_by_estimator_ms"];
   EXPECT_LT(by["fused_detector"], 6.0);
   EXPECT_LT(by["fused_detector"], by["momentum_observer"]);
+
+  place.replace(collision, "  fused_detector:\n", "  fused_detector:\n    rule: likelihood_ratio\n");
+  const Outcome by_onsets = flinch({"run", place.at(collision), "--out", place.at("onsets"), "--json"});
+  const auto times = nlohmann::json::parse(by_onsets.out)["contacts"][0]["detection_by_estimator_ms"];
+  EXPECT_LT(times["fused_detector"], 6.0);
 }
 
 TEST_F(CalibrateThresholds, OfAnEstimatorDecideWhenItsDetectorNotices) {

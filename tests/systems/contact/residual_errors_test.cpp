@@ -48,6 +48,7 @@ TEST(Surprise, HasASquareThatIsChiSquareForErrorsAsAssumed) {
       seen.effort[i] = std::sqrt(errors.variance(features)) * random.normal() + rising * random.normal();
     }
     const double square = std::pow(surprise(load, seen, errors), 2);
+    EXPECT_NEAR(whitened(load, seen, errors).squaredNorm(), square, 1e-12 * square);
     sum += square / trials;
     squares += square * square / trials;
   }

@@ -116,6 +116,77 @@ TEST_F(BehindFilters, AnErrorIsNotExpectedBefore) {
   EXPECT_TRUE(notices(0.6)) << "what friction does is not seen yet";
 }
 
+/// Judges what changes by the likelihood ratio of onsets, of errors that are independent.
+class ByOnsets : public WhitenedDetectorTest {
+ protected:
+  ByOnsets() : WhitenedDetectorTest(by_onsets()) {}
+  static WhitenedDetectorSettings by_onsets() {
+    WhitenedDetectorSettings settings = flinch::settings();
+    settings.onset = {.threshold = 5.0, .course = {}};
+    return settings;
+  }
+};
+
+// Of a step of 3 deviations n samples have a surprise of 3 sqrt(sum of g^2), where g falls by a twentieth a
+// sample: 3, 4.1, 4.9, 5.6.
+TEST_F(ByOnsets, NoticesAStepThatIsTooSmallAtOnceAsSoonAsItsSamplesAddUp) {
+  settle();
+  for (int n = 1; n <= 4; ++n) EXPECT_EQ(notices(0.3), n == 4) << n;
+}
+
+TEST_F(ByOnsets, NoticesAStepAboveTheThresholdAtOnce) {
+  settle();
+  EXPECT_FALSE(notices(0.499));
+  settle();
+  EXPECT_TRUE(notices(0.501));
+}
+
+TEST_F(ByOnsets, NoticesNothingInSilenceNorInWhatGrowsSlowly) {
+  settle();
+  for (double effort = 0.0; effort < 1.0; effort += 0.001) EXPECT_FALSE(notices(effort)) << effort;
+}
+
+TEST_F(ByOnsets, NoticesWhatLastsByTheLevel) {
+  settle();
+  double effort = 0.0;
+  while (!notices(effort) && effort < 3.0) effort += 0.001;
+  EXPECT_NEAR(effort, 2.0, 0.0011) << "20 deviations";
+}
+
+TEST_F(ByOnsets, BeginsAnewAfterAGapAndWaitsForItsMean) {
+  settle();
+  estimate_.valid = false;
+  for (int k = 0; k < 10; ++k) EXPECT_FALSE(see(0.0).valid);
+  estimate_.valid = true;
+  for (int k = 0; k < 60; ++k) EXPECT_FALSE(notices(1.0));
+  settle(1.0);
+  EXPECT_TRUE(notices(1.6));
+}
+
+TEST_F(ByOnsets, NoticesNothingInATickWithoutANewEstimateNorOfAnotherEstimator) {
+  settle();
+  ASSERT_TRUE(notices(1.0));
+  const Time late = ticking_.now() - estimate_.acquired;
+  EXPECT_EQ(see(1.0, late).present_level, ContactLevel::none);
+  estimate_.health.fallen_back = true;
+  EXPECT_FALSE(see(100.0).valid);
+  EXPECT_EQ(see(100.0).present_level, ContactLevel::none);
+}
+
+TEST_F(ByOnsets, IsNotLedAstrayByWhatIsNotFinite) {
+  settle();
+  EXPECT_EQ(see(nan).level, ContactLevel::none);
+  for (int k = 0; k < 100; ++k) EXPECT_FALSE(notices(0.0));
+  EXPECT_TRUE(notices(1.0));
+}
+
+TEST_F(ByOnsets, NeverAllocates) {
+  settle();
+  const test::AllocationCounter counter;
+  for (int k = 0; k < 100; ++k) see(k % 7 == 0 ? 1.0 : 0.0, 3ms);
+  EXPECT_EQ(counter.count(), 0);
+}
+
 TEST_F(WhitenedDetectorTest, SetsALateEstimateBesideTheLoadOfItsTime) {
   settle(0.0, 4ms);
   load_.friction[0] = 1.2;
@@ -207,6 +278,17 @@ TEST(WhitenedDetectorSettings, AreRefusedWhereAThresholdOrTheNoiseIsMissing) {
     FAIL();
   } catch (const SetupError& error) {
     EXPECT_EQ(error.problems().size(), 4U);
+  }
+}
+
+TEST(WhitenedDetectorSettings, AreRefusedWhereAnOnsetIsNotCalibrated) {
+  WhitenedDetectorSettings wrong = settings();
+  wrong.onset = {.threshold = 0.0, .course = {.prediction = {nan, 0.0, 0.0, 0.0}, .innovation = 0.0}};
+  try {
+    const WhitenedDetector detector(test::planar_bench(), wrong);
+    FAIL();
+  } catch (const SetupError& error) {
+    EXPECT_EQ(error.problems().size(), 3U);
   }
 }
 

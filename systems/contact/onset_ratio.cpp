@@ -1,0 +1,86 @@
+#include "systems/contact/onset_ratio.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace flinch {
+namespace {
+
+using Course = std::array<double, OnsetMemory::longest>;
+
+/// What `filters` of first order make of a step, `x` of their time constants after it:
+/// 1 - exp(-x) (1 + x + x^2/2 + ...).
+double step_behind_filters(int filters, double x) {
+  double term = 1.0, sum = 0.0;
+  for (int i = 0; i < filters; ++i) {
+    sum += term;
+    term *= x / (i + 1);
+  }
+  return 1.0 - std::exp(-x) * sum;
+}
+
+/// The change that a step shows as, from one sample after it on; its mean of late as in `follow_residual`.
+Course step_as_change(const ResidualTracking& tracking) {
+  const double T = to_seconds(tracking.sampling.period);
+  const double share = 1.0 - std::exp(-tracking.rate * T);
+  Course change{};
+  double mean = 0.0, time = 0.0;
+  for (double& seen : change) {
+    time += T;
+    seen = step_behind_filters(tracking.answer.filters, tracking.answer.rate * time) - mean;
+    mean += share * seen;
+  }
+  return change;
+}
+
+int predictors(int sample) { return std::min(sample, ErrorCourse::order); }
+
+}  // namespace
+
+OnsetRatio::OnsetRatio(const ResidualErrors& errors, const ErrorCourse& course,
+                       const ResidualTracking& tracking)
+    : errors_(errors), course_(course) {
+  const Course step = step_as_change(tracking);
+  double energy = 0.0;
+  for (int t = 0; t < OnsetMemory::longest; ++t) {
+    double unexpected = step[t];
+    for (int j = 0; j < predictors(t); ++j) unexpected -= course.prediction[j] * step[t - 1 - j];
+    signature_[t] = unexpected / course.innovation;
+    energy_[t] = energy += signature_[t] * signature_[t];
+  }
+}
+
+void OnsetRatio::follow(const SeenResidual& seen, const OnsetMemory& memory, OnsetMemory& next) const {
+  next.samples = 0;
+  if (!seen.settled) return;
+  next = memory;
+  if (!seen.is_new) return;
+  constexpr int needed = ErrorCourse::order + OnsetMemory::longest;
+  const JointVector z = whitened(seen.load, seen.change, errors_);
+  if (memory.samples >= ErrorCourse::order) {
+    JointVector e = z;
+    for (int j = 0; j < ErrorCourse::order; ++j) e -= course_.prediction[j] * memory.before[j];
+    e /= course_.innovation;
+    const int onsets = std::min(memory.samples - ErrorCourse::order + 1, OnsetMemory::longest);
+    next.matched[0] = signature_[0] * e;
+    for (int k = 1; k < onsets; ++k) next.matched[k] = memory.matched[k - 1] + signature_[k] * e;
+  }
+  next.before[0] = z;
+  std::copy(memory.before.begin(), memory.before.end() - 1, next.before.begin() + 1);
+  next.samples = std::min(memory.samples + 1, needed);
+}
+
+double OnsetRatio::surprise(const OnsetMemory& memory) const {
+  const int onsets = std::min(memory.samples - ErrorCourse::order, OnsetMemory::longest);
+  double largest = 0.0;
+  for (int k = 0; k < onsets; ++k) {
+    if (energy_[k] <= 0.0) continue;  // nothing of it would show yet
+    const double twice_log_ratio = memory.matched[k].squaredNorm() / energy_[k];
+    if (!std::isfinite(twice_log_ratio)) return std::numeric_limits<double>::infinity();
+    largest = std::max(largest, twice_log_ratio);
+  }
+  return std::sqrt(largest);
+}
+
+}  // namespace flinch
