@@ -7,7 +7,9 @@
 namespace flinch {
 namespace {
 
-using Course = std::array<double, OnsetMemory::longest>;
+constexpr std::size_t longest = OnsetMemory::longest, order = ErrorCourse::order;
+
+using Course = std::array<double, longest>;
 
 /// What `filters` of first order make of a step, `x` of their time constants after it:
 /// 1 - exp(-x) (1 + x + x^2/2 + ...).
@@ -34,7 +36,11 @@ Course step_as_change(const ResidualTracking& tracking) {
   return change;
 }
 
-int predictors(int sample) { return std::min(sample, ErrorCourse::order); }
+/// Onsets of which the last of so many samples tells.
+std::size_t onsets(int samples) {
+  const auto seen = static_cast<std::size_t>(samples);
+  return seen > order ? std::min(seen - order, longest) : 0;
+}
 
 }  // namespace
 
@@ -43,9 +49,9 @@ OnsetRatio::OnsetRatio(const ResidualErrors& errors, const ErrorCourse& course,
     : errors_(errors), course_(course) {
   const Course step = step_as_change(tracking);
   double energy = 0.0;
-  for (int t = 0; t < OnsetMemory::longest; ++t) {
+  for (std::size_t t = 0; t < longest; ++t) {
     double unexpected = step[t];
-    for (int j = 0; j < predictors(t); ++j) unexpected -= course.prediction[j] * step[t - 1 - j];
+    for (std::size_t j = 0; j < std::min(t, order); ++j) unexpected -= course.prediction[j] * step[t - 1 - j];
     signature_[t] = unexpected / course.innovation;
     energy_[t] = energy += signature_[t] * signature_[t];
   }
@@ -56,25 +62,23 @@ void OnsetRatio::follow(const SeenResidual& seen, const OnsetMemory& memory, Ons
   if (!seen.settled) return;
   next = memory;
   if (!seen.is_new) return;
-  constexpr int needed = ErrorCourse::order + OnsetMemory::longest;
+  next.samples = std::min(memory.samples + 1, ErrorCourse::order + OnsetMemory::longest);
   const JointVector z = whitened(seen.load, seen.change, errors_);
-  if (memory.samples >= ErrorCourse::order) {
+  if (onsets(next.samples) > 0) {
     JointVector e = z;
-    for (int j = 0; j < ErrorCourse::order; ++j) e -= course_.prediction[j] * memory.before[j];
+    for (std::size_t j = 0; j < order; ++j) e -= course_.prediction[j] * memory.before[j];
     e /= course_.innovation;
-    const int onsets = std::min(memory.samples - ErrorCourse::order + 1, OnsetMemory::longest);
     next.matched[0] = signature_[0] * e;
-    for (int k = 1; k < onsets; ++k) next.matched[k] = memory.matched[k - 1] + signature_[k] * e;
+    for (std::size_t k = 1; k < onsets(next.samples); ++k)
+      next.matched[k] = memory.matched[k - 1] + signature_[k] * e;
   }
   next.before[0] = z;
   std::copy(memory.before.begin(), memory.before.end() - 1, next.before.begin() + 1);
-  next.samples = std::min(memory.samples + 1, needed);
 }
 
 double OnsetRatio::surprise(const OnsetMemory& memory) const {
-  const int onsets = std::min(memory.samples - ErrorCourse::order, OnsetMemory::longest);
   double largest = 0.0;
-  for (int k = 0; k < onsets; ++k) {
+  for (std::size_t k = 0; k < onsets(memory.samples); ++k) {
     if (energy_[k] <= 0.0) continue;  // nothing of it would show yet
     const double twice_log_ratio = memory.matched[k].squaredNorm() / energy_[k];
     if (!std::isfinite(twice_log_ratio)) return std::numeric_limits<double>::infinity();

@@ -15,7 +15,7 @@
 namespace flinch {
 namespace {
 
-constexpr int longest = OnsetMemory::longest, order = ErrorCourse::order;
+constexpr std::size_t longest = OnsetMemory::longest, order = ErrorCourse::order;
 
 const ErrorCourse slow{.prediction = {1.1, -0.3, 0.2, -0.1}, .innovation = 0.4};
 const ErrorCourse white{};
@@ -39,7 +39,7 @@ ResidualTracking behind(int filters) {
 }
 
 /// The change that a step of 1 shows as, told by what follows residuals; its first sample is a tick after it.
-std::vector<double> step_as_change(int filters, int samples) {
+std::vector<double> step_as_change(int filters) {
   ResidualTracking tracking = behind(filters);
   LoadHistory past;
   ResidualMemory memory, next;
@@ -47,7 +47,7 @@ std::vector<double> step_as_change(int filters, int samples) {
   DriveLoad load = seen(JointVector::Zero(1)).load;
   WrenchEstimate estimate;
   estimate.valid = true;
-  for (int k = 0; k <= samples; ++k) {
+  for (int k = 0; k <= OnsetMemory::longest; ++k) {
     const Time now = k * Time(1ms);
     const double step = filters == 0 ? (k > 0 ? 1.0 : 0.0) : test::answer_of_three_filters(0.3 * k);
     load.acquired = estimate.acquired = now;
@@ -63,11 +63,11 @@ std::vector<double> step_as_change(int filters, int samples) {
 using Rows = std::vector<JointVector>;
 
 /// Errors of three drives that go as `course` says.
-Rows errors_of(const ErrorCourse& course, int samples, RandomGenerator& random) {
+Rows errors_of(const ErrorCourse& course, std::size_t samples, RandomGenerator& random) {
   Rows rows;
-  for (int t = 0; t < samples; ++t) {
+  for (std::size_t t = 0; t < samples; ++t) {
     JointVector z = JointVector::Zero(3);
-    for (int j = 1; j <= std::min(t, order); ++j) z += course.prediction[j - 1] * rows[t - j];
+    for (std::size_t j = 1; j <= std::min(t, order); ++j) z += course.prediction[j - 1] * rows[t - j];
     for (double& each : z) each += course.innovation * random.normal();
     rows.push_back(z);
   }
@@ -79,7 +79,7 @@ double misfit(const Rows& z, std::size_t first, int drive, const ErrorCourse& co
   double sum = 0.0;
   for (std::size_t t = first; t < z.size(); ++t) {
     double e = z[t][drive];
-    for (int j = 1; j <= order; ++j) e -= course.prediction[j - 1] * z[t - j][drive];
+    for (std::size_t j = 1; j <= order; ++j) e -= course.prediction[j - 1] * z[t - j][drive];
     sum += std::pow(e / course.innovation, 2);
   }
   return sum;
@@ -89,7 +89,7 @@ double misfit(const Rows& z, std::size_t first, int drive, const ErrorCourse& co
 /// taken off, which makes a parabola of the misfit, whose lowest point three values tell.
 double searched(const Rows& z, const std::vector<double>& step, const ErrorCourse& course) {
   double largest = 0.0;
-  for (std::size_t k = 1; k <= static_cast<std::size_t>(longest); ++k) {
+  for (std::size_t k = 1; k <= longest; ++k) {
     const std::size_t first = z.size() - k;
     double gain = 0.0;
     for (int drive = 0; drive < z.back().size(); ++drive) {
@@ -119,13 +119,15 @@ double surprise_after(const Rows& rows, const OnsetRatio& ratio) {
 TEST(OnsetRatio, IsTheLargestLikelihoodRatioThatASearchFinds) {
   RandomGenerator random(5);
   for (const int filters : {0, 3}) {
-    const std::vector<double> step = step_as_change(filters, longest);
+    const std::vector<double> step = step_as_change(filters);
     for (const ErrorCourse& course : {white, slow}) {
       const OnsetRatio ratio(unit, course, behind(filters));
-      for (int trial = 0; trial < 20; ++trial) {
+      for (std::size_t trial = 0; trial < 20; ++trial) {
         Rows rows = errors_of(course, 60, random);
-        const int onset = 59 - trial;
-        for (int t = onset; t < 60; ++t) rows[t][trial % 3] += 3.0 * (1.0 - std::exp(-0.2 * (t - onset)));
+        for (std::size_t age = 0; age <= trial; ++age) {
+          const double force = 3.0 * (1.0 - std::exp(-0.2 * static_cast<double>(trial - age)));
+          rows[59 - age][static_cast<int>(trial % 3)] += force;
+        }
         const double surprise = surprise_after(rows, ratio);
         EXPECT_NEAR(surprise * surprise, searched(rows, step, course), 1e-9 * surprise * surprise);
       }
@@ -139,7 +141,7 @@ TEST(OnsetRatio, OfErrorsAsAssumedIsSeldomLarge) {
   RandomGenerator random(6);
   const OnsetRatio ratio(unit, slow, behind(3));
   OnsetMemory memory, next;
-  constexpr int samples = 100'000;
+  constexpr std::size_t samples = 100'000;
   constexpr double squares[] = {11.345, 16.266, 21.108};  // that 1, 0.1 and 0.01 % exceed
   constexpr double share[] = {0.01, 0.001, 0.0001};
   std::array<int, 3> exceeded{};
@@ -151,7 +153,7 @@ TEST(OnsetRatio, OfErrorsAsAssumedIsSeldomLarge) {
   }
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_GE(exceeded[i], share[i] * samples) << squares[i];
-    EXPECT_LE(exceeded[i], longest * share[i] * samples) << squares[i];
+    EXPECT_LE(exceeded[i], OnsetMemory::longest * share[i] * samples) << squares[i];
   }
 }
 
@@ -169,7 +171,7 @@ TEST(OnsetRatio, AddsUpAStepUntilTheWindowIsFull) {
   for (int t = -30; t < 30; ++t) {
     ratio.follow(seen(Eigen::Vector3d(t < 0 ? 0.0 : 1.2, 0.0, t < 0 ? 0.0 : -1.6)), memory, next);
     memory = next;
-    const int n = std::clamp(t + 1, 0, longest);
+    const int n = std::clamp(t + 1, 0, OnsetMemory::longest);
     EXPECT_NEAR(ratio.surprise(memory), 2.0 * std::sqrt(n), 1e-6) << t;
   }
 }
@@ -193,7 +195,7 @@ TEST(OnsetRatio, KnowsNothingUntilItCanPredictAndAfterWhatMeansNothing) {
   OnsetMemory memory, next;
   SeenResidual large = seen(Eigen::Vector3d(9.0, 0.0, 0.0));
   for (int times = 0; times < 2; ++times) {
-    for (int t = 0; t < order; ++t) {
+    for (std::size_t t = 0; t < order; ++t) {
       ratio.follow(large, memory, next);
       memory = next;
       EXPECT_EQ(ratio.surprise(memory), 0.0);
@@ -234,7 +236,7 @@ TEST(OnsetRatio, OfWhatIsNotFiniteIsInfiniteAndForgotten) {
   Rows rows(50, JointVector::Zero(3));
   rows.back()[1] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(surprise_after(rows, ratio), INFINITY);
-  for (int t = 0; t < order + longest; ++t) rows.push_back(JointVector::Zero(3));
+  for (std::size_t t = 0; t < order + longest; ++t) rows.push_back(JointVector::Zero(3));
   EXPECT_EQ(surprise_after(rows, ratio), 0.0);
 }
 
