@@ -93,7 +93,7 @@ double share(std::vector<double> times, double part) {
 }
 
 TEST(TheFusedDetector, NoticesContactsShortlyAfterTheFirstInstantAtWhichItsSensorsCouldTell) {
-  const auto contacts = test::wanted<std::size_t>("FLINCH_CONTACTS", 15);
+  const auto contacts = test::wanted<std::size_t>("FLINCH_CONTACTS", 50);
   const Campaign campaign = test::shipped("detection_roc", contacts);
   std::printf("[ms], median / nine tenths of %zu\n", contacts);
   for (std::size_t sort = 0; sort < campaign.contact->bodies.size(); ++sort) {
