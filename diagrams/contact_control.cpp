@@ -218,11 +218,11 @@ Safety add_safety(const Path& path, const ReactionPorts& given, const Laws& laws
   builder.connect(given.reaction, safety.monitor.reaction);
   builder.connect(laws.selector.reference, safety.monitor.reference);
   builder.connect(laws.kept.torque, safety.monitor.command);
-
   builder.connect(safety.monitor.faults, safety.gate.faults);
   builder.connect(laws.kept.torque, safety.gate.command);
   builder.connect(stop_of(path, laws, safety), safety.gate.stop);
   builder.connect(given.reset, safety.gate.reset);
+  builder.connect(safety.gate.torque_command, laws.selector.commanded);
   return safety;
 }
 

@@ -8,7 +8,7 @@ namespace {
 
 using Law = ModeSelector::Law;
 
-Law law_of(ReactionMode mode) {
+Law law_of(ReactionMode mode, bool is_stopping) {
   switch (mode) {
     case ReactionMode::nominal:
     case ReactionMode::recover:
@@ -21,7 +21,7 @@ Law law_of(ReactionMode mode) {
     case ReactionMode::stopped:
       break;
   }
-  return Law::zero_gravity;
+  return is_stopping ? Law::stopping : Law::zero_gravity;
 }
 
 /// Goes on from the torques that were last handed on, if there were any.
@@ -52,7 +52,8 @@ ModeSelector::Blend ModeSelector::advanced(Time now, const Blend& last, Law want
     next.to = wanted;
     next.progress = Time::zero();
     next.frozen = false;
-    if (last.weight < 1.0) freeze(next, last.torque);
+    if (last.weight < 1.0 || last.to == Law::stopping) freeze(next, last.torque);
+    if (wanted == Law::stopping) next.progress = settings_.blend;
     if (wanted == Law::reacting && settings_.reacts_at_once) {
       next.progress = settings_.blend;
       next.behind = true;
@@ -65,7 +66,7 @@ ModeSelector::Blend ModeSelector::advanced(Time now, const Blend& last, Law want
   return next;
 }
 
-void ModeSelector::blend(Time now, const Blend& last, const ReactionState& state,
+void ModeSelector::blend(Time now, const Blend& last, const TorqueCommand& told, const ReactionState& state,
                          const TorqueCommand& nominal_law, const TorqueCommand& reaction_law,
                          const TorqueCommand& yielding_law, const TorqueCommand& gravity_law,
                          Blend& next) const {
@@ -77,12 +78,14 @@ void ModeSelector::blend(Time now, const Blend& last, const ReactionState& state
         return reaction_law;
       case Law::yielding:
         return yielding_law;
+      case Law::stopping:
+        return told;
       case Law::zero_gravity:
         break;
     }
     return gravity_law;
   };
-  next = advanced(now, last, law_of(state.mode));
+  next = advanced(now, last, law_of(state.mode, told.valid));
   if (!next.frozen && !torque_of(next.from).valid) freeze(next, last.torque);
   const JointVector& old = next.frozen ? next.held : torque_of(next.from).torque;
   next.torque = mixed(old, next.weight, torque_of(next.to));
@@ -92,6 +95,7 @@ void ModeSelector::blend(Time now, const Blend& last, const ReactionState& state
 void ModeSelector::hold_back(const Blend& last, Blend& next) const {
   const bool follows = next.weight < 1.0 || last.weight < 1.0 || next.behind;
   next.behind = false;
+  if (next.to == Law::stopping) return;
   const JointVector& before = last.torque.torque;
   if (!follows || !last.torque.valid || before.size() != next.torque.torque.size()) return;
   const JointVector change = next.torque.torque - before;
@@ -103,12 +107,13 @@ void ModeSelector::hold_back(const Blend& last, Blend& next) const {
 
 PlatformReference ModeSelector::select(const ReactionState& state, const PlatformReference& nominal_motion,
                                        const PlatformReference& reaction_motion) const {
-  switch (law_of(state.mode)) {
+  switch (law_of(state.mode, false)) {
     case Law::nominal:
       return nominal_motion;
     case Law::reacting:
       return reaction_motion;
     case Law::yielding:
+    case Law::stopping:
     case Law::zero_gravity:
       break;
   }

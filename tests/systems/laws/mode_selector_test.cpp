@@ -39,6 +39,7 @@ struct Selector {
         reaction_law(builder.export_input("reacting", block.reacting)),
         yielding_law(builder.export_input("yielding", block.yielding)),
         gravity_law(builder.export_input("zero_gravity", block.zero_gravity)),
+        commanded(builder.export_input("commanded", block.commanded)),
         nominal_reference(builder.export_input("nominal_reference", block.nominal_reference)),
         reaction_reference(builder.export_input("reaction_reference", block.reaction_reference)) {
     ticking.set(nominal_law, torque(100.0));
@@ -65,7 +66,7 @@ struct Selector {
   DiagramBuilder builder;
   ModeSelector& block;
   InputPort<ReactionState> reaction;
-  InputPort<TorqueCommand> nominal_law, reaction_law, yielding_law, gravity_law;
+  InputPort<TorqueCommand> nominal_law, reaction_law, yielding_law, gravity_law, commanded;
   InputPort<PlatformReference> nominal_reference, reaction_reference;
   test::Ticking ticking{builder};
 };
@@ -147,6 +148,30 @@ TEST(ModeSelector, BlendsFromItsLastTorqueWhenTheOldLawIsLost) {
   selector.ticking.set(selector.nominal_law, torque(0.0, false));
   EXPECT_NEAR(selector.tick(react).torque[0], 0.9 * 100.0 - 0.1 * 50.0, 1e-12);
   EXPECT_NEAR(selector.tick(react).torque[0], 0.8 * 100.0 - 0.2 * 50.0, 1e-12);
+}
+
+TEST(ModeSelector, GoesOnFromWhatTheDrivesAreToldInAStop) {
+  Selector selector;
+  selector.settle(nominal);
+  selector.ticking.set(selector.commanded, torque(-60.0));
+  selector.tick(nominal);
+  EXPECT_EQ(selector.tick(stopped).torque[0], -60.0) << "what was told in the last tick, at once";
+  selector.ticking.set(selector.commanded, torque(-55.0));
+  EXPECT_EQ(selector.tick(stopped).torque[0], -60.0);
+  EXPECT_EQ(selector.tick(stopped).torque[0], -55.0);
+  selector.ticking.set(selector.commanded, torque(1e6));
+  for (int step = 1; step <= 10; ++step)
+    EXPECT_NEAR(selector.tick(nominal).torque[0], -55.0 + 15.5 * step, 1e-12) << step;
+}
+
+TEST(ModeSelector, HandsOnZeroGravityInAStopWhereTheDrivesAreToldNothing) {
+  Selector selector;
+  selector.ticking.set(selector.commanded, torque(-60.0, false));
+  EXPECT_EQ(selector.settle(stopped).torque[0], 10.0);
+  for (int step = 1; step <= 10; ++step) {
+    selector.ticking.set(selector.gravity_law, torque(10.0 + step));
+    EXPECT_NEAR(selector.tick(nominal).torque[0], 10.0 * step + (1.0 - 0.1 * step) * (10.0 + step), 1e-12);
+  }
 }
 
 TEST(ModeSelector, IsNotValidWhereTheNewLawIsNot) {
