@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -38,6 +39,8 @@ struct Shown {
   double last_kappa = 0.0;
   double last_distance = 0.0;
   int ticks_too_near = 0;
+  int ticks_too_singular = 0;
+  double largest_speed = 0.0;        ///< of the true platform [m/s]
   double largest_torque_step = 0.0;  ///< of what the laws ask for, while they are heard [Nm]
   bool lost_hold = false;            ///< the gate closed near a type-II singularity
 };
@@ -47,6 +50,7 @@ Shown run(const SimulatedScenario& scenario) {
   Shown shown;
   shown.verdict = judge(recording, scenario.robot.robot->space(), scenario.expected, scenario.force_limits);
   const auto measures = read<WorkspaceMeasures>(recording, "measures");
+  const auto truth = read<RecordedTruth>(recording, "truth");
   const auto gate = read<GateStatus>(recording, "gate");
   const auto asked = read<TorqueCommand>(recording, "requested_torque");
   JointVector before;
@@ -56,6 +60,8 @@ Shown run(const SimulatedScenario& scenario) {
     shown.largest_kappa = std::max(shown.largest_kappa, now.sigma_kappa);
     shown.least_distance = std::min(shown.least_distance, now.sigma_sc);
     shown.ticks_too_near += now.sigma_sc < 0.17 - 1e-6 ? 1 : 0;
+    shown.ticks_too_singular += now.sigma_kappa > 15.0 + 1e-6 ? 1 : 0;
+    shown.largest_speed = std::max(shown.largest_speed, truth[k].velocity.head(2).norm());
     shown.last_kappa = now.sigma_kappa;
     shown.last_distance = now.sigma_sc;
     shown.lost_hold |= gate[k].fault == GateFault::type_2_singularity;
@@ -201,14 +207,23 @@ TEST(TheStrictReaction, WouldEndInASingularityOrInItselfWithoutLimitsOnRealistic
   EXPECT_GE(collided, drawn_robots / 2);
 }
 
-// [SafePR] V-E: overshoot is short, and the position is reached all the same.
+// [SafePR] V-E, where at 1.25 to 1.35 m/s both measures reach their safety values and overshoot, the distance
+// for 100 ms at most, and most on the acceleration level; docs/theory.md.
 TEST(TaskTracking, KeepsBothConstraintsWithoutAContact) {
-  for (const std::string level : {"acceleration", "torque"}) {
+  for (const std::string level : {"velocity", "acceleration", "torque"}) {
     const Shown shown =
         run(scenario("constraints_without_contact", "[torque_tracking]", "[" + level + "_tracking]"));
+    std::printf(
+        "  %s level: %.2f m/s; kappa %.2f, above 15 for %d ms, at last %.2f; sc %.4f m, below 0.17 m for %d "
+        "ms, at last %.4f m\n",
+        level.c_str(), shown.largest_speed, shown.largest_kappa, shown.ticks_too_singular, shown.last_kappa,
+        shown.least_distance, shown.ticks_too_near, shown.last_distance);
     EXPECT_TRUE(shown.verdict.good()) << level;
-    EXPECT_NEAR(shown.last_distance, 0.17, 0.001) << level;
-    EXPECT_LT(shown.largest_kappa, 15.75) << level;
+    EXPECT_GT(shown.largest_speed, 1.25) << level;
+    EXPECT_NEAR(shown.last_kappa, 15.0, 0.05) << level;
+    EXPECT_NEAR(shown.last_distance, 0.17, 0.0005) << level;
+    EXPECT_LT(shown.largest_kappa, 15.5) << level;
+    EXPECT_GT(shown.least_distance, 0.169) << level;
   }
   EXPECT_LT(run(scenario("constraints_without_contact", "kept: always", "kept: never")).least_distance, 0.15);
 }
