@@ -161,7 +161,6 @@ ReactionOutcome outcome_of(const CampaignRun& run) {
                                    kept.limits.workspace.min_self_collision_distance >= sigma_sc_s;
   Touching touching;
   Holding holding;
-  double detected = 0.0;
   for (std::size_t k = 0; k < recording.samples(); ++k) {
     const double time = to_seconds(Time(recording.time_ns[k]));
     const RecordedContact contact = contacts[k];
@@ -181,19 +180,8 @@ ReactionOutcome outcome_of(const CampaignRun& run) {
       outcome.starts_inside = outcome.sigma_kappa <= sigma_kappa_s && outcome.sigma_sc >= sigma_sc_s;
     }
     if (!is_noticed) continue;
-    if (!outcome.struck && modes[k].mode == ReactionMode::zero_g) {
-      outcome.struck = true;
-      detected = time;
-      outcome.rest.reset();
-    }
-    if (!outcome.detected) detected = time;
     outcome.detected = true;
     if (keeps_safety_values) note_stop(robot, truth, brakings[k], outcome);
-    if (truth.velocity.head(translations).norm() > at_rest) {
-      outcome.rest.reset();
-    } else if (!outcome.rest) {
-      outcome.rest = time - detected;
-    }
   }
   touching.finish(outcome);
   return outcome;

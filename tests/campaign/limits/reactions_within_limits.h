@@ -22,7 +22,6 @@ struct ReactionOutcome {
   bool touched = false;
   bool detected = false;
   bool starts_inside = false;  ///< at the start both measures are within their safety values
-  bool struck = false;         ///< a contact got hard: zero gravity
   /// At the detection it could still stop within the safety values, as the robot itself judges; none: it does
   /// not keep these, or noticed nothing.
   std::optional<bool> says_it_could_stop;
@@ -30,9 +29,6 @@ struct ReactionOutcome {
   bool is_lost = false;           ///< at a tick the true robot had no kinematics: the measures leave that out
   std::string fault;              ///< why the gate closed, "" if it did not
   std::optional<double> removed;  ///< after the onset of the contact that is noticed [s]
-  /// After the detection or, where the contact got hard, after that: until the platform stays below 0.02 m/s
-  /// [s].
-  std::optional<double> rest;
   /// Largest speed of the platform in hold when nothing has touched it for 100 ms [m/s].
   double held_speed = 0.0;
   double speed = 0.0;       ///< that was asked of the platform [m/s]; 0 where that is not drawn
