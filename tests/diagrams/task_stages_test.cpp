@@ -8,12 +8,11 @@
 #include <numbers>
 #include <optional>
 
-#include "diagrams/isolation_stages.h"
-#include "systems/contact/evidence_features.h"
 #include "systems/framework/constant.h"
 #include "tests/diagrams/contact_bench.h"
 #include "tests/support/allocations.h"
 #include "tests/support/planar_bench.h"
+#include "tests/support/unsure_classifier.h"
 
 namespace flinch {
 namespace {
@@ -34,15 +33,6 @@ ControlLaw told(ControlLaw law, int touched) {
                 site.builder.add<Constant<ContactClassification>>(site.name + "_told", classification).value;
             return law.add(site, known);
           }};
-}
-
-/// A classifier that takes all ten classes for equally likely, and names the first: the platform.
-ContactClassifier unsure(double accept) {
-  NetworkParameters parameters;
-  parameters.layers.push_back(
-      {Eigen::MatrixXd::Zero(1, evidence_feature_count), Eigen::VectorXd::Zero(1), Activation::none});
-  parameters.result = NetworkResult::softmax_of_rows;
-  return learned_classifier_stage({.network = std::make_shared<NeuralNetwork>(parameters), .accept = accept});
 }
 
 class TaskStages : public ::testing::TestWithParam<int> {
@@ -97,7 +87,7 @@ TEST_P(TaskStages, AClassBelowTheMarginIsAnsweredAsOneThatNobodyKnows) {
     Experiment doubtful = experiment(0.5);
     doubtful.control.stages.reaction_laws = {};
     doubtful.control.stages.reaction_laws.follow(accept ? reaction() : told(reaction(), -1));
-    doubtful.control.stages.classifiers.follow(unsure(accept.value_or(1.0)));
+    doubtful.control.stages.classifiers.follow(test::unsure_classifier(accept.value_or(1.0)));
     Bench bench(doubtful);
     EXPECT_TRUE(bench.run_until(react, 1500ms));
     const ContactClassification& said = bench.context.get(bench.control.classification);
