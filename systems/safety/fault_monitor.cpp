@@ -8,6 +8,14 @@ namespace flinch {
 FaultMonitor::FaultMonitor(std::shared_ptr<const ParallelRobot> robot, const FaultLimits& limits)
     : robot_(std::move(robot)), limits_(limits) {
   throw_if_any(problems(limits, *robot_));
+  Kinematics home;
+  robot_->kinematics(robot_->home_pose(), PlatformVector::Zero(robot_->dof()), home);
+  if (home.det_A < 0.0) home_side_ = -1.0;
+}
+
+WorkspaceMeasures FaultMonitor::seen_from_home(WorkspaceMeasures seen) const {
+  seen.det_A *= home_side_;
+  return seen;
 }
 
 void FaultMonitor::advance(Time now, const FaultMonitorMemory& last, const StationStatus& status,
@@ -32,7 +40,7 @@ void FaultMonitor::advance(Time now, const FaultMonitorMemory& last, const Stati
                    .limits = limits_.workspace,
                    .motion = rates,
                    .platform = pose,
-                   .measures = workspace},
+                   .measures = seen_from_home(workspace)},
                   state.mode == ReactionMode::recover);
 }
 
@@ -43,6 +51,7 @@ FaultReport FaultMonitor::judge(Time now, const FaultMonitorMemory& memory, cons
                                 const ContactDetection& contact, const PlatformReference& followed,
                                 const OperatorCommand& pressed, const ReactionState& state,
                                 const Plausibility& plausible) const {
+  const WorkspaceMeasures from_home = seen_from_home(workspace);
   const Evidence evidence{.robot = *robot_,
                           .limits = limits_,
                           .now = now,
@@ -56,7 +65,7 @@ FaultReport FaultMonitor::judge(Time now, const FaultMonitorMemory& memory, cons
                           .encoders = memory.encoders,
                           .motion = rates,
                           .platform = pose,
-                          .measures = workspace,
+                          .measures = from_home,
                           .detection = contact,
                           .reference = followed,
                           .command = memory.command,

@@ -68,8 +68,12 @@ class FaultMonitor final : public System {
                     const OperatorCommand& pressed, const ReactionState& state,
                     const Plausibility& plausible) const;
 
+  /// det A positive on the side of its singularity on which the home pose lies.
+  WorkspaceMeasures seen_from_home(WorkspaceMeasures seen) const;
+
   std::shared_ptr<const ParallelRobot> robot_;
   FaultLimits limits_;
+  double home_side_ = 1.0;  ///< the sign of det A at home
 };
 
 }  // namespace flinch

@@ -87,9 +87,12 @@ bool type_1_singularity(const Evidence& e) {
   return e.has_pose && !(e.measures.valid && std::abs(e.measures.det_B) >= e.limits.workspace.min_abs_det_B);
 }
 
+/// Or beyond it, in another assembly mode than home.
 bool type_2_singularity(const Evidence& e) {
   if (e.platform.status == PlatformMotion::Status::singular) return true;
-  return e.has_pose && !(e.measures.valid && std::abs(e.measures.det_A) >= e.limits.workspace.min_abs_det_A);
+  const double least = e.limits.workspace.min_abs_det_A;
+  const double room = least > 0.0 ? e.measures.det_A : std::abs(e.measures.det_A);
+  return e.has_pose && !(e.measures.valid && room >= least);
 }
 
 bool workspace_radius(const Evidence& e) {

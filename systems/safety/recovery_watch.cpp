@@ -28,7 +28,7 @@ PlaceExcess place_excess(const PlaceTick& tick) noexcept {
   orientation = tick.robot.space().rotation_angle(tick.platform.pose) / limits.max_rotation - 1.0;
   if (!tick.measures.valid) return excess;
   type_1 = 1.0 - std::abs(tick.measures.det_B) / limits.min_abs_det_B;
-  type_2 = 1.0 - std::abs(tick.measures.det_A) / limits.min_abs_det_A;
+  if (tick.measures.det_A > 0.0) type_2 = 1.0 - tick.measures.det_A / limits.min_abs_det_A;
   self_collision = 1.0 - tick.measures.sigma_sc / limits.min_self_collision_distance;
   return excess;
 }

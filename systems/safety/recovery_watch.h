@@ -19,7 +19,7 @@ inline constexpr std::array faults_of_place{GateFault::type_1_singularity, GateF
                                             GateFault::joint_range,        GateFault::self_collision};
 
 /// By how much the robot stands beyond the limit of each, as a share of the limit (of a range: of its width);
-/// negative within, not a number where it is not known.
+/// negative within, not a number where it is not known, nor where only a type-II singularity leads back.
 using PlaceExcess = std::array<double, faults_of_place.size()>;
 
 /// What a tick tells about the robot's place.
@@ -28,7 +28,7 @@ struct PlaceTick {
   const WorkspaceLimits& limits;
   const JointMotion& motion;
   const PlatformMotion& platform;
-  const WorkspaceMeasures& measures;
+  const WorkspaceMeasures& measures;  ///< det A positive on the side of home
 };
 
 PlaceExcess place_excess(const PlaceTick& tick) noexcept;

@@ -85,6 +85,10 @@ std::vector<Way> too_small(double WorkspaceMeasures::*measure, double least) {
   return {{is(least - 1e-4), 0, is(least)}, {is(1e-4 - least), 0, is(-least)}, {is(nan), 0}};
 }
 
+std::function<void(Inputs&)> det_A(double value) {
+  return [value](Inputs& in) { in.posture.measures.det_A = value; };
+}
+
 /// An entry of a vector beyond `most`, or below `least`.
 std::vector<Way> beyond(const std::function<double&(Inputs&)>& entry, double least, double most,
                         double step) {
@@ -158,7 +162,10 @@ std::map<GateFault, std::vector<Way>> ways_of_pose_and_workspace() {
       {GateFault::type_1_singularity,
        too_small(&WorkspaceMeasures::det_B, 0.15) + std::vector<Way>{{no_measures, 0}}},
       {GateFault::type_2_singularity,
-       too_small(&WorkspaceMeasures::det_A, 0.2) + std::vector<Way>{{solved(Status::singular), 0}}},
+       {{det_A(-0.2 + 1e-4), 0, det_A(-0.2)},  // home lies where it is negative
+        {det_A(0.2), 0, det_A(-0.3)},
+        {det_A(nan), 0},
+        {solved(Status::singular), 0}}},
       {GateFault::workspace_radius,
        {{out(0.25, 0.246), 0, out(0.25, 0.244)}, {out(-0.351, 0.0), 0, out(-0.349, 0.0)}}},
       {GateFault::orientation, beyond([](Inputs& in) -> double& { return in.posture.platform.pose[2]; },

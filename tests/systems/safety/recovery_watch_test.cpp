@@ -84,6 +84,21 @@ TEST(RecoveryWatch, ToleratesNothingThatItDoesNotKnow) {
   EXPECT_TRUE(tolerates(watch, GateFault::workspace_radius));
 }
 
+TEST(RecoveryWatch, ToleratesNoOtherSideOfASingularity) {
+  RecoveryWatch watch;
+  Place place(0.0);
+  for (const double det_A : {0.1, 1e-6}) {
+    place.posture.measures.det_A = det_A;
+    advance(watch, place.tick(), false);
+    EXPECT_TRUE(tolerates(watch, GateFault::type_2_singularity)) << det_A;
+  }
+  for (const double det_A : {0.0, -0.1, -0.5}) {
+    place.posture.measures.det_A = det_A;
+    advance(watch, place.tick(), false);
+    EXPECT_FALSE(tolerates(watch, GateFault::type_2_singularity)) << det_A;
+  }
+}
+
 TEST(RecoveryWatch, ToleratesNoOtherFaultThanThoseOfPlace) {
   RecoveryWatch watch;
   advance(watch, Place(0.4).tick(), false);
