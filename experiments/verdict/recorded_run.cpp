@@ -145,10 +145,10 @@ void compare_motion(const Configuration& pose, const PlatformVector& velocity, c
 }  // namespace
 
 bool is_judged(const std::string& path) {
-  static constexpr std::array judged = {"detection",      "reaction",      "wrench",       "reference",
-                                        "gate",           "truth",         "contact",      "location",
-                                        "classification", "true_measures", "plausibility", "braking",
-                                        "reaction_task",  "torque_command"};
+  static constexpr std::array judged = {"detection",      "reaction",       "wrench",       "reference",
+                                        "gate",           "truth",          "contact",      "location",
+                                        "classification", "true_measures",  "plausibility", "braking",
+                                        "reaction_task",  "torque_command", "operator"};
   return path.starts_with(detection_of) || std::find(judged.begin(), judged.end(), path) != judged.end();
 }
 
@@ -178,6 +178,7 @@ struct RecordedRun::Signals {
     const char* const measured = is_true ? "true_measures" : "measures";
     if (recording.find(measured) != nullptr) measures.emplace(recording, measured);
     if (recording.find("torque_command") != nullptr) torque_command.emplace(recording, "torque_command");
+    if (recording.find("operator") != nullptr) buttons.emplace(recording, "operator");
     if (recording.find("braking") != nullptr) braking.emplace(recording, "braking");
     if (recording.find("reaction_task") != nullptr) task.emplace(recording, "reaction_task");
     if (records(recording, "contact", "further.0.body")) further.emplace(recording, "contact");
@@ -209,6 +210,7 @@ struct RecordedRun::Signals {
   std::optional<RecordedValues<WorkspaceMeasures>> measures;
   std::optional<RecordedValues<TorqueCommand>> torque_command;
   std::optional<RecordedValues<BrakingStatus>> braking;
+  std::optional<RecordedValues<OperatorCommand>> buttons;
   std::optional<RecordedValues<FollowedTask>> task;
   std::optional<RecordedValues<RecordedSelfContact>> self_contact;
   std::optional<RecordedValues<RecordedSelfBodies>> self_bodies;
@@ -310,6 +312,8 @@ RunSample RecordedRun::operator[](std::size_t sample) const {
   now.self_contact = signals.self_touch(sample);
   const PlatformReference reference = signals.reference[sample];
   now.reference_valid = reference.valid;
+  now.reference_rests = reference.finished;
+  if (signals.buttons) now.pressed = (*signals.buttons)[sample];
   if (signals.truth) {
     const RecordedTruth truth = (*signals.truth)[sample];
     const RecordedContact contact = (*signals.contact)[sample];

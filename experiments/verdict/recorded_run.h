@@ -16,6 +16,7 @@
 #include "systems/signals/contact_location.h"
 #include "systems/signals/followed_task.h"
 #include "systems/signals/gate_status.h"
+#include "systems/signals/operator_command.h"
 #include "systems/signals/reaction_state.h"
 
 namespace flinch {
@@ -64,6 +65,8 @@ struct RunSample {
   bool reference_valid = false;
   double position_error = 0.0;     ///< [m]
   double orientation_error = 0.0;  ///< [rad]
+  bool reference_rests = false;    ///< it has come to its end
+  OperatorCommand pressed;         ///< what the operator does
   /// What the followed classifier takes for touched, by name; "" while it has accepted nothing.
   std::string classified;
   double probability = 0.0;  ///< of that

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "experiments/verdict/contact_watch.h"
+#include "experiments/verdict/return_watch.h"
 #include "systems/safety/fault_table.h"
 #include "systems/signals/gate_status.h"
 #include "systems/signals/reaction_state.h"
@@ -147,6 +148,7 @@ struct RunWatch::Parts {
   ContactWatch contacts;
   DetectionWatch detections;
   FaultWatch faults;
+  ReturnWatch returns;
   bool was_touched = false, gate_opens = false;
   GateStatus gate;
   std::optional<double> first;  ///< sample [s]
@@ -176,6 +178,7 @@ void RunWatch::see(const RunSample& now) {
   so_far.gate = now.gate;
   so_far.gate_opens |= now.gate.phase == GatePhase::open;
   so_far.faults.see(now, verdict);
+  so_far.returns.see(now);
   if (verdict.imu_doubt == ImuDoubt::none && now.doubts.imu != ImuDoubt::none) {
     verdict.imu_doubt = now.doubts.imu;
     verdict.imu_doubted = now.time;
@@ -188,6 +191,7 @@ void RunWatch::see(const RunSample& now) {
 Verdict RunWatch::seen() const {
   Verdict verdict = parts_->verdict;
   verdict.contacts = parts_->contacts.contacts();
+  verdict.returned = parts_->returns.seen();
   if (!parts_->first) return verdict;
   verdict.simulated = parts_->last - *parts_->first + parts_->period;
   if (!parts_->gate_opens) {

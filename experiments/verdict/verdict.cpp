@@ -101,6 +101,32 @@ void remark_lost_sensors(const Verdict& verdict, std::vector<std::string>& remar
   }
 }
 
+/// What closed the gate. Where the robot is expected to be brought back, only what did after the reset is a
+/// failure.
+void judge_gate(Verdict& verdict, const Expectations& expected) {
+  const bool is_reset = expected.return_time && verdict.returned;
+  const std::string closed = "the torque gate closed: " + verdict.fault;
+  if (!is_reset && !verdict.fault.empty()) verdict.failures.push_back(closed);
+  if (!is_reset) return;
+  if (!verdict.returned->stopped_by.empty()) verdict.remarks.push_back(closed);
+  if (!verdict.returned->fault.empty())
+    verdict.failures.push_back("the torque gate closed after the reset: " + verdict.returned->fault);
+}
+
+void expect_return(const std::optional<Return>& seen, const std::optional<double>& bound,
+                   std::vector<std::string>& failures) {
+  if (!bound) return;
+  if (!seen) {
+    failures.emplace_back("no operator has reset the robot while it was kept from its nominal motion");
+  } else if (!seen->resumed) {
+    failures.emplace_back("the nominal motion did not begin again");
+  } else if (*seen->resumed - seen->reset > *bound) {
+    failures.push_back(
+        fmt::format("the nominal motion began again {:.2f} s after the reset, later than {:.2f} s",
+                    *seen->resumed - seen->reset, *bound));
+  }
+}
+
 void expect_at_most(const char* what, double value, std::optional<double> bound, const char* unit,
                     double scale, std::vector<std::string>& failures) {
   if (!bound || value <= *bound) return;
@@ -120,7 +146,8 @@ Verdict judge(const RunWatch& watch, const Expectations& expected) {
   remark_lost_sensors(verdict, verdict.remarks);
   verdict.failures.insert(verdict.failures.end(), of_the_gate.begin(), of_the_gate.end());
   if (verdict.false_detections > 0) verdict.failures.push_back("a contact was detected where there was none");
-  if (!verdict.fault.empty()) verdict.failures.push_back("the torque gate closed: " + verdict.fault);
+  judge_gate(verdict, expected);
+  expect_return(verdict.returned, expected.return_time, verdict.failures);
   expect_at_most("observer error", verdict.max_observer_error_force, expected.observer_error, "N", 1.0,
                  verdict.failures);
   expect_at_most("observer error", verdict.max_observer_error_moment, expected.observer_error_moment, "Nm",

@@ -33,6 +33,9 @@ struct Expectations {
   std::optional<double> observer_error_moment;  ///< the same for the moment [Nm]
   std::optional<double> tracking_error;         ///< largest distance from the reference without contact [m]
   double loop_closure = 1e-9;                   ///< [m]
+  /// Longest time from an operator's reset until the nominal motion has begun again [s]. That the gate closed
+  /// before is then no failure.
+  std::optional<double> return_time;
 };
 
 /// When a detector that follows an estimator noticed a contact.
@@ -113,6 +116,20 @@ struct MeasureRanges {
   std::optional<MeasureRange> sigma_sc;  ///< [m]
 };
 
+/// How an operator brought the robot back to its nominal motion, from the first reset on after something had
+/// interrupted that.
+struct Return {
+  double reset = 0.0;               ///< when that button went down [s]
+  std::string from{};               ///< "hold", "zero_g", "react" or "stopped", where the gate was not open
+  std::string stopped_by{};         ///< for which fault; "" none
+  std::optional<double> resumed{};  ///< when the nominal motion began again, by `start` [s]; none: never
+  int resets = 1;                   ///< until then
+  int reactions = 0;                ///< new ones until then
+  double recovery_speed = 0.0;      ///< of the platform, the largest in the mode `recover` until then [m/s]
+  double nominal_speed = 0.0;       ///< likewise in the mode `nominal`
+  std::string fault{};              ///< why the gate closed again, whenever; "" it did not
+};
+
 /// What a verdict rests on, besides what the controller itself says.
 enum class Witness {
   truth,         ///< the simulation: exact, for verdicts only
@@ -148,6 +165,7 @@ struct Verdict {
   /// The first doubt about the IMU, and when it came up [s]; none: it was believed.
   ImuDoubt imu_doubt = ImuDoubt::none;
   double imu_doubted = 0.0;
+  std::optional<Return> returned;      ///< none: no operator has reset an interrupted robot
   std::optional<double> passive_lost;  ///< when the passive encoders were lost [s]; none: they were not
   double simulated = 0.0;              ///< [s]
 

@@ -159,6 +159,20 @@ std::string braking_line(const ContactVerdict& contact) {
                      1e3 * *contact.stop_duration);
 }
 
+/// How the robot was brought back.
+std::string return_lines(const std::optional<Return>& seen) {
+  if (!seen) return "";
+  std::string text = fmt::format("\nreset from {:<7} at {:.3f} s", seen->from, seen->reset);
+  if (!seen->stopped_by.empty()) text += ", where the gate had closed: " + seen->stopped_by;
+  text += seen->resumed ? fmt::format("\n  nominal motion   at {:.3f} s, {:.2f} s later", *seen->resumed,
+                                      *seen->resumed - seen->reset)
+                        : std::string("\n  nominal motion   never again");
+  text += fmt::format("; {} {}, {} new {}", seen->resets, seen->resets == 1 ? "reset" : "resets",
+                      seen->reactions, seen->reactions == 1 ? "reaction" : "reactions");
+  return text + fmt::format("\n  on the way       at most {:.3f} m/s recovering, {:.3f} m/s nominal\n",
+                            seen->recovery_speed, seen->nominal_speed);
+}
+
 std::string no_contact_line(const Verdict& verdict) {
   if (!verdict.contacts.empty()) return "";
   if (verdict.witness != Witness::none) return "nothing was touched\n";
@@ -177,6 +191,19 @@ Json robot_json(const RunFacts& facts) {
 Json imu_doubt_json(const Verdict& verdict) {
   if (verdict.imu_doubt == ImuDoubt::none) return nullptr;
   return {{"kind", name(verdict.imu_doubt)}, {"since_s", verdict.imu_doubted}};
+}
+
+Json return_json(const std::optional<Return>& seen) {
+  if (!seen) return nullptr;
+  return {{"from", seen->from},
+          {"stopped_by", seen->stopped_by},
+          {"reset_s", seen->reset},
+          {"resumed_s", seen->resumed ? Json(*seen->resumed) : Json(nullptr)},
+          {"resets", seen->resets},
+          {"reactions", seen->reactions},
+          {"recovery_speed_m_per_s", seen->recovery_speed},
+          {"nominal_speed_m_per_s", seen->nominal_speed},
+          {"fault", seen->fault}};
 }
 
 const char* name(Witness witness) {
@@ -201,7 +228,7 @@ std::string verdict_table(const Verdict& verdict, const RunFacts& facts) {
     text += contact_line(contact) + obstacle_line(contact, verdict) + by_estimator_lines(contact) +
             classified_line(contact) + braking_line(contact) + reaction_lines(contact);
   }
-  text += no_contact_line(verdict) + limit_lines(verdict);
+  text += no_contact_line(verdict) + limit_lines(verdict) + return_lines(verdict.returned);
   text += fmt::format(
       "\nfalse detections   {}\nobserver error     {:.2f} N, {:.3f} Nm before any contact\n"
       "tracking error     {:.2f} mm, {:.2f} deg before any contact\n",
@@ -242,6 +269,7 @@ std::string verdict_json(const Verdict& verdict, const RunFacts& facts) {
       {"self_contacts", self_contacts_json(verdict)},
       {"imu_doubt", imu_doubt_json(verdict)},
       {"passive_encoders_lost_s", verdict.passive_lost ? Json(*verdict.passive_lost) : Json(nullptr)},
+      {"returned", return_json(verdict.returned)},
       {"fault", verdict.fault},
       {"failures", verdict.failures},
       {"remarks", verdict.remarks}};

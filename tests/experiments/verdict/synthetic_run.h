@@ -15,9 +15,11 @@
 #include "systems/signals/followed_task.h"
 #include "systems/signals/gate_status.h"
 #include "systems/signals/limit_status.h"
+#include "systems/signals/operator_command.h"
 #include "systems/signals/platform_reference.h"
 #include "systems/signals/plausibility.h"
 #include "systems/signals/reaction_state.h"
+#include "systems/signals/target_command.h"
 #include "systems/signals/torque_command.h"
 #include "systems/signals/workspace_measures.h"
 #include "systems/signals/wrench_estimate.h"
@@ -43,6 +45,8 @@ struct Moment {
   WorkspaceMeasures true_measures;
   LimitStatus limits;
   TorqueCommand torque;
+  OperatorCommand pressed;
+  TargetCommand target;
 };
 
 /// A recording made up tick by tick: the robot rests where it shall, nothing touches it and nothing is
@@ -133,7 +137,9 @@ class SyntheticRun {
                          signal("measures", &Moment::measured),
                          signal("true_measures", &Moment::true_measures),
                          signal("limits", &Moment::limits),
-                         signal("torque_command", &Moment::torque)};
+                         signal("torque_command", &Moment::torque),
+                         signal("operator", &Moment::pressed),
+                         signal("target", &Moment::target)};
     return recording;
   }
 

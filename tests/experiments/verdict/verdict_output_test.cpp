@@ -142,6 +142,38 @@ TEST(VerdictJson, TellsSinceWhenThereWereNoPassiveEncoders) {
   EXPECT_EQ(nlohmann::json::parse(verdict_json(verdict, {}))["passive_encoders_lost_s"], 0.25);
 }
 
+TEST(AReturn, IsToldInTableAndJson) {
+  Verdict verdict;
+  EXPECT_TRUE(nlohmann::json::parse(verdict_json(verdict, {}))["returned"].is_null());
+  EXPECT_THAT(verdict_table(verdict, {}), Not(HasSubstr("reset")));
+  verdict.returned = {.reset = 1.5,
+                      .from = "stopped",
+                      .stopped_by = "a leg is nearly stretched or folded",
+                      .resumed = 4.0,
+                      .resets = 2,
+                      .reactions = 1,
+                      .recovery_speed = 0.05,
+                      .nominal_speed = 0.2};
+  EXPECT_THAT(
+      verdict_table(verdict, {}),
+      HasSubstr("reset from stopped at 1.500 s, where the gate had closed: a leg is nearly stretched or "
+                "folded\n  nominal motion   at 4.000 s, 2.50 s later; 2 resets, 1 new reaction\n"
+                "  on the way       at most 0.050 m/s recovering, 0.200 m/s nominal\n"));
+  EXPECT_EQ(nlohmann::json::parse(verdict_json(verdict, {}))["returned"],
+            nlohmann::json({{"from", "stopped"},
+                            {"stopped_by", "a leg is nearly stretched or folded"},
+                            {"reset_s", 1.5},
+                            {"resumed_s", 4.0},
+                            {"resets", 2},
+                            {"reactions", 1},
+                            {"recovery_speed_m_per_s", 0.05},
+                            {"nominal_speed_m_per_s", 0.2},
+                            {"fault", ""}}));
+  verdict.returned->resumed.reset();
+  EXPECT_THAT(verdict_table(verdict, {}), HasSubstr("nominal motion   never again"));
+  EXPECT_TRUE(nlohmann::json::parse(verdict_json(verdict, {}))["returned"]["resumed_s"].is_null());
+}
+
 TEST(VerdictJson, TellsSinceWhenTheImuWasLeftOut) {
   Verdict verdict;
   verdict.imu_doubt = ImuDoubt::frozen;

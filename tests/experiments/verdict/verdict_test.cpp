@@ -393,8 +393,8 @@ TEST(Expectation, OfErrorsIsABoundInItsUnit) {
 TEST(Verdict, NeedsEverySignalButThoseThatNotEveryRunHas) {
   const Recording whole = SyntheticRun(10).recording();
   const std::set<std::string> not_of_every_run = {
-      "tick_timing",   "joints_link", "plausibility",  "braking", "classification",
-      "reaction_task", "measures",    "true_measures", "limits",  "torque_command"};
+      "tick_timing", "joints_link",   "plausibility", "braking",        "classification", "reaction_task",
+      "measures",    "true_measures", "limits",       "torque_command", "operator",       "target"};
   for (const Signal& left_out : whole.signals) {
     if (not_of_every_run.contains(left_out.path)) continue;
     Recording recording = whole;
