@@ -1,5 +1,6 @@
 #include "experiments/live/live_experiment.h"
 
+#include "diagrams/operator_ports.h"
 #include "experiments/recorded/recorded_signals.h"
 #include "experiments/scenario/scenario.h"
 #include "systems/framework/diagram_builder.h"
@@ -14,8 +15,9 @@ LiveExperiment build_live_experiment(const Scenario& scenario) {
   experiment.station = add_external_station(builder, scenario.robot.robot, {.force_torque = has_instrument});
   experiment.control = add_contact_control(builder, scenario.robot.robot, scenario.control);
   connect(builder, experiment.station, experiment.control);
-  experiment.operator_command = builder.export_input("operator", experiment.control.operator_command);
-  experiment.target = builder.export_input("target", experiment.control.target);
+  const OperatorPorts panel = add_operator(builder, experiment.control, scenario.operator_script);
+  experiment.operator_command = panel.buttons;
+  experiment.target = panel.target;
   if (scenario.control.contact_is_told) {
     experiment.told_classification =
         builder.export_input("told_classification", experiment.control.told_classification);

@@ -7,6 +7,7 @@
 #include "experiments/scenario/robot_files.h"
 #include "experiments/scenario/scenario_calibrations.h"
 #include "experiments/scenario/scenario_control.h"
+#include "experiments/scenario/scenario_operator.h"
 #include "experiments/scenario/scenario_pulls.h"
 #include "experiments/verdict/body_regions.h"
 #include "systems/config/config_file.h"
@@ -45,6 +46,7 @@ void read_expectations(ConfigReader expect, const ParallelRobot& robot, Expectat
   expect.number("observer_error_moment", unit::Nm, expected.observer_error_moment, positive);
   expect.number("tracking_error", unit::m, expected.tracking_error, positive);
   expect.number("loop_closure", unit::m, expected.loop_closure, positive);
+  expect.number("return_time", unit::s, expected.return_time, positive);
 }
 
 void read_force_limits(ConfigReader reader, ForceLimits& limits) {
@@ -105,6 +107,7 @@ void read_rest(ConfigReader& reader, std::optional<std::uint64_t> seed, const Se
   calibrate_control(scenario.calibrations, scenario.control);
   read_control(reader.section("control"), robot, scenario.control);
   read_motion(reader.section("motion"), scenario.robot, scenario.seed, scenario.control);
+  scenario.operator_script = read_operator(reader, robot, scenario.control, scenario.duration);
   scenario.obstacles = read_obstacles(reader);
   scenario.mountings = read_mountings(reader, robot);
   others(reader, scenario);

@@ -14,6 +14,7 @@
 #include "systems/config/parameter_file.h"
 #include "systems/config/read_value.h"
 #include "systems/config/robot_file.h"
+#include "systems/laws/scripted_operator.h"
 #include "systems/signals/instrument_mounting.h"
 
 namespace flinch {
@@ -38,6 +39,7 @@ struct Scenario {
   RobotFile robot_as_built;  ///< what the robot file says, without calibrations
   std::vector<ParameterFile> calibrations;
   ContactControlSettings control;
+  OperatorScript operator_script;
   std::vector<ScenarioObstacle> obstacles;
   std::vector<InstrumentMounting> mountings;  ///< of the instrument at which ropes pull
   Expectations expected;

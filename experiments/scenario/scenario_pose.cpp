@@ -6,20 +6,33 @@
 #include "systems/robot/mechanism.h"
 
 namespace flinch {
+namespace {
+
+/// A displacement in the base frame; `from_base` holds the defaults.
+PlatformVector read_displacement(ConfigReader& reader, const ConfigurationSpace& space,
+                                 PlatformVector from_base) {
+  constexpr std::array axes{"x", "y", "z"};
+  for (int i = 0; i < space.translations(); ++i) {
+    reader.number(axes[static_cast<std::size_t>(i)], unit::m, from_base[i]);
+  }
+  if (space.rotations() == 1) reader.number("phi", unit::rad, from_base[space.translations()]);
+  if (space.rotations() == 3) {
+    reader.numbers("rotation", unit::rad, {from_base.data() + space.translations(), 3});
+  }
+  return from_base;
+}
+
+}  // namespace
 
 Configuration read_pose(ConfigReader pose, const Mechanism& mechanism) {
   const ConfigurationSpace& space = mechanism.space();
   PlatformVector from_base = PlatformVector::Zero(space.dimension());
   from_base.head(space.translations()) = mechanism.home_pose().head(space.translations());
-  constexpr std::array axes{"x", "y", "z"};
-  for (int i = 0; i < space.translations(); ++i) {
-    pose.number(axes[static_cast<std::size_t>(i)], unit::m, from_base[i]);
-  }
-  if (space.rotations() == 1) pose.number("phi", unit::rad, from_base[space.translations()]);
-  if (space.rotations() == 3) {
-    pose.numbers("rotation", unit::rad, {from_base.data() + space.translations(), 3});
-  }
-  return space.plus(space.origin(), from_base);
+  return space.plus(space.origin(), read_displacement(pose, space, from_base));
+}
+
+PlatformVector read_step(ConfigReader step, const ConfigurationSpace& space) {
+  return read_displacement(step, space, PlatformVector::Zero(space.dimension()));
 }
 
 }  // namespace flinch

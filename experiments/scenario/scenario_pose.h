@@ -5,6 +5,7 @@
 namespace flinch {
 
 class ConfigReader;
+class ConfigurationSpace;
 class Mechanism;
 
 /// Reads a pose of the mechanism. Keys that are not there keep the home pose's position and the upright
@@ -13,5 +14,8 @@ class Mechanism;
 ///   phi        rotation of a planar platform [rad]
 ///   rotation   rotation vector of a spatial platform, against the base frame [rad]
 Configuration read_pose(ConfigReader pose, const Mechanism& mechanism);
+
+/// Reads a displacement in the base frame, by the same keys; those that are not there are zero.
+PlatformVector read_step(ConfigReader step, const ConfigurationSpace& space);
 
 }  // namespace flinch

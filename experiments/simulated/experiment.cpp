@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "diagrams/operator_ports.h"
 #include "diagrams/requested_fault.h"
 #include "experiments/recorded/recorded_signals.h"
 #include "experiments/recorded/robot_as_drawn.h"
@@ -41,8 +42,7 @@ Experiment build(const SimulatedScenario& scenario, const ContactControlSettings
   require_possible(scenario.station.faults, {.end = scenario.duration});
   DiagramBuilder builder("experiment", 1ms);
   const auto [station, control] = add_closed_loop(builder, scenario, settings);
-  const auto operator_command = builder.export_input("operator", control.operator_command);
-  const auto target = builder.export_input("target", control.target);
+  const OperatorPorts panel = add_operator(builder, control, scenario.operator_script);
   builder.export_output("truth", station.plant_truth);
   builder.export_output("contact", station.contact_truth);
   auto& measures = builder.add<TrueMeasures>("true_measures", scenario.station.bench.robot);
@@ -54,7 +54,7 @@ Experiment build(const SimulatedScenario& scenario, const ContactControlSettings
   }
   export_readings(builder, station);
   export_control(builder, control);
-  return {builder.build(), operator_command, target};
+  return {builder.build(), panel.buttons, panel.target};
 }
 
 constexpr std::size_t samples_at_once = 64;  // of a run that is judged while it goes on

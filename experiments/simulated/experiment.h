@@ -18,7 +18,7 @@ struct SimulatedScenario;
 struct Verdict;
 
 /// The closed loop of a scenario: the simulated station and the control path. The outputs of the diagram are
-/// what is recorded; its inputs are what the operator does.
+/// what is recorded; its inputs are what the operator does at a panel, besides what the scenario says of him.
 struct Experiment {
   std::unique_ptr<Diagram> diagram;
   InputPort<OperatorCommand> operator_command;

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "diagrams/contact_control.h"
+#include "diagrams/operator_ports.h"
 #include "systems/framework/runge_kutta.h"
 #include "systems/framework/simulator.h"
 #include "systems/robot/planar_rrr_presets.h"
@@ -17,6 +18,7 @@ struct Experiment {
   BenchFriction friction = BenchFriction::none;
   IdealStationSettings station;
   ContactControlSettings control;
+  OperatorScript script;
 };
 
 /// The pipeline around an ideal station, run by hand: what the operator and an external wrench do is set
@@ -28,20 +30,19 @@ class Bench {
         station(builder_.add<IdealStation>("station", robot, experiment.station)),
         control(add_contact_control(builder_, robot, experiment.control)),
         joints_(builder_.add<Dropout>("dropout")),
-        operator_(builder_.export_input("operator", control.operator_command)),
-        target_(builder_.export_input("target", control.target)),
+        panel_(add_operator(builder_, control, experiment.script)),
         timing_(builder_.export_input("tick_timing", control.tick_timing)),
         wrench_(builder_.export_input("wrench", station.wrench)),
         broken_(builder_.export_input("broken", joints_.broken)),
         diagram(build()),
         context(diagram->make_context()),
         simulator_(*diagram, std::make_unique<RungeKutta>(4)) {
-    context.set(operator_, {});
+    context.set(panel_.buttons, {});
     context.set(wrench_, PlatformVector());
     context.set(broken_, false);
   }
 
-  void press(const OperatorCommand& buttons) { context.set(operator_, buttons); }
+  void press(const OperatorCommand& buttons) { context.set(panel_.buttons, buttons); }
   /// One press of the reset button.
   void reset() {
     press({.start = false, .reset = true});
@@ -50,7 +51,7 @@ class Bench {
   }
   void go_to(const Configuration& pose) {
     wanted_ = {.number = wanted_.number + 1, .kind = TargetCommand::Kind::pose, .pose = pose, .step = {}};
-    context.set(target_, wanted_);
+    context.set(panel_.target, wanted_);
   }
   void push(const PlatformVector& wrench) { context.set(wrench_, wrench); }
   void lose_encoders(bool lost) { context.set(broken_, lost); }
@@ -115,8 +116,7 @@ class Bench {
 
  private:
   Dropout& joints_;
-  InputPort<OperatorCommand> operator_;
-  InputPort<TargetCommand> target_;
+  OperatorPorts panel_;
   TargetCommand wanted_;
   InputPort<TickTiming> timing_;
   InputPort<PlatformVector> wrench_;

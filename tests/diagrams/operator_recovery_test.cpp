@@ -48,7 +48,7 @@ class Struck : public testing::TestWithParam<LimitKeeperSettings::Use> {
   }
 
   /// What the operator does, whatever has happened: reset; where the gate then is recovering, a target
-  /// inside, which it reaches slowly; and home. Docs: faults.md, "After a reaction".
+  /// inside, which it reaches slowly; and home. Docs: faults.md, "How an operator brings the robot back".
   static void bring_home(Bench& bench) {
     const Eigen::Vector3d home = Eigen::Vector3d::Zero();
     bench.reset();
