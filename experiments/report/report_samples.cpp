@@ -11,6 +11,7 @@
 #include "experiments/report/constraint_lane.h"
 #include "experiments/report/drawn_robot.h"
 #include "experiments/report/limit_lane.h"
+#include "experiments/report/operator_lane.h"
 #include "experiments/report/page_samples.h"
 #include "experiments/report/reaction_lane.h"
 #include "experiments/report/taken_for_lane.h"
@@ -391,6 +392,7 @@ void add_samples(const ParallelRobot& robot, const Recording& recording, Report&
   LimitLane limits(recording, page);
   ReactionLane reaction(recording.find("reaction_task") != nullptr, robot.legs(), page);
   TaskEnergyColumns energies(recording, page);
+  OperatorLane operator_lane(recording, page);
   Isolation isolation(robot, recording, simulated, page);
   ObstacleColumns obstacles(recording, report.obstacles.size(), robot.space().translations(), page);
   std::optional<RecordedTruths> truths;
@@ -410,6 +412,7 @@ void add_samples(const ParallelRobot& robot, const Recording& recording, Report&
     limits.show(k);
     reaction.show(now.task, hardness);
     energies.show(k, now.mode);
+    operator_lane.show(k);
     isolation.show(k, now, truth, hardness);
     obstacles.show(k, hardness);
   }
@@ -417,6 +420,7 @@ void add_samples(const ParallelRobot& robot, const Recording& recording, Report&
   obstacles.drop_those_at_rest(report);
   constraints.drop_unless_kept(report);
   limits.drop_unless_kept(report);
+  operator_lane.drop_unless_used(report);
   add_elbows(robot, report);
 }
 

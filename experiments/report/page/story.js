@@ -6,6 +6,7 @@ function storyEvents() {
   const events = report.contacts.flatMap(contactEvents);
   for (const lane of report.lanes.filter((each) => each.name === "mode")) events.push(...laneEvents(lane));
   for (const lane of report.lanes.filter((each) => each.name === "reaction")) events.push(...reactions(lane));
+  for (const lane of report.lanes.filter((each) => each.name === "operator")) events.push(...operatorEvents(lane));
   for (const lane of report.lanes.filter((each) => each.name === "limits")) events.push(...limitsBeyondTheDrives(lane));
   for (const lane of report.lanes.filter((each) => each.name === "torque gate")) events.push(...closings(lane));
   events.sort((a, b) => a.time - b.time);
@@ -43,6 +44,14 @@ function laneEvents(lane) {
 function reactions(lane) {
   return laneSpans(lane).filter((span) => span.state > 0).map((span) =>
     ({ time: span.from, kind: "state", text: `The robot ${lane.states[span.state]}.` }));
+}
+
+/** What the operator does: a button, or a target. */
+function operatorEvents(lane) {
+  return laneSpans(lane).filter((span) => span.state > 0).map((span) => {
+    const done = lane.states[span.state];
+    return { time: span.from, kind: "state", text: done === "target" ? "The operator gives a target." : `The operator presses ${done}.` };
+  });
 }
 
 /** Limits ask for more than the drives have, or nobody knew how to keep them. */
