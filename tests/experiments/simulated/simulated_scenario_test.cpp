@@ -39,7 +39,7 @@ const PlanarRrrParameters& believed(const SimulatedScenario& scenario) {
 TEST(ShippedScenarios, AreTheseAndNoOthers) {
   EXPECT_THAT(
       test::shipped_scenarios(),
-      ElementsAre("calibration_excitation", "calibration_motion", "calibration_pulls",
+      ElementsAre("brought_back", "calibration_excitation", "calibration_motion", "calibration_pulls",
                   "calibration_pulls_second", "calibration_rectangle", "calibration_standstill", "clamping",
                   "clamping_reaction", "constraints_without_contact", "first_link_collision",
                   "first_link_reaction", "five_bar_collision", "hexapod_calibration_excitation",
