@@ -51,7 +51,7 @@ TEST(ARobotThatIsBroughtBack, IsInItsNominalMotionAgainAndWasSlowOnTheWay) {
 
 TEST(ARobotThatIsBroughtBack, IsNotWhereNobodyGivesATarget) {
   const Verdict verdict =
-      judge_experiment(changed("  - {after: recovering, pose: {x_mm: -200, y_mm: 0}}    # left out where the "
+      judge_experiment(changed("  - {after: recovering, pose: {x_mm: -260, y_mm: 0}}    # left out where the "
                                "robot stands within its limits\n",
                                ""));
   EXPECT_THAT(verdict.failures, ElementsAre("the nominal motion did not begin again"));
