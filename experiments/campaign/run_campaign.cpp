@@ -87,7 +87,8 @@ void work(const Campaign& campaign, WorkList& list) {
   }
 }
 
-/// A run that is done is simulated once more: were it another now, rows of two programs would stand in one table.
+/// A run that is done is simulated once more: were it another now, rows of two programs would stand in one
+/// table.
 void require_same_outcome(const Campaign& campaign, const CampaignJournal& journal,
                           const std::filesystem::path& folder) {
   if (journal.done() == 0 || journal.done() == campaign.runs()) return;

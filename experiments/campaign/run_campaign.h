@@ -24,8 +24,8 @@ RunResult simulate_run(const CampaignRun& run);
 /// results of all in the order of their numbers, the same for any number of threads. Whole tables,
 /// results.csv and results.h5, are written once all are done; until then `folder` holds results.part, from
 /// which the same call goes on. `helpers` do runs as well; null: there are none. Throws SetupError for a run
-/// that cannot be made, with its number and what was drawn for it, and where the first run that `folder` holds comes
-/// out otherwise now.
+/// that cannot be made, with its number and what was drawn for it, and where the first run that `folder`
+/// holds comes out otherwise now.
 CampaignResults run_campaign(const Campaign& campaign, const std::filesystem::path& folder,
                              std::size_t threads = 0, const CampaignProgress& progress = {},
                              CampaignHelpers* helpers = nullptr);

@@ -146,6 +146,25 @@ TEST(RunOnBus, SaysWhereItLookedForARobotThatIsNotThere) {
   EXPECT_THAT(live.err, HasSubstr("on lo: nobody sends joint readings there"));
 }
 
+TEST(RunOnBus, RefusesAnOperatorWhomNobodyWatches) {
+  const test::Workplace place;
+  const test::Outcome live = test::flinch(
+      {"run", place.at("scenarios/brought_back.yaml"), "--station", "dds", "--out", place.at("out")});
+  EXPECT_EQ(live.status, 2);
+  EXPECT_THAT(live.err,
+              HasSubstr("brought_back.yaml: 'operator' resets and starts the robot though nobody sees"));
+  EXPECT_FALSE(std::filesystem::exists(place / "out"));
+}
+
+TEST(RunOnBus, SetsKeysOfTheScenario) {
+  const test::Workplace place;
+  const test::Outcome live =
+      test::flinch({"run", place.at("scenarios/square.yaml"), "--station", "dds", "--set", "duration_s=-1",
+                    "--set", "operator=[{at_s: 0.5, press: reset}]"});
+  EXPECT_EQ(live.status, 2);
+  EXPECT_THAT(live.err, HasSubstr("--set duration_s=-1: duration_s: is '-1'"));
+}
+
 TEST(RunOnBus, RefusesOptionsThatMeanNothing) {
   const test::Workplace place;
   const test::Outcome seeded =
