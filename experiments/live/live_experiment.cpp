@@ -1,23 +1,27 @@
 #include "experiments/live/live_experiment.h"
 
-#include "diagrams/operator_ports.h"
 #include "experiments/recorded/recorded_signals.h"
 #include "experiments/scenario/scenario.h"
+#include "systems/foundation/setup_error.h"
 #include "systems/framework/diagram_builder.h"
 #include "systems/motion/pose_motion.h"
 
 namespace flinch {
 
 LiveExperiment build_live_experiment(const Scenario& scenario) {
+  if (!scenario.operator_script.events.empty()) {
+    throw SetupError(
+        "'operator' resets and starts the robot though nobody sees what is near it; a real robot is reset by "
+        "hand. Leave it out, or run the scenario with the simulated station");
+  }
   DiagramBuilder builder("experiment");
   LiveExperiment experiment;
   const bool has_instrument = !scenario.obstacles.empty() || !scenario.mountings.empty();
   experiment.station = add_external_station(builder, scenario.robot.robot, {.force_torque = has_instrument});
   experiment.control = add_contact_control(builder, scenario.robot.robot, scenario.control);
   connect(builder, experiment.station, experiment.control);
-  const OperatorPorts panel = add_operator(builder, experiment.control, scenario.operator_script);
-  experiment.operator_command = panel.buttons;
-  experiment.target = panel.target;
+  experiment.operator_command = builder.export_input("operator", experiment.control.operator_command);
+  experiment.target = builder.export_input("target", experiment.control.target);
   if (scenario.control.contact_is_told) {
     experiment.told_classification =
         builder.export_input("told_classification", experiment.control.told_classification);

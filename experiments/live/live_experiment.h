@@ -27,7 +27,7 @@ struct LiveExperiment {
   int translations = 2;               ///< directions in which the platform moves
 };
 
-/// Throws SetupError for settings that do not fit together.
+/// Throws SetupError for settings that do not fit together, and for a scenario with an `operator`.
 LiveExperiment build_live_experiment(const Scenario& scenario);
 
 /// How long the platform takes from `pose` to the start of the scenario's motion; 0 where there is none.

@@ -26,7 +26,7 @@ Node without_lines(const ConfigNode& node) {
 
 Node with(const Node& root, const std::string& text) {
   const KeyValues given = parse_key_values(text);
-  if (given.values.size() != 1) {
+  if (given.values.size() > 1) {
     throw SetupError(typed(text) +
                      ": gives several values, and a run takes one; a list stands in brackets, "
                      "[1,2], and 'flinch campaign' tries one value after the other");
@@ -42,10 +42,10 @@ Node with(const Node& root, const std::string& text) {
 
 KeyValues parse_key_values(const std::string& text) {
   const std::size_t equals = text.find('=');
-  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
-    throw SetupError(typed(text) + ": is not of the form KEY=VALUE,VALUE,...");
-  }
+  const bool has_key = equals != std::string::npos && equals > 0;
+  if (!has_key) throw SetupError(typed(text) + ": is not of the form KEY=VALUE");
   const Node list = parse_yaml("[" + text.substr(equals + 1) + "]", typed(text));
+  if (list->items.empty()) throw SetupError(typed(text) + ": gives no value; the form is KEY=VALUE");
   KeyValues given{text.substr(0, equals), {}};
   for (const Node& value : list->items) given.values.push_back(without_lines(*value));
   return given;

@@ -50,7 +50,7 @@ void read_occasion(ConfigReader& entry, const OperatorEvent* before, Time durati
     entry.duration("wait", event.wait, not_negative);
     return;
   }
-  entry.required().duration("at", event.wait, not_negative);
+  entry.required().duration("at", event.wait, positive);
   if (event.wait >= duration) {
     entry.problem("at", "is " + exact_text(to_seconds(event.wait)) + " s; the run ends after " +
                             exact_text(to_seconds(duration)) + " s");

@@ -27,6 +27,8 @@ void ReturnWatch::begin(const RunSample& now) {
   return_ = {.reset = now.time, .from = word(mode_)};
   const bool stopped = mode_ == ReactionMode::stopped;
   if (stopped) return_->stopped_by = description_of(gate_.passes() ? now.gate.fault : gate_.fault);
+  const bool closes = gate_.passes() && !now.gate.passes();
+  if (closes && !stopped) return_->fault = description_of(now.gate.fault);
 }
 
 void ReturnWatch::go_on(const RunSample& now) {

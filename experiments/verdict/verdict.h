@@ -33,7 +33,7 @@ struct Expectations {
   std::optional<double> observer_error_moment;  ///< the same for the moment [Nm]
   std::optional<double> tracking_error;         ///< largest distance from the reference without contact [m]
   double loop_closure = 1e-9;                   ///< [m]
-  /// Longest time from an operator's reset until the nominal motion has begun again [s]. That the gate closed
+  /// Longest time from an operator's reset until `start` sets the robot off again [s]. That the gate closed
   /// before is then no failure.
   std::optional<double> return_time;
 };
@@ -122,7 +122,7 @@ struct Return {
   double reset = 0.0;               ///< when that button went down [s]
   std::string from{};               ///< "hold", "zero_g", "react" or "stopped", where the gate was not open
   std::string stopped_by{};         ///< for which fault; "" none
-  std::optional<double> resumed{};  ///< when the nominal motion began again, by `start` [s]; none: never
+  std::optional<double> resumed{};  ///< when `start` set it off to the begin of its motion [s]; none: never
   int resets = 1;                   ///< until then
   int reactions = 0;                ///< new ones until then
   double recovery_speed = 0.0;      ///< of the platform, the largest in the mode `recover` until then [m/s]

@@ -82,7 +82,8 @@ struct ParallelLines {
 };
 
 /// Root mean square distance from `point` of where lines enter the outline, over all that hit it, each as
-/// likely as errors of `covariance` move the measured one there. (Derived.)
+/// likely as errors of `covariance` move the measured one there; where none of them hits it, how far they
+/// move the line. (Derived.)
 double entry_deviation(const Outline& outline, const Eigen::Vector3d& on_line,
                        const Eigen::Vector3d& direction, const Eigen::Matrix3d& covariance,
                        const Eigen::Vector3d& point, int directions) {
@@ -107,7 +108,7 @@ double entry_deviation(const Outline& outline, const Eigen::Vector3d& on_line,
       squares += share * (moved + passage.enter * direction - point).squaredNorm();
     }
   }
-  return likelihood > 0.0 ? std::sqrt(squares / likelihood) : 0.0;
+  return std::sqrt(likelihood > 0.0 ? squares / likelihood : covariance.trace());
 }
 
 }  // namespace

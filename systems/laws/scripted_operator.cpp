@@ -65,7 +65,7 @@ std::optional<std::size_t> due(const OperatorScript& script, std::size_t after_e
   const auto& events = script.events;
   const bool began = course.next > after_end;
   if (began && lasts(is_so(After::ended, seen), now, events[after_end].wait, course.ended)) return after_end;
-  while (is_left_out(script, course.next, seen)) ++course.next;
+  for (; is_left_out(script, course.next, seen); ++course.next) course.awaited = {};
   if (course.next >= events.size()) return std::nullopt;
   const OperatorEvent& event = events[course.next];
   const bool is_due = event.after == After::time

@@ -24,7 +24,8 @@ std::string complaint_about_points(const ConvexHull& hull) {
   }
   const auto is_finite = [](const Eigen::Vector3d& point) { return point.allFinite(); };
   if (!std::all_of(hull.points.begin(), hull.points.end(), is_finite)) return "must be finite";
-  if (thickness(hull) < least_hull_thickness) return "lie in a plane; the hull must be at least 0.1 mm thick";
+  if (!(thickness(hull) >= least_hull_thickness))
+    return "lie in a plane; the hull must be at least 0.1 mm thick";
   return "";
 }
 

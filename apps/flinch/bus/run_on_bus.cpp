@@ -14,7 +14,6 @@
 #include "experiments/scenario/robot_files.h"
 #include "experiments/scenario/scenario.h"
 #include "systems/foundation/problems_of_place.h"
-#include "systems/foundation/setup_error.h"
 
 namespace flinch {
 namespace {
@@ -31,17 +30,11 @@ void tell_of_loop_and_link(const LiveRun& run) {
              1e6 * to_seconds(round_trip->max), link.lost, link.refused);
 }
 
-/// The scenario with what the command line sets otherwise. A real robot is reset by somebody who looks at it.
+/// The scenario with what the command line sets otherwise.
 Scenario read(const RunOptions& options) {
+  if (options.set.empty()) return read_scenario(options.input);
   RobotFiles robots;
-  Scenario scenario = options.set.empty()
-                          ? read_scenario(options.input)
-                          : parse_scenario(scenario_with(options.input, options.set), options.input, robots);
-  if (scenario.operator_script.events.empty()) return scenario;
-  throw SetupError(
-      options.input.string() +
-      ": 'operator' resets and starts the robot though nobody sees what is near it; on the bus that is "
-      "done by hand. Leave it out, or run the scenario with the simulated station");
+  return parse_scenario(scenario_with(options.input, options.set), options.input, robots);
 }
 
 }  // namespace

@@ -67,11 +67,12 @@ TEST_F(CommandLine, SetsKeysOfTheScenarioAsAFileWouldHaveThem) {
 }
 
 TEST_F(CommandLine, SaysOfEachValueThatIsSetWhatIsWrongWithIt) {
-  const Outcome outcome = run(collision, {"--set", "duration_s=1,2", "--set", "pylon", "--set", "robot.x=3"});
+  const Outcome outcome =
+      run(collision, {"--set", "duration_s=1,2", "--set", "pylon", "--set", "robot.x=3", "--set", "a= "});
   EXPECT_EQ(outcome.status, 2);
-  EXPECT_THAT(outcome.err,
-              AllOf(HasSubstr("--set duration_s=1,2: gives several values, and a run takes one"),
-                    HasSubstr("--set pylon: is not of the form KEY=VALUE"), HasSubstr("--set robot.x=3: ")));
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("--set duration_s=1,2: gives several values, and a run takes one"),
+                                 HasSubstr("--set pylon: is not of the form KEY=VALUE"),
+                                 HasSubstr("--set robot.x=3: "), HasSubstr("--set a= : gives no value")));
   const Outcome unknown = run(collision, {"--set", "pylon.radios_mm=30"});
   EXPECT_EQ(unknown.status, 2);
   EXPECT_THAT(

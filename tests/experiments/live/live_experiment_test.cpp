@@ -9,6 +9,7 @@
 #include "systems/framework/recorded_values.h"
 #include "systems/framework/recorder.h"
 #include "systems/framework/simulator.h"
+#include "tests/support/problems_of.h"
 
 namespace flinch {
 namespace {
@@ -26,6 +27,13 @@ TEST(LiveExperiment, AsksNobodyWhatTouchesTheRobot) {
   const LiveExperiment experiment = build_live_experiment(shipped_scenario());
   EXPECT_FALSE(experiment.told_classification || experiment.told_location);
   EXPECT_FALSE(is_recorded(*experiment.diagram, "told_classification")) << "a replay would go by it";
+}
+
+TEST(LiveExperiment, IsResetByNoList) {
+  const Scenario scenario = read_scenario(FLINCH_SOURCE_DIR "/apps/scenarios/brought_back.yaml");
+  const auto problems = test::problems_of([&] { build_live_experiment(scenario); });
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems.front().find("'operator' resets and starts the robot though nobody sees"), 0U);
 }
 
 TEST(LiveExperiment, CanBeToldWhatTouchesTheRobotAndRecordsIt) {

@@ -115,6 +115,11 @@ TEST_F(ScenarioOperator, IsToldAllThatIsWrongAtOnce) {
           AllOf(HasSubstr("own.yaml:15: "), HasSubstr("step"))));
 }
 
+TEST_F(ScenarioOperator, PressesNothingThatIsDownFromTheStart) {
+  EXPECT_THAT(problems(moving("planar_3rrr.yaml", "  - {at_s: 0, press: reset}\n")),
+              ElementsAre(AllOf(HasSubstr("own.yaml:5: "), HasSubstr("at_s"))));
+}
+
 TEST_F(ScenarioOperator, CannotStartWhereThereIsNoMotion) {
   EXPECT_THAT(problems("robot: ../robots/planar_3rrr.yaml\nduration_s: 1\noperator:\n"
                        "  - {at_s: 0.5, press: start}\n"),

@@ -25,10 +25,12 @@ class Samples {
     now_.speed = speed;
     return go_on(samples);
   }
-  Samples& closes(GateFault fault) {
+  /// At the next sample at which the gate is closed.
+  Samples& fails(GateFault fault) {
     now_.gate.fault = fault;
-    return is(stopped, true);
+    return *this;
   }
+  Samples& closes(GateFault fault) { return fails(fault).is(stopped, true); }
   /// A button that is down at one sample, after which the robot is like this.
   Samples& presses(const OperatorCommand& button, ReactionMode mode, bool rests) {
     now_.pressed = button;
@@ -96,6 +98,14 @@ TEST(AReturn, CountsResetsReactionsAndFaultsOnTheWay) {
   EXPECT_EQ(samples.seen()->from, "zero_g");
   EXPECT_EQ(samples.seen()->resets, 4);
   EXPECT_EQ(samples.seen()->reactions, 1);
+  EXPECT_EQ(samples.seen()->fault, "the operator stops the robot");
+}
+
+TEST(AReturn, TellsOfAGateThatClosesAtTheReset) {
+  Samples samples;
+  samples.is(nominal, false).is(hold, true).fails(GateFault::operator_stop).resets(stopped);
+  ASSERT_TRUE(samples.seen());
+  EXPECT_EQ(samples.seen()->from, "hold");
   EXPECT_EQ(samples.seen()->fault, "the operator stops the robot");
 }
 

@@ -178,6 +178,22 @@ TEST(LocateOnPlatform, IsOffByAsMuchAsItsDeviationSaysWhereLinesGrazeASphereInSp
   EXPECT_LT(errors.widest, 2.0 * radius);
 }
 
+TEST(LocateOnPlatform, IsAsUnsureAsTheLineThatSurelyMissesIt) {
+  const Hexapod robot(hexapod_robot());
+  constexpr double radius = 0.2, size = 40.0;
+  const Outline outline({Sphere{.radius = radius}});
+  const PlatformVector deviation{{1e-3, 1e-3, 1e-3, 0.01, 0.02, 0.01}};
+  const PlatformMatrix S = deviation.cwiseAbs2().asDiagonal();
+  // Beside the sphere, but within the square about it along both principal axes of the errors.
+  const Eigen::Vector3d force(0.0, 0.0, -size), arm(0.8 * radius, 0.8 * radius, 0.0);
+  PlatformVector wrench(6);
+  wrench << force, arm.cross(force);
+  const ContactLocation found = locate_on_platform(robot, test::at_home(robot), outline, wrench, S, S, 1.0);
+  ASSERT_TRUE(found.valid);
+  EXPECT_FALSE(found.located);
+  EXPECT_NEAR(found.point_deviation, std::hypot(0.01, 0.02) / size, 1e-6);
+}
+
 TEST(LocateOnPlatform, IsAnywhereOnItWhereTheLineMayLieAnywhere) {
   const auto robot = test::touched_bench();
   const Kinematics k = test::at_home(*robot);

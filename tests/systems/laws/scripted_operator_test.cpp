@@ -177,6 +177,18 @@ TEST(ScriptedOperator, LeavesTargetsOfARecoveryOutWhereThereIsNone) {
   EXPECT_EQ(desk.tick(2), (Done{"", "start"}));
 }
 
+TEST(ScriptedOperator, WaitsAnewForWhatComesAfterATargetThatIsLeftOut) {
+  Desk desk({press_reset(After::ended, 0ms), go_to(After::recovering, 50ms, 0.1),
+             press_start(After::arrived, 5ms)});
+  desk.robot_is(hold, GatePhase::open, true);
+  desk.tick(2);
+  desk.robot_is(recover, GatePhase::recovering, true);
+  EXPECT_EQ(desk.tick(20), Done(20)) << "it has not lasted long enough for the target";
+  desk.robot_is(nominal, GatePhase::open, true);
+  EXPECT_EQ(desk.tick(6), Done(6));
+  EXPECT_EQ(desk.tick(1), (Done{"start"}));
+}
+
 TEST(ScriptedOperator, HandsOnWhatIsDoneAtThePanel) {
   Desk desk({press_reset(After::time, 1ms), go_to(After::time, 3ms, 0.4)});
   desk.ticking.set(desk.panel, OperatorCommand{.start = true});

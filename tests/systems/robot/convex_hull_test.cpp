@@ -55,6 +55,8 @@ TEST(Hull, OfPointsInAPlaneOrOnALineHasNoThickness) {
 
 TEST(Hull, NeedsPointsThatSpanSpaceAndNotTooMany) {
   ConvexHull hull{.points = {{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}, {0.0, 0.1, 0.0}}};
+  const ConvexHull far{.points = {{1e200, 0.0, 0.0}, {0.0, 1e200, 0.0}, {0.0, 0.0, 1e200}, {0.0, 0.0, 0.0}}};
+  EXPECT_NE(complaint_about_points(far), "") << "its thickness cannot be computed";
   EXPECT_EQ(complaint_about_points({}), "has 0 entries; a hull needs at least 4");
   EXPECT_EQ(complaint_about_points(hull), "has 3 entries; a hull needs at least 4");
   hull.points.emplace_back(0.0, 0.0, 0.1);
