@@ -70,7 +70,8 @@ TEST_F(BadInput, KindsThatNobodyKnowsAloneAreTold) {
   place.replace(collision, "pylon: {", "obstacles: [{shape: cone, height_m: 1, ");
   place.replace(collision, "stiffness_N_per_m: 6000}", "stiffness_N_per_m: 6000}]");
   const std::string place_of_obstacle = at_line_of(collision, "obstacles") + "obstacles[0].";
-  EXPECT_EQ(complaint_of_run(), place_of_obstacle + "shape: is 'cone'; known are: sphere, capsule, box\n");
+  EXPECT_EQ(complaint_of_run(),
+            place_of_obstacle + "shape: is 'cone'; known are: sphere, capsule, box, hull\n");
   place.replace(collision, "shape: cone, height_m: 1", "kind: mving, path: []");
   EXPECT_EQ(complaint_of_run(),
             place_of_obstacle + "kind: is 'mving'; known are: fixed, compliant, path, hand\n");
