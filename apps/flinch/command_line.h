@@ -15,7 +15,7 @@ enum class ExitStatus : int {
   done = 0,
   bad_verdict = 1,  ///< the run was fine, what it showed is not
   bad_input = 2,    ///< a file or the command line; nothing was written
-  fault = 3,        ///< the torque gate closed
+  fault = 3,        ///< the torque gate closed, and the verdict is bad
 };
 
 /// What every verb understands.

@@ -13,8 +13,8 @@ namespace flinch {
 namespace {
 
 ExitStatus status_of(const Verdict& verdict) {
-  if (!verdict.fault.empty()) return ExitStatus::fault;
-  return verdict.good() ? ExitStatus::done : ExitStatus::bad_verdict;
+  if (verdict.good()) return ExitStatus::done;
+  return verdict.fault.empty() ? ExitStatus::bad_verdict : ExitStatus::fault;
 }
 
 }  // namespace

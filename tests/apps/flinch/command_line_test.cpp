@@ -89,6 +89,12 @@ TEST_F(CommandLine, Ends0WhereTheVerdictIsGood) {
   EXPECT_THAT(outcome.out, HasSubstr("verdict: good\n"));
 }
 
+TEST_F(CommandLine, Ends0WhereTheRobotIsBroughtBackAsExpected) {
+  const Outcome outcome = run("scenarios/brought_back.yaml");
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_THAT(outcome.out, HasSubstr("verdict: good, but\n  - the torque gate closed: "));
+}
+
 TEST_F(CommandLine, Ends1WhereTheVerdictIsBadAndStillWritesEverything) {
   place.replace(collision, "detection_time_ms: 15", "detection_time_ms: 1");
   const Outcome outcome = run(collision);
