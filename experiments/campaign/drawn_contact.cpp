@@ -159,7 +159,7 @@ std::optional<DrawnContact> touch_body(const Mechanism& robot, const Kinematics&
 
 /// The angle between the links of a leg at the elbow, and the direction half-way between them.
 struct Elbow {
-  Elbow(const LegPoints& leg) {
+  explicit Elbow(const LegPoints& leg) {
     along = {in_space(leg.base_joint - leg.passive_joint).normalized(),
              in_space(leg.coupling_joint - leg.passive_joint).normalized()};
     angle = std::acos(std::clamp(along[0].dot(along[1]), -1.0, 1.0));
