@@ -231,6 +231,19 @@ struct RecordedRun::Signals {
     return loads_of(touched, touches);
   }
 
+  /// What the robot takes for touched, where it says so.
+  void add_classification(std::size_t sample, RunSample& now) const {
+    if (!classification) return;
+    const RecordedClassification said = (*classification)[sample];
+    const auto number = static_cast<std::size_t>(said.most_likely);
+    if (said.valid && said.accepted && number < class_names.size()) {
+      now.classified = class_names[number];
+      now.probability = said.confidence();
+    }
+    const bool looks = residual && (*residual)[sample].residual >= 0.0;
+    if (said.valid && (looks || said.several_contacts)) now.several_contacts = said.several_contacts;
+  }
+
   /// Nothing where no bodies of the robot touch one another.
   std::optional<SelfContact> self_touch(std::size_t sample) const {
     if (!self_contact || !(*self_contact)[sample].self_contact) return std::nullopt;
@@ -285,16 +298,7 @@ RunSample RecordedRun::operator[](std::size_t sample) const {
   if (signals.doubts) now.doubts = (*signals.doubts)[sample];
   if (signals.timing) now.lost_ticks = static_cast<int>((*signals.timing)[sample].lost_periods);
   if (signals.joints_link) now.unread_readings = static_cast<int>((*signals.joints_link)[sample].skipped);
-  if (signals.classification) {
-    const RecordedClassification said = (*signals.classification)[sample];
-    const auto number = static_cast<std::size_t>(said.most_likely);
-    if (said.valid && said.accepted && number < signals.class_names.size()) {
-      now.classified = signals.class_names[number];
-      now.probability = said.confidence();
-    }
-    const bool looks = signals.residual && (*signals.residual)[sample].residual >= 0.0;
-    if (said.valid && (looks || said.several_contacts)) now.several_contacts = said.several_contacts;
-  }
+  signals.add_classification(sample, now);
   if (signals.location) now.location = (*signals.location)[sample];
   const RecordedEstimate estimate = signals.wrench[sample];
   now.estimate_valid = estimate.valid;

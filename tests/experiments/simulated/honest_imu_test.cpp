@@ -31,7 +31,7 @@ TEST(AnHonestImu, IsBelievedInEveryScenario) {
 
 /// Its drives change their torque by more from tick to tick than those of heavier robots.
 TEST(AnHonestImu, IsBelievedOnALightRobotWhoseDrivesStep) {
-  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U}) {
     const Verdict verdict = judge_experiment(
         read_simulated_scenario(FLINCH_SOURCE_DIR "/apps/scenarios/five_bar_collision.yaml", seed));
     EXPECT_EQ(verdict.imu_doubt, ImuDoubt::none) << "seed " << seed;
