@@ -3,17 +3,10 @@
 #include <algorithm>
 #include <string>
 
-#include "systems/safety/fault_table.h"
+#include "experiments/verdict/fault_words.h"
 
 namespace flinch {
 namespace {
-
-std::string description_of(GateFault fault) {
-  for (const FaultRow& row : fault_table()) {
-    if (row.fault == fault) return row.description;
-  }
-  return "";
-}
 
 std::string word(ReactionMode mode) {
   if (mode == ReactionMode::hold) return "hold";

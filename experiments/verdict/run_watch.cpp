@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "experiments/verdict/contact_watch.h"
+#include "experiments/verdict/fault_words.h"
 #include "experiments/verdict/return_watch.h"
 #include "systems/safety/fault_table.h"
 #include "systems/signals/gate_status.h"
@@ -14,6 +15,8 @@
 
 namespace flinch {
 namespace {
+
+constexpr const char* no_fault = "the run was too short";
 
 /// Whether something touches the robot, as far as the witness knows: an obstacle or an applied wrench.
 bool is_touched(const RunSample& now, Witness witness) {
@@ -77,13 +80,6 @@ void note_self_contact(const SelfContact& found, double time, Verdict& verdict) 
   if (std::none_of(all.begin(), all.end(), same)) all.push_back({found.body, found.other, time});
 }
 
-std::string description_of(GateFault fault) {
-  for (const FaultRow& row : fault_table()) {
-    if (row.fault == fault) return row.description;
-  }
-  return "the run was too short";
-}
-
 /// Counts what was lost within a few milliseconds: what the gate notices after that has other causes.
 class LossWatch {
  public:
@@ -111,7 +107,7 @@ class FaultWatch {
     readings_.see(now.time, now.unread_readings - unread_.value_or(now.unread_readings));
     unread_ = now.unread_readings;
     if (verdict.fault.empty() && now.gate.fault != GateFault::none) {
-      verdict.fault = description_of(now.gate.fault) + cause(now);
+      verdict.fault = description_of(now.gate.fault, no_fault) + cause(now);
     }
   }
 
@@ -196,7 +192,7 @@ Verdict RunWatch::seen() const {
   verdict.simulated = parts_->last - *parts_->first + parts_->period;
   if (!parts_->gate_opens) {
     verdict.failures.push_back("the torque gate never opened: " +
-                               description_of(first_fault(parts_->gate.faults)));
+                               description_of(first_fault(parts_->gate.faults), no_fault));
   }
   return verdict;
 }
