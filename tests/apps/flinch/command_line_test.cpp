@@ -4,13 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "systems/framework/recording.h"
 #include "tests/apps/flinch/documented_keys.h"
 #include "tests/apps/flinch/program.h"
+#include "tests/support/same_signals.h"
 #include "tests/support/workplace.h"
 
 namespace flinch {
@@ -43,12 +43,6 @@ class CommandLine : public ::testing::Test {
 
 // ---------------------------------------------------------------- values of keys
 
-template <class Rows>
-bool is_same(const Rows& some, const Rows& others) {
-  return !some.empty() && some.size() == others.size() &&
-         std::memcmp(some.data(), others.data(), some.size() * sizeof(some[0])) == 0;
-}
-
 TEST_F(CommandLine, SetsKeysOfTheScenarioAsAFileWouldHaveThem) {
   EXPECT_EQ(run(collision, {"--set", "duration_s=0.4", "--set", "pylon.radius_mm=30", "--json"}).status, 1);
   const Recording set = read_recording(place / "out/run.h5");
@@ -58,8 +52,10 @@ TEST_F(CommandLine, SetsKeysOfTheScenarioAsAFileWouldHaveThem) {
   const Recording written = read_recording(place / "out/run.h5");
   ASSERT_EQ(set.signals.size(), written.signals.size());
   ASSERT_EQ(set.samples(), 400U);
-  for (std::size_t i = 0; i < set.signals.size(); ++i)
-    EXPECT_TRUE(is_same(set.signals[i].rows, written.signals[i].rows)) << set.signals[i].path;
+  for (const Signal& signal : set.signals) {
+    EXPECT_FALSE(signal.rows.empty()) << signal.path;
+    EXPECT_TRUE(test::is_same(set, written, signal.path)) << signal.path;
+  }
   // What the recording keeps is enough to repeat the run.
   place.write("scenarios/again.yaml", set.attributes.at("scenario.text"));
   EXPECT_EQ(run("scenarios/again.yaml").status, 1);

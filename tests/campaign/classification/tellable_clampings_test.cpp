@@ -7,11 +7,9 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <functional>
-#include <thread>
 
 #include "experiments/campaign/campaign_run.h"
 #include "experiments/dataset/contact_samples.h"
@@ -26,6 +24,7 @@
 #include "systems/framework/recorded_values.h"
 #include "systems/signals/contact_detection.h"
 #include "tests/campaign/classification/named_moments.h"
+#include "tests/support/in_parallel.h"
 #include "tests/support/wanted.h"
 
 namespace flinch {
@@ -97,17 +96,7 @@ std::vector<Contact> contacts(std::uint64_t seed, int runs) {
   const auto count = static_cast<std::size_t>(runs);
   const DataSpec spec =
       read_data_spec(FLINCH_SOURCE_DIR "/apps/models/bodies.yaml", {.runs = count, .seed = seed});
-  std::vector<std::vector<Contact>> parts(count);
-  std::atomic<std::size_t> next = 0;
-  {
-    std::vector<std::jthread> workers;
-    for (unsigned i = 0; i < std::max(1U, std::thread::hardware_concurrency()); ++i) {
-      workers.emplace_back([&] {
-        for (std::size_t number = next++; number < count; number = next++)
-          parts[number] = contacts_of(spec, number);
-      });
-    }
-  }
+  const auto parts = test::in_parallel(count, [&](std::size_t number) { return contacts_of(spec, number); });
   std::vector<Contact> all;
   for (const std::vector<Contact>& part : parts) all.insert(all.end(), part.begin(), part.end());
   return all;

@@ -6,18 +6,16 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cstdio>
 #include <map>
-#include <mutex>
 #include <random>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "experiments/campaign/campaign.h"
 #include "experiments/campaign/campaign_run.h"
 #include "tests/fault/scenario_loop.h"
+#include "tests/support/in_parallel.h"
 #include "tests/support/wanted.h"
 
 namespace flinch {
@@ -228,20 +226,12 @@ TEST(TorquesInASwitch, NeverStepByMoreThanTheirRateOrTheBlendPermits) {
   const Campaign campaign = read_campaign(
       std::filesystem::path(FLINCH_SOURCE_DIR) / "apps/campaigns/reaction_1000.yaml", overrides);
   std::map<std::string, Steps> groups;
-  std::mutex guard;
-  std::atomic<std::size_t> next = 0;
-  std::vector<std::jthread> workers;
-  for (int i = 0; i < 2; ++i) {
-    workers.emplace_back([&] {
-      for (std::size_t number = next++; number < campaign.runs(); number = next++) {
-        const CampaignRun run = draw_run(campaign, number);
-        const Steps steps = steps_of(run.scenario, number);
-        const std::lock_guard lock(guard);
-        groups[followed_name(run.scenario.control.stages.reaction_laws)].add(steps);
-      }
-    });
-  }
-  workers.clear();
+  const auto steps_by_law = [&](std::size_t number) {
+    const CampaignRun run = draw_run(campaign, number);
+    return std::pair(followed_name(run.scenario.control.stages.reaction_laws),
+                     steps_of(run.scenario, number));
+  };
+  for (const auto& [law, steps] : test::in_parallel(campaign.runs(), steps_by_law, 2)) groups[law].add(steps);
   EXPECT_EQ(groups.size(), 4U);
   for (const auto& [law, steps] : groups) {
     steps.print(law);

@@ -4,11 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
@@ -20,6 +18,7 @@
 #include "systems/robot/workspace_limits.h"
 #include "tests/campaign/limits/reactions_within_limits.h"
 #include "tests/fault/scenario_loop.h"
+#include "tests/support/in_parallel.h"
 #include "tests/support/wanted.h"
 
 namespace flinch {
@@ -145,22 +144,13 @@ Answer answer_of(const CampaignRun& run) {
   return answer;
 }
 
-std::vector<Answer> answers(std::size_t draws, int threads) {
+std::vector<Answer> answers(std::size_t draws, unsigned threads) {
   CampaignOverrides overrides;
   overrides.draws = draws;
   const Campaign campaign = read_campaign(
       std::filesystem::path(FLINCH_SOURCE_DIR) / "apps/campaigns/default_reaction.yaml", overrides);
-  std::vector<Answer> all(campaign.runs());
-  std::atomic<std::size_t> next = 0;
-  std::vector<std::jthread> workers;
-  for (int i = 0; i < threads; ++i) {
-    workers.emplace_back([&] {
-      for (std::size_t number = next++; number < all.size(); number = next++)
-        all[number] = answer_of(draw_run(campaign, number));
-    });
-  }
-  workers.clear();
-  return all;
+  return test::in_parallel(
+      campaign.runs(), [&](std::size_t number) { return answer_of(draw_run(campaign, number)); }, threads);
 }
 
 TEST(DefaultReaction, StaysWithinTheWorkspaceComesToRestAndLeavesARobotThatCanBePushedByHand) {

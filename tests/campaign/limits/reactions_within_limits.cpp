@@ -1,7 +1,6 @@
 #include "tests/campaign/limits/reactions_within_limits.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <thread>
 
@@ -20,6 +19,7 @@
 #include "systems/signals/limit_status.h"
 #include "systems/signals/reaction_state.h"
 #include "tests/campaign/limits/unavoidable_force.h"
+#include "tests/support/in_parallel.h"
 
 namespace flinch::test {
 namespace {
@@ -195,17 +195,9 @@ std::vector<ReactionOutcome> run_reactions(const std::filesystem::path& file, st
   overrides.draws = draws;
   overrides.set = set;
   const Campaign campaign = read_campaign(file, overrides);
-  std::vector<ReactionOutcome> outcomes(campaign.runs());
-  std::atomic<std::size_t> next = 0;
-  std::vector<std::jthread> workers;
-  for (int i = 0; i < threads; ++i) {
-    workers.emplace_back([&] {
-      for (std::size_t run = next++; run < outcomes.size(); run = next++)
-        outcomes[run] = outcome_of(draw_run(campaign, run));
-    });
-  }
-  workers.clear();
-  return outcomes;
+  return in_parallel(
+      campaign.runs(), [&](std::size_t run) { return outcome_of(draw_run(campaign, run)); },
+      static_cast<unsigned>(threads));
 }
 
 double quantile(std::vector<double> values, double share) {

@@ -4,11 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <mutex>
 #include <optional>
 #include <thread>
 #include <vector>
@@ -18,6 +16,7 @@
 #include "systems/robot/link_segments.h"
 #include "tests/campaign/limits/reactions_within_limits.h"
 #include "tests/fault/scenario_loop.h"
+#include "tests/support/in_parallel.h"
 #include "tests/support/wanted.h"
 
 namespace flinch {
@@ -93,28 +92,19 @@ std::optional<Stop> stop_in_reaction(const SimulatedScenario& scenario, Time aft
   return stop;
 }
 
-std::vector<Stop> stop_in_reactions(std::size_t draws, int threads) {
+std::vector<Stop> stop_in_reactions(std::size_t draws, unsigned threads) {
   CampaignOverrides overrides;
   overrides.draws = draws;
   const Campaign campaign = read_campaign(
       std::filesystem::path(FLINCH_SOURCE_DIR) / "apps/campaigns/reaction_1000.yaml", overrides);
+  const auto stop_of = [&](std::size_t number) -> std::optional<Stop> {
+    const CampaignRun run = draw_run(campaign, number);
+    if (followed_name(run.scenario.control.stages.reaction_laws) != "strict_reaction") return std::nullopt;
+    return stop_in_reaction(run.scenario, std::chrono::milliseconds(run.draw % 60));
+  };
   std::vector<Stop> stops;
-  std::mutex guard;
-  std::atomic<std::size_t> next = 0;
-  std::vector<std::jthread> workers;
-  for (int i = 0; i < threads; ++i) {
-    workers.emplace_back([&] {
-      for (std::size_t number = next++; number < campaign.runs(); number = next++) {
-        const CampaignRun run = draw_run(campaign, number);
-        if (followed_name(run.scenario.control.stages.reaction_laws) != "strict_reaction") continue;
-        const std::optional<Stop> stop =
-            stop_in_reaction(run.scenario, std::chrono::milliseconds(run.draw % 60));
-        const std::lock_guard lock(guard);
-        if (stop) stops.push_back(*stop);
-      }
-    });
-  }
-  workers.clear();
+  for (const std::optional<Stop>& stop : test::in_parallel(campaign.runs(), stop_of, threads))
+    if (stop) stops.push_back(*stop);
   return stops;
 }
 

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -13,7 +12,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "diagrams/operator_ports.h"
@@ -24,6 +22,7 @@
 #include "systems/framework/diagram_builder.h"
 #include "systems/framework/simulator.h"
 #include "systems/robot/workspace_limits.h"
+#include "tests/support/in_parallel.h"
 #include "tests/support/wanted.h"
 
 namespace flinch {
@@ -170,17 +169,8 @@ std::vector<Way> follow_all(const std::string& file, const std::vector<std::stri
   overrides.draws = test::wanted<std::size_t>("FLINCH_RUNS", 12);
   overrides.set = set;
   const Campaign campaign = read_campaign(shipped / "campaigns" / file, overrides);
-  std::vector<Way> ways(campaign.runs());
-  std::atomic<std::size_t> next = 0;
-  std::vector<std::jthread> workers;
-  for (int i = 0; i < 2; ++i) {
-    workers.emplace_back([&] {
-      for (std::size_t run = next++; run < ways.size(); run = next++)
-        ways[run] = follow(draw_run(campaign, run));
-    });
-  }
-  workers.clear();
-  return ways;
+  return test::in_parallel(
+      campaign.runs(), [&](std::size_t run) { return follow(draw_run(campaign, run)); }, 2);
 }
 
 void print(const std::vector<Way>& ways) {

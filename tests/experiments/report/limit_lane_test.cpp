@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "systems/robot/motion_barriers.h"
+#include "tests/experiments/report/lane_states.h"
 #include "tests/experiments/verdict/synthetic_run.h"
 
 namespace flinch::test {
@@ -19,24 +20,7 @@ using ::testing::IsEmpty;
 constexpr std::uint32_t bit_of(BarrierKind kind) { return 1U << static_cast<unsigned>(kind); }
 
 Report shown(const Recording& recording, std::size_t together = 1) {
-  PageSamples page(together);
-  LimitLane lane(recording, page);
-  for (std::size_t k = 0; k < recording.samples(); ++k) {
-    page.begin();
-    lane.show(k);
-  }
-  Report report;
-  page.finish(report);
-  lane.drop_unless_kept(report);
-  return report;
-}
-
-/// The state at each sample, by name.
-std::vector<std::string> told(const Report& report) {
-  std::vector<std::string> names;
-  for (const int state : report.lanes.at(0).state)
-    names.push_back(report.lanes.at(0).states.at(static_cast<std::size_t>(state)));
-  return names;
+  return page_of(recording, &LimitLane::drop_unless_kept, together);
 }
 
 TEST(LimitsInWords, NameEveryBitOfARecording) {

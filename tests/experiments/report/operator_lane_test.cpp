@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/experiments/report/lane_states.h"
 #include "tests/experiments/verdict/synthetic_run.h"
 
 namespace flinch::test {
@@ -15,24 +16,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 Report shown(const Recording& recording, std::size_t together = 1) {
-  PageSamples page(together);
-  OperatorLane lane(recording, page);
-  for (std::size_t k = 0; k < recording.samples(); ++k) {
-    page.begin();
-    lane.show(k);
-  }
-  Report report;
-  page.finish(report);
-  lane.drop_unless_used(report);
-  return report;
-}
-
-/// The state at each sample, by name.
-std::vector<std::string> told(const Report& report) {
-  std::vector<std::string> names;
-  for (const int state : report.lanes.at(0).state)
-    names.push_back(report.lanes.at(0).states.at(static_cast<std::size_t>(state)));
-  return names;
+  return page_of(recording, &OperatorLane::drop_unless_used, together);
 }
 
 /// A reset, a target that stays there, and a start.

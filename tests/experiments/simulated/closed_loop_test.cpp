@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <thread>
 
 #include "experiments/recorded/replay.h"
@@ -18,6 +17,7 @@
 #include "systems/robot/quantity_units.h"
 #include "tests/fault/scenario_loop.h"
 #include "tests/support/allocations.h"
+#include "tests/support/same_signals.h"
 #include "tests/support/workplace.h"
 
 namespace flinch {
@@ -27,17 +27,9 @@ SimulatedScenario scenario_called(const std::string& name, std::optional<std::ui
   return read_simulated_scenario(test::shipped("scenarios/" + name + ".yaml"), seed);
 }
 
-/// Whether all numbers of a signal are the same bits, at the same times.
-bool is_same(const Recording& a, const Recording& b, const std::string& path) {
-  const auto& rows_a = a.signal(path).rows;
-  const auto& rows_b = b.signal(path).rows;
-  return a.time_ns == b.time_ns && rows_a.size() == rows_b.size() &&
-         std::memcmp(rows_a.data(), rows_b.data(), rows_a.size() * sizeof(rows_a[0])) == 0;
-}
-
 void expect_same(const Recording& a, const Recording& b) {
   ASSERT_EQ(a.signals.size(), b.signals.size());
-  for (const Signal& signal : a.signals) EXPECT_TRUE(is_same(a, b, signal.path)) << signal.path;
+  for (const Signal& signal : a.signals) EXPECT_TRUE(test::is_same(a, b, signal.path)) << signal.path;
   EXPECT_EQ(a.attributes, b.attributes);
 }
 
@@ -110,8 +102,8 @@ TEST_P(ClosedLoop, GivesTheSameBitsInTwoThreadsAtOnce) {
 TEST_P(ClosedLoop, MeasuresOtherNoiseWithAnotherSeed) {
   const Recording one = run_experiment(scenario_called(GetParam(), 1));
   const Recording two = run_experiment(scenario_called(GetParam(), 2));
-  EXPECT_FALSE(is_same(one, two, "joints"));
-  EXPECT_FALSE(is_same(one, two, "torque_command"));
+  EXPECT_FALSE(test::is_same(one, two, "joints"));
+  EXPECT_FALSE(test::is_same(one, two, "torque_command"));
 }
 
 TEST_P(ClosedLoop, IsReplayedBitForBitFromItsRecordingFile) {
@@ -122,7 +114,7 @@ TEST_P(ClosedLoop, IsReplayedBitForBitFromItsRecordingFile) {
   const Replay replayed = replay(recorded_scenario(recorded, place / "run.h5"), recorded);
   EXPECT_THAT(replayed.differing, testing::IsEmpty());
   for (const std::string path : {"wrench", "detection", "reaction", "torque_command", "brake", "gate"}) {
-    EXPECT_TRUE(is_same(recorded, replayed.recording, path)) << path;
+    EXPECT_TRUE(test::is_same(recorded, replayed.recording, path)) << path;
   }
 }
 
@@ -143,8 +135,8 @@ TEST(Replay, TellsAnotherControlPathFromTheRecordedOne) {
   const Recording recorded = run_experiment(scenario);
   scenario.control.momentum_observer.gain *= 2.0;
   const Replay replayed = replay(scenario, recorded);
-  EXPECT_TRUE(is_same(recorded, replayed.recording, "motion"));
-  EXPECT_FALSE(is_same(recorded, replayed.recording, "wrench"));
+  EXPECT_TRUE(test::is_same(recorded, replayed.recording, "motion"));
+  EXPECT_FALSE(test::is_same(recorded, replayed.recording, "wrench"));
   EXPECT_THAT(replayed.differing, testing::Contains("wrench"));
   EXPECT_THAT(replayed.differing, testing::Not(testing::Contains("motion")));
 }

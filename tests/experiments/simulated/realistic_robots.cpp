@@ -1,16 +1,15 @@
 #include "tests/experiments/simulated/realistic_robots.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdio>
-#include <thread>
 
 #include "experiments/simulated/experiment.h"
 #include "experiments/verdict/recorded_run.h"
 #include "systems/framework/recording.h"
 #include "systems/motion/random_path.h"
 #include "systems/robot/parallel_robot.h"
+#include "tests/support/in_parallel.h"
 #include "tests/support/workplace.h"
 
 namespace flinch::test {
@@ -117,14 +116,9 @@ SimulatedScenario scenario_of(const RobotTrial& trial, std::uint64_t seed, bool 
 }
 
 FreeMotionErrors try_robots(const RobotTrial& trial, int robots, std::uint64_t first_seed) {
-  std::vector<OneRobot> tried(static_cast<std::size_t>(robots));
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < tried.size(); i = next++) tried[i] = try_robot(trial, first_seed + i);
-  };
-  std::vector<std::thread> workers;
-  for (unsigned i = 0; i < std::max(1U, std::thread::hardware_concurrency()); ++i) workers.emplace_back(work);
-  for (std::thread& worker : workers) worker.join();
+  const std::vector<OneRobot> tried = in_parallel(static_cast<std::size_t>(robots), [&](std::size_t number) {
+    return try_robot(trial, first_seed + number);
+  });
 
   FreeMotionErrors errors;
   errors.robots = robots;
