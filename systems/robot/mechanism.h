@@ -24,7 +24,7 @@ enum class DriveKind { revolute, prismatic };
 /// What does not change of a mechanism.
 struct MechanismDescription {
   std::string name;
-  ConfigurationSpace space = ConfigurationSpace::Kind::planar_pose;
+  ConfigurationSpace space;       ///< Of its configurations.
   std::vector<DriveKind> drives;  ///< One entry a drive, at most `max_dof`.
   std::vector<Body> bodies;       ///< By `BodyId::index()`: the platform first.
   /// Bodies whose distance is watched; neighbours, which always touch, are not among them.
