@@ -1,8 +1,9 @@
 #include "experiments/scenario/scenario_operator.h"
 
-#include <optional>
+#include <algorithm>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "diagrams/contact_control_settings.h"
 #include "experiments/scenario/scenario_pose.h"
@@ -14,6 +15,7 @@ namespace flinch {
 namespace {
 
 using After = OperatorEvent::After;
+using Events = std::vector<OperatorEvent>;
 
 enum class Button { start, reset, stop };
 
@@ -41,24 +43,34 @@ void read_target(ConfigReader& entry, const ParallelRobot& robot, bool is_pose, 
     entry.problem("pose", "is out of the reach of the legs; choose a nearer pose");
 }
 
-/// When it is done. The entry that stands before it, where there is one.
-void read_occasion(ConfigReader& entry, const OperatorEvent* before, Time duration, OperatorEvent& event) {
-  if (entry.has("after")) {
-    event.after = After::ended;
-    entry.choice("after", event.after,
-                 {{"ended", After::ended}, {"recovering", After::recovering}, {"arrived", After::arrived}});
-    entry.duration("wait", event.wait, not_negative);
-    return;
-  }
+/// Refuses what would only come when the run is over.
+void check_in_run(ConfigReader& entry, std::string_view key, Time time, Time duration) {
+  if (time < duration) return;
+  entry.problem(key, "is " + exact_text(to_seconds(time)) + " s; the run ends after " +
+                         exact_text(to_seconds(duration)) + " s");
+}
+
+void read_what_it_follows(ConfigReader& entry, const Events& before, Time duration, OperatorEvent& event) {
+  event.after = After::ended;
+  entry.choice("after", event.after,
+               {{"ended", After::ended}, {"recovering", After::recovering}, {"arrived", After::arrived}});
+  entry.duration("wait", event.wait, not_negative);
+  check_in_run(entry, "wait", event.wait, duration);
+  const bool is_reset =
+      std::any_of(before.begin(), before.end(), [](const OperatorEvent& of) { return of.buttons.reset; });
+  if (event.after == After::recovering && !is_reset)
+    entry.problem("after", "is 'recovering', but no entry before it presses 'reset', which begins that");
+}
+
+/// When it is done. The entries that stand before it.
+void read_occasion(ConfigReader& entry, const Events& before, Time duration, OperatorEvent& event) {
+  if (entry.has("after")) return read_what_it_follows(entry, before, duration, event);
   entry.required().duration("at", event.wait, positive);
-  if (event.wait >= duration) {
-    entry.problem("at", "is " + exact_text(to_seconds(event.wait)) + " s; the run ends after " +
-                            exact_text(to_seconds(duration)) + " s");
-  }
-  if (before == nullptr) return;
-  if (before->after != After::time) {
+  check_in_run(entry, "at", event.wait, duration);
+  if (before.empty()) return;
+  if (before.back().after != After::time) {
     entry.problem("at", "stands behind an entry with 'after', of which no time is known; put it before");
-  } else if (event.wait <= before->wait) {
+  } else if (event.wait <= before.back().wait) {
     entry.problem("at", "is not after that of the entry before it");
   }
 }
@@ -71,7 +83,7 @@ OperatorScript read_operator(ConfigReader& scenario, const ParallelRobot& robot,
   const bool has_motion = control.trajectory.path.has_value() || !scenario.good();
   for (ConfigReader& entry : scenario.sections("operator")) {
     OperatorEvent event;
-    read_occasion(entry, script.events.empty() ? nullptr : &script.events.back(), duration, event);
+    read_occasion(entry, script.events, duration, event);
     const std::string_view what = entry.one_of({"press", "pose", "step"});
     if (what == "press") read_button(entry, has_motion, event.buttons);
     if (what == "pose" || what == "step") read_target(entry, robot, what == "pose", event.target);

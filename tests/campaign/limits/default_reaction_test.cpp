@@ -9,7 +9,6 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "experiments/campaign/campaign.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
 #include "experiments/campaign/campaign.h"
 #include "experiments/campaign/campaign_run.h"

@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <limits>
 #include <optional>
-#include <thread>
 #include <vector>
 
 #include "experiments/campaign/campaign.h"

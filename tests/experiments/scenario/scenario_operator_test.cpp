@@ -115,6 +115,16 @@ TEST_F(ScenarioOperator, IsToldAllThatIsWrongAtOnce) {
           AllOf(HasSubstr("own.yaml:15: "), HasSubstr("step"))));
 }
 
+TEST_F(ScenarioOperator, WaitsForNothingThatNeverComes) {
+  EXPECT_THAT(problems(moving("planar_3rrr.yaml",
+                              "  - {after: recovering, press: start}\n"
+                              "  - {after: ended, wait_s: 2, press: reset}\n"
+                              "  - {after: recovering, wait_s: 1.9, press: start}\n")),
+              testing::UnorderedElementsAre(
+                  AllOf(HasSubstr("own.yaml:5: "), HasSubstr("no entry before it presses 'reset'")),
+                  AllOf(HasSubstr("own.yaml:6: "), HasSubstr("wait"), HasSubstr("the run ends after 2 s"))));
+}
+
 TEST_F(ScenarioOperator, PressesNothingThatIsDownFromTheStart) {
   EXPECT_THAT(problems(moving("planar_3rrr.yaml", "  - {at_s: 0, press: reset}\n")),
               ElementsAre(AllOf(HasSubstr("own.yaml:5: "), HasSubstr("at_s"))));
