@@ -106,11 +106,11 @@ ConfigDocument::ConfigDocument(std::string file, std::shared_ptr<const ConfigNod
 }
 
 ConfigSection& ConfigDocument::add_section(const ConfigNode* node, std::string path, ConfigPlace place) {
-  for (ConfigSection& section : sections_) {
-    if (section.path == path) return section;
-  }
+  ConfigSection*& known = by_path_[path];
+  if (known != nullptr) return *known;
   places_.push_back({path, path, place});
   ConfigSection& section = sections_.emplace_back();
+  known = &section;
   section.node = node;
   section.path = std::move(path);
   section.place = place;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -112,6 +113,7 @@ class ConfigDocument {
   std::string file_;
   std::shared_ptr<const ConfigNode> root_;
   std::deque<ConfigSection> sections_;
+  std::map<std::string, ConfigSection*> by_path_;
   std::vector<ReadValue> values_;
   std::vector<Place> places_;
   std::vector<Problem> problems_;
