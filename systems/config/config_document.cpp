@@ -1,6 +1,7 @@
 #include "systems/config/config_document.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "systems/config/key_error.h"
@@ -186,8 +187,10 @@ std::vector<ReadValue> ConfigDocument::finish() {
     report_missing(section);
   }
   std::vector<Problem> told;
+  std::set<std::string> texts;  // each once, though a value may be read more than once
   for (const Problem& problem : problems_) {
-    if (!problem.consequence || !is_explained(problem)) told.push_back(problem);
+    if (problem.consequence && is_explained(problem)) continue;
+    if (texts.insert(problem.text).second) told.push_back(problem);
   }
   std::stable_sort(told.begin(), told.end(),
                    [](const Problem& a, const Problem& b) { return a.place.line < b.place.line; });

@@ -44,7 +44,8 @@ std::string complaint_about_list(const ConfigNode& node, Count count, const std:
   const std::string wanted = "; it must be a list of " + (count ? std::to_string(*count) + " " : "") + things;
   if (node.kind != Kind::list) return description(node) + wanted;
   if (count ? node.items.size() == *count : !node.items.empty()) return "";
-  return "is a list of " + std::to_string(node.items.size()) + wanted;
+  return (node.items.empty() ? "is an empty list" : "is a list of " + std::to_string(node.items.size())) +
+         wanted;
 }
 
 // Takes over what was found in the file, or notes what is wrong with it.

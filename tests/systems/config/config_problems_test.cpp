@@ -244,7 +244,18 @@ TEST(WrongList, IsEmptyWhereAnyLengthWillDo) {
                             std::vector<double> speeds;
                             reader.numbers("speeds", unit::m_per_s, speeds);
                           }),
-              ElementsAre("a.yaml:1: speeds_m_per_s: is a list of 0; it must be a list of numbers"));
+              ElementsAre("a.yaml:1: speeds_m_per_s: is an empty list; it must be a list of numbers"));
+}
+
+TEST(WrongList, IsToldOnceThoughSeveralReadIt) {
+  const auto read = [](ConfigReader& reader) {
+    reader.sections("legs");
+    reader.sections("legs");
+  };
+  EXPECT_THAT(problems_of("legs: []", read),
+              ElementsAre("a.yaml:1: legs: is an empty list; it must be a list of mappings"));
+  EXPECT_THAT(problems_of("legs: [{}, 3]", read),
+              ElementsAre("a.yaml:1: legs[1]: is 3; it must be a mapping"));
 }
 
 TEST(WrongDuration, IsNoTimeOrLongerThanTimeGoes) {
