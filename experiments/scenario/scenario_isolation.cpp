@@ -14,6 +14,11 @@ void read_isolation(ConfigReader isolation, IsolationSettings& settings) {
   isolation.number("friction", unit::none, settings.hypotheses.friction, not_negative);
   isolation.number("accept", unit::none, settings.model_classifier.accept, fraction);
   settings.decision_tree.accept = settings.model_classifier.accept;
+  ConfigReader right = isolation.section("decision_tree");
+  right.number("right_of_platform", unit::none, settings.decision_tree.right_of_platform, fraction);
+  right.number("right_of_link1", unit::none, settings.decision_tree.right_of_link1, fraction);
+  right.number("right_of_link2", unit::none, settings.decision_tree.right_of_link2, fraction);
+  right.number("right_of_clamping", unit::none, settings.decision_tree.right_of_clamping, fraction);
   isolation.number("largest_residual", unit::none, settings.model_classifier.largest_residual, positive);
   isolation.duration("window", settings.model_classifier.window, not_negative);
   isolation.number("leaning", unit::none, settings.closed_form.leaning, not_negative);

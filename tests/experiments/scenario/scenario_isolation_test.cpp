@@ -24,12 +24,14 @@ TEST(ReadIsolation, TakesWhatTheFileSaysAndLeavesTheRest) {
       "isolation: {observer_gain_per_s: 200, force_deviation_N: 1.5, accept: 0.8, largest_residual: 20, "
       "window_ms: 5, leaning: "
       "0.2, "
-      "particles: 200, object_speed_m_per_s: 0.1}");
+      "particles: 200, object_speed_m_per_s: 0.1, decision_tree: {right_of_link1: 0.7}}");
   EXPECT_EQ(settings.observer_gain, 200.0);
   EXPECT_EQ(settings.uncertainty.force, 1.5);
   EXPECT_EQ(settings.uncertainty.moment, IsolationSettings().uncertainty.moment);
   EXPECT_EQ(settings.model_classifier.accept, 0.8);
   EXPECT_EQ(settings.decision_tree.accept, 0.8);
+  EXPECT_EQ(settings.decision_tree.right_of_link1, 0.7);
+  EXPECT_EQ(settings.decision_tree.right_of_link2, DecisionTreeSettings().right_of_link2);
   EXPECT_EQ(settings.model_classifier.largest_residual, 20.0);
   EXPECT_EQ(settings.model_classifier.window, 5ms);
   EXPECT_EQ(settings.closed_form.leaning, 0.2);
@@ -39,12 +41,26 @@ TEST(ReadIsolation, TakesWhatTheFileSaysAndLeavesTheRest) {
   EXPECT_EQ(settings.hypotheses.object_speed, 0.1);
 }
 
+TEST(ReadIsolation, TakesAShareOfRightAnswersOfTheTreeForEachThatItNames) {
+  const DecisionTreeSettings tree =
+      read(
+          "isolation: {decision_tree: {right_of_platform: 0.1, right_of_link1: 0.2, right_of_link2: 0.3, "
+          "right_of_clamping: 0.4}}")
+          .decision_tree;
+  EXPECT_EQ(tree.right_of_platform, 0.1);
+  EXPECT_EQ(tree.right_of_link1, 0.2);
+  EXPECT_EQ(tree.right_of_link2, 0.3);
+  EXPECT_EQ(tree.right_of_clamping, 0.4);
+}
+
 TEST(ReadIsolation, RefusesWhatCannotBe) {
   try {
-    read("isolation: {accept: 1.5, largest_residual: 0, particles: 100000, observer_gain_per_s: 0}");
+    read(
+        "isolation: {accept: 1.5, largest_residual: 0, particles: 100000, observer_gain_per_s: 0, "
+        "decision_tree: {right_of_platform: 1.1, right_of_link1: -0.1}}");
     FAIL() << "was taken";
   } catch (const SetupError& error) {
-    EXPECT_EQ(error.problems().size(), 4u);
+    EXPECT_EQ(error.problems().size(), 6u);
   }
 }
 
