@@ -78,15 +78,36 @@ CampaignAxis parsed_axis(const std::string& text) {
   return {std::move(given.key), std::move(given.values)};
 }
 
-/// The axis takes the place of whatever the file says of its key.
+/// The axis takes the place of whatever the file says of its key, in whatever unit.
 void replace(const CampaignAxis& axis, Campaign& campaign) {
-  std::erase_if(campaign.drawn, [&](const CampaignDraw& draw) { return draw.key == axis.key; });
-  const auto same = std::find_if(campaign.grid.begin(), campaign.grid.end(),
-                                 [&](const CampaignAxis& other) { return other.key == axis.key; });
+  const auto is_same = [&axis](const auto& other) { return name_one_value(other.key, axis.key); };
+  std::erase_if(campaign.drawn, is_same);
+  const auto same = std::find_if(campaign.grid.begin(), campaign.grid.end(), is_same);
   if (same == campaign.grid.end()) {
     campaign.grid.push_back(axis);
   } else {
     *same = axis;
+  }
+}
+
+/// Grid and draws; a key has its values from one of them.
+void read_varied(ConfigReader& reader, Campaign& campaign) {
+  std::vector<std::string> keys;
+  const auto note = [&keys](ConfigReader& entry, const std::string& key) {
+    const auto earlier = std::find_if(
+        keys.begin(), keys.end(), [&key](const std::string& other) { return name_one_value(other, key); });
+    if (earlier != keys.end())
+      entry.problem("key", "is '" + key + "', but '" + *earlier + "' is varied already; keep one of them");
+    keys.push_back(key);
+  };
+  for (ConfigReader& axis : reader.sections("grid")) {
+    campaign.grid.push_back(read_axis(axis));
+    note(axis, campaign.grid.back().key);
+  }
+  const auto name = std::make_shared<const std::string>(campaign.file.string());
+  for (ConfigReader& draw : reader.sections("draw")) {
+    campaign.drawn.push_back(read_draw(draw, name));
+    note(draw, campaign.drawn.back().key);
   }
 }
 
@@ -179,9 +200,7 @@ Campaign read_campaign(const std::filesystem::path& file, const CampaignOverride
   reader.number("missed_after", unit::s, campaign.missed_after, positive);
   reader.choice("summary", campaign.summary,
                 {{"detections", Campaign::Summary::detections}, {"reactions", Campaign::Summary::reactions}});
-  for (ConfigReader& axis : reader.sections("grid")) campaign.grid.push_back(read_axis(axis));
-  const auto name = std::make_shared<const std::string>(file.string());
-  for (ConfigReader& draw : reader.sections("draw")) campaign.drawn.push_back(read_draw(draw, name));
+  read_varied(reader, campaign);
   if (reader.has("contact")) {
     ConfigReader contact = reader.section("contact");
     campaign.contact = read_contact(contact);

@@ -70,6 +70,9 @@ std::string_view without_unit(std::string_view key) {
   return key;
 }
 
+/// "control.momentum_observer." of "control.momentum_observer.gain_per_s".
+std::string_view sections_of(std::string_view path) { return path.substr(0, path.find_last_of(".]") + 1); }
+
 [[noreturn]] void complain(std::string_view path, const std::string& complaint) {
   throw SetupError(std::string(path) + ": " + complaint);
 }
@@ -175,6 +178,12 @@ std::shared_ptr<const ConfigNode> with_value(const ConfigNode& root, std::string
                                              std::shared_ptr<const ConfigNode> value) {
   if (path.empty()) complain("the empty path", "is no key");
   return Replacement(path, std::move(value)).in(&root, 0);
+}
+
+bool name_one_value(std::string_view path, std::string_view other) {
+  const std::string_view sections = sections_of(path);
+  return sections == sections_of(other) &&
+         without_unit(path.substr(sections.size())) == without_unit(other.substr(sections.size()));
 }
 
 }  // namespace flinch

@@ -25,4 +25,7 @@ std::shared_ptr<const ConfigNode> scalar_node(std::string scalar);
 std::shared_ptr<const ConfigNode> with_value(const ConfigNode& root, std::string_view path,
                                              std::shared_ptr<const ConfigNode> value);
 
+/// Whether two such paths name one value, be it in other units.
+bool name_one_value(std::string_view path, std::string_view other);
+
 }  // namespace flinch

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "experiments/campaign/campaign_run.h"
 #include "systems/config/config_node.h"
 #include "systems/config/parameter_file.h"
@@ -74,6 +76,23 @@ TEST(ReadingACampaign, RefusesKeysThatChangeNothingOfARun) {
               ElementsAre(HasSubstr("--set seed=1,2: the key is 'seed', but each run")));
 }
 
+TEST(ReadingACampaign, RefusesToVaryAKeyTwice) {
+  const test::Workplace place;
+  test::small_campaign(place);
+  place.write("campaigns/bad.yaml",
+              "scenario: ../scenarios/platform_collision.yaml\n"
+              "grid:\n"
+              "  - {key: pylon.radius_mm, values: [20, 30]}\n"
+              "  - {key: duration_s, values: [1]}\n"
+              "  - {key: duration_s, values: [2]}\n"
+              "draw:\n"
+              "  - {key: pylon.radius_m, from: 0.02, to: 0.03}\n");
+  EXPECT_THAT(problems_of(place / "campaigns/bad.yaml"),
+              ElementsAre(HasSubstr("bad.yaml:5: grid[2].key: is 'duration_s', but 'duration_s' is varied"),
+                          HasSubstr("bad.yaml:7: draw[0].key: is 'pylon.radius_m', but 'pylon.radius_mm' is "
+                                    "varied already; keep one of them")));
+}
+
 TEST(ReadingACampaign, RefusesAGridThatIsTooLargeForAnyMachine) {
   const test::Workplace place;
   std::string text = "scenario: ../scenarios/platform_collision.yaml\nruns: 10000000\ngrid:\n";
@@ -132,6 +151,17 @@ TEST(TheCommandLine, AddsAxesAndReplacesWhatTheFileSaysOfAKey) {
   EXPECT_EQ(yaml_line(*campaign.grid[1].values.at(1)), "0.9");
   EXPECT_EQ(campaign.runs(), 2U * 2U * 5U);
   EXPECT_EQ(campaign.seed, 9U);
+}
+
+TEST(TheCommandLine, ReplacesWhatTheFileSaysInAnotherUnit) {
+  const test::Workplace place;
+  test::small_campaign(place);
+  const Campaign campaign =
+      read_campaign(place / "campaigns/small.yaml", {.set = {"pylon.stiffness_kN_per_m=5", "duration_s=1"}});
+  EXPECT_EQ(campaign.drawn.size(), 2U) << "the stiffness is drawn no longer";
+  const CampaignRun run = draw_run(campaign, 0);
+  const auto is_stiffness = [](const auto& value) { return value.first.starts_with("pylon.stiffness"); };
+  EXPECT_EQ(std::count_if(run.values.begin(), run.values.end(), is_stiffness), 1);
 }
 
 TEST(TheCommandLine, IsToldWhatIsNoKeyWithValues) {

@@ -98,5 +98,17 @@ TEST(AValuePutIn, SaysWhichPartOfThePathFitsNothing) {
   EXPECT_THAT(complaint("a: 1", ""), HasSubstr("is no key"));
 }
 
+TEST(Paths, NameOneValueWhateverItsUnit) {
+  EXPECT_TRUE(name_one_value("pylon.radius_mm", "pylon.radius_mm"));
+  EXPECT_TRUE(name_one_value("pylon.radius_mm", "pylon.radius_m"));
+  EXPECT_TRUE(name_one_value("obstacles[0].radius_mm", "obstacles[0].radius_cm"));
+  EXPECT_TRUE(name_one_value("duration_s", "duration_ms"));
+  EXPECT_FALSE(name_one_value("pylon.radius_mm", "obstacles[0].radius_mm"));
+  EXPECT_FALSE(name_one_value("obstacles[0].radius_mm", "obstacles[1].radius_mm"));
+  EXPECT_FALSE(name_one_value("gain[0]", "gain[1]"));
+  EXPECT_FALSE(name_one_value("pylon.x_mm", "pylon.y_mm"));
+  EXPECT_FALSE(name_one_value("duration_s", "motion.duration_s"));
+}
+
 }  // namespace
 }  // namespace flinch
