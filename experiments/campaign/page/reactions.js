@@ -138,8 +138,10 @@ function lastingForces(svg, { from, limit }, runs, across, colour, x, y) {
 /** As far as it stays within the panel. */
 function fittedLine(svg, { slope, intercept }, last, most, x, y) {
   const at = (value) => intercept + slope * value;
-  const end = slope > 0 ? Math.min(last, (most - intercept) / slope) : last;
-  shape(svg, "line", { class: "fit", x1: x(0), x2: x(end), y1: y(at(0)), y2: y(at(end)) });
+  const reaching = (force) => (force - intercept) / slope;
+  const [enters, leaves] = slope < 0 ? [reaching(most), reaching(0)] : [reaching(0), reaching(most)];
+  const [begin, end] = [Math.max(0, enters), Math.min(last, leaves)];
+  if (begin < end) shape(svg, "line", { class: "fit", x1: x(begin), x2: x(end), y1: y(at(begin)), y2: y(at(end)) });
 }
 
 function showLegend(id, names) {
