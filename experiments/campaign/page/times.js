@@ -1,14 +1,15 @@
 "use strict";
 // How soon contacts are noticed: a box for each estimator and place in the grid, a panel for each body.
 
-const boxRow = { height: 28, label: 232, left: 242, width: 246, right: 166 };
+const boxRow = { height: 28, least: 232, letter: 7.5, gap: 10, width: 246, right: 166 };
 
 function showTimes() {
   const touched = campaign.groups.filter((group) => group.contacts > 0);
   byId("times").hidden = touched.length === 0;
   const bodies = [...new Set(touched.map((group) => group.body))];
+  const label = Math.max(boxRow.least, ...touched.map((group) => boxRow.letter * nameOf(group).length));
   byId("time-panels").replaceChildren(...bodies.map((body) =>
-    timePanel(body, touched.filter((group) => group.body === body), longestTime(touched))));
+    timePanel(body, touched.filter((group) => group.body === body), longestTime(touched), label)));
 }
 
 /** The end of all axes: the longest of all lines, and no more than after which a contact is missed. */
@@ -18,8 +19,10 @@ function longestTime(groups) {
   return isOpen ? campaign.missed_after : Math.min(campaign.missed_after, 1.1 * Math.max(...ends));
 }
 
-function timePanel(body, groups, longest) {
-  const { height, left, width, right } = boxRow;
+/** `label`: how wide the names before the boxes are. */
+function timePanel(body, groups, longest, label) {
+  const { height, gap, width, right } = boxRow;
+  const left = label + gap;
   const svg = picture(left + width + right, groups.length * height + 34, `Detection times, ${body}`);
   const x = (time) => left + (width * time) / longest;
   for (const tick of roundNumbers(1000 * longest)) {
@@ -27,13 +30,13 @@ function timePanel(body, groups, longest) {
     write(svg, x(tick / 1000), groups.length * height + 15, chosen(tick), { class: "tick" });
   }
   write(svg, left + width, groups.length * height + 30, "ms after the onset", { class: "tick end" });
-  groups.forEach((group, i) => timeBox(svg, group, x, i * height + height / 2));
+  groups.forEach((group, i) => timeBox(svg, group, x, left, i * height + height / 2));
   return panel(capitalised(body), svg);
 }
 
-function timeBox(svg, group, x, y) {
-  const { label, left, width } = boxRow;
-  write(svg, label, y + 4, nameOf(group), { class: "row-name" });
+function timeBox(svg, group, x, left, y) {
+  const { gap, width } = boxRow;
+  write(svg, left - gap, y + 4, nameOf(group), { class: "row-name" });
   const [tenth, quarter, half, threeQuarters, nineTenths] = group.quantiles;
   const end = left + width;
   const place = (time) => (time === null ? end : Math.min(x(time), end));
