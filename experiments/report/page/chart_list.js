@@ -1,5 +1,5 @@
 "use strict";
-// What the charts show, in order. A chart without columns in the report is left out.
+// What the charts show, in order. A chart without columns in the report, or without a value in any, is left out.
 //
 // symbol: letter and index. series: label, values, colour (a variable of page.css) and wide: true for the true or commanded value,
 // over which the estimated or applied one is drawn thin. scale: from SI to the unit shown.
@@ -105,5 +105,5 @@ function chartList() {
     }
     chart.decimals = decimalsFor(chart.series.flatMap((series) => series.values));
   }
-  return list.filter((chart) => chart.series.length > 0);
+  return list.filter((chart) => chart.series.some((series) => series.values.some((value) => value !== null)));
 }
