@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "diagrams/robot_settings.h"
+#include "experiments/scenario/key_values.h"
 #include "experiments/scenario/robot_files.h"
 #include "experiments/scenario/scenario_calibrations.h"
 #include "experiments/scenario/scenario_control.h"
@@ -170,6 +171,14 @@ void leave_simulation_unread(ConfigReader& file, const Scenario&) {
 Scenario read_scenario(const std::filesystem::path& file, std::optional<std::uint64_t> seed,
                        const SectionReader& others, const ControlStages& known) {
   return parse_scenario(read_config_file(file), file, seed, others, known);
+}
+
+Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& set,
+                       std::optional<std::uint64_t> seed, const SectionReader& others,
+                       const ControlStages& known) {
+  if (set.empty()) return read_scenario(file, seed, others, known);
+  RobotFiles robots;
+  return parse_scenario(scenario_with(file, set), file, robots, seed, others, known);
 }
 
 Scenario parse_scenario(std::string text, const std::filesystem::path& file,

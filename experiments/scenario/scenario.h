@@ -65,6 +65,12 @@ Scenario read_scenario(const std::filesystem::path& file, std::optional<std::uin
                        const SectionReader& others = leave_simulation_unread,
                        const ControlStages& known = known_stages());
 
+/// The same with one value for each key of `set`, "KEY=VALUE" as scenario_with() takes them.
+Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& set,
+                       std::optional<std::uint64_t> seed = std::nullopt,
+                       const SectionReader& others = leave_simulation_unread,
+                       const ControlStages& known = known_stages());
+
 /// The same for text that came from `file`.
 Scenario parse_scenario(std::string text, const std::filesystem::path& file,
                         std::optional<std::uint64_t> seed = std::nullopt,

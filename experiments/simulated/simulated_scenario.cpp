@@ -20,6 +20,15 @@ SimulatedScenario read_simulated_scenario(const std::filesystem::path& file,
   return {std::move(scenario), std::move(station), std::move(specimen)};
 }
 
+SimulatedScenario read_simulated_scenario(const std::filesystem::path& file,
+                                          const std::vector<std::string>& set,
+                                          std::optional<std::uint64_t> seed, const ControlStages& known) {
+  SimulatedStationSettings station;
+  Specimen specimen;
+  Scenario scenario = read_scenario(file, set, seed, station_into(station, specimen), known);
+  return {std::move(scenario), std::move(station), std::move(specimen)};
+}
+
 SimulatedScenario parse_simulated_scenario(std::string text, const std::filesystem::path& file,
                                            std::optional<std::uint64_t> seed, const ControlStages& known) {
   SimulatedStationSettings station;

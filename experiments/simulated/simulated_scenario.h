@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "experiments/scenario/scenario.h"
 #include "plant/simulated_station.h"
@@ -19,6 +21,10 @@ struct SimulatedScenario : Scenario {
 /// As read_scenario(), parse_scenario() and recorded_scenario(), with the sections that describe the
 /// simulation.
 SimulatedScenario read_simulated_scenario(const std::filesystem::path& file,
+                                          std::optional<std::uint64_t> seed = std::nullopt,
+                                          const ControlStages& known = known_stages());
+SimulatedScenario read_simulated_scenario(const std::filesystem::path& file,
+                                          const std::vector<std::string>& set,
                                           std::optional<std::uint64_t> seed = std::nullopt,
                                           const ControlStages& known = known_stages());
 SimulatedScenario parse_simulated_scenario(std::string text, const std::filesystem::path& file,

@@ -10,8 +10,6 @@
 #include "apps/flinch/stop_watch.h"
 #include "experiments/bus/live_run.h"
 #include "experiments/report/run_folder.h"
-#include "experiments/scenario/key_values.h"
-#include "experiments/scenario/robot_files.h"
 #include "experiments/scenario/scenario.h"
 #include "systems/foundation/problems_of_place.h"
 
@@ -30,18 +28,11 @@ void tell_of_loop_and_link(const LiveRun& run) {
              1e6 * to_seconds(round_trip->max), link.lost, link.refused);
 }
 
-/// The scenario with what the command line sets otherwise.
-Scenario read(const RunOptions& options) {
-  if (options.set.empty()) return read_scenario(options.input);
-  RobotFiles robots;
-  return parse_scenario(scenario_with(options.input, options.set), options.input, robots);
-}
-
 }  // namespace
 
 ExitStatus run_on_bus(const RunOptions& options) {
   const bool silent = options.common.quiet || options.common.json;
-  Scenario scenario = read(options);
+  Scenario scenario = read_scenario(options.input, options.set);
   if (!options.classifier.empty()) classifier_of(options.classifier)(scenario);
   const Interrupts interrupts;
   const BusSettings settings = bus_settings(options.bus, silent);

@@ -8,8 +8,6 @@
 #include "experiments/campaign/campaign.h"
 #include "experiments/campaign/campaign_run.h"
 #include "experiments/report/run_folder.h"
-#include "experiments/scenario/key_values.h"
-#include "experiments/scenario/robot_files.h"
 #include "experiments/simulated/experiment.h"
 #include "experiments/simulated/simulated_scenario.h"
 #include "systems/foundation/problems_of_place.h"
@@ -22,20 +20,12 @@ Experiment built(const SimulatedScenario& scenario) {
   return out_of(scenario.file, [&scenario] { return build_experiment(scenario); });
 }
 
-/// The scenario with what the command line sets otherwise.
-SimulatedScenario read(const RunOptions& options) {
-  if (options.set.empty()) return read_simulated_scenario(options.input, options.seed);
-  RobotFiles robots;
-  return parse_simulated_scenario(scenario_with(options.input, options.set), options.input, robots,
-                                  options.seed);
-}
-
 bool was_simulated(const Recording& recording) { return recording.find("truth") != nullptr; }
 
 }  // namespace
 
 ExitStatus run_simulated(const RunOptions& options) {
-  SimulatedScenario scenario = read(options);
+  SimulatedScenario scenario = read_simulated_scenario(options.input, options.set, options.seed);
   add_faults(options.faults, *scenario.robot.robot, scenario.station.faults);
   if (!options.classifier.empty()) classifier_of(options.classifier)(scenario);
   built(scenario);  // before anything is written
