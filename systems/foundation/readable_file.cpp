@@ -1,6 +1,7 @@
 #include "systems/foundation/readable_file.h"
 
 #include <cstdint>
+#include <fstream>
 #include <system_error>
 
 namespace flinch {
@@ -19,7 +20,8 @@ std::string problem_with_reading(const fs::path& file) {
   if (std::string problem = problem_with_kind(status); !problem.empty()) return problem;
   const std::uintmax_t size = fs::file_size(file, error);
   if (error) return "cannot be read: " + error.message();
-  return size == 0 ? "is empty" : "";
+  if (size == 0) return "is empty";
+  return std::ifstream(file) ? "" : "cannot be opened; reading it must be permitted";
 }
 
 }  // namespace flinch
