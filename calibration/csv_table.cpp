@@ -151,6 +151,9 @@ CsvTable read_csv(const std::filesystem::path& file, char separator, const std::
   std::ifstream stream(file, std::ios::binary);
   std::string line;
   if (!stream || !std::getline(stream, line)) throw SetupError(file.string() + ": the file cannot be read");
+  if (line.starts_with("\x89HDF")) throw SetupError(file.string() + ": is an HDF5 file; name it as 'hdf5'");
+  if (line.find('\0') != std::string::npos)
+    throw SetupError(file.string() + ": is no text; it must be CSV, with names of columns in its first row");
   CsvTable table{.names = each_once(wanted), .values = {}};
   const std::vector<FoundColumn> places = places_of(table.names, line, separator, file.string());
   line = {};  // it may be longer than all that follows

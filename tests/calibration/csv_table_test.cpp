@@ -56,6 +56,13 @@ TEST_F(Csv, TellsAColumnThatIsNotThere) {
               ElementsAre(HasSubstr(".csv:1: there is no column 'curent_1'; did you mean 'current_1'?")));
 }
 
+TEST_F(Csv, IsText) {
+  EXPECT_THAT(test::problems_of([this] { read_csv(file_with("\x89HDF\r\n"), ',', {"t"}); }),
+              ElementsAre(EndsWith("table.csv: is an HDF5 file; name it as 'hdf5'")));
+  EXPECT_THAT(test::problems_of([this] { read_csv(file_with(std::string("t\0,q\n1,2\n", 9)), ',', {"t"}); }),
+              ElementsAre(HasSubstr("table.csv: is no text; it must be CSV")));
+}
+
 TEST_F(Csv, ThatIsNotThereIsTold) {
   EXPECT_THAT(test::problems_of([] { read_csv("nowhere.csv", ',', {}); }),
               ElementsAre("nowhere.csv: there is no such file"));
