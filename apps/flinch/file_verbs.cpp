@@ -1,12 +1,15 @@
 // What the verbs do that only look at files.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "apps/flinch/command_line.h"
 #include "apps/flinch/conclusion.h"
 #include "apps/flinch/learning_verbs.h"
+#include "apps/flinch/shell_word.h"
 #include "apps/flinch/simulated/simulated_parts.h"
 #include "calibration/csv_recording.h"
 #include "experiments/report/experiment_report.h"
@@ -22,6 +25,7 @@
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/diagram.h"
 #include "systems/framework/hdf5_format.h"
+#include "systems/framework/recording.h"
 #include "systems/framework/recording_journal.h"
 
 namespace flinch {
@@ -42,22 +46,31 @@ Report recorded_report(const std::filesystem::path& file, const CommonOptions& c
   });
 }
 
-std::string quoted_for_shell(const std::filesystem::path& path) {
-  std::string text = "'";
-  for (const char c : path.string()) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
 /// Lets Graphviz draw `dot` into `file`, which is replaced only by a whole picture.
 void draw_svg(const std::string& dot, const std::filesystem::path& file) {
   const ResultFile source(file.string() + ".dot");  // never finished
   source.write(dot);
   ResultFile picture(file);
-  const std::string command = "dot -Tsvg -o " + quoted_for_shell(picture.unfinished_name()) + " " +
-                              quoted_for_shell(source.unfinished_name());
+  const std::string command =
+      "dot -Tsvg -o " + shell_word(picture.unfinished_name()) + " " + shell_word(source.unfinished_name());
   if (std::system(command.c_str()) == 0) return picture.finish();
   throw SetupError(file.string() +
                    ": Graphviz could not draw it; is the program 'dot' installed (package graphviz)?");
+}
+
+/// Reads every row: who wants a page or a verdict reads some only.
+void read_through(const std::filesystem::path& file) {
+  const Recording recording = open_recording(file);
+  std::vector<internal::Number> rows;
+  out_of(file, [&] {
+    for (const Signal& signal : recording.signals) {
+      rows.resize(Recording::block * signal.layout.numbers);
+      for (std::size_t first = 0; first < recording.samples(); first += Recording::block) {
+        const std::size_t count = std::min(Recording::block, recording.samples() - first);
+        recording.read_rows(signal, first, count, rows.data());
+      }
+    }
+  });
 }
 
 /// Checks a file of HDF5, and says of which kind it is.
@@ -70,9 +83,11 @@ std::string check_results(const CheckOptions& options) {
   }
   if (const Recording recording = open_recording(options.file); holds_readings_alone(recording)) {
     scenario_of(recording, options.file);
+    read_through(options.file);
     return "readings";
   }
   recorded_report(options.file, options.common);
+  read_through(options.file);
   return "recording";
 }
 

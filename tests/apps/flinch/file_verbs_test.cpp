@@ -62,6 +62,21 @@ TEST_F(FileVerbs, CheckAMappingAndWhatIsImportedByIt) {
   EXPECT_THAT(said_of(place.at("mapping.yaml")), HasSubstr("unit"));
 }
 
+TEST_F(FileVerbs, CheckEveryRowOfARecording) {
+  flinch({"run", place.at("scenarios/platform_collision.yaml"), "--set", "duration_s=0.4", "--out",
+          place.at("out"), "--quiet"});
+  const std::string file = place.at("out/run.h5");
+  ASSERT_EQ(said_of(file), ": a good recording file\n");
+  // In the middle of the file are rows of the largest signals; a page and a verdict need few of them.
+  const std::string whole = test::bytes_of(place / "out/run.h5");
+  for (const std::size_t share : {2, 3, 4}) {
+    std::string broken = whole;
+    broken.replace(broken.size() / 5 * share, 2000, 2000, '\0');
+    place.write("broken.h5", broken);
+    EXPECT_EQ(flinch({"check", place.at("broken.h5")}).status, 2) << share << " fifths";
+  }
+}
+
 TEST_F(FileVerbs, SayWhereThresholdsBelong) {
   place.write("thresholds.yaml", "contact_detector:\n  by_estimator: []\n");
   EXPECT_EQ(said_of(place.at("thresholds.yaml")),
