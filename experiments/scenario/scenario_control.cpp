@@ -21,6 +21,7 @@
 #include "systems/foundation/setup_error.h"
 #include "systems/motion/random_path.h"
 #include "systems/robot/parallel_robot.h"
+#include "systems/robot/workspace_limits.h"
 
 namespace flinch {
 namespace {
@@ -43,6 +44,9 @@ void read_sensing(ConfigReader& control, const ParallelRobot& robot, ContactCont
   filter.number("cutoff_frequency", unit::Hz, settings.velocity_filter.low_pass.cutoff_frequency, positive);
   filter.choice("form", settings.velocity_filter.low_pass.form,
                 {{"tustin", LowPassForm::tustin}, {"backward_difference", LowPassForm::backward_difference}});
+
+  ConfigReader pose = control.section("forward_kinematics");
+  if (pose.has("initial_pose")) settings.forward_kinematics.initial_pose = read_initial_pose(pose, robot);
 
   ConfigReader drives = control.section("drive_torque");
   const bool turn = robot.drive_kind(0) == DriveKind::revolute;
@@ -123,6 +127,10 @@ void read_laws(ConfigReader& control, const ParallelRobot& robot, ContactControl
   limits.number("min_self_collision_distance", unit::m,
                 settings.limits.limits.workspace.min_self_collision_distance, not_negative);
   limits.number("max_platform_speed", unit::m_per_s, settings.limits.max_platform_speed, positive);
+  const char* const whose =
+      is_strict ? ", and strict_reaction keeps no less than constraints.self_collision.safety_m" : "";
+  for (const std::string& problem : problems(settings.limits.limits.workspace, robot))
+    limits.problem("", problem + whose);
 
   ConfigReader sequence = control.section("sequence");
   sequence.flag("zero_g_when_struck", settings.sequence.zero_g_when_struck);

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "systems/config/config_reader.h"
-#include "systems/robot/mechanism.h"
+#include "systems/robot/parallel_robot.h"
 
 namespace flinch {
 namespace {
@@ -29,6 +29,15 @@ Configuration read_pose(ConfigReader pose, const Mechanism& mechanism) {
   PlatformVector from_base = PlatformVector::Zero(space.dimension());
   from_base.head(space.translations()) = mechanism.home_pose().head(space.translations());
   return space.plus(space.origin(), read_displacement(pose, space, from_base));
+}
+
+Configuration read_initial_pose(ConfigReader& section, const ParallelRobot& robot) {
+  const Configuration pose = read_pose(section.section("initial_pose"), robot);
+  Kinematics there;
+  robot.kinematics(pose, PlatformVector::Zero(robot.dof()), there);
+  if (!there.reachable)
+    section.problem("initial_pose", "is out of the reach of the legs; choose a nearer pose");
+  return pose;
 }
 
 PlatformVector read_step(ConfigReader step, const ConfigurationSpace& space) {

@@ -7,6 +7,7 @@ namespace flinch {
 class ConfigReader;
 class ConfigurationSpace;
 class Mechanism;
+class ParallelRobot;
 
 /// Reads a pose of the mechanism. Keys that are not there keep the home pose's position and the upright
 /// orientation:
@@ -14,6 +15,9 @@ class Mechanism;
 ///   phi        rotation of a planar platform [rad]
 ///   rotation   rotation vector of a spatial platform, against the base frame [rad]
 Configuration read_pose(ConfigReader pose, const Mechanism& mechanism);
+
+/// Reads the pose `initial_pose` of a section in the same way; one that the legs do not reach is a problem.
+Configuration read_initial_pose(ConfigReader& section, const ParallelRobot& robot);
 
 /// Reads a displacement in the base frame, by the same keys; those that are not there are zero.
 PlatformVector read_step(ConfigReader step, const ConfigurationSpace& space);

@@ -57,15 +57,6 @@ void read_scales(ConfigReader& plant, const char* name, int count, JointVector& 
   plant.numbers(name, unit::none, entries(scales), not_negative);
 }
 
-Configuration read_start(ConfigReader& plant, const ParallelRobot& robot) {
-  const Configuration pose = read_pose(plant.section("initial_pose"), robot);
-  Kinematics there;
-  robot.kinematics(pose, PlatformVector::Zero(robot.dof()), there);
-  if (!there.reachable)
-    plant.problem("initial_pose", "is out of the reach of the legs; choose a nearer pose");
-  return pose;
-}
-
 /// What is true of the robot, where that differs from what the controller believes; how far one that is drawn
 /// may be off that.
 Realism read_plant(ConfigReader plant, const Scenario& scenario, SimulatedStationSettings& station) {
@@ -94,7 +85,7 @@ Realism read_plant(ConfigReader plant, const Scenario& scenario, SimulatedStatio
     deviation.passive_friction_scale.setZero();
   }
   station.bench.robot = true_robot(built.robot, deviation);
-  if (plant.has("initial_pose")) station.bench.initial_pose = read_start(plant, *built.robot);
+  if (plant.has("initial_pose")) station.bench.initial_pose = read_initial_pose(plant, *built.robot);
   return read_realism(plant, *built.robot);
 }
 

@@ -16,12 +16,15 @@
 #include "systems/config/parsed.h"
 #include "systems/config/robot_file.h"
 #include "tests/support/file_bytes.h"
+#include "tests/support/problems_of.h"
 #include "tests/support/workplace.h"
 
 namespace flinch {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::EndsWith;
+using ::testing::StartsWith;
 
 /// What takes effect, by key.
 using Values = std::map<std::string, std::string>;
@@ -148,6 +151,36 @@ TEST(DefaultsOfControl, AreWhatTheDocumentSays) {
                           "control.drive_torque.torque_constant", "control.estimators",
                           "control.limits.max_condition_number", "control.limits.max_platform_speed"))
       << "of these it says what the default is";
+}
+
+TEST(TheStartOfTheForwardKinematics, IsAPoseThatTheLegsReach) {
+  const RobotFile file = robot_called("planar_3rrr");
+  ContactControlSettings settings = settings_of(file);
+  read(silent, file, settings);
+  EXPECT_FALSE(settings.forward_kinematics.initial_pose.has_value());
+  read("control: {forward_kinematics: {initial_pose: {x_mm: 20, y_mm: -10, phi_deg: 5}}}", file, settings);
+  ASSERT_TRUE(settings.forward_kinematics.initial_pose.has_value());
+  EXPECT_NEAR((*settings.forward_kinematics.initial_pose)[0], 0.02, 1e-12);
+  EXPECT_NEAR((*settings.forward_kinematics.initial_pose)[1], -0.01, 1e-12);
+  EXPECT_THAT(test::problems_of(
+                  [&] { read("control: {forward_kinematics: {initial_pose: {x_m: 3}}}", file, settings); }),
+              ElementsAre("own.yaml:1: control.forward_kinematics.initial_pose: is out of the reach of the "
+                          "legs; choose a nearer pose"));
+}
+
+TEST(TheLimits, HoldTheHomePose) {
+  const RobotFile file = robot_called("hexapod_6ups");
+  ContactControlSettings settings = settings_of(file);
+  EXPECT_THAT(test::problems_of([&] {
+                read("control:\n  limits: {min_self_collision_distance_m: 0.5}\n", file, settings);
+              }),
+              ElementsAre(StartsWith("own.yaml:2: control.limits: min_self_collision_distance is 0.5 m; it "
+                                     "must be at most that at the home pose")));
+  settings = settings_of(file);
+  EXPECT_THAT(
+      test::problems_of([&] { read("control: {reaction_laws: [strict_reaction]}", file, settings); }),
+      ElementsAre(EndsWith("and strict_reaction keeps no less than constraints.self_collision.safety_m")))
+      << "which is that of the bench";
 }
 
 }  // namespace

@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 
 #include "experiments/simulated/experiment.h"
+#include "experiments/verdict/verdict.h"
 #include "systems/config/robot_file.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/diagram.h"
 #include "systems/framework/recording.h"
 #include "systems/robot/planar_rrr.h"
+#include "tests/support/file_bytes.h"
 #include "tests/support/problems_of.h"
 #include "tests/support/workplace.h"
 
@@ -176,6 +178,28 @@ TEST(SimulatedScenario, TakesTheSeedOfTheCommandLine) {
   EXPECT_EQ(read_simulated_scenario(file).station.seed, 1U);
   EXPECT_EQ(read_simulated_scenario(file, 18446744073709551615U).seed, 18446744073709551615U);
   EXPECT_EQ(read_simulated_scenario(file, 7).station.seed, 7U);
+}
+
+TEST(SimulatedScenario, TakesOtherValuesThanThoseOfTheFile) {
+  const std::filesystem::path file = shipped("scenarios/square.yaml");
+  const SimulatedScenario scenario =
+      read_simulated_scenario(file, {"duration_s=0.5", "plant.payload_kg=0.3"}, 7);
+  EXPECT_EQ(scenario.duration, 500ms);
+  EXPECT_EQ(scenario.seed, 7U);
+  EXPECT_EQ(read_scenario(file, {"duration_s=0.5"}).duration, 500ms);
+  EXPECT_EQ(read_simulated_scenario(file, std::vector<std::string>()).text, test::bytes_of(file))
+      << "with its comments, where nothing is changed";
+}
+
+// Nothing but the pose of the begin tells then on which branch the platform is.
+TEST(SimulatedScenario, RunsWithoutPassiveEncodersFromAPoseThatIsTold) {
+  const std::filesystem::path file = shipped("scenarios/platform_collision.yaml");
+  std::vector<std::string> set = {"sensors.encoders.passive_mounted=false"};
+  const Verdict lost = judge_experiment(read_simulated_scenario(file, set));
+  EXPECT_THAT(lost.failures, Contains("the torque gate never opened: the platform's pose is not known"));
+  set.emplace_back("control.forward_kinematics.initial_pose={x_mm: 70, y_mm: 5, phi_deg: 1}");
+  const Verdict told = judge_experiment(read_simulated_scenario(file, set));
+  EXPECT_TRUE(told.good()) << (told.failures.empty() ? "" : told.failures.front());
 }
 
 TEST(SimulatedScenario, ListsEveryParameterWithItsOrigin) {
