@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <cstring>
+#include <system_error>
 #include <utility>
 
 #include "experiments/dataset/data_spec.h"
@@ -106,10 +107,14 @@ DataJournal::DataJournal(std::filesystem::path file, const DataSpec& spec, const
   remove_link(file_);
   if (std::filesystem::exists(file_)) read(header, robot);
   // Written anew, so that what follows does not stand behind half a frame.
-  stream_.open(file_, std::ios::binary | std::ios::trunc);
+  const std::filesystem::path anew = file_.string() + ".new";
+  remove_link(anew);
+  stream_.open(anew, std::ios::binary | std::ios::trunc);
   stream_ << header;
   for (const auto& [run, samples] : runs_) stream_ << sealed(frame_of(run, samples));
-  if (!stream_.flush()) throw SetupError(file_.string() + ": the file cannot be written");
+  std::error_code error;
+  if (stream_.flush()) std::filesystem::rename(anew, file_, error);
+  if (!stream_ || error) throw SetupError(file_.string() + ": the file cannot be written");
 }
 
 void DataJournal::read(const std::string& header, const ParallelRobot& robot) {

@@ -55,6 +55,19 @@ TEST_F(MakeDataSet, GoesOnWhereItWasStopped) {
               testing::ElementsAre(testing::HasSubstr("holds the samples of another specification")));
 }
 
+// As on a full disk: what is written anew takes the place of what is there once it is whole.
+TEST_F(MakeDataSet, KeepsWhatIsThereWhereNothingCanBeWrittenAnew) {
+  EXPECT_FALSE(test::problems_of([&] {
+                 make_data_set(few(8), place / "part.h5", 1, [](std::size_t done) { return done < 3; });
+               }).empty());
+  const std::string left = test::bytes_of(place / "part.h5.part");
+  const std::filesystem::path anew = place / "part.h5.part.new";
+  std::filesystem::create_directory(anew);
+  EXPECT_THAT(test::problems_of([&] { make_data_set(few(8), place / "part.h5", 1); }),
+              testing::ElementsAre(testing::HasSubstr("part.h5.part: the file cannot be written")));
+  EXPECT_EQ(test::bytes_of(place / "part.h5.part"), left);
+}
+
 TEST_F(MakeDataSet, GoesOnWithNoRunThatComesOutOtherwise) {
   EXPECT_FALSE(test::problems_of([&] {
                  make_data_set(few(8), place / "part.h5", 1, [](std::size_t done) { return done < 3; });
