@@ -4,12 +4,16 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
+#include <cstdio>
 #include <functional>
 #include <limits>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
+#include "apps/flinch/shell_word.h"
 #include "apps/flinch/verbs.h"
 #include "systems/foundation/json_text.h"
 #include "systems/foundation/nearest_name.h"
@@ -68,12 +72,18 @@ void add_fault(CLI::App& verb, std::vector<std::string>& faults) {
 
 std::string typed(int argc, const char* const* argv) {
   std::string text = "flinch";
-  for (int i = 1; i < argc; ++i) text += std::string(" ") + argv[i];
+  for (int i = 1; i < argc; ++i) text += " " + shell_word(argv[i]);
   return text;
 }
 
+/// What was printed lies in a buffer, whose disk may be full.
+void require_printed() {
+  if (std::fflush(stdout) == 0) return;
+  throw SetupError("what was to be printed cannot be written: " + std::generic_category().message(errno));
+}
+
 int complain(const std::vector<std::string>& problems, bool json) {
-  if (json) fmt::print("{}\n", json_text(nlohmann::ordered_json{{"error", problems}}));
+  if (json) std::puts(json_text(nlohmann::ordered_json{{"error", problems}}).c_str());
   constexpr std::size_t most_shown = 50;
   for (std::size_t i = 0; i < std::min(problems.size(), most_shown); ++i) {
     fmt::print(stderr, "error: {}\n", problems[i]);
@@ -263,8 +273,8 @@ std::vector<std::string> subcommands_of(const CLI::App& app) {
   return names;
 }
 
-/// "" where all options of `verb` are known.
-std::string problem_with_options(const CLI::App& verb) {
+/// "" where all options of `verb`, which is called `path`, are known.
+std::string problem_with_options(const CLI::App& verb, const std::string& path) {
   const std::vector<std::string> extra = verb.remaining();
   const auto unknown =
       std::find_if(extra.begin(), extra.end(), [](const std::string& text) { return text.starts_with('-'); });
@@ -273,7 +283,7 @@ std::string problem_with_options(const CLI::App& verb) {
   for (const CLI::Option* option : verb.get_options())
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   const std::string name = unknown->substr(0, unknown->find('='));
-  return "'" + name + "' is no option of 'flinch " + verb.get_name() + "'" + did_you_mean(name, names);
+  return "'" + name + "' is no option of '" + path + "'" + did_you_mean(name, names);
 }
 
 /// The error of the parser, with the way out.
@@ -291,7 +301,7 @@ std::string usage_problem(const CLI::App& app, const CLI::ParseError& error, con
   }
   if (!subcommands_of(*verb).empty())
     return "'" + verb->get_name() + "' must be told what" + did_you_mean("", subcommands_of(*verb));
-  const std::string unknown = problem_with_options(*verb);
+  const std::string unknown = problem_with_options(*verb, path);
   return unknown.empty() ? fmt::format("{}; '{} --help' shows how", error.what(), path) : unknown;
 }
 
@@ -344,7 +354,9 @@ int run_command_line(int argc, const char* const* argv) {
   }
   verbs.common->command_line = typed(argc, argv);
   try {
-    return static_cast<int>(verbs.chosen());
+    const ExitStatus status = verbs.chosen();
+    require_printed();
+    return static_cast<int>(status);
   } catch (const SetupError& error) {
     return complain(error.problems(), verbs.common->json);
   } catch (const std::bad_alloc&) {

@@ -1,4 +1,6 @@
 // The command line of flinch dataset, flinch train and flinch evaluate.
+#include <limits>
+
 #include "apps/flinch/verbs.h"
 
 namespace flinch {
@@ -67,6 +69,7 @@ void add_train_verb(CLI::App& app, Verbs& verbs) {
   verb.add_option("--configurations", options.configurations, "Only samples of these, such as 0,1 [all]")
       ->delimiter(',')
       ->allow_extra_args(false)
+      ->check(between(0, std::numeric_limits<int>::max()))
       ->type_name("N,N");
   verb.add_option("--seed", options.seed, "Of weights and folds [1]")
       ->check(problem_with_seed)
@@ -92,6 +95,7 @@ void add_evaluate_verb(CLI::App& app, Verbs& verbs) {
   verb.add_option("--configurations", options.configurations, "Only samples of these, such as 1,2 [all]")
       ->delimiter(',')
       ->allow_extra_args(false)
+      ->check(between(0, std::numeric_limits<int>::max()))
       ->type_name("N,N");
   verb.add_option("--out", options.out, "The page [DATA_MODEL.html beside the data]")->type_name("PAGE.html");
   add_threads(verb, options.threads, "At once [one a processor]");

@@ -55,6 +55,7 @@ void check_data_set(const std::filesystem::path& data) { read_data_set(data); }
 ExitStatus evaluate(const EvaluateOptions& options) {
   const std::filesystem::path page = page_of(options);
   require_place(page, {options.model, options.data});
+  if (!options.at.empty()) check_moment(options.at);
   const ClassifierModel model = read_onnx(options.model);
   const DataSet data = read_data_set(options.data);
   const FeatureSet features = out_of(options.model.string(), [&] { return features_for(model, data); });
@@ -62,7 +63,6 @@ ExitStatus evaluate(const EvaluateOptions& options) {
   if (!learned.empty()) fmt::print(stderr, "warning: {}: {}\n", options.data.string(), learned);
   const NeuralNetwork network(model.network);
   const std::string moment = options.at.empty() ? standard_moment(data) : options.at;
-  check_moment(moment);
   std::vector<Evaluation> all;
   const Evaluation* chosen = nullptr;
   {

@@ -24,7 +24,7 @@ volatile std::sig_atomic_t interrupted = 0;
 
 ClassifierTraining training_of(const TrainOptions& options) {
   ClassifierTraining training;
-  training.question = question_named(options.question);
+  training.question = out_of("--question", [&] { return question_named(options.question); });
   TrainingSettings settings = standard_settings(training.question);
   if (!options.hidden.empty()) settings.hidden = options.hidden;
   settings.l2 = options.l2.value_or(settings.l2);

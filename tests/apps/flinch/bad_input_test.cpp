@@ -333,6 +333,8 @@ TEST_F(BadInput, ArgumentThatIsMissingOrTooMuch) {
             "error: '--sation' is no option of 'flinch run'; did you mean '--station'?\n");
   EXPECT_THAT(complaint({"calibrate", "thresholds"}),
               HasSubstr("; 'flinch calibrate thresholds --help' shows how"));
+  EXPECT_EQ(complaint({"calibrate", "thresholds", "run.h5", "--rates", "1"}),
+            "error: '--rates' is no option of 'flinch calibrate thresholds'; did you mean '--rate'?\n");
 }
 
 TEST_F(BadInput, NumberOfAnOptionThatIsNone) {

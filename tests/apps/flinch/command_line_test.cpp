@@ -1,9 +1,12 @@
 // The program from its command line to its files.
 #include "apps/flinch/command_line.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -40,6 +43,36 @@ class CommandLine : public ::testing::Test {
 
   test::Workplace place;
 };
+
+// ---------------------------------------------------------------- what is printed
+
+TEST_F(CommandLine, FailsWhereItsOutputIsLost) {
+  const std::string scenario = place.at(collision);
+  const std::vector<const char*> arguments = {"flinch", "check", scenario.c_str(), "--json"};
+  std::fflush(stdout);
+  const int before = ::dup(STDOUT_FILENO);
+  const int full = ::open("/dev/full", O_WRONLY | O_CLOEXEC);
+  ::dup2(full, STDOUT_FILENO);
+  ::testing::internal::CaptureStderr();
+  const int status = run_command_line(static_cast<int>(arguments.size()), arguments.data());
+  const std::string told = ::testing::internal::GetCapturedStderr();
+  std::clearerr(stdout);
+  ::dup2(before, STDOUT_FILENO);
+  ::close(full);
+  ::close(before);
+  EXPECT_EQ(status, 2);
+  EXPECT_THAT(told, HasSubstr("what was to be printed cannot be written: No space left on device"));
+}
+
+TEST_F(CommandLine, IsKeptSoThatAShellTakesItAgain) {
+  const std::string out = place.at("my results");
+  flinch({"run", place.at(collision), "--set", "duration_s=0.3", "--set",
+          "control.momentum_observer.gain_per_s=[20, 20, 20]", "--out", out, "--quiet"});
+  EXPECT_THAT(
+      read_recording(place / "my results/run.h5").attributes.at("command_line"),
+      HasSubstr("--set duration_s=0.3 --set 'control.momentum_observer.gain_per_s=[20, 20, 20]' --out '" +
+                out + "' --quiet"));
+}
 
 // ---------------------------------------------------------------- values of keys
 
