@@ -62,9 +62,11 @@ std::string confusion_table(const Confusion& confusion) {
   text += fmt::format(" {:>9}\n", "samples");
   const Eigen::MatrixXd shares = confusion.row_normalised();
   for (Eigen::Index row = 0; row < shares.rows(); ++row) {
+    const double samples = confusion.counts.row(row).sum();
     text += fmt::format("{:<16}", confusion.classes[static_cast<std::size_t>(row)]);
-    for (const double share : shares.row(row)) text += fmt::format(" {:>12.1f} %", 100.0 * share);
-    text += fmt::format(" {:>9.0f}\n", confusion.counts.row(row).sum());
+    for (const double share : shares.row(row))
+      text += samples > 0.0 ? fmt::format(" {:>12.1f} %", 100.0 * share) : fmt::format(" {:>14}", "-");
+    text += fmt::format(" {:>9.0f}\n", samples);
   }
   return text;
 }
