@@ -7,7 +7,9 @@
 #include "apps/flinch/command_line.h"
 #include "apps/flinch/progress.h"
 #include "identification/excitation.h"
+#include "systems/config/config_node.h"
 #include "systems/config/robot_file.h"
+#include "systems/config/yaml_text.h"
 #include "systems/foundation/json_text.h"
 #include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/result_file.h"
@@ -48,7 +50,7 @@ std::string scenario_text(const Excitation& motion, const ExcitationSettings& se
   text += "title: Motion that excites the dynamics\n";
   text += fmt::format("description: Between {} poses, from rest to rest; nothing touches the robot.\n",
                       motion.poses.size());
-  text += "robot: " + robot_file + "\n";
+  text += "robot: " + yaml_line(*scalar_node(robot_file)) + "\n";
   text += fmt::format("duration_s: {:.1f}\nseed: 1\n\n", motion.duration + 1.2);
   text += "motion:\n  kind: through\n  start_ms: 500\n  poses:\n";
   for (const Configuration& pose : motion.poses) text += pose_line(pose, robot.space());
@@ -105,8 +107,10 @@ ExitStatus excite(const ExciteOptions& options) {
   } else {
     fmt::print("condition {:.4g}, of the random motion before {:.4g}; rank {} of {} parameters\n",
                motion.condition, motion.first_condition, motion.rank, motion.parameters);
-    fmt::print("{} poses, {:.1f} s, torque up to {:.0f} of {:.0f}\nscenario: {}\n", motion.poses.size(),
-               motion.duration, motion.peak_torque, file.drives.max_torque, options.out.string());
+    const bool turn = file.robot->drive_kind(0) == DriveKind::revolute;
+    fmt::print("{} poses, {:.1f} s, drive {} up to {:.0f} of {:.0f} {}\nscenario: {}\n", motion.poses.size(),
+               motion.duration, turn ? "torques" : "forces", motion.peak_torque, file.drives.max_torque,
+               turn ? "Nm" : "N", options.out.string());
   }
   return ExitStatus::done;
 }
