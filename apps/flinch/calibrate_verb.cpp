@@ -5,6 +5,7 @@
 #include "apps/flinch/conclusion.h"
 #include "apps/flinch/simulated/simulated_parts.h"
 #include "apps/flinch/today.h"
+#include "calibration/calibration_sources.h"
 #include "calibration/contact_free_peaks.h"
 #include "calibration/threshold_calibration.h"
 #include "calibration/thresholds_output.h"
@@ -13,7 +14,6 @@
 #include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
-#include "systems/foundation/sha256.h"
 #include "systems/framework/recording.h"
 
 namespace flinch {
@@ -74,8 +74,8 @@ ExitStatus calibrate_thresholds(const CalibrateThresholdsOptions& options) {
   found.goal.confidence = options.confidence;
   found.goal.safety_factor = options.safety_factor;
   const FreeMotions motions = read_motions(options, found.goal);
-  for (const std::filesystem::path& file : options.recordings)
-    found.recordings.push_back({file.string(), sha256_of(file)});
+  for (const std::filesystem::path& file : options.recordings) found.recordings.push_back(source_of(file));
+  require_different(found.recordings);
   found.estimators = calibrate_thresholds(pooled(motions.peaks), found.goal);
   found.residuals = residuals_of(motions, found.goal);
   found.drives_turn = motions.scenarios.front().robot.robot->drive_kind(0) == DriveKind::revolute;

@@ -87,8 +87,13 @@ DataSpec read_data_spec(const std::filesystem::path& file, const DataSpecOverrid
   spec.seed = overrides.seed.value_or(spec.seed);
   read_samples(reader.section("samples"), spec.samples);
   for (ConfigReader& part : reader.sections("contacts")) spec.parts.push_back(read_part(part));
-  for (ConfigReader& entry : reader.sections("recordings"))
-    spec.recordings.push_back(read_recording_entry(entry));
+  for (ConfigReader& entry : reader.sections("recordings")) {
+    DataRecording recording = read_recording_entry(entry);
+    const auto is_same = [&](const DataRecording& other) { return other.sha256 == recording.sha256; };
+    if (std::any_of(spec.recordings.begin(), spec.recordings.end(), is_same))
+      entry.problem("file", "is the recording of an entry before it; leave one of them out");
+    spec.recordings.push_back(std::move(recording));
+  }
   if (reader.good() && spec.parts.empty() && spec.recordings.empty()) {
     reader.problem("", "names neither 'contacts' nor 'recordings'; there is nothing to make data of");
   }

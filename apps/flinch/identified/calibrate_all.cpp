@@ -9,10 +9,12 @@
 #include "apps/flinch/progress.h"
 #include "apps/flinch/today.h"
 #include "calibration/calibration_output.h"
+#include "calibration/calibration_sources.h"
 #include "calibration/contact_free_peaks.h"
 #include "calibration/threshold_calibration.h"
 #include "calibration/thresholds_output.h"
 #include "experiments/recorded/replay.h"
+#include "experiments/report/run_folder.h"
 #include "experiments/scenario/scenario_calibrations.h"
 #include "identification/dynamics_calibration.h"
 #include "identification/imu_pose_calibration.h"
@@ -29,13 +31,19 @@ using Json = nlohmann::ordered_json;
 /// The recordings of a folder by what they are for, which the name of their scenario tells.
 struct Sorted {
   std::vector<OpenedRecording> pulls, unseen_pulls, imu, dynamics, motion;
+
+  bool are_none() const { return pulls.empty() && imu.empty() && dynamics.empty() && motion.empty(); }
 };
 
 std::vector<std::filesystem::path> recordings_below(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder)) throw SetupError(folder.string() + ": is no folder");
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file() && entry.path().extension() == ".h5") files.push_back(entry.path());
+  try {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+      if (entry.is_regular_file() && entry.path().extension() == ".h5") files.push_back(entry.path());
+    }
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw SetupError(folder.string() + ": not all folders below it can be read: " + error.code().message());
   }
   std::sort(files.begin(), files.end());
   if (files.empty()) throw SetupError(folder.string() + ": there is no recording (.h5) below it");
@@ -112,8 +120,14 @@ class All {
         out_(options.out.empty() ? options.folder / "calibration" : options.out),
         files_(sorted(open_recordings(recordings_below(options.folder), options.common), warnings_)) {}
 
+  const std::filesystem::path& out() const { return out_; }
+
   ExitStatus run() {
-    std::filesystem::create_directories(out_);
+    if (files_.are_none()) {
+      warnings_.push_back(options_.folder.string() + ": no recording below it is for a calibration");
+      throw SetupError(warnings_);
+    }
+    const RunFolder folder = make_run_folder(out_);
     Progress progress("calibrating", options_.common.quiet || options_.common.json);
     torque_constants();
     progress.show(0.3);
@@ -123,8 +137,6 @@ class All {
     progress.show(0.7);
     thresholds();
     progress.show(1.0);
-    if (results_.empty())
-      throw SetupError(options_.folder.string() + ": no recording below it is for a calibration");
     tell_what_is_left_out();
     return ExitStatus::done;
   }
@@ -268,6 +280,7 @@ ExitStatus calibrate_all(const CalibrateAllOptions& options) {
   const ExitStatus status = all.run();
   fmt::print("{}", options.common.json ? all.json() + "\n" : all.table());
   for (const std::string& warning : all.warnings()) fmt::print(stderr, "warning: {}\n", warning);
+  if (!options.common.quiet) fmt::print(stderr, "parameters: {}\n", all.out().string());
   return status;
 }
 

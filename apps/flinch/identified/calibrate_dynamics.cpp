@@ -15,8 +15,7 @@ std::vector<MotionRecording> motions_of(const std::vector<OpenedRecording>& file
 
 ExitStatus calibrate_dynamics(const CalibrateOptions& options) {
   require_places(options);
-  const std::vector<OpenedRecording> used = open_recordings(options.recordings, options.common);
-  const std::vector<OpenedRecording> unseen = open_recordings(options.unseen, options.common);
+  const auto [used, unseen] = open_recordings(options);
   const Scenario& scenario = used.front().scenario;
   const DynamicsBelief belief{.robot = scenario.robot.robot.get(),
                               .drives = scenario.robot.drives,

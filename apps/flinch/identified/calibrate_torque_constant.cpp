@@ -19,8 +19,7 @@ std::vector<PullRecording> pulls_of(const std::vector<OpenedRecording>& files) {
 
 ExitStatus calibrate_torque_constant(const CalibrateOptions& options) {
   require_places(options);
-  const std::vector<OpenedRecording> used = open_recordings(options.recordings, options.common);
-  const std::vector<OpenedRecording> unseen = open_recordings(options.unseen, options.common);
+  const auto [used, unseen] = open_recordings(options);
   const Scenario& scenario = used.front().scenario;
   const TorqueConstantBelief belief{.robot = scenario.robot.robot.get(),
                                     .drives = scenario.robot.drives,

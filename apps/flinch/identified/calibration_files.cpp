@@ -3,6 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <utility>
 #include <vector>
 
 #include "apps/flinch/conclusion.h"
@@ -10,11 +13,11 @@
 #include "apps/flinch/today.h"
 #include "calibration/calibration_output.h"
 #include "calibration/calibration_page.h"
+#include "calibration/calibration_sources.h"
 #include "experiments/scenario/scenario_calibrations.h"
 #include "systems/config/file_kind.h"
 #include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
-#include "systems/foundation/sha256.h"
 
 namespace flinch {
 namespace {
@@ -33,9 +36,9 @@ std::vector<OpenedRecording> open_recordings(const std::vector<std::filesystem::
   for (const std::filesystem::path& file : files) {
     try {
       require_no_kind(file, "a recording");
-      OpenedRecording one{{file.string(), {}}, open_recording(file), {}};
+      OpenedRecording one{{}, open_recording(file), {}};
       tell_if_partial(one.recording, common);
-      one.source.sha256 = sha256_of(file);
+      one.source = source_of(file);
       one.scenario = recorded_scenario(one.recording, file);
       opened.push_back(std::move(one));
       if (opened.back().scenario.robot_text == opened.front().scenario.robot_text) continue;
@@ -46,6 +49,19 @@ std::vector<OpenedRecording> open_recordings(const std::vector<std::filesystem::
     }
   }
   throw_if_any(std::move(problems));
+  std::vector<CalibrationSource> sources;
+  for (const OpenedRecording& one : opened) sources.push_back(one.source);
+  require_different(sources);
+  return opened;
+}
+
+CalibrationRecordings open_recordings(const CalibrateOptions& options) {
+  std::vector<std::filesystem::path> files = options.recordings;
+  files.insert(files.end(), options.unseen.begin(), options.unseen.end());
+  CalibrationRecordings opened{open_recordings(files, options.common), {}};
+  const auto unseen = opened.used.begin() + static_cast<std::ptrdiff_t>(options.recordings.size());
+  std::move(unseen, opened.used.end(), std::back_inserter(opened.unseen));
+  opened.used.erase(unseen, opened.used.end());
   return opened;
 }
 
@@ -76,13 +92,15 @@ void require_places(const CalibrateOptions& options) {
   require_place(page_beside(options.out), inputs);
 }
 
-CalibrationSource source_of(const std::filesystem::path& file) { return {file.string(), sha256_of(file)}; }
-
 JointVector calibrated_constants(const Scenario& scenario, const std::vector<std::filesystem::path>& files) {
   if (files.empty()) return scenario.control.drive_torque.torque_constant;
   Scenario calibrated = scenario;
-  for (const std::filesystem::path& file : files)
+  for (const std::filesystem::path& file : files) {
     calibrated.calibrations.push_back(read_parameter_file(file));
+    if (calibrated.calibrations.back().kind == "torque-constant") continue;
+    throw SetupError(file.string() + ": is of kind '" + calibrated.calibrations.back().kind +
+                     "'; only torque constants are used, kind 'torque-constant'");
+  }
   return calibrated_robot(calibrated).drives.torque_constant;
 }
 

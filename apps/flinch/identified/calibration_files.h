@@ -18,16 +18,21 @@ struct OpenedRecording {
 };
 
 /// Opens all of them. Throws SetupError with all that is wrong with any, and where they are of different
-/// robots.
+/// robots or one comes twice.
 std::vector<OpenedRecording> open_recordings(const std::vector<std::filesystem::path>& files,
                                              const CommonOptions& common);
+
+/// What a calibration finds its parameters in, and what it is tried on.
+struct CalibrationRecordings {
+  std::vector<OpenedRecording> used, unseen;
+};
+
+/// The same of all that the call names.
+CalibrationRecordings open_recordings(const CalibrateOptions& options);
 
 /// Throws SetupError where the parameter file and the page beside it cannot be written, or would replace what
 /// the call reads.
 void require_places(const CalibrateOptions& options);
-
-/// The name of a file and its hash.
-CalibrationSource source_of(const std::filesystem::path& file);
 
 /// The torque constants with which the scenario ran, or those of parameter files that hold already.
 JointVector calibrated_constants(const Scenario& scenario, const std::vector<std::filesystem::path>& files);

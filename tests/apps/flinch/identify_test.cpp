@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "tests/apps/flinch/documented_keys.h"
@@ -83,6 +84,31 @@ TEST_F(Identify, AllThatAFolderAllowsIsCalibratedInOrder) {
     EXPECT_FALSE(test::bytes_of(place / file).empty()) << file;
 }
 
+TEST_F(Identify, ARecordingIsUsedOnce) {
+  place.replace("scenarios/square.yaml", "duration_s: 3.5", "duration_s: 1");
+  const std::string square = recorded("square");
+  const std::string copy = place.at("copy.h5");
+  std::filesystem::copy_file(square, copy);
+  const auto refused = HasSubstr("copy.h5: holds the same as " + square + "; leave one of them out");
+  EXPECT_THAT(flinch({"calibrate", "dynamics", square, copy}).err, refused);
+  EXPECT_THAT(flinch({"calibrate", "dynamics", square, "--validate", copy}).err, refused);
+  EXPECT_THAT(flinch({"calibrate", "imu-pose", square, copy}).err, refused);
+  EXPECT_THAT(flinch({"calibrate", "thresholds", square, copy}).err, refused);
+  place.write("twice.yaml", "recordings: [{file: square/run.h5}, {file: copy.h5}]");
+  EXPECT_THAT(flinch({"dataset", place.at("twice.yaml"), "--out", place.at("twice.h5")}).err,
+              HasSubstr("recordings[1].file: is the recording of an entry before it; leave one of them out"));
+}
+
+TEST_F(Identify, AFolderWithoutACalibrationStaysAsItWas) {
+  place.write("scenarios/own.yaml", "robot: ../robots/planar_3rrr.yaml\nduration_s: 0.3\n");
+  recorded("own");
+  const Outcome outcome = flinch({"calibrate", "all", place.at("own")});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("own/run.h5: is for no calibration and is left out"));
+  EXPECT_THAT(outcome.err, HasSubstr("own: no recording below it is for a calibration"));
+  EXPECT_FALSE(std::filesystem::exists(place / "own/calibration"));
+}
+
 TEST_F(Identify, AMotionThatExcitesIsAScenarioThatRuns) {
   const std::string file = place.at("scenarios/own.yaml");
   const Outcome outcome = flinch({"excite", place.at("robots/planar_3rrr.yaml"), "--out", file, "--duration",
@@ -94,6 +120,16 @@ TEST_F(Identify, AMotionThatExcitesIsAScenarioThatRuns) {
   EXPECT_EQ(flinch({"check", file}).status, 0) << flinch({"check", file}).err;
 }
 
+TEST_F(Identify, AMotionNamesARobotFileWhateverItIsCalled) {
+  const std::string robot = place.at("robots/robot #2: mine.yaml");
+  std::filesystem::copy_file(place / "robots/five_bar.yaml", robot);
+  const std::string file = place.at("scenarios/own.yaml");
+  const Outcome outcome =
+      flinch({"excite", robot, "--out", file, "--duration", "2", "--trials", "1", "--quiet"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(flinch({"check", file}).err, "");
+}
+
 TEST_F(Identify, TellsEveryRecordingThatWillNotDo) {
   place.replace("scenarios/square.yaml", "duration_s: 3.5", "duration_s: 1");
   const std::string square = recorded("square");
@@ -102,6 +138,13 @@ TEST_F(Identify, TellsEveryRecordingThatWillNotDo) {
   EXPECT_THAT(outcome.err, HasSubstr("none.h5: there is no such file"));
   EXPECT_THAT(flinch({"calibrate", "torque-constant", square}).err,
               HasSubstr("square/run.h5: its scenario has no 'pulls'"));
+  place.write("other.yaml",
+              "flinch_calibration: 1\nkind: imu-pose\ndate: '2026-01-01'\nrobot: {file: a.yaml, sha256: '" +
+                  std::string(64, '0') +
+                  "'}\n"
+                  "parameters: [{name: delay, value: 0.003, unit: s, identifiable: true}]\n");
+  EXPECT_THAT(flinch({"calibrate", "dynamics", square, "--with", place.at("other.yaml")}).err,
+              HasSubstr("other.yaml: is of kind 'imu-pose'; only torque constants are used"));
 }
 
 }  // namespace

@@ -162,11 +162,11 @@ TEST_F(MakeDataSet, LabelsTheMomentsOfEveryContact) {
 }
 
 TEST_F(MakeDataSet, TakesLabelledRecordings) {
-  const SimulatedScenario scenario =
-      read_simulated_scenario(test::shipped("scenarios/platform_collision.yaml"));
-  record_experiment(scenario, place / "run.h5");
+  const std::filesystem::path scenario = test::shipped("scenarios/platform_collision.yaml");
+  record_experiment(read_simulated_scenario(scenario), place / "run.h5");
+  record_experiment(read_simulated_scenario(scenario, 2), place / "other.h5");
   place.write("spec.yaml",
-              "recordings: [{file: run.h5, touched: leg2_link2, configuration: 4}, {file: run.h5}]\n");
+              "recordings: [{file: run.h5, touched: leg2_link2, configuration: 4}, {file: other.h5}]\n");
   const DataSet data = make_data_set(read_data_spec(place / "spec.yaml"), place / "data.h5", 1);
   ASSERT_FALSE(data.samples.empty());
   for (const DataSample& sample : data.samples) {
