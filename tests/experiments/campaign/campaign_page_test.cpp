@@ -9,7 +9,9 @@
 #include "experiments/campaign/counted_alarms.h"
 #include "experiments/campaign/results_file.h"
 #include "experiments/campaign/run_result.h"
+#include "systems/config/config_node.h"
 #include "tests/experiments/campaign/small_campaign.h"
+#include "tests/experiments/report/chromium.h"
 
 namespace flinch {
 namespace {
@@ -148,6 +150,31 @@ TEST_F(TheCampaignPage, HasADotForEachReactionAndTheLimitsOfTheScenario) {
   EXPECT_EQ(shown["limits"]["quasi_static"], 140.0);
   EXPECT_EQ(shown["limits"]["sigma_kappa"], 15.0);
   EXPECT_FALSE(data_of(page).contains("reactions"));
+}
+
+TEST_F(TheCampaignPage, DrawsInChromiumWhatItsDataSay) {
+  const test::Workplace place;
+  Campaign reactions = test::small_campaign(place);
+  reactions.summary = Campaign::Summary::reactions;
+  const std::string key = "control.estimators";
+  const std::vector<std::string> lists = {"[momentum_observer, momentum_kalman_filter]",
+                                          "[momentum_observer, sliding_mode_observer]"};
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const double speed = 0.3 + 0.1 * static_cast<double>(i);
+    const bool is_even = i % 2 == 0;
+    results[i].point = i % 2;
+    results[i].values = {{key, lists[i % 2]}};
+    results[i].law = "torque_reaction";
+    results[i].meant = is_even ? "link2" : "platform";
+    results[i].removal_time = 0.1;
+    results[i].speed = speed;
+    results[i].peak_force = is_even ? 300.0 * speed - 60.0 : 110.0 - 100.0 * speed;
+    results[i].transient_limit = 280.0;
+  }
+  reactions.grid = {{key, {parse_yaml(lists[0], ""), parse_yaml(lists[1], "")}}};
+  const auto file = place / "page.html";
+  write_campaign_page(reactions, results, groups_of(reactions, results), CountedAlarms({}), "", file);
+  expect_works_in_chromium(file, "campaign/campaign_in_browser.py");
 }
 
 }  // namespace
