@@ -36,7 +36,8 @@ bool contains(const std::vector<std::string>& words, const std::string& word) {
 FoundValue entry_of(const FoundValue& list, std::size_t i) {
   const std::string index = "[" + std::to_string(i) + "]";
   const ConfigNode& node = *list.node->items[i];
-  return {&node, list.unit, list.key + index, list.written + index, {list.place.file, node.line}};
+  const std::string* const file = node.file ? node.file.get() : list.place.file;
+  return {&node, list.unit, list.key + index, list.written + index, {file, node.line}};
 }
 
 // What is wrong with a list apart from its entries; without a count it must only not be empty.

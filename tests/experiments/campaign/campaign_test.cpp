@@ -11,6 +11,7 @@
 #include "systems/config/yaml_text.h"
 #include "systems/foundation/setup_error.h"
 #include "tests/experiments/campaign/small_campaign.h"
+#include "tests/support/problems_of.h"
 
 namespace flinch {
 namespace {
@@ -128,6 +129,17 @@ TEST(ReadingACampaign, NamesTheLineOfAKeyWithinAValue) {
   place.replace(file, "motion.speed_m_per_s", "motion.speed_m_per_s.x_m");
   EXPECT_THAT(problems_of(place / file),
               ElementsAre(AllOf(StartsWith(place.at(file) + ":"), HasSubstr("has no keys in this file"))));
+}
+
+TEST(ReadingACampaign, SaysWhereAnEntryOfAListThatItGaveStands) {
+  const test::Workplace place;
+  place.write("scenarios/post.yaml",
+              "robot: ../robots/planar_3rrr.yaml\nduration_s: 1\nobstacles: [{x_m: 1, y_m: 1}]\n");
+  place.write("campaigns/bad.yaml",
+              "scenario: ../scenarios/post.yaml\n\n\ngrid: [{key: 'obstacles[0]', values: [{x_m: 2}]}]\n");
+  EXPECT_THAT(test::problems_of([&] { draw_run(read_campaign(place / "campaigns/bad.yaml"), 0); }),
+              ElementsAre(StartsWith(place.at("campaigns/bad.yaml") +
+                                     ":4: obstacles[0].y_m: is missing; it must be")));
 }
 
 TEST(ReadingACampaign, LeavesValuesToTheRuns) {
