@@ -81,12 +81,23 @@ class Draft {
 constexpr std::array axis_keys = {"x_m", "y_m", "z_m"};
 constexpr double push_begin = 0.4;  // the torque gate is open by then [s]
 
+/// Throws KeyError where grid or draws give a value to `key`, which `contact` is to draw.
+void require_free(const std::string& key, const CampaignRun& run) {
+  for (const auto& [varied, value] : run.values) {
+    if (!name_one_value(varied, key)) continue;
+    const std::string problem =
+        "'" + varied + "' is varied, but 'contact' draws where the obstacle is; keep one of them";
+    throw KeyError({problem}, {problem});
+  }
+}
+
 /// Puts an obstacle at `position`, and tells it in the columns of the table.
 void place(Draft& draft, const std::string& obstacle, const Eigen::Vector3d& position, int directions,
            CampaignRun& run) {
   for (int i = 0; i < 3; ++i) {
     const char* const axis = axis_keys[static_cast<std::size_t>(i)];
     const Node coordinate = number_node(position[i]);
+    require_free(obstacle + axis, run);
     if (i < directions) draft.set(obstacle + axis, coordinate);
     run.values.emplace_back(axis, coordinate->scalar);
   }

@@ -176,6 +176,14 @@ TEST(TheCommandLine, ReplacesWhatTheFileSaysInAnotherUnit) {
   EXPECT_EQ(std::count_if(run.values.begin(), run.values.end(), is_stiffness), 1);
 }
 
+TEST(TheCommandLine, CannotPlaceWhatTheContactPlaces) {
+  const test::Workplace place;
+  test::small_campaign(place);
+  const Campaign campaign = read_campaign(place / "campaigns/small.yaml", {.set = {"pylon.y_mm=500"}});
+  EXPECT_THAT(test::problems_of([&] { draw_run(campaign, 0); }),
+              ElementsAre(HasSubstr("'pylon.y_mm' is varied, but 'contact' draws where the obstacle is")));
+}
+
 TEST(TheCommandLine, IsToldWhatIsNoKeyWithValues) {
   const test::Workplace place;
   test::small_campaign(place);
