@@ -69,7 +69,7 @@ TEST_F(FileVerbs, CheckEveryRowOfARecording) {
   ASSERT_EQ(said_of(file), ": a good recording file\n");
   // In the middle of the file are rows of the largest signals; a page and a verdict need few of them.
   const std::string whole = test::bytes_of(place / "out/run.h5");
-  for (const std::size_t share : {2, 3, 4}) {
+  for (const std::size_t share : {2U, 3U, 4U}) {
     std::string broken = whole;
     broken.replace(broken.size() / 5 * share, 2000, 2000, '\0');
     place.write("broken.h5", broken);
