@@ -6,6 +6,7 @@
 
 #include "experiments/scenario/scenario.h"
 #include "systems/config/config_reader.h"
+#include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recording.h"
 
@@ -43,10 +44,12 @@ std::vector<ParameterFile> recorded_calibrations(ConfigReader& scenario, const R
 
 RobotFile calibrated_robot(const Scenario& scenario) {
   if (scenario.calibrations.empty()) return scenario.robot_as_built;
+  const std::string robot = scenario.robot_file.string();
   std::string text = scenario.robot_text;
-  for (const ParameterFile& file : scenario.calibrations)
-    text = with_parameters(text, scenario.robot_file.string(), file);
-  return parse_robot_file(text, scenario.robot_file.string() + ", calibrated");
+  for (const ParameterFile& file : scenario.calibrations) {
+    text = out_of(file.file + ": does not fit " + robot, [&] { return with_parameters(text, robot, file); });
+  }
+  return parse_robot_file(text, robot + ", calibrated");
 }
 
 void calibrate_control(const std::vector<ParameterFile>& calibrations, ContactControlSettings& control) {

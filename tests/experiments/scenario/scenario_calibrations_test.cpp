@@ -10,10 +10,12 @@
 namespace flinch {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::StartsWith;
 
 class Calibrations : public ::testing::Test {
  protected:
@@ -100,6 +102,18 @@ TEST_F(Calibrations, ThatRestOnOtherTorqueConstantsAreDoubted) {
   file.kind = "dynamics";
   file.assumed = {{.name = "drives.torque_constant_Nm_per_A[1]", .value = 6.6}};
   EXPECT_THAT(read(file).doubts, ElementsAre(HasSubstr("rests on drives.torque_constant_Nm_per_A[1] = 6.6")));
+}
+
+TEST_F(Calibrations, OfARobotWithMoreLegsAreRefusedByTheirName) {
+  ParameterFile file = made();
+  file.parameters.push_back(
+      {.name = "legs[2].active_friction.coulomb_Nm", .value = 0.5, .belongs_to = "robot"});
+  read(file);
+  place.write("scenarios/own.yaml",
+              "robot: ../robots/five_bar.yaml\nduration_s: 1\ncalibrations: [{file: found.yaml}]\n");
+  EXPECT_THAT(test::problems_of([&] { read_scenario(place / "scenarios/own.yaml"); }),
+              Contains(AllOf(StartsWith(place.at("scenarios/found.yaml") + ": does not fit "),
+                             HasSubstr("five_bar.yaml: "))));
 }
 
 TEST_F(Calibrations, ThatDoNotFitTheRobotAreRefused) {
