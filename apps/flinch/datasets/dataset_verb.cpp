@@ -4,6 +4,7 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <vector>
 
 #include "apps/flinch/conclusion.h"
 #include "apps/flinch/learning_verbs.h"
@@ -30,7 +31,9 @@ ExitStatus dataset(const DatasetOptions& options) {
       options.out.empty() ? std::filesystem::path("out") / (options.spec.stem().string() + ".h5")
                           : options.out;
   const RunFolder folder = make_run_folder(file.has_parent_path() ? file.parent_path() : ".");
-  require_place(file, {options.spec});
+  std::vector<std::filesystem::path> inputs = {options.spec};
+  for (const DataRecording& recording : spec.recordings) inputs.push_back(recording.file);
+  require_place(file, inputs);
   if (options.fresh) std::filesystem::remove(file.string() + ".part");
   const StopWatch watch;
   DataSet data;

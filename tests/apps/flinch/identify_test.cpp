@@ -99,6 +99,14 @@ TEST_F(Identify, ARecordingIsUsedOnce) {
               HasSubstr("recordings[1].file: is the recording of an entry before it; leave one of them out"));
 }
 
+TEST_F(Identify, ARecordingIsNotReplacedByTheDataThatAreMadeOfIt) {
+  place.replace("scenarios/square.yaml", "duration_s: 3.5", "duration_s: 1");
+  const std::string square = recorded("square");
+  place.write("data.yaml", "recordings: [{file: square/run.h5, touched: platform}]");
+  EXPECT_THAT(flinch({"dataset", place.at("data.yaml"), "--out", square}).err,
+              HasSubstr("square/run.h5: is read by this call, which would replace it"));
+}
+
 TEST_F(Identify, AFolderWithoutACalibrationStaysAsItWas) {
   place.write("scenarios/own.yaml", "robot: ../robots/planar_3rrr.yaml\nduration_s: 0.3\n");
   recorded("own");
