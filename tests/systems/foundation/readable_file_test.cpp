@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <fstream>
 
@@ -24,6 +25,15 @@ TEST_F(AFileToBeRead, IsThereAndHasBytes) {
   EXPECT_EQ(problem_with_reading(folder / "none"), "there is no such file");
   EXPECT_EQ(problem_with_reading(folder / "some/below"), "there is no such file");
   EXPECT_EQ(problem_with_reading(folder.path()), "is a folder; it must be a file");
+}
+
+TEST_F(AFileToBeRead, IsPermitted) {
+  fs::permissions(folder.write("secret", "text"), fs::perms::none);
+  const bool is_root = ::geteuid() == 0;  // to whom everything is permitted
+  if (is_root && ::seteuid(65534) != 0) GTEST_SKIP() << "cannot become another user";
+  const std::string problem = problem_with_reading(folder / "secret");
+  ASSERT_TRUE(!is_root || ::seteuid(0) == 0);
+  EXPECT_EQ(problem, "cannot be opened; reading it must be permitted");
 }
 
 TEST_F(AFileToBeRead, IsNeitherPipeNorDeviceNorFileOfTheKernel) {
