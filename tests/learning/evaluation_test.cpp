@@ -1,5 +1,6 @@
 #include "learning/evaluation.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -37,6 +38,15 @@ TEST(Confusion, AddsUpClassesThatCountAsOneAndLeavesOthersOut) {
                                          answered(3, {0.0, 0.0, 0.0, 1.0})};
   const Confusion confusion = confusion_of(answers, {"collision", "clamping"}, {0, 0, 1, -1});
   EXPECT_EQ(confusion.counts, (Eigen::Matrix2d() << 1, 0, 1, 0).finished());
+}
+
+TEST(Confusion, IsToldWithoutSharesWhereNothingWasAsked) {
+  Evaluation evaluation;
+  evaluation.moment = "later";
+  evaluation.confusion = confusion_of({answered(0, {0.9, 0.1})}, {"a", "b"}, {0, 1});
+  const std::string table = evaluation_table(evaluation, {evaluation});
+  EXPECT_THAT(table, testing::ContainsRegex("a +100.0 % +0.0 % +1\n"));
+  EXPECT_THAT(table, testing::ContainsRegex("b +- +- +0\n"));
 }
 
 TEST(Reliability, ComparesConfidenceWithHowOftenItWasRight) {
