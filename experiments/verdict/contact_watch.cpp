@@ -23,7 +23,7 @@ void ContactWatch::see(const RunSample& now, double period) {
   for (const RunLoad& load : now.loads) see(load, now, period);
   for (Watched& contact : contacts_) {
     if (!contact.lasts(now.time)) continue;
-    note_detections(now, contact.seen);
+    note_detections(now, contact);
     note_classification(now, contact);
     note_braking(now, contact.seen);
     note_task(now, contact.seen);
@@ -54,13 +54,19 @@ ContactWatch::Watched* ContactWatch::contact_of(const RunLoad& load, double time
   return same != nullptr ? same : find([](const Watched& contact) { return contact.obstacle < 0; });
 }
 
-/// By the present levels; a latched one would not do: of a second contact it knows nothing.
-void ContactWatch::note_detections(const RunSample& now, ContactVerdict& contact) const {
+/// By the present levels; a latched one would not do: of a second contact it knows nothing. Who has noticed
+/// something before there was a contact notices this one only after having let go of that.
+void ContactWatch::note_detections(const RunSample& now, Watched& of) const {
+  ContactVerdict& contact = of.seen;
   for (std::size_t i = 0; i < contact.detected_by.size() && i < now.noticed_by.size(); ++i) {
+    if (i < of.alarmed.size() && of.alarmed[i]) {
+      of.alarmed[i] = now.noticed_by[i];
+      continue;
+    }
     std::optional<double>& detected = contact.detected_by[i].detected;
     if (now.noticed_by[i] && !detected) detected = now.time;
   }
-  if (now.detection.present_level != ContactLevel::none && !contact.detected) contact.detected = now.time;
+  if (!contact.detected_by.empty()) contact.detected = contact.detected_by.front().detected;
 }
 
 void ContactWatch::note_classification(const RunSample& now, Watched& of) const {
@@ -118,7 +124,11 @@ ContactWatch::Watched& ContactWatch::begin(const RunLoad& load, const RunSample&
   }
   contact.peak_force = -1.0;
   for (const std::string& estimator : estimators_) contact.detected_by.push_back({estimator, std::nullopt});
-  return contacts_.emplace_back(Watched{.seen = std::move(contact), .last = now.time});
+  Watched watched{.seen = std::move(contact), .last = now.time};
+  const bool is_first = std::none_of(contacts_.begin(), contacts_.end(),
+                                     [&now](const Watched& other) { return other.lasts(now.time); });
+  if (is_first && before_) watched.alarmed = before_->noticed_by;
+  return contacts_.emplace_back(std::move(watched));
 }
 
 /// At the sample before, at most 1; of a push where no obstacle touched. Not a number where nobody knows.

@@ -32,6 +32,7 @@ class ContactWatch {
     double last = 0.0;               ///< sample that was touched [s]
     bool clamps = false;             ///< the contact is with both links of a leg
     std::string pending_clamping{};  ///< seen since the last sample with force; counts if there comes another
+    std::vector<bool> alarmed{};     ///< by estimator: has noticed something since before there was a contact
 
     bool lasts(double time) const { return time - last < Verdict::same_contact; }
   };
@@ -39,7 +40,7 @@ class ContactWatch {
   Watched* contact_of(const RunLoad& load, double time);
   void see(const RunLoad& load, const RunSample& now, double period);
   Watched& begin(const RunLoad& load, const RunSample& now);
-  void note_detections(const RunSample& now, ContactVerdict& contact) const;
+  void note_detections(const RunSample& now, Watched& contact) const;
   void note_classification(const RunSample& now, Watched& contact) const;
   void note_braking(const RunSample& now, ContactVerdict& contact) const;
   void note_task(const RunSample& now, ContactVerdict& contact) const;

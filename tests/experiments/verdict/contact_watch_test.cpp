@@ -79,6 +79,17 @@ TEST(ContactWatch, SaysNothingOfAStopThatNobodyJudged) {
   EXPECT_EQ(judged(touched_twice()).contacts.at(0).could_stop, std::nullopt);
 }
 
+// Noticed since 90 ms, until 120 ms; the contact begins at 100 ms and is noticed at 130 ms.
+TEST(ContactWatch, DoesNotTakeAnAlarmThatLastsFromBeforeForTheContact) {
+  SyntheticRun run(400);
+  run.touch(BodyId::platform(), 100, 200, 50.0).notice(90, 120);
+  EXPECT_EQ(judged(run).contacts.at(0).detected, std::nullopt);
+  run.notice(130, 200);
+  const ContactVerdict contact = judged(run).contacts.at(0);
+  EXPECT_NEAR(contact.detected.value_or(-1.0), 0.130, 1e-12);
+  EXPECT_EQ(contact.detected_by.at(0).detected, contact.detected);
+}
+
 // The crate from 100 ms to 200 ms with 80 N; the hand from 120 ms to 300 ms with 30 N, so it is the weaker
 // one at first and alone after that.
 TEST(ContactWatch, TellsTwoObstaclesThatTouchAtOnceApart) {

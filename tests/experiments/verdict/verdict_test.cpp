@@ -185,7 +185,7 @@ TEST(Push, MustBeNoticedUnlessItIsALoadToBear) {
 
 TEST(Push, DoesNotHideATouchThatWasNotExpected) {
   SyntheticRun run(500);
-  run.push(100, 150, {40.0, 0.0, 0.0}).touch(platform, 300, 310, 20.0).notice(110, 350);
+  run.push(100, 150, {40.0, 0.0, 0.0}).touch(platform, 300, 310, 20.0).notice(110, 200).notice(305, 350);
   EXPECT_THAT(judged(run, contact_with("none")).failures,
               ElementsAre("there was a contact, though none was expected"));
 }
