@@ -11,26 +11,28 @@ constexpr double least_innovation = 1e-3;  // of the deviation of errors
 
 }  // namespace
 
-/// Least squares: sum of b b^T a = sum of b z, b those before z.
-ErrorCourse fit_error_course(std::span<const std::vector<double>> rows) {
-  constexpr int order = ErrorCourse::order;
-  using Before = Eigen::Matrix<double, order, 1>;
-  Eigen::Matrix<double, order, order> squares = Eigen::Matrix<double, order, order>::Zero();
-  Before products = Before::Zero();
-  double square = 0.0, count = 0.0;
-  for (const std::vector<double>& row : rows) {
-    for (std::size_t t = order; t < row.size(); ++t) {
-      const Before before = Eigen::Map<const Before>(&row[t - order]).reverse();
-      squares += before * before.transpose();
-      products += row[t] * before;
-      square += row[t] * row[t];
-      count += 1.0;
+void ErrorCourseFit::add(const JointVector& errors) {
+  if (samples_ == order) {
+    for (int i = 0; i < errors.size(); ++i) {
+      Eigen::Matrix<double, order, 1> before;
+      for (int j = 0; j < order; ++j) before[j] = before_[static_cast<std::size_t>(j)][i];
+      squares_ += before * before.transpose();
+      products_ += errors[i] * before;
+      square_ += errors[i] * errors[i];
+      count_ += 1.0;
     }
   }
-  const Before prediction = squares.ldlt().solve(products);
+  samples_ = std::min(samples_ + 1, order);
+  std::copy_backward(before_.begin(), before_.end() - 1, before_.end());
+  before_.front() = errors;
+}
+
+/// Least squares: sum of b b^T a = sum of b z.
+ErrorCourse ErrorCourseFit::course() const {
+  const Eigen::Matrix<double, order, 1> prediction = squares_.ldlt().solve(products_);
   ErrorCourse course;
-  Before::Map(course.prediction.data()) = prediction;
-  course.innovation = std::max(least_innovation, std::sqrt((square - prediction.dot(products)) / count));
+  Eigen::Matrix<double, order, 1>::Map(course.prediction.data()) = prediction;
+  course.innovation = std::max(least_innovation, std::sqrt((square_ - prediction.dot(products_)) / count_));
   return course;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <iterator>
 #include <map>
 #include <optional>
 
@@ -87,27 +86,20 @@ ResidualErrors fit(const std::vector<ResidualRecording>& recordings, const std::
   return fit_error_sizes(samples);
 }
 
-/// The errors of each drive's change, divided by their deviations, as long as each goes on without a gap.
-std::vector<std::vector<double>> rows_of_changes(const std::vector<ResidualRecording>& recordings,
-                                                 const std::string& estimator, const ResidualErrors& errors) {
-  std::vector<std::vector<double>> all;
+/// Of the errors of a residual's change.
+ErrorCourse fit_course(const std::vector<ResidualRecording>& recordings, const std::string& estimator,
+                       const ResidualErrors& errors) {
+  ErrorCourseFit fit;
   for (const ResidualRecording& each : recordings) {
-    std::vector<std::vector<double>> rows;  // that go on, one a drive
-    const auto end_rows = [&] {
-      std::move(rows.begin(), rows.end(), std::back_inserter(all));
-      rows.clear();
-    };
+    fit.interrupt();
     follow(each, estimator, [&](bool nominal, const ResidualMemory& memory) {
       if (nominal && memory.started && !memory.seen.is_new) return;
       const DriveResidual* const seen = change_statistic.of(nominal, memory.seen);
-      if (seen == nullptr) return end_rows();
-      const JointVector z = whitened(memory.seen.load, *seen, errors);
-      rows.resize(static_cast<std::size_t>(z.size()));
-      for (int i = 0; i < z.size(); ++i) rows[static_cast<std::size_t>(i)].push_back(z[i]);
+      if (seen == nullptr) return fit.interrupt();
+      fit.add(whitened(memory.seen.load, *seen, errors));
     });
-    end_rows();
   }
-  return all;
+  return fit.course();
 }
 
 /// How surprising a residual is at a tick; none where there is nothing to judge.
@@ -190,7 +182,7 @@ std::vector<CalibratedResidual> calibrate_residuals(const std::vector<ResidualRe
     calibrate(surprise_of(level_statistic, residual.level.errors), residual.level.threshold);
     residual.change.errors = fit(recordings, estimator, change_statistic);
     calibrate(surprise_of(change_statistic, residual.change.errors), residual.change.threshold);
-    residual.onset.course = fit_error_course(rows_of_changes(recordings, estimator, residual.change.errors));
+    residual.onset.course = fit_course(recordings, estimator, residual.change.errors);
     const OnsetRatio ratio(residual.change.errors, residual.onset.course,
                            recordings.front().tracking.at(estimator));
     calibrate(surprise_of(ratio), residual.onset.threshold);

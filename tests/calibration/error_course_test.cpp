@@ -3,31 +3,41 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "systems/framework/random.h"
 
 namespace flinch {
 namespace {
 
-/// Errors of so many drives that go as `course` says.
-std::vector<std::vector<double>> rows_of(const ErrorCourse& course, std::size_t drives, std::size_t samples) {
+/// Errors of so many drives that go as `course` says, one sample after the other.
+std::vector<JointVector> errors_of(const ErrorCourse& course, int drives, std::size_t samples) {
   RandomGenerator random(4);
-  std::vector<std::vector<double>> rows(drives);
-  for (std::vector<double>& row : rows) {
-    for (std::size_t t = 0; t < samples; ++t) {
-      double z = course.innovation * random.normal();
-      for (std::size_t j = 1; j <= std::min<std::size_t>(t, ErrorCourse::order); ++j)
-        z += course.prediction[j - 1] * row[t - j];
-      row.push_back(z);
-    }
+  std::vector<JointVector> errors;
+  for (std::size_t t = 0; t < samples; ++t) {
+    JointVector z = JointVector::Zero(drives);
+    for (std::size_t j = 1; j <= std::min<std::size_t>(t, ErrorCourse::order); ++j)
+      z += course.prediction[j - 1] * errors[t - j];
+    for (double& each : z) each += course.innovation * random.normal();
+    errors.push_back(z);
   }
-  return rows;
+  return errors;
+}
+
+void add(const std::vector<JointVector>& errors, ErrorCourseFit& fit) {
+  for (const JointVector& each : errors) fit.add(each);
+}
+
+ErrorCourse course_of(const std::vector<JointVector>& errors) {
+  ErrorCourseFit fit;
+  add(errors, fit);
+  return fit.course();
 }
 
 TEST(ErrorCourse, IsFoundFromErrorsThatGoThatWay) {
   const ErrorCourse truth{.prediction = {1.1, -0.3, 0.2, -0.1}, .innovation = 0.4};
-  constexpr std::size_t drives = 3, samples = 30'000;
-  const ErrorCourse found = fit_error_course(rows_of(truth, drives, samples));
+  constexpr int drives = 3, samples = 30'000;
+  const ErrorCourse found = course_of(errors_of(truth, drives, samples));
   const double deviation = 1.0 / std::sqrt(drives * samples);  // of each coefficient, at most
   for (std::size_t j = 0; j < truth.prediction.size(); ++j)
     EXPECT_NEAR(found.prediction[j], truth.prediction[j], 5.0 * deviation) << j;
@@ -35,20 +45,36 @@ TEST(ErrorCourse, IsFoundFromErrorsThatGoThatWay) {
 }
 
 TEST(ErrorCourse, HasAnInnovationEvenWhereAllIsTold) {
-  std::vector<std::vector<double>> rows(1);
-  for (int t = 0; t < 1000; ++t) rows[0].push_back(std::sin(0.3 * t));
-  EXPECT_EQ(fit_error_course(rows).innovation, 1e-3);
-  rows[0].assign(1000, 0.0);
-  EXPECT_EQ(fit_error_course(rows).innovation, 1e-3);
+  std::vector<JointVector> errors;
+  for (int t = 0; t < 1000; ++t) errors.push_back(JointVector::Constant(1, std::sin(0.3 * t)));
+  EXPECT_EQ(course_of(errors).innovation, 1e-3);
+  EXPECT_EQ(course_of(std::vector<JointVector>(1000, JointVector::Zero(1))).innovation, 1e-3);
 }
 
-TEST(ErrorCourse, IsNotSoughtAcrossTheEndsOfRows) {
-  const std::vector<std::vector<double>> rows = rows_of({.innovation = 0.5}, 2, 1000);
-  std::vector<std::vector<double>> with_short = rows;
-  for (const double value : {1e3, -1e3}) with_short.emplace_back(ErrorCourse::order, value);
-  const ErrorCourse found = fit_error_course(rows), same = fit_error_course(with_short);
+TEST(ErrorCourse, IsNotSoughtAcrossGaps) {
+  const std::vector<JointVector> errors = errors_of({.innovation = 0.5}, 2, 1000);
+  ErrorCourseFit fit;
+  add(errors, fit);
+  for (const double value : {1e3, -1e3}) {
+    fit.interrupt();
+    add(std::vector<JointVector>(ErrorCourse::order, JointVector::Constant(2, value)), fit);
+  }
+  const ErrorCourse found = fit.course(), same = course_of(errors);
   EXPECT_EQ(found.prediction, same.prediction);
   EXPECT_EQ(found.innovation, same.innovation);
+}
+
+TEST(ErrorCourse, GoesOnBehindAGapAsBeforeIt) {
+  const std::vector<JointVector> errors = errors_of({.prediction = {0.8}, .innovation = 0.5}, 2, 1000);
+  ErrorCourseFit once, twice;
+  add(errors, once);
+  for (int times = 0; times < 2; ++times) {
+    twice.interrupt();
+    add(errors, twice);
+  }
+  for (std::size_t j = 0; j < ErrorCourse::order; ++j)
+    EXPECT_NEAR(twice.course().prediction[j], once.course().prediction[j], 1e-12) << j;
+  EXPECT_NEAR(twice.course().innovation, once.course().innovation, 1e-12);
 }
 
 }  // namespace
