@@ -28,7 +28,8 @@ void ErrorCourseFit::add(const JointVector& errors) {
 }
 
 /// Least squares: sum of b b^T a = sum of b z.
-ErrorCourse ErrorCourseFit::course() const {
+std::optional<ErrorCourse> ErrorCourseFit::course() const {
+  if (count_ == 0.0) return std::nullopt;
   const Eigen::Matrix<double, order, 1> prediction = squares_.ldlt().solve(products_);
   ErrorCourse course;
   Eigen::Matrix<double, order, 1>::Map(course.prediction.data()) = prediction;

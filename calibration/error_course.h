@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 
 #include "systems/contact/onset_ratio.h"
 #include "systems/robot/vectors.h"
@@ -17,8 +18,8 @@ class ErrorCourseFit {
   /// What is added next does not follow what was: there is a gap.
   void interrupt() { samples_ = 0; }
 
-  /// The innovation is a thousandth of a deviation at least.
-  ErrorCourse course() const;
+  /// None where no sample had enough before it. The innovation is a thousandth of a deviation at least.
+  std::optional<ErrorCourse> course() const;
 
  private:
   static constexpr int order = ErrorCourse::order;

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "calibration/contact_free_motion.h"
 #include "calibration/error_course.h"
@@ -86,16 +87,20 @@ ResidualErrors fit(const std::vector<ResidualRecording>& recordings, const std::
   return fit_error_sizes(samples);
 }
 
-/// Of the errors of a residual's change.
-ErrorCourse fit_course(const std::vector<ResidualRecording>& recordings, const std::string& estimator,
-                       const ResidualErrors& errors) {
+/// Of the errors of a residual's change, which `OnsetRatio` follows as far as no sample is missing.
+std::optional<ErrorCourse> fit_course(const std::vector<ResidualRecording>& recordings,
+                                      const std::string& estimator, const ResidualErrors& errors) {
   ErrorCourseFit fit;
   for (const ResidualRecording& each : recordings) {
+    const Sampling sampling = each.tracking.at(estimator).sampling;
+    Time last{};
     fit.interrupt();
     follow(each, estimator, [&](bool nominal, const ResidualMemory& memory) {
       if (nominal && memory.started && !memory.seen.is_new) return;
       const DriveResidual* const seen = change_statistic.of(nominal, memory.seen);
       if (seen == nullptr) return fit.interrupt();
+      const Time acquired = memory.seen.load.acquired;
+      if (sampling.lost_between(std::exchange(last, acquired), acquired)) fit.interrupt();
       fit.add(whitened(memory.seen.load, *seen, errors));
     });
   }
@@ -182,10 +187,11 @@ std::vector<CalibratedResidual> calibrate_residuals(const std::vector<ResidualRe
     calibrate(surprise_of(level_statistic, residual.level.errors), residual.level.threshold);
     residual.change.errors = fit(recordings, estimator, change_statistic);
     calibrate(surprise_of(change_statistic, residual.change.errors), residual.change.threshold);
-    residual.onset.course = fit_course(recordings, estimator, residual.change.errors);
-    const OnsetRatio ratio(residual.change.errors, residual.onset.course,
-                           recordings.front().tracking.at(estimator));
-    calibrate(surprise_of(ratio), residual.onset.threshold);
+    if (const auto course = fit_course(recordings, estimator, residual.change.errors)) {
+      residual.onset.emplace().course = *course;
+      const OnsetRatio ratio(residual.change.errors, *course, recordings.front().tracking.at(estimator));
+      calibrate(surprise_of(ratio), residual.onset->threshold);
+    }
   }
   return all;
 }

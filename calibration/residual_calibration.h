@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,7 +38,8 @@ struct CalibratedResidual {
   std::string estimator;
   std::size_t stretches = 0;
   CalibratedSurprise level, change;
-  CalibratedOnset onset;
+  /// None where no samples follow one another without a gap, as those of an IMU that is slow.
+  std::optional<CalibratedOnset> onset;
 };
 
 /// Those of `wanted` that all recordings have an estimate of; none where one has no loads.

@@ -60,7 +60,8 @@ std::string residuals_table(const ThresholdFindings& found) {
 }
 
 std::string onset_row(const CalibratedResidual& residual) {
-  const CalibratedOnset& onset = residual.onset;
+  if (!residual.onset) return "";
+  const CalibratedOnset& onset = *residual.onset;
   std::string row = fmt::format("{:<22} {:<6} {:>9.3g} {:>9.3g} {:>9.3g} {:>10.3f}", residual.estimator,
                                 "onset", onset.threshold.value, onset.threshold.best_guess,
                                 onset.threshold.largest, onset.course.innovation);
@@ -92,7 +93,8 @@ std::string residuals_yaml(const ThresholdFindings& found) {
       text += fmt::format(", load: {:.4g}, torque: {:.4g}, friction: {:.4g}, lag_ms: {:.4g}}}\n",
                           of.errors.load, of.errors.torque, of.errors.friction, 1e3 * of.errors.lag);
     }
-    const CalibratedOnset& onset = residual.onset;
+    if (!residual.onset) continue;
+    const CalibratedOnset& onset = *residual.onset;
     text +=
         fmt::format("      onset: {{threshold: {:.4g}, innovation: {:.4g}, prediction: [{:.4g}]}}\n",
                     onset.threshold.value, onset.course.innovation, fmt::join(onset.course.prediction, ", "));
@@ -127,8 +129,9 @@ std::string provenance(const ThresholdFindings& found, const std::string& date) 
     for (const auto& [part, of] : parts(residual))
       text += fmt::format("#   {} of the fused detector, {}, {:.1f} s: {:.4g}\n", part, residual.estimator,
                           seconds(residual.stretches, goal), of.threshold.largest);
+    if (!residual.onset) continue;
     text += fmt::format("#   onset of the fused detector, {}, {:.1f} s: {:.4g}\n", residual.estimator,
-                        seconds(residual.stretches, goal), residual.onset.threshold.largest);
+                        seconds(residual.stretches, goal), residual.onset->threshold.largest);
   }
   return text;
 }
@@ -185,7 +188,7 @@ std::string thresholds_json(const ThresholdFindings& found) {
                          {"contact_free_s", seconds(residual.stretches, goal)},
                          {"level", json_of(residual.level)},
                          {"change", json_of(residual.change)},
-                         {"onset", json_of(residual.onset)}});
+                         {"onset", residual.onset ? json_of(*residual.onset) : Json(nullptr)}});
   }
   return json_text(Json{{"false_alarms_per_h", goal.false_alarms_per_hour},
                         {"confidence", goal.confidence},

@@ -46,7 +46,7 @@ std::size_t onsets(int samples) {
 
 OnsetRatio::OnsetRatio(const ResidualErrors& errors, const ErrorCourse& course,
                        const ResidualTracking& tracking)
-    : errors_(errors), course_(course) {
+    : errors_(errors), course_(course), sampling_(tracking.sampling) {
   const Course step = step_as_change(tracking);
   double energy = 0.0;
   for (std::size_t t = 0; t < longest; ++t) {
@@ -62,7 +62,10 @@ void OnsetRatio::follow(const SeenResidual& seen, const OnsetMemory& memory, Ons
   if (!seen.settled) return;
   next = memory;
   if (!seen.is_new) return;
-  next.samples = std::min(memory.samples + 1, ErrorCourse::order + OnsetMemory::longest);
+  const Time acquired = seen.load.acquired;
+  const int before = sampling_.lost_between(memory.acquired, acquired) ? 0 : memory.samples;
+  next.samples = std::min(before + 1, ErrorCourse::order + OnsetMemory::longest);
+  next.acquired = acquired;
   const JointVector z = whitened(seen.load, seen.change, errors_);
   if (onsets(next.samples) > 0) {
     JointVector e = z;

@@ -19,6 +19,7 @@ struct ErrorCourse {
 struct OnsetMemory {
   static constexpr int longest = 16;                   ///< samples since an onset that is thought of
   int samples = 0;                                     ///< without a gap, as far as they are needed
+  Time acquired{};                                     ///< the newest
   std::array<JointVector, ErrorCourse::order> before;  ///< z, the newest first
   std::array<JointVector, longest> matched;  ///< sum of g e for an onset so many samples before the newest
 };
@@ -33,7 +34,8 @@ class OnsetRatio {
   /// `errors`: of the change of a residual that is followed as `tracking` says.
   OnsetRatio(const ResidualErrors& errors, const ErrorCourse& course, const ResidualTracking& tracking);
 
-  /// What is remembered after a residual was seen. Nothing, while its change means nothing.
+  /// What is remembered after a residual was seen. Nothing, while its change means nothing; nothing of before
+  /// a sample that is missing, for all that is known of errors is how they go from sample to sample.
   void follow(const SeenResidual& seen, const OnsetMemory& memory, OnsetMemory& next) const;
   /// Root of the largest 2 ln L_k: as long as a whitened residual. Zero while too little was seen, infinite
   /// where it is not finite.
@@ -42,6 +44,7 @@ class OnsetRatio {
  private:
   ResidualErrors errors_;
   ErrorCourse course_;
+  Sampling sampling_;
   std::array<double, OnsetMemory::longest> signature_{};
   std::array<double, OnsetMemory::longest> energy_{};  ///< sum of its squares, up to each
 };

@@ -50,8 +50,8 @@ void see_hold(const DriveLoad& then, const DriveLoad& fresh, const LoadHistory& 
   const Time hold = after->acquired - before->acquired;
   level.slope = (after->torque - before->torque) / to_seconds(hold);
   if (then.acquired == after->acquired) return;
-  const bool tick_lost = hold > sampling.period + sampling.period / 2;  // of its torque nothing is known
-  const double doubt = tick_lost ? 1.0 : driven_doubt(then.acquired - before->acquired);
+  const bool torque_unknown = sampling.lost_between(before->acquired, after->acquired);
+  const double doubt = torque_unknown ? 1.0 : driven_doubt(then.acquired - before->acquired);
   level.rising = doubt * (after->torque - before->torque);
 }
 

@@ -16,6 +16,11 @@ struct Sampling {
   constexpr bool interrupted(Time previous, Time acquired) const {
     return acquired - previous > longest_hold + period;
   }
+
+  /// Whether a sample is missing between those acquired at these times.
+  constexpr bool lost_between(Time previous, Time acquired) const {
+    return acquired - previous > period + period / 2;
+  }
 };
 
 }  // namespace flinch

@@ -12,6 +12,7 @@ namespace flinch {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 const ThresholdFindings some = {
     .goal = {},
@@ -33,7 +34,7 @@ ThresholdFindings with_a_residual(bool drives_turn) {
                  {8.0}},
        .change = {{.noise = 0.5, .speed = 0.25, .load = 0.0625, .torque = 0.5, .friction = 1.0, .lag = 0.25},
                   {9.5}},
-       .onset = {{.prediction = {0.5, 0.25, 0.125, -0.0625}, .innovation = 0.375}, {6.5}}}};
+       .onset = CalibratedOnset{{.prediction = {0.5, 0.25, 0.125, -0.0625}, .innovation = 0.375}, {6.5}}}};
   return found;
 }
 
@@ -73,7 +74,7 @@ TEST(TheSection, SaysWhichParameterFilesItRestsOnAndHowSurprisingTheMotionWas) {
   found.with = {{"b/dynamics.yaml", "4567"}};
   found.residuals[0].level.threshold.largest = 6.5;
   found.residuals[0].change.threshold.largest = 7.25;
-  found.residuals[0].onset.threshold.largest = 5.75;
+  found.residuals[0].onset->threshold.largest = 5.75;
   const std::string section = thresholds_yaml(found, "2026-11-22");
   EXPECT_THAT(section, HasSubstr("\n# played again with\n#   b/dynamics.yaml, sha256 4567\n"));
   EXPECT_THAT(section, HasSubstr("\n#   level of the fused detector, filter, 90.0 s: 6.5\n"));
@@ -106,6 +107,17 @@ TEST(TheObject, HasTheResidualsOfAFusedDetector) {
   EXPECT_EQ(json["fused_detector"][0]["onset"]["innovation"], 0.375);
   EXPECT_EQ(json["fused_detector"][0]["onset"]["prediction"][3], -0.0625);
   EXPECT_TRUE(nlohmann::json::parse(thresholds_json(some))["fused_detector"].empty());
+}
+
+TEST(TheResults, HaveNoOnsetWhereSamplesHaveGapsBetweenAll) {
+  ThresholdFindings found = with_a_residual(true);
+  found.residuals[0].onset.reset();
+  EXPECT_TRUE(nlohmann::json::parse(thresholds_json(found))["fused_detector"][0]["onset"].is_null());
+  for (const std::string& text : {thresholds_table(found), thresholds_yaml(found, "2026-11-22")}) {
+    EXPECT_THAT(text, HasSubstr("change"));
+    EXPECT_THAT(text, Not(HasSubstr("onset:")));
+    EXPECT_THAT(text, Not(HasSubstr("filter                 onset")));
+  }
 }
 
 TEST(TheTable, ShowsTheErrorsThatAFusedDetectorReckonsWith) {

@@ -224,6 +224,45 @@ TEST(OnsetRatio, IsHeldWhileNothingIsNew) {
   }
 }
 
+// As many samples behind a missing one tell as much as if nothing had been before it.
+TEST(OnsetRatio, ForgetsWhatWasBeforeAMissingSample) {
+  RandomGenerator random(9);
+  const OnsetRatio ratio(unit, slow, behind(3));
+  const Rows rows = errors_of(slow, 60, random);
+  constexpr std::size_t missing = 30;
+  OnsetMemory memory, fresh, next;
+  for (std::size_t t = 0; t < rows.size(); ++t) {
+    if (t == missing) continue;
+    SeenResidual residual = seen(rows[t]);
+    residual.load.acquired = static_cast<int>(t) * Time(1ms);
+    ratio.follow(residual, memory, next);
+    memory = next;
+    if (t < missing) continue;
+    ratio.follow(residual, fresh, next);
+    fresh = next;
+    EXPECT_EQ(ratio.surprise(memory), ratio.surprise(fresh)) << t;
+  }
+  EXPECT_GT(ratio.surprise(fresh), 0.0);
+}
+
+// The clock of an IMU is its own.
+TEST(OnsetRatio, RemembersAcrossSamplesThatComeUnevenly) {
+  RandomGenerator random(10);
+  const OnsetRatio ratio(unit, slow, behind(0));
+  OnsetMemory memory, next, uneven;
+  Time acquired{};
+  for (const JointVector& z : errors_of(slow, 60, random)) {
+    SeenResidual residual = seen(z);
+    ratio.follow(residual, memory, next);
+    memory = next;
+    acquired += acquired % 1ms == 0ms ? 1250us : 750us;
+    residual.load.acquired = acquired;
+    ratio.follow(residual, uneven, next);
+    uneven = next;
+    EXPECT_EQ(ratio.surprise(uneven), ratio.surprise(memory));
+  }
+}
+
 TEST(OnsetRatio, OfAnEstimatorThatDoesNotAnswerInTimeIsZero) {
   ResidualTracking deaf = behind(3);
   deaf.answer.rate = 1e-30;

@@ -134,6 +134,16 @@ TEST_F(ByOnsets, NoticesAStepThatIsTooSmallAtOnceAsSoonAsItsSamplesAddUp) {
   for (int n = 1; n <= 4; ++n) EXPECT_EQ(notices(0.3), n == 4) << n;
 }
 
+// An onset is told from the four samples before it, so nothing is noticed until the fifth after the gap.
+TEST_F(ByOnsets, BeginsAnewAfterASingleInvalidSample) {
+  settle();
+  estimate_.valid = false;
+  EXPECT_FALSE(see(0.0).valid);
+  estimate_.valid = true;
+  for (std::size_t k = 0; k < ErrorCourse::order; ++k) EXPECT_FALSE(notices(1.0)) << k;
+  EXPECT_TRUE(notices(1.6));
+}
+
 TEST_F(ByOnsets, NoticesAStepAboveTheThresholdAtOnce) {
   settle();
   EXPECT_FALSE(notices(0.499));

@@ -19,5 +19,12 @@ TEST(Sampling, IsInterruptedWhereTheHoldWouldHaveEndedBeforeTheNextSample) {
   EXPECT_TRUE(sampling.interrupted(10ms, 14ms));
 }
 
+TEST(Sampling, HasLostASampleWhereTwoAreFurtherApartThanAnUnsteadyClockWouldPutThem) {
+  constexpr Sampling sampling;
+  EXPECT_FALSE(sampling.lost_between(10ms, 11ms));
+  EXPECT_FALSE(sampling.lost_between(10ms, 11500us));
+  EXPECT_TRUE(sampling.lost_between(10ms, 11500us + 1ns));
+}
+
 }  // namespace
 }  // namespace flinch
