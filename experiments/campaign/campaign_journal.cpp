@@ -9,7 +9,7 @@
 
 #include "experiments/campaign/campaign.h"
 #include "systems/foundation/fnv1a.h"
-#include "systems/foundation/result_file.h"
+#include "systems/foundation/journal_file.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
@@ -81,14 +81,10 @@ CampaignJournal::CampaignJournal(const std::filesystem::path& folder, const Camp
     : file_(folder / "results.part"), first_line_(first_line(campaign)), is_done_(campaign.runs()) {
   std::ifstream before = rows();
   // Written anew, so that what follows does not stand behind half a row.
-  const std::filesystem::path anew = file_.string() + ".new";
-  remove_link(anew);
-  stream_.open(anew, std::ios::binary);
-  stream_ << first_line_ << "\n";
-  read(std::move(before), [&](const RunResult& result, const auto&, std::streamoff) { add(result); });
-  std::error_code error;
-  std::filesystem::rename(anew, file_, error);
-  if (!stream_.flush() || error) throw SetupError(file_.string() + ": the file cannot be written");
+  begin_journal(file_, stream_, [&] {
+    stream_ << first_line_ << "\n";
+    read(std::move(before), [&](const RunResult& result, const auto&, std::streamoff) { add(result); });
+  });
 }
 
 std::ifstream CampaignJournal::rows() const {

@@ -8,6 +8,7 @@
 
 #include "experiments/dataset/data_spec.h"
 #include "systems/foundation/fnv1a.h"
+#include "systems/foundation/journal_file.h"
 #include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
 
@@ -107,14 +108,10 @@ DataJournal::DataJournal(std::filesystem::path file, const DataSpec& spec, const
   remove_link(file_);
   if (std::filesystem::exists(file_)) read(header, robot);
   // Written anew, so that what follows does not stand behind half a frame.
-  const std::filesystem::path anew = file_.string() + ".new";
-  remove_link(anew);
-  stream_.open(anew, std::ios::binary | std::ios::trunc);
-  stream_ << header;
-  for (const auto& [run, samples] : runs_) stream_ << sealed(frame_of(run, samples));
-  std::error_code error;
-  if (stream_.flush()) std::filesystem::rename(anew, file_, error);
-  if (!stream_ || error) throw SetupError(file_.string() + ": the file cannot be written");
+  begin_journal(file_, stream_, [&] {
+    stream_ << header;
+    for (const auto& [run, samples] : runs_) stream_ << sealed(frame_of(run, samples));
+  });
 }
 
 void DataJournal::read(const std::string& header, const ParallelRobot& robot) {
