@@ -1,10 +1,8 @@
 // What the verbs do that only look at files.
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
-#include <vector>
 
 #include "apps/flinch/command_line.h"
 #include "apps/flinch/conclusion.h"
@@ -26,6 +24,7 @@
 #include "systems/framework/diagram.h"
 #include "systems/framework/hdf5_format.h"
 #include "systems/framework/recording.h"
+#include "systems/framework/recording_file.h"
 #include "systems/framework/recording_journal.h"
 
 namespace flinch {
@@ -58,21 +57,6 @@ void draw_svg(const std::string& dot, const std::filesystem::path& file) {
                    ": Graphviz could not draw it; is the program 'dot' installed (package graphviz)?");
 }
 
-/// Reads every row: who wants a page or a verdict reads some only.
-void read_through(const std::filesystem::path& file) {
-  const Recording recording = open_recording(file);
-  std::vector<internal::Number> rows;
-  out_of(file, [&] {
-    for (const Signal& signal : recording.signals) {
-      rows.resize(Recording::block * signal.layout.numbers);
-      for (std::size_t first = 0; first < recording.samples(); first += Recording::block) {
-        const std::size_t count = std::min(Recording::block, recording.samples() - first);
-        recording.read_rows(signal, first, count, rows.data());
-      }
-    }
-  });
-}
-
 /// Checks a file of HDF5, and says of which kind it is.
 std::string check_results(const CheckOptions& options) {
   const std::string format = hdf5_format(options.file);
@@ -81,14 +65,15 @@ std::string check_results(const CheckOptions& options) {
     check_data_set(options.file);
     return "data set";
   }
-  if (const Recording recording = open_recording(options.file); holds_readings_alone(recording)) {
+  const Recording recording = open_recording(options.file);
+  const bool readings = holds_readings_alone(recording);
+  if (readings) {
     scenario_of(recording, options.file);
-    read_through(options.file);
-    return "readings";
+  } else {
+    recorded_report(options.file, options.common);
   }
-  recorded_report(options.file, options.common);
-  read_through(options.file);
-  return "recording";
+  out_of(options.file, [&] { read_every_row(recording); });  // a page and a verdict read some only
+  return readings ? "readings" : "recording";
 }
 
 /// The same of YAML.

@@ -339,6 +339,17 @@ void write_recording(const Recording& recording, const std::filesystem::path& fi
   writer.finish(recording.attributes);
 }
 
+void read_every_row(const Recording& recording) {
+  std::vector<Number> rows;
+  for (const Signal& signal : recording.signals) {
+    for (std::size_t first = 0; first < recording.samples(); first += Recording::block) {
+      const std::size_t count = std::min(Recording::block, recording.samples() - first);
+      rows.resize(count * signal.layout.numbers);
+      recording.read_rows(signal, first, count, rows.data());
+    }
+  }
+}
+
 Recording open_recording(const std::filesystem::path& file) {
   std::error_code error;
   const std::filesystem::path part = part_name(file);

@@ -44,4 +44,7 @@ class RecordingFileWriter {
   bool is_empty_ = true;
 };
 
+/// Reads every row of every signal, block by block. Throws SetupError where one cannot be read.
+void read_every_row(const Recording& recording);
+
 }  // namespace flinch
