@@ -46,7 +46,8 @@ void read_sensing(ConfigReader& control, const ParallelRobot& robot, ContactCont
                 {{"tustin", LowPassForm::tustin}, {"backward_difference", LowPassForm::backward_difference}});
 
   ConfigReader pose = control.section("forward_kinematics");
-  if (pose.has("initial_pose")) settings.forward_kinematics.initial_pose = read_initial_pose(pose, robot);
+  if (pose.has("initial_pose"))
+    settings.forward_kinematics.initial_pose = read_pose_in_reach(pose, "initial_pose", robot);
 
   ConfigReader drives = control.section("drive_torque");
   const bool turn = robot.drive_kind(0) == DriveKind::revolute;

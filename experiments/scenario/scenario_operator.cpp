@@ -38,9 +38,7 @@ void read_target(ConfigReader& entry, const ParallelRobot& robot, bool is_pose, 
     return;
   }
   target.kind = TargetCommand::Kind::pose;
-  target.pose = read_pose(entry.section("pose"), robot);
-  if (!robot.inverse_kinematics(target.pose, robot.home_working_mode()).reachable)
-    entry.problem("pose", "is out of the reach of the legs; choose a nearer pose");
+  target.pose = read_pose_in_reach(entry, "pose", robot);
 }
 
 /// Refuses what would only come when the run is over.

@@ -31,12 +31,11 @@ Configuration read_pose(ConfigReader pose, const Mechanism& mechanism) {
   return space.plus(space.origin(), read_displacement(pose, space, from_base));
 }
 
-Configuration read_initial_pose(ConfigReader& section, const ParallelRobot& robot) {
-  const Configuration pose = read_pose(section.section("initial_pose"), robot);
+Configuration read_pose_in_reach(ConfigReader& section, std::string_view name, const ParallelRobot& robot) {
+  const Configuration pose = read_pose(section.section(name), robot);
   Kinematics there;
   robot.kinematics(pose, PlatformVector::Zero(robot.dof()), there);
-  if (!there.reachable)
-    section.problem("initial_pose", "is out of the reach of the legs; choose a nearer pose");
+  if (!there.reachable) section.problem(name, "is out of the reach of the legs; choose a nearer pose");
   return pose;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include "systems/robot/vectors.h"
 
 namespace flinch {
@@ -16,8 +18,8 @@ class ParallelRobot;
 ///   rotation   rotation vector of a spatial platform, against the base frame [rad]
 Configuration read_pose(ConfigReader pose, const Mechanism& mechanism);
 
-/// Reads the pose `initial_pose` of a section in the same way; one that the legs do not reach is a problem.
-Configuration read_initial_pose(ConfigReader& section, const ParallelRobot& robot);
+/// Reads the pose `name` of a section in the same way; one that the legs do not reach is a problem.
+Configuration read_pose_in_reach(ConfigReader& section, std::string_view name, const ParallelRobot& robot);
 
 /// Reads a displacement in the base frame, by the same keys; those that are not there are zero.
 PlatformVector read_step(ConfigReader step, const ConfigurationSpace& space);

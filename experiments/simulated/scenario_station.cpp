@@ -85,7 +85,8 @@ Realism read_plant(ConfigReader plant, const Scenario& scenario, SimulatedStatio
     deviation.passive_friction_scale.setZero();
   }
   station.bench.robot = true_robot(built.robot, deviation);
-  if (plant.has("initial_pose")) station.bench.initial_pose = read_initial_pose(plant, *built.robot);
+  if (plant.has("initial_pose"))
+    station.bench.initial_pose = read_pose_in_reach(plant, "initial_pose", *built.robot);
   return read_realism(plant, *built.robot);
 }
 
