@@ -30,9 +30,9 @@ void follow(Time now, const ConstraintLimit& limit, Time dwell, const ReactionSt
   const double sigma = task.sigma[0];
   const bool inside = is_inside(limit, limit.activation, sigma);  // [SafePR] Alg. 4
   if (!inside) glide.outside = now;
-  const bool was_active = glide.active;
-  glide.active = was_active ? now - glide.outside < dwell : !inside;
-  const bool stays = state.mode == ReactionMode::hold && is_inside(limit, limit.safety, sigma);
+  const bool was_active = glide.active, holds = state.mode == ReactionMode::hold;
+  glide.active = was_active ? holds || now - glide.outside < dwell : !inside;
+  const bool stays = holds && is_inside(limit, limit.safety, sigma);
   const bool begins = !was_active || (stays && state.entered(ReactionMode::hold, now));
   const bool goes_on = was_active && state.entered(ReactionMode::react, now);
   if (!glide.active || !(begins || goes_on)) return;

@@ -154,6 +154,18 @@ TEST(ConstraintWatch, InHoldAMeasureBeyondItsSafetyValueIsLedBack) {
   EXPECT_DOUBLE_EQ(watch.at(beyond, {0, 0, 0}, ReactionMode::hold).sigma_sc.reference, 0.17);
 }
 
+// A place that is held beyond the activation value would make it active again and again, docs/theory.md.
+TEST(ConstraintWatch, InHoldNothingIsLetGoThatIsActive) {
+  Watch watch;
+  watch.at(near_singularity);
+  for (int tick = 0; tick < 200; ++tick) {
+    EXPECT_EQ(watch.at(inside, {0, 0, 0}, ReactionMode::hold).mode, ConstraintMode::condition_number) << tick;
+  }
+  EXPECT_EQ(watch.at(inside, {0, 0, 0}, ReactionMode::react).mode, ConstraintMode::none);
+  Watch never_left;
+  EXPECT_EQ(never_left.at(inside, {0, 0, 0}, ReactionMode::hold).mode, ConstraintMode::none);
+}
+
 TEST(ConstraintWatch, WatchesAsItsSettingsSay) {
   const auto is_active = [](ConstraintsKept kept, Role role, ReactionMode mode) {
     ConstraintSettings settings;
