@@ -18,6 +18,7 @@ namespace {
 
 constexpr double least_push = 0.1;  // of what counts as felt: links near the base push the platform little
 constexpr double slowest_closing = 0.02;  // of an elbow that bends; slower is noise [rad/s]
+constexpr int most_attempts = 3;          // to give way in a row; whoever is pressed after them is braked
 
 bool is_reacting(ReactionMode mode) { return mode == ReactionMode::react || mode == ReactionMode::hold; }
 
@@ -77,6 +78,9 @@ bool is_closing(const Kinematics& at, int leg) {
   return at.joints.passive.size() > leg &&
          std::copysign(1.0, at.joints.passive[leg]) * at.rates.passive[leg] > slowest_closing;
 }
+
+/// Of the speed and the way of a reaction, by how often it was pressed.
+double share_left(const ReactionPlan& plan) { return std::ldexp(1.0, 1 - plan.attempts); }
 
 /// A force on the second link comes from between the links.
 bool opens_elbow(const Kinematics& at, int leg, const CartesianVector& force) {
@@ -226,14 +230,15 @@ Task ReactionTask::task_of(const ReactionPlan& plan, const Kinematics& at) const
 }
 
 PlatformVector ReactionTask::displacement(const ReactionPlan& plan, const WrenchEstimate& contact) const {
+  const double share = share_left(plan);
   if (plan.kind == ReactionKind::first_link) {
     const double sign = std::copysign(1.0, contact.drive_torque[plan.leg]);
-    return PlatformVector::Constant(1, sign * settings_.first_link_angle);
+    return PlatformVector::Constant(1, sign * share * settings_.first_link_angle);
   }
   if (plan.kind == ReactionKind::opening) return plan.opened * plan.way;
-  if (plan.kind == ReactionKind::retreat) return plan.way;
-  if (settings_.along_force_only) return PlatformVector::Constant(1, settings_.displacement);
-  return settings_.displacement * plan.direction;
+  if (plan.kind == ReactionKind::retreat) return share * plan.way;
+  if (settings_.along_force_only) return PlatformVector::Constant(1, share * settings_.displacement);
+  return share * settings_.displacement * plan.direction;
 }
 
 // ---------------------------------------------------------------- and when
@@ -257,6 +262,7 @@ void ReactionTask::move(Time now, const Task& task, const PlatformVector& rate,
     limits.acceleration = *settings_.drive_share * most;
     limits.jerk = most * settings_.max_torque_rate / settings_.max_torque;
   }
+  limits.velocity *= share_left(plan);
   plan.begin = now;
   plan.motion = SynchronisedMotion::plan(task.sigma, rate, task.sigma + displacement, limits);
 }
@@ -273,7 +279,7 @@ void ReactionTask::begin(Time now, const Kinematics& at, const Dynamics& model, 
   }
   const PlatformVector rate = task.rate(at.velocity);
   if (plan.kind == ReactionKind::opening) {
-    plan.opened = settings_.opening_angle;
+    plan.opened = share_left(plan) * settings_.opening_angle;
     plan.way = opening_way(at.joints.passive[plan.leg], rate);
   }
   move(now, task, rate, displacement(plan, contact), at, model, plan);
@@ -316,8 +322,9 @@ void ReactionTask::plan(Time now, const ReactionPlan& last, const TravelledPath&
     }
   }
   next = last;
-  const bool felt = feels(contact);
-  next.released = last.released || (!felt && now - last.touched >= settings_.released_for);
+  const bool felt = feels(contact), is_free = !felt && now - last.touched >= settings_.released_for;
+  next.released = last.released || is_free;
+  if (is_free && last.holds()) next.attempts = 0;
   if (felt) next.touched = now;
   if (!is_reacting(state.mode) || !at.valid || !model.valid) return;
   const bool opens = next.kind == ReactionKind::opening && next.opened < settings_.largest_opening;
@@ -341,7 +348,10 @@ ReactionPlan ReactionTask::decided_anew(Time now, const ReactionPlan& last, cons
                                         const ContactLocation& place) const {
   ReactionPlan next;
   classify(at, contact, touched, place, next);
-  if (next.kind == ReactionKind::opening && next.leg == last.leg && last.opened > 0.0) {
+  next.attempts = last.attempts + 1;
+  if (next.attempts > most_attempts) {
+    next.kind = ReactionKind::brake;
+  } else if (next.kind == ReactionKind::opening && next.leg == last.leg && last.opened > 0.0) {
     if (last.kind == ReactionKind::opening && !has_arrived(now, last)) {
       next = last;
       next.unpressed = now;

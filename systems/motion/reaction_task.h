@@ -35,6 +35,7 @@ struct ReactionPlan {
   Time touched{};             ///< tick at which a force was last felt
   bool released = false;      ///< an opening: nothing was felt for long enough, once
   Time unpressed{};           ///< tick at which the robot last did not press against what it feels
+  int attempts = 1;           ///< to give way, in a row, of which each was pressed but perhaps the last
   std::optional<Time> over;   ///< tick at which the motion was
   Configuration held;         ///< place that is held after it; empty until the robot rests
 
@@ -56,7 +57,9 @@ inline constexpr bool never_allocates<ReactionPlan> =
 /// (Derived.)
 ///
 /// A link of a leg that closes, touched from between its links, is answered by opening too. What is still
-/// felt after the motion, or lies on its way, is given way to anew. (Derived.)
+/// felt after the motion, or lies on its way, is given way to anew, half as far and half as fast. Whoever is
+/// pressed again after two such times is only braked: between two things a robot would drive itself to and
+/// fro. The count ends where a place is held and nothing was felt for `released_for`. (Derived.)
 ///
 /// Where the class is not accepted, or the force has no direction yet, the platform goes straight back to
 /// where it was `displacement` before, if what it feels pushes it there: it has run into something, and was
