@@ -20,8 +20,8 @@ namespace flinch {
 /// let go when it has been inside its activation value for the dwell.
 ///
 /// In hold no measure is led to its limit any more: one that is inside its safety value when hold begins, or
-/// when it leaves the range of its activation value in hold, is kept where it is then. Nor is it let go: where
-/// the place that is held draws the robot out of that range, it would become active again and again. A
+/// when it leaves the range of its activation value in hold, is kept where it is then. Nor is it let go:
+/// where the place that is held draws the robot out of that range, it would become active again and again. A
 /// reaction that is taken up anew leads it on from there. (Derived.)
 ///
 /// It watches in the modes that it was made for. Where the kinematics is not valid nothing is active.

@@ -15,7 +15,6 @@
 #include "diagrams/requested_fault.h"
 #include "experiments/campaign/campaign.h"
 #include "experiments/campaign/campaign_run.h"
-#include "experiments/campaign/exact_bounds.h"
 #include "plant/obstacle_path.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/link_segments.h"
@@ -326,8 +325,11 @@ TEST(AReaction, OfWeakDrivesEndsAtRestWithinTheWorkspace) {
     control.faults.torque_range = most;
     scenario.station.drives.torque_limit = most;
   }));
-  expect_open("drives of 40 Nm", endings, 500ms);
-  for (const auto& [level, seen] : endings) EXPECT_NEAR(seen.largest_torque, most, 1e-9) << level;
+  expect_open("drives of 40 Nm", endings, 600ms);
+  for (const auto& [level, seen] : endings) {
+    EXPECT_NEAR(seen.largest_torque, most, 1e-9) << level;
+    EXPECT_EQ(seen.restless, 0U) << level;
+  }
 }
 
 TEST(AReaction, ToWhatNobodyCanTellEndsAtRestWithinTheWorkspace) {
@@ -385,16 +387,13 @@ TEST(AReaction, InTheMidstOfWhichAnotherBodyIsTouchedEndsAtRestWithinTheWorkspac
     EXPECT_EQ(seen.second, seen.n) << level;
     EXPECT_EQ(seen.restless, 0U) << level;
   }
-  // Who goes on giving way to hard contacts may be thrown from one thing to the other, docs/faults.md.
+  // Who gives way to hard contacts too is not thrown from one thing to the other, docs/theory.md.
   const std::map<std::string, Endings> giving_way = fail(second);
-  expect_open("another body, giving way", giving_way, watched);
-  std::size_t n = 0, thrown = 0;
+  expect_open("another body, giving way", giving_way, 1s);
   for (const auto& [level, seen] : giving_way) {
     EXPECT_EQ(seen.second, seen.n) << level;
-    n += seen.n;
-    thrown += seen.thrown;
+    EXPECT_EQ(seen.thrown, 0U) << level;
   }
-  EXPECT_GE(upper_share(n - thrown, n, 0.999), 0.95);
 }
 
 }  // namespace
