@@ -18,13 +18,8 @@ namespace {
 
 constexpr double least_push = 0.1;  // of what counts as felt: links near the base push the platform little
 constexpr double slowest_closing = 0.02;  // of an elbow that bends; slower is noise [rad/s]
-constexpr int most_attempts = 3;          // to give way in a row; whoever is pressed after them is braked
 
 bool is_reacting(ReactionMode mode) { return mode == ReactionMode::react || mode == ReactionMode::hold; }
-
-bool moves_joints(ReactionKind kind) {
-  return kind == ReactionKind::first_link || kind == ReactionKind::opening;
-}
 
 PlatformMatrix inverse(const PlatformMatrix& M) {
   return M.llt().solve(PlatformMatrix(PlatformMatrix::Identity(M.rows(), M.rows())));
@@ -43,8 +38,7 @@ double largest_reach(const Kinematics& at, int translations) {
   double reach = 0.0;
   for (int leg = 0; leg < drive_count(at); ++leg) {
     const CartesianVector& joint = at.legs[static_cast<std::size_t>(leg)].coupling_joint;
-    if (joint.size() != translations) continue;
-    reach = std::max(reach, (joint - at.pose.head(translations)).norm());
+    if (joint.size() == translations) reach = std::max(reach, (joint - at.pose.head(translations)).norm());
   }
   return reach;
 }
@@ -78,9 +72,6 @@ bool is_closing(const Kinematics& at, int leg) {
   return at.joints.passive.size() > leg &&
          std::copysign(1.0, at.joints.passive[leg]) * at.rates.passive[leg] > slowest_closing;
 }
-
-/// Of the speed and the way of a reaction, by how often it was pressed.
-double share_left(const ReactionPlan& plan) { return std::ldexp(1.0, 1 - plan.attempts); }
 
 /// A force on the second link comes from between the links.
 bool opens_elbow(const Kinematics& at, int leg, const CartesianVector& force) {
@@ -230,15 +221,14 @@ Task ReactionTask::task_of(const ReactionPlan& plan, const Kinematics& at) const
 }
 
 PlatformVector ReactionTask::displacement(const ReactionPlan& plan, const WrenchEstimate& contact) const {
-  const double share = share_left(plan);
   if (plan.kind == ReactionKind::first_link) {
     const double sign = std::copysign(1.0, contact.drive_torque[plan.leg]);
-    return PlatformVector::Constant(1, sign * share * settings_.first_link_angle);
+    return PlatformVector::Constant(1, sign * plan.share() * settings_.first_link_angle);
   }
   if (plan.kind == ReactionKind::opening) return plan.opened * plan.way;
-  if (plan.kind == ReactionKind::retreat) return share * plan.way;
-  if (settings_.along_force_only) return PlatformVector::Constant(1, share * settings_.displacement);
-  return share * settings_.displacement * plan.direction;
+  if (plan.kind == ReactionKind::retreat) return plan.share() * plan.way;
+  if (settings_.along_force_only) return PlatformVector::Constant(1, plan.share() * settings_.displacement);
+  return plan.share() * settings_.displacement * plan.direction;
 }
 
 // ---------------------------------------------------------------- and when
@@ -248,7 +238,7 @@ void ReactionTask::move(Time now, const Task& task, const PlatformVector& rate,
                         ReactionPlan& plan) const {
   const PlatformVector direction = displacement.normalized();
   MotionLimits limits = settings_.translation;
-  if (moves_joints(plan.kind)) {
+  if (plan.moves_joints()) {
     limits = settings_.joint;
     const double fastest = limits.velocity * platform_speed(task, direction, at, model, robot_->space());
     limits = slowed(limits, std::min(1.0, settings_.largest_platform_speed / std::max(fastest, 1e-9)));
@@ -262,7 +252,7 @@ void ReactionTask::move(Time now, const Task& task, const PlatformVector& rate,
     limits.acceleration = *settings_.drive_share * most;
     limits.jerk = most * settings_.max_torque_rate / settings_.max_torque;
   }
-  limits.velocity *= share_left(plan);
+  limits.velocity *= plan.share();
   plan.begin = now;
   plan.motion = SynchronisedMotion::plan(task.sigma, rate, task.sigma + displacement, limits);
 }
@@ -279,7 +269,7 @@ void ReactionTask::begin(Time now, const Kinematics& at, const Dynamics& model, 
   }
   const PlatformVector rate = task.rate(at.velocity);
   if (plan.kind == ReactionKind::opening) {
-    plan.opened = share_left(plan) * settings_.opening_angle;
+    plan.opened = plan.share() * settings_.opening_angle;
     plan.way = opening_way(at.joints.passive[plan.leg], rate);
   }
   move(now, task, rate, displacement(plan, contact), at, model, plan);
@@ -349,7 +339,7 @@ ReactionPlan ReactionTask::decided_anew(Time now, const ReactionPlan& last, cons
   ReactionPlan next;
   classify(at, contact, touched, place, next);
   next.attempts = last.attempts + 1;
-  if (next.attempts > most_attempts) {
+  if (next.attempts > ReactionPlan::most_attempts) {
     next.kind = ReactionKind::brake;
   } else if (next.kind == ReactionKind::opening && next.leg == last.leg && last.opened > 0.0) {
     if (last.kind == ReactionKind::opening && !has_arrived(now, last)) {
@@ -433,7 +423,7 @@ void ReactionTask::lead(Time now, const ReactionPlan& plan, const Kinematics& at
 PlatformVector ReactionTask::error_of(const ReactionPlan& plan, const Task& task,
                                       const PlatformVector& wanted) const {
   const PlatformVector error = wanted - task.sigma;
-  if (!moves_joints(plan.kind) || robot_->drive_kind(plan.leg) != DriveKind::revolute) return error;
+  if (!plan.moves_joints() || robot_->drive_kind(plan.leg) != DriveKind::revolute) return error;
   return error.unaryExpr([](double angle) { return wrap_angle(angle); });
 }
 
@@ -445,7 +435,7 @@ void ReactionTask::follow(Time now, const ReactionPlan& plan, const Kinematics& 
 }
 
 void ReactionTask::tell(const ReactionState& state, const ReactionPlan& plan, FollowedTask& told) const {
-  const bool leads_leg = moves_joints(plan.kind) || plan.kind == ReactionKind::second_link;
+  const bool leads_leg = plan.moves_joints() || plan.kind == ReactionKind::second_link;
   told = {is_reacting(state.mode), plan.kind, leads_leg ? plan.leg : -1};
 }
 

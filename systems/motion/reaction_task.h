@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -23,6 +24,8 @@ namespace flinch {
 
 /// What was decided when the reaction began, and how far it has come.
 struct ReactionPlan {
+  static constexpr int most_attempts = 3;  ///< to give way; whoever is pressed after them is braked
+
   ReactionKind kind = ReactionKind::brake;
   int leg = -1;                   ///< of a link or clamping
   CartesianVector point_in_body;  ///< of a second link
@@ -40,6 +43,9 @@ struct ReactionPlan {
   Configuration held;         ///< place that is held after it; empty until the robot rests
 
   bool holds() const { return held.size() != 0; }
+  bool moves_joints() const { return kind == ReactionKind::first_link || kind == ReactionKind::opening; }
+  /// Of the speed and the way of a reaction, by how often it was pressed.
+  double share() const { return std::ldexp(1.0, 1 - attempts); }
 };
 
 template <>
