@@ -110,6 +110,7 @@ MotionPorts add_motion(const Path& path, const SensedPorts& sensed, OutputPort<J
   path.builder.connect(sensed.joints, pose.joints);
   path.builder.connect(joint_motion, pose.motion);
   path.builder.connect(pose.platform, model.platform);
+  path.builder.connect(sensed.joints, torque.joints);
   path.builder.connect(sensed.drives, torque.drives);
   path.builder.connect(sensed.status, torque.status);
   return {sensed,         joint_motion,   pose.platform, model.kinematics,

@@ -11,6 +11,7 @@ StageSite part(const StageSite& site, const std::string& what) {
 
 OutputPort<DriveTorque> add_torque_as_it_is(const StageSite& site, const SensedPorts& given) {
   auto& torque = site.builder.add<DriveTorqueMapping>(site.name, site.robot, site.settings.drive_torque);
+  site.builder.connect(given.joints, torque.joints);
   site.builder.connect(given.drives, torque.drives);
   site.builder.connect(given.status, torque.status);
   return torque.torque;

@@ -32,6 +32,7 @@ ContactControlSettings settings_for(const ParallelRobot& robot, const DriveParam
                                     const WorkspaceLimits& limits) {
   ContactControlSettings settings;
   settings.drive_torque.torque_constant = drives.torque_constant;
+  settings.drive_torque.cogging = drives.cogging;
   settings.faults.workspace = limits;
   settings.faults.max_joint_speed = drives.max_speed;
   settings.faults.max_encoder_rate = drives.max_encoder_rate;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,8 @@ namespace flinch {
 
 /// A number on which the equations of motion depend linearly.
 struct DynamicParameter {
-  std::string name;        ///< the path of its key in a robot file
-  std::string unit;        ///< SI
+  std::string name{};      ///< the path of its key in a robot file
+  std::string unit{};      ///< SI
   double believed = 0.0;   ///< what the robot says
   double deviation = 0.0;  ///< of that belief
   double least = 0.0;      ///< below it nothing can be: masses and friction are not negative
@@ -23,7 +24,7 @@ struct FileValue {
   std::string name;
   std::string unit;
   double value = 0.0;
-  int mainly = 0;  ///< the parameter on which it mainly depends
+  std::optional<int> mainly{};  ///< the parameter on which it depends; none: it is there with others
 };
 
 /// The inertial and friction parameters of a mechanism, and the robot that has others.

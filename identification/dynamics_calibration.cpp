@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "experiments/verdict/recorded_run.h"
+#include "identification/cogging_parameters.h"
 #include "identification/dynamic_parameters.h"
 #include "identification/dynamics_fit.h"
 #include "identification/dynamics_rows.h"
@@ -188,10 +189,18 @@ Solution solve(const DynamicsRows& rows, const DynamicParameters& parameters, in
   return solution;
 }
 
-void add_parameters(const DynamicParameters& parameters, const Solution& solution,
+/// What of the surplus a fit does not explain.
+Eigen::VectorXd left_of(const DynamicsRows& rows, const DynamicParameters& parameters,
+                        const DynamicsFit& fit) {
+  Eigen::VectorXd left = rows.surplus - rows.regressor * (fit.values - parameters.believed());
+  for (Eigen::Index row = 0; row < left.size(); ++row)
+    left[row] -= fit.offset[rows.drive[static_cast<std::size_t>(row)]];
+  return left;
+}
+
+void add_parameters(const CoggingParameters& parameters, const Solution& solution,
                     CalibrationResult& result) {
   const std::vector<FileValue> now = parameters.in_file(solution.fit.values);
-  const std::vector<FileValue> before = parameters.in_file(parameters.believed());
   const auto p = static_cast<Eigen::Index>(parameters.list().size());
   const auto n = static_cast<Eigen::Index>(now.size());
   Eigen::MatrixXd map(n, p);  // of parameters to what the file says
@@ -207,21 +216,21 @@ void add_parameters(const DynamicParameters& parameters, const Solution& solutio
   result.influence = map * solution.sure.influence.topRows(p);
   for (std::size_t i = 0; i < now.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    const bool held = solution.held[static_cast<std::size_t>(now[i].mainly)];
+    const bool held = now[i].mainly && solution.held[static_cast<std::size_t>(*now[i].mainly)];
+    const double variance = result.covariance(row, row);
     result.parameters.push_back(
         {.name = now[i].name,
          .value = now[i].value,
-         .deviation =
-             held ? std::nullopt : std::optional(std::sqrt(std::max(0.0, result.covariance(row, row)))),
+         .deviation = held || !(variance > 0.0) ? std::nullopt : std::optional(std::sqrt(variance)),
          .unit = now[i].unit,
          .identifiable = !held,
-         .before = before[i].value,
+         .before = parameters.believed_in_file(now[i].name),
          .belongs_to = "robot"});
   }
 }
 
-void add_residuals(const DynamicsRows& rows, const Eigen::VectorXd& after, const LinearFit& linear,
-                   int drives, CalibrationResult& result) {
+void add_residuals(const DynamicsRows& rows, const Eigen::VectorXd& before, const Eigen::VectorXd& after,
+                   const LinearFit& linear, int drives, CalibrationResult& result) {
   std::vector<double> old_kept, kept;
   for (int i = 0; i < drives; ++i) {
     CalibrationPlot plot{.title = fmt::format("drive {}", i + 1),
@@ -235,7 +244,7 @@ void add_residuals(const DynamicsRows& rows, const Eigen::VectorXd& after, const
     for (Eigen::Index row = 0; row < after.size(); ++row) {
       if (rows.drive[static_cast<std::size_t>(row)] != i || linear.weight[row] < 0.05) continue;
       plot.x.push_back(rows.time[static_cast<std::size_t>(row)]);
-      plot.before.push_back(rows.surplus[row]);
+      plot.before.push_back(before[row]);
       plot.after.push_back(after[row]);
     }
     old_kept.insert(old_kept.end(), plot.before.begin(), plot.before.end());
@@ -250,11 +259,11 @@ void add_residuals(const DynamicsRows& rows, const Eigen::VectorXd& after, const
 }
 
 /// Errors of the torque that the model predicts, before and after.
-void validate(const DynamicsBelief& belief, const DynamicParameters& parameters,
-              const Eigen::VectorXd& values, const std::vector<MotionRecording>& unseen,
-              CalibrationResult& result) {
+void validate(const DynamicsBelief& belief, const DynamicParameters& robot,
+              const CoggingParameters& parameters, const Eigen::VectorXd& values,
+              const std::vector<MotionRecording>& unseen, CalibrationResult& result) {
   if (unseen.empty()) return;
-  const DynamicsRows rows = rows_of(belief, parameters, unseen, result.warnings);
+  const DynamicsRows rows = parameters.rows(rows_of(belief, robot, unseen, result.warnings));
   const Eigen::VectorXd error = rows.surplus - rows.regressor * (values - parameters.believed());
   const double torque = root_mean_square(rows.torque);
   const double left = root_mean_square(error);
@@ -263,8 +272,8 @@ void validate(const DynamicsBelief& belief, const DynamicParameters& parameters,
       fmt::format("on motion that was not used the predicted torque errs by {:.3g} {} (RMS), {:.2f} % of the "
                   "torque beyond the "
                   "noise of the current; with the believed parameters by {:.3g} {}",
-                  left, result.residual_unit, 100.0 * beyond / torque, root_mean_square(rows.surplus),
-                  result.residual_unit));
+                  left, result.residual_unit, 100.0 * beyond / torque,
+                  root_mean_square(without_cogging(rows, belief.drives.cogging)), result.residual_unit));
   result.validation_unit = result.residual_unit;
   for (int i = 0; i < belief.robot->drives(); ++i) {
     const Eigen::VectorXd own = of_drive(rows, error, i);
@@ -314,21 +323,27 @@ CalibrationResult calibrate_dynamics(const DynamicsBelief& belief,
   result.residual_unit = turns ? "Nm" : "N";
   for (const MotionRecording& recording : recordings) result.recordings.push_back(recording.source);
   for (const MotionRecording& recording : unseen) result.unseen.push_back(recording.source);
-  const auto parameters = DynamicParameters::of(*belief.robot);
-  const DynamicsRows rows = rows_of(belief, *parameters, recordings, result.warnings);
+  const auto of_robot = DynamicParameters::of(*belief.robot);
+  DynamicsRows rows = rows_of(belief, *of_robot, recordings, result.warnings);
   check(belief, rows, result.residual_unit.c_str(), result.warnings);
 
   const int drives = belief.robot->drives();
-  const Solution solution = solve(rows, *parameters, drives, 0.01 * belief.drives.max_torque);
+  const double usual_error = 0.01 * belief.drives.max_torque;
+  Solution solution = solve(rows, *of_robot, drives, usual_error);
+  const CoggingParameters parameters(*of_robot,
+                                     find_cogging(rows, left_of(rows, *of_robot, solution.fit), drives),
+                                     belief.robot->drive_kind(0), belief.drives);
+  rows = parameters.rows(std::move(rows));
+  if (parameters.list().size() > of_robot->list().size())
+    solution = solve(rows, parameters, drives, usual_error);
   result.rank = solution.sure.rank;
   result.condition = solution.sure.condition;
-  add_parameters(*parameters, solution, result);
-  Eigen::VectorXd after = rows.surplus - rows.regressor * (solution.fit.values - parameters->believed());
-  for (Eigen::Index row = 0; row < after.size(); ++row)
-    after[row] -= solution.fit.offset[rows.drive[static_cast<std::size_t>(row)]];
-  add_residuals(rows, after, solution.fit.linear, drives, result);
+  add_parameters(parameters, solution, result);
+  const Eigen::VectorXd after = left_of(rows, parameters, solution.fit);
+  add_residuals(rows, without_cogging(rows, belief.drives.cogging), after, solution.fit.linear, drives,
+                result);
   doubt(rows, solution, after, result);
-  validate(belief, *parameters, solution.fit.values, unseen, result);
+  validate(belief, *of_robot, parameters, solution.fit.values, unseen, result);
   const char* const key = turns ? "drives.torque_constant_Nm_per_A" : "drives.force_constant_N_per_A";
   for (int i = 0; i < drives; ++i) {
     result.assumed.push_back(

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "identification/clipped.h"
 #include "identification/encoder_motion.h"
@@ -12,6 +13,7 @@
 #include "identification/zero_phase.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recorded_values.h"
+#include "systems/signals/joint_reading.h"
 
 namespace flinch {
 namespace {
@@ -48,6 +50,14 @@ double white_noise(const Eigen::VectorXd& x) {
 
 }  // namespace
 
+double DrivePath::blur(Eigen::Index sample, int drive) const {
+  const Eigen::Index last = std::max<Eigen::Index>(sample - 1, 0);
+  const Eigen::Index next = std::min<Eigen::Index>(sample + 1, position.rows() - 1);
+  const double way = std::abs(position(next, drive) - position(last, drive));
+  const double speed = way / (static_cast<double>(next - last) * period);
+  return speed / (2.0 * std::numbers::pi * cutoff_frequency);
+}
+
 void DynamicsRows::append(const DynamicsRows& more) {
   const Eigen::Index n = surplus.size(), m = more.surplus.size();
   regressor.conservativeResize(n + m, more.regressor.cols());
@@ -60,7 +70,26 @@ void DynamicsRows::append(const DynamicsRows& more) {
   cluster.insert(cluster.end(), more.cluster.begin(), more.cluster.end());
   recording.insert(recording.end(), more.recording.begin(), more.recording.end());
   time.insert(time.end(), more.time.begin(), more.time.end());
+  for (const std::size_t own : more.path) path.push_back(paths.size() + own);
+  sample.insert(sample.end(), more.sample.begin(), more.sample.end());
+  paths.insert(paths.end(), more.paths.begin(), more.paths.end());
   noise = std::max(noise, more.noise);
+}
+
+Eigen::MatrixXd along_the_way(const DynamicsRows& rows, int drive,
+                              const std::function<Eigen::RowVector3d(double position)>& of) {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows.surplus.size(), 3);
+  for (std::size_t number = 0; number < rows.paths.size(); ++number) {
+    const DrivePath& path = rows.paths[number];
+    Eigen::MatrixXd there(path.position.rows(), 3);
+    for (Eigen::Index k = 0; k < there.rows(); ++k) there.row(k) = of(path.position(k, drive));
+    there = zero_phase(there, cutoff_frequency, path.period);
+    for (std::size_t row = 0; row < rows.path.size(); ++row) {
+      if (rows.drive[row] == drive && rows.path[row] == number)
+        result.row(static_cast<Eigen::Index>(row)) = there.row(rows.sample[row]);
+    }
+  }
+  return result;
 }
 
 namespace {
@@ -82,6 +111,8 @@ DynamicsRows rows_of(const Recording& recording, const ParallelRobot& robot,
   for (std::vector<char>& usable : currents.usable) widen_unusable(usable, reach);
   Eigen::MatrixXd torque = between_ticks(currents.current) * constant.asDiagonal();
   Eigen::MatrixXd surplus(n, drives), Y(n, drives * p);
+  out.paths = {{Eigen::MatrixXd(n, drives), period}};
+  const auto joints = read<JointReading>(recording, "joints");
   for (Eigen::Index k = 0; k < n; ++k) {
     Kinematics at;
     robot.kinematics(motion.pose[static_cast<std::size_t>(k)], motion.velocity.row(k).transpose(), at);
@@ -89,6 +120,7 @@ DynamicsRows rows_of(const Recording& recording, const ParallelRobot& robot,
     const JointVector base = model_effort(robot, at, acceleration);
     surplus.row(k) = torque.row(k) - base.transpose();
     Eigen::MatrixXd of_sample = variants.regressor(base, at, acceleration);
+    out.paths[0].position.row(k) = joints[stretch.first + static_cast<std::size_t>(k)].active.transpose();
     Y.row(k) = Eigen::Map<Eigen::RowVectorXd>(of_sample.data(), of_sample.size());
   }
   torque = zero_phase(torque, cutoff_frequency, period);
@@ -114,6 +146,8 @@ DynamicsRows rows_of(const Recording& recording, const ParallelRobot& robot,
       out.cluster.push_back(100000 * number + static_cast<int>(time / cluster_length));
       out.recording.push_back(number);
       out.time.push_back(time);
+      out.path.push_back(0);
+      out.sample.push_back(k);
       ++row;
     }
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,15 @@
 namespace flinch {
 
 struct Recording;
+
+/// Where the drives stood at every sample of a stretch, one column a drive.
+struct DrivePath {
+  Eigen::MatrixXd position;  ///< [rad or m]
+  double period = 0.0;       ///< [s]
+
+  /// The way within which a drive that is as fast as at this sample is no longer resolved [rad or m].
+  double blur(Eigen::Index sample, int drive) const;
+};
 
 /// What a recorded motion says of the dynamics: for samples and drives the measured torque without what is
 /// believed to cause it, and how it depends on each parameter; both low-passed in the same way and thinned
@@ -21,7 +31,10 @@ struct DynamicsRows {
   std::vector<int> cluster;
   std::vector<int> recording;
   std::vector<double> time;  ///< [s]
-  double noise = 0.0;        ///< of the torque, from the noise of the current [Nm or N]
+  std::vector<DrivePath> paths;
+  std::vector<std::size_t> path;     ///< of each row
+  std::vector<Eigen::Index> sample;  ///< of that
+  double noise = 0.0;                ///< of the torque, from the noise of the current [Nm or N]
 
   void append(const DynamicsRows& more);
 };
@@ -31,5 +44,10 @@ struct DynamicsRows {
 DynamicsRows dynamics_rows(const Recording& recording, const ParallelRobot& robot,
                            const DynamicParameters& parameters, const JointVector& constant, int number,
                            std::vector<std::string>& warnings);
+
+/// Of each row of a drive what `of` says of its position, low-passed as the rows are. Rows of
+/// other drives are zero.
+Eigen::MatrixXd along_the_way(const DynamicsRows& rows, int drive,
+                              const std::function<Eigen::RowVector3d(double position)>& of);
 
 }  // namespace flinch

@@ -4,14 +4,13 @@
 #include <ceres/normal_prior.h>
 #include <ceres/rotation.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
-#include <numbers>
 
 #include "identification/ceres_fit.h"
+#include "identification/dominant_wave.h"
 #include "identification/robust_mean.h"
 #include "systems/robot/rotation.h"
 
@@ -119,58 +118,6 @@ std::vector<Eigen::Index> parameters_that_tell(const std::vector<PullWindow>& wi
     if (acts_on > 1 || (acts_on == 1 && most_alike < alike)) telling.push_back(j);
   }
   return telling;
-}
-
-/// What is left at a place, and by what a wave there is multiplied.
-struct WaveSample {
-  double position, factor, left;
-};
-
-/// How fast a wave goes on along the way, how well that is known, and what share of the scatter it explains.
-struct Wave {
-  double rate = 0.0;
-  double deviation = 0.0;
-  double least = 0.0;  ///< rate: of so few waves over the way that nothing else is like them
-  double explained = 0.0;
-};
-
-double explained(const std::vector<WaveSample>& samples, double rate) {
-  Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d b = Eigen::Vector3d::Zero();
-  double sum = 0.0, squares = 0.0;
-  for (const WaveSample& sample : samples) {
-    const double phase = rate * sample.position;
-    const Eigen::Vector3d a(1.0, sample.factor * std::sin(phase), sample.factor * std::cos(phase));
-    H += a * a.transpose();
-    b += sample.left * a;
-    sum += sample.left;
-    squares += sample.left * sample.left;
-  }
-  const double scatter = squares - sum * sum / static_cast<double>(samples.size());
-  return 1.0 - (squares - b.dot(H.ldlt().solve(b))) / scatter;
-}
-
-/// The wave that explains most, from `fewest` waves over the range up to where neighbours alternate; none
-/// where it explains little.
-Wave dominant_wave(const std::vector<WaveSample>& samples, double fewest) {
-  if (samples.size() < 30) return {};
-  std::vector<double> steps;
-  double low = samples.front().position, high = low;
-  for (std::size_t k = 0; k < samples.size(); ++k) {
-    low = std::min(low, samples[k].position);
-    high = std::max(high, samples[k].position);
-    if (k > 0) steps.push_back(std::abs(samples[k].position - samples[k - 1].position));
-  }
-  const double range = high - low;
-  const double most = 0.5 * std::numbers::pi / std::max(median(steps), 1e-3 * range);
-  // Of n values of noise the best of a thousand waves explains 14 / n.
-  Wave best{0.0, std::numbers::pi / range, 2.0 * std::numbers::pi * fewest / range,
-            std::max(least_explained, 30.0 / static_cast<double>(samples.size()))};
-  for (double rate = best.least; rate < most; rate += 0.25 / range) {
-    const double share = explained(samples, rate);
-    if (share > best.explained) best.rate = rate, best.explained = share;
-  }
-  return best.rate > 0.0 ? best : Wave();
 }
 
 /// Everything that is looked for, as Ceres moves it.
@@ -285,11 +232,13 @@ class Fit {
         if (!tells(window, i) || window.position.size() == 0) continue;
         const double left = torque_residual(window, i, fit, model_.slow);
         if (std::abs(left) > 4.0 * sigma_[i]) continue;
-        cogging.push_back({window.position[i], 1.0, left});
-        ripple.push_back({window.position[i], fit.constant[i] * window.current[i], left});
+        cogging.push_back({.position = window.position[i], .left = left});
+        ripple.push_back(
+            {.position = window.position[i], .factor = fit.constant[i] * window.current[i], .left = left});
       }
-      const Wave cogs = cogging_[index(i)].rate > 0.0 ? Wave() : dominant_wave(cogging, 0.5);
-      const Wave ripples = ripple_[index(i)].rate > 0.0 ? Wave() : dominant_wave(ripple, 1.0);
+      const Wave cogs = cogging_[index(i)].rate > 0.0 ? Wave() : dominant_wave(cogging, 0.5, least_explained);
+      const Wave ripples =
+          ripple_[index(i)].rate > 0.0 ? Wave() : dominant_wave(ripple, 1.0, least_explained);
       DriveUnknowns& unknowns = unknowns_.drives[index(i)];
       if (cogs.explained > ripples.explained) {
         cogging_[index(i)] = cogs, unknowns[7] = cogs.rate;

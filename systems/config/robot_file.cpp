@@ -1,5 +1,6 @@
 #include "systems/config/robot_file.h"
 
+#include <algorithm>
 #include <span>
 #include <utility>
 
@@ -63,10 +64,24 @@ const DriveKeys& keys_of(const RobotKind& kind) {
 
 std::span<double> entries(auto& v) { return {v.data(), static_cast<std::size_t>(v.size())}; }
 
+/// Of all drives, or nothing where the file says nothing of it.
+Cogging read_cogging(ConfigReader& file, const RobotKind& kind) {
+  const auto keys = file.keys();
+  if (std::none_of(keys.begin(), keys.end(), [](auto key) { return key.starts_with("cogging_"); })) return {};
+  const JointVector none = JointVector::Zero(kind.drives);
+  Cogging cogging{none, none, none};
+  ConfigReader all = file.required();
+  all.numbers("cogging_wavelength", keys_of(kind).position, entries(cogging.wavelength), positive);
+  all.numbers("cogging_sine", keys_of(kind).torque, entries(cogging.sine));
+  all.numbers("cogging_cosine", keys_of(kind).torque, entries(cogging.cosine));
+  return cogging;
+}
+
 DriveParameters read_drives(ConfigReader file, const RobotKind& kind) {
   const DriveKeys& keys = keys_of(kind);
   DriveParameters drives = default_drives(kind.drive, kind.drives);
   file.numbers(keys.torque_constant, keys.per_ampere, entries(drives.torque_constant), positive);
+  drives.cogging = read_cogging(file, kind);
   file.number(keys.max_torque, keys.torque, drives.max_torque, positive);
   file.number(keys.max_torque_rate, keys.torque_rate, drives.max_torque_rate, positive);
   file.number(keys.max_torque_jump, keys.torque, drives.max_torque_jump, positive);

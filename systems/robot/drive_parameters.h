@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "systems/robot/cogging.h"
 #include "systems/robot/vectors.h"
 
 namespace flinch {
@@ -12,6 +13,7 @@ enum class DriveKind;
 struct DriveParameters {
   /// Torque of 1 A at each drive [Nm/A] ([N/A]).
   JointVector torque_constant;
+  Cogging cogging{};          ///< As far as it is known [Nm] ([N]).
   double max_torque = 100.0;  ///< Of every drive [Nm] ([N]).
   /// Largest change of a drive's torque [Nm/s] ([N/s]).
   double max_torque_rate = 20e3;

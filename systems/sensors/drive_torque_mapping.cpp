@@ -10,14 +10,15 @@
 namespace flinch {
 namespace {
 
-std::vector<std::string> problems(const JointVector& constants, int drives,
-                                  const std::optional<LowPassSettings>& low_pass) {
+std::vector<std::string> problems(const DriveTorqueSettings& settings, const JointVector& constants,
+                                  int drives, const std::optional<LowPassSettings>& low_pass) {
   Findings found;
   found.require(constants.size() == drives, "torque_constant has " + std::to_string(constants.size()) +
                                                 " entries; the robot has " + std::to_string(drives) +
                                                 " drives");
   found.require(constants.allFinite() && (constants.array() > 0.0).all(),
                 "torque_constant has an entry that is not positive [Nm/A]");
+  found.add_all(problems(settings.cogging, drives));
   if (low_pass) found.add_all(problems(*low_pass));
   return found.take();
 }
@@ -27,11 +28,11 @@ std::vector<std::string> problems(const JointVector& constants, int drives,
 DriveTorqueMapping::DriveTorqueMapping(const std::shared_ptr<const ParallelRobot>& robot,
                                        const DriveTorqueSettings& settings,
                                        const std::optional<LowPassSettings>& aligned_with)
-    : torque_constant_(settings.torque_constant), sampling_(settings.sampling) {
+    : torque_constant_(settings.torque_constant), cogging_(settings.cogging), sampling_(settings.sampling) {
   if (torque_constant_.size() == 0) {
     torque_constant_ = default_drives(robot->drive_kind(0), robot->drives()).torque_constant;
   }
-  throw_if_any(problems(torque_constant_, robot->drives(), aligned_with));
+  throw_if_any(problems(settings, torque_constant_, robot->drives(), aligned_with));
   if (aligned_with) low_pass_.emplace(*aligned_with);
   keep(Every{sampling_.period}, memory_, next_);
 }
@@ -40,27 +41,37 @@ bool DriveTorqueMapping::is_usable(const DriveReading& reading) const {
   return reading.valid && reading.current.size() == torque_constant_.size() && reading.current.allFinite();
 }
 
-JointVector DriveTorqueMapping::torque_of(const DriveReading& reading) const {
-  return torque_constant_.cwiseProduct(reading.current);
+PassedCogging DriveTorqueMapping::passed(const JointReading& encoders, const PassedCogging& last) const {
+  const auto count = static_cast<int>(torque_constant_.size());
+  if (cogging_.is_none() || !encoders.valid || !usable(encoders.active, count)) return last;
+  const JointVector here = cogging_.at(encoders.active);
+  return {here, 0.5 * (here + (last.here.size() > 0 ? last.here : here))};
 }
 
-void DriveTorqueMapping::advance(const DriveReading& reading, const StationStatus& station,
-                                 const DriveTorqueMemory& memory, Time now, DriveTorqueMemory& next) const {
-  if (!low_pass_) return;
-  if (station.valid && station.braked) {
-    next = DriveTorqueMemory();
-    return;
-  }
+JointVector DriveTorqueMapping::torque_of(const DriveReading& reading, const DriveTorqueMemory& next) const {
+  JointVector result = torque_constant_.cwiseProduct(reading.current);
+  if (next.cogging.mean.size() > 0) result += next.cogging.mean;
+  return result;
+}
+
+void DriveTorqueMapping::advance(const JointReading& encoders, const DriveReading& reading,
+                                 const StationStatus& station, const DriveTorqueMemory& memory, Time now,
+                                 DriveTorqueMemory& next) const {
+  next = DriveTorqueMemory();
+  next.cogging = passed(encoders, memory.cogging);
+  if (!low_pass_ || (station.valid && station.braked)) return;
   const bool is_new = is_usable(reading) && (!memory.torque.started || reading.acquired > memory.acquired);
-  if (!is_new) {
-    next = sampling_.expired(memory.arrived, now) ? DriveTorqueMemory() : memory;
-    return;
-  }
+  if (!is_new && sampling_.expired(memory.arrived, now)) return;
+  next.acquired = memory.acquired;
+  next.arrived = memory.arrived;
+  next.torque = memory.torque;
+  if (!is_new) return;
   const bool interrupted = sampling_.interrupted(memory.acquired, reading.acquired);
   const double interval = to_seconds(reading.acquired - memory.acquired);
   next.acquired = reading.acquired;
   next.arrived = now;
-  next.torque = low_pass_->next(interrupted ? LowPassMemory() : memory.torque, torque_of(reading), interval);
+  next.torque =
+      low_pass_->next(interrupted ? LowPassMemory() : memory.torque, torque_of(reading, next), interval);
 }
 
 void DriveTorqueMapping::read(const DriveReading& reading, const StationStatus& station,
@@ -73,7 +84,7 @@ void DriveTorqueMapping::read(const DriveReading& reading, const StationStatus& 
   } else if (low_pass_ && next.torque.started) {
     result.torque = next.torque.output;
   } else {
-    result.torque = torque_of(reading);
+    result.torque = torque_of(reading, next);
   }
 }
 

@@ -4,10 +4,12 @@
 #include <optional>
 
 #include "systems/framework/system.h"
+#include "systems/robot/cogging.h"
 #include "systems/robot/parallel_robot.h"
 #include "systems/sensors/first_order_low_pass.h"
 #include "systems/signals/drive_reading.h"
 #include "systems/signals/drive_torque.h"
+#include "systems/signals/joint_reading.h"
 #include "systems/signals/sampling.h"
 #include "systems/signals/station_status.h"
 
@@ -17,6 +19,13 @@ struct DriveTorqueSettings {
   /// k_t of each drive [Nm/A or N/A]; empty: 6.1 for each, until calibrated. [ICRA23] III-B
   JointVector torque_constant;
   Sampling sampling;
+  Cogging cogging{};  ///< As far as it is known [Nm or N].
+};
+
+/// Cogging where the drives last were, and its mean on the way there; empty: nothing is known of it [Nm or N].
+struct PassedCogging {
+  JointVector here;
+  JointVector mean;
 };
 
 /// What the mapping remembers: its last sample.
@@ -24,9 +33,10 @@ struct DriveTorqueMemory {
   Time acquired{};
   Time arrived{};  ///< tick at which it was read
   LowPassMemory torque;
+  PassedCogging cogging;
 };
 
-/// tau_a = k_t i, each drive with its own constant. [SafePR] V-A
+/// tau_a = k_t i, each drive with its own constant, [SafePR] V-A, and the cogging of the drives where it is known.
 ///
 /// Aligned, the torque lags exactly as the velocity does. The current that is read at t_k tells the torque of
 /// the interval (t_{k-1}, t_k], over which the drive held it: its mean m_k there. The velocity filter sees
@@ -34,6 +44,9 @@ struct DriveTorqueMemory {
 ///   (d_k - d_{k-1}) / T = (a_k + a_{k-1}) / 2,
 /// so that both, sent through the same filter, still obey it: the change of the filtered momentum over a step
 /// is the mean of the filtered torques at its two ends (`TorqueTiming::sampled` of the momentum observers).
+///
+/// Cogging follows from where the drive is: its mean over the interval is that of its two ends. (Derived.)
+/// While the encoders say nothing it stays as it was.
 ///
 /// Not valid where the reading is not, or is not finite or of the wrong size. Nothing is held: what may live
 /// on old torques decides so itself. Only the low pass outlives missing samples, for the longest hold. It
@@ -43,29 +56,33 @@ class DriveTorqueMapping final : public System {
 
  public:
   /// `aligned_with`: the low pass of the velocity with which the torque is aligned; none: the torque as it
-  /// is. Throws SetupError unless there is a positive torque constant for each drive.
+  /// is. Throws SetupError unless there is a positive torque constant for each drive, and cogging of all or
+  /// of none.
   DriveTorqueMapping(const std::shared_ptr<const ParallelRobot>& robot, const DriveTorqueSettings& settings,
                      const std::optional<LowPassSettings>& aligned_with = std::nullopt);
 
+  InputPort<JointReading> joints = input<JointReading>("joints");  ///< for the cogging
   InputPort<DriveReading> drives = input<DriveReading>("drives");
   InputPort<StationStatus> status = input<StationStatus>("status");  ///< for the brakes
 
  private:
   Intermediate<DriveTorqueMemory> next_ =
-      intermediate<&DriveTorqueMapping::advance>("next", drives, status, memory_, clock);
+      intermediate<&DriveTorqueMapping::advance>("next", joints, drives, status, memory_, clock);
 
  public:
   OutputPort<DriveTorque> torque = output<&DriveTorqueMapping::read>("torque", drives, status, next_);
 
  private:
-  void advance(const DriveReading& reading, const StationStatus& station, const DriveTorqueMemory& memory,
-               Time now, DriveTorqueMemory& next) const;
+  void advance(const JointReading& encoders, const DriveReading& reading, const StationStatus& station,
+               const DriveTorqueMemory& memory, Time now, DriveTorqueMemory& next) const;
   void read(const DriveReading& reading, const StationStatus& station, const DriveTorqueMemory& next,
             DriveTorque& result) const;
   bool is_usable(const DriveReading& reading) const;
-  JointVector torque_of(const DriveReading& reading) const;
+  PassedCogging passed(const JointReading& encoders, const PassedCogging& last) const;
+  JointVector torque_of(const DriveReading& reading, const DriveTorqueMemory& next) const;
 
   JointVector torque_constant_;
+  Cogging cogging_;
   Sampling sampling_;
   std::optional<FirstOrderLowPass> low_pass_;
 };

@@ -139,6 +139,7 @@ BENCHMARK(RobotModelTick);
 void DriveTorqueMappingTick(benchmark::State& state) {
   DiagramBuilder builder;
   auto& block = add_drive_torque(builder, "block", state.range(0) != 0);
+  builder.connect(builder.optional_input<JointReading>("encoders"), block.joints);
   builder.connect(builder.optional_input<StationStatus>("brakes"), block.status);
   const auto drives = builder.export_input("drives", block.drives);
   Ticking ticking(builder);
@@ -183,6 +184,7 @@ void WholeChainTick(benchmark::State& state) {
   auto& pose = builder.add<ForwardKinematics>("pose", bench());
   auto& model = builder.add<RobotModel>("model", bench());
   auto& torque = add_drive_torque(builder, "torque", true);
+  builder.connect(builder.optional_input<JointReading>("encoders"), torque.joints);
   builder.connect(builder.optional_input<StationStatus>("brakes"), torque.status);
   auto& observer = builder.add<MomentumObserver>("observer", bench(), observer_settings());
   auto& detector = builder.add<ContactDetector>("detector", bench());

@@ -106,6 +106,7 @@ std::vector<EstimatorThresholds> thresholds_with(const std::vector<OpenedRecordi
       scenario.robot = calibrated_robot(scenario);
       calibrate_control(calibrations, scenario.control);
       scenario.control.drive_torque.torque_constant = scenario.robot.drives.torque_constant;
+      scenario.control.drive_torque.cogging = scenario.robot.drives.cogging;
     }
     const Replay replayed = replay(scenario, read_recording(file.source.file));
     peaks.push_back(contact_free_peaks(replayed.recording, scenario.robot.robot->space(), goal.stretch));

@@ -26,6 +26,7 @@ using test::problems_of;
 using test::TemporaryFolder;
 using ::testing::Contains;
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 const std::filesystem::path robots = std::filesystem::path(FLINCH_SOURCE_DIR) / "apps/robots";
@@ -291,6 +292,26 @@ TEST_F(ChangedRobotFile, HasASoundRobotOfItsKindThoughItIsNoGood) {
   replace("hexapod_6ups", "hexapod_6up");
   EXPECT_FALSE(preset_of_kind(file()).has_value());
   EXPECT_FALSE(preset_of_kind(robots / "nowhere.yaml").has_value());
+}
+
+constexpr const char* drives_with_cogging =
+    "drives:\n  cogging_wavelength_rad: [0.26, 0.26, 0.25]\n  cogging_sine_Nm: [0.3, 0, -0.1]\n";
+
+TEST_F(ChangedRobotFile, SaysHowItsDrivesCog) {
+  EXPECT_TRUE(read_robot_file(file()).drives.cogging.is_none());
+  replace("platform:\n",
+          std::string(drives_with_cogging) + "  cogging_cosine_Nm: [0.0, 0, 0.4]\nplatform:\n");
+  const Cogging cogging = read_robot_file(file()).drives.cogging;
+  EXPECT_EQ(cogging.wavelength, (JointVector{{0.26, 0.26, 0.25}}));
+  EXPECT_EQ(cogging.sine, (JointVector{{0.3, 0.0, -0.1}}));
+  EXPECT_EQ(cogging.cosine, (JointVector{{0.0, 0.0, 0.4}}));
+}
+
+TEST_F(ChangedRobotFile, SaysAllOfTheCoggingOrNothing) {
+  replace("platform:\n", std::string(drives_with_cogging) + "platform:\n");
+  EXPECT_THAT(problems(), ElementsAre(HasSubstr("drives.cogging_cosine_Nm: is missing")));
+  replace("[0.26, 0.26, 0.25]", "[0.26, 0, 0.25]");
+  EXPECT_THAT(problems(), Contains(HasSubstr("cogging_wavelength_rad[1]: is 0; it must be positive")));
 }
 
 TEST_F(ChangedRobotFile, HasOneInertiaALeg) {

@@ -62,6 +62,7 @@ class Chain {
     filter_ = &builder_.add<DisturbanceFilter>("filter", robot, DisturbanceFilterSettings{});
     builder_.connect(builder_.optional_input<StationStatus>("brakes"), torque.status);
     builder_.connect(plant.joints, noise.exact);
+    builder_.connect(noise.joints, torque.joints);
     builder_.connect(noise.joints, velocity.joints);
     builder_.connect(noise.joints, pose.joints);
     builder_.connect(noise.joints, filter_->joints);

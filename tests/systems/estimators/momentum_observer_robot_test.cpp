@@ -149,6 +149,7 @@ double residual_with_exact_velocity(TorqueTiming timing) {
   auto& model = builder.add<RobotModel>("model", robot);
   auto& torque =
       builder.add<DriveTorqueMapping>("torque", robot, DriveTorqueSettings{JointVector::Ones(3), {}});
+  builder.connect(builder.optional_input<JointReading>("encoders"), torque.joints);
   builder.connect(builder.optional_input<StationStatus>("brakes"), torque.status);
   auto& observer = builder.add<MomentumObserver>("observer", robot, observer_settings(135.0, timing));
   builder.connect(plant.state, motion.state);
@@ -221,6 +222,7 @@ class MeasuredChain {
     auto& pose = builder.add<ForwardKinematics>("pose", robot);
     auto& model = builder.add<RobotModel>("model", robot);
     auto& torque = builder.add<DriveTorqueMapping>("torque", robot, drives, settings.torque);
+    builder.connect(builder.optional_input<JointReading>("encoders"), torque.joints);
     builder.connect(builder.optional_input<StationStatus>("brakes"), torque.status);
     auto& observer =
         builder.add<MomentumObserver>("observer", robot, observer_settings(settings.gain, settings.timing));

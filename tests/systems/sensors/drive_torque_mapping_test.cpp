@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/random.h"
@@ -24,15 +26,18 @@ std::shared_ptr<const PlanarRrr> bench() {
 
 /// Aligned with a velocity of this form, or not.
 DriveTorqueMapping& add_mapping(DiagramBuilder& builder, std::optional<LowPassForm> form,
-                                const JointVector& torque_constant = JointVector::Ones(3)) {
+                                const JointVector& torque_constant = JointVector::Ones(3),
+                                const Cogging& cogging = {}) {
   const auto aligned_with = form ? std::optional(LowPassSettings{30.0, *form}) : std::nullopt;
-  return builder.add<DriveTorqueMapping>("mapping", bench(), DriveTorqueSettings{torque_constant, {}},
-                                         aligned_with);
+  return builder.add<DriveTorqueMapping>("mapping", bench(),
+                                         DriveTorqueSettings{torque_constant, {}, cogging}, aligned_with);
 }
 
 struct Mapping {
-  explicit Mapping(std::optional<LowPassForm> form, const JointVector& torque_constant = JointVector::Ones(3))
-      : block(add_mapping(builder, form, torque_constant)),
+  explicit Mapping(std::optional<LowPassForm> form, const JointVector& torque_constant = JointVector::Ones(3),
+                   const Cogging& cogging = {})
+      : block(add_mapping(builder, form, torque_constant, cogging)),
+        joints(builder.export_input("joints", block.joints)),
         drives(builder.export_input("drives", block.drives)),
         status(builder.export_input("status", block.status)),
         ticking(builder) {}
@@ -43,10 +48,15 @@ struct Mapping {
     return ticking.get(block.torque);
   }
   const DriveTorque& see(const JointVector& current) { return see({ticking.now(), true, current}); }
+  const DriveTorque& see_at(const JointVector& position, const JointVector& current) {
+    ticking.set(joints, {ticking.now(), true, false, position, {}});
+    return see(current);
+  }
   const DriveTorque& miss() { return see({ticking.now(), false, JointVector::Constant(3, nan)}); }
 
   DiagramBuilder builder;
   DriveTorqueMapping& block;
+  InputPort<JointReading> joints;
   InputPort<DriveReading> drives;
   InputPort<StationStatus> status;
   test::Ticking ticking;
@@ -100,6 +110,7 @@ TEST_P(AlignedTorque, LagsAsTheVelocityDoes) {
   auto& velocity =
       builder.add<VelocityFilter>("velocity", bench(), VelocityFilterSettings{{30.0, GetParam()}, {}});
   auto& mapping = add_mapping(builder, GetParam());
+  builder.connect(builder.optional_input<JointReading>("encoders"), mapping.joints);
   builder.connect(builder.optional_input<StationStatus>("brakes"), mapping.status);
   const auto joints = builder.export_input("joints", velocity.joints);
   const auto drives = builder.export_input("drives", mapping.drives);
@@ -126,6 +137,7 @@ TEST_P(AlignedTorque, ExplainsTheChangeOfTheFilteredMomentumAsTheMeanOfItsTwoEnd
   auto& velocity =
       builder.add<VelocityFilter>("velocity", bench(), VelocityFilterSettings{{30.0, GetParam()}, {}});
   auto& mapping = add_mapping(builder, GetParam());
+  builder.connect(builder.optional_input<JointReading>("encoders"), mapping.joints);
   builder.connect(builder.optional_input<StationStatus>("brakes"), mapping.status);
   const auto joints = builder.export_input("joints", velocity.joints);
   const auto drives = builder.export_input("drives", mapping.drives);
@@ -178,21 +190,82 @@ TEST_P(AlignedTorque, DoesNotTakeTheSameReadingTwice) {
   EXPECT_EQ(mapping.see({1ms, true, JointVector::Ones(3)}).torque, once);
 }
 
+// ---------------------------------------------------------------- cogging
+
+/// A quarter of a wave on, the sine is one and the cosine nothing.
+Cogging cogging() {
+  return {JointVector::Constant(3, 0.4), JointVector{{0.3, 0.0, -0.1}}, JointVector{{0.0, 0.2, 0.5}}};
+}
+
+TEST(DriveTorqueMapping, AddsTheMeanOfTheCoggingOnTheWay) {
+  const JointVector current{{1.0, -2.0, 0.5}};
+  Mapping mapping(std::nullopt, JointVector::Ones(3), cogging());
+  const JointVector start = JointVector::Zero(3), quarter = JointVector::Constant(3, 0.1);
+  EXPECT_LT((mapping.see_at(start, current).torque - current - cogging().cosine).norm(), 1e-14);
+  const JointVector mean = 0.5 * (cogging().cosine + cogging().sine);
+  EXPECT_LT((mapping.see_at(quarter, current).torque - current - mean).norm(), 1e-14);
+  EXPECT_LT((mapping.see_at(quarter, current).torque - current - cogging().sine).norm(), 1e-14);
+}
+
+// The integral over a millisecond at the largest speed of the bench, 24 waves a turn.
+TEST(DriveTorqueMapping, KnowsTheMeanOfTheCoggingOfFastDrives) {
+  const Cogging waves{JointVector::Constant(3, 2.0 * std::numbers::pi / 24.0), JointVector::Ones(3),
+                      JointVector::Zero(3)};
+  Mapping mapping(std::nullopt, JointVector::Ones(3), waves);
+  for (double q = -1.0; q < 1.0; q += 8.0 * T) {
+    mapping.see_at(JointVector::Constant(3, q), JointVector::Zero(3));
+    const double end = q + 8.0 * T, exact = (std::cos(24.0 * q) - std::cos(24.0 * end)) / (24.0 * 8.0 * T);
+    const double told = mapping.see_at(JointVector::Constant(3, end), JointVector::Zero(3)).torque[0];
+    ASSERT_NEAR(told, exact, 4e-3);
+  }
+}
+
+TEST(DriveTorqueMapping, KeepsTheCoggingWhileTheEncodersSayNothing) {
+  for (const bool starts_silent : {true, false}) {
+    Mapping mapping(std::nullopt, JointVector::Ones(3), cogging());
+    const JointVector known = starts_silent ? JointVector::Zero(3) : cogging().cosine;
+    if (!starts_silent) mapping.see_at(JointVector::Zero(3), JointVector::Ones(3));
+    const JointReading unusable[] = {{0ms, false, false, JointVector::Constant(3, 0.1), {}},
+                                     {0ms, true, false, JointVector::Constant(3, nan), {}},
+                                     {0ms, true, false, JointVector::Constant(2, 0.1), {}},
+                                     {0ms, true, false, {}, {}}};
+    for (const JointReading& reading : unusable) {
+      mapping.ticking.set(mapping.joints, reading);
+      const DriveTorque& torque = mapping.see(JointVector::Ones(3));
+      EXPECT_TRUE(torque.valid);
+      EXPECT_LT((torque.torque - JointVector::Ones(3) - known).norm(), 1e-14);
+    }
+  }
+}
+
+// Cogging that a current makes up for is a torque of nothing, and stays so however it is filtered.
+TEST_P(AlignedTorque, LagsInItsCoggingAsInItsCurrent) {
+  Mapping mapping(GetParam(), JointVector::Ones(3), cogging());
+  JointVector last = cogging().at(JointVector::Zero(3));
+  for (int k = 0; k < 200; ++k) {
+    const JointVector position = JointVector::Constant(3, 3e-3 * k);
+    const JointVector here = cogging().at(position);
+    ASSERT_LT(mapping.see_at(position, -0.5 * (last + here)).torque.norm(), 1e-14);
+    last = here;
+  }
+}
+
 TEST(DriveTorqueMapping, DoesNotAllocate) {
-  Mapping mapping(LowPassForm::tustin);
+  Mapping mapping(LowPassForm::tustin, JointVector::Ones(3), cogging());
   const test::AllocationCounter allocations;
-  for (int k = 0; k < 20; ++k) mapping.see(JointVector::Ones(3));
+  for (int k = 0; k < 20; ++k) mapping.see_at(JointVector::Constant(3, 1e-3 * k), JointVector::Ones(3));
   mapping.miss();
   EXPECT_EQ(allocations.count(), 0);
 }
 
 TEST(DriveTorqueMapping, SaysAllThatIsWrongWithItsSettings) {
-  const DriveTorqueSettings settings{JointVector{{6.1, 0.0}}, {}};
+  const DriveTorqueSettings settings{
+      JointVector{{6.1, 0.0}}, {}, {JointVector::Zero(3), JointVector::Zero(3), JointVector::Zero(3)}};
   try {
     DriveTorqueMapping mapping(bench(), settings, LowPassSettings{0.0, LowPassForm::tustin});
     FAIL();
   } catch (const SetupError& error) {
-    EXPECT_EQ(error.problems().size(), 3U) << error.what();
+    EXPECT_EQ(error.problems().size(), 4U) << error.what();
   }
 }
 

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "identification/dynamic_parameters.h"
+#include "identification/dynamics_rows.h"
+#include "systems/robot/drive_parameters.h"
+
+namespace flinch {
+
+/// What repeats along the way of a drive, whatever its current: s sin(r q) + c cos(r q).
+struct CoggingWave {
+  int drive = 0;
+  double rate = 0.0;       ///< r [rad/rad or rad/m]
+  double deviation = 0.0;  ///< of what is believed of the rate, as it was found
+  double least = 0.0;      ///< rate; what is slower may be something else
+  double sine = 0.0;       ///< s [Nm or N]
+  double cosine = 0.0;     ///< c [Nm or N]
+};
+
+/// The waves that explain some of what is `left` of the surplus of rows [Nm or N], at most one of each drive.
+std::vector<CoggingWave> find_cogging(const DynamicsRows& rows, const Eigen::VectorXd& left, int drives);
+
+/// The surplus of rows without what drives are believed to cog by [Nm or N].
+Eigen::VectorXd without_cogging(const DynamicsRows& rows, const Cogging& believed);
+
+/// The dynamic parameters of a robot, and after them s, c and r of each wave. In the file stands the cogging
+/// of all drives, of those without a wave none.
+class CoggingParameters final : public DynamicParameters {
+ public:
+  /// `robot` outlives it.
+  CoggingParameters(const DynamicParameters& robot, std::vector<CoggingWave> waves, DriveKind kind,
+                    const DriveParameters& believed);
+
+  /// The rows of the robot's parameters with how they depend on the waves.
+  DynamicsRows rows(DynamicsRows of_robot) const;
+
+  std::shared_ptr<const ParallelRobot> with(const Eigen::VectorXd& values) const override;
+  std::vector<Eigen::MatrixXd> must_be_definite(const Eigen::VectorXd& values) const override;
+  std::vector<FileValue> in_file(const Eigen::VectorXd& values) const override;
+
+  /// What is believed of a number of the file; none: nothing.
+  std::optional<double> believed_in_file(const std::string& name) const;
+
+ private:
+  Eigen::VectorXd of_robot(const Eigen::VectorXd& values) const;
+  Cogging cogging(const Eigen::VectorXd& values) const;
+  void add(const Cogging& cogging, std::vector<FileValue>& in_file) const;
+
+  const DynamicParameters& robot_;
+  std::vector<CoggingWave> waves_;
+  DriveKind kind_;
+  DriveParameters believed_;
+};
+
+}  // namespace flinch

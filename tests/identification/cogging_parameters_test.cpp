@@ -1,0 +1,183 @@
+#include "identification/cogging_parameters.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <numbers>
+#include <string>
+
+#include "identification/dynamics_calibration.h"
+#include "plant/specimen.h"
+#include "systems/framework/random.h"
+#include "systems/robot/planar_rrr.h"
+#include "systems/robot/planar_rrr_presets.h"
+#include "tests/identification/free_motion_errors.h"
+
+namespace flinch {
+namespace {
+
+const PlanarRrr& bench() {
+  static const PlanarRrr robot(bench_robot(BenchGeometry::nominal, BenchFriction::simulation));
+  return robot;
+}
+
+DriveParameters drives() { return default_drives(DriveKind::revolute, 3); }
+
+/// Of drives that go to and fro: two of them cog.
+const std::vector<CoggingWave> truth = {{.drive = 0, .rate = 24.0, .sine = 0.1, .cosine = 0.17},
+                                        {.drive = 1, .rate = 22.0, .sine = -0.3, .cosine = 0.2}};
+
+/// Rows of their motion, in which no dynamic parameter of the robot does anything.
+DynamicsRows cogging_rows(Eigen::Index parameters) {
+  constexpr int samples = 20000, step = 10;
+  constexpr double period = 1e-3;
+  DynamicsRows rows;
+  rows.paths = {{Eigen::MatrixXd(samples, 3), period}};
+  for (int k = 0; k < samples; ++k) {
+    for (int i = 0; i < 3; ++i) {
+      rows.paths[0].position(k, i) = 0.8 * std::sin((1.1 + 0.3 * i) * period * k);
+    }
+  }
+  for (int k = 500; k < samples - 500; k += step) {
+    for (int i = 0; i < 3; ++i) {
+      rows.drive.push_back(i);
+      rows.path.push_back(0);
+      rows.sample.push_back(k);
+      rows.time.push_back(period * k);
+      rows.cluster.push_back(k / 500);
+      rows.recording.push_back(0);
+    }
+  }
+  const auto n = static_cast<Eigen::Index>(rows.drive.size());
+  rows.torque.setZero(n);
+  rows.surplus.setZero(n);
+  rows.regressor.setZero(n, parameters);
+  for (const CoggingWave& wave : truth) {
+    rows.surplus -= along_the_way(rows, wave.drive, [&](double q) -> Eigen::RowVector3d {
+                      const double w =
+                          wave.sine * std::sin(wave.rate * q) + wave.cosine * std::cos(wave.rate * q);
+                      return {w, 0.0, 0.0};
+                    }).col(0);
+  }
+  RandomGenerator random(1);
+  for (double& value : rows.surplus) value += 0.02 * random.normal();
+  return rows;
+}
+
+TEST(CoggingParameters, AreFoundOfTheDrivesThatCog) {
+  const DynamicsRows rows = cogging_rows(0);
+  const std::vector<CoggingWave> waves = find_cogging(rows, rows.surplus, 3);
+  ASSERT_EQ(waves.size(), truth.size());
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    EXPECT_EQ(waves[i].drive, truth[i].drive);
+    EXPECT_NEAR(waves[i].rate, truth[i].rate, 0.05) << i;
+    EXPECT_NEAR(waves[i].sine, truth[i].sine, 0.01) << i;
+    EXPECT_NEAR(waves[i].cosine, truth[i].cosine, 0.01) << i;
+  }
+}
+
+// The rows are what the waves make of them, and the last column is how that changes with the rate.
+TEST(CoggingParameters, HaveTheColumnsOfTheirRows) {
+  const auto robot = DynamicParameters::of(bench());
+  const auto p = static_cast<Eigen::Index>(robot->list().size());
+  const CoggingWave wave{
+      .drive = 1, .rate = 24.0, .deviation = 1.0, .least = 10.0, .sine = 0.3, .cosine = -0.2};
+  const auto made_by = [&](double rate) {
+    CoggingWave other = wave;
+    other.rate = rate;
+    const CoggingParameters parameters(*robot, {other}, DriveKind::revolute, drives());
+    const DynamicsRows rows = parameters.rows(cogging_rows(p));
+    return Eigen::VectorXd(rows.regressor.col(p) * wave.sine + rows.regressor.col(p + 1) * wave.cosine);
+  };
+  const DynamicsRows rows =
+      CoggingParameters(*robot, {wave}, DriveKind::revolute, drives()).rows(cogging_rows(p));
+  const Eigen::VectorXd difference = (made_by(24.0 + 1e-4) - made_by(24.0 - 1e-4)) / 2e-4;
+  EXPECT_LT((difference - rows.regressor.col(p + 2)).lpNorm<Eigen::Infinity>(), 1e-7);
+  for (Eigen::Index row = 0; row < rows.surplus.size(); ++row) {
+    if (rows.drive[static_cast<std::size_t>(row)] != 1) {
+      ASSERT_TRUE(rows.regressor.row(row).tail(3).isZero(0.0));
+    }
+  }
+}
+
+TEST(CoggingParameters, StandInTheFileForAllDrivesOrForNone) {
+  const auto robot = DynamicParameters::of(bench());
+  const CoggingParameters none(*robot, {}, DriveKind::revolute, drives());
+  EXPECT_EQ(none.in_file(none.believed()).size(), robot->in_file(robot->believed()).size());
+
+  const CoggingParameters some(*robot, {{.drive = 2, .rate = 24.0, .deviation = 1.0, .least = 10.0}},
+                               DriveKind::revolute, drives());
+  Eigen::VectorXd values = some.believed();
+  values.tail(3) << 0.3, -0.2, 25.0;
+  const std::vector<FileValue> file = some.in_file(values);
+  const std::size_t of_robot = robot->in_file(robot->believed()).size();
+  ASSERT_EQ(file.size(), of_robot + 9);
+  const double expected[] = {1.0, 1.0, 2.0 * std::numbers::pi / 25.0, 0.0, 0.0, 0.3, 0.0, 0.0, -0.2};
+  const char* const names[] = {"wavelength_rad[0]", "wavelength_rad[1]", "wavelength_rad[2]",
+                               "sine_Nm[0]",        "sine_Nm[1]",        "sine_Nm[2]",
+                               "cosine_Nm[0]",      "cosine_Nm[1]",      "cosine_Nm[2]"};
+  for (std::size_t i = 0; i < 9; ++i) {
+    EXPECT_EQ(file[of_robot + i].name, std::string("drives.cogging_") + names[i]);
+    EXPECT_NEAR(file[of_robot + i].value, expected[i], 1e-15);
+  }
+}
+
+// Who believed in cogging and finds none says so, or the old one would stay.
+TEST(CoggingParameters, TakeBackWhatWasBelieved) {
+  const auto robot = DynamicParameters::of(bench());
+  DriveParameters believing = drives();
+  believing.cogging = {JointVector::Constant(3, 0.26), JointVector::Ones(3), JointVector::Ones(3)};
+  const CoggingParameters none(*robot, {}, DriveKind::revolute, believing);
+  const std::vector<FileValue> file = none.in_file(none.believed());
+  ASSERT_EQ(file.size(), robot->list().size() + 9);
+  EXPECT_EQ(file[robot->list().size()].value, 0.26);
+  EXPECT_EQ(file.back().value, 0.0);
+}
+
+/// Of what the motors of a robot add about home, the share that a calibration does not find.
+double not_found(const SimulatedScenario& scenario, const CalibrationResult& got, int drive) {
+  std::map<std::string, double> values;
+  for (const CalibratedParameter& parameter : got.parameters) values[parameter.name] = parameter.value;
+  const auto value = [&](const std::string& key) {
+    return JointVector::Constant(1, values.at("drives.cogging_" + key + "[" + std::to_string(drive) + "]"));
+  };
+  const Cogging found{value("wavelength_rad"), value("sine_Nm"), value("cosine_Nm")};
+  const PositionWave& motor = scenario.specimen.uneven_torque[static_cast<std::size_t>(drive)].cogging;
+  const ParallelRobot& robot = *scenario.robot.robot;
+  Kinematics home;
+  robot.kinematics(robot.home_pose(), PlatformVector::Zero(robot.dof()), home);
+  double left = 0.0, all = 0.0;
+  for (double from_home = -0.4; from_home < 0.4; from_home += 0.01) {
+    const double q = home.joints.active[drive] + from_home;
+    left += std::pow(found.at(JointVector::Constant(1, q))[0] - motor.at(q), 2);
+    all += std::pow(motor.at(q), 2);
+  }
+  std::printf("  drive %d cogs by %.3f Nm, %.1f %% of it not found\n", drive + 1, motor.amplitude,
+              100.0 * std::sqrt(left / all));
+  return std::sqrt(left / all);
+}
+
+// What one wave of each drive cannot be is left: torque ripple, and torque constants that are off.
+TEST(Dynamics, FindHowTheMotorsOfARobotCog) {
+  test::CalibratedRobot robot(1);
+  robot.torque_constants("calibration_pulls.yaml");
+  const SimulatedScenario scenario = robot.scenario("calibration_excitation.yaml");
+  const CalibrationResult got = robot.dynamics("calibration_excitation.yaml");
+  for (int drive = 0; drive < 3; ++drive) EXPECT_LT(not_found(scenario, got, drive), 0.1) << drive;
+  EXPECT_LT(got.residual_after, 0.2 * got.residual_before);
+  const Cogging taken_over = robot.scenario("calibration_motion.yaml").robot.drives.cogging;
+  EXPECT_FALSE(taken_over.is_none()) << "by who reads it next";
+}
+
+TEST(Dynamics, FindNoCoggingWhereThereIsNone) {
+  test::CalibratedRobot robot(1);
+  const CalibrationResult got =
+      robot.dynamics("calibration_excitation.yaml", {{test::excitation_realism, test::only_parameters}});
+  for (const CalibratedParameter& parameter : got.parameters)
+    EXPECT_FALSE(parameter.name.starts_with("drives.")) << parameter.name;
+}
+
+}  // namespace
+}  // namespace flinch
