@@ -105,16 +105,12 @@ MotionPorts add_motion(const Path& path, const SensedPorts& sensed, OutputPort<J
   auto& pose =
       path.builder.add<ForwardKinematics>("forward_kinematics", path.robot, path.settings.forward_kinematics);
   auto& model = path.builder.add<RobotModel>("model", path.robot);
-  auto& torque = path.builder.add<DriveTorqueMapping>("drive_torque", path.robot, path.settings.drive_torque,
-                                                      torque_low_pass(path.settings));
   path.builder.connect(sensed.joints, pose.joints);
   path.builder.connect(joint_motion, pose.motion);
   path.builder.connect(pose.platform, model.platform);
-  path.builder.connect(sensed.joints, torque.joints);
-  path.builder.connect(sensed.drives, torque.drives);
-  path.builder.connect(sensed.status, torque.status);
-  return {sensed,         joint_motion,   pose.platform, model.kinematics,
-          model.dynamics, model.measures, torque.torque, imu};
+  const StageSite site{path.builder, "drive_torque", path.robot, path.settings};
+  const OutputPort<DriveTorque> torque = add_drive_torque(site, sensed, torque_low_pass(path.settings));
+  return {sensed, joint_motion, pose.platform, model.kinematics, model.dynamics, model.measures, torque, imu};
 }
 
 OutputPort<PlatformAcceleration> followed_acceleration(
@@ -184,7 +180,7 @@ void connect(const Path& path, const WatchedImu& imu, const ReactionPorts& given
   builder.connect(given.joints, monitor.joints);
   builder.connect(given.drives, monitor.drives);
   builder.connect(imu.reading, monitor.imu);
-  builder.connect(add_torque_as_it_is(part(site, "torque"), given), monitor.torque);
+  builder.connect(add_drive_torque(part(site, "torque"), given), monitor.torque);
   builder.connect(given.reset, monitor.reset);
   builder.connect(given.status, monitor.station);
   builder.connect(given.platform, monitor.platform);

@@ -57,7 +57,7 @@ OutputPort<WrenchEstimate> add_direct(const StageSite& site, const AcceleratedPo
   builder.connect(present.platform, direct.platform);
   builder.connect(present.kinematics, direct.kinematics);
   builder.connect(present.dynamics, direct.dynamics);
-  builder.connect(add_torque_as_it_is(part(site, "torque"), given), direct.torque);
+  builder.connect(add_drive_torque(part(site, "torque"), given), direct.torque);
   builder.connect(acceleration, direct.acceleration);
   return add_fallback(site, given, direct.wrench);
 }
@@ -120,7 +120,7 @@ OutputPort<WrenchEstimate> add_imu_residual(const StageSite& site, const Acceler
   builder.connect(present.platform, residual.platform);
   builder.connect(present.kinematics, residual.kinematics);
   builder.connect(present.dynamics, residual.dynamics);
-  builder.connect(add_torque_as_it_is(part(site, "torque"), given), residual.torque);
+  builder.connect(add_drive_torque(part(site, "torque"), given), residual.torque);
   builder.connect(given.imu, residual.imu);
   return add_fallback(site, given, residual.wrench);
 }

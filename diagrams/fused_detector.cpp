@@ -22,7 +22,7 @@ OutputPort<DriveLoad> add_loads(const StageSite& site, const AcceleratedPorts& g
   site.builder.connect(present.platform, loads.platform);
   site.builder.connect(present.kinematics, loads.kinematics);
   site.builder.connect(present.dynamics, loads.dynamics);
-  site.builder.connect(add_torque_as_it_is(part(site, "torque"), given), loads.torque);
+  site.builder.connect(add_drive_torque(part(site, "torque"), given), loads.torque);
   return loads.load;
 }
 

@@ -9,8 +9,10 @@ StageSite part(const StageSite& site, const std::string& what) {
   return {site.builder, site.name + "_" + what, site.robot, site.settings, site.loads};
 }
 
-OutputPort<DriveTorque> add_torque_as_it_is(const StageSite& site, const SensedPorts& given) {
-  auto& torque = site.builder.add<DriveTorqueMapping>(site.name, site.robot, site.settings.drive_torque);
+OutputPort<DriveTorque> add_drive_torque(const StageSite& site, const SensedPorts& given,
+                                         const std::optional<LowPassSettings>& aligned_with) {
+  auto& torque =
+      site.builder.add<DriveTorqueMapping>(site.name, site.robot, site.settings.drive_torque, aligned_with);
   site.builder.connect(given.joints, torque.joints);
   site.builder.connect(given.drives, torque.drives);
   site.builder.connect(given.status, torque.status);
@@ -25,7 +27,7 @@ DisturbanceFilter& add_encoder_filter(const StageSite& site, const MotionPorts& 
   builder.connect(given.platform, filter.platform);
   builder.connect(given.kinematics, filter.kinematics);
   builder.connect(given.dynamics, filter.dynamics);
-  builder.connect(add_torque_as_it_is(part(site, "torque"), given), filter.torque);
+  builder.connect(add_drive_torque(part(site, "torque"), given), filter.torque);
   return filter;
 }
 

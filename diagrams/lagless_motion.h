@@ -1,17 +1,20 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "diagrams/control_stages.h"
 #include "systems/estimators/disturbance_filter.h"
+#include "systems/sensors/first_order_low_pass.h"
 
 namespace flinch {
 
 /// Where a further block of a stage is added, called as the stage and `what` it is.
 StageSite part(const StageSite& site, const std::string& what);
 
-/// The drive torque of the present, without the filter that aligns it with the velocity.
-OutputPort<DriveTorque> add_torque_as_it_is(const StageSite& site, const SensedPorts& given);
+/// The drive torque of the present or, where a low pass of the velocity is given, aligned with that.
+OutputPort<DriveTorque> add_drive_torque(const StageSite& site, const SensedPorts& given,
+                                         const std::optional<LowPassSettings>& aligned_with = std::nullopt);
 
 /// A filter that follows motion and disturbance by that torque.
 DisturbanceFilter& add_encoder_filter(const StageSite& site, const MotionPorts& given,

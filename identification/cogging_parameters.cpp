@@ -177,6 +177,17 @@ std::vector<FileValue> CoggingParameters::in_file(const Eigen::VectorXd& values)
   return in_file;
 }
 
+std::vector<int> CoggingParameters::stilled() const {
+  std::vector<int> drives;
+  const Cogging& before = believed_.cogging;
+  for (int drive = 0; drive < static_cast<int>(before.sine.size()); ++drive) {
+    const bool cogs = std::any_of(waves_.begin(), waves_.end(),
+                                  [&](const CoggingWave& wave) { return wave.drive == drive; });
+    if (!cogs && std::hypot(before.sine[drive], before.cosine[drive]) > 0.0) drives.push_back(drive);
+  }
+  return drives;
+}
+
 std::optional<double> CoggingParameters::believed_in_file(const std::string& name) const {
   std::vector<FileValue> in_file = robot_.in_file(robot_.believed());
   add(believed_.cogging, in_file);

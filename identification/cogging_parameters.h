@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -36,6 +37,8 @@ class CoggingParameters final : public DynamicParameters {
   CoggingParameters(const DynamicParameters& robot, std::vector<CoggingWave> waves, DriveKind kind,
                     const DriveParameters& believed);
 
+  /// How many of the list are the robot's, the first ones.
+  std::ptrdiff_t of_robot_count() const { return static_cast<std::ptrdiff_t>(robot_.list().size()); }
   /// The rows of the robot's parameters with how they depend on the waves.
   DynamicsRows rows(DynamicsRows of_robot) const;
 
@@ -43,6 +46,8 @@ class CoggingParameters final : public DynamicParameters {
   std::vector<Eigen::MatrixXd> must_be_definite(const Eigen::VectorXd& values) const override;
   std::vector<FileValue> in_file(const Eigen::VectorXd& values) const override;
 
+  /// Drives that were believed to cog and are not seen to.
+  std::vector<int> stilled() const;
   /// What is believed of a number of the file; none: nothing.
   std::optional<double> believed_in_file(const std::string& name) const;
 

@@ -10,9 +10,9 @@
 
 namespace flinch {
 
-/// A number on which the equations of motion depend linearly.
+/// A number on which the equations of motion depend linearly, or as good as that near what is believed.
 struct DynamicParameter {
-  std::string name{};      ///< the path of its key in a robot file
+  std::string name{};      ///< the path of its key in a robot file; empty: it has none
   std::string unit{};      ///< SI
   double believed = 0.0;   ///< what the robot says
   double deviation = 0.0;  ///< of that belief
@@ -24,7 +24,7 @@ struct FileValue {
   std::string name;
   std::string unit;
   double value = 0.0;
-  std::optional<int> mainly{};  ///< the parameter on which it depends; none: it is there with others
+  std::optional<int> mainly{};  ///< the parameter on which it mainly depends; none: on those of the cogging
 };
 
 /// The inertial and friction parameters of a mechanism, and the robot that has others.

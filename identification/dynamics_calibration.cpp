@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <utility>
 
@@ -214,9 +215,11 @@ void add_parameters(const CoggingParameters& parameters, const Solution& solutio
   }
   result.covariance = map * solution.sure.covariance.topLeftCorner(p, p) * map.transpose();
   result.influence = map * solution.sure.influence.topRows(p);
+  const auto& all = solution.held;
+  const bool wave_held = std::any_of(all.begin() + parameters.of_robot_count(), all.end(), std::identity());
   for (std::size_t i = 0; i < now.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    const bool held = now[i].mainly && solution.held[static_cast<std::size_t>(*now[i].mainly)];
+    const bool held = now[i].mainly ? bool(all[static_cast<std::size_t>(*now[i].mainly)]) : wave_held;
     const double variance = result.covariance(row, row);
     result.parameters.push_back(
         {.name = now[i].name,
@@ -343,6 +346,12 @@ CalibrationResult calibrate_dynamics(const DynamicsBelief& belief,
   add_residuals(rows, without_cogging(rows, belief.drives.cogging), after, solution.fit.linear, drives,
                 result);
   doubt(rows, solution, after, result);
+  for (const int drive : parameters.stilled()) {
+    result.warnings.push_back(fmt::format(
+        "drive {} was believed to cog, and this motion does not show it, so it is taken back; where "
+        "the motor is still the same one, record a wider or slower motion",
+        drive + 1));
+  }
   validate(belief, *of_robot, parameters, solution.fit.values, unseen, result);
   const char* const key = turns ? "drives.torque_constant_Nm_per_A" : "drives.force_constant_N_per_A";
   for (int i = 0; i < drives; ++i) {

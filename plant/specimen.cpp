@@ -1,7 +1,9 @@
 #include "plant/specimen.h"
 
+#include <algorithm>
 #include <numbers>
 #include <string_view>
+#include <utility>
 
 #include "systems/framework/random.h"
 
@@ -129,7 +131,9 @@ Specimen draw_specimen(const Realism& realism, const ParallelRobot& robot, doubl
 SimulatedStationSettings with_specimen(SimulatedStationSettings model, const Specimen& specimen) {
   SimulatedDrivesSettings& drives = model.drives;
   model.bench.robot = true_robot(model.bench.robot, specimen.mechanics);
-  model.bench.uneven_torque = specimen.uneven_torque;
+  const std::vector<UnevenTorque> known = std::exchange(model.bench.uneven_torque, specimen.uneven_torque);
+  model.bench.uneven_torque.resize(std::max(known.size(), specimen.uneven_torque.size()));
+  for (std::size_t i = 0; i < known.size(); ++i) model.bench.uneven_torque[i].cogging = known[i].cogging;
   drives.current_lag = specimen.current_lag;
   if (specimen.torque_constant_scale.size() > 0) {
     drives = complete(drives, *model.bench.robot);

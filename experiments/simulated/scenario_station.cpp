@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
+#include <numbers>
 #include <span>
 #include <string>
 #include <vector>
@@ -57,6 +59,18 @@ void read_scales(ConfigReader& plant, const char* name, int count, JointVector& 
   plant.numbers(name, unit::none, entries(scales), not_negative);
 }
 
+/// Of motors that cog as the robot file says.
+std::vector<UnevenTorque> uneven_torque(const Cogging& cogging) {
+  std::vector<UnevenTorque> drives;
+  for (Eigen::Index i = 0; i < cogging.sine.size(); ++i) {
+    drives.push_back({.cogging = {.amplitude = std::hypot(cogging.sine[i], cogging.cosine[i]),
+                                  .rate = 2.0 * std::numbers::pi / cogging.wavelength[i],
+                                  .phase = std::atan2(cogging.cosine[i], cogging.sine[i])},
+                      .ripple = {}});
+  }
+  return drives;
+}
+
 /// What is true of the robot, where that differs from what the controller believes; how far one that is drawn
 /// may be off that.
 Realism read_plant(ConfigReader plant, const Scenario& scenario, SimulatedStationSettings& station) {
@@ -65,6 +79,7 @@ Realism read_plant(ConfigReader plant, const Scenario& scenario, SimulatedStatio
   PlantFriction friction = PlantFriction::as_robot_file;
   double mass_scale = 1.0;
   RobotDeviation deviation;
+  station.bench.uneven_torque = uneven_torque(built.drives.cogging);
   station.drives.torque_constant = built.drives.torque_constant;
   station.drives.driver_torque_constant = scenario.robot.drives.torque_constant;
   plant.choice("friction", friction,

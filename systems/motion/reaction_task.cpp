@@ -299,8 +299,10 @@ void ReactionTask::plan(Time now, const ReactionPlan& last, const TravelledPath&
   const Time decided = state.since + settings_.decide_within;
   const bool begins = state.entered(ReactionMode::react, now) && state.previous != ReactionMode::hold;
   const bool known = last.kind != ReactionKind::brake && last.kind != ReactionKind::retreat;
-  if (begins || (!known && state.mode == ReactionMode::react && now <= decided)) {
+  const bool is_open = !known && last.attempts <= ReactionPlan::most_attempts;
+  if (begins || (is_open && state.mode == ReactionMode::react && now <= decided)) {
     next = ReactionPlan();
+    if (!begins) next.attempts = std::max(last.attempts, 1);
     classify(at, contact, touched, place, next);
     const bool goes_on = !begins && last.kind == ReactionKind::retreat && next.kind == ReactionKind::brake &&
                          !is_pushed_against(now, last, at, model, contact);

@@ -22,7 +22,7 @@ struct DriveTorqueSettings {
   Cogging cogging{};  ///< As far as it is known [Nm or N].
 };
 
-/// Cogging where the drives last were, and its mean on the way there; empty: nothing is known of it [Nm or N].
+/// Cogging where the drives last were, and its mean on the way there [Nm or N]; empty: nothing is known.
 struct PassedCogging {
   JointVector here;
   JointVector mean;
@@ -36,7 +36,7 @@ struct DriveTorqueMemory {
   PassedCogging cogging;
 };
 
-/// tau_a = k_t i, each drive with its own constant, [SafePR] V-A, and the cogging of the drives where it is known.
+/// tau_a = k_t i, each drive with its own constant, [SafePR] V-A, and its cogging where that is known.
 ///
 /// Aligned, the torque lags exactly as the velocity does. The current that is read at t_k tells the torque of
 /// the interval (t_{k-1}, t_k], over which the drive held it: its mean m_k there. The velocity filter sees

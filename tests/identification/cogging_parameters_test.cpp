@@ -11,6 +11,8 @@
 #include "identification/dynamics_calibration.h"
 #include "plant/specimen.h"
 #include "systems/framework/random.h"
+#include "systems/robot/hexapod.h"
+#include "systems/robot/hexapod_presets.h"
 #include "systems/robot/planar_rrr.h"
 #include "systems/robot/planar_rrr_presets.h"
 #include "tests/identification/free_motion_errors.h"
@@ -29,6 +31,8 @@ DriveParameters drives() { return default_drives(DriveKind::revolute, 3); }
 const std::vector<CoggingWave> truth = {{.drive = 0, .rate = 24.0, .sine = 0.1, .cosine = 0.17},
                                         {.drive = 1, .rate = 22.0, .sine = -0.3, .cosine = 0.2}};
 
+constexpr double noise = 0.02;  // of a torque [Nm]
+
 /// Rows of their motion, in which no dynamic parameter of the robot does anything.
 DynamicsRows cogging_rows(Eigen::Index parameters) {
   constexpr int samples = 20000, step = 10;
@@ -37,7 +41,7 @@ DynamicsRows cogging_rows(Eigen::Index parameters) {
   rows.paths = {{Eigen::MatrixXd(samples, 3), period}};
   for (int k = 0; k < samples; ++k) {
     for (int i = 0; i < 3; ++i) {
-      rows.paths[0].position(k, i) = 0.8 * std::sin((1.1 + 0.3 * i) * period * k);
+      rows.paths[0].position(k, i) = 0.8 * std::sin((4.0 + 1.5 * i) * period * k);
     }
   }
   for (int k = 500; k < samples - 500; k += step) {
@@ -62,7 +66,7 @@ DynamicsRows cogging_rows(Eigen::Index parameters) {
                     }).col(0);
   }
   RandomGenerator random(1);
-  for (double& value : rows.surplus) value += 0.02 * random.normal();
+  for (double& value : rows.surplus) value += noise * random.normal();
   return rows;
 }
 
@@ -78,7 +82,7 @@ TEST(CoggingParameters, AreFoundOfTheDrivesThatCog) {
   }
 }
 
-// The rows are what the waves make of them, and the last column is how that changes with the rate.
+// The last column is how what the first two make of the surplus changes with the rate.
 TEST(CoggingParameters, HaveTheColumnsOfTheirRows) {
   const auto robot = DynamicParameters::of(bench());
   const auto p = static_cast<Eigen::Index>(robot->list().size());
@@ -128,12 +132,42 @@ TEST(CoggingParameters, StandInTheFileForAllDrivesOrForNone) {
 TEST(CoggingParameters, TakeBackWhatWasBelieved) {
   const auto robot = DynamicParameters::of(bench());
   DriveParameters believing = drives();
-  believing.cogging = {JointVector::Constant(3, 0.26), JointVector::Ones(3), JointVector::Ones(3)};
+  believing.cogging = {JointVector::Constant(3, 0.26), JointVector::Ones(3), JointVector{{0.0, 1.0, 2.0}}};
   const CoggingParameters none(*robot, {}, DriveKind::revolute, believing);
   const std::vector<FileValue> file = none.in_file(none.believed());
   ASSERT_EQ(file.size(), robot->list().size() + 9);
   EXPECT_EQ(file[robot->list().size()].value, 0.26);
   EXPECT_EQ(file.back().value, 0.0);
+  EXPECT_EQ(none.believed_in_file("drives.cogging_cosine_Nm[2]"), 2.0);
+  EXPECT_EQ(none.stilled(), (std::vector<int>{0, 1, 2}));
+  const CoggingParameters one(*robot, {{.drive = 1, .rate = 24.0, .deviation = 1.0, .least = 10.0}},
+                              DriveKind::revolute, believing);
+  EXPECT_EQ(one.stilled(), (std::vector<int>{0, 2}));
+}
+
+TEST(CoggingParameters, OfDrivesThatSlideAreInMetres) {
+  const Hexapod hexapod(hexapod_robot());
+  const auto robot = DynamicParameters::of(hexapod);
+  const CoggingParameters some(*robot, {{.drive = 5, .rate = 100.0, .deviation = 1.0, .least = 10.0}},
+                               DriveKind::prismatic, default_drives(DriveKind::prismatic, 6));
+  const std::vector<FileValue> file = some.in_file(some.believed());
+  EXPECT_EQ(file[file.size() - 13].name, "drives.cogging_wavelength_m[5]");
+  EXPECT_NEAR(file[file.size() - 13].value, 2.0 * std::numbers::pi / 100.0, 1e-15);
+  EXPECT_EQ(file.back().name, "drives.cogging_cosine_N[5]");
+}
+
+// What was believed is what the waves make of the surplus.
+TEST(CoggingParameters, LeaveNoSurplusWhereTheyAreTrue) {
+  const DynamicsRows rows = cogging_rows(0);
+  Cogging known{JointVector::Ones(3), JointVector::Zero(3), JointVector::Zero(3)};
+  for (const CoggingWave& wave : truth) {
+    known.wavelength[wave.drive] = 2.0 * std::numbers::pi / wave.rate;
+    known.sine[wave.drive] = wave.sine;
+    known.cosine[wave.drive] = wave.cosine;
+  }
+  const Eigen::VectorXd left = without_cogging(rows, known);
+  EXPECT_LT(std::sqrt(left.squaredNorm() / static_cast<double>(left.size())), 1.1 * noise);
+  EXPECT_EQ(without_cogging(rows, Cogging()), rows.surplus);
 }
 
 /// Of what the motors of a robot add about home, the share that a calibration does not find.
@@ -169,6 +203,22 @@ TEST(Dynamics, FindHowTheMotorsOfARobotCog) {
   EXPECT_LT(got.residual_after, 0.2 * got.residual_before);
   const Cogging taken_over = robot.scenario("calibration_motion.yaml").robot.drives.cogging;
   EXPECT_FALSE(taken_over.is_none()) << "by who reads it next";
+}
+
+// A robot that was calibrated once and is calibrated again: what is left before is what was left after.
+TEST(Dynamics, FindTheSameCoggingAgain) {
+  test::CalibratedRobot robot(1);
+  robot.torque_constants("calibration_pulls.yaml");
+  const CalibrationResult first = robot.dynamics("calibration_excitation.yaml");
+  const CalibrationResult again = robot.dynamics("calibration_excitation.yaml");
+  EXPECT_NEAR(again.residual_before, first.residual_after, 0.1 * first.residual_after);
+  EXPECT_NEAR(again.residual_after, first.residual_after, 0.1 * first.residual_after);
+  for (const CalibratedParameter& parameter : again.parameters) {
+    if (parameter.name.starts_with("drives.cogging_sine")) {
+      ASSERT_TRUE(parameter.before.has_value());
+      EXPECT_NEAR(parameter.value, *parameter.before, 0.02);
+    }
+  }
 }
 
 TEST(Dynamics, FindNoCoggingWhereThereIsNone) {

@@ -30,6 +30,21 @@ TEST(DominantWave, IsTheOneThatIsThere) {
   EXPECT_NEAR(dominant_wave(samples(24.0, 0.1, 7.0), 2.0, 0.1).rate, 24.0, 0.5) << "times a torque";
 }
 
+// As a filter leaves it: of the fast places little, and they must not speak against the wave.
+TEST(DominantWave, IsFoundWhereFastPlacesBlurIt) {
+  std::vector<WaveSample> blurred = samples(66.0, 0.05);
+  for (std::size_t k = 0; k < blurred.size(); ++k) {
+    WaveSample& sample = blurred[k];
+    sample.blur = 0.04 * std::abs(std::cos(0.01 * static_cast<double>(k)));
+    sample.left /= 1.0 + std::pow(66.0 * sample.blur, 4);
+  }
+  const Wave wave = dominant_wave(blurred, 2.0, 0.1);
+  EXPECT_NEAR(wave.rate, 66.0, wave.deviation);
+  EXPECT_GT(wave.explained, 0.9);
+  for (WaveSample& sample : blurred) sample.blur = 0.0;
+  EXPECT_LT(dominant_wave(blurred, 2.0, 0.1).explained, 0.8) << "by a wave that is everywhere the same";
+}
+
 TEST(DominantWave, IsNoneInNoiseInAFewSamplesAndWhereItIsTooSlow) {
   EXPECT_EQ(dominant_wave(samples(24.0, 20.0), 2.0, 0.1).rate, 0.0);
   std::vector<WaveSample> few = samples(24.0, 0.1);

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <future>
 #include <numbers>
+#include <string_view>
 
 #include "experiments/recorded/replay.h"
 #include "experiments/recorded/robot_as_drawn.h"
@@ -90,6 +91,25 @@ TEST(ScenarioRealism, ComesOnTopOfWhatThePlantSays) {
   EXPECT_NEAR(truth.platform_mass, (model.platform_mass + 0.5) * drawn.platform_inertia_scale + drawn.payload,
               1e-12);
   EXPECT_EQ(scenario.station.drives.driver_torque_constant, scenario.robot.drives.torque_constant);
+}
+
+TEST(ScenarioRealism, LetsMotorsCogAsTheRobotFileSays) {
+  test::Workplace place;
+  place.replace("robots/planar_3rrr.yaml", "\ndrives:\n",
+                "\ndrives:\n  cogging_wavelength_rad: [0.25, 0.25, 0.5]\n  cogging_sine_Nm: [0.3, 0, 0]\n"
+                "  cogging_cosine_Nm: [0.4, 0, -0.2]\n");
+  for (const char* const plant : {"friction: as_robot_file", "realism: bench"}) {
+    const SimulatedScenario scenario = scenario_with(place, plant);
+    const Cogging& known = scenario.control.drive_torque.cogging;
+    const std::vector<UnevenTorque>& motors = scenario.station.bench.uneven_torque;
+    ASSERT_EQ(motors.size(), 3U);
+    for (const double q : {-0.7, 0.0, 0.3}) {
+      const JointVector expected = known.at(JointVector::Constant(3, q));
+      for (int i = 0; i < 3; ++i)
+        EXPECT_NEAR(motors[static_cast<std::size_t>(i)].cogging.at(q), expected[i], 1e-14) << plant;
+    }
+    EXPECT_EQ(motors[0].ripple.amplitude > 0.0, std::string_view(plant) == "realism: bench");
+  }
 }
 
 TEST(ScenarioRealism, HasTheUnitsOfDrivesThatSlide) {
