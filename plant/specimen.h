@@ -32,8 +32,8 @@ struct Specimen {
 Specimen draw_specimen(const Realism& realism, const ParallelRobot& robot, double largest_torque,
                        std::uint64_t seed);
 
-/// The station of `model` with this robot in its place. Motors of which the model says how they cog do so. An offset of the passive encoders stands for the
-/// error that their accuracy would have drawn.
+/// The station of `model` with this robot in its place; motors of which the model says how they cog do so.
+/// An offset of the passive encoders stands for the error that their accuracy would have drawn.
 SimulatedStationSettings with_specimen(SimulatedStationSettings model, const Specimen& specimen);
 
 /// All that is not as the model of `robot` says, in SI: under a key with its unit, such as "cogging_Nm", one

@@ -298,9 +298,7 @@ void ReactionTask::plan(Time now, const ReactionPlan& last, const TravelledPath&
                         const ContactLocation& place, ReactionPlan& next) const {
   const Time decided = state.since + settings_.decide_within;
   const bool begins = state.entered(ReactionMode::react, now) && state.previous != ReactionMode::hold;
-  const bool known = last.kind != ReactionKind::brake && last.kind != ReactionKind::retreat;
-  const bool is_open = !known && last.attempts <= ReactionPlan::most_attempts;
-  if (begins || (is_open && state.mode == ReactionMode::react && now <= decided)) {
+  if (begins || (last.is_open() && state.mode == ReactionMode::react && now <= decided)) {
     next = ReactionPlan();
     if (!begins) next.attempts = std::max(last.attempts, 1);
     classify(at, contact, touched, place, next);

@@ -43,6 +43,10 @@ struct ReactionPlan {
   Configuration held;         ///< place that is held after it; empty until the robot rests
 
   bool holds() const { return held.size() != 0; }
+  /// What was touched was not known, and may be told yet.
+  bool is_open() const {
+    return (kind == ReactionKind::brake || kind == ReactionKind::retreat) && attempts <= most_attempts;
+  }
   bool moves_joints() const { return kind == ReactionKind::first_link || kind == ReactionKind::opening; }
   /// Of the speed and the way of a reaction, by how often it was pressed.
   double share() const { return std::ldexp(1.0, 1 - attempts); }
