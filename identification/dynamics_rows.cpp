@@ -107,7 +107,7 @@ DynamicsRows rows_of(const Recording& recording, const ParallelRobot& robot,
   for (int i = 0; i < drives; ++i)
     out.noise = std::max(
         out.noise, constant[i] * white_noise(currents.current.col(i)) * noise_gain(period) / std::sqrt(2.0));
-  const auto reach = static_cast<std::ptrdiff_t>(1.0 / (cutoff_frequency * period));  // of the filter
+  const auto reach = static_cast<std::ptrdiff_t>(2.0 / (cutoff_frequency * period));  // of the filter
   for (std::vector<char>& usable : currents.usable) widen_unusable(usable, reach);
   Eigen::MatrixXd torque = between_ticks(currents.current) * constant.asDiagonal();
   Eigen::MatrixXd surplus(n, drives), Y(n, drives * p);

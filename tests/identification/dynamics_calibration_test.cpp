@@ -150,12 +150,12 @@ TEST(BadMotions, WithoutTheCurrentOfADriveAreRefused) {
                             "are left out; check its amplifier and the link to it")));
 }
 
-/// No parameter is off by more than its deviation from what it is without the defect.
+/// None of some thirty parameters is off by more than three deviations from what it is without the defect.
 void expect_within_deviations(const CalibrationResult& clean, const CalibrationResult& spoilt) {
   for (std::size_t i = 0; i < clean.parameters.size(); ++i) {
     if (!clean.parameters[i].identifiable || !spoilt.parameters[i].identifiable) continue;
     EXPECT_LT(std::abs(spoilt.parameters[i].value - clean.parameters[i].value),
-              *spoilt.parameters[i].deviation)
+              3.0 * *spoilt.parameters[i].deviation)
         << clean.parameters[i].name;
   }
 }
@@ -195,7 +195,7 @@ TEST(BadMotions, WithSwappedCurrentsAreRefused) {
               Contains(HasSubstr("currents or legs are swapped")));
 }
 
-TEST(AFifthOfOutliers, MovesNoDynamicParameterByMoreThanItsDeviation) {
+TEST(AFifthOfOutliers, MovesNoDynamicParameterByMoreThanThreeDeviations) {
   Simulated run = test::simulated("calibration_excitation.yaml");
   const CalibrationResult clean = calibrated(run);
   RandomGenerator random(3);
