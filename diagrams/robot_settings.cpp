@@ -28,11 +28,15 @@ PlausibilityLimits plausibility_for(const DriveParameters& drives, double inerti
 
 }  // namespace
 
+void know_drives(const DriveParameters& drives, DriveTorqueSettings& settings) {
+  settings.torque_constant = drives.torque_constant;
+  settings.cogging = drives.cogging;
+}
+
 ContactControlSettings settings_for(const ParallelRobot& robot, const DriveParameters& drives,
                                     const WorkspaceLimits& limits) {
   ContactControlSettings settings;
-  settings.drive_torque.torque_constant = drives.torque_constant;
-  settings.drive_torque.cogging = drives.cogging;
+  know_drives(drives, settings.drive_torque);
   settings.faults.workspace = limits;
   settings.faults.max_joint_speed = drives.max_speed;
   settings.faults.max_encoder_rate = drives.max_encoder_rate;

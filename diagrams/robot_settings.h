@@ -17,4 +17,7 @@ namespace flinch {
 ContactControlSettings settings_for(const ParallelRobot& robot, const DriveParameters& drives,
                                     const WorkspaceLimits& limits);
 
+/// What the drive torques follow from, as far as it is known of the drives.
+void know_drives(const DriveParameters& drives, DriveTorqueSettings& settings);
+
 }  // namespace flinch

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "identification/dominant_wave.h"
 #include "identification/robust_mean.h"
@@ -32,10 +33,8 @@ class LeftAtDrive {
  public:
   LeftAtDrive(const DynamicsRows& rows, const Eigen::VectorXd& left, int drive)
       : rows_(rows), left_(left), drive_(drive) {
-    std::vector<double> own;
-    for (Eigen::Index row = 0; row < left_.size(); ++row)
-      if (rows_.drive[static_cast<std::size_t>(row)] == drive_) own.push_back(left_[row]);
-    largest_ = 4.0 * robust_deviation(own);
+    const Eigen::VectorXd own = of_drive(rows, left, drive);
+    largest_ = 4.0 * robust_deviation({own.begin(), own.end()});
   }
 
   Wave dominant() const {
@@ -188,12 +187,10 @@ std::vector<int> CoggingParameters::stilled() const {
   return drives;
 }
 
-std::optional<double> CoggingParameters::believed_in_file(const std::string& name) const {
+std::vector<FileValue> CoggingParameters::believed_in_file() const {
   std::vector<FileValue> in_file = robot_.in_file(robot_.believed());
   add(believed_.cogging, in_file);
-  const auto found = std::find_if(in_file.begin(), in_file.end(),
-                                  [&](const FileValue& value) { return value.name == name; });
-  return found == in_file.end() ? std::nullopt : std::optional(found->value);
+  return in_file;
 }
 
 }  // namespace flinch

@@ -3,8 +3,6 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <memory>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "identification/dynamic_parameters.h"
@@ -48,8 +46,8 @@ class CoggingParameters final : public DynamicParameters {
 
   /// Drives that were believed to cog and are not seen to.
   std::vector<int> stilled() const;
-  /// What is believed of a number of the file; none: nothing.
-  std::optional<double> believed_in_file(const std::string& name) const;
+  /// What is believed, in the order of `in_file`; it ends before the cogging where nothing is known of that.
+  std::vector<FileValue> believed_in_file() const;
 
  private:
   Eigen::VectorXd of_robot(const Eigen::VectorXd& values) const;

@@ -16,7 +16,8 @@ double explained(const std::vector<WaveSample>& samples, double rate) {
   double sum = 0.0, squares = 0.0;
   for (const WaveSample& sample : samples) {
     const double phase = rate * sample.position;
-    const double seen = sample.factor / (1.0 + std::pow(rate * sample.blur, 4));  // of zero_phase
+    const double blurred = rate * sample.blur * rate * sample.blur;
+    const double seen = sample.factor / (1.0 + blurred * blurred);  // by zero_phase
     const Eigen::Vector3d a(1.0, seen * std::sin(phase), seen * std::cos(phase));
     H += a * a.transpose();
     b += sample.left * a;

@@ -62,15 +62,6 @@ DynamicsRows rows_of(const DynamicsBelief& belief, const DynamicParameters& para
   return rows;
 }
 
-/// The numbers of one drive out of those of all.
-Eigen::VectorXd of_drive(const DynamicsRows& rows, const Eigen::VectorXd& numbers, int drive) {
-  std::vector<double> own;
-  for (Eigen::Index row = 0; row < numbers.size(); ++row) {
-    if (rows.drive[static_cast<std::size_t>(row)] == drive) own.push_back(numbers[row]);
-  }
-  return Eigen::Map<Eigen::VectorXd>(own.data(), static_cast<Eigen::Index>(own.size()));
-}
-
 double spread(const Eigen::VectorXd& x) {
   return x.size() == 0 ? 0.0 : std::sqrt((x.array() - x.mean()).square().mean());
 }
@@ -202,6 +193,7 @@ Eigen::VectorXd left_of(const DynamicsRows& rows, const DynamicParameters& param
 void add_parameters(const CoggingParameters& parameters, const Solution& solution,
                     CalibrationResult& result) {
   const std::vector<FileValue> now = parameters.in_file(solution.fit.values);
+  const std::vector<FileValue> before = parameters.believed_in_file();
   const auto p = static_cast<Eigen::Index>(parameters.list().size());
   const auto n = static_cast<Eigen::Index>(now.size());
   Eigen::MatrixXd map(n, p);  // of parameters to what the file says
@@ -227,7 +219,7 @@ void add_parameters(const CoggingParameters& parameters, const Solution& solutio
          .deviation = held || !(variance > 0.0) ? std::nullopt : std::optional(std::sqrt(variance)),
          .unit = now[i].unit,
          .identifiable = !held,
-         .before = parameters.believed_in_file(now[i].name),
+         .before = i < before.size() ? std::optional(before[i].value) : std::nullopt,
          .belongs_to = "robot"});
   }
 }

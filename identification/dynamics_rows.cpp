@@ -76,6 +76,14 @@ void DynamicsRows::append(const DynamicsRows& more) {
   noise = std::max(noise, more.noise);
 }
 
+Eigen::VectorXd of_drive(const DynamicsRows& rows, const Eigen::VectorXd& numbers, int drive) {
+  std::vector<double> own;
+  for (Eigen::Index row = 0; row < numbers.size(); ++row) {
+    if (rows.drive[static_cast<std::size_t>(row)] == drive) own.push_back(numbers[row]);
+  }
+  return Eigen::Map<Eigen::VectorXd>(own.data(), static_cast<Eigen::Index>(own.size()));
+}
+
 Eigen::MatrixXd along_the_way(const DynamicsRows& rows, int drive,
                               const std::function<Eigen::RowVector3d(double position)>& of) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows.surplus.size(), 3);

@@ -45,6 +45,9 @@ DynamicsRows dynamics_rows(const Recording& recording, const ParallelRobot& robo
                            const DynamicParameters& parameters, const JointVector& constant, int number,
                            std::vector<std::string>& warnings);
 
+/// The numbers of one drive out of those of all.
+Eigen::VectorXd of_drive(const DynamicsRows& rows, const Eigen::VectorXd& numbers, int drive);
+
 /// Of each row of a drive what `of` says of its position, low-passed as the rows are. Rows of
 /// other drives are zero.
 Eigen::MatrixXd along_the_way(const DynamicsRows& rows, int drive,

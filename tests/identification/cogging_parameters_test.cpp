@@ -138,7 +138,9 @@ TEST(CoggingParameters, TakeBackWhatWasBelieved) {
   ASSERT_EQ(file.size(), robot->list().size() + 9);
   EXPECT_EQ(file[robot->list().size()].value, 0.26);
   EXPECT_EQ(file.back().value, 0.0);
-  EXPECT_EQ(none.believed_in_file("drives.cogging_cosine_Nm[2]"), 2.0);
+  ASSERT_EQ(none.believed_in_file().size(), file.size());
+  EXPECT_EQ(none.believed_in_file().back().name, "drives.cogging_cosine_Nm[2]");
+  EXPECT_EQ(none.believed_in_file().back().value, 2.0);
   EXPECT_EQ(none.stilled(), (std::vector<int>{0, 1, 2}));
   const CoggingParameters one(*robot, {{.drive = 1, .rate = 24.0, .deviation = 1.0, .least = 10.0}},
                               DriveKind::revolute, believing);

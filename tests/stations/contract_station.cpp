@@ -188,6 +188,24 @@ bool all_valid(const Moment& moment) {
          moment.status.enabled;
 }
 
+/// None where the machine held both ends up.
+std::optional<StationRun> try_dds(const Script& script) {
+  Link link;
+  StationRun result = link.no_run();
+  for (int tick = 0; tick < 5; ++tick) result.before.push_back(link.tick(Damage(), Order()));
+  link.start_robot();
+  while (!all_valid(result.before.back())) {
+    result.before.push_back(link.tick(Damage(), Order()));
+    if (result.before.size() > 10000) throw std::runtime_error("the two ends do not find each other");
+  }
+  for (Time now = Time::zero(); now < script.duration; now += 1ms) {
+    if (script.robot_restarts == now) link.start_robot();
+    if (script.controller_restarts == now) link.restart_controller();
+    result.trace.push_back(link.tick(script.damage(now), script.order(now)));
+  }
+  return link.was_held_up() ? std::nullopt : std::optional(result);
+}
+
 }  // namespace
 
 StationRun run_simulated(const Script& script) { return OneProgram(RobotKind::simulated).run(script); }
@@ -209,28 +227,6 @@ StationRun run_recorded(const Script& script) {
   }
   return result;
 }
-
-namespace {
-
-/// None where the machine held both ends up.
-std::optional<StationRun> try_dds(const Script& script) {
-  Link link;
-  StationRun result = link.no_run();
-  for (int tick = 0; tick < 5; ++tick) result.before.push_back(link.tick(Damage(), Order()));
-  link.start_robot();
-  while (!all_valid(result.before.back())) {
-    result.before.push_back(link.tick(Damage(), Order()));
-    if (result.before.size() > 10000) throw std::runtime_error("the two ends do not find each other");
-  }
-  for (Time now = Time::zero(); now < script.duration; now += 1ms) {
-    if (script.robot_restarts == now) link.start_robot();
-    if (script.controller_restarts == now) link.restart_controller();
-    result.trace.push_back(link.tick(script.damage(now), script.order(now)));
-  }
-  return link.was_held_up() ? std::nullopt : std::optional(result);
-}
-
-}  // namespace
 
 StationRun run_dds(const Script& script) {
   for (int attempt = 0; attempt < 100; ++attempt)

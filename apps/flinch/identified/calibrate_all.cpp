@@ -13,6 +13,7 @@
 #include "calibration/contact_free_peaks.h"
 #include "calibration/threshold_calibration.h"
 #include "calibration/thresholds_output.h"
+#include "diagrams/robot_settings.h"
 #include "experiments/recorded/replay.h"
 #include "experiments/report/run_folder.h"
 #include "experiments/scenario/scenario_calibrations.h"
@@ -105,8 +106,7 @@ std::vector<EstimatorThresholds> thresholds_with(const std::vector<OpenedRecordi
       scenario.calibrations = calibrations;
       scenario.robot = calibrated_robot(scenario);
       calibrate_control(calibrations, scenario.control);
-      scenario.control.drive_torque.torque_constant = scenario.robot.drives.torque_constant;
-      scenario.control.drive_torque.cogging = scenario.robot.drives.cogging;
+      know_drives(scenario.robot.drives, scenario.control.drive_torque);
     }
     const Replay replayed = replay(scenario, read_recording(file.source.file));
     peaks.push_back(contact_free_peaks(replayed.recording, scenario.robot.robot->space(), goal.stretch));
