@@ -56,7 +56,8 @@ ResidualErrors fit_error_sizes(std::span<const ErrorSample> samples) {
           .load = std::sqrt(sizes[2]),
           .torque = std::sqrt(sizes[3]),
           .friction = std::sqrt(sizes[4]),
-          .lag = std::sqrt(sizes[5])};
+          .lag = std::sqrt(sizes[5]),
+          .rest = std::sqrt(sizes[6])};
 }
 
 }  // namespace flinch

@@ -49,18 +49,21 @@ void follow(const ResidualRecording& of, const std::string& estimator, const Vis
   }
 }
 
-/// The level of a residual, or its change: what is seen of it, where it means something.
+/// A part of a residual: what is seen of it, where it means something.
 struct Statistic {
   DriveResidual SeenResidual::*part;
-  bool needs_settling;
+  bool SeenResidual::*means_something;  ///< null: always
+  bool has_whole_torque;                ///< is seen with nearly the torque itself
 
   const DriveResidual* of(bool nominal, const SeenResidual& seen) const {
-    return nominal && seen.is_new && (seen.settled || !needs_settling) ? &(seen.*part) : nullptr;
+    return nominal && seen.is_new && (means_something == nullptr || seen.*means_something) ? &(seen.*part)
+                                                                                           : nullptr;
   }
 };
 
-constexpr Statistic level_statistic{&SeenResidual::level, false};
-constexpr Statistic change_statistic{&SeenResidual::change, true};
+constexpr Statistic level_statistic{&SeenResidual::level, nullptr, true};
+constexpr Statistic change_statistic{&SeenResidual::change, &SeenResidual::settled, false};
+constexpr Statistic smoothed_statistic{&SeenResidual::smoothed, &SeenResidual::smooth, true};
 
 ResidualErrors fit(const std::vector<ResidualRecording>& recordings, const std::string& estimator,
                    const Statistic& statistic) {
@@ -78,8 +81,7 @@ ResidualErrors fit(const std::vector<ResidualRecording>& recordings, const std::
         sample.squared = seen->effort[i] * seen->effort[i];
         sample.features = error_features(memory.seen.load, *seen, i);
         sample.known = rising_variance(*seen);
-        // The level is seen with the torque itself: it would count twice.
-        if (!statistic.needs_settling) sample.features[2] = 0.0;
+        if (statistic.has_whole_torque) sample.features[2] = 0.0;  // it would count twice
       }
     });
   }
@@ -171,7 +173,8 @@ std::vector<std::string> calibrated_residuals(const std::vector<ResidualRecordin
 std::vector<CalibratedResidual> calibrate_residuals(const std::vector<ResidualRecording>& recordings,
                                                     const std::vector<std::string>& estimators,
                                                     const ThresholdGoal& goal) {
-  const double share = 0.5 / static_cast<double>(estimators.size());
+  constexpr double parts = 3.0;  // level, change and smoothed
+  const double share = 1.0 / (parts * static_cast<double>(estimators.size()));
   const double probability = share * goal.false_alarms_per_hour / 3600.0 * to_seconds(goal.stretch);
   std::vector<CalibratedResidual> all;
   for (const std::string& estimator : estimators) {
@@ -183,10 +186,13 @@ std::vector<CalibratedResidual> calibrate_residuals(const std::vector<ResidualRe
       threshold = calibrated_threshold(largest, probability, goal);
       residual.stretches = largest.size();
     };
-    residual.level.errors = fit(recordings, estimator, level_statistic);
-    calibrate(surprise_of(level_statistic, residual.level.errors), residual.level.threshold);
-    residual.change.errors = fit(recordings, estimator, change_statistic);
-    calibrate(surprise_of(change_statistic, residual.change.errors), residual.change.threshold);
+    const auto calibrate_part = [&](const Statistic& statistic, CalibratedSurprise& part) {
+      part.errors = fit(recordings, estimator, statistic);
+      calibrate(surprise_of(statistic, part.errors), part.threshold);
+    };
+    calibrate_part(level_statistic, residual.level);
+    calibrate_part(change_statistic, residual.change);
+    calibrate_part(smoothed_statistic, residual.smoothed);
     if (const auto course = fit_course(recordings, estimator, residual.change.errors)) {
       residual.onset.emplace().course = *course;
       const OnsetRatio ratio(residual.change.errors, *course, recordings.front().tracking.at(estimator));

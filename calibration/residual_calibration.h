@@ -22,7 +22,7 @@ struct ResidualRecording {
   std::map<std::string, ResidualTracking> tracking;
 };
 
-/// When the level or the change of a residual is a contact.
+/// When the level of a residual, its change, or what is smoothed of it is a contact.
 struct CalibratedSurprise {
   ResidualErrors errors;
   CalibratedThreshold threshold;  ///< of what is left once the errors have deviation 1
@@ -37,7 +37,7 @@ struct CalibratedOnset {
 struct CalibratedResidual {
   std::string estimator;
   std::size_t stretches = 0;
-  CalibratedSurprise level, change;
+  CalibratedSurprise level, change, smoothed;
   /// None where no samples follow one another without a gap, as those of an IMU that is slow.
   std::optional<CalibratedOnset> onset;
 };
@@ -47,8 +47,8 @@ std::vector<std::string> calibrated_residuals(const std::vector<ResidualRecordin
                                               const std::vector<std::string>& wanted);
 
 /// Sizes of the errors, fitted to all recordings together, and thresholds, so that all residuals together
-/// give the rate of false alarms that is asked: the level of each, and its change or its onset, have an equal
-/// share. Throws SetupError as `calibrate_thresholds`.
+/// give the rate of false alarms that is asked: the level of each, its change or its onset, and what is
+/// smoothed of it have an equal share. Throws SetupError as `calibrate_thresholds`.
 std::vector<CalibratedResidual> calibrate_residuals(const std::vector<ResidualRecording>& recordings,
                                                     const std::vector<std::string>& estimators,
                                                     const ThresholdGoal& goal);

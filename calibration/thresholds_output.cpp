@@ -35,25 +35,26 @@ struct NamedSurprise {
   const CalibratedSurprise& surprise;
 };
 
-std::array<NamedSurprise, 2> parts(const CalibratedResidual& residual) {
-  return {{{"level", residual.level}, {"change", residual.change}}};
+std::array<NamedSurprise, 3> parts(const CalibratedResidual& residual) {
+  return {{{"level", residual.level}, {"change", residual.change}, {"smoothed", residual.smoothed}}};
 }
 
 std::string residuals_table(const ThresholdFindings& found) {
   std::string text = fmt::format(
-      "\nfused detector, all of it together; deviations of the errors by cause, noise in {}, lag in "
-      "ms\n{:<22} {:<6} "
+      "\nfused detector, all of it together; deviations of the errors by cause, noise and rest in {}, lag in "
+      "ms\n{:<22} {:<8} "
       "{:>9} "
-      "{:>9} {:>9} {:>7} {:>7} {:>7} {:>7} {:>8} {:>7}\n",
+      "{:>9} {:>9} {:>7} {:>7} {:>7} {:>7} {:>8} {:>7} {:>7}\n",
       found.drives_turn ? "Nm" : "N", "residual", "of", "threshold", "guess", "largest", "noise", "speed",
-      "load", "torque", "friction", "lag");
+      "load", "torque", "friction", "lag", "rest");
   for (const CalibratedResidual& residual : found.residuals) {
     for (const auto& [part, of] : parts(residual)) {
       text += fmt::format(
-          "{:<22} {:<6} {:>9.3g} {:>9.3g} {:>9.3g} {:>7.3f} {:>7.3f} {:>7.3f} {:>7.3f} {:>8.3f} {:>7.3f}\n",
+          "{:<22} {:<8} {:>9.3g} {:>9.3g} {:>9.3g} {:>7.3f} {:>7.3f} {:>7.3f} {:>7.3f} {:>8.3f} {:>7.3f} "
+          "{:>7.3f}\n",
           residual.estimator, part, of.threshold.value, of.threshold.best_guess, of.threshold.largest,
           of.errors.noise, of.errors.speed, of.errors.load, of.errors.torque, of.errors.friction,
-          1e3 * of.errors.lag);
+          1e3 * of.errors.lag, of.errors.rest);
     }
   }
   return text;
@@ -62,7 +63,7 @@ std::string residuals_table(const ThresholdFindings& found) {
 std::string onset_row(const CalibratedResidual& residual) {
   if (!residual.onset) return "";
   const CalibratedOnset& onset = *residual.onset;
-  std::string row = fmt::format("{:<22} {:<6} {:>9.3g} {:>9.3g} {:>9.3g} {:>10.3f}", residual.estimator,
+  std::string row = fmt::format("{:<22} {:<8} {:>9.3g} {:>9.3g} {:>9.3g} {:>10.3f}", residual.estimator,
                                 "onset", onset.threshold.value, onset.threshold.best_guess,
                                 onset.threshold.largest, onset.course.innovation);
   for (const double a : onset.course.prediction) row += fmt::format(" {:>7.3f}", a);
@@ -74,7 +75,7 @@ std::string onsets_table(const ThresholdFindings& found) {
   std::string text = fmt::format(
       "\nthe same by rule: likelihood_ratio, onsets in place of changes; how these are told from the {} "
       "before\n"
-      "{:<22} {:<6} {:>9} {:>9} {:>9} {:>10}",
+      "{:<22} {:<8} {:>9} {:>9} {:>9} {:>10}",
       ErrorCourse::order, "residual", "of", "threshold", "guess", "largest", "innovation");
   for (int j = 1; j <= ErrorCourse::order; ++j) text += fmt::format(" {:>7}", fmt::format("a_{}", j));
   text += "\n";
@@ -83,15 +84,19 @@ std::string onsets_table(const ThresholdFindings& found) {
 }
 
 std::string residuals_yaml(const ThresholdFindings& found) {
-  std::string text = "fused_detector:\n  residuals:\n";
+  std::string text =
+      fmt::format("fused_detector:\n  tracking_per_s: {:.4g}\n  smoothing_per_s: {:.4g}\n  residuals:\n",
+                  found.tracking.rate, found.tracking.smoothing);
   for (const CalibratedResidual& residual : found.residuals) {
     text += "    - estimator: " + residual.estimator + "\n";
     for (const auto& [part, of] : parts(residual)) {
       text += fmt::format("      {}: {{threshold: {:.4g}, noise_{}: {:.4g}, speed_{}: {:.4g}", part,
                           of.threshold.value, found.drives_turn ? "Nm" : "N", of.errors.noise,
                           found.drives_turn ? "Nms_per_rad" : "Ns_per_m", of.errors.speed);
-      text += fmt::format(", load: {:.4g}, torque: {:.4g}, friction: {:.4g}, lag_ms: {:.4g}}}\n",
-                          of.errors.load, of.errors.torque, of.errors.friction, 1e3 * of.errors.lag);
+      text +=
+          fmt::format(", load: {:.4g}, torque: {:.4g}, friction: {:.4g}, lag_ms: {:.4g}, rest_{}: {:.4g}}}\n",
+                      of.errors.load, of.errors.torque, of.errors.friction, 1e3 * of.errors.lag,
+                      found.drives_turn ? "Nm" : "N", of.errors.rest);
     }
     if (!residual.onset) continue;
     const CalibratedOnset& onset = *residual.onset;
@@ -141,7 +146,7 @@ Json json_of(const CalibratedSurprise& of) {
           {"largest", of.threshold.largest}, {"noise", of.errors.noise},
           {"speed", of.errors.speed},        {"load", of.errors.load},
           {"torque", of.errors.torque},      {"friction", of.errors.friction},
-          {"lag_s", of.errors.lag}};
+          {"lag_s", of.errors.lag},          {"rest", of.errors.rest}};
 }
 
 Json json_of(const CalibratedOnset& of) {
@@ -188,6 +193,7 @@ std::string thresholds_json(const ThresholdFindings& found) {
                          {"contact_free_s", seconds(residual.stretches, goal)},
                          {"level", json_of(residual.level)},
                          {"change", json_of(residual.change)},
+                         {"smoothed", json_of(residual.smoothed)},
                          {"onset", residual.onset ? json_of(*residual.onset) : Json(nullptr)}});
   }
   return json_text(Json{{"false_alarms_per_h", goal.false_alarms_per_hour},

@@ -15,6 +15,7 @@ struct ThresholdFindings {
   std::vector<CalibratedResidual> residuals{};  ///< empty: no fused detector told the loads of the drives
   std::vector<CalibrationSource> recordings{};  ///< that they come from
   std::vector<CalibrationSource> with{};        ///< parameter files with which these were played again
+  ResidualTracking tracking{};                  ///< with which the fused detector must follow its residuals
   bool drives_turn = true;
 };
 

@@ -49,6 +49,7 @@ OutputPort<ContactDetection> add_residual(const StageSite& site, const FusedResi
                                           OutputPort<DriveLoad> load) {
   WhitenedDetectorSettings settings{.level = residual.level,
                                     .change = residual.change,
+                                    .smoothed = residual.smoothed,
                                     .tracking = tracking_of(residual.estimator, site.settings),
                                     .hard = site.settings.contact_detector.hard};
   const std::string name = site.name + "_by_" + residual.estimator;

@@ -12,6 +12,7 @@ namespace flinch {
 struct FusedResidual {
   std::string estimator;  ///< one of `estimator_stages()`, or one that runs
   SurpriseThreshold level, change;
+  std::optional<SurpriseThreshold> smoothed{};
   std::optional<OnsetThreshold> onset{};  ///< needed where likelihood ratios are the rule
 };
 

@@ -49,6 +49,7 @@ ContactControlSettings settings_for(const ParallelRobot& robot, const DriveParam
   settings.torque_gate.max_torque = drives.max_torque;
   settings.torque_gate.max_torque_rate = drives.max_torque_rate;
   settings.sequence.rest_speed = drives.max_speed / 160.0;
+  settings.fused_detector.tracking.resting_rate = settings.sequence.rest_speed;
   settings.controlled_stop.damping = least_inertia(robot) / stopping_time;
   settings.modes.max_torque_rate = drives.max_torque_rate;
   settings.limits.limits.workspace = limits;

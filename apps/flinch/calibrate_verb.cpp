@@ -78,6 +78,7 @@ ExitStatus calibrate_thresholds(const CalibrateThresholdsOptions& options) {
   require_different(found.recordings);
   found.estimators = calibrate_thresholds(pooled(motions.peaks), found.goal);
   found.residuals = residuals_of(motions, found.goal);
+  found.tracking = motions.scenarios.front().control.fused_detector.tracking;
   found.drives_turn = motions.scenarios.front().robot.robot->drive_kind(0) == DriveKind::revolute;
   fmt::print("{}", options.common.json ? thresholds_json(found) + "\n" : thresholds_table(found));
   if (options.out.empty()) return ExitStatus::done;

@@ -19,6 +19,7 @@ void read(ConfigReader reader, bool drives_turn, SurpriseThreshold& limit) {
   reader.number("torque", unit::none, limit.errors.torque, not_negative);
   reader.number("friction", unit::none, limit.errors.friction, not_negative);
   reader.number("lag", unit::s, limit.errors.lag, not_negative);
+  reader.number("rest", drives_turn ? unit::Nm : unit::N, limit.errors.rest, not_negative);
 }
 
 void read(ConfigReader reader, OnsetThreshold& onset) {
@@ -39,6 +40,7 @@ void read_fused_detector(ConfigReader fused, const ParallelRobot& robot,
                          const std::vector<std::string>& estimators, FusedDetectorSettings& settings) {
   const bool turn = robot.drive_kind(0) == DriveKind::revolute;
   fused.number("tracking", unit::per_s, settings.tracking.rate, positive);
+  fused.number("smoothing", unit::per_s, settings.tracking.smoothing, positive);
   fused.choice("rule", settings.rule,
                {{"chi_square", ChangeRule::chi_square}, {"likelihood_ratio", ChangeRule::likelihood_ratio}});
   for (ConfigReader& own : fused.sections("residuals")) {
@@ -52,6 +54,7 @@ void read_fused_detector(ConfigReader fused, const ParallelRobot& robot,
     }
     read(own.section("level"), turn, residual.level);
     read(own.section("change"), turn, residual.change);
+    if (own.has("smoothed")) read(own.section("smoothed"), turn, residual.smoothed.emplace());
     if (own.has("onset")) {
       read(own.section("onset"), residual.onset.emplace());
     } else if (settings.rule == ChangeRule::likelihood_ratio) {

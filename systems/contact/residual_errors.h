@@ -7,7 +7,7 @@
 namespace flinch {
 
 /// What the squared error of a drive's residual grows with: 1, and the squares of what `ResidualErrors` has.
-using ErrorFeatures = std::array<double, 6>;
+using ErrorFeatures = std::array<double, 7>;
 
 /// How large the errors of a residual are: deviations of independent parts, each in proportion to something.
 struct ResidualErrors {
@@ -17,6 +17,7 @@ struct ResidualErrors {
   double torque = 0.0;    ///< with the torque as the residual is seen, itself or its change
   double friction = 0.0;  ///< with the friction that the model expects, likewise
   double lag = 0.0;       ///< with the slope of the torque, likewise: how late currents are [s]
+  double rest = 0.0;      ///< with how far the drive stands still, likewise [Nm or N]
 
   double variance(const ErrorFeatures& features) const;
 };

@@ -15,15 +15,15 @@ bool is_usable(const WrenchEstimate& estimate) {
 }
 
 DriveResidual minus(const DriveResidual& a, const DriveResidual& b) {
-  return {a.effort - b.effort, a.torque - b.torque, a.friction - b.friction, a.slope - b.slope,
-          a.rising - b.rising};
+  return {a.effort - b.effort, a.torque - b.torque, a.friction - b.friction,
+          a.slope - b.slope,   a.rising - b.rising, a.rest - b.rest};
 }
 
 /// a + share (b - a)
 DriveResidual towards(const DriveResidual& a, const DriveResidual& b, double share) {
   const DriveResidual way = minus(b, a);
   return {a.effort + share * way.effort, a.torque + share * way.torque, a.friction + share * way.friction,
-          a.slope + share * way.slope, a.rising + share * way.rising};
+          a.slope + share * way.slope,   a.rising + share * way.rising, a.rest + share * way.rest};
 }
 
 /// The load between two ticks, as if it changed evenly.
@@ -55,17 +55,23 @@ void see_hold(const DriveLoad& then, const DriveLoad& fresh, const LoadHistory& 
   level.rising = doubt * (after->torque - before->torque);
 }
 
+/// 1 at rest, 1/e at the resting rate.
+JointVector rest_of(const JointVector& rate, double resting_rate) {
+  return (-(rate.array() / resting_rate).square()).exp();
+}
+
 /// Passes a load through the filters of an answer, which have settled on it where it is the first one; `T` is
 /// the time since the last one [s].
-AnsweredLoad answered(const DriveLoad& load, const EstimatorAnswer& answer, bool is_first, double T,
+AnsweredLoad answered(const AnsweredLoad& load, const EstimatorAnswer& answer, bool is_first, double T,
                       ResidualMemory& next) {
-  AnsweredLoad now{load.torque, load.friction};
+  AnsweredLoad now = load;
   const double share = is_first ? 1.0 : 1.0 - std::exp(-answer.rate * T);
   for (int i = 0; i < answer.filters; ++i) {
     AnsweredLoad& filter = next.answered[static_cast<std::size_t>(i)];
     if (is_first) filter = now;
     filter.torque += share * (now.torque - filter.torque);
     filter.friction += share * (now.friction - filter.friction);
+    filter.rest += share * (now.rest - filter.rest);
     now = filter;
   }
   return now;
@@ -88,22 +94,29 @@ void follow_residual(const WrenchEstimate& estimate, const DriveLoad& fresh, con
   }
   const bool continued = memory.started && !tracking.sampling.interrupted(memory.acquired, estimate.acquired);
   const double T = to_seconds(estimate.acquired - memory.acquired);
-  const AnsweredLoad load = answered(*then, tracking.answer, !continued, T, next);
+  const AnsweredLoad load =
+      answered({then->torque, then->friction, rest_of(then->rate, tracking.resting_rate)}, tracking.answer,
+               !continued, T, next);
   const JointVector none = JointVector::Zero(load.torque.size());
-  DriveResidual level{estimate.drive_torque, load.torque, load.friction, none, none};
+  DriveResidual level{estimate.drive_torque, load.torque, load.friction, none, none, load.rest};
   if (continued && tracking.answer.filters > 0) level.slope = (load.torque - memory.seen.level.torque) / T;
   if (continued && tracking.answer.filters == 0) see_hold(*then, fresh, past, tracking.sampling, level);
   if (!continued) {
     next.mean = level;
+    next.seen.smoothed = level;
     next.since = now;
   }
   next.started = true;
   next.seen.is_new = true;
   next.seen.settled = now - next.since >= tracking.settling_time();
+  next.seen.smooth = now - next.since >= tracking.smoothing_time();
   next.seen.load = *then;
   next.seen.level = level;
   next.seen.change = minus(level, next.mean);
-  if (continued) next.mean = towards(next.mean, level, 1.0 - std::exp(-tracking.rate * T));
+  if (continued) {
+    next.mean = towards(next.mean, level, 1.0 - std::exp(-tracking.rate * T));
+    next.seen.smoothed = towards(next.seen.smoothed, level, 1.0 - std::exp(-tracking.smoothing * T));
+  }
   next.acquired = estimate.acquired;
   next.arrived = now;
 }

@@ -19,15 +19,18 @@ struct DriveResidual {
   JointVector friction;  ///< that the model expects
   JointVector slope;     ///< of the torque [Nm/s or N/s]
   JointVector rising;    ///< of the torque, by which the drives may have gone further, see `driven_doubt`
+  JointVector rest;  ///< how far the drive stands still, 0 to 1: what it then holds by friction is unknown
 };
 
-/// A residual as it is, and what of it is new. All of it was acquired at one time.
+/// A residual as it is, what of it is new, and what lasts. All of it was acquired at one time.
 struct SeenResidual {
   bool is_new = false;   ///< nothing was acquired since the last one: there is nothing to judge
   bool settled = false;  ///< the change means something
+  bool smooth = false;   ///< and what is smoothed
   DriveLoad load;
   DriveResidual level;
-  DriveResidual change;  ///< beside its mean of late, every part of it by the same filter
+  DriveResidual change;    ///< beside its mean of late, every part of it by the same filter
+  DriveResidual smoothed;  ///< behind a low pass, likewise: its noise is gone
 };
 
 using LoadHistory = History<DriveLoad, 32>;
@@ -43,16 +46,21 @@ struct EstimatorAnswer {
 /// How a residual is followed.
 struct ResidualTracking {
   EstimatorAnswer answer;
-  double rate = 50.0;  ///< of the first-order filter whose output is the mean of late [1/s]
+  double rate = 50.0;          ///< of the first-order filter whose output is the mean of late [1/s]
+  double smoothing = 200.0;    ///< of that whose output is the smoothed residual [1/s]
+  double resting_rate = 0.05;  ///< below which a drive stands still [rad/s or m/s]
   Sampling sampling;
 
   Time settling_time() const { return from_seconds(3.0 / rate); }
+  Time smoothing_time() const { return from_seconds(3.0 / smoothing); }
 };
 
-/// Torque and friction of the drives behind a filter; one entry a drive [Nm or N].
+/// Torque and friction of the drives behind a filter [Nm or N], and how far they stand still; one entry a
+/// drive.
 struct AnsweredLoad {
   JointVector torque;
   JointVector friction;
+  JointVector rest;
 };
 
 /// What is remembered of a residual.

@@ -18,6 +18,7 @@ void find_problems(const std::string& owner, const SurpriseThreshold& settings, 
   findings.not_negative(owner + ".torque", settings.errors.torque);
   findings.not_negative(owner + ".friction", settings.errors.friction);
   findings.not_negative(owner + ".lag", settings.errors.lag, "s");
+  findings.not_negative(owner + ".rest", settings.errors.rest, "Nm or N");
 }
 
 void find_problems(const OnsetThreshold& settings, Findings& findings) {
@@ -30,8 +31,11 @@ std::vector<std::string> problems(const WhitenedDetectorSettings& settings) {
   Findings found;
   find_problems("level", settings.level, found);
   find_problems("change", settings.change, found);
+  if (settings.smoothed) find_problems("smoothed", *settings.smoothed, found);
   if (settings.onset) find_problems(*settings.onset, found);
   found.positive("tracking", settings.tracking.rate, "1/s");
+  found.positive("smoothing", settings.tracking.smoothing, "1/s");
+  found.positive("resting_rate", settings.tracking.resting_rate, "rad/s or m/s");
   const EstimatorAnswer& answer = settings.tracking.answer;
   found.require(answer.filters >= 0 && answer.filters <= EstimatorAnswer::most,
                 "tracking.answer has more filters than can be followed, or fewer than none");
@@ -65,6 +69,8 @@ void WhitenedDetector::follow_onsets(const ResidualMemory& next, const OnsetMemo
 
 bool WhitenedDetector::is_touched(const SeenResidual& seen, const OnsetMemory& onsets) const {
   if (exceeds(seen.load, seen.level, settings_.level)) return true;
+  const auto& smoothed = settings_.smoothed;
+  if (smoothed && seen.smooth && exceeds(seen.load, seen.smoothed, *smoothed)) return true;
   if (onset_) return onset_->surprise(onsets) >= settings_.onset->threshold;
   return seen.settled && exceeds(seen.load, seen.change, settings_.change);
 }

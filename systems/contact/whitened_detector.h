@@ -24,18 +24,20 @@ struct OnsetThreshold {
 };
 
 struct WhitenedDetectorSettings {
-  SurpriseThreshold level;                ///< of the residual itself: what lasts
-  SurpriseThreshold change;               ///< of what is new of it: slow errors of the model are gone
-  std::optional<OnsetThreshold> onset{};  ///< in place of the threshold of the change
+  SurpriseThreshold level;                      ///< of the residual itself
+  SurpriseThreshold change;                     ///< of what is new of it: slow errors of the model are gone
+  std::optional<SurpriseThreshold> smoothed{};  ///< of what lasts: noise is gone
+  std::optional<OnsetThreshold> onset{};        ///< in place of the threshold of the change
   ResidualTracking tracking;
   WrenchThreshold hard{60.0, 3.0};  ///< of the estimate, as of `ContactDetector`
 };
 
 /// Says that the robot is touched when what an estimator holds for the effort at the drives is larger than
-/// its errors explain. Each drive's is divided by the deviation that its error has under its speed, torque
-/// and friction, as late as the estimator shows them (`ResidualErrors`, from motion without contact); the
+/// its errors explain. Each drive's is divided by the deviation that its error has under its speed, torque,
+/// friction and rest, as late as the estimator shows them (`ResidualErrors`, of motion without contact); the
 /// length of what is left is compared with a threshold. The same is done with the change of late, from which
-/// slow errors are gone, or with how the change has come about (`OnsetRatio`). (Derived.)
+/// slow errors are gone, or with how the change has come about (`OnsetRatio`), and with the smoothed
+/// residual, from which noise is gone: small forces that last show there. (Derived.)
 ///
 /// The level latches as that of `ContactDetector`. In a tick whose estimate is not new nothing is noticed;
 /// where none has come for the longest hold, or it has fallen back to another estimator, the detection is

@@ -55,5 +55,18 @@ TEST(TheFusedDetectorOfAScenario, NeedsAnOnsetForTheLikelihoodRatio) {
               ElementsAre(HasSubstr("innovation"), HasSubstr("prediction")));
 }
 
+TEST(TheFusedDetectorOfAScenario, JudgesByWhatIsSmoothedWhereTheFileSaysHow) {
+  const test::Workplace place;
+  EXPECT_FALSE(read(place, "", "").residuals.front().smoothed);
+  const FusedDetectorSettings settings =
+      read(place, "    smoothing_per_s: 100\n",
+           "        smoothed: {threshold: 8, noise_Nm: 0.0625, rest_Nm: 0.5}\n");
+  EXPECT_EQ(settings.tracking.smoothing, 100.0);
+  EXPECT_EQ(settings.residuals.front().smoothed->threshold, 8.0);
+  EXPECT_EQ(settings.residuals.front().smoothed->errors.rest, 0.5);
+  EXPECT_THAT(test::problems_of([&] { read(place, "", "        smoothed: {threshold: 8}\n"); }),
+              ElementsAre(HasSubstr("smoothed: noise_Nm")));
+}
+
 }  // namespace
 }  // namespace flinch

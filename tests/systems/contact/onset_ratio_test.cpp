@@ -29,7 +29,8 @@ SeenResidual seen(const JointVector& change) {
           .settled = true,
           .load = {.acquired = {}, .valid = true, .rate = none, .torque = none, .friction = none},
           .level = {},
-          .change = {change, none, none, none, none}};
+          .change = {change, none, none, none, none, none},
+          .smoothed = {}};
 }
 
 ResidualTracking behind(int filters) {

@@ -20,13 +20,14 @@ TEST(ErrorVariance, IsTheSumOfIndependentParts) {
                            .torque = Eigen::Vector3d(1.0, 3.0, 0.0),
                            .friction = Eigen::Vector3d(0.5, 0.0, 0.0),
                            .slope = Eigen::Vector3d(0.0, 0.0, 500.0),
-                           .rising = Eigen::Vector3d::Zero()};
+                           .rising = Eigen::Vector3d::Zero(),
+                           .rest = Eigen::Vector3d(0.0, 0.0, 0.5)};
   const ResidualErrors errors{
-      .noise = 0.1, .speed = 0.2, .load = 0.01, .torque = 0.5, .friction = 0.4, .lag = 2e-4};
-  // 0.1^2 + (0.2 2)^2 + (0.01 10)^2 + (0.5 1)^2 + (0.4 0.5)^2
+      .noise = 0.1, .speed = 0.2, .load = 0.01, .torque = 0.5, .friction = 0.4, .lag = 2e-4, .rest = 0.6};
+  // 0.1^2 + (0.2 2)^2 + (0.01 10)^2 + (0.5 1)^2 + (0.4 0.5)^2; of the last also (0.6 0.5)^2
   EXPECT_NEAR(errors.variance(error_features(load, seen, 0)), 0.01 + 0.16 + 0.01 + 0.25 + 0.04, 1e-15);
   EXPECT_NEAR(errors.variance(error_features(load, seen, 1)), 0.01 + 0.04 + 0.04 + 2.25, 1e-15);
-  EXPECT_NEAR(errors.variance(error_features(load, seen, 2)), 0.01 + 0.0025 + 0.01, 1e-15);
+  EXPECT_NEAR(errors.variance(error_features(load, seen, 2)), 0.01 + 0.0025 + 0.01 + 0.09, 1e-15);
 }
 
 TEST(Surprise, HasASquareThatIsChiSquareForErrorsAsAssumed) {
@@ -40,7 +41,8 @@ TEST(Surprise, HasASquareThatIsChiSquareForErrorsAsAssumed) {
                        .torque = Eigen::Vector3d::Constant(random.uniform(-3.0, 3.0)),
                        .friction = Eigen::Vector3d::Constant(random.uniform(-0.6, 0.6)),
                        .slope = Eigen::Vector3d::Constant(random.uniform(-1e3, 1e3)),
-                       .rising = Eigen::Vector3d::Zero()};
+                       .rising = Eigen::Vector3d::Zero(),
+                       .rest = Eigen::Vector3d::Zero()};
     const double rising = random.uniform(0.0, 0.5);
     seen.rising[k % 3] = std::sqrt(3.0) * rising;
     for (int i = 0; i < 3; ++i) {
@@ -61,7 +63,8 @@ TEST(Surprise, OfWhatIsNotFiniteIsInfinite) {
                            .torque = Eigen::Vector3d::Zero(),
                            .friction = Eigen::Vector3d::Zero(),
                            .slope = Eigen::Vector3d::Zero(),
-                           .rising = Eigen::Vector3d::Zero()};
+                           .rising = Eigen::Vector3d::Zero(),
+                           .rest = Eigen::Vector3d::Zero()};
   EXPECT_EQ(surprise(load, seen, {.noise = 1.0}), INFINITY);
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "systems/estimators/disturbance_filter.h"
 #include "systems/signals/driven_share.h"
 #include "tests/support/answer_of_filters.h"
@@ -170,6 +172,40 @@ TEST(SeenResidual, DoubtsTheWholeStepWhereATickIsLost) {
     memory = next;
     EXPECT_EQ(memory.seen.level.rising[0], k == 5 ? 2.0 : 0.0) << k;
   }
+}
+
+TEST(SeenResidual, IsSmoothedByALowPass) {
+  const ResidualTracking tracking;
+  Follower follower({});
+  DriveLoad load = at_rest;
+  for (int k = 0; k < 100; ++k) follower.see(estimate_of(Eigen::Vector3d::Zero()), load);
+  load.torque[1] = 3.0;
+  for (int k = 1; k < 40; ++k) {
+    const SeenResidual& seen = follower.see(estimate_of(Eigen::Vector3d(2.0, 0.0, 0.0)), load);
+    const double share = 1.0 - std::exp(-tracking.smoothing * 1e-3 * k);  // of a first-order filter
+    EXPECT_NEAR(seen.smoothed.effort[0], 2.0 * share, 1e-12) << k;
+    EXPECT_NEAR(seen.smoothed.torque[1], 3.0 * share, 1e-12) << k;
+    EXPECT_NEAR(seen.smoothed.rest[2], 1.0, 1e-12) << k;
+  }
+}
+
+TEST(SeenResidual, SmoothsAnewBehindAGap) {
+  Follower follower({});
+  follower.see(estimate_of(Eigen::Vector3d::Zero()), at_rest);
+  follower.miss(1s);
+  const SeenResidual& seen = follower.see(estimate_of(Eigen::Vector3d(2.0, 0.0, 0.0)), at_rest);
+  EXPECT_EQ(seen.smoothed.effort[0], 2.0);
+  EXPECT_FALSE(seen.smooth);
+}
+
+TEST(SeenResidual, KnowsWhichDrivesStandStill) {
+  Follower follower({});
+  DriveLoad load = at_rest;
+  load.rate = Eigen::Vector3d(0.0, -ResidualTracking{}.resting_rate, 1.0);
+  const SeenResidual& seen = follower.see(estimate_of(Eigen::Vector3d::Zero()), load);
+  EXPECT_EQ(seen.level.rest[0], 1.0);
+  EXPECT_NEAR(seen.level.rest[1], std::exp(-1.0), 1e-12);
+  EXPECT_LT(seen.level.rest[2], 1e-100);
 }
 
 TEST(SeenResidual, OfADisturbanceFilterLivesOnTheTicks) {

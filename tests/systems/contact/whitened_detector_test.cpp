@@ -82,6 +82,43 @@ TEST_F(WhitenedDetectorTest, NoticesWhatLastsByTheLevel) {
   EXPECT_NEAR(effort, 2.0, 0.011) << "20 deviations";
 }
 
+/// Judges by what is smoothed as well, whose noise is a tenth.
+class Smoothing : public WhitenedDetectorTest {
+ protected:
+  Smoothing() : WhitenedDetectorTest(smoothing()) {}
+  static WhitenedDetectorSettings smoothing() {
+    WhitenedDetectorSettings by = settings();
+    by.smoothed = SurpriseThreshold{.threshold = 5.0, .errors = {.noise = 0.01, .rest = 0.2}};
+    return by;
+  }
+  int ticks_to_notice(double effort) {
+    for (int k = 1; k < 200; ++k)
+      if (notices(effort)) return k;
+    return 0;
+  }
+};
+
+TEST_F(Smoothing, NoticesASmallForceThatLasts) {
+  load_.rate = Eigen::Vector3d::Constant(1.0);
+  settle();
+  // 0.05 Nm of 0.1 Nm: half of the way, after ln 2 / 200 1/s.
+  EXPECT_EQ(ticks_to_notice(0.1), 4);
+  settle();
+  EXPECT_EQ(ticks_to_notice(0.049), 0);
+}
+
+TEST_F(Smoothing, ExpectsOfADriveAtRestWhatItMayHoldByFriction) {
+  settle();
+  EXPECT_EQ(ticks_to_notice(0.4), 0) << "two deviations";
+}
+
+TEST_F(Smoothing, WaitsUntilItHasSettled) {
+  load_.rate = Eigen::Vector3d::Constant(1.0);
+  const auto settling = static_cast<int>(WhitenedDetectorSettings{}.tracking.smoothing_time() / 1ms);
+  for (int k = 0; k < settling; ++k) ASSERT_FALSE(notices(0.1)) << k;
+  EXPECT_TRUE(notices(0.1) || notices(0.1));
+}
+
 TEST_F(WhitenedDetectorTest, ExpectsLargerErrorsWhereFrictionOrTorqueHaveJustChanged) {
   settle();
   load_.friction[0] = 1.2;
