@@ -204,6 +204,7 @@ std::optional<PlatformPath> read_random(ConfigReader& motion, const RobotFile& f
   motion.number("distance", unit::m, settings.distance, positive);
   motion.number("rotation", unit::rad, settings.rotation, not_negative);
   motion.number("duration", unit::s, settings.duration, between(1e-3, 3600.0));
+  motion.number("pause", unit::s, settings.pause, between(0.0, 3600.0));
   read_limits(motion.section("limits"), settings.limits);
   settings.workspace = file.limits;
   settings.max_drive_speed = file.drives.max_speed;

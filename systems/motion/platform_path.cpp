@@ -55,7 +55,9 @@ PlatformPath::PlatformPath(const ParallelRobot& robot, std::variant<Legs, Waypoi
 }
 
 PlatformPath PlatformPath::through(const ParallelRobot& robot, const std::vector<Configuration>& poses,
-                                   const PoseLimits& limits) {
+                                   const PoseLimits& limits, double pause) {
+  if (!(pause >= 0.0 && std::isfinite(pause)))
+    throw SetupError("platform path: the pause must be finite and not negative");
   if (poses.empty()) throw SetupError("platform path: there must be at least one pose");
   Legs legs;
   double begin = 0.0;
@@ -66,6 +68,7 @@ PlatformPath PlatformPath::through(const ParallelRobot& robot, const std::vector
     }
     const PlatformVector rest = PlatformVector::Zero(robot.dof());
     const PlatformVector displacement = robot.difference(poses[i], from);
+    if (!legs.empty()) begin += pause;
     legs.push_back({begin, PoseMotion::plan(robot.space(), from, rest, displacement, limits)});
     if (!legs.back().motion.valid()) throw SetupError("platform path: limits must be positive and finite");
     begin += legs.back().motion.duration();

@@ -17,9 +17,10 @@ namespace flinch {
 class PlatformPath {
  public:
   /// Rest at the first pose, then along a straight line to rest at each of the others in turn, orientations
-  /// the shorter way round. One pose alone is a path that stays there.
+  /// the shorter way round; on the way it pauses so long at each [s]. One pose alone is a path that stays
+  /// there.
   static PlatformPath through(const ParallelRobot& robot, const std::vector<Configuration>& poses,
-                              const PoseLimits& limits);
+                              const PoseLimits& limits, double pause = 0.0);
 
   /// A tour of waypoints, as often as it says.
   static PlatformPath around(const ParallelRobot& robot, const WaypointCircuit& circuit);

@@ -68,6 +68,7 @@ bool stays_within(const ParallelRobot& robot, const PlatformPath& path, const Ra
 }
 
 PlatformPath random_path(const ParallelRobot& robot, const RandomPathSettings& settings, std::uint64_t seed) {
+  if (!(settings.pause >= 0.0)) throw SetupError("random path: the pause must not be negative");
   RandomGenerator random(derive_seed(seed, "random path"));
   std::vector<Configuration> poses = {centre_of(robot, settings)};
   double duration = 0.0;
@@ -81,14 +82,14 @@ PlatformPath random_path(const ParallelRobot& robot, const RandomPathSettings& s
     try {
       const PlatformPath way = PlatformPath::through(robot, {poses.back(), next}, settings.limits);
       if (!stays_within(robot, way, settings)) continue;
-      duration += way.duration();
+      duration += way.duration() + (poses.size() > 1 ? settings.pause : 0.0);
     } catch (const SetupError&) {  // out of reach
       continue;
     }
     poses.push_back(next);
     draws = -1;
   }
-  return PlatformPath::through(robot, poses, settings.limits);
+  return PlatformPath::through(robot, poses, settings.limits, settings.pause);
 }
 
 }  // namespace flinch

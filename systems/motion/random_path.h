@@ -15,6 +15,7 @@ struct RandomPathSettings {
   Configuration centre;                      ///< of the poses; empty: home
   double distance = 0.2;                     ///< poses lie within it of the centre [m]
   double rotation = std::numbers::pi / 9.0;  ///< and are turned by at most this against it [rad]
+  double pause = 0.0;                        ///< at each pose [s]
   PoseLimits limits{.translation = {.velocity = 1.5, .acceleration = 12.0, .jerk = 600.0},
                     .rotation = {.velocity = 4.0, .acceleration = 80.0, .jerk = 8000.0}};
 

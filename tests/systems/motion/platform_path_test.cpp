@@ -54,6 +54,23 @@ TEST(PlatformPath, RestsAtEveryPoseInTurn) {
   expect_consistent(path);
 }
 
+TEST(PlatformPath, PausesOnTheWay) {
+  const auto robot = test::planar_bench();
+  const std::vector<Configuration> poses{pose(0, 0, 0), pose(0.1, 0, 0.1), pose(0.1, 0.05, -0.2)};
+  const PlatformPath without = PlatformPath::through(*robot, poses, limits);
+  const PlatformPath path = PlatformPath::through(*robot, poses, limits, 0.3);
+  EXPECT_NEAR(path.duration(), without.duration() + 0.3, 1e-12);
+  const double there = PlatformPath::through(*robot, {poses[0], poses[1]}, limits).duration();
+  for (const double time : {there, there + 0.15, there + 0.299}) {
+    EXPECT_LT((path.evaluate(time).pose - poses[1]).norm(), 1e-12);
+    EXPECT_LT(path.evaluate(time).velocity.norm(), 1e-12);
+    EXPECT_FALSE(path.evaluate(time).finished);
+  }
+  EXPECT_GT(path.evaluate(there + 0.35).velocity.norm(), 0.0);
+  EXPECT_THROW(PlatformPath::through(*robot, poses, limits, -0.1), SetupError);
+  EXPECT_THROW(PlatformPath::through(*robot, poses, limits, nan), SetupError);
+}
+
 TEST(PlatformPath, TurnsTheShorterWayRound) {
   const auto robot = test::planar_bench();
   const double turn = 2.0 * std::acos(-1.0);

@@ -55,6 +55,19 @@ TEST_P(RandomPath, FollowsFromItsSeed) {
   EXPECT_NE(once.duration(), other.duration());
 }
 
+TEST_P(RandomPath, StandsStillAtItsPosesWhereItShall) {
+  RandomPathSettings pausing = settings();
+  pausing.pause = 4.0;
+  const PlatformPath path = random_path(robot, pausing, 1);
+  EXPECT_GE(path.duration(), pausing.duration);
+  double still = 0.0;  // [s]
+  for (double time = 0.0; time < path.duration(); time += 1e-3)
+    still += path.evaluate(time).velocity.norm() == 0.0 ? 1e-3 : 0.0;
+  EXPECT_GT(still, 3.9);
+  pausing.pause = -0.1;
+  EXPECT_THROW(random_path(robot, pausing, 1), SetupError);
+}
+
 TEST_P(RandomPath, SaysSoWhereNoPoseCanBeReached) {
   RandomPathSettings too_fast = settings();
   too_fast.max_drive_speed = 1e-6;
