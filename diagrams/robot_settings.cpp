@@ -31,6 +31,7 @@ PlausibilityLimits plausibility_for(const DriveParameters& drives, double inerti
 void know_drives(const DriveParameters& drives, DriveTorqueSettings& settings) {
   settings.torque_constant = drives.torque_constant;
   settings.cogging = drives.cogging;
+  settings.delay = drives.torque_delay;
 }
 
 ContactControlSettings settings_for(const ParallelRobot& robot, const DriveParameters& drives,

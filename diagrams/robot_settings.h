@@ -9,7 +9,7 @@ namespace flinch {
 
 /// The settings with which a robot begins, in C++ as in 'flinch run': what depends on the robot is filled in
 /// from what its file says, in the units of its drives; the rest are the defaults.
-///   torque constants and cogging, torque range and its rates; speeds and errors that stop a drive;
+///   torque constants, delay and cogging, torque range and its rates; speeds and errors that stop a drive;
 ///   what a motor current may change while the encoder of its drive stands still: 6 % of the largest torque;
 ///   below which speed a drive counts as at rest: 1/160 of the largest;
 ///   damping of the controlled stop: the least inertia that a drive feels at home, in 29 ms, [PAR]; after a

@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "experiments/verdict/recorded_run.h"
-#include "identification/cogging_parameters.h"
 #include "identification/dynamic_parameters.h"
 #include "identification/dynamics_fit.h"
 #include "identification/dynamics_rows.h"
+#include "identification/motor_parameters.h"
 #include "identification/physical_parameters.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recording.h"
@@ -51,8 +51,8 @@ DynamicsRows rows_of(const DynamicsBelief& belief, const DynamicParameters& para
     const std::string& file = recordings[r].source.file;
     try {
       refuse_contact(*recordings[r].recording, *belief.robot);
-      rows.append(dynamics_rows(*recordings[r].recording, *belief.robot, parameters, belief.constant,
-                                static_cast<int>(r), own));
+      rows.append(dynamics_rows(*recordings[r].recording, *belief.robot, parameters,
+                                {belief.constant, belief.drives.torque_delay}, static_cast<int>(r), own));
     } catch (const SetupError& error) {
       for (const std::string& problem : error.problems()) problems.push_back(file + ": " + problem);
     }
@@ -136,6 +136,19 @@ void check(const DynamicsBelief& belief, const DynamicsRows& rows, const char* u
   throw_if_any(std::move(problems));
 }
 
+/// Throws SetupError where currents and encoders cannot be of the same time.
+void refuse_late_torques(const JointVector& delay) {
+  std::vector<std::string> problems;
+  for (Eigen::Index i = 0; i < delay.size(); ++i) {
+    if (std::abs(delay[i]) <= longest_torque_delay) continue;
+    problems.push_back(fmt::format(
+        "the torque of drive {} seems to be {:.2f} ms {} its current; more than {:.0f} ms cannot "
+        "be: check the times at which currents and encoders are read",
+        i + 1, 1e3 * std::abs(delay[i]), delay[i] > 0.0 ? "behind" : "ahead of", 1e3 * longest_torque_delay));
+  }
+  throw_if_any(std::move(problems));
+}
+
 struct Solution {
   DynamicsFit fit;
   FitUncertainty sure;
@@ -190,8 +203,7 @@ Eigen::VectorXd left_of(const DynamicsRows& rows, const DynamicParameters& param
   return left;
 }
 
-void add_parameters(const CoggingParameters& parameters, const Solution& solution,
-                    CalibrationResult& result) {
+void add_parameters(const MotorParameters& parameters, const Solution& solution, CalibrationResult& result) {
   const std::vector<FileValue> now = parameters.in_file(solution.fit.values);
   const std::vector<FileValue> before = parameters.believed_in_file();
   const auto p = static_cast<Eigen::Index>(parameters.list().size());
@@ -207,10 +219,15 @@ void add_parameters(const CoggingParameters& parameters, const Solution& solutio
   }
   result.covariance = map * solution.sure.covariance.topLeftCorner(p, p) * map.transpose();
   result.influence = map * solution.sure.influence.topRows(p);
+  // A file takes over delays and cogging of all drives or of none.
   const auto& all = solution.held;
-  const bool wave_held = std::any_of(all.begin() + parameters.of_robot_count(), all.end(), std::identity());
+  const auto first_delay = all.begin() + parameters.first_delay();
+  const auto first_of_waves = all.begin() + parameters.first_of_waves();
+  const bool delays_held = std::all_of(first_delay, first_of_waves, std::identity());
+  const bool wave_held = std::any_of(first_of_waves, all.end(), std::identity());
   for (std::size_t i = 0; i < now.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
+    const bool is_delay = now[i].mainly && *now[i].mainly >= parameters.first_delay();
     const bool held = now[i].mainly ? bool(all[static_cast<std::size_t>(*now[i].mainly)]) : wave_held;
     const double variance = result.covariance(row, row);
     result.parameters.push_back(
@@ -218,7 +235,7 @@ void add_parameters(const CoggingParameters& parameters, const Solution& solutio
          .value = now[i].value,
          .deviation = held || !(variance > 0.0) ? std::nullopt : std::optional(std::sqrt(variance)),
          .unit = now[i].unit,
-         .identifiable = !held,
+         .identifiable = is_delay ? !delays_held : !held,
          .before = i < before.size() ? std::optional(before[i].value) : std::nullopt,
          .belongs_to = "robot"});
   }
@@ -254,9 +271,9 @@ void add_residuals(const DynamicsRows& rows, const Eigen::VectorXd& before, cons
 }
 
 /// Errors of the torque that the model predicts, before and after.
-void validate(const DynamicsBelief& belief, const DynamicParameters& robot,
-              const CoggingParameters& parameters, const Eigen::VectorXd& values,
-              const std::vector<MotionRecording>& unseen, CalibrationResult& result) {
+void validate(const DynamicsBelief& belief, const DynamicParameters& robot, const MotorParameters& parameters,
+              const Eigen::VectorXd& values, const std::vector<MotionRecording>& unseen,
+              CalibrationResult& result) {
   if (unseen.empty()) return;
   const DynamicsRows rows = parameters.rows(rows_of(belief, robot, unseen, result.warnings));
   const Eigen::VectorXd error = rows.surplus - rows.regressor * (values - parameters.believed());
@@ -325,12 +342,12 @@ CalibrationResult calibrate_dynamics(const DynamicsBelief& belief,
   const int drives = belief.robot->drives();
   const double usual_error = 0.01 * belief.drives.max_torque;
   Solution solution = solve(rows, *of_robot, drives, usual_error);
-  const CoggingParameters parameters(*of_robot,
-                                     find_cogging(rows, left_of(rows, *of_robot, solution.fit), drives),
-                                     belief.robot->drive_kind(0), belief.drives);
+  const MotorParameters parameters(*of_robot,
+                                   find_cogging(rows, left_of(rows, *of_robot, solution.fit), drives),
+                                   belief.robot->drive_kind(0), belief.drives);
   rows = parameters.rows(std::move(rows));
-  if (parameters.list().size() > of_robot->list().size())
-    solution = solve(rows, parameters, drives, usual_error);
+  solution = solve(rows, parameters, drives, usual_error);
+  refuse_late_torques(parameters.torque_delay(solution.fit.values));
   result.rank = solution.sure.rank;
   result.condition = solution.sure.condition;
   add_parameters(parameters, solution, result);

@@ -23,9 +23,9 @@ struct DynamicsBelief {
   JointVector constant;  ///< torque constants, calibrated [Nm/A or N/A]
 };
 
-/// Inertial parameters, friction and cogging from motion without contact. `unseen`: recordings that are not
-/// used, on which the errors of the predicted torque are told, by drive. Throws SetupError with all that
-/// forbids it.
+/// Inertial parameters, friction, cogging and how far torques are behind currents, from motion without
+/// contact. `unseen`: recordings that are not used, on which the errors of the predicted torque are told, by
+/// drive. Throws SetupError with all that forbids it.
 CalibrationResult calibrate_dynamics(const DynamicsBelief& belief,
                                      const std::vector<MotionRecording>& recordings,
                                      const std::vector<MotionRecording>& unseen);

@@ -34,6 +34,14 @@ Eigen::MatrixXd between_ticks(const Eigen::MatrixXd& current) {
   return mean;
 }
 
+/// Of currents, at the same instants [A/s].
+Eigen::MatrixXd slopes(const Eigen::MatrixXd& current, double period) {
+  const Eigen::Index n = current.rows();
+  Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(n, current.cols());
+  slope.topRows(n - 1) = (current.bottomRows(n - 1) - current.topRows(n - 1)) / period;
+  return slope;
+}
+
 /// What is left of white noise of deviation 1 after the filter.
 double noise_gain(double period) {
   Eigen::MatrixXd impulse = Eigen::MatrixXd::Zero(2001, 1);
@@ -48,6 +56,22 @@ double white_noise(const Eigen::VectorXd& x) {
   return robust_deviation({second.begin(), second.end()}) / std::sqrt(6.0);
 }
 
+/// Of the torque of the noisiest drive, behind the filter.
+double torque_noise(const Eigen::MatrixXd& current, const TorqueBelief& belief, double period) {
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < current.cols(); ++i)
+    largest = std::max(largest, belief.constant[i] * white_noise(current.col(i)));
+  return largest * noise_gain(period) / std::sqrt(2.0);
+}
+
+/// For so many rows and parameters; what is there stays.
+void resize(DynamicsRows& rows, Eigen::Index count, Eigen::Index parameters) {
+  rows.regressor.conservativeResize(count, parameters);
+  rows.surplus.conservativeResize(count);
+  rows.torque.conservativeResize(count);
+  rows.slope.conservativeResize(count);
+}
+
 }  // namespace
 
 double DrivePath::blur(Eigen::Index sample, int drive) const {
@@ -60,12 +84,11 @@ double DrivePath::blur(Eigen::Index sample, int drive) const {
 
 void DynamicsRows::append(const DynamicsRows& more) {
   const Eigen::Index n = surplus.size(), m = more.surplus.size();
-  regressor.conservativeResize(n + m, more.regressor.cols());
-  surplus.conservativeResize(n + m);
-  torque.conservativeResize(n + m);
+  resize(*this, n + m, more.regressor.cols());
   regressor.bottomRows(m) = more.regressor;
   surplus.tail(m) = more.surplus;
   torque.tail(m) = more.torque;
+  slope.tail(m) = more.slope;
   drive.insert(drive.end(), more.drive.begin(), more.drive.end());
   cluster.insert(cluster.end(), more.cluster.begin(), more.cluster.end());
   recording.insert(recording.end(), more.recording.begin(), more.recording.end());
@@ -104,7 +127,7 @@ namespace {
 
 /// The rows of one stretch.
 DynamicsRows rows_of(const Recording& recording, const ParallelRobot& robot,
-                     const ParameterVariants& variants, const JointVector& constant,
+                     const ParameterVariants& variants, const TorqueBelief& belief,
                      const ValidStretch& stretch, MotorCurrents currents, int number) {
   const double period = to_seconds(recording.period);
   const EncoderMotion motion = encoder_motion(recording, robot, stretch, motion_cutoff);
@@ -112,12 +135,12 @@ DynamicsRows rows_of(const Recording& recording, const ParallelRobot& robot,
   const auto n = static_cast<Eigen::Index>(stretch.count);
   const auto p = static_cast<Eigen::Index>(variants.size());
   DynamicsRows out;
-  for (int i = 0; i < drives; ++i)
-    out.noise = std::max(
-        out.noise, constant[i] * white_noise(currents.current.col(i)) * noise_gain(period) / std::sqrt(2.0));
+  out.noise = torque_noise(currents.current, belief, period);
   const auto reach = static_cast<std::ptrdiff_t>(2.0 / (cutoff_frequency * period));  // of the filter
   for (std::vector<char>& usable : currents.usable) widen_unusable(usable, reach);
-  Eigen::MatrixXd torque = between_ticks(currents.current) * constant.asDiagonal();
+  Eigen::MatrixXd torque = between_ticks(currents.current) * belief.constant.asDiagonal();
+  Eigen::MatrixXd slope = slopes(currents.current, period) * belief.constant.asDiagonal();
+  if (belief.delay.size() > 0) torque -= slope * belief.delay.asDiagonal();
   Eigen::MatrixXd surplus(n, drives), Y(n, drives * p);
   out.paths = {{Eigen::MatrixXd(n, drives), period}};
   const auto joints = read<JointReading>(recording, "joints");
@@ -132,15 +155,14 @@ DynamicsRows rows_of(const Recording& recording, const ParallelRobot& robot,
     Y.row(k) = Eigen::Map<Eigen::RowVectorXd>(of_sample.data(), of_sample.size());
   }
   torque = zero_phase(torque, cutoff_frequency, period);
+  slope = zero_phase(slope, cutoff_frequency, period);
   surplus = zero_phase(surplus, cutoff_frequency, period);
   Y = zero_phase(Y, cutoff_frequency, period);
 
   const auto step = std::max<Eigen::Index>(1, std::lround(rows_period / period));
   const auto margin = static_cast<Eigen::Index>(edge / period);
   const Eigen::Index samples = std::max<Eigen::Index>(0, (n - 2 * margin + step - 1) / step);
-  out.regressor.resize(samples * drives, p);
-  out.surplus.resize(samples * drives);
-  out.torque.resize(samples * drives);
+  resize(out, samples * drives, p);
   Eigen::Index row = 0;
   for (Eigen::Index s = 0; s < samples; ++s) {
     const Eigen::Index k = margin + s * step;
@@ -150,6 +172,7 @@ DynamicsRows rows_of(const Recording& recording, const ParallelRobot& robot,
       for (Eigen::Index j = 0; j < p; ++j) out.regressor(row, j) = Y(k, j * drives + i);
       out.surplus[row] = surplus(k, i);
       out.torque[row] = torque(k, i);
+      out.slope[row] = slope(k, i);
       out.drive.push_back(i);
       out.cluster.push_back(100000 * number + static_cast<int>(time / cluster_length));
       out.recording.push_back(number);
@@ -159,16 +182,14 @@ DynamicsRows rows_of(const Recording& recording, const ParallelRobot& robot,
       ++row;
     }
   }
-  out.regressor.conservativeResize(row, p);
-  out.surplus.conservativeResize(row);
-  out.torque.conservativeResize(row);
+  resize(out, row, p);
   return out;
 }
 
 }  // namespace
 
 DynamicsRows dynamics_rows(const Recording& recording, const ParallelRobot& robot,
-                           const DynamicParameters& parameters, const JointVector& constant, int number,
+                           const DynamicParameters& parameters, const TorqueBelief& belief, int number,
                            std::vector<std::string>& warnings) {
   const ParameterVariants variants(parameters);
   DynamicsRows rows;
@@ -180,7 +201,7 @@ DynamicsRows dynamics_rows(const Recording& recording, const ParallelRobot& robo
     defects.count(currents);
     spikes += remove_spikes(currents.current);
     samples += stretch.count;
-    rows.append(rows_of(recording, robot, variants, constant, stretch, std::move(currents), number));
+    rows.append(rows_of(recording, robot, variants, belief, stretch, std::move(currents), number));
   }
   if (samples == 0) {
     throw SetupError(

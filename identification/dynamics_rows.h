@@ -27,6 +27,7 @@ struct DynamicsRows {
   Eigen::MatrixXd regressor;  ///< Y: d tau / d parameter, one row for each sample and drive
   Eigen::VectorXd surplus;    ///< tau - tau_believed [Nm or N]
   Eigen::VectorXd torque;     ///< tau [Nm or N]
+  Eigen::VectorXd slope;      ///< d tau / dt [Nm/s or N/s]
   std::vector<int> drive;
   std::vector<int> cluster;
   std::vector<int> recording;
@@ -39,10 +40,16 @@ struct DynamicsRows {
   void append(const DynamicsRows& more);
 };
 
-/// The rows of one recording. `constant`: torque constants. `warnings`: what is wrong with parts of it.
-/// Throws SetupError where nothing can be done with it.
+/// What makes torques of currents.
+struct TorqueBelief {
+  JointVector constant;  ///< [Nm/A or N/A]
+  JointVector delay{};   ///< by which torques are behind their currents [s]; empty: not at all
+};
+
+/// The rows of one recording. `warnings`: what is wrong with parts of it. Throws SetupError where nothing can
+/// be done with it.
 DynamicsRows dynamics_rows(const Recording& recording, const ParallelRobot& robot,
-                           const DynamicParameters& parameters, const JointVector& constant, int number,
+                           const DynamicParameters& parameters, const TorqueBelief& belief, int number,
                            std::vector<std::string>& warnings);
 
 /// The numbers of one drive out of those of all.

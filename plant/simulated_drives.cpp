@@ -4,6 +4,7 @@
 
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/robot/drive_parameters.h"
 
 namespace flinch {
 
@@ -30,11 +31,14 @@ std::vector<std::string> problems(const SimulatedDrivesSettings& settings, const
   check_count(settings.torque_constant, "torque_constant", robot.drives(), found);
   check_count(settings.driver_torque_constant, "driver_torque_constant", robot.drives(), found);
   check_count(settings.current_lag, "current_lag", robot.drives(), found);
+  check_count(settings.torque_delay, "torque_delay", robot.drives(), found);
   for (const double constant : settings.torque_constant) found.positive("torque_constant", constant);
   for (const double constant : settings.driver_torque_constant) {
     found.positive("driver_torque_constant", constant);
   }
   for (const double lag : settings.current_lag) found.not_negative("current_lag", lag, "s");
+  for (const double delay : settings.torque_delay)
+    found.at_most(longest_torque_delay, "torque_delay", std::abs(delay), "s");
   found.positive("torque_limit", settings.torque_limit, "Nm");
   found.positive("force_limit", settings.force_limit, "N");
   found.not_negative("longest_silence", to_seconds(settings.longest_silence), "s");
@@ -75,6 +79,8 @@ DriveAction SimulatedDrives::act(Time now, const DriveAction& before, const Torq
     mean[i] += step * ticks * (1.0 - left);
     action.current[i] += step * left;
   }
+  if (settings_.torque_delay.size() > 0)
+    mean -= settings_.torque_delay.cwiseProduct(action.current - before.current) / to_seconds(tick_);
   action.torque = settings_.torque_constant.cwiseProduct(mean);
   action.enabled = true;
   action.braked = false;

@@ -22,6 +22,7 @@ struct SimulatedDrivesSettings {
   JointVector driver_torque_constant{};
   /// Time constant with which each current follows its command [s]; empty: at once.
   JointVector current_lag{};
+  JointVector torque_delay{};   ///< By which each torque is behind its current besides [s]; empty: none.
   double torque_limit = 100.0;  ///< Commands are cut to this [Nm].
   double force_limit = 500.0;   ///< Those for drives that slide [N].
   Time longest_silence = 3ms;   ///< Age of a command from which on it is not obeyed.

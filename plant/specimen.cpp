@@ -134,7 +134,7 @@ SimulatedStationSettings with_specimen(SimulatedStationSettings model, const Spe
   const std::vector<UnevenTorque> known = std::exchange(model.bench.uneven_torque, specimen.uneven_torque);
   model.bench.uneven_torque.resize(std::max(known.size(), specimen.uneven_torque.size()));
   for (std::size_t i = 0; i < known.size(); ++i) model.bench.uneven_torque[i].cogging = known[i].cogging;
-  drives.current_lag = specimen.current_lag;
+  if (drives.torque_delay.size() == 0) drives.current_lag = specimen.current_lag;
   if (specimen.torque_constant_scale.size() > 0) {
     drives = complete(drives, *model.bench.robot);
     drives.torque_constant = drives.torque_constant.cwiseProduct(specimen.torque_constant_scale);

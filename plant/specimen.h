@@ -32,7 +32,8 @@ struct Specimen {
 Specimen draw_specimen(const Realism& realism, const ParallelRobot& robot, double largest_torque,
                        std::uint64_t seed);
 
-/// The station of `model` with this robot in its place; motors of which the model says how they cog do so.
+/// The station of `model` with this robot in its place; motors of which the model says how they cog do so,
+/// and likewise those whose torque is behind their current.
 /// An offset of the passive encoders stands for the error that their accuracy would have drawn.
 SimulatedStationSettings with_specimen(SimulatedStationSettings model, const Specimen& specimen);
 

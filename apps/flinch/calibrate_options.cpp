@@ -26,7 +26,8 @@ void add_fits(CLI::App& calibrate, Verbs& verbs) {
                   "Recordings of pulls that are not used: how far the estimated forces are off there")
       ->type_name("RUN.h5...");
   CLI::App& dynamics = add_calibration(
-      calibrate, verbs, "dynamics", "Friction, inertia and cogging, from motion without contact",
+      calibrate, verbs, "dynamics",
+      "Friction, inertia, cogging, delay of torques; from motion without contact",
       "flinch calibrate dynamics out/excitation/run.h5 --with torque_constant.yaml --out dynamics.yaml",
       "Recordings (HDF5) of one robot without contact; scenario: calibration_excitation.yaml", verbs.dynamics,
       &calibrate_dynamics);

@@ -80,6 +80,7 @@ Realism read_plant(ConfigReader plant, const Scenario& scenario, SimulatedStatio
   double mass_scale = 1.0;
   RobotDeviation deviation;
   station.bench.uneven_torque = uneven_torque(built.drives.cogging);
+  station.drives.torque_delay = built.drives.torque_delay;
   station.drives.torque_constant = built.drives.torque_constant;
   station.drives.driver_torque_constant = scenario.robot.drives.torque_constant;
   plant.choice("friction", friction,

@@ -77,11 +77,22 @@ Cogging read_cogging(ConfigReader& file, const RobotKind& kind) {
   return cogging;
 }
 
+/// Of all drives, or nothing where the file says nothing of it.
+JointVector read_torque_delay(ConfigReader& file, const RobotKind& kind) {
+  const auto keys = file.keys();
+  if (std::none_of(keys.begin(), keys.end(), [](auto key) { return key.starts_with("torque_delay"); }))
+    return {};
+  JointVector delay = JointVector::Zero(kind.drives);
+  file.numbers("torque_delay", unit::s, entries(delay), between(-longest_torque_delay, longest_torque_delay));
+  return delay;
+}
+
 DriveParameters read_drives(ConfigReader file, const RobotKind& kind) {
   const DriveKeys& keys = keys_of(kind);
   DriveParameters drives = default_drives(kind.drive, kind.drives);
   file.numbers(keys.torque_constant, keys.per_ampere, entries(drives.torque_constant), positive);
   drives.cogging = read_cogging(file, kind);
+  drives.torque_delay = read_torque_delay(file, kind);
   file.number(keys.max_torque, keys.torque, drives.max_torque, positive);
   file.number(keys.max_torque_rate, keys.torque_rate, drives.max_torque_rate, positive);
   file.number(keys.max_torque_jump, keys.torque, drives.max_torque_jump, positive);

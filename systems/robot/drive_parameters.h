@@ -9,11 +9,16 @@ namespace flinch {
 
 enum class DriveKind;
 
+/// A torque that is further behind its current than this, a tick, or as far ahead has another fault [s].
+inline constexpr double longest_torque_delay = 1e-3;
+
 /// What a robot's drives are given and may do. Units of a turning drive, of a sliding one in brackets.
 struct DriveParameters {
   /// Torque of 1 A at each drive [Nm/A] ([N/A]).
   JointVector torque_constant;
-  Cogging cogging{};          ///< As far as it is known [Nm] ([N]).
+  Cogging cogging{};  ///< As far as it is known [Nm] ([N]).
+  /// By which the torque of each drive is behind its measured current [s]; empty: nothing is known.
+  JointVector torque_delay{};
   double max_torque = 100.0;  ///< Of every drive [Nm] ([N]).
   /// Largest change of a drive's torque [Nm/s] ([N/s]).
   double max_torque_rate = 20e3;

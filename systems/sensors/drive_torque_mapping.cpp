@@ -19,6 +19,12 @@ std::vector<std::string> problems(const DriveTorqueSettings& settings, const Joi
   found.require(constants.allFinite() && (constants.array() > 0.0).all(),
                 "torque_constant has an entry that is not positive [Nm/A]");
   found.add_all(problems(settings.cogging, drives));
+  found.require(settings.delay.size() == 0 || settings.delay.size() == drives,
+                "delay has " + std::to_string(settings.delay.size()) + " entries; the robot has " +
+                    std::to_string(drives) + " drives");
+  const double period = to_seconds(settings.sampling.period);
+  found.require(settings.delay.allFinite() && (settings.delay.array().abs() <= period).all(),
+                "delay has an entry of more than a period, or one that is not finite [s]");
   if (low_pass) found.add_all(problems(*low_pass));
   return found.take();
 }
@@ -28,7 +34,10 @@ std::vector<std::string> problems(const DriveTorqueSettings& settings, const Joi
 DriveTorqueMapping::DriveTorqueMapping(const std::shared_ptr<const ParallelRobot>& robot,
                                        const DriveTorqueSettings& settings,
                                        const std::optional<LowPassSettings>& aligned_with)
-    : torque_constant_(settings.torque_constant), cogging_(settings.cogging), sampling_(settings.sampling) {
+    : torque_constant_(settings.torque_constant),
+      cogging_(settings.cogging),
+      delay_(settings.delay),
+      sampling_(settings.sampling) {
   if (torque_constant_.size() == 0) {
     torque_constant_ = default_drives(robot->drive_kind(0), robot->drives()).torque_constant;
   }
@@ -41,6 +50,19 @@ bool DriveTorqueMapping::is_usable(const DriveReading& reading) const {
   return reading.valid && reading.current.size() == torque_constant_.size() && reading.current.allFinite();
 }
 
+DelayedCurrent DriveTorqueMapping::delayed(const DriveReading& reading, const DelayedCurrent& last) const {
+  const bool has_last = last.measured.size() > 0;
+  if (delay_.size() == 0 || !is_usable(reading) || (has_last && reading.acquired == last.acquired))
+    return last;
+  DelayedCurrent now{reading.acquired, reading.current, reading.current};
+  if (has_last && reading.acquired > last.acquired &&
+      !sampling_.interrupted(last.acquired, reading.acquired)) {
+    const double interval = to_seconds(reading.acquired - last.acquired);
+    now.acting -= delay_.cwiseProduct(now.measured - last.measured) / interval;
+  }
+  return now;
+}
+
 PassedCogging DriveTorqueMapping::passed(const JointReading& encoders, const PassedCogging& last) const {
   const auto count = static_cast<int>(torque_constant_.size());
   if (cogging_.is_none() || !encoders.valid || !usable(encoders.active, count)) return last;
@@ -49,7 +71,8 @@ PassedCogging DriveTorqueMapping::passed(const JointReading& encoders, const Pas
 }
 
 JointVector DriveTorqueMapping::torque_of(const DriveReading& reading, const DriveTorqueMemory& next) const {
-  JointVector result = torque_constant_.cwiseProduct(reading.current);
+  const JointVector& current = next.current.acting.size() > 0 ? next.current.acting : reading.current;
+  JointVector result = torque_constant_.cwiseProduct(current);
   if (next.cogging.mean.size() > 0) result += next.cogging.mean;
   return result;
 }
@@ -59,7 +82,9 @@ void DriveTorqueMapping::advance(const JointReading& encoders, const DriveReadin
                                  DriveTorqueMemory& next) const {
   next = DriveTorqueMemory();
   next.cogging = passed(encoders, memory.cogging);
-  if (!low_pass_ || (station.valid && station.braked)) return;
+  if (station.valid && station.braked) return;
+  next.current = delayed(reading, memory.current);
+  if (!low_pass_) return;
   const bool is_new = is_usable(reading) && (!memory.torque.started || reading.acquired > memory.acquired);
   if (!is_new && sampling_.expired(memory.arrived, now)) return;
   next.acquired = memory.acquired;

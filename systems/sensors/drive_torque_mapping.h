@@ -19,7 +19,8 @@ struct DriveTorqueSettings {
   /// k_t of each drive [Nm/A or N/A]; empty: 6.1 for each, until calibrated. [ICRA23] III-B
   JointVector torque_constant;
   Sampling sampling;
-  Cogging cogging{};  ///< As far as it is known [Nm or N].
+  Cogging cogging{};    ///< As far as it is known [Nm or N].
+  JointVector delay{};  ///< By which the torque of each drive is behind its current [s]; empty: none.
 };
 
 /// Cogging where the drives last were, and its mean on the way there [Nm or N]; empty: nothing is known.
@@ -28,10 +29,18 @@ struct PassedCogging {
   JointVector mean;
 };
 
+/// The last usable currents, and those that make the torques of the interval until then [A]; empty: none.
+struct DelayedCurrent {
+  Time acquired{};
+  JointVector measured;
+  JointVector acting;
+};
+
 /// What the mapping remembers: its last sample.
 struct DriveTorqueMemory {
   Time acquired{};
   Time arrived{};  ///< tick at which it was read
+  DelayedCurrent current;
   LowPassMemory torque;
   PassedCogging cogging;
 };
@@ -45,6 +54,10 @@ struct DriveTorqueMemory {
 /// so that both, sent through the same filter, still obey it: the change of the filtered momentum over a step
 /// is the mean of the filtered torques at its two ends (`TorqueTiming::sampled` of the momentum observers).
 ///
+/// Where the torque of a drive is known to be behind its current, by lambda, the current that acts is
+///   i_k - lambda (i_k - i_{k-1}) / T,
+/// as if it changed evenly. After a gap it is that which is read.
+///
 /// Cogging follows from where the drive is: its mean over the interval is that of its two ends. (Derived.)
 /// While the encoders say nothing it stays as it was.
 ///
@@ -56,8 +69,8 @@ class DriveTorqueMapping final : public System {
 
  public:
   /// `aligned_with`: the low pass of the velocity with which the torque is aligned; none: the torque as it
-  /// is. Throws SetupError unless there is a positive torque constant for each drive, and cogging of all or
-  /// of none.
+  /// is. Throws SetupError unless there is a positive torque constant for each drive, and cogging and delay
+  /// of all or of none.
   DriveTorqueMapping(const std::shared_ptr<const ParallelRobot>& robot, const DriveTorqueSettings& settings,
                      const std::optional<LowPassSettings>& aligned_with = std::nullopt);
 
@@ -78,11 +91,13 @@ class DriveTorqueMapping final : public System {
   void read(const DriveReading& reading, const StationStatus& station, const DriveTorqueMemory& next,
             DriveTorque& result) const;
   bool is_usable(const DriveReading& reading) const;
+  DelayedCurrent delayed(const DriveReading& reading, const DelayedCurrent& last) const;
   PassedCogging passed(const JointReading& encoders, const PassedCogging& last) const;
   JointVector torque_of(const DriveReading& reading, const DriveTorqueMemory& next) const;
 
   JointVector torque_constant_;
   Cogging cogging_;
+  JointVector delay_;
   Sampling sampling_;
   std::optional<FirstOrderLowPass> low_pass_;
 };

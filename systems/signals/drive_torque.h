@@ -9,7 +9,7 @@ namespace flinch {
 struct DriveTorque {
   Time acquired{};
   bool valid = false;
-  JointVector torque;   ///< tau_a = k_t i, and cogging where it is known [Nm or N]
+  JointVector torque;   ///< tau_a = k_t i, delay and cogging where known [Nm or N]
   bool braked = false;  ///< closed brakes add to it what nobody measures
 
   template <class Self, class Visit>

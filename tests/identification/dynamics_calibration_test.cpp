@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <deque>
 #include <limits>
 
 #include "identification/dynamics_fit.h"
@@ -193,6 +194,18 @@ TEST(BadMotions, WithSwappedCurrentsAreRefused) {
   });
   EXPECT_THAT(test::problems_of([&] { calibrated(run); }),
               Contains(HasSubstr("currents or legs are swapped")));
+}
+
+TEST(BadMotions, WithCurrentsOfAnotherTimeThanTheEncodersAreRefused) {
+  Simulated run = test::simulated("calibration_excitation.yaml");
+  std::deque<JointVector> older(4, JointVector::Zero(3));
+  edit<DriveReading>(run.recording, "drives", [&](std::size_t, DriveReading& reading) {
+    older.push_back(reading.current);
+    reading.current = older.front();
+    older.pop_front();
+  });
+  EXPECT_THAT(test::problems_of([&] { calibrated(run); }),
+              Contains(HasSubstr("ahead of its current; more than 1 ms cannot be: check the times")));
 }
 
 TEST(AFifthOfOutliers, MovesNoDynamicParameterByMoreThanThreeDeviations) {

@@ -119,6 +119,36 @@ TEST(SimulatedDrives, FollowTheirCommandsWithTheLagOfTheCurrent) {
   expect_stopped(drives.after(TorqueCommand()));
 }
 
+TEST(SimulatedDrives, MakeTorquesThatAreBehindTheirCurrents) {
+  const Eigen::Vector3d delay(0.25e-3, -0.5e-3, 0.0);
+  Drives drives({.torque_constant = constants, .torque_delay = delay});
+  const auto command = [&](double amperes) {
+    const Eigen::Vector3d torque = amperes * constants;
+    return drives.fresh(torque[0], torque[1], torque[2]);
+  };
+  drives.then(command(1.0));
+  drives.then(command(3.0));
+  const DriveAction action = drives.then(command(3.0));
+  EXPECT_TRUE(action.current.isApprox(Eigen::Vector3d::Constant(3.0)));
+  EXPECT_TRUE(action.torque.cwiseQuotient(constants).isApprox(Eigen::Vector3d(2.5, 4.0, 3.0)))
+      << action.torque.cwiseQuotient(constants).transpose();
+}
+
+// What the mapping makes of the currents is what acts, where it knows the delay that a lag makes.
+TEST(SimulatedDrives, WithALagAreBehindByAShareOfTheStep) {
+  constexpr double ticks = 0.3;  // of the lag
+  const double left = std::exp(-1.0 / ticks);
+  const double share = 1.0 - 1.0 / (1.0 - left) + ticks;
+  Drives drives({.torque_constant = constants, .current_lag = Eigen::Vector3d::Constant(ticks * 1e-3)});
+  DriveAction before = drives.then(drives.fresh(0.0, 0.0, 0.0));
+  for (const double torque : {10.0, -4.0, 3.0, 3.0}) {
+    const DriveAction action = drives.then(drives.fresh(torque, torque, torque));
+    const Eigen::Vector3d acts = action.current - share * (action.current - before.current);
+    EXPECT_TRUE(action.torque.isApprox(constants.cwiseProduct(acts), 1e-12));
+    before = action;
+  }
+}
+
 TEST(SimulatedDrives, WithoutLagObeyAtOnce) {
   Drives drives({.torque_constant = constants, .current_lag = Eigen::Vector3d::Zero()});
   const DriveAction action = drives.after(drives.fresh(6.021, -13.2232, 0.0));

@@ -65,7 +65,7 @@ TEST(TheFusedDetectorOfAScenario, JudgesByWhatIsSmoothedWhereTheFileSaysHow) {
   EXPECT_EQ(settings.residuals.front().smoothed->threshold, 8.0);
   EXPECT_EQ(settings.residuals.front().smoothed->errors.rest, 0.5);
   EXPECT_THAT(test::problems_of([&] { read(place, "", "        smoothed: {threshold: 8}\n"); }),
-              ElementsAre(HasSubstr("smoothed: noise_Nm")));
+              ElementsAre(HasSubstr("smoothed.noise_Nm: is missing")));
 }
 
 }  // namespace

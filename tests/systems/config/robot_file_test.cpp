@@ -314,6 +314,14 @@ TEST_F(ChangedRobotFile, SaysAllOfTheCoggingOrNothing) {
   EXPECT_THAT(problems(), Contains(HasSubstr("cogging_wavelength_rad[1]: is 0; it must be positive")));
 }
 
+TEST_F(ChangedRobotFile, SaysHowFarTorquesAreBehindTheirCurrents) {
+  EXPECT_EQ(read_robot_file(file()).drives.torque_delay.size(), 0);
+  replace("platform:\n", "drives:\n  torque_delay_ms: [0.25, 0, -0.1]\nplatform:\n");
+  EXPECT_TRUE(read_robot_file(file()).drives.torque_delay.isApprox(JointVector{{0.25e-3, 0.0, -0.1e-3}}));
+  replace("[0.25, 0, -0.1]", "[0.25, 3, -0.1]");
+  EXPECT_THAT(problems(), ElementsAre(HasSubstr("drives.torque_delay_ms[1]: is 3")));
+}
+
 TEST_F(ChangedRobotFile, HasOneInertiaALeg) {
   replace("    bodies:\n",
           "    base_parameters: {p1_kg_m2: 0.6, p2_kg_m2: 0.09, p3_kg_m2: 0.13}\n    bodies:\n");

@@ -27,16 +27,16 @@ std::shared_ptr<const PlanarRrr> bench() {
 /// Aligned with a velocity of this form, or not.
 DriveTorqueMapping& add_mapping(DiagramBuilder& builder, std::optional<LowPassForm> form,
                                 const JointVector& torque_constant = JointVector::Ones(3),
-                                const Cogging& cogging = {}) {
+                                const Cogging& cogging = {}, const JointVector& delay = {}) {
   const auto aligned_with = form ? std::optional(LowPassSettings{30.0, *form}) : std::nullopt;
-  return builder.add<DriveTorqueMapping>("mapping", bench(),
-                                         DriveTorqueSettings{torque_constant, {}, cogging}, aligned_with);
+  return builder.add<DriveTorqueMapping>(
+      "mapping", bench(), DriveTorqueSettings{torque_constant, {}, cogging, delay}, aligned_with);
 }
 
 struct Mapping {
   explicit Mapping(std::optional<LowPassForm> form, const JointVector& torque_constant = JointVector::Ones(3),
-                   const Cogging& cogging = {})
-      : block(add_mapping(builder, form, torque_constant, cogging)),
+                   const Cogging& cogging = {}, const JointVector& delay = {})
+      : block(add_mapping(builder, form, torque_constant, cogging, delay)),
         joints(builder.export_input("joints", block.joints)),
         drives(builder.export_input("drives", block.drives)),
         status(builder.export_input("status", block.status)),
@@ -82,6 +82,65 @@ TEST(DriveTorqueMapping, MultipliesEachCurrentByTheConstantOfItsDrive) {
   EXPECT_TRUE(torque.valid);
   EXPECT_EQ(torque.acquired, 1ms);
   EXPECT_LT((torque.torque - JointVector{{6.021, -13.2232, 3.36575}}).norm(), 1e-14);
+}
+
+// Currents that change evenly: the torque is that of a time `delay` ago.
+TEST(DriveTorqueMapping, IsBehindTheCurrentWhereThatIsKnown) {
+  const JointVector constant{{6.0, 5.0, 4.0}}, delay{{0.25e-3, -0.5e-3, 0.0}}, slope{{100.0, -40.0, 7.0}};
+  Mapping mapping(std::nullopt, constant, {}, delay);
+  const auto current = [&](double time) -> JointVector { return JointVector::Ones(3) + slope * time; };
+  EXPECT_EQ(mapping.see(current(0.0)).torque, constant) << "nothing is known of before";
+  for (int k = 1; k < 20; ++k) {
+    const DriveTorque& torque = mapping.see(current(T * k));
+    for (int i = 0; i < 3; ++i)
+      EXPECT_NEAR(torque.torque[i], constant[i] * current(T * k - delay[i])[i], 1e-12) << k << ", " << i;
+  }
+}
+
+TEST(DriveTorqueMapping, TakesTheCurrentAsItIsBehindAGap) {
+  Mapping mapping(std::nullopt, JointVector::Ones(3), {}, JointVector::Constant(3, 0.5e-3));
+  mapping.see(JointVector::Zero(3));
+  mapping.miss();
+  EXPECT_NEAR(mapping.see(JointVector::Ones(3)).torque[0], 0.75, 1e-15) << "2 ms for the step";
+  for (int k = 0; k < 5; ++k) EXPECT_FALSE(mapping.miss().valid);
+  EXPECT_EQ(mapping.see(JointVector::Constant(3, 3.0)).torque[0], 3.0);
+}
+
+// What the brakes held, the drives hold at once when they open.
+TEST(DriveTorqueMapping, ForgetsTheCurrentsOfClosedBrakes) {
+  for (const auto form : {std::optional<LowPassForm>(), std::optional(LowPassForm::tustin)}) {
+    Mapping mapping(form, JointVector::Ones(3), {}, JointVector::Constant(3, 0.5e-3));
+    StationStatus station{.acquired = 0ms, .valid = true, .enabled = true, .braked = true};
+    mapping.ticking.set(mapping.status, station);
+    for (int k = 0; k < 5; ++k) mapping.see(JointVector::Zero(3));
+    station.braked = false;
+    mapping.ticking.set(mapping.status, station);
+    const JointVector held{{5.0, -3.0, 8.0}};
+    for (int k = 0; k < 5; ++k) EXPECT_TRUE(mapping.see(held).torque.isApprox(held)) << k;
+  }
+}
+
+TEST(DriveTorqueMapping, DoesNotAllocateWithADelay) {
+  Mapping mapping(LowPassForm::tustin, JointVector::Ones(3), {}, JointVector::Constant(3, 0.5e-3));
+  mapping.see(JointVector::Zero(3));
+  const test::AllocationCounter counter;
+  for (int k = 1; k < 20; ++k) mapping.see(JointVector::Constant(3, k));
+  EXPECT_EQ(counter.count(), 0);
+}
+
+TEST(DriveTorqueMapping, SaysTheSameOfAReadingThatComesAgain) {
+  Mapping mapping(std::nullopt, JointVector::Ones(3), {}, JointVector::Constant(3, 0.5e-3));
+  mapping.see(JointVector::Zero(3));
+  const DriveReading reading{mapping.ticking.now(), true, JointVector::Ones(3)};
+  EXPECT_EQ(mapping.see(reading).torque[0], 0.5);
+  EXPECT_EQ(mapping.see(reading).torque[0], 0.5);
+}
+
+TEST(DriveTorqueMapping, RefusesADelayOfSomeDrivesOnly) {
+  EXPECT_THROW(Mapping(std::nullopt, JointVector::Ones(3), {}, JointVector::Zero(2)), SetupError);
+  EXPECT_THROW(Mapping(std::nullopt, JointVector::Ones(3), {}, JointVector::Constant(3, nan)), SetupError);
+  EXPECT_THROW(Mapping(std::nullopt, JointVector::Ones(3), {}, JointVector::Constant(3, 1.1e-3)), SetupError)
+      << "more than a period";
 }
 
 TEST(DriveTorqueMapping, IsNotValidWhereTheReadingIsNot) {

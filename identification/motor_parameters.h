@@ -27,23 +27,28 @@ std::vector<CoggingWave> find_cogging(const DynamicsRows& rows, const Eigen::Vec
 /// The surplus of rows without what drives are believed to cog by [Nm or N].
 Eigen::VectorXd without_cogging(const DynamicsRows& rows, const Cogging& believed);
 
-/// The dynamic parameters of a robot, and after them s, c and r of each wave. In the file stands the cogging
-/// of all drives, of those without a wave none.
-class CoggingParameters final : public DynamicParameters {
+/// The dynamic parameters of a robot, after them by how much the torque of each drive is behind its current,
+/// and s, c and r of each wave. In the file stands the cogging of all drives, of those without a wave none.
+class MotorParameters final : public DynamicParameters {
  public:
   /// `robot` outlives it.
-  CoggingParameters(const DynamicParameters& robot, std::vector<CoggingWave> waves, DriveKind kind,
-                    const DriveParameters& believed);
+  MotorParameters(const DynamicParameters& robot, std::vector<CoggingWave> waves, DriveKind kind,
+                  const DriveParameters& believed);
 
-  /// How many of the list are the robot's, the first ones.
-  std::ptrdiff_t of_robot_count() const { return static_cast<std::ptrdiff_t>(robot_.list().size()); }
-  /// The rows of the robot's parameters with how they depend on the waves.
+  /// The first of the list that is the delay of a drive, and the first that belongs to a wave.
+  std::ptrdiff_t first_delay() const { return static_cast<std::ptrdiff_t>(robot_.list().size()); }
+  std::ptrdiff_t first_of_waves() const { return first_delay() + believed_.torque_constant.size(); }
+  /// The rows of the robot's parameters with how they depend on delays and waves.
   DynamicsRows rows(DynamicsRows of_robot) const;
 
   std::shared_ptr<const ParallelRobot> with(const Eigen::VectorXd& values) const override;
   std::vector<Eigen::MatrixXd> must_be_definite(const Eigen::VectorXd& values) const override;
   std::vector<FileValue> in_file(const Eigen::VectorXd& values) const override;
 
+  /// By which the torques of the drives are behind their currents [s].
+  JointVector torque_delay(const Eigen::VectorXd& values) const {
+    return values.segment(first_delay(), first_of_waves() - first_delay());
+  }
   /// Drives that were believed to cog and are not seen to.
   std::vector<int> stilled() const;
   /// What is believed, in the order of `in_file`; it ends before the cogging where nothing is known of that.
@@ -52,6 +57,7 @@ class CoggingParameters final : public DynamicParameters {
  private:
   Eigen::VectorXd of_robot(const Eigen::VectorXd& values) const;
   Cogging cogging(const Eigen::VectorXd& values) const;
+  std::vector<FileValue> but_for_cogging(const Eigen::VectorXd& values) const;
   void add(const Cogging& cogging, std::vector<FileValue>& in_file) const;
 
   const DynamicParameters& robot_;

@@ -1,4 +1,4 @@
-#include "identification/cogging_parameters.h"
+#include "identification/motor_parameters.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -16,6 +16,7 @@ namespace {
 constexpr double fewest_waves = 2.0;      // over the way; what is slower may be friction or gravity
 constexpr double least_explained = 0.03;  // of the scatter, for a wave to be believed
 constexpr double usual_share = 0.01;      // of the largest torque
+constexpr double usual_delay = 0.3e-3;    // of a torque behind its current [s]
 constexpr double turn = 2.0 * std::numbers::pi;
 constexpr int iterations = 10;
 constexpr Eigen::Index of_wave = 3;  // s, c and r
@@ -105,10 +106,17 @@ Eigen::VectorXd without_cogging(const DynamicsRows& rows, const Cogging& believe
   return surplus;
 }
 
-CoggingParameters::CoggingParameters(const DynamicParameters& robot, std::vector<CoggingWave> waves,
-                                     DriveKind kind, const DriveParameters& believed)
+MotorParameters::MotorParameters(const DynamicParameters& robot, std::vector<CoggingWave> waves,
+                                 DriveKind kind, const DriveParameters& believed)
     : robot_(robot), waves_(std::move(waves)), kind_(kind), believed_(believed) {
   list_ = robot.list();
+  for (Eigen::Index drive = 0; drive < believed.torque_constant.size(); ++drive) {
+    list_.push_back({.name = "drives.torque_delay_s[" + std::to_string(drive) + "]",
+                     .unit = "s",
+                     .believed = believed.torque_delay.size() > 0 ? believed.torque_delay[drive] : 0.0,
+                     .deviation = usual_delay,
+                     .least = -20.0 * longest_torque_delay});  // what cannot be must be seen
+  }
   const DynamicParameter part{.deviation = usual_share * believed.max_torque, .least = -believed.max_torque};
   for (const CoggingWave& wave : waves_) {
     list_.insert(list_.end(), {part, part});
@@ -116,9 +124,13 @@ CoggingParameters::CoggingParameters(const DynamicParameters& robot, std::vector
   }
 }
 
-DynamicsRows CoggingParameters::rows(DynamicsRows of_robot) const {
-  Eigen::Index column = of_robot.regressor.cols();
+DynamicsRows MotorParameters::rows(DynamicsRows of_robot) const {
+  Eigen::Index column = first_of_waves();
   of_robot.regressor.conservativeResize(Eigen::NoChange, static_cast<Eigen::Index>(list_.size()));
+  of_robot.regressor.middleCols(first_delay(), column - first_delay()).setZero();
+  for (Eigen::Index row = 0; row < of_robot.slope.size(); ++row)
+    of_robot.regressor(row, first_delay() + of_robot.drive[static_cast<std::size_t>(row)]) =
+        of_robot.slope[row];
   for (const CoggingWave& wave : waves_) {
     of_robot.regressor.middleCols(column, of_wave) = columns_of(of_robot, wave);
     column += of_wave;
@@ -126,25 +138,25 @@ DynamicsRows CoggingParameters::rows(DynamicsRows of_robot) const {
   return of_robot;
 }
 
-Eigen::VectorXd CoggingParameters::of_robot(const Eigen::VectorXd& values) const {
+Eigen::VectorXd MotorParameters::of_robot(const Eigen::VectorXd& values) const {
   return values.head(static_cast<Eigen::Index>(robot_.list().size()));
 }
 
-std::shared_ptr<const ParallelRobot> CoggingParameters::with(const Eigen::VectorXd& values) const {
+std::shared_ptr<const ParallelRobot> MotorParameters::with(const Eigen::VectorXd& values) const {
   return robot_.with(of_robot(values));
 }
 
-std::vector<Eigen::MatrixXd> CoggingParameters::must_be_definite(const Eigen::VectorXd& values) const {
+std::vector<Eigen::MatrixXd> MotorParameters::must_be_definite(const Eigen::VectorXd& values) const {
   return robot_.must_be_definite(of_robot(values));
 }
 
 // What was believed and is not found any more is taken back.
-Cogging CoggingParameters::cogging(const Eigen::VectorXd& values) const {
+Cogging MotorParameters::cogging(const Eigen::VectorXd& values) const {
   if (waves_.empty() && believed_.cogging.is_none()) return {};
   const JointVector none = JointVector::Zero(believed_.torque_constant.size());
   const JointVector any = JointVector::Ones(none.size());
   Cogging now{believed_.cogging.is_none() ? any : believed_.cogging.wavelength, none, none};
-  auto of = static_cast<Eigen::Index>(robot_.list().size());
+  Eigen::Index of = first_of_waves();
   for (const CoggingWave& wave : waves_) {
     now.sine[wave.drive] = values[of];
     now.cosine[wave.drive] = values[of + 1];
@@ -154,7 +166,7 @@ Cogging CoggingParameters::cogging(const Eigen::VectorXd& values) const {
   return now;
 }
 
-void CoggingParameters::add(const Cogging& cogging, std::vector<FileValue>& in_file) const {
+void MotorParameters::add(const Cogging& cogging, std::vector<FileValue>& in_file) const {
   const bool turns = kind_ == DriveKind::revolute;
   const std::string length = turns ? "rad" : "m", effort = turns ? "Nm" : "N";
   const auto add_list = [&](const std::string& key, const std::string& unit, const JointVector& of_drives) {
@@ -170,13 +182,23 @@ void CoggingParameters::add(const Cogging& cogging, std::vector<FileValue>& in_f
   add_list("cosine", effort, cogging.cosine);
 }
 
-std::vector<FileValue> CoggingParameters::in_file(const Eigen::VectorXd& values) const {
+std::vector<FileValue> MotorParameters::but_for_cogging(const Eigen::VectorXd& values) const {
   std::vector<FileValue> in_file = robot_.in_file(of_robot(values));
+  for (std::ptrdiff_t j = first_delay(); j < first_of_waves(); ++j) {
+    const DynamicParameter& delay = list_[static_cast<std::size_t>(j)];
+    in_file.push_back(
+        {.name = delay.name, .unit = delay.unit, .value = values[j], .mainly = static_cast<int>(j)});
+  }
+  return in_file;
+}
+
+std::vector<FileValue> MotorParameters::in_file(const Eigen::VectorXd& values) const {
+  std::vector<FileValue> in_file = but_for_cogging(values);
   add(cogging(values), in_file);
   return in_file;
 }
 
-std::vector<int> CoggingParameters::stilled() const {
+std::vector<int> MotorParameters::stilled() const {
   std::vector<int> drives;
   const Cogging& before = believed_.cogging;
   for (int drive = 0; drive < static_cast<int>(before.sine.size()); ++drive) {
@@ -187,8 +209,8 @@ std::vector<int> CoggingParameters::stilled() const {
   return drives;
 }
 
-std::vector<FileValue> CoggingParameters::believed_in_file() const {
-  std::vector<FileValue> in_file = robot_.in_file(robot_.believed());
+std::vector<FileValue> MotorParameters::believed_in_file() const {
+  std::vector<FileValue> in_file = but_for_cogging(believed());
   add(believed_.cogging, in_file);
   return in_file;
 }

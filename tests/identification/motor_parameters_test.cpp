@@ -1,4 +1,4 @@
-#include "identification/cogging_parameters.h"
+#include "identification/motor_parameters.h"
 
 #include <gtest/gtest.h>
 
@@ -57,6 +57,7 @@ DynamicsRows cogging_rows(Eigen::Index parameters) {
   const auto n = static_cast<Eigen::Index>(rows.drive.size());
   rows.torque.setZero(n);
   rows.surplus.setZero(n);
+  rows.slope.setZero(n);
   rows.regressor.setZero(n, parameters);
   for (const CoggingWave& wave : truth) {
     rows.surplus -= along_the_way(rows, wave.drive, [&](double q) -> Eigen::RowVector3d {
@@ -70,7 +71,7 @@ DynamicsRows cogging_rows(Eigen::Index parameters) {
   return rows;
 }
 
-TEST(CoggingParameters, AreFoundOfTheDrivesThatCog) {
+TEST(MotorParameters, AreFoundOfTheDrivesThatCog) {
   const DynamicsRows rows = cogging_rows(0);
   const std::vector<CoggingWave> waves = find_cogging(rows, rows.surplus, 3);
   ASSERT_EQ(waves.size(), truth.size());
@@ -83,7 +84,7 @@ TEST(CoggingParameters, AreFoundOfTheDrivesThatCog) {
 }
 
 // The last column is how what the first two make of the surplus changes with the rate.
-TEST(CoggingParameters, HaveTheColumnsOfTheirRows) {
+TEST(MotorParameters, HaveTheColumnsOfTheirRows) {
   const auto robot = DynamicParameters::of(bench());
   const auto p = static_cast<Eigen::Index>(robot->list().size());
   const CoggingWave wave{
@@ -91,14 +92,16 @@ TEST(CoggingParameters, HaveTheColumnsOfTheirRows) {
   const auto made_by = [&](double rate) {
     CoggingWave other = wave;
     other.rate = rate;
-    const CoggingParameters parameters(*robot, {other}, DriveKind::revolute, drives());
+    const MotorParameters parameters(*robot, {other}, DriveKind::revolute, drives());
     const DynamicsRows rows = parameters.rows(cogging_rows(p));
-    return Eigen::VectorXd(rows.regressor.col(p) * wave.sine + rows.regressor.col(p + 1) * wave.cosine);
+    const Eigen::Index first = parameters.first_of_waves();
+    return Eigen::VectorXd(rows.regressor.col(first) * wave.sine +
+                           rows.regressor.col(first + 1) * wave.cosine);
   };
   const DynamicsRows rows =
-      CoggingParameters(*robot, {wave}, DriveKind::revolute, drives()).rows(cogging_rows(p));
+      MotorParameters(*robot, {wave}, DriveKind::revolute, drives()).rows(cogging_rows(p));
   const Eigen::VectorXd difference = (made_by(24.0 + 1e-4) - made_by(24.0 - 1e-4)) / 2e-4;
-  EXPECT_LT((difference - rows.regressor.col(p + 2)).lpNorm<Eigen::Infinity>(), 1e-7);
+  EXPECT_LT((difference - rows.regressor.rightCols(1)).lpNorm<Eigen::Infinity>(), 1e-7);
   for (Eigen::Index row = 0; row < rows.surplus.size(); ++row) {
     if (rows.drive[static_cast<std::size_t>(row)] != 1) {
       ASSERT_TRUE(rows.regressor.row(row).tail(3).isZero(0.0));
@@ -106,60 +109,86 @@ TEST(CoggingParameters, HaveTheColumnsOfTheirRows) {
   }
 }
 
-TEST(CoggingParameters, StandInTheFileForAllDrivesOrForNone) {
+TEST(MotorParameters, StandInTheFileForAllDrivesOrForNone) {
   const auto robot = DynamicParameters::of(bench());
-  const CoggingParameters none(*robot, {}, DriveKind::revolute, drives());
-  EXPECT_EQ(none.in_file(none.believed()).size(), robot->in_file(robot->believed()).size());
+  const MotorParameters none(*robot, {}, DriveKind::revolute, drives());
+  const std::size_t but_for_cogging = robot->in_file(robot->believed()).size() + 3;  // with the delays
+  EXPECT_EQ(none.in_file(none.believed()).size(), but_for_cogging);
 
-  const CoggingParameters some(*robot, {{.drive = 2, .rate = 24.0, .deviation = 1.0, .least = 10.0}},
-                               DriveKind::revolute, drives());
+  const MotorParameters some(*robot, {{.drive = 2, .rate = 24.0, .deviation = 1.0, .least = 10.0}},
+                             DriveKind::revolute, drives());
   Eigen::VectorXd values = some.believed();
   values.tail(3) << 0.3, -0.2, 25.0;
   const std::vector<FileValue> file = some.in_file(values);
-  const std::size_t of_robot = robot->in_file(robot->believed()).size();
-  ASSERT_EQ(file.size(), of_robot + 9);
+  ASSERT_EQ(file.size(), but_for_cogging + 9);
   const double expected[] = {1.0, 1.0, 2.0 * std::numbers::pi / 25.0, 0.0, 0.0, 0.3, 0.0, 0.0, -0.2};
   const char* const names[] = {"wavelength_rad[0]", "wavelength_rad[1]", "wavelength_rad[2]",
                                "sine_Nm[0]",        "sine_Nm[1]",        "sine_Nm[2]",
                                "cosine_Nm[0]",      "cosine_Nm[1]",      "cosine_Nm[2]"};
   for (std::size_t i = 0; i < 9; ++i) {
-    EXPECT_EQ(file[of_robot + i].name, std::string("drives.cogging_") + names[i]);
-    EXPECT_NEAR(file[of_robot + i].value, expected[i], 1e-15);
+    EXPECT_EQ(file[but_for_cogging + i].name, std::string("drives.cogging_") + names[i]);
+    EXPECT_NEAR(file[but_for_cogging + i].value, expected[i], 1e-15);
   }
 }
 
 // Who believed in cogging and finds none says so, or the old one would stay.
-TEST(CoggingParameters, TakeBackWhatWasBelieved) {
+TEST(MotorParameters, TakeBackWhatWasBelieved) {
   const auto robot = DynamicParameters::of(bench());
   DriveParameters believing = drives();
   believing.cogging = {JointVector::Constant(3, 0.26), JointVector::Ones(3), JointVector{{0.0, 1.0, 2.0}}};
-  const CoggingParameters none(*robot, {}, DriveKind::revolute, believing);
+  const MotorParameters none(*robot, {}, DriveKind::revolute, believing);
   const std::vector<FileValue> file = none.in_file(none.believed());
-  ASSERT_EQ(file.size(), robot->list().size() + 9);
-  EXPECT_EQ(file[robot->list().size()].value, 0.26);
+  ASSERT_EQ(file.size(), robot->list().size() + 12);
+  EXPECT_EQ(file[robot->list().size() + 3].value, 0.26);
   EXPECT_EQ(file.back().value, 0.0);
   ASSERT_EQ(none.believed_in_file().size(), file.size());
   EXPECT_EQ(none.believed_in_file().back().name, "drives.cogging_cosine_Nm[2]");
   EXPECT_EQ(none.believed_in_file().back().value, 2.0);
   EXPECT_EQ(none.stilled(), (std::vector<int>{0, 1, 2}));
-  const CoggingParameters one(*robot, {{.drive = 1, .rate = 24.0, .deviation = 1.0, .least = 10.0}},
-                              DriveKind::revolute, believing);
+  const MotorParameters one(*robot, {{.drive = 1, .rate = 24.0, .deviation = 1.0, .least = 10.0}},
+                            DriveKind::revolute, believing);
   EXPECT_EQ(one.stilled(), (std::vector<int>{0, 2}));
 }
 
-TEST(CoggingParameters, OfDrivesThatSlideAreInMetres) {
+TEST(MotorParameters, OfDrivesThatSlideAreInMetres) {
   const Hexapod hexapod(hexapod_robot());
   const auto robot = DynamicParameters::of(hexapod);
-  const CoggingParameters some(*robot, {{.drive = 5, .rate = 100.0, .deviation = 1.0, .least = 10.0}},
-                               DriveKind::prismatic, default_drives(DriveKind::prismatic, 6));
+  const MotorParameters some(*robot, {{.drive = 5, .rate = 100.0, .deviation = 1.0, .least = 10.0}},
+                             DriveKind::prismatic, default_drives(DriveKind::prismatic, 6));
   const std::vector<FileValue> file = some.in_file(some.believed());
   EXPECT_EQ(file[file.size() - 13].name, "drives.cogging_wavelength_m[5]");
   EXPECT_NEAR(file[file.size() - 13].value, 2.0 * std::numbers::pi / 100.0, 1e-15);
   EXPECT_EQ(file.back().name, "drives.cogging_cosine_N[5]");
 }
 
+// A torque that is behind its current by lambda leaves lambda times its slope.
+TEST(MotorParameters, HaveTheSlopeOfItsTorqueForTheDelayOfADrive) {
+  const auto robot = DynamicParameters::of(bench());
+  const auto p = static_cast<Eigen::Index>(robot->list().size());
+  DriveParameters believing = drives();
+  believing.torque_delay = JointVector{{1e-4, 2e-4, 3e-4}};
+  const MotorParameters parameters(*robot, {}, DriveKind::revolute, believing);
+  DynamicsRows of_robot = cogging_rows(p);
+  for (Eigen::Index row = 0; row < of_robot.slope.size(); ++row)
+    of_robot.slope[row] = 1.0 + 0.5 * static_cast<double>(row);
+  const DynamicsRows rows = parameters.rows(of_robot);
+  ASSERT_EQ(rows.regressor.cols(), p + 3);
+  for (Eigen::Index row = 0; row < rows.slope.size(); ++row) {
+    for (int i = 0; i < 3; ++i)
+      ASSERT_EQ(rows.regressor(row, p + i),
+                rows.drive[static_cast<std::size_t>(row)] == i ? rows.slope[row] : 0.0);
+  }
+  Eigen::VectorXd values = parameters.believed();
+  EXPECT_EQ(values[p + 1], 2e-4);
+  values[p + 2] = 4e-4;
+  const std::vector<FileValue> file = parameters.in_file(values);
+  EXPECT_EQ(file.back().name, "drives.torque_delay_s[2]");
+  EXPECT_EQ(file.back().value, 4e-4);
+  EXPECT_EQ(file.back().mainly, static_cast<int>(p + 2));
+}
+
 // What was believed is what the waves make of the surplus.
-TEST(CoggingParameters, LeaveNoSurplusWhereTheyAreTrue) {
+TEST(MotorParameters, LeaveNoSurplusWhereTheyAreTrue) {
   const DynamicsRows rows = cogging_rows(0);
   Cogging known{JointVector::Ones(3), JointVector::Zero(3), JointVector::Zero(3)};
   for (const CoggingWave& wave : truth) {
@@ -207,6 +236,25 @@ TEST(Dynamics, FindHowTheMotorsOfARobotCog) {
   EXPECT_FALSE(taken_over.is_none()) << "by who reads it next";
 }
 
+// Of currents that follow their commands with a lag the mean over a tick is behind the end, by less than it.
+TEST(Dynamics, FindHowFarTorquesAreBehindTheirCurrents) {
+  for (const std::uint64_t seed : {1U, 2U}) {
+    test::CalibratedRobot robot(seed);
+    robot.torque_constants("calibration_pulls.yaml");
+    const JointVector lag = robot.scenario("calibration_excitation.yaml").specimen.current_lag;
+    robot.dynamics("calibration_excitation.yaml");
+    const JointVector found = robot.scenario("calibration_motion.yaml").robot.drives.torque_delay;
+    ASSERT_EQ(found.size(), 3);
+    for (int drive = 0; drive < 3; ++drive) {
+      constexpr double tick = 1e-3;
+      const double delay = tick + lag[drive] - tick / (1.0 - std::exp(-tick / lag[drive]));
+      std::printf("  drive %d is behind by %.3f ms, found %.3f ms\n", drive + 1, 1e3 * delay,
+                  1e3 * found[drive]);
+      EXPECT_NEAR(found[drive], delay, 0.02e-3);
+    }
+  }
+}
+
 // A robot that was calibrated once and is calibrated again: what is left before is what was left after.
 TEST(Dynamics, FindTheSameCoggingAgain) {
   test::CalibratedRobot robot(1);
@@ -216,6 +264,11 @@ TEST(Dynamics, FindTheSameCoggingAgain) {
   EXPECT_NEAR(again.residual_before, first.residual_after, 0.1 * first.residual_after);
   EXPECT_NEAR(again.residual_after, first.residual_after, 0.1 * first.residual_after);
   for (const CalibratedParameter& parameter : again.parameters) {
+    if (parameter.name.starts_with("drives.torque_delay")) {
+      ASSERT_TRUE(parameter.before.has_value());
+      EXPECT_GT(std::abs(*parameter.before), 0.02e-3);
+      EXPECT_NEAR(parameter.value, *parameter.before, 2e-6);
+    }
     if (parameter.name.starts_with("drives.cogging_sine")) {
       ASSERT_TRUE(parameter.before.has_value());
       EXPECT_NEAR(parameter.value, *parameter.before, 0.02);
@@ -228,7 +281,7 @@ TEST(Dynamics, FindNoCoggingWhereThereIsNone) {
   const CalibrationResult got =
       robot.dynamics("calibration_excitation.yaml", {{test::excitation_realism, test::only_parameters}});
   for (const CalibratedParameter& parameter : got.parameters)
-    EXPECT_FALSE(parameter.name.starts_with("drives.")) << parameter.name;
+    EXPECT_FALSE(parameter.name.starts_with("drives.cogging")) << parameter.name;
 }
 
 }  // namespace
