@@ -64,10 +64,14 @@ const DriveKeys& keys_of(const RobotKind& kind) {
 
 std::span<double> entries(auto& v) { return {v.data(), static_cast<std::size_t>(v.size())}; }
 
+bool says_any(const ConfigReader& file, std::string_view prefix) {
+  const auto keys = file.keys();
+  return std::any_of(keys.begin(), keys.end(), [&](auto key) { return key.starts_with(prefix); });
+}
+
 /// Of all drives, or nothing where the file says nothing of it.
 Cogging read_cogging(ConfigReader& file, const RobotKind& kind) {
-  const auto keys = file.keys();
-  if (std::none_of(keys.begin(), keys.end(), [](auto key) { return key.starts_with("cogging_"); })) return {};
+  if (!says_any(file, "cogging_")) return {};
   const JointVector none = JointVector::Zero(kind.drives);
   Cogging cogging{none, none, none};
   ConfigReader all = file.required();
@@ -79,9 +83,7 @@ Cogging read_cogging(ConfigReader& file, const RobotKind& kind) {
 
 /// Of all drives, or nothing where the file says nothing of it.
 JointVector read_torque_delay(ConfigReader& file, const RobotKind& kind) {
-  const auto keys = file.keys();
-  if (std::none_of(keys.begin(), keys.end(), [](auto key) { return key.starts_with("torque_delay"); }))
-    return {};
+  if (!says_any(file, "torque_delay")) return {};
   JointVector delay = JointVector::Zero(kind.drives);
   file.numbers("torque_delay", unit::s, entries(delay), between(-longest_torque_delay, longest_torque_delay));
   return delay;
