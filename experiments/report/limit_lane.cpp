@@ -33,7 +33,7 @@ constexpr std::uint32_t all_named = [] {
   return bits;
 }();
 
-enum State : std::uint8_t { not_kept, kept, not_possible };
+enum KeptState : std::uint8_t { not_kept, kept, not_possible };
 
 }  // namespace
 

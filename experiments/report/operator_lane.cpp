@@ -5,9 +5,9 @@
 namespace flinch {
 namespace {
 
-enum State : std::uint8_t { nothing, target, start, reset, stop };
+enum Button : std::uint8_t { nothing, target, start, reset, stop };
 
-State state_of(const OperatorCommand& pressed) {
+Button state_of(const OperatorCommand& pressed) {
   if (pressed.stop) return stop;
   if (pressed.reset) return reset;
   return pressed.start ? start : nothing;
@@ -26,8 +26,8 @@ void OperatorLane::show(std::size_t sample) {
   if (!buttons_) return;
   const std::uint32_t number = target_ ? (*target_)[sample].number : 0;
   const bool is_given = std::exchange(number_, number) != number;
-  const State pressed = state_of((*buttons_)[sample]);
-  const State state = pressed == nothing && is_given ? target : pressed;
+  const Button pressed = state_of((*buttons_)[sample]);
+  const Button state = pressed == nothing && is_given ? target : pressed;
   was_used_ = was_used_ || state != nothing;
   page_.set_state(lane_, state, state);
 }

@@ -27,7 +27,7 @@ DriveResidual towards(const DriveResidual& a, const DriveResidual& b, double sha
 }
 
 /// The load between two ticks, as if it changed evenly.
-DriveLoad between(const Around<DriveLoad>& around, Time time) {
+DriveLoad interpolated(const Around<DriveLoad>& around, Time time) {
   const DriveLoad &before = *around.before, &after = *around.after;
   const double later = around.share(time);
   DriveLoad load;
@@ -85,7 +85,8 @@ void follow_residual(const WrenchEstimate& estimate, const DriveLoad& fresh, con
   const bool is_new = is_usable(estimate) && (!memory.started || estimate.acquired > memory.acquired);
   std::optional<DriveLoad> then;
   if (is_new)
-    then = sample_at(estimate.acquired, past, fresh.valid ? &fresh : nullptr, tracking.sampling, between);
+    then =
+        sample_at(estimate.acquired, past, fresh.valid ? &fresh : nullptr, tracking.sampling, interpolated);
   next = memory;
   next.seen.is_new = false;
   if (!then || then->torque.size() != estimate.drive_torque.size()) {

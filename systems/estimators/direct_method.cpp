@@ -9,7 +9,7 @@ namespace flinch {
 namespace {
 
 /// Between two ticks, as if all but the torques changed evenly.
-DirectSample between(const Around<DirectSample>& around, Time time) {
+DirectSample interpolated(const Around<DirectSample>& around, Time time) {
   const DirectSample &before = *around.before, &after = *around.after;
   const double later = around.share(time), earlier = 1.0 - later;
   DirectSample result;
@@ -52,7 +52,8 @@ void DirectMethod::estimate(const PlatformAcceleration& measured, const Kinemati
   result.drive_torque.setZero(robot_->drives());
   result.health = measured.health;
   if (!measured.valid || !fresh.valid || !measured.acceleration.allFinite()) return;
-  const std::optional<DirectSample> then = sample_at(measured.acquired, past, &fresh, Sampling(), between);
+  const std::optional<DirectSample> then =
+      sample_at(measured.acquired, past, &fresh, Sampling(), interpolated);
   if (!then) return;
   if (measured.acceleration.size() != robot_->dof()) return;
 

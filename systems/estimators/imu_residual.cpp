@@ -34,7 +34,7 @@ std::vector<std::string> problems(const ImuResidualSettings& settings) {
 }
 
 /// Between two ticks, as if all but the torques changed evenly.
-ExpectedMotion between(const Around<ExpectedMotion>& around, Time time) {
+ExpectedMotion interpolated(const Around<ExpectedMotion>& around, Time time) {
   const ExpectedMotion &before = *around.before, &after = *around.after;
   const double later = around.share(time), earlier = 1.0 - later;
   ExpectedMotion result;
@@ -138,7 +138,7 @@ void ImuResidual::advance(const ImuReading& reading, const ExpectedMotion& fresh
   const bool is_new = sees_imu && reading.acquired > memory.acquired;
   const ExpectedMotion* const newest = fresh.valid ? &fresh : nullptr;
   std::optional<ExpectedMotion> then =
-      is_new ? sample_at(reading.acquired, past, newest, sampling, between) : std::nullopt;
+      is_new ? sample_at(reading.acquired, past, newest, sampling, interpolated) : std::nullopt;
   next = memory;
   next.sees_imu = sees_imu;
   if (!then) {

@@ -14,7 +14,7 @@ namespace flinch::test {
 
 inline constexpr double encoder_noise = 4e-4 * std::numbers::pi / 180.0;  // [RAL25] IV-A
 
-struct Experiment {
+struct BenchExperiment {
   BenchFriction friction = BenchFriction::none;
   IdealStationSettings station;
   ContactControlSettings control;
@@ -25,7 +25,7 @@ struct Experiment {
 /// between ticks.
 class Bench {
  public:
-  explicit Bench(const Experiment& experiment)
+  explicit Bench(const BenchExperiment& experiment)
       : robot(std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::individual, experiment.friction))),
         station(builder_.add<IdealStation>("station", robot, experiment.station)),
         control(add_contact_control(builder_, robot, experiment.control)),
@@ -131,8 +131,8 @@ class Bench {
 };
 
 /// Into a wall of 6 kN/m, 0.05 m behind the middle of a passage at `speed`.
-inline Experiment collision(double speed) {
-  Experiment experiment;
+inline BenchExperiment collision(double speed) {
+  BenchExperiment experiment;
   experiment.friction = BenchFriction::test_bench;
   experiment.station.encoder_noise = encoder_noise;
   const PlanarRrr robot(bench_robot(BenchGeometry::individual, experiment.friction));

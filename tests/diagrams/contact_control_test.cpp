@@ -18,21 +18,21 @@ namespace {
 
 using enum ReactionMode;
 using test::Bench;
+using test::BenchExperiment;
 using test::collision;
 using test::encoder_noise;
-using test::Experiment;
 
 // ---------------------------------------------------------------- start
 
 TEST(ContactControl, IsOneNestedDiagram) {
-  Bench bench(Experiment{});
+  Bench bench(BenchExperiment{});
   EXPECT_EQ(bench.control.torque_command.id.owner->name(), "control");
   EXPECT_NO_THROW(bench.diagram->tap("control/torque_gate/status"));
   EXPECT_NO_THROW(bench.diagram->tap("control/wrench_estimate"));
 }
 
 TEST(ContactControl, KeepsTheBrakesClosedUntilContactsCanBeDetected) {
-  Bench bench(Experiment{});
+  Bench bench(BenchExperiment{});
   bench.run(251ms, [&bench] {
     ASSERT_EQ(bench.gate().phase, GatePhase::waiting);
     ASSERT_FALSE(bench.torque().valid);
@@ -47,7 +47,7 @@ TEST(ContactControl, KeepsTheBrakesClosedUntilContactsCanBeDetected) {
 }
 
 TEST(ContactControl, HoldsTheRobotWhereItFindsIt) {
-  Experiment experiment;
+  BenchExperiment experiment;
   experiment.friction = BenchFriction::test_bench;
   experiment.station.encoder_noise = encoder_noise;
   experiment.station.pose = Eigen::Vector3d(0.04, -0.06, 0.1);
@@ -60,7 +60,7 @@ TEST(ContactControl, HoldsTheRobotWhereItFindsIt) {
 // ---------------------------------------------------------------- without contact
 
 TEST(ContactControl, FollowsTheSquareAndFeelsNothing) {
-  Experiment experiment;
+  BenchExperiment experiment;
   experiment.friction = BenchFriction::test_bench;
   experiment.station.encoder_noise = encoder_noise;
   experiment.station.pose = Eigen::Vector3d(-0.1, -0.1, 0.0);
@@ -93,7 +93,7 @@ TEST(ContactControl, FollowsTheSquareAndFeelsNothing) {
 TEST(ContactControl, AlignsTheTorqueWithWhateverFilterTheVelocityHas) {
   for (const double cutoff : {30.0, 60.0}) {
     for (const bool aligned : {true, false}) {
-      Experiment experiment = collision(0.5);
+      BenchExperiment experiment = collision(0.5);
       experiment.control.velocity_filter.low_pass.cutoff_frequency = cutoff;  // [Hz]
       experiment.control.aligned_with_velocity = aligned;
       Bench bench(experiment);
@@ -114,7 +114,7 @@ TEST(ContactControl, AlignsTheTorqueWithWhateverFilterTheVelocityHas) {
 }
 
 TEST(ContactControl, GivesWayToAWeakForceByForceOverStiffness) {
-  Bench bench(Experiment{});
+  Bench bench(BenchExperiment{});
   bench.run(300ms);
   bench.push(Eigen::Vector3d(8.0, -5.0, 0.5));
   bench.run(2s);
@@ -148,7 +148,7 @@ TEST_P(CollisionAtSpeed, IsDetectedAndTheRobotRetreats) {
 }
 
 TEST(ContactControl, TakesEnergyOutAfterAHardContactUntilTheOperatorResetsAtRest) {
-  Bench bench(Experiment{});
+  Bench bench(BenchExperiment{});
   bench.run(300ms);
   bench.push(Eigen::Vector3d(90.0, 0.0, 0.0));
   ASSERT_TRUE(bench.run_until(react, 100ms));
@@ -163,7 +163,7 @@ TEST(ContactControl, TakesEnergyOutAfterAHardContactUntilTheOperatorResetsAtRest
 }
 
 TEST(ContactControl, FloatsAsInThePapersWhereItIsAskedTo) {
-  Experiment experiment;
+  BenchExperiment experiment;
   experiment.control.yielding.reset();
   Bench bench(experiment);
   bench.run(300ms);
@@ -174,7 +174,7 @@ TEST(ContactControl, FloatsAsInThePapersWhereItIsAskedTo) {
 }
 
 TEST(ContactControl, LeavesZeroGravityAtRestOnReset) {
-  Bench bench(Experiment{});
+  Bench bench(BenchExperiment{});
   bench.run(300ms);
   bench.push(Eigen::Vector3d(0.0, 120.0, 0.0));
   ASSERT_TRUE(bench.run_until(zero_g, 200ms));
@@ -212,7 +212,7 @@ TEST(ContactControl, HoldsItsPlaceAfterAResetAndGoesOnOnlyWhenStarted) {
 }
 
 TEST(ContactControl, RetreatsSofterWhereAskedTo) {
-  Experiment experiment = collision(0.5);
+  BenchExperiment experiment = collision(0.5);
   experiment.control.reaction_stiffness = 0.2;
   Bench bench(experiment);
   ASSERT_TRUE(bench.run_until(hold, 3s));
@@ -251,7 +251,7 @@ TEST(ContactControl, BrakesWhenTheEncodersAreLostAndRecoversOnReset) {
 }
 
 TEST(ContactControl, StopsBeforeTheRobotLeavesItsWorkspace) {
-  Experiment experiment;
+  BenchExperiment experiment;
   experiment.control.sequence.zero_g_when_struck = false;
   experiment.control.contact_detector.reaction = {1e3, 1e3};
   experiment.control.contact_detector.hard = {1e3, 1e3};
@@ -270,7 +270,7 @@ TEST(ContactControl, StopsBeforeTheRobotLeavesItsWorkspace) {
 }
 
 TEST(ContactControl, WritesNoTorqueThatIsNoNumberWhateverTheStationSays) {
-  const Experiment experiment;
+  const BenchExperiment experiment;
   const auto robot = std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::none));
   DiagramBuilder builder("nonsense");
   const ContactControl control = add_contact_control(builder, robot, experiment.control);

@@ -11,8 +11,8 @@ namespace {
 
 using enum ReactionMode;
 using test::Bench;
+using test::BenchExperiment;
 using test::collision;
-using test::Experiment;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -40,7 +40,7 @@ const OutputPort<WrenchEstimate>& other_wrench(const Bench& bench, const std::st
 // ---------------------------------------------------------------- side by side
 
 TEST(ControlStages, WhatIsNotFollowedChangesNoBit) {
-  Experiment accompanied = collision(0.5);
+  BenchExperiment accompanied = collision(0.5);
   accompanied.control.stages.estimators.add(momentum_observer("fast", 200.0));
   accompanied.control.stages.reaction_laws.add({"backwards", standard_stages().nominal_laws.all[0].add});
   Bench alone(collision(0.5)), together(accompanied);
@@ -53,8 +53,8 @@ TEST(ControlStages, WhatIsNotFollowedChangesNoBit) {
 }
 
 TEST(ControlStages, AnEstimatorSeesTheSameWhetherItIsFollowedOrNot) {
-  Experiment followed, beside;
-  for (Experiment* each : {&followed, &beside}) {
+  BenchExperiment followed, beside;
+  for (BenchExperiment* each : {&followed, &beside}) {
     each->station.encoder_noise = test::encoder_noise;
     // The gate opens when the followed estimate is valid: that shall be at the same tick for both robots.
     each->control.momentum_observer.input_settling_time = 250ms;
@@ -79,7 +79,7 @@ TEST(ControlStages, AnEstimatorSeesTheSameWhetherItIsFollowedOrNot) {
 
 TEST(ControlStages, TheDetectorActsOnTheFollowedEstimator) {
   const auto detected = [](bool fast) {
-    Experiment experiment = collision(0.5);
+    BenchExperiment experiment = collision(0.5);
     if (fast) experiment.control.stages.estimators.follow(momentum_observer("fast", 200.0));
     Bench bench(experiment);
     EXPECT_TRUE(bench.run_until(react, 3s));
@@ -116,7 +116,7 @@ class Inventory final : public System {
 };
 
 TEST(ControlStages, WhatAStationHasNotIsNoData) {
-  Experiment experiment;
+  BenchExperiment experiment;
   experiment.control.stages.estimators.add(Inventory::stage());
   Bench bench(experiment);  // its station has no IMU, and there is no source of acceleration
   bench.tick();
@@ -125,7 +125,7 @@ TEST(ControlStages, WhatAStationHasNotIsNoData) {
 }
 
 TEST(ControlStages, AnAccelerationIsGivenToEstimatorsAndShown) {
-  Experiment experiment;
+  BenchExperiment experiment;
   PlatformAcceleration known;
   known.valid = true;
   known.acceleration = Eigen::Vector3d(1.0, 2.0, 3.0);
@@ -161,7 +161,7 @@ class Freeze final : public System {
 };
 
 TEST(ControlStages, AReactionLawOfOnesOwnHasTheTorque) {
-  Experiment experiment = collision(0.5);
+  BenchExperiment experiment = collision(0.5);
   experiment.control.stages.reaction_laws.follow(
       {"freeze", [](const StageSite& site, const ReactionPorts& given) -> LawPorts {
          auto& freeze = site.builder.add<Freeze>(site.name);
@@ -194,7 +194,7 @@ class Numb final : public System {
 };
 
 TEST(ControlStages, ADetectorOfOnesOwnDecides) {
-  Experiment experiment = collision(0.5);
+  BenchExperiment experiment = collision(0.5);
   experiment.control.stages.detectors.follow({"numb", [](const StageSite& site, const EstimatePorts& given) {
                                                 auto& numb = site.builder.add<Numb>(site.name);
                                                 site.builder.connect(given.wrench, numb.wrench);
@@ -222,7 +222,7 @@ TEST(ControlStages, AreRefusedWithAllThatIsWrong) {
                           "the detector to follow is 'contact_detecter', which does not run; did you mean "
                           "'contact_detector'?",
                           HasSubstr("'nominal_impedance' has no function"), HasSubstr("letters, digits")));
-  Experiment experiment;
+  BenchExperiment experiment;
   experiment.control.stages = stages;
   EXPECT_THROW(Bench{experiment}, SetupError);
 }

@@ -10,8 +10,8 @@ namespace {
 
 using enum ReactionMode;
 using test::Bench;
+using test::BenchExperiment;
 using test::collision;
-using test::Experiment;
 using testing::HasSubstr;
 
 /// Judges by the encoders alone; the simulated robot is as modelled.
@@ -23,8 +23,8 @@ FusedDetectorSettings by_the_encoders() {
           .tracking = {}};
 }
 
-Experiment with_fused_detector(const FusedDetectorSettings& settings) {
-  Experiment experiment = collision(0.5);
+BenchExperiment with_fused_detector(const FusedDetectorSettings& settings) {
+  BenchExperiment experiment = collision(0.5);
   experiment.control.fused_detector = settings;
   experiment.control.stages.detectors.follow({"fused_detector", add_fused_detector});
   return experiment;
@@ -62,7 +62,7 @@ TEST(FusedDetector, JudgesByTheLikelihoodRatioOfOnsetsWhereThatIsTheRule) {
 }
 
 TEST(FusedDetector, AddsAnEstimatorThatDoesNotRunAndUsesOneThatDoes) {
-  Experiment both = with_fused_detector(by_the_encoders());
+  BenchExperiment both = with_fused_detector(by_the_encoders());
   for (const WrenchEstimator& stage : known_stages().estimators.all) {
     if (stage.name == "disturbance_filter") both.control.stages.estimators.add(stage);
   }
@@ -82,7 +82,7 @@ TEST(FusedDetector, TellsTheLoadsOfTheDrives) {
 
 TEST(FusedDetector, WithoutResidualsMayRunButNotBeFollowed) {
   EXPECT_THAT(complaint({}), HasSubstr("flinch calibrate thresholds finds them"));
-  Experiment beside = collision(0.5);
+  BenchExperiment beside = collision(0.5);
   beside.control.stages.detectors.add({"fused_detector", add_fused_detector});
   Bench bench(beside);
   EXPECT_TRUE(bench.run_until(react, 3s)) << "by the contact detector";

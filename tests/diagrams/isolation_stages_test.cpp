@@ -13,12 +13,12 @@ namespace flinch {
 namespace {
 
 using test::Bench;
-using test::Experiment;
+using test::BenchExperiment;
 using testing::ElementsAre;
 
 /// A bench with every classifier and locator that flinch has.
-Experiment all_stages() {
-  Experiment experiment;
+BenchExperiment all_stages() {
+  BenchExperiment experiment;
   experiment.control.stages.classifiers.all = classifier_stages();
   experiment.control.stages.locators.all = locator_stages();
   experiment.control.sequence.zero_g_when_struck = false;
@@ -81,7 +81,7 @@ std::shared_ptr<const NeuralNetwork> always(int inputs, const Eigen::VectorXd& s
 }
 
 TEST(IsolationStages, FollowTheThreeNetworksOfThePapers) {
-  Experiment experiment = all_stages();
+  BenchExperiment experiment = all_stages();
   experiment.control.stages.classifiers.follow(papers_classifier_stage(
       {.clamping = always(6, Eigen::Vector2d(std::log(19.0), 0.0)),
        .chain = always(6, Eigen::Vector3d::Zero()),
@@ -109,7 +109,7 @@ TEST(IsolationStages, AreKnownByTheirNames) {
 }
 
 TEST(IsolationStages, NeedAnObserverWithAPositiveGain) {
-  Experiment experiment;
+  BenchExperiment experiment;
   experiment.control.isolation.observer_gain = 0.0;
   EXPECT_THROW(Bench{experiment}, SetupError);
 }

@@ -15,8 +15,8 @@ namespace {
 
 using enum ReactionMode;
 using test::Bench;
+using test::BenchExperiment;
 using test::encoder_noise;
-using test::Experiment;
 using ::testing::Contains;
 using ::testing::Not;
 using After = OperatorEvent::After;
@@ -35,8 +35,8 @@ OperatorEvent go_to(After after, Time wait, const Eigen::Vector3d& pose) {
 }
 
 /// A robot that stands at `pose` when the run begins, and an operator.
-Experiment standing_at(const Eigen::Vector3d& pose, std::vector<OperatorEvent> events) {
-  Experiment experiment;
+BenchExperiment standing_at(const Eigen::Vector3d& pose, std::vector<OperatorEvent> events) {
+  BenchExperiment experiment;
   experiment.friction = BenchFriction::test_bench;
   experiment.station.encoder_noise = encoder_noise;
   experiment.station.pose = pose;

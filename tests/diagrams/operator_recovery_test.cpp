@@ -11,15 +11,15 @@ namespace {
 
 using enum ReactionMode;
 using test::Bench;
+using test::BenchExperiment;
 using test::encoder_noise;
-using test::Experiment;
 
 /// The robot passes by anywhere, is struck, and ends up somewhere.
 class Struck : public testing::TestWithParam<LimitKeeperSettings::Use> {
  protected:
-  static Experiment experiment(std::mt19937& random) {
+  static BenchExperiment experiment(std::mt19937& random) {
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
-    Experiment experiment;
+    BenchExperiment experiment;
     experiment.friction = BenchFriction::test_bench;
     experiment.station.encoder_noise = encoder_noise;
     const double direction = std::numbers::pi * unit(random);

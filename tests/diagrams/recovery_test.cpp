@@ -11,12 +11,12 @@ namespace {
 
 using enum ReactionMode;
 using test::Bench;
+using test::BenchExperiment;
 using test::encoder_noise;
-using test::Experiment;
 
 /// A robot that stands at `pose` when the run begins.
-Experiment standing_at(const Eigen::Vector3d& pose) {
-  Experiment experiment;
+BenchExperiment standing_at(const Eigen::Vector3d& pose) {
+  BenchExperiment experiment;
   experiment.friction = BenchFriction::test_bench;
   experiment.station.encoder_noise = encoder_noise;
   experiment.station.pose = pose;

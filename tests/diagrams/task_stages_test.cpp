@@ -19,8 +19,8 @@ namespace {
 
 using enum ReactionMode;
 using test::Bench;
+using test::BenchExperiment;
 using test::collision;
-using test::Experiment;
 
 /// `law`, told from the start what will be touched; -1: that nobody knows.
 ControlLaw told(ControlLaw law, int touched) {
@@ -43,8 +43,8 @@ class TaskStages : public ::testing::TestWithParam<int> {
   }
   ControlLaw reaction() const { return task_reaction_stages()[static_cast<std::size_t>(GetParam())]; }
   /// Tracks and reacts on one level; the platform will be touched.
-  Experiment experiment(double speed) const {
-    Experiment experiment = collision(speed);
+  BenchExperiment experiment(double speed) const {
+    BenchExperiment experiment = collision(speed);
     experiment.control.stages.nominal_laws.follow(tracking());
     experiment.control.stages.reaction_laws.follow(told(reaction(), 0));
     if (GetParam() == strict) keep_constraints_strictly(*test::planar_bench(), experiment.control);
@@ -71,7 +71,7 @@ TEST_P(TaskStages, AContactIsAnsweredAndHeldUntilTheOperatorEndsIt) {
 }
 
 TEST_P(TaskStages, AContactThatNobodyKnowsIsAnsweredByBraking) {
-  Experiment unknown = experiment(0.5);
+  BenchExperiment unknown = experiment(0.5);
   unknown.control.stages.reaction_laws = {};
   unknown.control.stages.reaction_laws.follow(reaction());
   Bench bench(unknown);
@@ -84,7 +84,7 @@ TEST_P(TaskStages, AContactThatNobodyKnowsIsAnsweredByBraking) {
 // The whole chain with a network in it, which names the right class with a probability of 1/10.
 TEST_P(TaskStages, AClassBelowTheMarginIsAnsweredAsOneThatNobodyKnows) {
   const auto comes_to_rest_at = [this](std::optional<double> accept) {
-    Experiment doubtful = experiment(0.5);
+    BenchExperiment doubtful = experiment(0.5);
     doubtful.control.stages.reaction_laws = {};
     doubtful.control.stages.reaction_laws.follow(accept ? reaction() : told(reaction(), -1));
     doubtful.control.stages.classifiers.follow(test::unsure_classifier(accept.value_or(1.0)));
@@ -125,7 +125,7 @@ TEST_P(TaskStages, WhetherTheRobotCouldStopIsJudgedAtTheDetectionAndKept) {
 }
 
 TEST(BrakingWatch, JudgesNothingWhereLimitsAreNeverKept) {
-  Experiment experiment = collision(0.5);
+  BenchExperiment experiment = collision(0.5);
   experiment.control.limits.use = LimitKeeperSettings::Use::never;
   Bench bench(experiment);
   ASSERT_TRUE(bench.run_until(react, 1500ms));

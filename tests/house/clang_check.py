@@ -4,7 +4,8 @@ Usage: clang_check.py BUILD_DIR [FILE...]     BUILD_DIR: configured with the pre
 
 Most of the time goes into the headers that a source includes, so sources that can stand in one translation unit are
 looked at together; where that cannot be compiled, or is not clean, in smaller parts. What was found clean is remembered
-in BUILD_DIR by the hash of its preprocessed text and not looked at again.
+in BUILD_DIR by the hash of its text, of the headers of the tree that it includes, and of how it is compiled, and not
+looked at again; headers of the system count as unchanged.
 """
 import concurrent.futures
 import hashlib
@@ -22,6 +23,8 @@ COMPILER_ONLY = ("tests/",)
 # that is not one of them sees no Eigen.
 PRECOMPILED = ("-include", "gmock/gmock.h", "-include", "gtest/gtest.h", "-include", "Eigen/Dense")
 LARGEST_BUNDLE = 16
+INCLUDE = re.compile(r'^#include ["<](.*)[">]', re.M)
+RULES = (tree.ROOT / ".clang-tidy").read_text() + subprocess.check_output(["clang++", "--version"], text=True)
 ANONYMOUS = re.compile(r"^namespace \{$(.*?)^\}  // namespace$", re.DOTALL | re.MULTILINE)
 USING = re.compile(r"(?:using|namespace) (?:\w+::)*(\w+)(?: =.*)?;")
 
@@ -40,19 +43,45 @@ class Source:
         self.own_names = {}
         self.mark = None
 
-    def read(self, build_dir):
-        """Learns what all that the outcome depends on hashes to: the text with its comments (NOLINT), rules, flags."""
-        text = pathlib.Path(self.file).read_text(errors="replace")
+    def read(self, build_dir, texts):
+        """Learns its own names, and what all that the outcome depends on hashes to, comments (NOLINT) included."""
+        text = texts.of(pathlib.Path(self.file))
         self.own_names = own_names("".join(ANONYMOUS.findall(text)) + "".join(re.findall(r"^int main\(", text, re.M)))
-        preprocessed = run([*self.compiler, "-E", "-C", self.file], self.folder)
-        if preprocessed.returncode == 0:
-            rules = (tree.ROOT / ".clang-tidy").read_text() + repr((self.compiler, self.by_compiler_only))
-            mark = hashlib.sha256((preprocessed.stdout + rules).encode()).hexdigest()
-            self.mark = build_dir / "clean" / mark
-        return self
+        folders = [word[2:] for word in self.compiler if word.startswith("-I")]
+        mark = hashlib.sha256(repr((RULES, self.compiler, self.by_compiler_only)).encode())
+        for file in texts.included(pathlib.Path(self.file), [pathlib.Path(self.folder, folder) for folder in folders]):
+            mark.update(texts.of(file).encode())
+        self.mark = build_dir / "clean" / mark.hexdigest()
 
     def is_clean(self):
-        return self.mark is not None and self.mark.exists()
+        return self.mark.exists()
+
+
+class Texts:
+    """The files of the tree, each read once."""
+
+    def __init__(self):
+        self.known = {}
+        self.includes = {}
+
+    def of(self, file):
+        if file not in self.known:
+            self.known[file] = file.read_text(errors="replace")
+            self.includes[file] = INCLUDE.findall(self.known[file])
+        return self.known[file]
+
+    def included(self, source, folders):
+        """The source and all that it includes from its own folder or these, in one order."""
+        found, waiting = {source}, [source]
+        while waiting:
+            file = waiting.pop()
+            self.of(file)
+            for name in self.includes[file]:
+                header = next(filter(pathlib.Path.is_file, (folder / name for folder in [file.parent, *folders])), None)
+                if header is not None and header not in found:
+                    found.add(header)
+                    waiting.append(header)
+        return sorted(found)
 
 
 def own_names(text):
@@ -120,9 +149,8 @@ def problems_of(bundle, build_dir):
 
 def remember(sources):
     for source in sources:
-        if source.mark is not None:
-            source.mark.parent.mkdir(exist_ok=True)
-            source.mark.touch()
+        source.mark.parent.mkdir(exist_ok=True)
+        source.mark.touch()
 
 
 def sources_of(build_dir, wanted):
@@ -140,9 +168,11 @@ def main():
     build_dir = pathlib.Path(sys.argv[1]).resolve()
     wanted = {str(pathlib.Path(file).resolve().relative_to(tree.ROOT)) for file in sys.argv[2:]}
     sources = sources_of(build_dir, wanted)
+    texts = Texts()
+    for source in sources:
+        source.read(build_dir, texts)
     problems = []
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        list(pool.map(lambda source: source.read(build_dir), sources))
         bundles = bundles_of([source for source in sources if not source.is_clean()])
         bundles.sort(key=len, reverse=True)
         for found in pool.map(lambda bundle: problems_of(bundle, build_dir), bundles):

@@ -67,7 +67,7 @@ struct TreeAnswers {
 };
 
 /// What was found of many contacts so many milliseconds after their detection.
-struct Findings {
+struct Isolations {
   Balance body, clamping, chain, tree;
   TreeAnswers tree_answers;
   int contacts = 0, accepted = 0, wrong_of_accepted = 0, single_taken_for_several = 0;
@@ -153,7 +153,7 @@ TEST(IsolationAccuracy, OfRandomCollisionsAndClampings) {
                                           {.draws = test::wanted<std::size_t>("FLINCH_CONTACTS", 30),
                                            .seed = test::wanted<std::uint64_t>("FLINCH_SEED", 31)});
   print_head();
-  std::array<std::array<Findings, 3>, 2> of_point;  // the model, and robots that differ from it
+  std::array<std::array<Isolations, 3>, 2> of_point;  // the model, and robots that differ from it
   for (std::size_t run = 0; run < campaign.runs(); ++run) {
     try {
       const CampaignRun drawn = draw_run(campaign, run);

@@ -171,7 +171,8 @@ TrueRetreat retreat(const std::string& name, const std::string& law, const std::
 }
 
 constexpr int drawn_robots = 12;
-const std::string ideal, realistic = ", realism: bench";
+const std::string ideal;
+const std::string realistic = ", realism: bench";
 
 // [SafePR] V-D on the strict level: neither a singularity nor a self-collision, and no limit is overshot. One
 // of the scenarios starts beyond that of self-collision, and gets no further.

@@ -20,14 +20,14 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr ConfigurationSpace plane = ConfigurationSpace::Kind::planar_pose;
 
 /// A start, how it moves there, and the way to the goal.
-struct Task {
+struct Way {
   ConfigurationSpace space;
   Configuration start;
   PlatformVector velocity;
   PlatformVector displacement;
 };
 
-Task random_task(ConfigurationSpace::Kind kind, std::mt19937_64& generator) {
+Way random_way(ConfigurationSpace::Kind kind, std::mt19937_64& generator) {
   std::normal_distribution<double> normal;
   const ConfigurationSpace space = kind;
   const auto random = [&](double size) {
@@ -43,14 +43,14 @@ TEST_P(PoseMotionIn, MovesAsItSays) {
   std::mt19937_64 generator(1);
   constexpr double h = 1e-5;
   for (int i = 0; i < 50; ++i) {
-    const Task task = random_task(GetParam(), generator);
-    const auto motion = PoseMotion::plan(task.space, task.start, task.velocity, task.displacement, limits);
+    const Way way = random_way(GetParam(), generator);
+    const auto motion = PoseMotion::plan(way.space, way.start, way.velocity, way.displacement, limits);
     ASSERT_TRUE(motion.valid());
     for (int k = 1; k < 40; ++k) {
       const double time = k * motion.duration() / 40;
       const PlatformReference before = motion.evaluate(time - h), now = motion.evaluate(time),
                               after = motion.evaluate(time + h);
-      ASSERT_LT((task.space.difference(after.pose, before.pose) / (2 * h) - now.velocity).norm(), 1e-6);
+      ASSERT_LT((way.space.difference(after.pose, before.pose) / (2 * h) - now.velocity).norm(), 1e-6);
       // A corner of jerk may lie in between.
       ASSERT_LT(((after.velocity - before.velocity) / (2 * h) - now.acceleration).norm(), 8000 * h);
     }
@@ -60,14 +60,14 @@ TEST_P(PoseMotionIn, MovesAsItSays) {
 TEST_P(PoseMotionIn, BeginsAsItIsAndRestsAtTheGoal) {
   std::mt19937_64 generator(2);
   for (int i = 0; i < 50; ++i) {
-    const Task task = random_task(GetParam(), generator);
-    const auto motion = PoseMotion::plan(task.space, task.start, task.velocity, task.displacement, limits);
+    const Way way = random_way(GetParam(), generator);
+    const auto motion = PoseMotion::plan(way.space, way.start, way.velocity, way.displacement, limits);
     const PlatformReference begin = motion.evaluate(0.0), end = motion.evaluate(motion.duration());
-    EXPECT_LT(task.space.difference(begin.pose, task.start).norm(), 1e-15);
-    EXPECT_LT((begin.velocity - task.velocity).norm(), 1e-14);
+    EXPECT_LT(way.space.difference(begin.pose, way.start).norm(), 1e-15);
+    EXPECT_LT((begin.velocity - way.velocity).norm(), 1e-14);
     EXPECT_LT(begin.acceleration.norm(), 1e-12);
     EXPECT_TRUE(end.finished);
-    EXPECT_EQ(end.pose, task.space.plus(task.start, task.displacement));
+    EXPECT_EQ(end.pose, way.space.plus(way.start, way.displacement));
     EXPECT_EQ(end.pose, motion.goal());
     EXPECT_EQ(end.velocity.norm(), 0.0);
     EXPECT_EQ(end.acceleration.norm(), 0.0);
@@ -78,12 +78,12 @@ TEST_P(PoseMotionIn, KeepsItsLimitsFromRest) {
   std::mt19937_64 generator(3);
   const double margin = 1 + 1e-9;
   for (int i = 0; i < 50; ++i) {
-    Task task = random_task(GetParam(), generator);
-    task.velocity.setZero();
-    const auto motion = PoseMotion::plan(task.space, task.start, task.velocity, task.displacement, limits);
+    Way way = random_way(GetParam(), generator);
+    way.velocity.setZero();
+    const auto motion = PoseMotion::plan(way.space, way.start, way.velocity, way.displacement, limits);
     for (int k = 0; k <= 100; ++k) {
       const PlatformReference now = motion.evaluate(k * motion.duration() / 100);
-      const int translations = task.space.translations(), rotations = task.space.rotations();
+      const int translations = way.space.translations(), rotations = way.space.rotations();
       ASSERT_LE(now.velocity.head(translations).norm(), limits.translation.velocity * margin);
       ASSERT_LE(now.velocity.tail(rotations).norm(), limits.rotation.velocity * margin);
       ASSERT_LE(now.acceleration.head(translations).norm(), limits.translation.acceleration * margin);

@@ -10,7 +10,7 @@ struct Sample {
   double value = 0.0;
 };
 
-Sample between(const Around<Sample>& around, Time time) {
+Sample interpolated(const Around<Sample>& around, Time time) {
   return {time, around.before->value + around.share(time) * (around.after->value - around.before->value)};
 }
 
@@ -18,7 +18,7 @@ Sample between(const Around<Sample>& around, Time time) {
 std::optional<Sample> at(Time time, const Sample& fresh) {
   History<Sample, 4> past;
   for (int k = 1; k <= 3; ++k) past.push({k * 1ms, 10.0 * k});
-  return sample_at(time, past, &fresh, Sampling(), between);
+  return sample_at(time, past, &fresh, Sampling(), interpolated);
 }
 
 TEST(SampleAt, LiesBetweenTheTwoAroundIt) {
