@@ -8,6 +8,7 @@ in BUILD_DIR by the hash of its text, of the headers of the tree that it include
 looked at again; headers of the system count as unchanged.
 """
 import concurrent.futures
+import functools
 import hashlib
 import json
 import os
@@ -23,7 +24,6 @@ COMPILER_ONLY = ("tests/",)
 # that is not one of them sees no Eigen.
 PRECOMPILED = ("-include", "gmock/gmock.h", "-include", "gtest/gtest.h", "-include", "Eigen/Dense")
 LARGEST_BUNDLE = 16
-INCLUDE = re.compile(r'^#include ["<](.*)[">]', re.M)
 RULES = (tree.ROOT / ".clang-tidy").read_text() + subprocess.check_output(["clang++", "--version"], text=True)
 ANONYMOUS = re.compile(r"^namespace \{$(.*?)^\}  // namespace$", re.DOTALL | re.MULTILINE)
 USING = re.compile(r"(?:using|namespace) (?:\w+::)*(\w+)(?: =.*)?;")
@@ -43,45 +43,42 @@ class Source:
         self.own_names = {}
         self.mark = None
 
-    def read(self, build_dir, texts):
+    def read(self, build_dir):
         """Learns its own names, and what all that the outcome depends on hashes to, comments (NOLINT) included."""
-        text = texts.of(pathlib.Path(self.file))
+        file = pathlib.Path(self.file)
+        text = text_of(file)
         self.own_names = own_names("".join(ANONYMOUS.findall(text)) + "".join(re.findall(r"^int main\(", text, re.M)))
-        folders = [word[2:] for word in self.compiler if word.startswith("-I")]
+        folders = tuple(pathlib.Path(self.folder, word[2:]) for word in self.compiler if word.startswith("-I"))
         mark = hashlib.sha256(repr((RULES, self.compiler, self.by_compiler_only)).encode())
-        for file in texts.included(pathlib.Path(self.file), [pathlib.Path(self.folder, folder) for folder in folders]):
-            mark.update(texts.of(file).encode())
+        for part in with_headers(file, folders):
+            mark.update(text_of(part).encode())
         self.mark = build_dir / "clean" / mark.hexdigest()
 
     def is_clean(self):
         return self.mark.exists()
 
 
-class Texts:
-    """The files of the tree, each read once."""
+@functools.cache
+def text_of(file):
+    return file.read_text(errors="replace")
 
-    def __init__(self):
-        self.known = {}
-        self.includes = {}
 
-    def of(self, file):
-        if file not in self.known:
-            self.known[file] = file.read_text(errors="replace")
-            self.includes[file] = INCLUDE.findall(self.known[file])
-        return self.known[file]
+@functools.cache
+def included_by(file, folders):
+    """The headers that a file includes from its own folder or these; those of the system are elsewhere."""
+    found = (next(filter(pathlib.Path.is_file, (folder / name for folder in (file.parent, *folders))), None)
+             for name in tree.INCLUDE.findall(text_of(file)))
+    return [header for header in found if header is not None]
 
-    def included(self, source, folders):
-        """The source and all that it includes from its own folder or these, in one order."""
-        found, waiting = {source}, [source]
-        while waiting:
-            file = waiting.pop()
-            self.of(file)
-            for name in self.includes[file]:
-                header = next(filter(pathlib.Path.is_file, (folder / name for folder in [file.parent, *folders])), None)
-                if header is not None and header not in found:
-                    found.add(header)
-                    waiting.append(header)
-        return sorted(found)
+
+def with_headers(source, folders):
+    """The source and all that it includes, in one order."""
+    found, waiting = {source}, [source]
+    while waiting:
+        new = set(included_by(waiting.pop(), folders)) - found
+        found |= new
+        waiting += new
+    return sorted(found)
 
 
 def own_names(text):
@@ -168,9 +165,8 @@ def main():
     build_dir = pathlib.Path(sys.argv[1]).resolve()
     wanted = {str(pathlib.Path(file).resolve().relative_to(tree.ROOT)) for file in sys.argv[2:]}
     sources = sources_of(build_dir, wanted)
-    texts = Texts()
     for source in sources:
-        source.read(build_dir, texts)
+        source.read(build_dir)
     problems = []
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         bundles = bundles_of([source for source in sources if not source.is_clean()])

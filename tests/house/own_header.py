@@ -1,13 +1,10 @@
 """A source includes its own header first, so that compiling it shows that the header needs no other before it."""
-import re
 import tree
-
-INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]')
 
 sources = [path for path in tree.sources() if path.suffix == ".cpp" and (tree.ROOT / path).with_suffix(".h").is_file()]
 problems = []
 for path in sources:
-    first = next((match.group(1) for _, text in tree.lines(path) if (match := INCLUDE.match(text))), None)
+    first = next((match.group(1) for _, text in tree.lines(path) if (match := tree.INCLUDE.match(text))), None)
     if first != str(path.with_suffix(".h")):
         problems.append(f"{path}: the first include is {first}, not its own header")
 tree.report(len(sources), problems)

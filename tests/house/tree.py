@@ -1,9 +1,11 @@
 """The files of the tree that the house rules look at, and how a rule reports."""
 import pathlib
+import re
 import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
 
 
 def files(*suffixes):
