@@ -13,6 +13,7 @@ namespace flinch {
 namespace {
 
 constexpr double settling_time_constants = 10.0;  // of a threefold pole: the rest is 0.3 %
+constexpr double resting_deviations = 5.0;        // of the rates of drives that stand still
 
 std::vector<std::string> problems(const DisturbanceFilterSettings& settings) {
   Findings found;
@@ -64,6 +65,7 @@ DisturbanceFilter::DisturbanceFilter(std::shared_ptr<const ParallelRobot> robot,
   const NoiseGains noise = noise_gains(settings.pole, to_seconds(settings.sampling.period));
   error_deviation_ = settings.encoder_deviation * noise.error;
   innovation_deviation_ = settings.encoder_deviation * noise.innovation;
+  resting_rate_ = resting_deviations * settings.encoder_deviation * settings.pole;
   observability_ = chain_observability<3>();
   settling_time_ = from_seconds(settling_time_constants / settings.pole);
   keep(Every{settings_.sampling.period}, memory_, next_);
@@ -95,6 +97,8 @@ void DisturbanceFilter::advance(const JointReading& reading, const PlatformMotio
   } else {
     next.position = reading.active;
     next.velocity = at.rates.active;
+    const bool opens = memory.braked && !drives.braked;
+    if (opens && (next.velocity.array().abs() <= resting_rate_).all()) next.velocity.setZero();
     next.error.setZero(robot_->drives());
     next.innovation = 1.0;
   }

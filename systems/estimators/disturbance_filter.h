@@ -42,7 +42,8 @@ struct DisturbanceFilterMemory {
 /// which the drives held the torque: nothing in it lags as a differentiated and filtered velocity does. So
 /// `torque` must not be filtered, and the velocity of `kinematics` is not used.
 ///
-/// Samples that are missing or broken and closed brakes are treated as by `MomentumEstimator`.
+/// Samples that are missing or broken and closed brakes are treated as by `MomentumEstimator`. Drives that
+/// brakes held until now begin at rest: the noise of their rates would be an error of the model for 10 ms.
 class DisturbanceFilter final : public System {
   State<DisturbanceFilterMemory> memory_ = state<DisturbanceFilterMemory>("memory");
 
@@ -86,6 +87,7 @@ class DisturbanceFilter final : public System {
   DisturbanceFilterSettings settings_;
   double error_deviation_;       ///< of d, where only the encoders err [rad/s^2 or m/s^2]
   double innovation_deviation_;  ///< likewise [rad or m]
+  double resting_rate_;          ///< below which a rate is noise [rad/s or m/s]
   double observability_;
   Time settling_time_;
 };

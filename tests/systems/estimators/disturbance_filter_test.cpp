@@ -17,6 +17,8 @@
 #include "systems/sensors/velocity_filter.h"
 #include "tests/support/answer_of_filters.h"
 #include "tests/support/moving_robot.h"
+#include "tests/support/planar_bench.h"
+#include "tests/support/ticking.h"
 
 namespace flinch {
 namespace {
@@ -128,6 +130,74 @@ TEST(DisturbanceFilter, NoticesNoiseThatItWasNotToldOf) {
     std::printf("encoders %.0f times as noisy as told: innovation %.3f\n", times, mean);
     EXPECT_NEAR(mean, times * times, 0.05 + 0.05 * times * times);
   }
+}
+
+/// The filter at a robot whose encoders and rates are noisy, which moves as told.
+class Held {
+ public:
+  explicit Held(std::uint64_t seed) : random_(seed) {}
+
+  /// A tick in which the drives have these rates, and what is followed then.
+  void tick(bool braked, const PlatformVector& velocity = PlatformVector::Zero(3)) {
+    PlatformVector noisy = velocity;
+    for (int i = 0; i < 3; ++i) noisy[i] += (i < 2 ? 5e-4 : 2e-3) * random_.normal();
+    test::Posture at(*robot_, Configuration::Zero(3), noisy, ticking_.now());
+    for (int i = 0; i < 3; ++i)
+      at.joints.active[i] += DisturbanceFilterSettings{}.encoder_deviation * random_.normal();
+    ticking_.set(joints_, at.joints);
+    ticking_.set(platform_, at.platform);
+    ticking_.set(kinematics_, at.kinematics);
+    ticking_.set(dynamics_, at.dynamics);
+    ticking_.set(torque_, DriveTorque{ticking_.now(), true, JointVector::Zero(3), braked});
+    ticking_.tick();
+  }
+  double effort() const { return ticking_.get(filter_.wrench).drive_torque.norm(); }
+  PlatformVector velocity() const { return ticking_.get(filter_.followed).velocity; }
+
+ private:
+  std::shared_ptr<const PlanarRrr> robot_ = test::planar_bench(BenchFriction::test_bench);
+  RandomGenerator random_;
+  DiagramBuilder builder_{"held", 1ms};
+  DisturbanceFilter& filter_ = builder_.add<DisturbanceFilter>("filter", robot_, DisturbanceFilterSettings{});
+  InputPort<JointReading> joints_ = builder_.export_input("joints", filter_.joints);
+  InputPort<PlatformMotion> platform_ = builder_.export_input("platform", filter_.platform);
+  InputPort<Kinematics> kinematics_ = builder_.export_input("kinematics", filter_.kinematics);
+  InputPort<Dynamics> dynamics_ = builder_.export_input("dynamics", filter_.dynamics);
+  InputPort<DriveTorque> torque_ = builder_.export_input("torque", filter_.torque);
+  test::Ticking ticking_{builder_};
+};
+
+TEST(DisturbanceFilter, IsNoNoisierWhenBrakesHaveJustOpened) {
+  double opened = 0.0, later = 0.0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    Held held(seed);
+    for (int k = 0; k < 60; ++k) held.tick(true);
+    for (int k = 0; k < 20; ++k) {
+      held.tick(false);
+      opened += std::pow(held.effort(), 2);
+    }
+    for (int k = 0; k < 100; ++k) held.tick(false);
+    for (int k = 0; k < 20; ++k) {
+      held.tick(false);
+      later += std::pow(held.effort(), 2);
+    }
+  }
+  std::printf("in the first 20 ms after brakes %.2f of the deviation that is usual\n",
+              std::sqrt(opened / later));
+  EXPECT_GT(later, 0.0);
+  EXPECT_LT(std::sqrt(opened / later), 1.1);
+}
+
+TEST(DisturbanceFilter, BeginsAtRestWhereBrakesHeldTheDrivesAndInMotionWhereTheyMoved) {
+  const PlatformVector moving{{0.1, 0.0, 0.0}};
+  Held held(1);
+  for (int k = 0; k < 60; ++k) held.tick(true);
+  EXPECT_GT(held.velocity().norm(), 0.0);
+  held.tick(false);
+  EXPECT_EQ(held.velocity().norm(), 0.0);
+  held.tick(true, moving);
+  held.tick(false, moving);
+  EXPECT_NEAR(held.velocity()[0], 0.1, 0.01);
 }
 
 TEST(DisturbanceFilter, AsksForSettingsThatArePositive) {
