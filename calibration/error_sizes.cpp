@@ -57,7 +57,8 @@ ResidualErrors fit_error_sizes(std::span<const ErrorSample> samples) {
           .torque = std::sqrt(sizes[3]),
           .friction = std::sqrt(sizes[4]),
           .lag = std::sqrt(sizes[5]),
-          .rest = std::sqrt(sizes[6])};
+          .rest = std::sqrt(sizes[6]),
+          .acceleration = std::sqrt(sizes[7])};
 }
 
 }  // namespace flinch

@@ -9,6 +9,7 @@
 #include "calibration/contact_free_motion.h"
 #include "calibration/error_course.h"
 #include "calibration/error_sizes.h"
+#include "calibration/surprise_tail.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recorded_values.h"
 
@@ -112,10 +113,16 @@ std::optional<ErrorCourse> fit_course(const std::vector<ResidualRecording>& reco
 /// How surprising a residual is at a tick; none where there is nothing to judge.
 using Surprise = std::function<std::optional<double>(bool nominal, const ResidualMemory& memory)>;
 
-/// The largest surprise of each stretch; ticks without one, as where the IMU is left out, are none of it.
-std::vector<double> peaks(const std::vector<ResidualRecording>& recordings, const std::string& estimator,
-                          const Surprise& surprise_at, Time stretch) {
-  std::vector<double> found;
+/// How surprising motion without contact is.
+struct Surprises {
+  std::vector<double> largest;  ///< of each stretch
+  SurpriseTail tail;
+};
+
+/// Ticks without a surprise, as where the IMU is left out, are no part of a stretch.
+Surprises surprises(const std::vector<ResidualRecording>& recordings, const std::string& estimator,
+                    const Surprise& surprise_at, Time stretch) {
+  Surprises found;
   for (const ResidualRecording& each : recordings) {
     const auto length = static_cast<std::size_t>(std::max<std::int64_t>(1, stretch / each.recording->period));
     std::size_t ticks = 0;  // of the present stretch
@@ -125,9 +132,12 @@ std::vector<double> peaks(const std::vector<ResidualRecording>& recordings, cons
       const std::optional<double> seen = surprise_at(nominal, memory);
       if (!seen && !waits) return;
       if (ticks == 0) largest = 0.0;
-      if (seen) largest = std::max(largest, *seen);
+      if (seen) {
+        largest = std::max(largest, *seen);
+        found.tail.add(*seen, static_cast<int>(memory.seen.load.torque.size()));
+      }
       if (++ticks < length) return;
-      found.push_back(largest);
+      found.largest.push_back(largest);
       ticks = 0;
     });
   }
@@ -180,15 +190,17 @@ std::vector<CalibratedResidual> calibrate_residuals(const std::vector<ResidualRe
   for (const std::string& estimator : estimators) {
     CalibratedResidual& residual = all.emplace_back();
     residual.estimator = estimator;
-    const auto calibrate = [&](const Surprise& surprise_at, CalibratedThreshold& threshold) {
-      const std::vector<double> largest = peaks(recordings, estimator, surprise_at, goal.stretch);
-      require_enough(estimator, largest.size(), goal);
-      threshold = calibrated_threshold(largest, probability, goal);
-      residual.stretches = largest.size();
+    const auto told = [&](const Surprise& surprise_at) {
+      Surprises found = surprises(recordings, estimator, surprise_at, goal.stretch);
+      require_enough(estimator, found.largest.size(), goal);
+      residual.stretches = found.largest.size();
+      return found;
     };
     const auto calibrate_part = [&](const Statistic& statistic, CalibratedSurprise& part) {
       part.errors = fit(recordings, estimator, statistic);
-      calibrate(surprise_of(statistic, part.errors), part.threshold);
+      const Surprises found = told(surprise_of(statistic, part.errors));
+      part.variation = found.tail.variation();
+      part.threshold = calibrated_threshold(found.largest, probability, goal, found.tail.power());
     };
     calibrate_part(level_statistic, residual.level);
     calibrate_part(change_statistic, residual.change);
@@ -196,7 +208,7 @@ std::vector<CalibratedResidual> calibrate_residuals(const std::vector<ResidualRe
     if (const auto course = fit_course(recordings, estimator, residual.change.errors)) {
       residual.onset.emplace().course = *course;
       const OnsetRatio ratio(residual.change.errors, *course, recordings.front().tracking.at(estimator));
-      calibrate(surprise_of(ratio), residual.onset->threshold);
+      residual.onset->threshold = calibrated_threshold(told(surprise_of(ratio)).largest, probability, goal);
     }
   }
   return all;

@@ -25,6 +25,7 @@ struct ResidualRecording {
 /// When the level of a residual, its change, or what is smoothed of it is a contact.
 struct CalibratedSurprise {
   ResidualErrors errors;
+  double variation = 0.0;         ///< of the errors' variance beside what is expected, see `SurpriseTail`
   CalibratedThreshold threshold;  ///< of what is left once the errors have deviation 1
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "calibration/gumbel.h"
 #include "systems/foundation/setup_error.h"
@@ -16,12 +17,15 @@ constexpr double furthest_extrapolation = 1000.0;
 }  // namespace
 
 CalibratedThreshold calibrated_threshold(const std::vector<double>& peaks, double probability,
-                                         const ThresholdGoal& goal) {
+                                         const ThresholdGoal& goal, double power) {
   CalibratedThreshold result;
   if (peaks.empty()) return result;
-  const Gumbel fit = fit_gumbel(peaks);
-  result.best_guess = fit.quantile_above(probability);
-  result.value = upper_quantile_above(fit, peaks.size(), probability, goal.confidence);
+  std::vector<double> raised = peaks;
+  for (double& peak : raised) peak = std::pow(peak, power);
+  const Gumbel fit = fit_gumbel(raised);
+  const auto root = [&](double value) { return std::pow(value, 1.0 / power); };
+  result.best_guess = root(fit.quantile_above(probability));
+  result.value = root(upper_quantile_above(fit, peaks.size(), probability, goal.confidence));
   result.largest = *std::max_element(peaks.begin(), peaks.end());
   result.papers_rule = goal.safety_factor * result.largest;
   return result;

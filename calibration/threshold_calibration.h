@@ -38,9 +38,10 @@ struct EstimatorThresholds {
 std::vector<EstimatorThresholds> calibrate_thresholds(const std::vector<EstimatorPeaks>& peaks,
                                                       const ThresholdGoal& goal);
 
-/// What the largest of a stretch exceeds with this probability, from such peaks; all zero without any.
+/// What the largest of a stretch exceeds with this probability, from such peaks; all zero without any. It is
+/// the `power` of the peaks that follows a Gumbel distribution.
 CalibratedThreshold calibrated_threshold(const std::vector<double>& peaks, double probability,
-                                         const ThresholdGoal& goal);
+                                         const ThresholdGoal& goal, double power = 1.0);
 /// Throws SetupError where so many stretches are too few, as `calibrate_thresholds`.
 void require_enough(const std::string& estimator, std::size_t stretches, const ThresholdGoal& goal);
 

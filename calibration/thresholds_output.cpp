@@ -42,19 +42,17 @@ std::array<NamedSurprise, 3> parts(const CalibratedResidual& residual) {
 std::string residuals_table(const ThresholdFindings& found) {
   std::string text = fmt::format(
       "\nfused detector, all of it together; deviations of the errors by cause, noise and rest in {}, lag in "
-      "ms\n{:<22} {:<8} "
-      "{:>9} "
-      "{:>9} {:>9} {:>7} {:>7} {:>7} {:>7} {:>8} {:>7} {:>7}\n",
-      found.drives_turn ? "Nm" : "N", "residual", "of", "threshold", "guess", "largest", "noise", "speed",
-      "load", "torque", "friction", "lag", "rest");
+      "ms\n{:<22} {:<8} {:>9} {:>9} {:>9} {:>9} {:>7} {:>7} {:>7} {:>7} {:>8} {:>7} {:>7} {:>7}\n",
+      found.drives_turn ? "Nm" : "N", "residual", "of", "threshold", "guess", "largest", "variation", "noise",
+      "speed", "load", "torque", "friction", "lag", "rest", "accel.");
   for (const CalibratedResidual& residual : found.residuals) {
     for (const auto& [part, of] : parts(residual)) {
       text += fmt::format(
-          "{:<22} {:<8} {:>9.3g} {:>9.3g} {:>9.3g} {:>7.3f} {:>7.3f} {:>7.3f} {:>7.3f} {:>8.3f} {:>7.3f} "
-          "{:>7.3f}\n",
+          "{:<22} {:<8} {:>9.3g} {:>9.3g} {:>9.3g} {:>9.3f} {:>7.3f} {:>7.3f} {:>7.3f} {:>7.3f} {:>8.3f} "
+          "{:>7.3f} {:>7.3f} {:>7.3f}\n",
           residual.estimator, part, of.threshold.value, of.threshold.best_guess, of.threshold.largest,
-          of.errors.noise, of.errors.speed, of.errors.load, of.errors.torque, of.errors.friction,
-          1e3 * of.errors.lag, of.errors.rest);
+          of.variation, of.errors.noise, of.errors.speed, of.errors.load, of.errors.torque,
+          of.errors.friction, 1e3 * of.errors.lag, of.errors.rest, of.errors.acceleration);
     }
   }
   return text;
@@ -93,10 +91,12 @@ std::string residuals_yaml(const ThresholdFindings& found) {
       text += fmt::format("      {}: {{threshold: {:.4g}, noise_{}: {:.4g}, speed_{}: {:.4g}", part,
                           of.threshold.value, found.drives_turn ? "Nm" : "N", of.errors.noise,
                           found.drives_turn ? "Nms_per_rad" : "Ns_per_m", of.errors.speed);
-      text +=
-          fmt::format(", load: {:.4g}, torque: {:.4g}, friction: {:.4g}, lag_ms: {:.4g}, rest_{}: {:.4g}}}\n",
-                      of.errors.load, of.errors.torque, of.errors.friction, 1e3 * of.errors.lag,
-                      found.drives_turn ? "Nm" : "N", of.errors.rest);
+      text += fmt::format(
+          ", load: {:.4g}, torque: {:.4g}, friction: {:.4g}, lag_ms: {:.4g}, rest_{}: {:.4g}, "
+          "acceleration_{}: {:.4g}}}\n",
+          of.errors.load, of.errors.torque, of.errors.friction, 1e3 * of.errors.lag,
+          found.drives_turn ? "Nm" : "N", of.errors.rest, found.drives_turn ? "rad_per_s2" : "m_per_s2",
+          of.errors.acceleration);
     }
     if (!residual.onset) continue;
     const CalibratedOnset& onset = *residual.onset;
@@ -146,7 +146,8 @@ Json json_of(const CalibratedSurprise& of) {
           {"largest", of.threshold.largest}, {"noise", of.errors.noise},
           {"speed", of.errors.speed},        {"load", of.errors.load},
           {"torque", of.errors.torque},      {"friction", of.errors.friction},
-          {"lag_s", of.errors.lag},          {"rest", of.errors.rest}};
+          {"lag_s", of.errors.lag},          {"rest", of.errors.rest},
+          {"variation", of.variation},       {"acceleration", of.errors.acceleration}};
 }
 
 Json json_of(const CalibratedOnset& of) {

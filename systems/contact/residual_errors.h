@@ -7,17 +7,18 @@
 namespace flinch {
 
 /// What the squared error of a drive's residual grows with: 1, and the squares of what `ResidualErrors` has.
-using ErrorFeatures = std::array<double, 7>;
+using ErrorFeatures = std::array<double, 8>;
 
 /// How large the errors of a residual are: deviations of independent parts, each in proportion to something.
 struct ResidualErrors {
-  double noise = 0.0;     ///< whatever the drive does [Nm or N]
-  double speed = 0.0;     ///< with its rate [Nm s/rad or N s/m]
-  double load = 0.0;      ///< with its torque
-  double torque = 0.0;    ///< with the torque as the residual is seen, itself or its change
-  double friction = 0.0;  ///< with the friction that the model expects, likewise
-  double lag = 0.0;       ///< with the slope of the torque, likewise: how late currents are [s]
-  double rest = 0.0;      ///< with how far the drive stands still, likewise [Nm or N]
+  double noise = 0.0;         ///< whatever the drive does [Nm or N]
+  double speed = 0.0;         ///< with its rate [Nm s/rad or N s/m]
+  double load = 0.0;          ///< with its torque
+  double torque = 0.0;        ///< with the torque as the residual is seen, itself or its change
+  double friction = 0.0;      ///< with the friction that the model expects, likewise
+  double lag = 0.0;           ///< with the slope of the torque, likewise: how late currents are [s]
+  double rest = 0.0;          ///< with how far the drive stands still, likewise [Nm or N]
+  double acceleration = 0.0;  ///< with the inertia at the drive: how encoders err [rad/s^2 or m/s^2]
 
   double variance(const ErrorFeatures& features) const;
 };

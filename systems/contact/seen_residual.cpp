@@ -36,6 +36,7 @@ DriveLoad interpolated(const Around<DriveLoad>& around, Time time) {
   load.rate = before.rate + later * (after.rate - before.rate);
   load.torque = before.torque + later * (after.torque - before.torque);
   load.friction = before.friction + later * (after.friction - before.friction);
+  load.inertia = before.inertia + later * (after.inertia - before.inertia);
   return load;
 }
 

@@ -47,7 +47,7 @@ struct EstimatorAnswer {
 struct ResidualTracking {
   EstimatorAnswer answer;
   double rate = 50.0;          ///< of the first-order filter whose output is the mean of late [1/s]
-  double smoothing = 200.0;    ///< of that whose output is the smoothed residual [1/s]
+  double smoothing = 400.0;    ///< of that whose output is the smoothed residual [1/s]
   double resting_rate = 0.05;  ///< below which a drive stands still [rad/s or m/s]
   Sampling sampling;
 

@@ -11,7 +11,10 @@ void DriveLoads::tell(const PlatformMotion& motion, const Kinematics& at, const 
   result.rate = at.rates.active;
   result.torque = drives.torque;
   result.friction = at.J_x_qa.transpose() * model.F_fr_x;  // [SafePR] (6b)
-  result.valid = result.rate.allFinite() && result.torque.allFinite() && result.friction.allFinite();
+  const PlatformMatrix M_q = at.J_x_qa.transpose() * model.M_x * at.J_x_qa;
+  result.inertia = M_q.rowwise().norm();
+  result.valid = result.rate.allFinite() && result.torque.allFinite() && result.friction.allFinite() &&
+                 result.inertia.allFinite();
 }
 
 }  // namespace flinch

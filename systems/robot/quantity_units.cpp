@@ -51,6 +51,7 @@ std::map<std::string, std::string> quantity_units(const ParallelRobot& robot) {
           {"<drive position>", of_drives(robot, "rad", "m")},
           {"<drive velocity>", of_drives(robot, "rad/s", "m/s")},
           {"<drive force>", of_drives(robot, "Nm", "N")},
+          {"<drive inertia>", of_drives(robot, "kg m^2", "kg")},
           {"<passive position>", "rad"}};
 }
 

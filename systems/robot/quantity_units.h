@@ -13,7 +13,7 @@ class ParallelRobot;
 ///   <pose>, <velocity>, <acceleration>   of the platform, one unit for each number
 ///   <displacement>                       difference of two poses, one unit for each velocity
 ///   <wrench>                             on the platform, likewise
-///   <drive position>, <drive velocity>, <drive force>   of every drive
+///   <drive position>, <drive velocity>, <drive force>, <drive inertia>   of every drive
 ///   <passive position>                   of every joint without a drive
 std::map<std::string, std::string> quantity_units(const ParallelRobot& robot);
 

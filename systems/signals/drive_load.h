@@ -13,6 +13,9 @@ struct DriveLoad {
   JointVector rate;      ///< [rad/s or m/s]
   JointVector torque;    ///< tau_a, not filtered [Nm or N]
   JointVector friction;  ///< of all joints, as the drives feel it: J_x_qa^T F_fr_x [Nm or N]
+  /// Length of the drive's row of J_x_qa^T M_x J_x_qa: drives whose accelerations err independently, by a
+  /// deviation of 1, err by so much in their torques [kg m^2 or kg]
+  JointVector inertia;
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
@@ -21,6 +24,7 @@ struct DriveLoad {
     visit("rate", "<drive velocity>", self.rate);
     visit("torque", "<drive force>", self.torque);
     visit("friction", "<drive force>", self.friction);
+    visit("inertia", "<drive inertia>", self.inertia);
   }
 };
 

@@ -16,7 +16,7 @@ std::vector<ErrorSample> samples_of(const ResidualErrors& truth, std::size_t cou
   std::vector<ErrorSample> samples(count);
   for (ErrorSample& sample : samples) {
     sample.features[0] = 1.0;
-    const double scales[] = {0.0, 3.0, 40.0, 5.0, 0.6, 2000.0, 1.0};
+    const double scales[] = {0.0, 3.0, 40.0, 5.0, 0.6, 2000.0, 1.0, 0.8};
     for (std::size_t j = 1; j < sample.features.size(); ++j)
       sample.features[j] = std::pow(random.uniform(0.0, scales[j]), 2);
     sample.squared = truth.variance(sample.features) * std::pow(random.normal(), 2);
@@ -25,9 +25,15 @@ std::vector<ErrorSample> samples_of(const ResidualErrors& truth, std::size_t cou
 }
 
 TEST(ErrorSizes, AreFoundFromSquares) {
-  const ResidualErrors truth{
-      .noise = 0.12, .speed = 0.07, .load = 0.006, .torque = 0.05, .friction = 0.4, .lag = 2e-4, .rest = 0.5};
-  const ResidualErrors found = fit_error_sizes(samples_of(truth, 100'000));
+  const ResidualErrors truth{.noise = 0.2,
+                             .speed = 0.07,
+                             .load = 0.006,
+                             .torque = 0.05,
+                             .friction = 0.4,
+                             .lag = 2e-4,
+                             .rest = 0.5,
+                             .acceleration = 0.3};
+  const ResidualErrors found = fit_error_sizes(samples_of(truth, 400'000));
   // A variance found from n squares has a deviation of sqrt(2 / n) of all of it; parts of it some times that.
   EXPECT_NEAR(found.noise, truth.noise, 0.05 * truth.noise);
   EXPECT_NEAR(found.speed, truth.speed, 0.05 * truth.speed);
@@ -36,6 +42,7 @@ TEST(ErrorSizes, AreFoundFromSquares) {
   EXPECT_NEAR(found.friction, truth.friction, 0.05 * truth.friction);
   EXPECT_NEAR(found.lag, truth.lag, 0.05 * truth.lag);
   EXPECT_NEAR(found.rest, truth.rest, 0.05 * truth.rest);
+  EXPECT_NEAR(found.acceleration, truth.acceleration, 0.05 * truth.acceleration);
 }
 
 TEST(ErrorSizes, OfWhatExplainsNothingAreAlmostZero) {
@@ -48,13 +55,15 @@ TEST(ErrorSizes, OfWhatExplainsNothingAreAlmostZero) {
   EXPECT_LT(std::pow(5.0 * found.torque, 2), tenth);
   EXPECT_LT(std::pow(2000.0 * found.lag, 2), tenth);
   EXPECT_LT(std::pow(1.0 * found.rest, 2), tenth);
+  EXPECT_LT(std::pow(0.8 * found.acceleration, 2), tenth);
 }
 
 TEST(ErrorSizes, HaveNoiseEvenWhereAllIsExplained) {
   std::vector<ErrorSample> samples(1000);
   for (std::size_t k = 0; k < samples.size(); ++k) {
     const double torque = static_cast<double>(k % 10);
-    samples[k] = {.squared = torque * torque, .features = {1.0, 0.0, 0.0, torque * torque, 0.0, 0.0, 0.0}};
+    samples[k] = {.squared = torque * torque,
+                  .features = {1.0, 0.0, 0.0, torque * torque, 0.0, 0.0, 0.0, 0.0}};
   }
   const ResidualErrors found = fit_error_sizes(samples);
   EXPECT_GT(found.noise, 0.0);

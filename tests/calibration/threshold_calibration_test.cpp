@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "systems/foundation/setup_error.h"
@@ -34,6 +36,19 @@ std::string complaint(std::size_t stretches, const ThresholdGoal& goal) {
     return error.problems().front();
   }
   return "";
+}
+
+TEST(Thresholds, OfAPowerAreRootsOfThoseOfPeaksRaisedToIt) {
+  std::mt19937_64 random(1);
+  const std::vector<double> peaks = peaks_of_noise(random, 180, 1.0);
+  std::vector<double> squares = peaks;
+  for (double& peak : squares) peak *= peak;
+  const CalibratedThreshold of_squares = calibrated_threshold(squares, 1e-5, {});
+  const CalibratedThreshold threshold = calibrated_threshold(peaks, 1e-5, {}, 2.0);
+  EXPECT_NEAR(threshold.value, std::sqrt(of_squares.value), 1e-12);
+  EXPECT_NEAR(threshold.best_guess, std::sqrt(of_squares.best_guess), 1e-12);
+  EXPECT_EQ(threshold.largest, *std::max_element(peaks.begin(), peaks.end()));
+  EXPECT_LT(threshold.value, calibrated_threshold(peaks, 1e-5, {}).value);
 }
 
 TEST(Thresholds, KeepTheRateOfFalseAlarmsThatWasAsked) {

@@ -11,6 +11,7 @@
 namespace flinch {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -31,8 +32,10 @@ ThresholdFindings with_a_residual(bool drives_turn) {
       {.estimator = "filter",
        .stretches = 180,
        .level = {{.noise = 0.25, .speed = 0.5, .load = 0.0, .torque = 0.125, .friction = 0.75, .lag = 0.5},
+                 0.25,
                  {8.0}},
        .change = {{.noise = 0.5, .speed = 0.25, .load = 0.0625, .torque = 0.5, .friction = 1.0, .lag = 0.25},
+                  0.125,
                   {9.5}},
        .smoothed = {{.noise = 0.0625,
                      .speed = 0.5,
@@ -40,7 +43,9 @@ ThresholdFindings with_a_residual(bool drives_turn) {
                      .torque = 0.25,
                      .friction = 0.5,
                      .lag = 0.125,
-                     .rest = 0.375},
+                     .rest = 0.375,
+                     .acceleration = 1.5},
+                    0.0625,
                     {7.5}},
        .onset = CalibratedOnset{{.prediction = {0.5, 0.25, 0.125, -0.0625}, .innovation = 0.375}, {6.5}}}};
   return found;
@@ -96,18 +101,19 @@ TEST(TheSection, OfAFusedDetectorHasTheUnitsOfTheDrives) {
       HasSubstr(
           "fused_detector:\n"
           "  tracking_per_s: 50\n"
-          "  smoothing_per_s: 200\n"
+          "  smoothing_per_s: 400\n"
           "  residuals:\n"
           "    - estimator: filter\n"
           "      level: {threshold: 8, noise_Nm: 0.25, speed_Nms_per_rad: 0.5, load: 0, torque: "
-          "0.125, friction: 0.75, lag_ms: 500, rest_Nm: 0}\n"
+          "0.125, friction: 0.75, lag_ms: 500, rest_Nm: 0, acceleration_rad_per_s2: 0}\n"
           "      change: {threshold: 9.5, noise_Nm: 0.5, speed_Nms_per_rad: 0.25, load: 0.0625, "
-          "torque: 0.5, friction: 1, lag_ms: 250, rest_Nm: 0}\n"
+          "torque: 0.5, friction: 1, lag_ms: 250, rest_Nm: 0, acceleration_rad_per_s2: 0}\n"
           "      smoothed: {threshold: 7.5, noise_Nm: 0.0625, speed_Nms_per_rad: 0.5, load: 0, "
-          "torque: 0.25, friction: 0.5, lag_ms: 125, rest_Nm: 0.375}\n"
+          "torque: 0.25, friction: 0.5, lag_ms: 125, rest_Nm: 0.375, acceleration_rad_per_s2: 1.5}\n"
           "      onset: {threshold: 6.5, innovation: 0.375, prediction: [0.5, 0.25, 0.125, -0.0625]}\n"));
-  EXPECT_THAT(thresholds_yaml(with_a_residual(false), "2026-11-22"),
-              HasSubstr("noise_N: 0.25, speed_Ns_per_m: 0.5"));
+  EXPECT_THAT(
+      thresholds_yaml(with_a_residual(false), "2026-11-22"),
+      AllOf(HasSubstr("noise_N: 0.25, speed_Ns_per_m: 0.5"), HasSubstr("acceleration_m_per_s2: 1.5")));
 }
 
 TEST(TheObject, HasTheResidualsOfAFusedDetector) {
@@ -117,6 +123,8 @@ TEST(TheObject, HasTheResidualsOfAFusedDetector) {
   EXPECT_EQ(json["fused_detector"][0]["level"]["torque"], 0.125);
   EXPECT_EQ(json["fused_detector"][0]["smoothed"]["value"], 7.5);
   EXPECT_EQ(json["fused_detector"][0]["smoothed"]["rest"], 0.375);
+  EXPECT_EQ(json["fused_detector"][0]["smoothed"]["acceleration"], 1.5);
+  EXPECT_EQ(json["fused_detector"][0]["smoothed"]["variation"], 0.0625);
   EXPECT_EQ(json["fused_detector"][0]["onset"]["value"], 6.5);
   EXPECT_EQ(json["fused_detector"][0]["onset"]["innovation"], 0.375);
   EXPECT_EQ(json["fused_detector"][0]["onset"]["prediction"][3], -0.0625);

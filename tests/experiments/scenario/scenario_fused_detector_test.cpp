@@ -60,10 +60,11 @@ TEST(TheFusedDetectorOfAScenario, JudgesByWhatIsSmoothedWhereTheFileSaysHow) {
   EXPECT_FALSE(read(place, "", "").residuals.front().smoothed);
   const FusedDetectorSettings settings =
       read(place, "    smoothing_per_s: 100\n",
-           "        smoothed: {threshold: 8, noise_Nm: 0.0625, rest_Nm: 0.5}\n");
+           "        smoothed: {threshold: 8, noise_Nm: 0.0625, rest_Nm: 0.5, acceleration_rad_per_s2: 3}\n");
   EXPECT_EQ(settings.tracking.smoothing, 100.0);
   EXPECT_EQ(settings.residuals.front().smoothed->threshold, 8.0);
   EXPECT_EQ(settings.residuals.front().smoothed->errors.rest, 0.5);
+  EXPECT_EQ(settings.residuals.front().smoothed->errors.acceleration, 3.0);
   EXPECT_THAT(test::problems_of([&] { read(place, "", "        smoothed: {threshold: 8}\n"); }),
               ElementsAre(HasSubstr("smoothed.noise_Nm: is missing")));
 }

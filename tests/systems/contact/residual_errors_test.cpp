@@ -13,7 +13,8 @@ const DriveLoad load{.acquired = {},
                      .valid = true,
                      .rate = Eigen::Vector3d(2.0, -1.0, 0.0),
                      .torque = Eigen::Vector3d(10.0, -20.0, 5.0),
-                     .friction = Eigen::Vector3d(0.6, -0.6, 0.0)};
+                     .friction = Eigen::Vector3d(0.6, -0.6, 0.0),
+                     .inertia = Eigen::Vector3d(0.5, 0.4, 0.25)};
 
 TEST(ErrorVariance, IsTheSumOfIndependentParts) {
   const DriveResidual seen{.effort = Eigen::Vector3d::Zero(),
@@ -22,18 +23,30 @@ TEST(ErrorVariance, IsTheSumOfIndependentParts) {
                            .slope = Eigen::Vector3d(0.0, 0.0, 500.0),
                            .rising = Eigen::Vector3d::Zero(),
                            .rest = Eigen::Vector3d(0.0, 0.0, 0.5)};
-  const ResidualErrors errors{
-      .noise = 0.1, .speed = 0.2, .load = 0.01, .torque = 0.5, .friction = 0.4, .lag = 2e-4, .rest = 0.6};
-  // 0.1^2 + (0.2 2)^2 + (0.01 10)^2 + (0.5 1)^2 + (0.4 0.5)^2; of the last also (0.6 0.5)^2
-  EXPECT_NEAR(errors.variance(error_features(load, seen, 0)), 0.01 + 0.16 + 0.01 + 0.25 + 0.04, 1e-15);
-  EXPECT_NEAR(errors.variance(error_features(load, seen, 1)), 0.01 + 0.04 + 0.04 + 2.25, 1e-15);
-  EXPECT_NEAR(errors.variance(error_features(load, seen, 2)), 0.01 + 0.0025 + 0.01 + 0.09, 1e-15);
+  const ResidualErrors errors{.noise = 0.1,
+                              .speed = 0.2,
+                              .load = 0.01,
+                              .torque = 0.5,
+                              .friction = 0.4,
+                              .lag = 2e-4,
+                              .rest = 0.6,
+                              .acceleration = 2.0};
+  // 0.1^2 + (0.2 2)^2 + (0.01 10)^2 + (0.5 1)^2 + (0.4 0.5)^2; of the last also (0.6 0.5)^2;
+  // of each (2 inertia)^2
+  EXPECT_NEAR(errors.variance(error_features(load, seen, 0)), 0.01 + 0.16 + 0.01 + 0.25 + 0.04 + 1.0, 1e-15);
+  EXPECT_NEAR(errors.variance(error_features(load, seen, 1)), 0.01 + 0.04 + 0.04 + 2.25 + 0.64, 1e-15);
+  EXPECT_NEAR(errors.variance(error_features(load, seen, 2)), 0.01 + 0.0025 + 0.01 + 0.09 + 0.25, 1e-15);
 }
 
 TEST(Surprise, HasASquareThatIsChiSquareForErrorsAsAssumed) {
   RandomGenerator random(1);
-  const ResidualErrors errors{
-      .noise = 0.1, .speed = 0.2, .load = 0.01, .torque = 0.5, .friction = 0.4, .lag = 2e-4};
+  const ResidualErrors errors{.noise = 0.1,
+                              .speed = 0.2,
+                              .load = 0.01,
+                              .torque = 0.5,
+                              .friction = 0.4,
+                              .lag = 2e-4,
+                              .acceleration = 0.2};
   constexpr int trials = 20'000;
   double sum = 0.0, squares = 0.0;
   for (int k = 0; k < trials; ++k) {

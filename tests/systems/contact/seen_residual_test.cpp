@@ -17,7 +17,8 @@ const DriveLoad at_rest{.acquired = {},
                         .valid = true,
                         .rate = Eigen::Vector3d::Zero(),
                         .torque = Eigen::Vector3d::Zero(),
-                        .friction = Eigen::Vector3d::Zero()};
+                        .friction = Eigen::Vector3d::Zero(),
+                        .inertia = Eigen::Vector3d::Zero()};
 
 WrenchEstimate estimate_of(const JointVector& effort) {
   WrenchEstimate estimate;

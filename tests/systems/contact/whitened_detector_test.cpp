@@ -57,7 +57,8 @@ class WhitenedDetectorTest : public testing::Test {
                   .valid = true,
                   .rate = Eigen::Vector3d::Zero(),
                   .torque = Eigen::Vector3d::Zero(),
-                  .friction = Eigen::Vector3d::Zero()};
+                  .friction = Eigen::Vector3d::Zero(),
+                  .inertia = Eigen::Vector3d::Zero()};
   WrenchEstimate estimate_{
       .acquired = {}, .valid = true, .wrench_in_base = Eigen::Vector3d(5.0, 0.0, 0.0), .drive_torque = {}};
   ResetCommand reset_now_{};
@@ -103,8 +104,8 @@ TEST_F(Smoothing, NoticesASmallForceThatLasts) {
   settle();
   EXPECT_EQ(ticks_to_notice(0.049), 0);
   settle();
-  // 0.05 Nm of 0.1 Nm: half of the way, after ln 2 / 200 1/s.
-  EXPECT_EQ(ticks_to_notice(0.1), 4);
+  // 0.05 Nm of 0.1 Nm: half of the way, after ln 2 / 400 1/s.
+  EXPECT_EQ(ticks_to_notice(0.1), 2);
 }
 
 TEST_F(Smoothing, ExpectsOfADriveAtRestWhatItMayHoldByFriction) {

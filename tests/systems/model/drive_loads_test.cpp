@@ -51,6 +51,19 @@ TEST(DriveLoads, HaveThePowerOfAllFriction) {
   EXPECT_NEAR(load.friction.dot(load.rate), power, 1e-12);
 }
 
+TEST(DriveLoads, HaveTheInertiaThatMakesTorquesOfAccelerations) {
+  const auto robot = test::planar_bench();
+  const test::Posture at(*robot, pose, velocity);
+  const auto acceleration = [&](const JointVector& by) {
+    return JointVector(robot->drive_acceleration(pose, velocity, by).value());
+  };
+  Eigen::Matrix3d by_torque;  // of the drives, from the equation of motion
+  for (int i = 0; i < 3; ++i)
+    by_torque.col(i) = acceleration(torque + Eigen::Vector3d::Unit(i)) - acceleration(torque);
+  const Eigen::Vector3d length = by_torque.inverse().rowwise().norm();
+  EXPECT_LT((Loads().of(at, {{}, true, torque}).inertia - length).norm(), 1e-9 * length.norm());
+}
+
 TEST(DriveLoads, AreNotValidWhereSomethingIsMissing) {
   const test::Posture at(*test::planar_bench(), pose, velocity);
   Loads loads;

@@ -15,7 +15,7 @@ TEST(QuantityUnits, OfThePlanarRobotAreThoseOfTwoTranslationsARotationAndRevolut
       {"<velocity>", "m/s, m/s, rad/s"}, {"<acceleration>", "m/s^2, m/s^2, rad/s^2"},
       {"<wrench>", "N, N, Nm"},          {"<drive position>", "rad"},
       {"<drive velocity>", "rad/s"},     {"<drive force>", "Nm"},
-      {"<passive position>", "rad"}};
+      {"<drive inertia>", "kg m^2"},     {"<passive position>", "rad"}};
   EXPECT_EQ(quantity_units(robot), expected);
 }
 
