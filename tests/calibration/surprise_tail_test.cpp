@@ -58,21 +58,16 @@ struct Squares {
 
 constexpr std::size_t many = 20'000;
 
-double variation_of(const Squares& squares) {
+SurpriseTail tail_of(const Squares& squares) {
   SurpriseTail tail;
   for (const double square : squares.largest_of(1, many)) tail.add(std::sqrt(square), squares.drives);
-  return tail.variation();
-}
-double power_of(const Squares& squares) {
-  SurpriseTail tail;
-  for (const double square : squares.largest_of(1, many)) tail.add(std::sqrt(square), squares.drives);
-  return tail.power();
+  return tail;
 }
 
 TEST(TheVariation, IsThatWithWhichTheVarianceOfErrorsVaries) {
   for (const int drives : {2, 3, 6})
     for (const double variation : {0.0, 0.05, 0.2})
-      EXPECT_NEAR(variation_of({drives, variation}), variation, 0.01) << drives;
+      EXPECT_NEAR(tail_of({drives, variation}).variation(), variation, 0.01) << drives;
   EXPECT_EQ(SurpriseTail().variation(), 0.0);
 }
 
@@ -85,9 +80,9 @@ TEST(TheVariation, IsFoundFromNormalErrors) {
 }
 
 TEST(ThePower, IsTwoForNormalErrorsAndOneForThoseThatVary) {
-  EXPECT_NEAR(power_of({3, 0.0}), 2.0, 0.05);
-  EXPECT_NEAR(power_of({3, 0.1}), 1.5, 0.05);
-  EXPECT_EQ(power_of({3, 0.4}), 1.0);
+  EXPECT_NEAR(tail_of({3, 0.0}).power(), 2.0, 0.05);
+  EXPECT_NEAR(tail_of({3, 0.1}).power(), 1.5, 0.05);
+  EXPECT_EQ(tail_of({3, 0.4}).power(), 1.0);
 }
 
 /// How often stretches of so many independent samples exceed a threshold that was calibrated from 180 of
@@ -106,7 +101,7 @@ TEST(ThePower, KeepsTheRateOfThresholdsHoweverErrorsVary) {
     for (const int samples : {50, 200}) {
       for (const double variation : {0.0, 0.025, 0.05, 0.1, 0.15, 0.2, 0.3}) {
         const Squares squares{drives, variation};
-        const double kept = rate_kept(squares, samples, power_of(squares));
+        const double kept = rate_kept(squares, samples, tail_of(squares).power());
         std::printf(
             "%d drives, %3d samples, variation %5.3f: %.2f of the rate asked; by power 1 %.2g, by 2 %.2g\n",
             drives, samples, variation, kept, rate_kept(squares, samples, 1.0),
