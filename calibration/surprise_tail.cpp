@@ -1,10 +1,12 @@
 #include "calibration/surprise_tail.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace flinch {
 
 void SurpriseTail::add(double surprise, int drives) {
+  if (!std::isfinite(surprise)) return;
   const double square = surprise * surprise;
   count_ += 1.0;
   squares_ += square;

@@ -42,9 +42,11 @@ std::array<NamedSurprise, 3> parts(const CalibratedResidual& residual) {
 std::string residuals_table(const ThresholdFindings& found) {
   std::string text = fmt::format(
       "\nfused detector, all of it together; deviations of the errors by cause, noise and rest in {}, lag in "
-      "ms\n{:<22} {:<8} {:>9} {:>9} {:>9} {:>9} {:>7} {:>7} {:>7} {:>7} {:>8} {:>7} {:>7} {:>7}\n",
-      found.drives_turn ? "Nm" : "N", "residual", "of", "threshold", "guess", "largest", "variation", "noise",
-      "speed", "load", "torque", "friction", "lag", "rest", "accel.");
+      "ms, acceleration in {}\n{:<22} {:<8} {:>9} {:>9} {:>9} {:>9} {:>7} {:>7} {:>7} {:>7} {:>8} {:>7} "
+      "{:>7} {:>7}\n",
+      found.drives_turn ? "Nm" : "N", found.drives_turn ? "rad/s^2" : "m/s^2", "residual", "of", "threshold",
+      "guess", "largest", "variation", "noise", "speed", "load", "torque", "friction", "lag", "rest",
+      "accel.");
   for (const CalibratedResidual& residual : found.residuals) {
     for (const auto& [part, of] : parts(residual)) {
       text += fmt::format(

@@ -34,10 +34,10 @@ struct WhitenedDetectorSettings {
 
 /// Says that the robot is touched when what an estimator holds for the effort at the drives is larger than
 /// its errors explain. Each drive's is divided by the deviation that its error has under its speed, torque,
-/// friction and rest, as late as the estimator shows them (`ResidualErrors`, of motion without contact); the
-/// length of what is left is compared with a threshold. The same is done with the change of late, from which
-/// slow errors are gone, or with how the change has come about (`OnsetRatio`), and with the smoothed
-/// residual, from which noise is gone: small forces that last show there. (Derived.)
+/// friction, inertia and rest, as late as the estimator shows them (`ResidualErrors`, of motion without
+/// contact); the length of what is left is compared with a threshold. The same is done with the change of
+/// late, from which slow errors are gone, or with how the change has come about (`OnsetRatio`), and with the
+/// smoothed residual, from which noise is gone: small forces that last show there. (Derived.)
 ///
 /// The level latches as that of `ContactDetector`. In a tick whose estimate is not new nothing is noticed;
 /// where none has come for the longest hold, or it has fallen back to another estimator, the detection is

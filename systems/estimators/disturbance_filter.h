@@ -43,7 +43,8 @@ struct DisturbanceFilterMemory {
 /// `torque` must not be filtered, and the velocity of `kinematics` is not used.
 ///
 /// Samples that are missing or broken and closed brakes are treated as by `MomentumEstimator`. Drives that
-/// brakes held until now begin at rest: the noise of their rates would be an error of the model for 10 ms.
+/// brakes held until now begin at rest, unless their rates are larger than noise: the noise would be an error
+/// of the model for 10 ms.
 class DisturbanceFilter final : public System {
   State<DisturbanceFilterMemory> memory_ = state<DisturbanceFilterMemory>("memory");
 

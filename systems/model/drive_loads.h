@@ -9,8 +9,8 @@
 
 namespace flinch {
 
-/// Tells how the drives work: rates and friction of the model at the measured motion, and torques. The motion
-/// must not lag behind them. Not valid where any input is not, or not finite.
+/// Tells how the drives work: rates, friction and inertia of the model at the measured motion, and torques.
+/// The motion must not lag behind them. Not valid where any input is not, or not finite.
 class DriveLoads final : public System {
  public:
   InputPort<PlatformMotion> platform = input<PlatformMotion>("platform");

@@ -69,6 +69,9 @@ TEST(TheVariation, IsThatWithWhichTheVarianceOfErrorsVaries) {
     for (const double variation : {0.0, 0.05, 0.2})
       EXPECT_NEAR(tail_of({drives, variation}).variation(), variation, 0.01) << drives;
   EXPECT_EQ(SurpriseTail().variation(), 0.0);
+  SurpriseTail broken;
+  broken.add(INFINITY, 3);
+  EXPECT_EQ(broken.variation(), 0.0);
 }
 
 TEST(TheVariation, IsFoundFromNormalErrors) {

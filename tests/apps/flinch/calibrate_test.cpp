@@ -74,7 +74,8 @@ TEST_F(CalibrateThresholds, FindsWhatTheFusedDetectorJudgesByAndAScenarioTakesIt
   for (const auto& of : json) {
     for (const char* part : {"level", "change"}) {
       EXPECT_GT(of[part]["value"], of[part]["largest"]) << of;
-      EXPECT_LT(of[part]["value"], 15.0) << "a fifth of that is one deviation too few: " << of;
+      EXPECT_LT(of[part]["variation"], 0.05) << of;
+      EXPECT_LT(of[part]["value"], 7.0) << "normal errors need 6 deviations: " << of;
       constexpr double inertia = 0.3;  // at the drives, hardly ever less [kg m^2]
       EXPECT_GT(std::hypot(of[part]["noise"].get<double>(), inertia * of[part]["acceleration"].get<double>()),
                 0.05)

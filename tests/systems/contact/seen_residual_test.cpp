@@ -99,7 +99,7 @@ TEST(SeenResidual, HasTheLoadOfAnInstantBetweenTwoTicks) {
   for (int k = 1; k < 20; ++k) {
     DriveLoad load = at_rest;
     load.acquired = k * 1ms;
-    load.torque[0] = load.friction[1] = load.rate[2] = k;
+    load.torque[0] = load.friction[1] = load.rate[2] = load.inertia[0] = k;
     WrenchEstimate estimate = estimate_of(Eigen::Vector3d::Zero());
     estimate.acquired = load.acquired - (k % 2 ? 400us : 150us);  // its clock is its own
     follow_residual(estimate, load, past, load.acquired, {}, memory, next);
@@ -112,6 +112,7 @@ TEST(SeenResidual, HasTheLoadOfAnInstantBetweenTwoTicks) {
     EXPECT_NEAR(memory.seen.level.torque[0], then, 1e-12) << k;
     EXPECT_NEAR(memory.seen.level.friction[1], then, 1e-12) << k;
     EXPECT_NEAR(memory.seen.load.rate[2], then, 1e-12) << k;
+    EXPECT_NEAR(memory.seen.load.inertia[0], then, 1e-12) << k;
     EXPECT_NEAR(memory.seen.level.slope[0], 1e3, 1e-8) << k;
   }
 }
