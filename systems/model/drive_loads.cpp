@@ -10,9 +10,9 @@ void DriveLoads::tell(const PlatformMotion& motion, const Kinematics& at, const 
   result.acquired = motion.acquired;
   result.rate = at.rates.active;
   result.torque = drives.torque;
-  result.friction = at.J_x_qa.transpose() * model.F_fr_x;  // [SafePR] (6b)
-  const PlatformMatrix M_q = at.J_x_qa.transpose() * model.M_x * at.J_x_qa;
-  result.inertia = M_q.rowwise().norm();
+  result.friction = at.J_x_qa.transpose() * model.F_fr_x;                     // [SafePR] (6b)
+  const PlatformMatrix M_qa = at.J_x_qa.transpose() * model.M_x * at.J_x_qa;  // [SafePR] (5)
+  result.inertia = M_qa.rowwise().norm();
   result.valid = result.rate.allFinite() && result.torque.allFinite() && result.friction.allFinite() &&
                  result.inertia.allFinite();
 }

@@ -4,11 +4,9 @@
 
 #include <cmath>
 
-#include "systems/estimators/disturbance_filter.h"
 #include "systems/signals/driven_share.h"
 #include "tests/support/answer_of_filters.h"
-#include "tests/support/planar_bench.h"
-#include "tests/support/ticking.h"
+#include "tests/support/told_disturbance_filter.h"
 
 namespace flinch {
 namespace {
@@ -224,26 +222,14 @@ class StandingRobot {
  public:
   WrenchEstimate told(double torque) {
     const test::Posture posture(*robot_, Eigen::Vector3d(0.05, -0.03, 0.1), PlatformVector::Zero(3),
-                                ticking_.now());
-    ticking_.set(joints_, posture.joints);
-    ticking_.set(platform_, posture.platform);
-    ticking_.set(kinematics_, posture.kinematics);
-    ticking_.set(dynamics_, posture.dynamics);
-    ticking_.set(torque_, DriveTorque{ticking_.now(), true, Eigen::Vector3d(torque, 0.0, 0.0)});
-    ticking_.tick();
-    return ticking_.get(filter_.wrench);
+                                filter_.now());
+    filter_.tick(posture, Eigen::Vector3d(torque, 0.0, 0.0));
+    return filter_.wrench();
   }
 
  private:
-  std::shared_ptr<const ParallelRobot> robot_ = test::planar_bench();
-  DiagramBuilder builder_{"robot", 1ms};
-  DisturbanceFilter& filter_ = builder_.add<DisturbanceFilter>("filter", robot_, DisturbanceFilterSettings{});
-  InputPort<JointReading> joints_ = builder_.export_input("joints", filter_.joints);
-  InputPort<PlatformMotion> platform_ = builder_.export_input("platform", filter_.platform);
-  InputPort<Kinematics> kinematics_ = builder_.export_input("kinematics", filter_.kinematics);
-  InputPort<Dynamics> dynamics_ = builder_.export_input("dynamics", filter_.dynamics);
-  InputPort<DriveTorque> torque_ = builder_.export_input("torque", filter_.torque);
-  test::Ticking ticking_{builder_};
+  std::shared_ptr<const PlanarRrr> robot_ = test::planar_bench();
+  test::ToldDisturbanceFilter filter_{robot_};
 };
 
 // Of a torque that is told but does not act, the whole is an error: what the estimator holds for an effort

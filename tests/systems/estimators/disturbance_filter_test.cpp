@@ -17,8 +17,7 @@
 #include "systems/sensors/velocity_filter.h"
 #include "tests/support/answer_of_filters.h"
 #include "tests/support/moving_robot.h"
-#include "tests/support/planar_bench.h"
-#include "tests/support/ticking.h"
+#include "tests/support/told_disturbance_filter.h"
 
 namespace flinch {
 namespace {
@@ -141,30 +140,18 @@ class Held {
   void tick(bool braked, const PlatformVector& velocity = PlatformVector::Zero(3)) {
     PlatformVector noisy = velocity;
     for (int i = 0; i < 3; ++i) noisy[i] += (i < 2 ? 5e-4 : 2e-3) * random_.normal();
-    test::Posture at(*robot_, Configuration::Zero(3), noisy, ticking_.now());
+    test::Posture at(*robot_, Configuration::Zero(3), noisy, filter_.now());
     for (int i = 0; i < 3; ++i)
       at.joints.active[i] += DisturbanceFilterSettings{}.encoder_deviation * random_.normal();
-    ticking_.set(joints_, at.joints);
-    ticking_.set(platform_, at.platform);
-    ticking_.set(kinematics_, at.kinematics);
-    ticking_.set(dynamics_, at.dynamics);
-    ticking_.set(torque_, DriveTorque{ticking_.now(), true, JointVector::Zero(3), braked});
-    ticking_.tick();
+    filter_.tick(at, JointVector::Zero(3), braked);
   }
-  double effort() const { return ticking_.get(filter_.wrench).drive_torque.norm(); }
-  PlatformVector velocity() const { return ticking_.get(filter_.followed).velocity; }
+  double effort() const { return filter_.wrench().drive_torque.norm(); }
+  PlatformVector velocity() const { return filter_.followed().velocity; }
 
  private:
   std::shared_ptr<const PlanarRrr> robot_ = test::planar_bench(BenchFriction::test_bench);
   RandomGenerator random_;
-  DiagramBuilder builder_{"held", 1ms};
-  DisturbanceFilter& filter_ = builder_.add<DisturbanceFilter>("filter", robot_, DisturbanceFilterSettings{});
-  InputPort<JointReading> joints_ = builder_.export_input("joints", filter_.joints);
-  InputPort<PlatformMotion> platform_ = builder_.export_input("platform", filter_.platform);
-  InputPort<Kinematics> kinematics_ = builder_.export_input("kinematics", filter_.kinematics);
-  InputPort<Dynamics> dynamics_ = builder_.export_input("dynamics", filter_.dynamics);
-  InputPort<DriveTorque> torque_ = builder_.export_input("torque", filter_.torque);
-  test::Ticking ticking_{builder_};
+  test::ToldDisturbanceFilter filter_{robot_};
 };
 
 TEST(DisturbanceFilter, IsNoNoisierWhenBrakesHaveJustOpened) {
