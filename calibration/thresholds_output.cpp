@@ -1,11 +1,15 @@
 #include "calibration/thresholds_output.h"
-#include "systems/foundation/json_text.h"
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
+
+#include "experiments/scenario/scenario.h"
+#include "systems/config/robot_file.h"
+#include "systems/foundation/json_text.h"
 
 namespace flinch {
 namespace {
@@ -84,13 +88,13 @@ std::string onsets_table(const ThresholdFindings& found) {
 }
 
 std::string residuals_yaml(const ThresholdFindings& found) {
-  std::string text =
-      fmt::format("fused_detector:\n  tracking_per_s: {:.4g}\n  smoothing_per_s: {:.4g}\n  residuals:\n",
-                  found.tracking.rate, found.tracking.smoothing);
+  std::string text = fmt::format(
+      "  fused_detector:\n    tracking_per_s: {:.4g}\n    smoothing_per_s: {:.4g}\n    residuals:\n",
+      found.tracking.rate, found.tracking.smoothing);
   for (const CalibratedResidual& residual : found.residuals) {
-    text += "    - estimator: " + residual.estimator + "\n";
+    text += "      - estimator: " + residual.estimator + "\n";
     for (const auto& [part, of] : parts(residual)) {
-      text += fmt::format("      {}: {{threshold: {:.4g}, noise_{}: {:.4g}, speed_{}: {:.4g}", part,
+      text += fmt::format("        {}: {{threshold: {:.4g}, noise_{}: {:.4g}, speed_{}: {:.4g}", part,
                           of.threshold.value, found.drives_turn ? "Nm" : "N", of.errors.noise,
                           found.drives_turn ? "Nms_per_rad" : "Ns_per_m", of.errors.speed);
       text += fmt::format(
@@ -103,7 +107,7 @@ std::string residuals_yaml(const ThresholdFindings& found) {
     if (!residual.onset) continue;
     const CalibratedOnset& onset = *residual.onset;
     text +=
-        fmt::format("      onset: {{threshold: {:.4g}, innovation: {:.4g}, prediction: [{:.4g}]}}\n",
+        fmt::format("        onset: {{threshold: {:.4g}, innovation: {:.4g}, prediction: [{:.4g}]}}\n",
                     onset.threshold.value, onset.course.innovation, fmt::join(onset.course.prediction, ", "));
   }
   return text;
@@ -115,15 +119,14 @@ std::string listed(const std::vector<CalibrationSource>& files) {
   return text;
 }
 
-/// What the thresholds rest on, as lines of comment.
-std::string provenance(const ThresholdFindings& found, const std::string& date) {
+/// How the thresholds were found, as lines of comment.
+std::string provenance(const ThresholdFindings& found) {
   const ThresholdGoal& goal = found.goal;
   std::string text = fmt::format(
       "# Thresholds for {} false alarms an hour of each estimator, kept with a confidence of {:.0f} %.\n"
-      "# Made by flinch " FLINCH_VERSION " on {} from\n",
-      goal.false_alarms_per_hour, 100.0 * goal.confidence, date);
-  text += listed(found.recordings);
-  if (!found.with.empty()) text += "# played again with\n" + listed(found.with);
+      "# Made by flinch " FLINCH_VERSION ".\n",
+      goal.false_alarms_per_hour, 100.0 * goal.confidence);
+  if (!found.with.empty()) text += "# Played again with\n" + listed(found.with);
   text += fmt::format("# Largest of each, and {:.3g} x that, [RAL25] V-C:\n", goal.safety_factor);
   for (const EstimatorThresholds& of : found.estimators) {
     text += fmt::format("#   {}, {:.1f} s: {:.4g} N, {:.4g} N", of.estimator, seconds(of.stretches, goal),
@@ -161,6 +164,24 @@ Json json_of(const CalibratedOnset& of) {
 }
 
 }  // namespace
+
+void note_robot(const std::vector<Scenario>& scenarios, ThresholdFindings& found) {
+  const Scenario& first = scenarios.front();
+  const JointVector& constant = first.control.drive_torque.torque_constant;
+  const auto all = [&](const auto& agrees) {
+    return std::all_of(scenarios.begin(), scenarios.end(), agrees);
+  };
+  found.drives_turn = first.robot.robot->drive_kind(0) == DriveKind::revolute;
+  if (all([&](const Scenario& other) { return other.robot_text == first.robot_text; }))
+    found.robot = {first.robot_file.string(), calibrated_robot_hash(first.robot_text)};
+  if (!all([&](const Scenario& other) { return other.control.drive_torque.torque_constant == constant; }))
+    return;
+  for (int i = 0; i < static_cast<int>(constant.size()); ++i) {
+    found.assumed.push_back({.name = drive_constant_key(*first.robot.robot, i),
+                             .value = constant[i],
+                             .unit = found.drives_turn ? "Nm/A" : "N/A"});
+  }
+}
 
 std::string thresholds_table(const ThresholdFindings& found) {
   const ThresholdGoal& goal = found.goal;
@@ -207,10 +228,17 @@ std::string thresholds_json(const ThresholdFindings& found) {
 }
 
 std::string thresholds_yaml(const ThresholdFindings& found, const std::string& date) {
-  std::string text = provenance(found, date);
-  text += "# Belongs into the section 'control' of a scenario.\ncontact_detector:\n  by_estimator:\n";
+  ParameterFile file;
+  file.kind = "thresholds";
+  file.date = date;
+  file.robot = found.robot;
+  for (const CalibrationSource& source : found.recordings)
+    file.recordings.push_back({source.file, source.sha256});
+  file.assumed = found.assumed;
+  std::string text =
+      parameter_file_text(file) + provenance(found) + "control:\n  contact_detector:\n    by_estimator:\n";
   for (const EstimatorThresholds& of : found.estimators) {
-    text += fmt::format("    - {{estimator: {}, reaction_force_N: {:.4g}", of.estimator, of.force.value);
+    text += fmt::format("      - {{estimator: {}, reaction_force_N: {:.4g}", of.estimator, of.force.value);
     if (of.moment.value > 0.0) text += fmt::format(", reaction_moment_Nm: {:.4g}", of.moment.value);
     text += "}\n";
   }

@@ -5,8 +5,11 @@
 
 #include "calibration/calibration_result.h"
 #include "calibration/residual_calibration.h"
+#include "systems/config/parameter_file.h"
 
 namespace flinch {
+
+struct Scenario;
 
 /// What was found for a rate of false alarms.
 struct ThresholdFindings {
@@ -14,13 +17,18 @@ struct ThresholdFindings {
   std::vector<EstimatorThresholds> estimators{};
   std::vector<CalibratedResidual> residuals{};  ///< empty: no fused detector told the loads of the drives
   std::vector<CalibrationSource> recordings{};  ///< that they come from
+  HashedFile robot{};                           ///< of all of them; no hash: they are of several
+  std::vector<FileParameter> assumed{};         ///< torque constants of all of them; none: they differ
   std::vector<CalibrationSource> with{};        ///< parameter files with which these were played again
   ResidualTracking tracking{};                  ///< with which the fused detector must follow its residuals
   bool drives_turn = true;
 };
 
+/// Notes of which robot, and with which torque constants, all recordings of these scenarios were made.
+void note_robot(const std::vector<Scenario>& scenarios, ThresholdFindings& found);
+
 /// As a table for people; as one JSON object on one line, to which later versions add keys and rename none;
-/// and as the sections `contact_detector` and `fused_detector` of `control` in a scenario file, with what
+/// and as a parameter file with the sections `contact_detector` and `fused_detector` of `control`, with what
 /// they come from above: made on `date`, "2026-11-22".
 std::string thresholds_table(const ThresholdFindings& found);
 std::string thresholds_json(const ThresholdFindings& found);

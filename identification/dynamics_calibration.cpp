@@ -15,6 +15,7 @@
 #include "identification/dynamics_rows.h"
 #include "identification/motor_parameters.h"
 #include "identification/physical_parameters.h"
+#include "systems/config/robot_file.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recording.h"
 
@@ -362,10 +363,10 @@ CalibrationResult calibrate_dynamics(const DynamicsBelief& belief,
         drive + 1));
   }
   validate(belief, *of_robot, parameters, solution.fit.values, unseen, result);
-  const char* const key = turns ? "drives.torque_constant_Nm_per_A" : "drives.force_constant_N_per_A";
   for (int i = 0; i < drives; ++i) {
-    result.assumed.push_back(
-        {.name = fmt::format("{}[{}]", key, i), .value = belief.constant[i], .unit = turns ? "Nm/A" : "N/A"});
+    result.assumed.push_back({.name = drive_constant_key(*belief.robot, i),
+                              .value = belief.constant[i],
+                              .unit = turns ? "Nm/A" : "N/A"});
   }
   const Eigen::Index columns = solution.fit.linear.jacobian.cols();
   result.notes.push_back(

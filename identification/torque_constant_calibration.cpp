@@ -9,6 +9,7 @@
 #include "identification/pull_windows.h"
 #include "identification/robust_mean.h"
 #include "identification/torque_constant_fit.h"
+#include "systems/config/robot_file.h"
 #include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/setup_error.h"
 
@@ -199,8 +200,7 @@ void add_parameters(const TorqueConstantFit& fit, const FitUncertainty& sure,
     order.push_back(column);
   };
   for (int i = 0; i < fit.constant.size(); ++i) {
-    const std::string key = turns ? "drives.torque_constant_Nm_per_A" : "drives.force_constant_N_per_A";
-    add({.name = fmt::format("{}[{}]", key, i),
+    add({.name = drive_constant_key(*belief.robot, i),
          .value = fit.constant[i],
          .deviation = {},
          .unit = fmt::format("{}/A", effort),

@@ -80,7 +80,8 @@ void add_thresholds(CLI::App& calibrate, Verbs& verbs) {
           "Of the papers' rule, a multiple of the largest value seen, which is told for comparison [2]")
       ->check(within(1.0, 100.0))
       ->type_name("K");
-  verb.add_option("--out", options.out, "Write the thresholds as a section of scenario files")
+  verb.add_option("--out", options.out,
+                  "Write the thresholds as a parameter file, for 'calibrations' of scenarios")
       ->type_name("FILE.yaml");
 }
 

@@ -79,7 +79,7 @@ ExitStatus calibrate_thresholds(const CalibrateThresholdsOptions& options) {
   found.estimators = calibrate_thresholds(pooled(motions.peaks), found.goal);
   found.residuals = residuals_of(motions, found.goal);
   found.tracking = motions.scenarios.front().control.fused_detector.tracking;
-  found.drives_turn = motions.scenarios.front().robot.robot->drive_kind(0) == DriveKind::revolute;
+  note_robot(motions.scenarios, found);
   fmt::print("{}", options.common.json ? thresholds_json(found) + "\n" : thresholds_table(found));
   if (options.out.empty()) return ExitStatus::done;
   write_result(options.out, thresholds_yaml(found, today()));

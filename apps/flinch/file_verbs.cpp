@@ -97,7 +97,6 @@ std::string check_text(const std::filesystem::path& file) {
       robot_calibrations(text, file.string());
       return "robot";
     }
-    case FileKind::thresholds:
     case FileKind::scenario:
       break;
   }

@@ -141,6 +141,32 @@ std::string line_of(const std::vector<std::shared_ptr<const ConfigNode>>& values
   return line;
 }
 
+bool names_files(const std::string& key) { return key == "robot" || key.starts_with("calibrations"); }
+
+/// Reads the files that these values of a key name. What is wrong with them is told by the runs.
+void read_files(const std::string& key, const std::vector<std::shared_ptr<const ConfigNode>>& values,
+                const Campaign& campaign) {
+  for (const auto& value : values) {
+    for (std::size_t i = 0; i < campaign.scenarios.size(); ++i) {
+      try {
+        parse_scenario(with_value(*campaign.scenario_nodes[i], key, value), campaign.scenarios[i],
+                       *campaign.robots);
+      } catch (const SetupError&) {
+        continue;
+      }
+    }
+  }
+}
+
+void read_varied_files(const Campaign& campaign) {
+  for (const CampaignAxis& axis : campaign.grid) {
+    if (names_files(axis.key)) read_files(axis.key, axis.values, campaign);
+  }
+  for (const CampaignDraw& draw : campaign.drawn) {
+    if (names_files(draw.key)) read_files(draw.key, draw.of, campaign);
+  }
+}
+
 /// Counted in real numbers, which do not overflow.
 void check_size(const Campaign& campaign) {
   double runs = static_cast<double>(campaign.draws) * static_cast<double>(campaign.scenarios.size());
@@ -223,11 +249,10 @@ Campaign read_campaign(const std::filesystem::path& file, const CampaignOverride
   for (const std::filesystem::path& file_of_scenario : campaign.scenarios) {
     campaign.scenario_texts.push_back(read_config_file(file_of_scenario));
     campaign.scenario_nodes.push_back(parse_yaml(campaign.scenario_texts.back(), file_of_scenario.string()));
-    const Scenario scenario =
-        parse_scenario(campaign.scenario_nodes.back(), file_of_scenario, *campaign.robots);
-    campaign.robot_texts.push_back(scenario.robot_text);
-    for (const ParameterFile& found : scenario.calibrations) campaign.robot_texts.push_back(found.text);
+    parse_scenario(campaign.scenario_nodes.back(), file_of_scenario, *campaign.robots);
   }
+  read_varied_files(campaign);
+  campaign.robot_texts = campaign.robots->texts();
   return campaign;
 }
 

@@ -75,7 +75,7 @@ struct Campaign {
   std::vector<std::filesystem::path> scenarios;
   std::vector<std::string> scenario_texts;
   std::vector<std::shared_ptr<const ConfigNode>> scenario_nodes;  ///< of these texts
-  std::vector<std::string> robot_texts;  ///< and those of the calibrations that robot or scenario name
+  std::vector<std::string> robot_texts;  ///< and those of all calibrations, also those that are varied
   std::vector<CampaignAxis> grid;
   std::vector<CampaignDraw> drawn;
   std::optional<CampaignContact> contact;

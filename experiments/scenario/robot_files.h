@@ -12,8 +12,8 @@
 
 namespace flinch {
 
-/// Robot files of many scenarios: each is read once, when it is first asked for, and then stays as it was.
-/// Threads may share it.
+/// Robot files of many scenarios, and the parameter files that these name: each is read once, when it is
+/// first asked for, and then stays as it was. Threads may share it.
 class RobotFiles {
  public:
   struct Entry {
@@ -24,10 +24,16 @@ class RobotFiles {
 
   /// Throws SetupError with all that is wrong with the file.
   std::shared_ptr<const Entry> read(const std::filesystem::path& file);
+  /// The same of a parameter file.
+  std::shared_ptr<const ParameterFile> read_calibration(const std::filesystem::path& file);
+
+  /// The texts of all that was read, in order of their names.
+  std::vector<std::string> texts() const;
 
  private:
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::map<std::filesystem::path, std::shared_ptr<const Entry>> entries_;
+  std::map<std::filesystem::path, std::shared_ptr<const ParameterFile>> calibrations_;
 };
 
 }  // namespace flinch

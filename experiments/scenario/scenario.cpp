@@ -105,7 +105,11 @@ void read_rest(ConfigReader& reader, std::optional<std::uint64_t> seed, const Se
   ControlStages stages = std::move(scenario.control.stages);
   scenario.control = settings_for(robot, scenario.robot.drives, scenario.robot.limits);
   scenario.control.stages = std::move(stages);
-  calibrate_control(scenario.calibrations, scenario.control);
+  try {
+    calibrate_control(scenario.calibrations, robot, scenario.control);
+  } catch (const SetupError& error) {
+    reader.add_problems(error.problems());
+  }
   read_control(reader.section("control"), robot, scenario.control);
   read_motion(reader.section("motion"), scenario.robot, scenario.seed, scenario.control);
   scenario.operator_script = read_operator(reader, robot, scenario.control, scenario.duration);
@@ -127,7 +131,11 @@ Scenario assemble(ConfigReader reader, const std::filesystem::path& file, RobotF
   scenario.file = file;
   scenario.name = file.stem().string();
   scenario.robot_as_built = read_robot(reader, robots, scenario);
-  for (ParameterFile& own : read_calibrations(reader)) scenario.calibrations.push_back(std::move(own));
+  const auto read_once = [&robots](const std::filesystem::path& name) {
+    return *robots.read_calibration(name);
+  };
+  for (ParameterFile& own : read_calibrations(reader, read_once))
+    scenario.calibrations.push_back(std::move(own));
   scenario.robot = scenario.robot_as_built;
   try {
     if (reader.good()) scenario.robot = calibrated_robot(scenario);

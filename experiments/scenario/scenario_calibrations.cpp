@@ -1,10 +1,12 @@
 #include "experiments/scenario/scenario_calibrations.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
 
 #include "experiments/scenario/scenario.h"
+#include "experiments/scenario/scenario_thresholds.h"
 #include "systems/config/config_reader.h"
 #include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/setup_error.h"
@@ -15,10 +17,14 @@ namespace {
 
 constexpr double telling_change = 0.01;  // of a torque constant: more than its calibration is off
 
-std::string constant_key(const RobotFile& robot, int drive) {
-  const bool turns = robot.robot->drive_kind(0) == DriveKind::revolute;
-  return std::string(turns ? "drives.torque_constant_Nm_per_A[" : "drives.force_constant_N_per_A[") +
-         std::to_string(drive) + "]";
+bool changes_robot(const ParameterFile& file) {
+  return std::any_of(file.parameters.begin(), file.parameters.end(), [](const FileParameter& parameter) {
+    return parameter.belongs_to == "robot" && parameter.identifiable;
+  });
+}
+
+bool has_thresholds(const ParameterFile& file) {
+  return ConfigReader::over(file.nodes, file.file).has("control");
 }
 
 /// Sets the entry of the vector that `name` means, such as "control.imu_mount.position_m[2]".
@@ -43,7 +49,8 @@ std::vector<ParameterFile> recorded_calibrations(ConfigReader& scenario, const R
 }
 
 RobotFile calibrated_robot(const Scenario& scenario) {
-  if (scenario.calibrations.empty()) return scenario.robot_as_built;
+  if (std::none_of(scenario.calibrations.begin(), scenario.calibrations.end(), changes_robot))
+    return scenario.robot_as_built;
   const std::string robot = scenario.robot_file.string();
   std::string text = scenario.robot_text;
   for (const ParameterFile& file : scenario.calibrations) {
@@ -52,14 +59,25 @@ RobotFile calibrated_robot(const Scenario& scenario) {
   return parse_robot_file(text, robot + ", calibrated");
 }
 
-void calibrate_control(const std::vector<ParameterFile>& calibrations, ContactControlSettings& control) {
+void calibrate_control(const std::vector<ParameterFile>& calibrations, const ParallelRobot& robot,
+                       ContactControlSettings& control) {
+  std::vector<std::string> problems;
   for (const ParameterFile& file : calibrations) {
+    try {
+      ConfigReader reader = ConfigReader::over(file.nodes, file.file);
+      read_thresholds(reader.section("control"), robot, names_of(control.stages.estimators), control);
+      reader.leave_rest_unread();
+      reader.finish();
+    } catch (const SetupError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
     for (const FileParameter& parameter : file.parameters) {
       if (parameter.belongs_to != "scenario" || !parameter.identifiable) continue;
       set_entry(parameter, "control.imu_mount.position_m", control.imu_mount.position_in_platform);
       set_entry(parameter, "control.imu_mount.angles_rad", control.imu_mount.angles);
     }
   }
+  throw_if_any(std::move(problems));
 }
 
 std::vector<std::string> doubts_about_calibrations(const Scenario& scenario) {
@@ -68,7 +86,7 @@ std::vector<std::string> doubts_about_calibrations(const Scenario& scenario) {
   std::map<std::string, std::string> given_by;
   const std::string robot_hash = calibrated_robot_hash(scenario.robot_text);
   for (const ParameterFile& file : scenario.calibrations) {
-    if (file.robot.sha256 != robot_hash) {
+    if (!file.robot.sha256.empty() && file.robot.sha256 != robot_hash) {
       doubts.push_back(file.file + ": the robot file has changed since this calibration of " + file.date +
                        "; calibrate again, or check that what changed does not matter to it");
     }
@@ -80,11 +98,15 @@ std::vector<std::string> doubts_about_calibrations(const Scenario& scenario) {
                          "'");
       }
     }
+    if (has_thresholds(file)) {
+      const auto [before, is_first] = given_by.emplace("control", file.file);
+      if (!is_first) doubts.push_back(file.file + ": replaces thresholds of " + before->second);
+    }
     const JointVector& constant = scenario.control.drive_torque.torque_constant;
     for (const FileParameter& assumed : file.assumed) {
       for (int i = 0; i < static_cast<int>(constant.size()); ++i) {
         const bool differs = std::abs(constant[i] / assumed.value - 1.0) > telling_change;
-        if (assumed.name != constant_key(scenario.robot, i) || !differs) continue;
+        if (assumed.name != drive_constant_key(*scenario.robot.robot, i) || !differs) continue;
         doubts.push_back(file.file + ": rests on " + assumed.name + " = " + std::to_string(assumed.value) +
                          ", and " + std::to_string(constant[i]) + " is used; calibrate '" + file.kind +
                          "' again");

@@ -11,6 +11,7 @@ namespace flinch {
 
 class ConfigReader;
 struct ContactControlSettings;
+class ParallelRobot;
 struct Recording;
 struct Scenario;
 
@@ -23,8 +24,10 @@ std::vector<ParameterFile> recorded_calibrations(ConfigReader& scenario, const R
 /// does not fit it.
 RobotFile calibrated_robot(const Scenario& scenario);
 
-/// The same for what `control` of the scenario does not say itself: the mount of the IMU.
-void calibrate_control(const std::vector<ParameterFile>& calibrations, ContactControlSettings& control);
+/// The same for what `control` of the scenario does not say itself: the mount of the IMU, thresholds.
+/// Throws SetupError with all that is wrong with the sections `control` of the files.
+void calibrate_control(const std::vector<ParameterFile>& calibrations, const ParallelRobot& robot,
+                       ContactControlSettings& control);
 
 /// What is doubtful about them once the scenario has been read, one sentence each: of another robot file;
 /// resting on torque constants that are no longer used; one replacing another.

@@ -9,11 +9,11 @@
 #include "diagrams/contact_control_settings.h"
 #include "diagrams/task_stages.h"
 #include "experiments/scenario/scenario_estimators.h"
-#include "experiments/scenario/scenario_fused_detector.h"
 #include "experiments/scenario/scenario_isolation.h"
 #include "experiments/scenario/scenario_pose.h"
 #include "experiments/scenario/scenario_stages.h"
 #include "experiments/scenario/scenario_tasks.h"
+#include "experiments/scenario/scenario_thresholds.h"
 #include "systems/config/config_reader.h"
 #include "systems/config/parsed.h"
 #include "systems/config/robot_file.h"
@@ -54,41 +54,6 @@ void read_sensing(ConfigReader& control, const ParallelRobot& robot, ContactCont
   drives.numbers(turn ? "torque_constant" : "force_constant", turn ? unit::Nm_per_A : unit::N_per_A,
                  entries(settings.drive_torque.torque_constant), positive);
   drives.flag("aligned_with_velocity", settings.aligned_with_velocity);
-}
-
-/// A threshold of a hard contact against that of a reaction. `unit`: as a person writes it.
-void check_hard(ConfigReader& detector, const std::string& quantity, double hard, double reaction,
-                const std::string& unit) {
-  if (hard >= reaction) return;
-  detector.problem("hard_" + quantity, "is " + exact_text(hard) + " " + unit +
-                                           "; it must be at least reaction_" + quantity + ", which is " +
-                                           exact_text(reaction) + " " + unit);
-}
-
-/// `estimators`: all that a file may name, whether they run or not.
-void read_detection(ConfigReader& control, const std::vector<std::string>& estimators,
-                    ContactControlSettings& settings) {
-  ConfigReader detector = control.section("contact_detector");
-  detector.number("reaction_force", unit::N, settings.contact_detector.reaction.force, positive);
-  detector.number("reaction_moment", unit::Nm, settings.contact_detector.reaction.moment, positive);
-  detector.number("hard_force", unit::N, settings.contact_detector.hard.force, positive);
-  detector.number("hard_moment", unit::Nm, settings.contact_detector.hard.moment, positive);
-  const auto& [reaction, hard, period] = settings.contact_detector;
-  check_hard(detector, "force", hard.force, reaction.force, "N");
-  check_hard(detector, "moment", hard.moment, reaction.moment, "Nm");
-  for (ConfigReader& own : detector.sections("by_estimator")) {
-    std::string estimator;
-    WrenchThreshold threshold = settings.contact_detector.reaction;
-    own.required().text("estimator", estimator);
-    own.number("reaction_force", unit::N, threshold.force, positive);
-    own.number("reaction_moment", unit::Nm, threshold.moment, positive);
-    if (std::find(estimators.begin(), estimators.end(), estimator) == estimators.end()) {
-      own.problem("estimator",
-                  "is '" + estimator + "', which is no estimator" + did_you_mean(estimator, estimators));
-    } else if (!settings.reaction_thresholds.emplace(estimator, threshold).second) {
-      own.problem("estimator", "is '" + estimator + "', as that of an entry before it");
-    }
-  }
 }
 
 void read_laws(ConfigReader& control, const ParallelRobot& robot, ContactControlSettings& settings) {
@@ -222,8 +187,7 @@ void read_control(ConfigReader control, const ParallelRobot& robot, ContactContr
   read_stages(control, settings.stages);
   read_sensing(control, robot, settings);
   read_estimators(control, robot, settings);
-  read_detection(control, estimators, settings);
-  read_fused_detector(control.section("fused_detector"), robot, estimators, settings.fused_detector);
+  read_thresholds(control, robot, estimators, settings);
   read_isolation(control.section("isolation"), settings.isolation);
   read_tasks(control, robot, settings.tasks);
   read_laws(control, robot, settings);

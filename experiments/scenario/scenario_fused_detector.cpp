@@ -45,6 +45,7 @@ void read_fused_detector(ConfigReader fused, const ParallelRobot& robot,
   fused.number("smoothing", unit::per_s, settings.tracking.smoothing, positive);
   fused.choice("rule", settings.rule,
                {{"chi_square", ChangeRule::chi_square}, {"likelihood_ratio", ChangeRule::likelihood_ratio}});
+  if (fused.has("residuals")) settings.residuals.clear();
   for (ConfigReader& own : fused.sections("residuals")) {
     FusedResidual residual;
     own.required().text("estimator", residual.estimator);
@@ -57,13 +58,14 @@ void read_fused_detector(ConfigReader fused, const ParallelRobot& robot,
     read(own.section("level"), turn, residual.level);
     read(own.section("change"), turn, residual.change);
     if (own.has("smoothed")) read(own.section("smoothed"), turn, residual.smoothed.emplace());
-    if (own.has("onset")) {
-      read(own.section("onset"), residual.onset.emplace());
-    } else if (settings.rule == ChangeRule::likelihood_ratio) {
-      own.problem(
-          "", "has no onset, which the rule likelihood_ratio needs; flinch calibrate thresholds finds it");
-    }
+    if (own.has("onset")) read(own.section("onset"), residual.onset.emplace());
     settings.residuals.push_back(residual);
+  }
+  if (settings.rule != ChangeRule::likelihood_ratio) return;
+  for (const FusedResidual& residual : settings.residuals) {
+    if (residual.onset) continue;
+    fused.problem("rule", "is likelihood_ratio, which needs an onset, and the residual of " +
+                              residual.estimator + " has none; flinch calibrate thresholds finds it");
   }
 }
 

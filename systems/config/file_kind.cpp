@@ -41,12 +41,7 @@ const std::vector<KindOfFile>& kinds() {
        {"contacts", "recordings"},
        {"flinch_calibration"},
        "a data specification",
-       "'flinch dataset' reads it"},
-      {FileKind::thresholds,
-       {"contact_detector", "fused_detector"},
-       {"robot"},
-       "a section of thresholds",
-       "it belongs into 'control' of a scenario"}};
+       "'flinch dataset' reads it"}};
   return all;
 }
 

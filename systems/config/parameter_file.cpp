@@ -84,13 +84,16 @@ ParameterFile parse_parameter_file(std::string_view text, const std::string& fil
   ParameterFile result;
   result.file = file;
   result.text = text;
-  ConfigReader reader = ConfigReader::parse(text, file);
+  result.nodes = parse_yaml(text, file);
+  ConfigReader reader = ConfigReader::over(result.nodes, file);
   require_kind(reader, FileKind::parameters);
   int version = 0;
   reader.required().integer("flinch_calibration", version, 1, ParameterFile::version);
   reader.required().text("kind", result.kind);
   reader.required().text("date", result.date);
-  result.robot = read_hashed(reader.required().section("robot"));
+  if (reader.has("robot") || !reader.has("control"))
+    result.robot = read_hashed(reader.required().section("robot"));
+  reader.leave_unread("control");
   for (ConfigReader& recording : reader.sections("recordings"))
     result.recordings.push_back(read_hashed(recording));
   ConfigReader residual = reader.section("residual");
@@ -109,14 +112,15 @@ ParameterFile read_parameter_file(const std::filesystem::path& file) {
   return parse_parameter_file(read_config_file(file), file.string());
 }
 
-std::vector<ParameterFile> read_calibrations(ConfigReader& file) {
+std::vector<ParameterFile> read_calibrations(
+    ConfigReader& file, const std::function<ParameterFile(const std::filesystem::path&)>& read) {
   std::vector<ParameterFile> files;
   for (ConfigReader& entry : file.sections("calibrations")) {
     std::filesystem::path name;
     entry.required().file("file", name);
     if (name.empty()) continue;
     try {
-      files.push_back(read_parameter_file(name));
+      files.push_back(read(name));
     } catch (const SetupError& error) {
       entry.add_problems(error.problems());
     }
@@ -152,13 +156,14 @@ std::string parameter_file_text(const ParameterFile& parameters) {
       "# Written by flinch calibrate. A scenario takes it over with\n#   calibrations: [{file: NAME}]\n";
   text += "flinch_calibration: " + std::to_string(ParameterFile::version) + "\n";
   text += "kind: " + parameters.kind + "\ndate: '" + parameters.date + "'\n";
-  text += "robot: " + line_of(parameters.robot) + "\n";
+  if (!parameters.robot.sha256.empty()) text += "robot: " + line_of(parameters.robot) + "\n";
   if (!parameters.recordings.empty()) text += "recordings:\n";
   for (const HashedFile& recording : parameters.recordings) text += "  - " + line_of(recording) + "\n";
-  text += "residual: {before: " + exact_text(parameters.residual_before) +
-          ", after: " + exact_text(parameters.residual_after);
-  if (!parameters.residual_unit.empty()) text += ", unit: " + quoted(parameters.residual_unit);
-  text += "}\n";
+  if (!parameters.residual_unit.empty()) {
+    text += "residual: {before: " + exact_text(parameters.residual_before) +
+            ", after: " + exact_text(parameters.residual_after) +
+            ", unit: " + quoted(parameters.residual_unit) + "}\n";
+  }
   if (!parameters.parameters.empty()) text += "parameters:\n";
   for (const FileParameter& parameter : parameters.parameters) text += line_of(parameter);
   if (!parameters.assumed.empty()) text += "assumed:\n";

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,6 +11,7 @@
 namespace flinch {
 
 class ConfigReader;
+struct ConfigNode;
 
 /// One number of a parameter file.
 struct FileParameter {
@@ -34,13 +37,15 @@ struct ParameterFile {
   std::string text;  ///< all of it
   std::string kind;  ///< "torque-constant"
   std::string date;  ///< "2026-11-22"
-  HashedFile robot;  ///< that the recordings were made with
+  HashedFile robot;  ///< that the recordings were made with; no hash: they are of several
   std::vector<HashedFile> recordings;
   double residual_before = 0.0;  ///< root mean square
   double residual_after = 0.0;
-  std::string residual_unit;
+  std::string residual_unit;  ///< empty: nothing was fitted
   std::vector<FileParameter> parameters;
   std::vector<FileParameter> assumed;  ///< other parameters that these rest on: torque constants
+  std::shared_ptr<const ConfigNode>
+      nodes;  ///< `text` as it was parsed; its `control` is for who knows blocks
 };
 
 /// Reads one. Throws SetupError with all that is wrong.
@@ -48,8 +53,11 @@ ParameterFile read_parameter_file(const std::filesystem::path& file);
 /// The same for text that came from `file`.
 ParameterFile parse_parameter_file(std::string_view text, const std::string& file);
 
-/// Reads the files that `calibrations` of a scenario or robot file names. What is wrong with them is noted.
-std::vector<ParameterFile> read_calibrations(ConfigReader& file);
+/// The files that `calibrations` of a scenario or robot file names, as `read` gives them. What is wrong with
+/// them is noted.
+std::vector<ParameterFile> read_calibrations(
+    ConfigReader& file,
+    const std::function<ParameterFile(const std::filesystem::path&)>& read = &read_parameter_file);
 /// Those of the robot file `robot_text`, which lies at `file`. Throws SetupError with all that is wrong.
 std::vector<ParameterFile> robot_calibrations(std::string_view robot_text, const std::string& file);
 
@@ -57,7 +65,7 @@ std::vector<ParameterFile> robot_calibrations(std::string_view robot_text, const
 /// comment, so that one that takes results over is still the same.
 std::string calibrated_robot_hash(std::string_view robot_text);
 
-/// As text of YAML that reads back to the same numbers, bit for bit.
+/// As text of YAML that reads back to the same numbers, bit for bit; all but `control`.
 std::string parameter_file_text(const ParameterFile& parameters);
 
 /// The robot file `robot_text`, which came from `file`, with all that belongs to it and was identifiable.

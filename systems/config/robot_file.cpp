@@ -177,4 +177,10 @@ std::shared_ptr<const ParallelRobot> load_robot(const std::filesystem::path& fil
   return read_robot_file(file).robot;
 }
 
+std::string drive_constant_key(const ParallelRobot& robot, int drive) {
+  const bool turns = robot.drive_kind(drive) == DriveKind::revolute;
+  return std::string(turns ? "drives.torque_constant_Nm_per_A[" : "drives.force_constant_N_per_A[") +
+         std::to_string(drive) + "]";
+}
+
 }  // namespace flinch

@@ -33,4 +33,7 @@ RobotFile parse_robot_file(std::string_view text, const std::string& file);
 std::optional<RobotFile> preset_of_kind(const std::filesystem::path& file);
 std::shared_ptr<const ParallelRobot> load_robot(const std::filesystem::path& file);
 
+/// Path of the key that says what one ampere does at a drive: "drives.torque_constant_Nm_per_A[0]".
+std::string drive_constant_key(const ParallelRobot& robot, int drive);
+
 }  // namespace flinch

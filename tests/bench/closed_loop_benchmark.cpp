@@ -10,7 +10,6 @@
 #include <string>
 #include <utility>
 
-#include "experiments/campaign/campaign.h"
 #include "experiments/recorded/recorded_signals.h"
 #include "experiments/scenario/robot_files.h"
 #include "experiments/simulated/experiment.h"
@@ -41,16 +40,13 @@ SimulatedScenario shipped(const std::string& name) {
   return read_simulated_scenario(apps + "scenarios/" + name + ".yaml");
 }
 
-/// The same where the fused detector is followed, with the thresholds of the campaign detection_roc.
+/// The same where the fused detector is followed, with the thresholds that ship.
 SimulatedScenario with_fused_detector(const std::string& name) {
   const std::filesystem::path file = apps + "scenarios/" + name + ".yaml";
-  const Campaign campaign = read_campaign(apps + "campaigns/detection_roc.yaml");
   auto root = parse_yaml(shipped(name).text, file);
   root = with_value(*root, "control.detectors", parse_yaml("[fused_detector]", file));
-  for (const CampaignAxis& axis : campaign.grid) {
-    if (axis.key.starts_with("control.fused_detector"))
-      root = with_value(*root, axis.key, axis.values.front());
-  }
+  root =
+      with_value(*root, "calibrations", parse_yaml("[{file: ../calibrations/bench_thresholds.yaml}]", file));
   RobotFiles robots;
   return parse_simulated_scenario(root, file, robots);
 }

@@ -7,6 +7,7 @@
 #include <regex>
 
 #include "calibration/threshold_calibration.h"
+#include "experiments/scenario/scenario.h"
 
 namespace flinch {
 namespace {
@@ -23,7 +24,9 @@ const ThresholdFindings some = {
                     .moment = {0.5, 0.4, 0.3, 0.6}},
                    {.estimator = "filter", .stretches = 180, .force = {7.5, 7.0, 5.0, 10.0}, .moment = {}}},
     .residuals = {},
-    .recordings = {{"a/run.h5", "0123abcd"}}};
+    .recordings = {{"a/run.h5", "0123abcd"}},
+    .robot = {"planar.yaml", "89ab"},
+    .assumed = {{.name = "drives.torque_constant_Nm_per_A[0]", .value = 6.5, .unit = "Nm/A"}}};
 
 ThresholdFindings with_a_residual(bool drives_turn) {
   ThresholdFindings found = some;
@@ -66,54 +69,94 @@ TEST(TheObject, HasEveryNumber) {
   EXPECT_TRUE(json["thresholds"][1]["moment_Nm"].is_null());
 }
 
-TEST(TheSection, IsWhatAScenarioTakes) {
+TEST(TheParameterFile, IsWhatAScenarioTakes) {
   EXPECT_EQ(std::regex_replace(thresholds_yaml(some, "2026-11-22"), std::regex(R"(flinch \d+\.\d+\.\d+)"),
                                "flinch V"),
+            "# Written by flinch calibrate. A scenario takes it over with\n"
+            "#   calibrations: [{file: NAME}]\n"
+            "flinch_calibration: 1\n"
+            "kind: thresholds\n"
+            "date: '2026-11-22'\n"
+            "robot: {file: 'planar.yaml', sha256: '89ab'}\n"
+            "recordings:\n"
+            "  - {file: 'a/run.h5', sha256: '0123abcd'}\n"
+            "assumed:\n"
+            "  - {name: 'drives.torque_constant_Nm_per_A[0]', value: 6.5, unit: 'Nm/A', identifiable: true}\n"
             "# Thresholds for 0.5 false alarms an hour of each estimator, kept with a confidence of 95 %.\n"
-            "# Made by flinch V on 2026-11-22 from\n"
-            "#   a/run.h5, sha256 0123abcd\n"
+            "# Made by flinch V.\n"
             "# Largest of each, and 2 x that, [RAL25] V-C:\n"
             "#   observer, 90.0 s: 4 N, 8 N; 0.3 Nm, 0.6 Nm\n"
             "#   filter, 90.0 s: 5 N, 10 N\n"
-            "# Belongs into the section 'control' of a scenario.\n"
-            "contact_detector:\n"
-            "  by_estimator:\n"
-            "    - {estimator: observer, reaction_force_N: 6.25, reaction_moment_Nm: 0.5}\n"
-            "    - {estimator: filter, reaction_force_N: 7.5}\n");
+            "control:\n"
+            "  contact_detector:\n"
+            "    by_estimator:\n"
+            "      - {estimator: observer, reaction_force_N: 6.25, reaction_moment_Nm: 0.5}\n"
+            "      - {estimator: filter, reaction_force_N: 7.5}\n");
 }
 
-TEST(TheSection, SaysWhichParameterFilesItRestsOnAndHowSurprisingTheMotionWas) {
+TEST(TheParameterFile, SaysWhichParameterFilesItRestsOnAndHowSurprisingTheMotionWas) {
   ThresholdFindings found = with_a_residual(true);
   found.with = {{"b/dynamics.yaml", "4567"}};
   found.residuals[0].level.threshold.largest = 6.5;
   found.residuals[0].change.threshold.largest = 7.25;
   found.residuals[0].onset->threshold.largest = 5.75;
   const std::string section = thresholds_yaml(found, "2026-11-22");
-  EXPECT_THAT(section, HasSubstr("\n# played again with\n#   b/dynamics.yaml, sha256 4567\n"));
+  EXPECT_THAT(section, HasSubstr("\n# Played again with\n#   b/dynamics.yaml, sha256 4567\n"));
   EXPECT_THAT(section, HasSubstr("\n#   level of the fused detector, filter, 90.0 s: 6.5\n"));
   EXPECT_THAT(section, HasSubstr("\n#   change of the fused detector, filter, 90.0 s: 7.25\n"));
   EXPECT_THAT(section, HasSubstr("\n#   onset of the fused detector, filter, 90.0 s: 5.75\n"));
 }
 
-TEST(TheSection, OfAFusedDetectorHasTheUnitsOfTheDrives) {
+TEST(TheParameterFile, OfAFusedDetectorHasTheUnitsOfTheDrives) {
   EXPECT_THAT(
       thresholds_yaml(with_a_residual(true), "2026-11-22"),
       HasSubstr(
-          "fused_detector:\n"
-          "  tracking_per_s: 50\n"
-          "  smoothing_per_s: 400\n"
-          "  residuals:\n"
-          "    - estimator: filter\n"
-          "      level: {threshold: 8, noise_Nm: 0.25, speed_Nms_per_rad: 0.5, load: 0, torque: "
+          "  fused_detector:\n"
+          "    tracking_per_s: 50\n"
+          "    smoothing_per_s: 400\n"
+          "    residuals:\n"
+          "      - estimator: filter\n"
+          "        level: {threshold: 8, noise_Nm: 0.25, speed_Nms_per_rad: 0.5, load: 0, torque: "
           "0.125, friction: 0.75, lag_ms: 500, rest_Nm: 0, acceleration_rad_per_s2: 0}\n"
-          "      change: {threshold: 9.5, noise_Nm: 0.5, speed_Nms_per_rad: 0.25, load: 0.0625, "
+          "        change: {threshold: 9.5, noise_Nm: 0.5, speed_Nms_per_rad: 0.25, load: 0.0625, "
           "torque: 0.5, friction: 1, lag_ms: 250, rest_Nm: 0, acceleration_rad_per_s2: 0}\n"
-          "      smoothed: {threshold: 7.5, noise_Nm: 0.0625, speed_Nms_per_rad: 0.5, load: 0, "
+          "        smoothed: {threshold: 7.5, noise_Nm: 0.0625, speed_Nms_per_rad: 0.5, load: 0, "
           "torque: 0.25, friction: 0.5, lag_ms: 125, rest_Nm: 0.375, acceleration_rad_per_s2: 1.5}\n"
-          "      onset: {threshold: 6.5, innovation: 0.375, prediction: [0.5, 0.25, 0.125, -0.0625]}\n"));
+          "        onset: {threshold: 6.5, innovation: 0.375, prediction: [0.5, 0.25, 0.125, -0.0625]}\n"));
   EXPECT_THAT(
       thresholds_yaml(with_a_residual(false), "2026-11-22"),
       AllOf(HasSubstr("noise_N: 0.25, speed_Ns_per_m: 0.5"), HasSubstr("acceleration_m_per_s2: 1.5")));
+}
+
+TEST(TheRobot, IsNotedWhereAllRecordingsAreOfOneAndItsTorqueConstantsWhereTheyAgree) {
+  const Scenario one = read_scenario(FLINCH_SOURCE_DIR "/apps/scenarios/square.yaml");
+  ThresholdFindings found;
+  note_robot({one, one}, found);
+  EXPECT_EQ(found.robot.sha256, calibrated_robot_hash(one.robot_text));
+  ASSERT_EQ(found.assumed.size(), 3U);
+  EXPECT_EQ(found.assumed[2].name, "drives.torque_constant_Nm_per_A[2]");
+  EXPECT_EQ(found.assumed[2].value, one.control.drive_torque.torque_constant[2]);
+
+  Scenario other = one;
+  other.control.drive_torque.torque_constant[2] *= 1.01;
+  found = {};
+  note_robot({one, other}, found);
+  EXPECT_NE(found.robot.sha256, "");
+  EXPECT_TRUE(found.assumed.empty());
+
+  other.robot_text += "# another\nkind: planar_3rrr\n";
+  found = {};
+  note_robot({one, other}, found);
+  EXPECT_EQ(found.robot.sha256, "");
+  EXPECT_THAT(thresholds_yaml(found, "2026-11-22"), Not(HasSubstr("robot:")));
+}
+
+TEST(TheRobot, MayHaveDrivesThatSlide) {
+  ThresholdFindings found;
+  note_robot({read_scenario(FLINCH_SOURCE_DIR "/apps/scenarios/hexapod_push.yaml")}, found);
+  EXPECT_FALSE(found.drives_turn);
+  ASSERT_EQ(found.assumed.size(), 6U);
+  EXPECT_EQ(found.assumed[5].name, "drives.force_constant_N_per_A[5]");
 }
 
 TEST(TheObject, HasTheResidualsOfAFusedDetector) {

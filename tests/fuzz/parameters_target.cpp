@@ -1,4 +1,6 @@
-// Parameter files of calibrations, and a robot that takes them over.
+// Parameter files of calibrations, and a robot and a control path that take them over.
+#include "experiments/scenario/scenario.h"
+#include "experiments/scenario/scenario_calibrations.h"
 #include "systems/config/parameter_file.h"
 #include "tests/fuzz/fuzz_files.h"
 #include "tests/fuzz/fuzz_target.h"
@@ -12,9 +14,17 @@ const std::string& robot_text() {
   return text;
 }
 
+const Scenario& believed() {
+  static const Scenario scenario = read_scenario(FLINCH_SOURCE_DIR "/apps/scenarios/square.yaml");
+  return scenario;
+}
+
 void read(std::string_view bytes) {
   const ParameterFile parameters = parse_parameter_file(bytes, "fuzzed.yaml");
   parameter_file_text(parameters);
+  const Scenario& scenario = believed();
+  ContactControlSettings control = scenario.control;
+  calibrate_control({parameters}, *scenario.robot.robot, control);
   with_parameters(robot_text(), "planar_3rrr.yaml", parameters);
 }
 
@@ -36,7 +46,7 @@ std::vector<std::string> seeds() {
   }
   file.parameters.push_back({.name = "offset[0]", .value = 0.1, .unit = "A", .identifiable = false});
   file.assumed = {{.name = "drives.torque_constant_Nm_per_A[0]", .value = 6.0, .unit = "Nm/A"}};
-  return {parameter_file_text(file)};
+  return {parameter_file_text(file), bytes_of(FLINCH_SOURCE_DIR "/apps/calibrations/bench_thresholds.yaml")};
 }
 
 }  // namespace

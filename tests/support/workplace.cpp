@@ -21,7 +21,8 @@ std::vector<std::string> shipped_scenarios() {
 }
 
 Workplace::Workplace() {
-  for (const std::string part : {"scenarios", "robots"}) fs::copy(shipped(part), folder_ / part);
+  for (const std::string part : {"scenarios", "robots", "calibrations"})
+    fs::copy(shipped(part), folder_ / part);
 }
 
 void Workplace::write(const std::string& name, const std::string& text) const {

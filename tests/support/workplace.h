@@ -16,7 +16,8 @@ std::filesystem::path shipped(const std::string& name);
 /// The shipped scenarios, by name.
 std::vector<std::string> shipped_scenarios();
 
-/// A folder of its own for one test, with the shipped scenarios and robots to spoil; gone after the test.
+/// A folder of its own for one test, with the shipped scenarios, robots and calibrations to spoil; gone after
+/// the test.
 class Workplace {
  public:
   Workplace();

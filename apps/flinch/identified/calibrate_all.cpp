@@ -105,7 +105,7 @@ std::vector<EstimatorThresholds> thresholds_with(const std::vector<OpenedRecordi
     if (!calibrations.empty()) {
       scenario.calibrations = calibrations;
       scenario.robot = calibrated_robot(scenario);
-      calibrate_control(calibrations, scenario.control);
+      calibrate_control(calibrations, *scenario.robot.robot, scenario.control);
       know_drives(scenario.robot.drives, scenario.control.drive_torque);
     }
     const Replay replayed = replay(scenario, read_recording(file.source.file));
@@ -246,8 +246,10 @@ class All {
       after_.clear();
       return;
     }
-    const ParallelRobot& robot = *files_.motion.front().scenario.robot.robot;
-    ThresholdFindings found{.estimators = after_, .drives_turn = robot.drive_kind(0) == DriveKind::revolute};
+    Scenario calibrated = files_.motion.front().scenario;
+    if (constant_.size() > 0) calibrated.control.drive_torque.torque_constant = constant_;
+    ThresholdFindings found{.estimators = after_};
+    note_robot({calibrated}, found);
     found.goal.false_alarms_per_hour = options_.rate;
     for (const OpenedRecording& file : files_.motion) found.recordings.push_back(file.source);
     for (const ParameterFile& file : calibrations_) found.with.push_back(source_of(file.file));

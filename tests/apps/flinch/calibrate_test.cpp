@@ -49,14 +49,11 @@ TEST_F(CalibrateThresholds, FindsThoseOfEachEstimatorAndAScenarioTakesThem) {
     EXPECT_GT(of["force_N"]["value"], of["force_N"]["largest"]) << of;
     EXPECT_LT(of["force_N"]["value"], 5.0) << "the plant is as modelled: " << of;
   }
-  // The section goes into 'control', which is one level deeper.
-  std::string section = test::bytes_of(place / "thresholds.yaml");
-  EXPECT_THAT(section,
-              HasSubstr("#   " + recording + ", sha256 " + sha256(test::bytes_of(recording)) + "\n"));
-  section.erase(0, section.find("contact_detector:"));
-  for (std::size_t at = section.find('\n'); at + 1 < section.size(); at = section.find('\n', at + 1))
-    section.insert(at + 1, "  ");
-  place.replace(collision, "contact_detector: {reaction_force_N: 10, reaction_moment_Nm: 1}\n", section);
+  EXPECT_THAT(
+      test::bytes_of(place / "thresholds.yaml"),
+      HasSubstr("  - {file: '" + recording + "', sha256: '" + sha256(test::bytes_of(recording)) + "'}\n"));
+  EXPECT_EQ(flinch({"check", place.at("thresholds.yaml")}).status, 0);
+  place.replace(collision, "control:\n", "calibrations: [{file: ../thresholds.yaml}]\ncontrol:\n");
   const Outcome run = flinch({"run", place.at(collision), "--out", place.at("out"), "--json"});
   const auto contact = nlohmann::json::parse(run.out)["contacts"][0];
   EXPECT_LT(contact["detection_ms"], 11.0) << "its threshold is below the 10 N with which it takes 12 ms";
@@ -84,19 +81,15 @@ TEST_F(CalibrateThresholds, FindsWhatTheFusedDetectorJudgesByAndAScenarioTakesIt
     EXPECT_GT(of["onset"]["value"], of["onset"]["largest"]) << of;
     EXPECT_LT(of["onset"]["innovation"], 1.0) << "errors tell something of those that follow: " << of;
   }
-  // The sections go into 'control', which is one level deeper.
-  std::string section = test::bytes_of(place / "thresholds.yaml");
-  section.erase(0, section.find("fused_detector:"));
-  for (std::size_t at = section.find('\n'); at + 1 < section.size(); at = section.find('\n', at + 1))
-    section.insert(at + 1, "  ");
-  place.replace(collision, "  contact_detector:",
-                "  detectors: [contact_detector, fused_detector]\n  " + section + "  contact_detector:");
+  place.replace(collision, "control:\n",
+                "calibrations: [{file: ../thresholds.yaml}]\ncontrol:\n"
+                "  detectors: [contact_detector, fused_detector]\n");
   const Outcome run = flinch({"run", place.at(collision), "--out", place.at("out"), "--json"});
   const auto by = nlohmann::json::parse(run.out)["contacts"][0]["detection_by_estimator_ms"];
   EXPECT_LT(by["fused_detector"], 6.0);
   EXPECT_LT(by["fused_detector"], by["momentum_observer"]);
 
-  place.replace(collision, "  fused_detector:\n", "  fused_detector:\n    rule: likelihood_ratio\n");
+  place.replace(collision, "control:\n", "control:\n  fused_detector: {rule: likelihood_ratio}\n");
   const Outcome by_onsets = flinch({"run", place.at(collision), "--out", place.at("onsets"), "--json"});
   const auto times = nlohmann::json::parse(by_onsets.out)["contacts"][0]["detection_by_estimator_ms"];
   EXPECT_LT(times["fused_detector"], 6.0);

@@ -77,12 +77,6 @@ TEST_F(FileVerbs, CheckEveryRowOfARecording) {
   }
 }
 
-TEST_F(FileVerbs, SayWhereThresholdsBelong) {
-  place.write("thresholds.yaml", "contact_detector:\n  by_estimator: []\n");
-  EXPECT_EQ(said_of(place.at("thresholds.yaml")),
-            ":1: is a section of thresholds, not a scenario; it belongs into 'control' of a scenario\n");
-}
-
 TEST_F(FileVerbs, KnowTheResultsOfACampaign) {
   place.write("campaigns/one.yaml", "scenario: ../scenarios/platform_collision.yaml\nruns: 1\n");
   ASSERT_EQ(flinch({"campaign", place.at("campaigns/one.yaml"), "--out", place.at("out"), "--quiet"}).status,

@@ -194,17 +194,18 @@ TEST(TheCommandLine, IsToldWhatIsNoKeyWithValues) {
   EXPECT_THAT(problems_of(file, {.set = {"a=[1"}}), ElementsAre(HasSubstr("is not valid YAML")));
 }
 
-TEST(DetectionAndFalseAlarmsOverRates, HaveTheSameThresholds) {
-  const auto controls = [](const char* name) {
+TEST(DetectionAndFalseAlarmsOverRates, HaveTheSameThresholdsAndDetectors) {
+  const auto grid = [](const char* name) {
     const Campaign campaign = read_campaign(std::string(FLINCH_SOURCE_DIR "/apps/campaigns/") + name);
-    EXPECT_EQ(campaign.grid.at(0).key, "control") << name;
+    EXPECT_EQ(campaign.grid.at(0).key, "calibrations") << name;
+    EXPECT_THAT(campaign.grid.at(0).values, SizeIs(3)) << name;
     std::vector<std::string> lines;
-    for (const auto& value : campaign.grid.at(0).values) lines.push_back(yaml_line(*value));
+    for (const CampaignAxis& axis : campaign.grid) {
+      for (const auto& value : axis.values) lines.push_back(axis.key + ": " + yaml_line(*value));
+    }
     return lines;
   };
-  const std::vector<std::string> detection = controls("detection_rates.yaml");
-  EXPECT_THAT(detection, SizeIs(3));
-  EXPECT_EQ(detection, controls("false_alarms_rates.yaml"))
+  EXPECT_EQ(grid("detection_rates.yaml"), grid("false_alarms_rates.yaml"))
       << "else a time and its false alarms do not belong together";
 }
 
@@ -240,6 +241,22 @@ TEST(Campaign, HasAnotherIdentityWithAnotherCalibrationOfItsRobot) {
   };
   EXPECT_EQ(identity(7.0), identity(7.0));
   EXPECT_NE(identity(7.0), identity(7.1));
+}
+
+TEST(Campaign, HasAnotherIdentityWhereAFileThatItVariesHasChanged) {
+  const test::Workplace place;
+  test::small_campaign(place);
+  const std::string thresholds = "calibrations/bench_thresholds.yaml";
+  const auto identity = [&] {
+    return read_campaign(place / "campaigns/small.yaml",
+                         {.set = {"calibrations=[{file: ../calibrations/mismatched_thresholds.yaml}],[{file: "
+                                  "../calibrations/bench_thresholds.yaml}]"}})
+        .identity();
+  };
+  const std::string before = identity();
+  EXPECT_TRUE(identity() == before);
+  place.write(thresholds, test::bytes_of(place / thresholds) + "# seen\n");
+  EXPECT_TRUE(identity() != before);
 }
 
 }  // namespace

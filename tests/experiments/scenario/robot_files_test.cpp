@@ -1,5 +1,6 @@
 #include "experiments/scenario/robot_files.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "systems/foundation/setup_error.h"
@@ -7,6 +8,8 @@
 
 namespace flinch {
 namespace {
+
+using ::testing::ElementsAre;
 
 TEST(RobotFilesOfManyScenarios, AreReadOnceEach) {
   const test::Workplace place;
@@ -17,6 +20,20 @@ TEST(RobotFilesOfManyScenarios, AreReadOnceEach) {
   place.write("robots/planar_3rrr.yaml", "changed meanwhile");
   EXPECT_EQ(robots.read(place / "robots/planar_3rrr.yaml"), first);
   EXPECT_NE(robots.read(place / "robots/five_bar.yaml"), first);
+}
+
+TEST(RobotFilesOfManyScenarios, ComeWithTheParameterFilesThatTheseName) {
+  const test::Workplace place;
+  RobotFiles robots;
+  const std::string name = "calibrations/bench_thresholds.yaml";
+  const std::string text = test::bytes_of(place / name);
+  const auto first = robots.read_calibration(place / name);
+  EXPECT_EQ(first->text, text);
+  place.write(name, "changed meanwhile");
+  EXPECT_EQ(robots.read_calibration(place / name), first);
+  EXPECT_THROW(robots.read_calibration(place / "robots/planar_3rrr.yaml"), SetupError);
+  const auto robot = robots.read(place / "robots/planar_3rrr.yaml");
+  EXPECT_THAT(robots.texts(), ElementsAre(robot->text, text)) << "of what was good";
 }
 
 TEST(RobotFilesOfManyScenarios, AreReadAgainWhereTheyWereNoGood) {

@@ -49,8 +49,10 @@ TEST(TheFusedDetectorOfAScenario, JudgesByTheLikelihoodRatioOfOnsets) {
 
 TEST(TheFusedDetectorOfAScenario, NeedsAnOnsetForTheLikelihoodRatio) {
   const test::Workplace place;
-  EXPECT_THAT(test::problems_of([&] { read(place, by_ratio, ""); }),
-              ElementsAre(HasSubstr("own.yaml:7: control.fused_detector.residuals[0]: has no onset")));
+  EXPECT_THAT(
+      test::problems_of([&] { read(place, by_ratio, ""); }),
+      ElementsAre(HasSubstr("own.yaml:5: control.fused_detector.rule: is likelihood_ratio, which needs "
+                            "an onset, and the residual of imu_residual has none")));
   EXPECT_THAT(test::problems_of([&] { read(place, by_ratio, "        onset: {threshold: 6}\n"); }),
               ElementsAre(HasSubstr("innovation"), HasSubstr("prediction")));
 }

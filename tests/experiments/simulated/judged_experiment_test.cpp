@@ -14,7 +14,8 @@ namespace {
 class EachRun : public ::testing::TestWithParam<const char*> {};
 
 INSTANTIATE_TEST_SUITE_P(AJudgedExperiment, EachRun,
-                         ::testing::Values("platform_collision", "platform_collision_realistic", "clamping"),
+                         ::testing::Values("platform_collision", "platform_collision_realistic",
+                                           "platform_collision_fused", "clamping"),
                          [](const auto& each) { return std::string(each.param); });
 
 TEST_P(EachRun, HasTheVerdictOfItsRecording) {

@@ -75,9 +75,15 @@ TEST(RealisticRobots, OfOtherKindsMoveWithoutAFaultEither) {
   }
 }
 
-TEST(RealisticRobots, NoticeACollisionAsTheirModelDoes) {
+class ACollision : public ::testing::TestWithParam<const char*> {};
+
+INSTANTIATE_TEST_SUITE_P(RealisticRobots, ACollision,
+                         ::testing::Values("platform_collision_realistic", "platform_collision_fused"),
+                         [](const auto& each) { return std::string(each.param); });
+
+TEST_P(ACollision, IsAnsweredByEachAsItsScenarioExpects) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    const auto file = test::shipped("scenarios/platform_collision_realistic.yaml");
+    const auto file = test::shipped("scenarios/" + std::string(GetParam()) + ".yaml");
     const SimulatedScenario scenario = read_simulated_scenario(file, seed);
     const Verdict verdict = judge(run_experiment(scenario), scenario.robot.robot->space(), scenario.expected,
                                   scenario.force_limits);

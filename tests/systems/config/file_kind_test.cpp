@@ -25,8 +25,7 @@ const std::map<FileKind, std::string> examples = {
     {FileKind::scenario, "robot: a.yaml\nduration_s: 1\n"},
     {FileKind::campaign, "scenario: a.yaml\nruns: 2\n"},
     {FileKind::robot, "kind: planar_3rrr\nlegs: []\n"},
-    {FileKind::data_spec, "contacts: []\n"},
-    {FileKind::thresholds, "contact_detector: {by_estimator: []}\n"}};
+    {FileKind::data_spec, "contacts: []\n"}};
 
 Problems problems_as(FileKind wanted, const std::string& text) {
   return problems_of([&] { require_kind(ConfigReader::parse(text, "a.yaml"), wanted); });
@@ -44,6 +43,7 @@ TEST(FileKinds, OfAllFilesThatAreHereAreThoseOfTheirFolders) {
   const std::filesystem::path apps = FLINCH_SOURCE_DIR "/apps";
   for (const auto& [folder, kind] : {std::pair("robots", FileKind::robot),
                                      {"scenarios", FileKind::scenario},
+                                     {"calibrations", FileKind::parameters},
                                      {"campaigns", FileKind::campaign},
                                      {"models", FileKind::data_spec}}) {
     int files = 0;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "systems/config/config_file.h"
+#include "systems/config/config_node.h"
 #include "systems/config/robot_file.h"
 #include "systems/robot/planar_rrr.h"
 #include "tests/support/problems_of.h"
@@ -66,6 +67,18 @@ TEST(ParameterFile, TakesAListOnlyAsAWhole) {
   file.parameters.erase(file.parameters.begin());
   EXPECT_THAT(test::problems_of([&] { with_parameters("drives: {}", "robot.yaml", file); }),
               Contains(HasSubstr("stands where 'drives.torque_constant_Nm_per_A[0]' should")));
+}
+
+TEST(ParameterFile, WithSectionsForControlMayBeOfSeveralRobots) {
+  ParameterFile thresholds;
+  thresholds.kind = "thresholds";
+  thresholds.date = "2026-11-27";
+  const std::string head = parameter_file_text(thresholds);
+  EXPECT_THAT(test::problems_of([&] { parse_parameter_file(head, "file.yaml"); }),
+              Contains(HasSubstr("robot")));
+  const ParameterFile read = parse_parameter_file(head + "control: {contact_detector: {}}\n", "file.yaml");
+  EXPECT_EQ(read.robot.sha256, "");
+  EXPECT_EQ(read.nodes->entries.back().key, "control");
 }
 
 TEST(ParameterFile, TellsAllThatIsWrongWithIt) {

@@ -1,0 +1,112 @@
+#include "experiments/scenario/scenario_thresholds.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "experiments/scenario/scenario.h"
+#include "tests/support/problems_of.h"
+#include "tests/support/workplace.h"
+
+namespace flinch {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const std::string by_estimator =
+    "control:\n"
+    "  contact_detector:\n"
+    "    by_estimator:\n"
+    "      - {estimator: momentum_observer, reaction_force_N: 5, reaction_moment_Nm: 0.5}\n"
+    "      - {estimator: imu_residual, reaction_force_N: 8}\n";
+const std::string with_residuals = by_estimator +
+                                   "  fused_detector:\n"
+                                   "    smoothing_per_s: 300\n"
+                                   "    residuals:\n"
+                                   "      - estimator: imu_residual\n"
+                                   "        level: {threshold: 7, noise_Nm: 0.25}\n"
+                                   "        change: {threshold: 7.5, noise_Nm: 0.125}\n";
+
+class CalibratedThresholds : public ::testing::Test {
+ protected:
+  void write(const std::string& name, const std::string& control) const {
+    place.write("scenarios/" + name,
+                "flinch_calibration: 1\nkind: thresholds\ndate: '2026-11-27'\n" + control);
+  }
+  Scenario read(const std::string& own = "{}", const std::string& files = "[{file: found.yaml}]") const {
+    place.write("scenarios/own.yaml", "robot: ../robots/planar_3rrr.yaml\nduration_s: 1\ncalibrations: " +
+                                          files + "\ncontrol: " + own + "\n");
+    return read_scenario(place / "scenarios/own.yaml");
+  }
+
+  test::Workplace place;
+};
+
+TEST_F(CalibratedThresholds, HoldForTheEstimatorsThatAFileNames) {
+  write("found.yaml", with_residuals);
+  const Scenario scenario = read();
+  const auto& thresholds = scenario.control.reaction_thresholds;
+  EXPECT_EQ(thresholds.at("momentum_observer").force, 5.0);
+  EXPECT_EQ(thresholds.at("momentum_observer").moment, 0.5);
+  EXPECT_EQ(thresholds.at("imu_residual").moment, scenario.control.contact_detector.reaction.moment);
+  EXPECT_EQ(scenario.control.fused_detector.tracking.smoothing, 300.0);
+  ASSERT_EQ(scenario.control.fused_detector.residuals.size(), 1U);
+  EXPECT_EQ(scenario.control.fused_detector.residuals.front().change.threshold, 7.5);
+  EXPECT_THAT(scenario.doubts, IsEmpty());
+}
+
+TEST_F(CalibratedThresholds, GiveWayToWhatTheScenarioSaysOfAnEstimator) {
+  write("found.yaml", with_residuals);
+  const auto thresholds =
+      read("{contact_detector: {by_estimator: [{estimator: imu_residual, reaction_force_N: 9}]}}")
+          .control.reaction_thresholds;
+  EXPECT_EQ(thresholds.at("imu_residual").force, 9.0);
+  EXPECT_EQ(thresholds.at("momentum_observer").force, 5.0);
+}
+
+TEST_F(CalibratedThresholds, GiveWayToTheResidualsOfTheScenarioAsAWhole) {
+  write("found.yaml", with_residuals);
+  const auto residuals =
+      read(
+          "{fused_detector: {residuals: [{estimator: disturbance_filter, level: {threshold: 8, "
+          "noise_Nm: 1}, change: {threshold: 9, noise_Nm: 1}}]}}")
+          .control.fused_detector.residuals;
+  ASSERT_EQ(residuals.size(), 1U);
+  EXPECT_EQ(residuals.front().estimator, "disturbance_filter");
+}
+
+TEST_F(CalibratedThresholds, WithoutAnOnsetDoNotServeTheLikelihoodRatioOfTheScenario) {
+  write("found.yaml", with_residuals);
+  EXPECT_THAT(test::problems_of([&] { read("{fused_detector: {rule: likelihood_ratio}}"); }),
+              ElementsAre(HasSubstr("own.yaml:4: control.fused_detector.rule: is likelihood_ratio, which")));
+}
+
+TEST_F(CalibratedThresholds, OfTwoFilesAreThoseOfTheLastAndThatIsSaid) {
+  write("found.yaml", with_residuals);
+  write("later.yaml",
+        "control: {contact_detector: {by_estimator: [{estimator: imu_residual, reaction_force_N: 6}]}}\n");
+  const Scenario scenario = read("{}", "[{file: found.yaml}, {file: later.yaml}]");
+  EXPECT_EQ(scenario.control.reaction_thresholds.at("imu_residual").force, 6.0);
+  EXPECT_EQ(scenario.control.reaction_thresholds.at("momentum_observer").force, 5.0);
+  EXPECT_THAT(scenario.doubts, ElementsAre(HasSubstr("later.yaml: replaces thresholds of")));
+}
+
+TEST_F(CalibratedThresholds, ThatAreNoGoodAreToldByTheirOwnFile) {
+  write("found.yaml", by_estimator + "      - {estimator: imu_residue, reaction_force_N: -1}\n  tasks: {}\n");
+  EXPECT_THAT(
+      test::problems_of([&] { read("{impedence: 1}"); }),
+      ElementsAre(HasSubstr("own.yaml:4: control.impedence"),
+                  HasSubstr("found.yaml:9: control.contact_detector.by_estimator[2].reaction_force_N"),
+                  HasSubstr("found.yaml:9: control.contact_detector.by_estimator[2].estimator: is "
+                            "'imu_residue', which is no estimator; did you mean 'imu_residual'"),
+                  HasSubstr("found.yaml:10: control.tasks: is not a known key")));
+}
+
+TEST_F(CalibratedThresholds, OfOneEstimatorStandOnce) {
+  write("found.yaml", by_estimator + "      - {estimator: imu_residual, reaction_force_N: 7}\n");
+  EXPECT_THAT(test::problems_of([&] { read(); }), ElementsAre(HasSubstr("as that of an entry before it")));
+}
+
+}  // namespace
+}  // namespace flinch
