@@ -5,18 +5,10 @@
 #include <numbers>
 #include <vector>
 
+#include "calibration/normal_quantile.h"
+
 namespace flinch {
 namespace {
-
-/// Of the standard normal distribution: its cumulative probability is `probability`.
-double normal_quantile(double probability) {
-  double low = -40.0, high = 40.0;
-  for (int i = 0; i < 100; ++i) {
-    const double middle = 0.5 * (low + high);
-    (0.5 * std::erfc(-middle / std::numbers::sqrt2) < probability ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
 
 /// y of x = location + scale y.
 double reduced(double probability) { return -std::log(-std::log1p(-probability)); }

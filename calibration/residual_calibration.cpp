@@ -121,10 +121,12 @@ struct Surprises {
 
 /// Ticks without a surprise, as where the IMU is left out, are no part of a stretch.
 Surprises surprises(const std::vector<ResidualRecording>& recordings, const std::string& estimator,
-                    const Surprise& surprise_at, Time stretch) {
+                    const Surprise& surprise_at, const ThresholdGoal& goal) {
   Surprises found;
   for (const ResidualRecording& each : recordings) {
-    const auto length = static_cast<std::size_t>(std::max<std::int64_t>(1, stretch / each.recording->period));
+    const auto length =
+        static_cast<std::size_t>(std::max<std::int64_t>(1, goal.stretch / each.recording->period));
+    if (!goal.one_robot) found.tail.begin_robot();
     std::size_t ticks = 0;  // of the present stretch
     double largest = 0.0;
     follow(each, estimator, [&](bool nominal, const ResidualMemory& memory) {
@@ -191,7 +193,7 @@ std::vector<CalibratedResidual> calibrate_residuals(const std::vector<ResidualRe
     CalibratedResidual& residual = all.emplace_back();
     residual.estimator = estimator;
     const auto told = [&](const Surprise& surprise_at) {
-      Surprises found = surprises(recordings, estimator, surprise_at, goal.stretch);
+      Surprises found = surprises(recordings, estimator, surprise_at, goal);
       require_enough(estimator, found.largest.size(), goal);
       residual.stretches = found.largest.size();
       return found;
@@ -200,7 +202,9 @@ std::vector<CalibratedResidual> calibrate_residuals(const std::vector<ResidualRe
       part.errors = fit(recordings, estimator, statistic);
       const Surprises found = told(surprise_of(statistic, part.errors));
       part.variation = found.tail.variation();
-      part.threshold = calibrated_threshold(found.largest, probability, goal, found.tail.power());
+      part.between_robots = found.tail.between_robots();
+      part.threshold =
+          calibrated_threshold(found.largest, probability, goal, found.tail.power(goal.confidence));
     };
     calibrate_part(level_statistic, residual.level);
     calibrate_part(change_statistic, residual.change);

@@ -26,6 +26,7 @@ struct ResidualRecording {
 struct CalibratedSurprise {
   ResidualErrors errors;
   double variation = 0.0;         ///< of the errors' variance beside what is expected, see `SurpriseTail`
+  double between_robots = 0.0;    ///< the part of it by which the recorded robots differ
   CalibratedThreshold threshold;  ///< of what is left once the errors have deviation 1
 };
 

@@ -3,25 +3,69 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/normal_quantile.h"
+
 namespace flinch {
+namespace {
+
+/// What chi-square of so many degrees is below with this probability (Wilson and Hilferty 1931).
+double chi_square_quantile(double degrees, double probability) {
+  const double spread = 2.0 / (9.0 * degrees);
+  const double root = 1.0 - spread + normal_quantile(probability) * std::sqrt(spread);
+  return degrees * std::pow(std::max(root, 0.0), 3);
+}
+
+}  // namespace
 
 void SurpriseTail::add(double surprise, int drives) {
   if (!std::isfinite(surprise)) return;
   const double square = surprise * surprise;
-  count_ += 1.0;
-  squares_ += square;
+  robots_.back().count += 1.0;
+  robots_.back().squares += square;
   fourth_ += square * square;
   drives_ = drives;
+}
+
+void SurpriseTail::begin_robot() {
+  if (robots_.back().count > 0.0) robots_.emplace_back();
 }
 
 /// E[chi^4] / E[chi^2]^2 is (n + 2) / n for chi-square of n degrees, and 1 + variation times that for a
 /// variance that varies.
 double SurpriseTail::variation() const {
-  if (squares_ == 0.0) return 0.0;
+  double count = 0.0, squares = 0.0;
+  for (const Robot& robot : robots_) {
+    count += robot.count;
+    squares += robot.squares;
+  }
+  if (squares == 0.0) return 0.0;
   const double of_chi_square = 1.0 + 2.0 / drives_;
-  return count_ * fourth_ / (squares_ * squares_) / of_chi_square - 1.0;
+  return count * fourth_ / (squares * squares) / of_chi_square - 1.0;
 }
 
-double SurpriseTail::power() const { return std::clamp(2.0 - 5.0 * variation(), 1.0, 2.0); }
+double SurpriseTail::between_robots() const {
+  double robots = 0.0, mean = 0.0, second = 0.0;
+  for (const Robot& robot : robots_) {
+    if (robot.count == 0.0) continue;
+    const double of_robot = robot.squares / robot.count;
+    robots += 1.0;
+    mean += of_robot;
+    second += of_robot * of_robot;
+  }
+  if (robots < 2.0 || mean == 0.0) return 0.0;
+  mean /= robots;
+  return (second / robots - mean * mean) / (mean * mean) * robots / (robots - 1.0);
+}
+
+double SurpriseTail::power(double confidence) const {
+  const double between = between_robots();
+  const double of_each = (1.0 + variation()) / (1.0 + between) - 1.0;
+  double at_most = 0.0;  // that robots differ
+  if (between > 0.0) {
+    const double degrees = static_cast<double>(robots_.size()) - 1.0;
+    at_most = between * degrees / chi_square_quantile(degrees, 1.0 - confidence);
+  }
+  return std::clamp(2.0 - 5.0 * (std::max(of_each, 0.0) + at_most), 1.0, 2.0);
+}
 
 }  // namespace flinch

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 namespace flinch {
 
 /// How seldom large surprises are: P(chi > x) falls as exp(-(x / c)^q). Were all errors normal, independent
@@ -12,17 +14,25 @@ class SurpriseTail {
   /// A surprise chi of a residual with an entry for each of so many drives; one that is not finite tells
   /// nothing.
   void add(double surprise, int drives);
+  /// What is added from now on is of another robot.
+  void begin_robot();
 
   /// Relative variance of the errors' variance, about what is expected; below zero where chi^2 scatters even
   /// less than chi-square. Zero without samples.
   double variation() const;
-  /// q.
-  double power() const;
+  /// The part of it by which robots differ: relative variance of the mean chi^2 of each. Zero of one robot.
+  double between_robots() const;
+  /// q, of robots that differ by no more than these tell with such a confidence.
+  double power(double confidence) const;
 
  private:
-  double count_ = 0.0;
-  double squares_ = 0.0;  ///< sum of chi^2
-  double fourth_ = 0.0;   ///< and of chi^4
+  struct Robot {
+    double count = 0.0;
+    double squares = 0.0;  ///< sum of chi^2
+  };
+
+  std::vector<Robot> robots_{1};
+  double fourth_ = 0.0;  ///< sum of chi^4
   int drives_ = 1;
 };
 

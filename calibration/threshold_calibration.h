@@ -13,6 +13,7 @@ struct ThresholdGoal {
   double false_alarms_per_hour = 0.5;  ///< of an estimator, by its force and its moment together
   double confidence = 0.95;    ///< with which the rate is kept, as far as the peaks speak for all motion
   double safety_factor = 2.0;  ///< of the papers' rule, which is told for comparison
+  bool one_robot = false;      ///< all recordings are of the robot that the thresholds shall serve
   Time stretch = 500ms;        ///< longer than a peak lasts, so that peaks are independent
 };
 

@@ -147,12 +147,19 @@ std::string provenance(const ThresholdFindings& found) {
 }
 
 Json json_of(const CalibratedSurprise& of) {
-  return {{"value", of.threshold.value},     {"best_guess", of.threshold.best_guess},
-          {"largest", of.threshold.largest}, {"noise", of.errors.noise},
-          {"speed", of.errors.speed},        {"load", of.errors.load},
-          {"torque", of.errors.torque},      {"friction", of.errors.friction},
-          {"lag_s", of.errors.lag},          {"rest", of.errors.rest},
-          {"variation", of.variation},       {"acceleration", of.errors.acceleration}};
+  return {{"value", of.threshold.value},
+          {"best_guess", of.threshold.best_guess},
+          {"largest", of.threshold.largest},
+          {"noise", of.errors.noise},
+          {"speed", of.errors.speed},
+          {"load", of.errors.load},
+          {"torque", of.errors.torque},
+          {"friction", of.errors.friction},
+          {"lag_s", of.errors.lag},
+          {"rest", of.errors.rest},
+          {"variation", of.variation},
+          {"acceleration", of.errors.acceleration},
+          {"between_robots", of.between_robots}};
 }
 
 Json json_of(const CalibratedOnset& of) {

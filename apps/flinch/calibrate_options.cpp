@@ -80,6 +80,10 @@ void add_thresholds(CLI::App& calibrate, Verbs& verbs) {
           "Of the papers' rule, a multiple of the largest value seen, which is told for comparison [2]")
       ->check(within(1.0, 100.0))
       ->type_name("K");
+  verb.add_flag(
+      "--one-robot", options.one_robot,
+      "All recordings are of the robot that the thresholds shall serve; otherwise each counts as one of "
+      "many, and others may differ as these do");
   verb.add_option("--out", options.out,
                   "Write the thresholds as a parameter file, for 'calibrations' of scenarios")
       ->type_name("FILE.yaml");

@@ -73,6 +73,7 @@ ExitStatus calibrate_thresholds(const CalibrateThresholdsOptions& options) {
   found.goal.false_alarms_per_hour = options.rate;
   found.goal.confidence = options.confidence;
   found.goal.safety_factor = options.safety_factor;
+  found.goal.one_robot = options.one_robot;
   const FreeMotions motions = read_motions(options, found.goal);
   for (const std::filesystem::path& file : options.recordings) found.recordings.push_back(source_of(file));
   require_different(found.recordings);

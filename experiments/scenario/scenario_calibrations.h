@@ -24,7 +24,8 @@ std::vector<ParameterFile> recorded_calibrations(ConfigReader& scenario, const R
 /// does not fit it.
 RobotFile calibrated_robot(const Scenario& scenario);
 
-/// The same for what `control` of the scenario does not say itself: the mount of the IMU, thresholds.
+/// The same for what `control` of the scenario does not say itself: the mount of the IMU, thresholds of the
+/// estimators among its stages, which are all that a file may name.
 /// Throws SetupError with all that is wrong with the sections `control` of the files.
 void calibrate_control(const std::vector<ParameterFile>& calibrations, const ParallelRobot& robot,
                        ContactControlSettings& control);

@@ -57,6 +57,7 @@ struct Squares {
 };
 
 constexpr std::size_t many = 20'000;
+constexpr double asked = 0.5 / 3600.0 * 0.5 / 6.0;  // half an alarm an hour by six parts, stretches of 0.5 s
 
 SurpriseTail tail_of(const Squares& squares) {
   SurpriseTail tail;
@@ -83,16 +84,14 @@ TEST(TheVariation, IsFoundFromNormalErrors) {
 }
 
 TEST(ThePower, IsTwoForNormalErrorsAndOneForThoseThatVary) {
-  EXPECT_NEAR(tail_of({3, 0.0}).power(), 2.0, 0.05);
-  EXPECT_NEAR(tail_of({3, 0.1}).power(), 1.5, 0.05);
-  EXPECT_EQ(tail_of({3, 0.4}).power(), 1.0);
+  EXPECT_NEAR(tail_of({3, 0.0}).power(0.95), 2.0, 0.05);
+  EXPECT_NEAR(tail_of({3, 0.1}).power(0.95), 1.5, 0.05);
+  EXPECT_EQ(tail_of({3, 0.4}).power(0.95), 1.0);
 }
 
 /// How often stretches of so many independent samples exceed a threshold that was calibrated from 180 of
 /// them, as a multiple of what was asked.
 double rate_kept(const Squares& squares, int samples, double power) {
-  constexpr double asked =
-      0.5 / 3600.0 * 0.5 / 6.0;  // half an alarm an hour by six parts, stretches of 0.5 s
   std::vector<double> maxima = squares.largest_of(samples, many);
   for (double& maximum : maxima) maximum = std::pow(maximum, power / 2);
   const double threshold = upper_quantile_above(fit_gumbel(maxima), 180, asked, 0.95);
@@ -104,7 +103,7 @@ TEST(ThePower, KeepsTheRateOfThresholdsHoweverErrorsVary) {
     for (const int samples : {50, 200}) {
       for (const double variation : {0.0, 0.025, 0.05, 0.1, 0.15, 0.2, 0.3}) {
         const Squares squares{drives, variation};
-        const double kept = rate_kept(squares, samples, tail_of(squares).power());
+        const double kept = rate_kept(squares, samples, tail_of(squares).power(0.95));
         std::printf(
             "%d drives, %3d samples, variation %5.3f: %.2f of the rate asked; by power 1 %.2g, by 2 %.2g\n",
             drives, samples, variation, kept, rate_kept(squares, samples, 1.0),
@@ -113,6 +112,75 @@ TEST(ThePower, KeepsTheRateOfThresholdsHoweverErrorsVary) {
         EXPECT_GE(kept, 0.05) << "and the threshold is not far too high";
       }
     }
+  }
+}
+
+/// Robots whose errors are normal, each with a variance of its own, drawn with this relative variance.
+class Robots {
+ public:
+  Robots(int count, const Squares& all, std::mt19937_64& random) : all_(all) {
+    const double deviation = std::sqrt(std::log1p(all_.variation));
+    std::normal_distribution<double> normal;
+    for (int i = 0; i < count; ++i)
+      variances_.push_back(std::exp(deviation * normal(random) - deviation * deviation / 2));
+  }
+  SurpriseTail tail() const {
+    static const std::vector<double> squares = Squares{3, 0.0}.largest_of(1, 1000);
+    SurpriseTail tail;
+    for (const double variance : variances_) {
+      tail.begin_robot();
+      for (const double square : squares) tail.add(std::sqrt(variance * square), 3);
+    }
+    return tail;
+  }
+  /// How often stretches of other robots exceed a threshold that was calibrated from 180 of these, as a
+  /// multiple of what was asked.
+  double rate_of_others(double power) const {
+    constexpr int samples = 100;
+    static const std::vector<double> largest = Squares{3, 0.0}.largest_of(samples, 1000);
+    std::vector<double> maxima;
+    for (const double variance : variances_) {
+      for (const double square : largest) maxima.push_back(std::pow(variance * square, power / 2));
+    }
+    const double threshold = upper_quantile_above(fit_gumbel(maxima), 180, asked, 0.95);
+    return samples * all_.above(std::pow(threshold, 2 / power)) / asked;
+  }
+
+ private:
+  Squares all_;
+  std::vector<double> variances_;
+};
+
+TEST(TheVariation, TellsByHowMuchRobotsDiffer) {
+  SurpriseTail tail;
+  for (const double variance : {0.8, 1.0, 1.2}) {
+    tail.begin_robot();
+    for (const double square : Squares{3, 0.0}.largest_of(1, many)) tail.add(std::sqrt(variance * square), 3);
+  }
+  EXPECT_NEAR(tail.between_robots(), 0.04, 1e-6);
+  EXPECT_NEAR(tail.variation(), 0.04 * 2 / 3, 2e-3) << "of these three, not of those they were drawn from";
+  EXPECT_EQ(tail_of({3, 0.1}).between_robots(), 0.0) << "of one";
+  EXPECT_LT(tail.power(0.95), tail.power(0.5)) << "others may differ by more";
+  EXPECT_NEAR(tail.power(0.5), 2.0 - 5.0 * 0.04 * 2 / 1.386, 0.05) << "the median of chi-square of 2 degrees";
+}
+
+// Nine robots tell little of how much others differ, and their mean is not that of all.
+TEST(ThePower, KeepsTheRateOfRobotsThatWereNotRecordedByFiveOfSixNines) {
+  std::mt19937_64 random(1);
+  for (const double variation : {0.02, 0.05, 0.1}) {
+    int exceeded = 0, exceeded_as_pooled = 0;
+    constexpr int draws = 200;
+    for (int draw = 0; draw < draws; ++draw) {
+      const Robots nine(9, {3, variation}, random);
+      const SurpriseTail tail = nine.tail();
+      exceeded += nine.rate_of_others(tail.power(0.95)) > 1.0;
+      exceeded_as_pooled += nine.rate_of_others(std::clamp(2.0 - 5.0 * tail.variation(), 1.0, 2.0)) > 1.0;
+    }
+    std::printf(
+        "nine robots, variation %.2f: thresholds of %d of %d nines raise more than asked, %d by all alike\n",
+        variation, exceeded, draws, exceeded_as_pooled);
+    EXPECT_LE(exceeded, draws / 6);
+    EXPECT_GT(2 * exceeded_as_pooled, 3 * exceeded);
   }
 }
 

@@ -36,9 +36,11 @@ ThresholdFindings with_a_residual(bool drives_turn) {
        .stretches = 180,
        .level = {{.noise = 0.25, .speed = 0.5, .load = 0.0, .torque = 0.125, .friction = 0.75, .lag = 0.5},
                  0.25,
+                 0.0,
                  {8.0}},
        .change = {{.noise = 0.5, .speed = 0.25, .load = 0.0625, .torque = 0.5, .friction = 1.0, .lag = 0.25},
                   0.125,
+                  0.0,
                   {9.5}},
        .smoothed = {{.noise = 0.0625,
                      .speed = 0.5,
@@ -49,6 +51,7 @@ ThresholdFindings with_a_residual(bool drives_turn) {
                      .rest = 0.375,
                      .acceleration = 1.5},
                     0.0625,
+                    0.03125,
                     {7.5}},
        .onset = CalibratedOnset{{.prediction = {0.5, 0.25, 0.125, -0.0625}, .innovation = 0.375}, {6.5}}}};
   return found;
@@ -168,6 +171,7 @@ TEST(TheObject, HasTheResidualsOfAFusedDetector) {
   EXPECT_EQ(json["fused_detector"][0]["smoothed"]["rest"], 0.375);
   EXPECT_EQ(json["fused_detector"][0]["smoothed"]["acceleration"], 1.5);
   EXPECT_EQ(json["fused_detector"][0]["smoothed"]["variation"], 0.0625);
+  EXPECT_EQ(json["fused_detector"][0]["smoothed"]["between_robots"], 0.03125);
   EXPECT_EQ(json["fused_detector"][0]["onset"]["value"], 6.5);
   EXPECT_EQ(json["fused_detector"][0]["onset"]["innovation"], 0.375);
   EXPECT_EQ(json["fused_detector"][0]["onset"]["prediction"][3], -0.0625);

@@ -24,6 +24,7 @@ void read(std::string_view bytes) {
   parameter_file_text(parameters);
   const Scenario& scenario = believed();
   ContactControlSettings control = scenario.control;
+  control.stages = known_stages();
   calibrate_control({parameters}, *scenario.robot.robot, control);
   with_parameters(robot_text(), "planar_3rrr.yaml", parameters);
 }

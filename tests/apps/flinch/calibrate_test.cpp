@@ -95,6 +95,27 @@ TEST_F(CalibrateThresholds, FindsWhatTheFusedDetectorJudgesByAndAScenarioTakesIt
   EXPECT_LT(times["fused_detector"], 6.0);
 }
 
+TEST_F(CalibrateThresholds, OfSeveralRobotsAreHigherThanOfOneThatVariesAsMuch) {
+  place.replace(random_motion, "duration_s: 36", "duration_s: 16");
+  place.replace(random_motion,
+                "momentum_observer, momentum_kalman_filter, sliding_mode_observer, direct_extended_imu_ekf, "
+                "disturbance_filter, imu_residual",
+                "disturbance_filter");
+  for (const char* const seed : {"1", "2"})
+    flinch({"run", place.at(random_motion), "--seed", seed, "--out", place.at(seed), "--quiet"});
+  const auto level = [&](std::vector<std::string> also) {
+    std::vector<std::string> call = {"calibrate", "thresholds", place.at("1/run.h5"), place.at("2/run.h5"),
+                                     "--json"};
+    call.insert(call.end(), also.begin(), also.end());
+    return nlohmann::json::parse(flinch(call).out)["fused_detector"][0]["level"];
+  };
+  const auto several = level({}), one = level({"--one-robot"});
+  EXPECT_GT(several["between_robots"], 0.0);
+  EXPECT_EQ(one["between_robots"], 0.0);
+  EXPECT_NEAR(several["variation"].get<double>(), one["variation"].get<double>(), 1e-9);
+  EXPECT_GT(several["value"], one["value"]);
+}
+
 TEST_F(CalibrateThresholds, OfAnEstimatorDecideWhenItsDetectorNotices) {
   place.replace(collision, "control:\n",
                 "control:\n  estimators: [momentum_observer, momentum_kalman_filter]\n");
