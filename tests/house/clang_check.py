@@ -18,6 +18,7 @@ import shlex
 import subprocess
 import sys
 import tree
+from bundles import clash, own_names
 
 COMPILER_ONLY = ("tests/",)
 # What tests/CMakeLists.txt precompiles stands before every source of a folder of tests, alone or beside others; a program
@@ -25,8 +26,6 @@ COMPILER_ONLY = ("tests/",)
 PRECOMPILED = ("-include", "gmock/gmock.h", "-include", "gtest/gtest.h", "-include", "Eigen/Dense")
 LARGEST_BUNDLE = 16
 RULES = (tree.ROOT / ".clang-tidy").read_text() + subprocess.check_output(["clang++", "--version"], text=True)
-ANONYMOUS = re.compile(r"^namespace \{$(.*?)^\}  // namespace$", re.DOTALL | re.MULTILINE)
-USING = re.compile(r"(?:using|namespace) (?:\w+::)*(\w+)(?: =.*)?;")
 
 
 class Source:
@@ -47,7 +46,7 @@ class Source:
         """Learns its own names, and what all that the outcome depends on hashes to, comments (NOLINT) included."""
         file = pathlib.Path(self.file)
         text = text_of(file)
-        self.own_names = own_names("".join(ANONYMOUS.findall(text)) + "".join(re.findall(r"^int main\(", text, re.M)))
+        self.own_names = own_names(text)
         folders = tuple(pathlib.Path(self.folder, word[2:]) for word in self.compiler if word.startswith("-I"))
         mark = hashlib.sha256(repr((RULES, self.compiler, self.by_compiler_only)).encode())
         for part in with_headers(file, folders):
@@ -79,24 +78,6 @@ def with_headers(source, folders):
         found |= new
         waiting += new
     return sorted(found)
-
-
-def own_names(text):
-    """What the lines of an anonymous namespace define; for names that only stand for others, what they stand for."""
-    names = {}
-    for line in text.split("\n"):
-        using = USING.match(line)
-        head = re.split(r"[({=;]| : ", line.replace(" final", ""))[0]
-        name = re.search(r"(\w+) ?$", head)
-        if using:
-            names[using.group(1)] = line
-        elif line[:1].isalpha() and name and not head.isupper():
-            names[name.group(1)] = None
-    return names
-
-
-def clash(one, other):
-    return any(one[name] is None or one[name] != other[name] for name in one.keys() & other.keys())
 
 
 def run(command, folder):

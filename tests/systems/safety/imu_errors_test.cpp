@@ -95,7 +95,8 @@ TEST(ImuErrors, JumpWithTenfoldNoiseOnly) {
   EXPECT_FALSE(jumps(errors_of(contact))) << "half a sine of 10 ms, as of a hard contact";
 }
 
-constexpr double position_noise = 3e-6, angle_noise = 1e-5;  // of the encoders [m, rad]
+constexpr double position_noise = 3e-6;  // of the encoders [m]
+constexpr double angle_noise = 1e-5;     // [rad]
 const EncoderSpread encoders{Eigen::Vector3d::Constant(position_noise),
                              Eigen::Vector3d::Constant(angle_noise)};
 
