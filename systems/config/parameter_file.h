@@ -44,8 +44,8 @@ struct ParameterFile {
   std::string residual_unit;  ///< empty: nothing was fitted
   std::vector<FileParameter> parameters;
   std::vector<FileParameter> assumed;  ///< other parameters that these rest on: torque constants
-  std::shared_ptr<const ConfigNode>
-      nodes;  ///< `text` as it was parsed; its `control` is for who knows blocks
+  /// `text` as it was parsed; its section `control` is for who knows blocks.
+  std::shared_ptr<const ConfigNode> nodes;
 };
 
 /// Reads one. Throws SetupError with all that is wrong.
