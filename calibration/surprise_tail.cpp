@@ -62,7 +62,9 @@ double SurpriseTail::power(double confidence) const {
   const double of_each = (1.0 + variation()) / (1.0 + between) - 1.0;
   double at_most = 0.0;  // that robots differ
   if (between > 0.0) {
-    const double degrees = static_cast<double>(robots_.size()) - 1.0;
+    const auto is_seen = [](const Robot& robot) { return robot.count > 0.0; };
+    const auto robots = std::count_if(robots_.begin(), robots_.end(), is_seen);
+    const double degrees = static_cast<double>(robots) - 1.0;
     at_most = between * degrees / chi_square_quantile(degrees, 1.0 - confidence);
   }
   return std::clamp(2.0 - 5.0 * (std::max(of_each, 0.0) + at_most), 1.0, 2.0);

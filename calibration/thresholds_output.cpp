@@ -181,8 +181,11 @@ void note_robot(const std::vector<Scenario>& scenarios, ThresholdFindings& found
   found.drives_turn = first.robot.robot->drive_kind(0) == DriveKind::revolute;
   if (all([&](const Scenario& other) { return other.robot_text == first.robot_text; }))
     found.robot = {first.robot_file.string(), calibrated_robot_hash(first.robot_text)};
-  if (!all([&](const Scenario& other) { return other.control.drive_torque.torque_constant == constant; }))
-    return;
+  const auto has_same = [&](const Scenario& other) {
+    const JointVector& its = other.control.drive_torque.torque_constant;
+    return its.size() == constant.size() && its == constant;
+  };
+  if (!all(has_same)) return;
   for (int i = 0; i < static_cast<int>(constant.size()); ++i) {
     found.assumed.push_back({.name = drive_constant_key(*first.robot.robot, i),
                              .value = constant[i],

