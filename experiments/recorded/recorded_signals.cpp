@@ -1,5 +1,7 @@
 #include "experiments/recorded/recorded_signals.h"
 
+#include <filesystem>
+
 #include "diagrams/contact_control.h"
 #include "diagrams/station.h"
 #include "experiments/scenario/scenario.h"
@@ -89,8 +91,11 @@ std::map<std::string, std::string> recorded_attributes(const Scenario& scenario,
   for (std::size_t i = 0; i < scenario.obstacles.size(); ++i)
     attributes["obstacle." + std::to_string(i + 1) + ".name"] = scenario.obstacles[i].name;
   int number = 0;
-  for (const ParameterFile& file : scenario.calibrations)
-    attributes["calibration." + std::to_string(++number) + ".text"] = file.text;
+  for (const ParameterFile& file : scenario.calibrations) {
+    const std::string name = "calibration." + std::to_string(++number);
+    attributes[name + ".file"] = std::filesystem::path(file.file).filename().string();
+    attributes[name + ".text"] = file.text;
+  }
   return attributes;
 }
 

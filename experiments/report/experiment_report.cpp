@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 
 #include "experiments/recorded/robot_as_drawn.h"
 #include "experiments/report/drawn_robot.h"
@@ -209,6 +210,8 @@ std::vector<ReportParameter> scenario_parameters(const Scenario& scenario) {
   std::erase_if(rows,
                 [](const ReportParameter& row) { return row.name == "title" || row.name == "description"; });
   for (ReportParameter& row : rows) {
+    if (row.group.starts_with("scenario: calibrations"))
+      row.value = std::filesystem::path(row.value).filename().string();
     if (row.group != "scenario") continue;
     if (row.name == "robot") row.value = scenario.robot_file.filename().string();
     if (row.name != "seed" || row.value == std::to_string(scenario.seed)) continue;

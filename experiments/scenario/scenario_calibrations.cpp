@@ -23,6 +23,11 @@ bool changes_robot(const ParameterFile& file) {
   });
 }
 
+/// As it is called wherever the scenario is read, from its files or from a recording.
+std::string name_of(const ParameterFile& file) {
+  return std::filesystem::path(file.file).filename().string();
+}
+
 bool has_thresholds(const ParameterFile& file) {
   return file.nodes != nullptr && ConfigReader::over(file.nodes, file.file).has("control");
 }
@@ -38,13 +43,16 @@ void set_entry(const FileParameter& parameter, const std::string& vector, Eigen:
 
 std::vector<ParameterFile> recorded_calibrations(ConfigReader& scenario, const Recording& recording,
                                                  const std::filesystem::path& file) {
-  for (ConfigReader& entry : scenario.sections("calibrations")) entry.leave_rest_unread();
+  std::string unused;
+  for (ConfigReader& entry : scenario.sections("calibrations")) entry.text("file", unused);
   std::vector<ParameterFile> files;
   for (int number = 1;; ++number) {
-    const std::string name = "calibration." + std::to_string(number) + ".text";
-    const auto found = recording.attributes.find(name);
+    const std::string name = "calibration." + std::to_string(number);
+    const auto found = recording.attributes.find(name + ".text");
     if (found == recording.attributes.end()) return files;
-    files.push_back(parse_parameter_file(found->second, file.string() + ":" + name));
+    files.push_back(parse_parameter_file(found->second, file.string() + ":" + found->first));
+    const auto called = recording.attributes.find(name + ".file");
+    if (called != recording.attributes.end()) files.back().file = called->second;
   }
 }
 
@@ -85,31 +93,32 @@ void calibrate_control(const std::vector<ParameterFile>& calibrations, const Par
 std::vector<std::string> doubts_about_calibrations(const Scenario& scenario) {
   std::vector<std::string> doubts;
   if (scenario.calibrations.empty()) return doubts;
-  std::map<std::string, std::string> given_by;
+  std::map<std::string, const ParameterFile*> given_by;
   const std::string robot_hash = calibrated_robot_hash(scenario.robot_text);
   for (const ParameterFile& file : scenario.calibrations) {
+    const std::string name = name_of(file);
     if (!file.robot.sha256.empty() && file.robot.sha256 != robot_hash) {
-      doubts.push_back(file.file + ": the robot file has changed since this calibration of " + file.date +
+      doubts.push_back(name + ": the robot file has changed since this calibration of " + file.date +
                        "; calibrate again, or check that what changed does not matter to it");
     }
     for (const FileParameter& parameter : file.parameters) {
       if (parameter.belongs_to.empty() || !parameter.identifiable) continue;
-      const auto [before, is_new] = given_by.emplace(parameter.name, file.file);
-      if (!is_new && before->second != file.file) {
-        doubts.push_back(file.file + ": replaces what " + before->second + " says of '" + parameter.name +
-                         "'");
+      const auto [before, is_new] = given_by.emplace(parameter.name, &file);
+      if (!is_new && before->second != &file) {
+        doubts.push_back(name + ": replaces what " + name_of(*before->second) + " says of '" +
+                         parameter.name + "'");
       }
     }
     if (has_thresholds(file)) {
-      const auto [before, is_first] = given_by.emplace("control", file.file);
-      if (!is_first) doubts.push_back(file.file + ": replaces thresholds of " + before->second);
+      const auto [before, is_first] = given_by.emplace("control", &file);
+      if (!is_first) doubts.push_back(name + ": replaces thresholds of " + name_of(*before->second));
     }
     const JointVector& constant = scenario.control.drive_torque.torque_constant;
     for (const FileParameter& assumed : file.assumed) {
       for (int i = 0; i < static_cast<int>(constant.size()); ++i) {
         const bool differs = std::abs(constant[i] / assumed.value - 1.0) > telling_change;
         if (assumed.name != drive_constant_key(*scenario.robot.robot, i) || !differs) continue;
-        doubts.push_back(file.file + ": rests on " + assumed.name + " = " + std::to_string(assumed.value) +
+        doubts.push_back(name + ": rests on " + assumed.name + " = " + std::to_string(assumed.value) +
                          ", and " + std::to_string(constant[i]) + " is used; calibrate '" + file.kind +
                          "' again");
       }

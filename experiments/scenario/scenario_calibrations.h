@@ -16,7 +16,7 @@ struct Recording;
 struct Scenario;
 
 /// The files that `calibrations` of robot file and scenario name, as a recording keeps them, by its
-/// attributes calibration.1.text, ...; the key of the scenario is taken.
+/// attributes calibration.1.file and .text, ...; the key of the scenario is taken.
 std::vector<ParameterFile> recorded_calibrations(ConfigReader& scenario, const Recording& recording,
                                                  const std::filesystem::path& file);
 

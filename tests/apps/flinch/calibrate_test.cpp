@@ -57,6 +57,10 @@ TEST_F(CalibrateThresholds, FindsThoseOfEachEstimatorAndAScenarioTakesThem) {
   const Outcome run = flinch({"run", place.at(collision), "--out", place.at("out"), "--json"});
   const auto contact = nlohmann::json::parse(run.out)["contacts"][0];
   EXPECT_LT(contact["detection_ms"], 11.0) << "its threshold is below the 10 N with which it takes 12 ms";
+
+  flinch({"report", place.at("out/run.h5"), "--out", place.at("again.html")});
+  EXPECT_TRUE(test::bytes_of(place / "again.html") == test::bytes_of(place / "out/report.html"))
+      << "the recording keeps them";
 }
 
 TEST_F(CalibrateThresholds, FindsWhatTheFusedDetectorJudgesByAndAScenarioTakesIt) {
