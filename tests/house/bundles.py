@@ -1,6 +1,7 @@
 """Which sources can stand in one translation unit: those that have no name of their own in common.
 
-Usage: bundles.py LARGEST FILE...     prints 'NUMBER;FILE' for each file: those of one number may stand together
+Usage: bundles.py LARGEST FILE...     prints 'NUMBER;FILE' for each file: those of one number may stand together.
+Of several names that one line declares only the last before its first '=' is seen: give each a line of its own.
 """
 import pathlib
 import re
