@@ -107,8 +107,7 @@ std::string calibration_yaml(const CalibrationResult& result, const std::string&
   file.kind = result.kind;
   file.date = date;
   file.robot = {result.robot_file, result.robot_sha256};
-  for (const CalibrationSource& source : result.recordings)
-    file.recordings.push_back({source.file, source.sha256});
+  file.recordings = result.recordings;
   file.residual_before = result.residual_before;
   file.residual_after = result.residual_after;
   file.residual_unit = result.residual_unit;

@@ -5,13 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "systems/config/parameter_file.h"
+
 namespace flinch {
 
 /// Where a calibration comes from.
-struct CalibrationSource {
-  std::string file;
-  std::string sha256;  ///< Of its bytes.
-};
+using CalibrationSource = HashedFile;
 
 /// What was found for one number.
 struct CalibratedParameter {

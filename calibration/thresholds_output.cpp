@@ -242,8 +242,7 @@ std::string thresholds_yaml(const ThresholdFindings& found, const std::string& d
   file.kind = "thresholds";
   file.date = date;
   file.robot = found.robot;
-  for (const CalibrationSource& source : found.recordings)
-    file.recordings.push_back({source.file, source.sha256});
+  file.recordings = found.recordings;
   file.assumed = found.assumed;
   std::string text =
       parameter_file_text(file) + provenance(found) + "control:\n  contact_detector:\n    by_estimator:\n";

@@ -5,7 +5,6 @@
 
 #include "calibration/calibration_result.h"
 #include "calibration/residual_calibration.h"
-#include "systems/config/parameter_file.h"
 
 namespace flinch {
 
