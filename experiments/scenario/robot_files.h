@@ -27,7 +27,8 @@ class RobotFiles {
   /// The same of a parameter file.
   std::shared_ptr<const ParameterFile> read_calibration(const std::filesystem::path& file);
 
-  /// The texts of all that was read, in order of their names.
+  /// Texts: of each robot file with the parameter files that it names, then of those that were asked for;
+  /// both in order of their names.
   std::vector<std::string> texts() const;
 
  private:

@@ -32,6 +32,14 @@ bool has_thresholds(const ParameterFile& file) {
   return file.nodes != nullptr && ConfigReader::over(file.nodes, file.file).has("control");
 }
 
+/// Throws SetupError with all that is wrong with the section `control` of the file.
+void take_thresholds(const ParameterFile& file, const ParallelRobot& robot, ContactControlSettings& control) {
+  ConfigReader reader = ConfigReader::over(file.nodes, file.file);
+  read_thresholds(reader.section("control"), robot, names_of(control.stages.estimators), control);
+  reader.leave_rest_unread();
+  reader.finish();
+}
+
 /// Sets the entry of the vector that `name` means, such as "control.imu_mount.position_m[2]".
 void set_entry(const FileParameter& parameter, const std::string& vector, Eigen::Vector3d& values) {
   for (int i = 0; i < 3; ++i) {
@@ -72,12 +80,7 @@ void calibrate_control(const std::vector<ParameterFile>& calibrations, const Par
   std::vector<std::string> problems;
   for (const ParameterFile& file : calibrations) {
     try {
-      if (has_thresholds(file)) {
-        ConfigReader reader = ConfigReader::over(file.nodes, file.file);
-        read_thresholds(reader.section("control"), robot, names_of(control.stages.estimators), control);
-        reader.leave_rest_unread();
-        reader.finish();
-      }
+      if (has_thresholds(file)) take_thresholds(file, robot, control);
     } catch (const SetupError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }

@@ -1,7 +1,5 @@
 #include "experiments/scenario/scenario_control.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -15,9 +13,7 @@
 #include "experiments/scenario/scenario_tasks.h"
 #include "experiments/scenario/scenario_thresholds.h"
 #include "systems/config/config_reader.h"
-#include "systems/config/parsed.h"
 #include "systems/config/robot_file.h"
-#include "systems/foundation/nearest_name.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/motion/random_path.h"
 #include "systems/robot/parallel_robot.h"

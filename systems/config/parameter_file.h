@@ -44,7 +44,7 @@ struct ParameterFile {
   std::string residual_unit;  ///< empty: nothing was fitted
   std::vector<FileParameter> parameters;
   std::vector<FileParameter> assumed;  ///< other parameters that these rest on: torque constants
-  /// `text` as it was parsed; its section `control` is for who knows blocks.
+  /// `text` as it was parsed, of which calibrate_control() reads the section `control`; null: made in code.
   std::shared_ptr<const ConfigNode> nodes;
 };
 
