@@ -3,19 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibration/normal_quantile.h"
+#include "calibration/chi_square_quantile.h"
 
 namespace flinch {
-namespace {
-
-/// What chi-square of so many degrees is below with this probability (Wilson and Hilferty 1931).
-double chi_square_quantile(double degrees, double probability) {
-  const double spread = 2.0 / (9.0 * degrees);
-  const double root = 1.0 - spread + normal_quantile(probability) * std::sqrt(spread);
-  return degrees * std::pow(std::max(root, 0.0), 3);
-}
-
-}  // namespace
 
 void SurpriseTail::add(double surprise, int drives) {
   if (!std::isfinite(surprise)) return;
@@ -27,6 +17,7 @@ void SurpriseTail::add(double surprise, int drives) {
 }
 
 void SurpriseTail::begin_robot() {
+  is_one_ = false;
   if (robots_.back().count > 0.0) robots_.emplace_back();
 }
 
@@ -58,16 +49,14 @@ double SurpriseTail::between_robots() const {
 }
 
 double SurpriseTail::power(double confidence) const {
+  const auto is_seen = [](const Robot& robot) { return robot.count > 0.0; };
+  const auto robots = static_cast<int>(std::count_if(robots_.begin(), robots_.end(), is_seen));
+  if (!is_one_ && robots < 2) return least_power;
   const double between = between_robots();
   const double of_each = (1.0 + variation()) / (1.0 + between) - 1.0;
   double at_most = 0.0;  // that robots differ
-  if (between > 0.0) {
-    const auto is_seen = [](const Robot& robot) { return robot.count > 0.0; };
-    const auto robots = std::count_if(robots_.begin(), robots_.end(), is_seen);
-    const double degrees = static_cast<double>(robots) - 1.0;
-    at_most = between * degrees / chi_square_quantile(degrees, 1.0 - confidence);
-  }
-  return std::clamp(2.0 - 5.0 * (std::max(of_each, 0.0) + at_most), 1.0, 2.0);
+  if (between > 0.0) at_most = between * (robots - 1) / chi_square_quantile(robots - 1, 1.0 - confidence);
+  return std::clamp(2.0 - 5.0 * (std::max(of_each, 0.0) + at_most), least_power, 2.0);
 }
 
 }  // namespace flinch

@@ -14,7 +14,7 @@ class SurpriseTail {
   /// A surprise chi of a residual with an entry for each of so many drives; one that is not finite tells
   /// nothing.
   void add(double surprise, int drives);
-  /// What is added from now on is of another robot.
+  /// What is added from now on is of another robot; without a call all is of the one that shall be judged.
   void begin_robot();
 
   /// Relative variance of the errors' variance, about what is expected; below zero where chi^2 scatters even
@@ -22,16 +22,20 @@ class SurpriseTail {
   double variation() const;
   /// The part of it by which robots differ: relative variance of the mean chi^2 of each. Zero of one robot.
   double between_robots() const;
-  /// q, of robots that differ by no more than these tell with such a confidence.
+  /// q, of robots that differ by no more than these tell with such a confidence; 1 where one of many robots
+  /// was seen, which tells nothing of the others.
   double power(double confidence) const;
 
  private:
+  static constexpr double least_power = 1.0;
+
   struct Robot {
     double count = 0.0;
     double squares = 0.0;  ///< sum of chi^2
   };
 
   std::vector<Robot> robots_{1};
+  bool is_one_ = true;
   double fourth_ = 0.0;  ///< sum of chi^4
   int drives_ = 1;
 };

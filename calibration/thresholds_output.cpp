@@ -119,13 +119,28 @@ std::string listed(const std::vector<CalibrationSource>& files) {
   return text;
 }
 
+/// What the thresholds keep, and by which robots; `begin` begins each line.
+std::string promise(const ThresholdFindings& found, const char* begin) {
+  const ThresholdGoal& goal = found.goal;
+  std::string text = fmt::format(
+      "{}for {} false alarms an hour of each estimator, kept with a confidence of {:.0f} % in\n"
+      "{}motion like that of the recordings\n",
+      begin, goal.false_alarms_per_hour, 100.0 * goal.confidence, begin);
+  if (found.residuals.empty()) return text;
+  if (goal.one_robot) {
+    return text + begin + "of the fused detector: by the one robot that was recorded (--one-robot)\n";
+  }
+  const std::size_t recordings = found.recordings.size();
+  return text + fmt::format(
+                    "{}of the fused detector: by robots that differ as those of {} recording{} do,\n"
+                    "{}which few recordings tell only roughly\n",
+                    begin, recordings, recordings == 1 ? "" : "s", begin);
+}
+
 /// How the thresholds were found, as lines of comment.
 std::string provenance(const ThresholdFindings& found) {
   const ThresholdGoal& goal = found.goal;
-  std::string text = fmt::format(
-      "# Thresholds for {} false alarms an hour of each estimator, kept with a confidence of {:.0f} %.\n"
-      "# Made by flinch " FLINCH_VERSION ".\n",
-      goal.false_alarms_per_hour, 100.0 * goal.confidence);
+  std::string text = "# Thresholds made by flinch " FLINCH_VERSION ":\n" + promise(found, "#   ");
   if (!found.with.empty()) text += "# Played again with\n" + listed(found.with);
   text += fmt::format("# Largest of each, and {:.3g} x that, [RAL25] V-C:\n", goal.safety_factor);
   for (const EstimatorThresholds& of : found.estimators) {
@@ -193,11 +208,16 @@ void note_robot(const std::vector<Scenario>& scenarios, ThresholdFindings& found
   }
 }
 
+std::vector<std::string> warnings(const ThresholdFindings& found) {
+  if (found.residuals.empty() || found.goal.one_robot || found.recordings.size() > 1) return {};
+  return {
+      "one recording does not tell how robots differ, so the thresholds of the fused detector are as high as "
+      "they can be; add recordings of other robots, or say --one-robot where they shall serve this one"};
+}
+
 std::string thresholds_table(const ThresholdFindings& found) {
   const ThresholdGoal& goal = found.goal;
-  std::string text =
-      fmt::format("for {} false alarms an hour of each estimator, kept with a confidence of {:.0f} %\n\n",
-                  goal.false_alarms_per_hour, 100.0 * goal.confidence);
+  std::string text = promise(found, "") + "\n";
   text += fmt::format("{:<28} {:<6} {:>9} {:>9} {:>9} {:>9}\n", "estimator", "of", "threshold", "guess",
                       "largest", fmt::format("{:.3g} x max", goal.safety_factor));
   for (const EstimatorThresholds& of : found.estimators) {
@@ -233,6 +253,8 @@ std::string thresholds_json(const ThresholdFindings& found) {
   return json_text(Json{{"false_alarms_per_h", goal.false_alarms_per_hour},
                         {"confidence", goal.confidence},
                         {"safety_factor", goal.safety_factor},
+                        {"one_robot", goal.one_robot},
+                        {"warnings", warnings(found)},
                         {"thresholds", list},
                         {"fused_detector", residuals}});
 }

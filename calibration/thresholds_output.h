@@ -26,6 +26,9 @@ struct ThresholdFindings {
 /// Notes of which robot, and with which torque constants, all recordings of these scenarios were made.
 void note_robot(const std::vector<Scenario>& scenarios, ThresholdFindings& found);
 
+/// What is wrong with the recordings and what to do about it, one sentence each.
+std::vector<std::string> warnings(const ThresholdFindings& found);
+
 /// As a table for people; as one JSON object on one line, to which later versions add keys and rename none;
 /// and as a parameter file with the sections `contact_detector` and `fused_detector` of `control`, with what
 /// they come from above: made on `date`, "2026-11-22".

@@ -31,6 +31,12 @@
 
 namespace flinch {
 
+/// Reaction thresholds of one estimator; those of all count where it has none.
+struct OwnThreshold {
+  std::optional<double> force;   ///< [N]
+  std::optional<double> moment;  ///< [Nm]
+};
+
 /// All that can be set in the contact-control pipeline. The defaults are those of the planar bench;
 /// settings_for() (robot_settings.h) has those of any robot. Each block's own settings say what they mean and
 /// where they come from.
@@ -55,8 +61,8 @@ struct ContactControlSettings {
   DisturbanceFilterSettings disturbance_filter;
   ImuResidualSettings imu_residual;          ///< with `imu_mount` in the place of its own
   ContactDetectorSettings contact_detector;  ///< 10 N, 1 Nm; hard: 60 N, 3 Nm
-  /// Reaction thresholds of detectors that follow these estimators, in place of those of `contact_detector`.
-  std::map<std::string, WrenchThreshold> reaction_thresholds;
+  /// Reaction thresholds of detectors that follow these estimators.
+  std::map<std::string, OwnThreshold> reaction_thresholds;
   /// The settings of a contact detector that follows `estimator`. Hard contacts are at least as hard as those
   /// that are reacted to.
   ContactDetectorSettings detector_of(const std::string& estimator) const;

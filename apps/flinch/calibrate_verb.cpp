@@ -82,6 +82,7 @@ ExitStatus calibrate_thresholds(const CalibrateThresholdsOptions& options) {
   found.tracking = motions.scenarios.front().control.fused_detector.tracking;
   note_robot(motions.scenarios, found);
   fmt::print("{}", options.common.json ? thresholds_json(found) + "\n" : thresholds_table(found));
+  for (const std::string& warning : warnings(found)) fmt::print(stderr, "warning: {}\n", warning);
   if (options.out.empty()) return ExitStatus::done;
   write_result(options.out, thresholds_yaml(found, today()));
   if (!options.common.quiet) fmt::print(stderr, "thresholds: {}\n", options.out.string());

@@ -12,6 +12,7 @@
 #include "calibration/csv_recording.h"
 #include "experiments/report/experiment_report.h"
 #include "experiments/report/report_page.h"
+#include "experiments/scenario/scenario_calibrations.h"
 #include "experiments/verdict/verdict.h"
 #include "systems/config/config_file.h"
 #include "systems/config/file_kind.h"
@@ -38,11 +39,8 @@ Report recorded_report(const std::filesystem::path& file, const CommonOptions& c
   tell_if_partial(recording, common);
   const Scenario scenario = scenario_of(recording, file);
   require_run(recording, file);
-  return out_of(file, [&] {
-    return experiment_report(
-        scenario, recording,
-        judge(recording, scenario.robot.robot->space(), scenario.expected, scenario.force_limits));
-  });
+  return out_of(
+      file, [&] { return experiment_report(scenario, recording, verdict_of(scenario, recording)); });
 }
 
 /// Lets Graphviz draw `dot` into `file`, which is replaced only by a whole picture.
@@ -80,7 +78,7 @@ std::string check_results(const CheckOptions& options) {
 std::string check_text(const std::filesystem::path& file) {
   switch (kind_of(file).value_or(FileKind::scenario)) {
     case FileKind::parameters:
-      read_parameter_file(file);
+      check_thresholds(read_parameter_file(file));
       return "calibration";
     case FileKind::mapping:
       read_csv_recording(file);

@@ -7,6 +7,7 @@
 #include "experiments/scenario/key_values.h"
 #include "experiments/scenario/robot_files.h"
 #include "experiments/scenario/scenario.h"
+#include "experiments/scenario/scenario_calibrations.h"
 #include "systems/config/config_file.h"
 #include "systems/config/config_node.h"
 #include "systems/config/config_reader.h"
@@ -143,28 +144,58 @@ std::string line_of(const std::vector<std::shared_ptr<const ConfigNode>>& values
 
 bool names_files(const std::string& key) { return key == "robot" || key.starts_with("calibrations"); }
 
-/// Reads the files that these values of a key name. What is wrong with them is told by the runs.
-void read_files(const std::string& key, const std::vector<std::shared_ptr<const ConfigNode>>& values,
-                const Campaign& campaign) {
-  for (const auto& value : values) {
-    for (std::size_t i = 0; i < campaign.scenarios.size(); ++i) {
-      try {
-        parse_scenario(with_value(*campaign.scenario_nodes[i], key, value), campaign.scenarios[i],
-                       *campaign.robots);
-      } catch (const SetupError&) {
-        continue;
-      }
-    }
+/// The scenario with this value; null where its place is made by another key that is varied.
+std::shared_ptr<const ConfigNode> varied(const ConfigNode& scenario, const std::string& key,
+                                         const std::shared_ptr<const ConfigNode>& value) {
+  try {
+    return with_value(scenario, key, value);
+  } catch (const SetupError&) {
+    return nullptr;
   }
 }
 
+/// Reads robot and calibrations that a scenario names. Throws SetupError with all that is wrong with them.
+void read_named(const std::shared_ptr<const ConfigNode>& scenario, const std::filesystem::path& file,
+                RobotFiles& robots) {
+  ConfigReader reader = ConfigReader::over(scenario, file.string());
+  std::filesystem::path robot;
+  reader.required().file("robot", robot);
+  try {
+    if (!robot.empty()) robots.read(robot);
+  } catch (const SetupError& error) {
+    reader.add_problems(error.problems());
+  }
+  read_calibrations(reader, [&robots](const std::filesystem::path& name) {
+    const std::shared_ptr<const ParameterFile> calibration = robots.read_calibration(name);
+    check_thresholds(*calibration);
+    return *calibration;
+  });
+  reader.leave_rest_unread();
+  reader.finish();
+}
+
+/// The same of every value of the keys by which the campaign varies them.
 void read_varied_files(const Campaign& campaign) {
-  for (const CampaignAxis& axis : campaign.grid) {
-    if (names_files(axis.key)) read_files(axis.key, axis.values, campaign);
-  }
-  for (const CampaignDraw& draw : campaign.drawn) {
-    if (names_files(draw.key)) read_files(draw.key, draw.of, campaign);
-  }
+  std::vector<std::string> problems;
+  const auto note = [&problems](const std::string& problem) {
+    if (std::find(problems.begin(), problems.end(), problem) == problems.end()) problems.push_back(problem);
+  };
+  const auto read_values = [&](const std::string& key, const auto& values) {
+    if (!names_files(key)) return;
+    for (const auto& value : values) {
+      for (std::size_t i = 0; i < campaign.scenarios.size(); ++i) {
+        const auto scenario = varied(*campaign.scenario_nodes[i], key, value);
+        try {
+          if (scenario) read_named(scenario, campaign.scenarios[i], *campaign.robots);
+        } catch (const SetupError& error) {
+          std::for_each(error.problems().begin(), error.problems().end(), note);
+        }
+      }
+    }
+  };
+  for (const CampaignAxis& axis : campaign.grid) read_values(axis.key, axis.values);
+  for (const CampaignDraw& draw : campaign.drawn) read_values(draw.key, draw.of);
+  throw_if_any(std::move(problems));
 }
 
 /// Counted in real numbers, which do not overflow.

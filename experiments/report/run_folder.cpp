@@ -25,8 +25,7 @@ std::filesystem::path recording_in(const std::filesystem::path& folder) { return
 
 Verdict report_run(const Scenario& scenario, const Recording& recording,
                    const std::filesystem::path& folder) {
-  Verdict verdict = judge(recording, scenario.robot.robot->space(), scenario.expected, scenario.force_limits);
-  verdict.remarks.insert(verdict.remarks.end(), scenario.doubts.begin(), scenario.doubts.end());
+  Verdict verdict = verdict_of(scenario, recording);
   write_report_page(experiment_report(scenario, recording, verdict), folder / "report.html");
   return verdict;
 }

@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "diagrams/robot_settings.h"
+#include "experiments/scenario/calibration_doubts.h"
 #include "experiments/scenario/key_values.h"
 #include "experiments/scenario/robot_files.h"
 #include "experiments/scenario/scenario_calibrations.h"

@@ -1,9 +1,7 @@
 #include "experiments/scenario/scenario_calibrations.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <map>
 
 #include "experiments/scenario/scenario.h"
 #include "experiments/scenario/scenario_thresholds.h"
@@ -11,11 +9,10 @@
 #include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recording.h"
+#include "systems/robot/parallel_robot.h"
 
 namespace flinch {
 namespace {
-
-constexpr double telling_change = 0.01;  // of a torque constant: more than its calibration is off
 
 bool changes_robot(const ParameterFile& file) {
   return std::any_of(file.parameters.begin(), file.parameters.end(), [](const FileParameter& parameter) {
@@ -23,19 +20,14 @@ bool changes_robot(const ParameterFile& file) {
   });
 }
 
-/// As it is called wherever the scenario is read, from its files or from a recording.
-std::string name_of(const ParameterFile& file) {
-  return std::filesystem::path(file.file).filename().string();
-}
-
 bool has_thresholds(const ParameterFile& file) {
   return file.nodes != nullptr && ConfigReader::over(file.nodes, file.file).has("control");
 }
 
 /// Throws SetupError with all that is wrong with the section `control` of the file.
-void take_thresholds(const ParameterFile& file, const ParallelRobot& robot, ContactControlSettings& control) {
+void take_thresholds(const ParameterFile& file, DriveKind drives, ContactControlSettings& control) {
   ConfigReader reader = ConfigReader::over(file.nodes, file.file);
-  read_thresholds(reader.section("control"), robot, names_of(control.stages.estimators), control);
+  read_thresholds(reader.section("control"), drives, names_of(control.stages.estimators), control);
   reader.leave_rest_unread();
   reader.finish();
 }
@@ -80,7 +72,7 @@ void calibrate_control(const std::vector<ParameterFile>& calibrations, const Par
   std::vector<std::string> problems;
   for (const ParameterFile& file : calibrations) {
     try {
-      if (has_thresholds(file)) take_thresholds(file, robot, control);
+      if (has_thresholds(file)) take_thresholds(file, robot.drive_kind(0), control);
     } catch (const SetupError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
@@ -93,41 +85,19 @@ void calibrate_control(const std::vector<ParameterFile>& calibrations, const Par
   throw_if_any(std::move(problems));
 }
 
-std::vector<std::string> doubts_about_calibrations(const Scenario& scenario) {
-  std::vector<std::string> doubts;
-  if (scenario.calibrations.empty()) return doubts;
-  std::map<std::string, const ParameterFile*> given_by;
-  const std::string robot_hash = calibrated_robot_hash(scenario.robot_text);
-  for (const ParameterFile& file : scenario.calibrations) {
-    const std::string name = name_of(file);
-    if (!file.robot.sha256.empty() && file.robot.sha256 != robot_hash) {
-      doubts.push_back(name + ": the robot file has changed since this calibration of " + file.date +
-                       "; calibrate again, or check that what changed does not matter to it");
-    }
-    for (const FileParameter& parameter : file.parameters) {
-      if (parameter.belongs_to.empty() || !parameter.identifiable) continue;
-      const auto [before, is_new] = given_by.emplace(parameter.name, &file);
-      if (!is_new && before->second != &file) {
-        doubts.push_back(name + ": replaces what " + name_of(*before->second) + " says of '" +
-                         parameter.name + "'");
-      }
-    }
-    if (has_thresholds(file)) {
-      const auto [before, is_first] = given_by.emplace("control", &file);
-      if (!is_first) doubts.push_back(name + ": replaces thresholds of " + name_of(*before->second));
-    }
-    const JointVector& constant = scenario.control.drive_torque.torque_constant;
-    for (const FileParameter& assumed : file.assumed) {
-      for (int i = 0; i < static_cast<int>(constant.size()); ++i) {
-        const bool differs = std::abs(constant[i] / assumed.value - 1.0) > telling_change;
-        if (assumed.name != drive_constant_key(*scenario.robot.robot, i) || !differs) continue;
-        doubts.push_back(name + ": rests on " + assumed.name + " = " + std::to_string(assumed.value) +
-                         ", and " + std::to_string(constant[i]) + " is used; calibrate '" + file.kind +
-                         "' again");
-      }
+void check_thresholds(const ParameterFile& file, const ControlStages& known) {
+  if (!has_thresholds(file)) return;
+  std::vector<std::string> fewest;
+  for (const DriveKind drives : {DriveKind::revolute, DriveKind::prismatic}) {
+    ContactControlSettings control;
+    control.stages = known;
+    try {
+      return take_thresholds(file, drives, control);
+    } catch (const SetupError& error) {
+      if (fewest.empty() || error.problems().size() < fewest.size()) fewest = error.problems();
     }
   }
-  return doubts;
+  throw SetupError(fewest);
 }
 
 }  // namespace flinch

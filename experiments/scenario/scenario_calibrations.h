@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "diagrams/control_stages.h"
 #include "systems/config/parameter_file.h"
 #include "systems/config/robot_file.h"
 
@@ -30,8 +31,8 @@ RobotFile calibrated_robot(const Scenario& scenario);
 void calibrate_control(const std::vector<ParameterFile>& calibrations, const ParallelRobot& robot,
                        ContactControlSettings& control);
 
-/// What is doubtful about them once the scenario has been read, one sentence each: of another robot file;
-/// resting on torque constants that are no longer used; one replacing another.
-std::vector<std::string> doubts_about_calibrations(const Scenario& scenario);
+/// Throws SetupError with all that is wrong with the section `control` of the file, whatever robot it is for.
+/// `known`: whose estimators it may name.
+void check_thresholds(const ParameterFile& file, const ControlStages& known = known_stages());
 
 }  // namespace flinch

@@ -5,7 +5,7 @@
 #include "diagrams/fused_detector_settings.h"
 #include "systems/config/config_reader.h"
 #include "systems/foundation/nearest_name.h"
-#include "systems/robot/parallel_robot.h"
+#include "systems/robot/mechanism.h"
 
 namespace flinch {
 namespace {
@@ -38,9 +38,9 @@ bool has(const std::vector<FusedResidual>& residuals, const std::string& estimat
 
 }  // namespace
 
-void read_fused_detector(ConfigReader fused, const ParallelRobot& robot,
-                         const std::vector<std::string>& estimators, FusedDetectorSettings& settings) {
-  const bool turn = robot.drive_kind(0) == DriveKind::revolute;
+void read_fused_detector(ConfigReader fused, DriveKind drives, const std::vector<std::string>& estimators,
+                         FusedDetectorSettings& settings) {
+  const bool turn = drives == DriveKind::revolute;
   fused.number("tracking", unit::per_s, settings.tracking.rate, positive);
   fused.number("smoothing", unit::per_s, settings.tracking.smoothing, positive);
   fused.choice("rule", settings.rule,

@@ -34,8 +34,8 @@ void read_contact_detector(ConfigReader detector, const std::vector<std::string>
   std::set<std::string> named;
   for (ConfigReader& own : detector.sections("by_estimator")) {
     std::string estimator;
-    WrenchThreshold threshold = settings.contact_detector.reaction;
     own.required().text("estimator", estimator);
+    OwnThreshold& threshold = settings.reaction_thresholds[estimator];
     own.number("reaction_force", unit::N, threshold.force, positive);
     own.number("reaction_moment", unit::Nm, threshold.moment, positive);
     if (std::find(estimators.begin(), estimators.end(), estimator) == estimators.end()) {
@@ -44,16 +44,15 @@ void read_contact_detector(ConfigReader detector, const std::vector<std::string>
     } else if (!named.insert(estimator).second) {
       own.problem("estimator", "is '" + estimator + "', as that of an entry before it");
     }
-    settings.reaction_thresholds.insert_or_assign(estimator, threshold);
   }
 }
 
 }  // namespace
 
-void read_thresholds(ConfigReader control, const ParallelRobot& robot,
-                     const std::vector<std::string>& estimators, ContactControlSettings& settings) {
+void read_thresholds(ConfigReader control, DriveKind drives, const std::vector<std::string>& estimators,
+                     ContactControlSettings& settings) {
   read_contact_detector(control.section("contact_detector"), estimators, settings);
-  read_fused_detector(control.section("fused_detector"), robot, estimators, settings.fused_detector);
+  read_fused_detector(control.section("fused_detector"), drives, estimators, settings.fused_detector);
 }
 
 }  // namespace flinch

@@ -13,7 +13,9 @@ namespace flinch {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::Not;
 
 const ThresholdFindings some = {
@@ -85,8 +87,9 @@ TEST(TheParameterFile, IsWhatAScenarioTakes) {
             "  - {file: 'a/run.h5', sha256: '0123abcd'}\n"
             "assumed:\n"
             "  - {name: 'drives.torque_constant_Nm_per_A[0]', value: 6.5, unit: 'Nm/A', identifiable: true}\n"
-            "# Thresholds for 0.5 false alarms an hour of each estimator, kept with a confidence of 95 %.\n"
-            "# Made by flinch V.\n"
+            "# Thresholds made by flinch V:\n"
+            "#   for 0.5 false alarms an hour of each estimator, kept with a confidence of 95 % in\n"
+            "#   motion like that of the recordings\n"
             "# Largest of each, and 2 x that, [RAL25] V-C:\n"
             "#   observer, 90.0 s: 4 N, 8 N; 0.3 Nm, 0.6 Nm\n"
             "#   filter, 90.0 s: 5 N, 10 N\n"
@@ -95,6 +98,28 @@ TEST(TheParameterFile, IsWhatAScenarioTakes) {
             "    by_estimator:\n"
             "      - {estimator: observer, reaction_force_N: 6.25, reaction_moment_Nm: 0.5}\n"
             "      - {estimator: filter, reaction_force_N: 7.5}\n");
+}
+
+TEST(TheParameterFile, SaysOfWhichRobotsTheFusedDetectorKeepsTheRate) {
+  ThresholdFindings found = with_a_residual(true);
+  found.recordings = {{"a", "1"}, {"b", "2"}, {"c", "3"}};
+  EXPECT_THAT(
+      thresholds_yaml(found, "2026-11-22"),
+      HasSubstr("\n#   of the fused detector: by robots that differ as those of 3 recordings do,\n"));
+  EXPECT_THAT(warnings(found), IsEmpty());
+  found.goal.one_robot = true;
+  EXPECT_THAT(thresholds_yaml(found, "2026-11-22"),
+              HasSubstr("\n#   of the fused detector: by the one robot that was recorded (--one-robot)\n"));
+  EXPECT_EQ(nlohmann::json::parse(thresholds_json(found))["one_robot"], true);
+}
+
+TEST(OneRecording, OfOneOfManyRobotsIsWarnedOf) {
+  ThresholdFindings found = with_a_residual(true);
+  EXPECT_THAT(warnings(found), ElementsAre(HasSubstr("one recording does not tell how robots differ")));
+  EXPECT_EQ(nlohmann::json::parse(thresholds_json(found))["warnings"].size(), 1U);
+  found.goal.one_robot = true;
+  EXPECT_THAT(warnings(found), IsEmpty());
+  EXPECT_THAT(warnings(some), IsEmpty()) << "of plain thresholds";
 }
 
 TEST(TheParameterFile, SaysWhichParameterFilesItRestsOnAndHowSurprisingTheMotionWas) {

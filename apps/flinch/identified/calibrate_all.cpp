@@ -94,12 +94,12 @@ JointVector found_constants(const CalibrationResult& result, JointVector constan
 }
 
 /// The thresholds that a control path with these calibrations needs, by playing the readings to it again.
-std::vector<EstimatorThresholds> thresholds_with(const std::vector<OpenedRecording>& motion,
-                                                 const std::vector<ParameterFile>& calibrations,
-                                                 double rate) {
-  ThresholdGoal goal;
-  goal.false_alarms_per_hour = rate;
+ThresholdFindings thresholds_with(const std::vector<OpenedRecording>& motion,
+                                  const std::vector<ParameterFile>& calibrations, double rate) {
+  ThresholdFindings found;
+  found.goal.false_alarms_per_hour = rate;
   std::vector<std::vector<EstimatorPeaks>> peaks;
+  std::vector<Scenario> played;
   for (const OpenedRecording& file : motion) {
     Scenario scenario = file.scenario;
     if (!calibrations.empty()) {
@@ -109,9 +109,15 @@ std::vector<EstimatorThresholds> thresholds_with(const std::vector<OpenedRecordi
       know_drives(scenario.robot.drives, scenario.control.drive_torque);
     }
     const Replay replayed = replay(scenario, read_recording(file.source.file));
-    peaks.push_back(contact_free_peaks(replayed.recording, scenario.robot.robot->space(), goal.stretch));
+    peaks.push_back(
+        contact_free_peaks(replayed.recording, scenario.robot.robot->space(), found.goal.stretch));
+    found.recordings.push_back(file.source);
+    played.push_back(std::move(scenario));
   }
-  return calibrate_thresholds(pooled(peaks), goal);
+  for (const ParameterFile& file : calibrations) found.with.push_back(source_of(file.file));
+  note_robot(played, found);
+  found.estimators = calibrate_thresholds(pooled(peaks), found.goal);
+  return found;
 }
 
 class All {
@@ -237,23 +243,17 @@ class All {
 
   void thresholds() {
     if (files_.motion.empty()) return;
+    ThresholdFindings after;
     try {
-      before_ = thresholds_with(files_.motion, {}, options_.rate);
-      after_ = thresholds_with(files_.motion, calibrations_, options_.rate);
+      before_ = thresholds_with(files_.motion, {}, options_.rate).estimators;
+      after = thresholds_with(files_.motion, calibrations_, options_.rate);
     } catch (const SetupError& error) {
       for (const std::string& problem : error.problems()) warnings_.push_back("thresholds: " + problem);
       before_.clear();
-      after_.clear();
       return;
     }
-    Scenario calibrated = files_.motion.front().scenario;
-    if (constant_.size() > 0) calibrated.control.drive_torque.torque_constant = constant_;
-    ThresholdFindings found{.estimators = after_};
-    note_robot({calibrated}, found);
-    found.goal.false_alarms_per_hour = options_.rate;
-    for (const OpenedRecording& file : files_.motion) found.recordings.push_back(file.source);
-    for (const ParameterFile& file : calibrations_) found.with.push_back(source_of(file.file));
-    write_result(out_ / "thresholds.yaml", thresholds_yaml(found, today()));
+    after_ = after.estimators;
+    write_result(out_ / "thresholds.yaml", thresholds_yaml(after, today()));
   }
 
   static Json threshold_json(const std::vector<EstimatorThresholds>& thresholds) {

@@ -66,8 +66,8 @@ TEST_F(CalibrateThresholds, FindsThoseOfEachEstimatorAndAScenarioTakesThem) {
 TEST_F(CalibrateThresholds, FindsWhatTheFusedDetectorJudgesByAndAScenarioTakesIt) {
   place.replace(random_motion, "duration_s: 36", "duration_s: 32.5");
   EXPECT_EQ(flinch({"run", place.at(random_motion), "--out", place.at("free"), "--quiet"}).status, 0);
-  const Outcome outcome = flinch(
-      {"calibrate", "thresholds", place.at("free/run.h5"), "--json", "--out", place.at("thresholds.yaml")});
+  const Outcome outcome = flinch({"calibrate", "thresholds", place.at("free/run.h5"), "--one-robot", "--json",
+                                  "--out", place.at("thresholds.yaml")});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(test::undocumented_keys(nlohmann::json::parse(outcome.out), "Thresholds"), IsEmpty());
   const auto json = nlohmann::json::parse(outcome.out)["fused_detector"];

@@ -102,8 +102,8 @@ Robot calibrated(std::uint64_t seed, const Observer& observer, double seconds) {
 
 /// By which contacts are told.
 struct Thresholds {
-  std::map<std::string, WrenchThreshold> plain;  ///< by estimator
-  std::vector<FusedResidual> residuals;          ///< of the fused detector
+  std::map<std::string, OwnThreshold> plain;  ///< by estimator
+  std::vector<FusedResidual> residuals;       ///< of the fused detector
 };
 
 Thresholds thresholds_of(const std::vector<const Robot*>& robots) {

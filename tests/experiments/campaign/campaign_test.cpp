@@ -243,6 +243,20 @@ TEST(Campaign, HasAnotherIdentityWithAnotherCalibrationOfItsRobot) {
   EXPECT_NE(identity(7.0), identity(7.1));
 }
 
+TEST(Campaign, ThatVariesFilesOfWhichOneIsNoGoodIsRefusedAtOnce) {
+  const test::Workplace place;
+  test::small_campaign(place);
+  const std::filesystem::path file = place / "campaigns/small.yaml";
+  place.replace("calibrations/mismatched_thresholds.yaml", "by_estimator", "by_estimatr");
+  EXPECT_THAT(
+      problems_of(file, {.set = {"calibrations=[{file: ../calibrations/bench_thresholds.yaml}],[{file: "
+                                 "../calibrations/mismatched_thresholds.yaml}],[{file: gone.yaml}]"}}),
+      ElementsAre(HasSubstr("mismatched_thresholds.yaml:43: control.contact_detector.by_estimatr"),
+                  HasSubstr("calibrations[0].file: is 'gone.yaml': no such file")));
+  EXPECT_THAT(problems_of(file, {.set = {"robot=../robots/planar_3rrr.yaml,../robots/gone.yaml"}}),
+              ElementsAre(HasSubstr("robot: is '../robots/gone.yaml': no such file")));
+}
+
 TEST(Campaign, HasAnotherIdentityWhereAFileThatItVariesHasChanged) {
   const test::Workplace place;
   test::small_campaign(place);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "experiments/scenario/scenario.h"
+#include "experiments/scenario/scenario_calibrations.h"
 #include "tests/support/problems_of.h"
 #include "tests/support/workplace.h"
 
@@ -49,7 +50,7 @@ TEST_F(CalibratedThresholds, HoldForTheEstimatorsThatAFileNames) {
   const auto& thresholds = scenario.control.reaction_thresholds;
   EXPECT_EQ(thresholds.at("momentum_observer").force, 5.0);
   EXPECT_EQ(thresholds.at("momentum_observer").moment, 0.5);
-  EXPECT_EQ(thresholds.at("imu_residual").moment, scenario.control.contact_detector.reaction.moment);
+  EXPECT_EQ(thresholds.at("imu_residual").moment, std::nullopt);
   EXPECT_EQ(scenario.control.fused_detector.tracking.smoothing, 300.0);
   ASSERT_EQ(scenario.control.fused_detector.residuals.size(), 1U);
   EXPECT_EQ(scenario.control.fused_detector.residuals.front().change.threshold, 7.5);
@@ -63,6 +64,39 @@ TEST_F(CalibratedThresholds, GiveWayToWhatTheScenarioSaysOfAnEstimator) {
           .control.reaction_thresholds;
   EXPECT_EQ(thresholds.at("imu_residual").force, 9.0);
   EXPECT_EQ(thresholds.at("momentum_observer").force, 5.0);
+}
+
+TEST_F(CalibratedThresholds, OfAMomentStayWhereTheScenarioSaysOnlyTheForce) {
+  write("found.yaml", by_estimator);
+  const Scenario scenario =
+      read("{contact_detector: {by_estimator: [{estimator: momentum_observer, reaction_force_N: 9}]}}");
+  const WrenchThreshold reaction = scenario.control.detector_of("momentum_observer").reaction;
+  EXPECT_EQ(reaction.force, 9.0);
+  EXPECT_EQ(reaction.moment, 0.5);
+  EXPECT_THAT(scenario.doubts, IsEmpty());
+}
+
+TEST_F(CalibratedThresholds, WithoutAMomentHaveThatOfTheScenario) {
+  write("found.yaml", by_estimator);
+  const Scenario scenario =
+      read("{estimators: [imu_residual], contact_detector: {reaction_moment_Nm: 0.75}}");
+  EXPECT_EQ(scenario.control.detector_of("imu_residual").reaction.moment, 0.75);
+  EXPECT_THAT(scenario.doubts, IsEmpty());
+}
+
+TEST_F(CalibratedThresholds, CountBeforeThoseThatTheScenarioHasForAllEstimatorsAndThatIsSaid) {
+  write("found.yaml", by_estimator);
+  const Scenario scenario = read(
+      "{estimators: [momentum_observer, imu_residual, disturbance_filter], contact_detector: "
+      "{reaction_force_N: 4, reaction_moment_Nm: 0.4, by_estimator: [{estimator: momentum_observer, "
+      "reaction_force_N: 9}]}}");
+  EXPECT_EQ(scenario.control.detector_of("imu_residual").reaction.force, 8.0);
+  EXPECT_EQ(scenario.control.detector_of("disturbance_filter").reaction.force, 4.0);
+  EXPECT_THAT(scenario.doubts,
+              ElementsAre(HasSubstr("control.contact_detector.reaction_force: does not count for "
+                                    "imu_residual, calibrated by itself"),
+                          HasSubstr("control.contact_detector.reaction_moment: does not count for "
+                                    "momentum_observer, calibrated by itself")));
 }
 
 TEST_F(CalibratedThresholds, GiveWayToTheResidualsOfTheScenarioAsAWhole) {
@@ -89,7 +123,24 @@ TEST_F(CalibratedThresholds, OfTwoFilesAreThoseOfTheLastAndThatIsSaid) {
   const Scenario scenario = read("{}", "[{file: found.yaml}, {file: later.yaml}]");
   EXPECT_EQ(scenario.control.reaction_thresholds.at("imu_residual").force, 6.0);
   EXPECT_EQ(scenario.control.reaction_thresholds.at("momentum_observer").force, 5.0);
-  EXPECT_THAT(scenario.doubts, ElementsAre(HasSubstr("later.yaml: replaces thresholds of")));
+  EXPECT_THAT(scenario.doubts,
+              ElementsAre("later.yaml: replaces what found.yaml says of thresholds of imu_residual"));
+}
+
+TEST_F(CalibratedThresholds, OfTwoFilesDoNotReplaceThoseOfOtherEstimators) {
+  write("found.yaml", with_residuals);
+  write("later.yaml",
+        "control: {contact_detector: {by_estimator: [{estimator: disturbance_filter, reaction_force_N: "
+        "6}]}}\n");
+  EXPECT_THAT(read("{}", "[{file: found.yaml}, {file: later.yaml}]").doubts, IsEmpty());
+}
+
+TEST_F(CalibratedThresholds, OfFilesWithOneNameAreToldByTheirPlaceAmongThem) {
+  write("found.yaml", with_residuals);
+  write("anew/found.yaml", with_residuals);
+  EXPECT_THAT(read("{}", "[{file: found.yaml}, {file: anew/found.yaml}]").doubts,
+              ElementsAre("found.yaml (calibration 2): replaces what found.yaml (calibration 1) says of "
+                          "thresholds of momentum_observer, thresholds of imu_residual, the fused detector"));
 }
 
 TEST_F(CalibratedThresholds, ThatAreNoGoodAreToldByTheirOwnFile) {
@@ -101,6 +152,23 @@ TEST_F(CalibratedThresholds, ThatAreNoGoodAreToldByTheirOwnFile) {
                   HasSubstr("found.yaml:9: control.contact_detector.by_estimator[2].estimator: is "
                             "'imu_residue', which is no estimator; did you mean 'imu_residual'"),
                   HasSubstr("found.yaml:10: control.tasks: is not a known key")));
+}
+
+TEST_F(CalibratedThresholds, AreCheckedWithoutARobot) {
+  const auto checked = [&](const std::string& control) {
+    write("found.yaml", control);
+    check_thresholds(read_parameter_file(place / "scenarios/found.yaml"));
+  };
+  checked(with_residuals);
+  std::string of_pushing_drives = with_residuals;
+  for (std::size_t at = 0; (at = of_pushing_drives.find("noise_Nm", at)) != std::string::npos;)
+    of_pushing_drives.replace(at, 8, "noise_N");
+  checked(of_pushing_drives);
+  EXPECT_THAT(test::problems_of([&] { checked("control: 5\n"); }),
+              ElementsAre(HasSubstr("found.yaml:4: control")));
+  EXPECT_THAT(test::problems_of([&] { checked(of_pushing_drives + "        chnge: {}\n"); }),
+              ElementsAre(HasSubstr("residuals[0].chnge: is not a known key; did you mean 'change'")))
+      << "nothing is said of the unit of the drives";
 }
 
 TEST_F(CalibratedThresholds, OfOneEstimatorStandOnce) {

@@ -1,0 +1,152 @@
+#include "experiments/scenario/calibration_doubts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "experiments/scenario/scenario.h"
+#include "systems/config/config_reader.h"
+
+namespace flinch {
+namespace {
+
+constexpr double telling_change = 0.01;  // of a torque constant: more than its calibration is off
+
+using Sentences = std::vector<std::string>;
+
+void append(Sentences& all, const Sentences& more) { all.insert(all.end(), more.begin(), more.end()); }
+
+std::string listed(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+/// How the calibrations of a scenario are called wherever it is read, from its files or from a recording: by
+/// the names of the files, with a number where several have the same.
+class Names {
+ public:
+  explicit Names(const std::vector<ParameterFile>& files) : files_(files) {}
+
+  std::string of(std::size_t file) const {
+    const std::string name = base(files_[file]);
+    const auto count = std::count_if(files_.begin(), files_.end(),
+                                     [&](const ParameterFile& other) { return base(other) == name; });
+    return count == 1 ? name : name + " (calibration " + std::to_string(file + 1) + ")";
+  }
+
+ private:
+  static std::string base(const ParameterFile& file) {
+    return std::filesystem::path(file.file).filename().string();
+  }
+
+  const std::vector<ParameterFile>& files_;
+};
+
+/// What a file gives, as people call it: parameters by their names, thresholds by those of estimators.
+std::vector<std::string> given_by(const ParameterFile& file) {
+  std::vector<std::string> given;
+  for (const FileParameter& parameter : file.parameters) {
+    if (!parameter.belongs_to.empty() && parameter.identifiable) given.push_back("'" + parameter.name + "'");
+  }
+  if (file.nodes == nullptr) return given;
+  ConfigReader control = ConfigReader::over(file.nodes, file.file).section("control");
+  for (ConfigReader& own : control.section("contact_detector").sections("by_estimator")) {
+    std::string& threshold = given.emplace_back("thresholds of ");
+    std::string estimator;
+    own.text("estimator", estimator);
+    threshold += estimator;
+  }
+  if (control.section("fused_detector").has("residuals")) given.emplace_back("the fused detector");
+  return given;
+}
+
+/// Where a file replaces what one before it gives.
+Sentences replaced(const std::vector<ParameterFile>& files) {
+  const Names names(files);
+  Sentences sentences;
+  std::map<std::string, std::size_t> given_last_by;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    std::map<std::size_t, std::vector<std::string>> replaced_of;
+    for (const std::string& what : given_by(files[i])) {
+      const auto [before, is_new] = given_last_by.emplace(what, i);
+      if (!is_new && before->second != i) replaced_of[before->second].push_back(what);
+      before->second = i;
+    }
+    for (const auto& [before, what] : replaced_of) {
+      sentences.push_back(names.of(i) + ": replaces what " + names.of(before) + " says of " + listed(what));
+    }
+  }
+  return sentences;
+}
+
+/// Of torque constants that are no longer used.
+Sentences assumed_otherwise(const ParameterFile& file, const std::string& name, const Scenario& scenario) {
+  Sentences sentences;
+  const JointVector& constant = scenario.control.drive_torque.torque_constant;
+  for (const FileParameter& assumed : file.assumed) {
+    for (int i = 0; i < static_cast<int>(constant.size()); ++i) {
+      const bool differs = std::abs(constant[i] / assumed.value - 1.0) > telling_change;
+      if (assumed.name != drive_constant_key(*scenario.robot.robot, i) || !differs) continue;
+      sentences.push_back(name + ": rests on " + assumed.name + " = " + std::to_string(assumed.value) +
+                          ", and " + std::to_string(constant[i]) + " is used; calibrate '" + file.kind +
+                          "' again");
+    }
+  }
+  return sentences;
+}
+
+/// Whether the scenario itself says `key`, a path without its unit.
+bool says(const Scenario& scenario, const std::string& key) {
+  return std::any_of(scenario.values.begin(), scenario.values.end(),
+                     [&](const ReadValue& value) { return value.from_file && value.key == key; });
+}
+
+/// Whether the scenario has an entry for the estimator that says its `quantity`.
+bool says_of(const Scenario& scenario, const std::string& estimator, const std::string& quantity) {
+  return std::any_of(scenario.values.begin(), scenario.values.end(), [&](const ReadValue& value) {
+    const bool is_entry = value.key.starts_with("control.contact_detector.by_estimator[") &&
+                          value.key.ends_with("].estimator") && value.value == estimator;
+    return is_entry && says(scenario, value.key.substr(0, value.key.rfind('.') + 1) + quantity);
+  });
+}
+
+/// A threshold that the scenario gives for all estimators, where that of each is calibrated.
+Sentences without_effect(const Scenario& scenario, const std::string& quantity,
+                         std::optional<double> OwnThreshold::*value) {
+  const std::string key = "control.contact_detector." + quantity;
+  if (!says(scenario, key)) return {};
+  std::vector<std::string> others;
+  for (const std::string& estimator : names_of(scenario.control.stages.estimators)) {
+    const auto own = scenario.control.reaction_thresholds.find(estimator);
+    const bool is_calibrated = own != scenario.control.reaction_thresholds.end() && own->second.*value;
+    if (is_calibrated && !says_of(scenario, estimator, quantity)) others.push_back(estimator);
+  }
+  if (others.empty()) return {};
+  return {key + ": does not count for " + listed(others) +
+          ", calibrated by itself; say it in 'by_estimator' where it shall"};
+}
+
+}  // namespace
+
+std::vector<std::string> doubts_about_calibrations(const Scenario& scenario) {
+  const std::vector<ParameterFile>& files = scenario.calibrations;
+  if (files.empty()) return {};
+  const Names names(files);
+  const std::string robot_hash = calibrated_robot_hash(scenario.robot_text);
+  Sentences doubts;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (!files[i].robot.sha256.empty() && files[i].robot.sha256 != robot_hash) {
+      doubts.push_back(names.of(i) + ": the robot file has changed since this calibration of " +
+                       files[i].date + "; calibrate again, or check that what changed does not matter to it");
+    }
+    append(doubts, assumed_otherwise(files[i], names.of(i), scenario));
+  }
+  append(doubts, replaced(files));
+  append(doubts, without_effect(scenario, "reaction_force", &OwnThreshold::force));
+  append(doubts, without_effect(scenario, "reaction_moment", &OwnThreshold::moment));
+  return doubts;
+}
+
+}  // namespace flinch
