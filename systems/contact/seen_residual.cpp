@@ -1,5 +1,6 @@
 #include "systems/contact/seen_residual.h"
 
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -14,16 +15,17 @@ bool is_usable(const WrenchEstimate& estimate) {
          estimate.drive_torque.allFinite();
 }
 
-DriveResidual minus(const DriveResidual& a, const DriveResidual& b) {
-  return {a.effort - b.effort, a.torque - b.torque, a.friction - b.friction,
-          a.slope - b.slope,   a.rising - b.rising, a.rest - b.rest};
+constexpr std::array parts = {&DriveResidual::effort, &DriveResidual::torque, &DriveResidual::friction,
+                              &DriveResidual::slope,  &DriveResidual::rising, &DriveResidual::rest};
+
+/// difference = a - b, part by part.
+void subtract(const DriveResidual& a, const DriveResidual& b, DriveResidual& difference) {
+  for (const auto part : parts) difference.*part = a.*part - b.*part;
 }
 
-/// a + share (b - a)
-DriveResidual towards(const DriveResidual& a, const DriveResidual& b, double share) {
-  const DriveResidual way = minus(b, a);
-  return {a.effort + share * way.effort, a.torque + share * way.torque, a.friction + share * way.friction,
-          a.slope + share * way.slope,   a.rising + share * way.rising, a.rest + share * way.rest};
+/// next = mean + share (seen - mean), part by part.
+void follow(const DriveResidual& mean, const DriveResidual& seen, double share, DriveResidual& next) {
+  for (const auto part : parts) next.*part = mean.*part + share * (seen.*part - mean.*part);
 }
 
 /// The load between two ticks, as if it changed evenly.
@@ -61,21 +63,23 @@ JointVector rest_of(const JointVector& rate, double resting_rate) {
   return (-(rate.array() / resting_rate).square()).exp();
 }
 
-/// Passes a load through the filters of an answer, which have settled on it where it is the first one; `T` is
-/// the time since the last one [s].
-AnsweredLoad answered(const AnsweredLoad& load, const EstimatorAnswer& answer, bool is_first, double T,
-                      ResidualMemory& next) {
-  AnsweredLoad now = load;
-  const double share = is_first ? 1.0 : 1.0 - std::exp(-answer.rate * T);
-  for (int i = 0; i < answer.filters; ++i) {
-    AnsweredLoad& filter = next.answered[static_cast<std::size_t>(i)];
-    if (is_first) filter = now;
-    filter.torque += share * (now.torque - filter.torque);
-    filter.friction += share * (now.friction - filter.friction);
-    filter.rest += share * (now.rest - filter.rest);
-    now = filter;
+/// Passes torque, friction and rest of a residual through the filters of an answer, which have settled on them
+/// where they are the first; `T` is the time since the last ones [s].
+void answer(const EstimatorAnswer& by, bool is_first, double T, const ResidualMemory& memory,
+            ResidualMemory& next) {
+  DriveResidual& level = next.seen.level;
+  const double share = is_first ? 1.0 : 1.0 - std::exp(-by.rate * T);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(by.filters); ++i) {
+    AnsweredLoad& filter = next.answered[i];
+    if (is_first) {
+      filter = {level.torque, level.friction, level.rest};
+      continue;
+    }
+    const AnsweredLoad& last = memory.answered[i];
+    level.torque = filter.torque = last.torque + share * (level.torque - last.torque);
+    level.friction = filter.friction = last.friction + share * (level.friction - last.friction);
+    level.rest = filter.rest = last.rest + share * (level.rest - last.rest);
   }
-  return now;
 }
 
 }  // namespace
@@ -88,37 +92,38 @@ void follow_residual(const WrenchEstimate& estimate, const DriveLoad& fresh, con
   if (is_new)
     then =
         sample_at(estimate.acquired, past, fresh.valid ? &fresh : nullptr, tracking.sampling, interpolated);
-  next = memory;
-  next.seen.is_new = false;
   if (!then || then->torque.size() != estimate.drive_torque.size()) {
+    next = memory;
+    next.seen.is_new = false;
     if (tracking.sampling.expired(memory.arrived, now)) next.started = false;
     return;
   }
   const bool continued = memory.started && !tracking.sampling.interrupted(memory.acquired, estimate.acquired);
   const double T = to_seconds(estimate.acquired - memory.acquired);
-  const AnsweredLoad load =
-      answered({then->torque, then->friction, rest_of(then->rate, tracking.resting_rate)}, tracking.answer,
-               !continued, T, next);
-  const JointVector none = JointVector::Zero(load.torque.size());
-  DriveResidual level{estimate.drive_torque, load.torque, load.friction, none, none, load.rest};
-  if (continued && tracking.answer.filters > 0) level.slope = (load.torque - memory.seen.level.torque) / T;
+  DriveResidual& level = next.seen.level;
+  level.effort = estimate.drive_torque;
+  level.torque = then->torque;
+  level.friction = then->friction;
+  level.rest = rest_of(then->rate, tracking.resting_rate);
+  level.slope = level.rising = JointVector::Zero(level.effort.size());
+  answer(tracking.answer, !continued, T, memory, next);
+  if (continued && tracking.answer.filters > 0) level.slope = (level.torque - memory.seen.level.torque) / T;
   if (continued && tracking.answer.filters == 0) see_hold(*then, fresh, past, tracking.sampling, level);
-  if (!continued) {
-    next.mean = level;
-    next.seen.smoothed = level;
+  if (continued) {
+    next.since = memory.since;
+    subtract(level, memory.mean, next.seen.change);
+    follow(memory.mean, level, 1.0 - std::exp(-tracking.rate * T), next.mean);
+    follow(memory.seen.smoothed, level, 1.0 - std::exp(-tracking.smoothing * T), next.seen.smoothed);
+  } else {
     next.since = now;
+    next.mean = next.seen.smoothed = level;
+    subtract(level, level, next.seen.change);
   }
   next.started = true;
   next.seen.is_new = true;
   next.seen.settled = now - next.since >= tracking.settling_time();
   next.seen.smooth = now - next.since >= tracking.smoothing_time();
   next.seen.load = *then;
-  next.seen.level = level;
-  next.seen.change = minus(level, next.mean);
-  if (continued) {
-    next.mean = towards(next.mean, level, 1.0 - std::exp(-tracking.rate * T));
-    next.seen.smoothed = towards(next.seen.smoothed, level, 1.0 - std::exp(-tracking.smoothing * T));
-  }
   next.acquired = estimate.acquired;
   next.arrived = now;
 }
