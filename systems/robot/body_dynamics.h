@@ -47,10 +47,7 @@ struct BodyMotion {
   /// J_c = J_o - S(r) J_w, dJ_c = dJ_o - S(omega x r) J_w - S(r) dJ_w.
   PointMotion<n> point(const Eigen::Vector3d& arm, const Eigen::Vector3d& omega) const {
     const Eigen::Matrix3d S = cross_matrix(arm);
-    PointMotion<n> point;
-    point.J = J_o - S * J_w;
-    point.dJ = dJ_o - cross_matrix(omega.cross(arm)) * J_w - S * dJ_w;
-    return point;
+    return {J_o - S * J_w, dJ_o - cross_matrix(omega.cross(arm)) * J_w - S * dJ_w};
   }
 };
 

@@ -138,17 +138,21 @@ Hexapod::LegRates Hexapod::rates(const Leg& leg, const Platform& platform) noexc
   return rates;
 }
 
-// J_d = [I, -S(r)] maps to the velocity of the platform joint, J_s = (I - s s^T) J_d / q to that of s.
-UniversalLeg<6> Hexapod::universal(std::size_t index, const Leg& leg, const LegRates& rates,
-                                   const Platform& platform) const noexcept {
-  const Eigen::Vector3d& s = leg.direction;
+// J_d = [I, -S(r)].
+PointMotion<6> Hexapod::joint_motion(const Leg& leg, const Platform& platform) noexcept {
   const Eigen::Vector3d omega = platform.velocity.tail<3>();
-  Map J_d;
-  Map dJ_d;
-  J_d << Eigen::Matrix3d::Identity(), -cross_matrix(leg.arm);
-  dJ_d << Eigen::Matrix3d::Zero(), -cross_matrix(omega.cross(leg.arm));
-  const Map J_s = (J_d - s * rates.row) / leg.length;
-  const Map dJ_s = (dJ_d - rates.direction_rate * rates.row - s * rates.row_rate) / leg.length -
+  PointMotion<6> joint;
+  joint.J << Eigen::Matrix3d::Identity(), -cross_matrix(leg.arm);
+  joint.dJ << Eigen::Matrix3d::Zero(), -cross_matrix(omega.cross(leg.arm));
+  return joint;
+}
+
+// J_s = (I - s s^T) J_d / q maps to the velocity of s.
+UniversalLeg<6> Hexapod::universal(std::size_t index, const Leg& leg, const LegRates& rates,
+                                   const PointMotion<6>& joint) const noexcept {
+  const Eigen::Vector3d& s = leg.direction;
+  const Map J_s = (joint.J - s * rates.row) / leg.length;
+  const Map dJ_s = (joint.dJ - rates.direction_rate * rates.row - s * rates.row_rate) / leg.length -
                    rates.length_rate / leg.length * J_s;
   return universal_leg<6>(parameters_.legs[index].universal_axis, s, rates.direction_rate, J_s, dJ_s);
 }
@@ -165,33 +169,21 @@ BodyMotion<6> Hexapod::platform_motion(const Platform& platform) noexcept {
 }
 
 BodyMotion<6> Hexapod::cylinder_motion(std::size_t index, const UniversalLeg<6>& leg) const noexcept {
-  BodyMotion<6> body;
-  body.origin = parameters_.legs[index].base_joint;
-  body.axes = leg.axes;
-  body.J_w = leg.J_w;
-  body.dJ_w = leg.dJ_w;
-  return body;
+  return {parameters_.legs[index].base_joint, leg.axes, Map::Zero(), leg.J_w, Map::Zero(), leg.dJ_w};
 }
 
-BodyMotion<6> Hexapod::rod_motion(const Leg& leg, const UniversalLeg<6>& universal,
-                                  const Platform& platform) noexcept {
-  const PointMotion<6> joint = platform_motion(platform).point(leg.arm, platform.velocity.tail<3>());
-  BodyMotion<6> body;
-  body.origin = platform.origin + leg.arm;
-  body.axes = universal.axes;
-  body.J_o = joint.J;
-  body.dJ_o = joint.dJ;
-  body.J_w = universal.J_w;
-  body.dJ_w = universal.dJ_w;
-  return body;
+BodyMotion<6> Hexapod::rod_motion(const Leg& leg, const PointMotion<6>& joint,
+                                  const UniversalLeg<6>& universal, const Platform& platform) noexcept {
+  return {platform.origin + leg.arm, universal.axes, joint.J, universal.J_w, joint.dJ, universal.dJ_w};
 }
 
 BodyMotion<6> Hexapod::motion(BodyId body, const Platform& platform) const noexcept {
   if (body.is_platform()) return platform_motion(platform);
   const auto index = static_cast<std::size_t>(body.leg());
   const Leg closed = leg(index, platform);
-  const UniversalLeg<6> turning = universal(index, closed, rates(closed, platform), platform);
-  return body.is_link1() ? cylinder_motion(index, turning) : rod_motion(closed, turning, platform);
+  const PointMotion<6> joint = joint_motion(closed, platform);
+  const UniversalLeg<6> turning = universal(index, closed, rates(closed, platform), joint);
+  return body.is_link1() ? cylinder_motion(index, turning) : rod_motion(closed, joint, turning, platform);
 }
 
 // ---------------------------------------------------------------- inverse and forward kinematics
@@ -312,12 +304,13 @@ void Hexapod::dynamics(const Kinematics& kinematics, Dynamics& out) const noexce
   for (std::size_t i = 0; i < 6; ++i) {
     const Leg closed = leg(i, at);
     const LegRates moving = rates(closed, at);
-    const UniversalLeg<6> turning = universal(i, closed, moving, at);
+    const PointMotion<6> joint = joint_motion(closed, at);
+    const UniversalLeg<6> turning = universal(i, closed, moving, joint);
     sum.add_body(cylinders_[i], cylinder_motion(i, turning), v, p.gravity);
-    sum.add_body(rods_[i], rod_motion(closed, turning, at), v, p.gravity);
+    sum.add_body(rods_[i], rod_motion(closed, joint, turning, at), v, p.gravity);
     sum.add_armature(p.drive_armature, moving.row, moving.row_rate);
-    const auto resist = [&](const JointFriction& joint, const Row& row, double friction_velocity) {
-      friction += row.transpose() * friction_effort(joint, row.dot(v), friction_velocity);
+    const auto resist = [&](const JointFriction& of, const Row& row, double friction_velocity) {
+      friction += row.transpose() * friction_effort(of, row.dot(v), friction_velocity);
     };
     resist(p.legs[i].drive_friction, moving.row, p.drive_friction_velocity);
     resist(p.legs[i].universal_friction, turning.J_first, p.universal_friction_velocity);

@@ -75,12 +75,14 @@ class Hexapod final : public ParallelRobot {
   static Platform platform(const Configuration& pose, const Twist& velocity) noexcept;
   Leg leg(std::size_t index, const Platform& platform) const noexcept;
   static LegRates rates(const Leg& leg, const Platform& platform) noexcept;
+  /// Of the joint between leg and platform.
+  static PointMotion<6> joint_motion(const Leg& leg, const Platform& platform) noexcept;
   UniversalLeg<6> universal(std::size_t index, const Leg& leg, const LegRates& rates,
-                            const Platform& platform) const noexcept;
+                            const PointMotion<6>& joint) const noexcept;
   static BodyMotion<6> platform_motion(const Platform& platform) noexcept;
   BodyMotion<6> cylinder_motion(std::size_t index, const UniversalLeg<6>& leg) const noexcept;
-  static BodyMotion<6> rod_motion(const Leg& leg, const UniversalLeg<6>& universal,
-                                  const Platform& platform) noexcept;
+  static BodyMotion<6> rod_motion(const Leg& leg, const PointMotion<6>& joint,
+                                  const UniversalLeg<6>& universal, const Platform& platform) noexcept;
   BodyMotion<6> motion(BodyId body, const Platform& platform) const noexcept;
   bool reaches(const Leg& leg) const noexcept;
   bool serves(const Kinematics& kinematics, BodyId body, const CartesianVector& point) const noexcept;
