@@ -128,13 +128,18 @@ std::string promise(const ThresholdFindings& found, const char* begin) {
       begin, goal.false_alarms_per_hour, 100.0 * goal.confidence, begin);
   if (found.residuals.empty()) return text;
   if (goal.one_robot) {
-    return text + begin + "of the fused detector: by the one robot that was recorded (--one-robot)\n";
+    return text + begin + "fused detector: for the one robot that was recorded (--one-robot)\n";
   }
   const std::size_t recordings = found.recordings.size();
+  if (recordings == 1) {
+    return text + begin +
+           "fused detector: one recording does not tell how robots differ; with the longest tail\n";
+  }
   return text + fmt::format(
-                    "{}of the fused detector: by robots that differ as those of {} recording{} do,\n"
-                    "{}which few recordings tell only roughly\n",
-                    begin, recordings, recordings == 1 ? "" : "s", begin);
+                    "{}fused detector: for robots that differ as those of the {} recordings; how far they "
+                    "differ, few\n"
+                    "{}recordings tell only roughly\n",
+                    begin, recordings, begin);
 }
 
 /// How the thresholds were found, as lines of comment.
@@ -211,8 +216,9 @@ void note_robot(const std::vector<Scenario>& scenarios, ThresholdFindings& found
 std::vector<std::string> warnings(const ThresholdFindings& found) {
   if (found.residuals.empty() || found.goal.one_robot || found.recordings.size() > 1) return {};
   return {
-      "one recording does not tell how robots differ, so the thresholds of the fused detector are as high as "
-      "they can be; add recordings of other robots, or say --one-robot where they shall serve this one"};
+      "one recording does not tell how robots differ, so the longest tail is taken for thresholds of the "
+      "fused "
+      "detector; add recordings of other robots, or say --one-robot where they shall serve this one"};
 }
 
 std::string thresholds_table(const ThresholdFindings& found) {

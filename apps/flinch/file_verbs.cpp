@@ -12,8 +12,8 @@
 #include "calibration/csv_recording.h"
 #include "experiments/report/experiment_report.h"
 #include "experiments/report/report_page.h"
+#include "experiments/report/scenario_verdict.h"
 #include "experiments/scenario/scenario_calibrations.h"
-#include "experiments/verdict/verdict.h"
 #include "systems/config/config_file.h"
 #include "systems/config/file_kind.h"
 #include "systems/config/parameter_file.h"
@@ -39,8 +39,8 @@ Report recorded_report(const std::filesystem::path& file, const CommonOptions& c
   tell_if_partial(recording, common);
   const Scenario scenario = scenario_of(recording, file);
   require_run(recording, file);
-  return out_of(
-      file, [&] { return experiment_report(scenario, recording, verdict_of(scenario, recording)); });
+  return out_of(file,
+                [&] { return experiment_report(scenario, recording, verdict_of(scenario, recording)); });
 }
 
 /// Lets Graphviz draw `dot` into `file`, which is replaced only by a whole picture.
@@ -91,8 +91,8 @@ std::string check_text(const std::filesystem::path& file) {
       return "data specification";
     case FileKind::robot: {
       const std::string text = read_config_file(file);
-      parse_robot_file(text, file.string());
-      robot_calibrations(text, file.string());
+      const RobotFile robot = parse_robot_file(text, file.string());
+      check_thresholds(robot_calibrations(text, file.string()), robot);
       return "robot";
     }
     case FileKind::scenario:

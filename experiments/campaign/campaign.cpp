@@ -158,20 +158,21 @@ std::shared_ptr<const ConfigNode> varied(const ConfigNode& scenario, const std::
 void read_named(const std::shared_ptr<const ConfigNode>& scenario, const std::filesystem::path& file,
                 RobotFiles& robots) {
   ConfigReader reader = ConfigReader::over(scenario, file.string());
-  std::filesystem::path robot;
-  reader.required().file("robot", robot);
+  reader.leave_rest_unread();
+  std::filesystem::path name;
+  reader.required().file("robot", name);
+  std::shared_ptr<const RobotFiles::Entry> robot;
   try {
-    if (!robot.empty()) robots.read(robot);
+    if (!name.empty()) robot = robots.read(name);
   } catch (const SetupError& error) {
     reader.add_problems(error.problems());
   }
-  read_calibrations(reader, [&robots](const std::filesystem::path& name) {
-    const std::shared_ptr<const ParameterFile> calibration = robots.read_calibration(name);
-    check_thresholds(*calibration);
-    return *calibration;
-  });
-  reader.leave_rest_unread();
+  const std::vector<ParameterFile> own = read_calibrations(
+      reader, [&robots](const std::filesystem::path& each) { return *robots.read_calibration(each); });
   reader.finish();
+  std::vector<ParameterFile> all = robot->calibrations;
+  all.insert(all.end(), own.begin(), own.end());
+  check_thresholds(all, robot->robot);
 }
 
 /// The same of every value of the keys by which the campaign varies them.

@@ -241,12 +241,6 @@ std::vector<ReportParameter> provenance(const Recording& recording) {
 
 }  // namespace
 
-Verdict verdict_of(const Scenario& scenario, const Recording& recording) {
-  Verdict verdict = judge(recording, scenario.robot.robot->space(), scenario.expected, scenario.force_limits);
-  verdict.remarks.insert(verdict.remarks.end(), scenario.doubts.begin(), scenario.doubts.end());
-  return verdict;
-}
-
 Report experiment_report(const Scenario& scenario, const Recording& recording, const Verdict& verdict) {
   Report report;
   report.kind = verdict.witness == Witness::truth ? "simulated experiment" : "experiment on a robot";

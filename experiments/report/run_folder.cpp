@@ -2,6 +2,7 @@
 
 #include "experiments/report/experiment_report.h"
 #include "experiments/report/report_page.h"
+#include "experiments/report/scenario_verdict.h"
 #include "experiments/scenario/scenario.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recording.h"

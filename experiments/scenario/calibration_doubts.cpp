@@ -7,20 +7,15 @@
 
 #include "experiments/scenario/scenario.h"
 #include "systems/config/config_reader.h"
+#include "systems/foundation/nearest_name.h"
 
 namespace flinch {
 namespace {
 
 constexpr double telling_change = 0.01;  // of a torque constant: more than its calibration is off
 
-using Sentences = std::vector<std::string>;
-
-void append(Sentences& all, const Sentences& more) { all.insert(all.end(), more.begin(), more.end()); }
-
-std::string listed(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
+void append(std::vector<std::string>& all, const std::vector<std::string>& more) {
+  all.insert(all.end(), more.begin(), more.end());
 }
 
 /// How the calibrations of a scenario are called wherever it is read, from its files or from a recording: by
@@ -44,46 +39,58 @@ class Names {
   const std::vector<ParameterFile>& files_;
 };
 
-/// What a file gives, as people call it: parameters by their names, thresholds by those of estimators.
-std::vector<std::string> given_by(const ParameterFile& file) {
-  std::vector<std::string> given;
-  for (const FileParameter& parameter : file.parameters) {
-    if (!parameter.belongs_to.empty() && parameter.identifiable) given.push_back("'" + parameter.name + "'");
-  }
-  if (file.nodes == nullptr) return given;
+/// Keys of thresholds that a file has, those of an estimator with its name.
+std::vector<std::string> thresholds_of(const ParameterFile& file) {
+  if (file.nodes == nullptr) return {};
   ConfigReader control = ConfigReader::over(file.nodes, file.file).section("control");
+  std::vector<std::string> keys;
+  for (const char* const name : {"contact_detector", "fused_detector"}) {
+    for (const std::string_view key : control.section(name).keys()) {
+      if (key != "by_estimator") keys.push_back(std::string(name) + "." + std::string(key));
+    }
+  }
   for (ConfigReader& own : control.section("contact_detector").sections("by_estimator")) {
-    std::string& threshold = given.emplace_back("thresholds of ");
     std::string estimator;
     own.text("estimator", estimator);
-    threshold += estimator;
+    for (const std::string_view key : own.keys()) {
+      if (key != "estimator") keys.push_back(std::string(key) + " of " + estimator);
+    }
   }
-  if (control.section("fused_detector").has("residuals")) given.emplace_back("the fused detector");
-  return given;
+  return keys;
 }
 
 /// Where a file replaces what one before it gives.
-Sentences replaced(const std::vector<ParameterFile>& files) {
+std::vector<std::string> replaced(const std::vector<ParameterFile>& files) {
+  constexpr std::size_t most = 3;  // that are told one by one
   const Names names(files);
-  Sentences sentences;
+  std::vector<std::string> sentences;
   std::map<std::string, std::size_t> given_last_by;
   for (std::size_t i = 0; i < files.size(); ++i) {
+    std::vector<std::string> given = thresholds_of(files[i]);
+    for (const FileParameter& parameter : files[i].parameters) {
+      if (!parameter.belongs_to.empty() && parameter.identifiable) given.push_back(parameter.name);
+    }
     std::map<std::size_t, std::vector<std::string>> replaced_of;
-    for (const std::string& what : given_by(files[i])) {
+    for (const std::string& what : given) {
       const auto [before, is_new] = given_last_by.emplace(what, i);
       if (!is_new && before->second != i) replaced_of[before->second].push_back(what);
       before->second = i;
     }
     for (const auto& [before, what] : replaced_of) {
-      sentences.push_back(names.of(i) + ": replaces what " + names.of(before) + " says of " + listed(what));
+      const std::size_t told = std::min(what.size(), most);
+      const std::string more =
+          what.size() > told ? " and " + std::to_string(what.size() - told) + " more" : "";
+      sentences.push_back(names.of(i) + ": replaces what " + names.of(before) + " says of " +
+                          listed({what.data(), told}) + more);
     }
   }
   return sentences;
 }
 
 /// Of torque constants that are no longer used.
-Sentences assumed_otherwise(const ParameterFile& file, const std::string& name, const Scenario& scenario) {
-  Sentences sentences;
+std::vector<std::string> assumed_otherwise(const ParameterFile& file, const std::string& name,
+                                           const Scenario& scenario) {
+  std::vector<std::string> sentences;
   const JointVector& constant = scenario.control.drive_torque.torque_constant;
   for (const FileParameter& assumed : file.assumed) {
     for (int i = 0; i < static_cast<int>(constant.size()); ++i) {
@@ -113,8 +120,8 @@ bool says_of(const Scenario& scenario, const std::string& estimator, const std::
 }
 
 /// A threshold that the scenario gives for all estimators, where that of each is calibrated.
-Sentences without_effect(const Scenario& scenario, const std::string& quantity,
-                         std::optional<double> OwnThreshold::*value) {
+std::vector<std::string> without_effect(const Scenario& scenario, const std::string& quantity,
+                                        std::optional<double> OwnThreshold::*value) {
   const std::string key = "control.contact_detector." + quantity;
   if (!says(scenario, key)) return {};
   std::vector<std::string> others;
@@ -135,7 +142,7 @@ std::vector<std::string> doubts_about_calibrations(const Scenario& scenario) {
   if (files.empty()) return {};
   const Names names(files);
   const std::string robot_hash = calibrated_robot_hash(scenario.robot_text);
-  Sentences doubts;
+  std::vector<std::string> doubts;
   for (std::size_t i = 0; i < files.size(); ++i) {
     if (!files[i].robot.sha256.empty() && files[i].robot.sha256 != robot_hash) {
       doubts.push_back(names.of(i) + ": the robot file has changed since this calibration of " +

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 
+#include "diagrams/robot_settings.h"
 #include "experiments/scenario/scenario.h"
 #include "experiments/scenario/scenario_thresholds.h"
 #include "systems/config/config_reader.h"
@@ -13,6 +15,8 @@
 
 namespace flinch {
 namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool changes_robot(const ParameterFile& file) {
   return std::any_of(file.parameters.begin(), file.parameters.end(), [](const FileParameter& parameter) {
@@ -85,12 +89,19 @@ void calibrate_control(const std::vector<ParameterFile>& calibrations, const Par
   throw_if_any(std::move(problems));
 }
 
-void check_thresholds(const ParameterFile& file, const ControlStages& known) {
+void check_thresholds(const std::vector<ParameterFile>& files, const RobotFile& robot) {
+  ContactControlSettings control = settings_for(*robot.robot, robot.drives, robot.limits);
+  control.stages = known_stages();
+  calibrate_control(files, *robot.robot, control);
+}
+
+void check_thresholds(const ParameterFile& file) {
   if (!has_thresholds(file)) return;
   std::vector<std::string> fewest;
   for (const DriveKind drives : {DriveKind::revolute, DriveKind::prismatic}) {
     ContactControlSettings control;
-    control.stages = known;
+    control.stages = known_stages();
+    control.contact_detector.hard = {infinity, infinity};  // what it leaves out, another file may say
     try {
       return take_thresholds(file, drives, control);
     } catch (const SetupError& error) {

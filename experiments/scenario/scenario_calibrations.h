@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "diagrams/control_stages.h"
 #include "systems/config/parameter_file.h"
 #include "systems/config/robot_file.h"
 
@@ -31,8 +30,9 @@ RobotFile calibrated_robot(const Scenario& scenario);
 void calibrate_control(const std::vector<ParameterFile>& calibrations, const ParallelRobot& robot,
                        ContactControlSettings& control);
 
-/// Throws SetupError with all that is wrong with the section `control` of the file, whatever robot it is for.
-/// `known`: whose estimators it may name.
-void check_thresholds(const ParameterFile& file, const ControlStages& known = known_stages());
+/// Throws SetupError with all that is wrong with the sections `control` of the files for this robot.
+void check_thresholds(const std::vector<ParameterFile>& files, const RobotFile& robot);
+/// The same of one file, whatever robot it is for.
+void check_thresholds(const ParameterFile& file);
 
 }  // namespace flinch

@@ -63,8 +63,8 @@ JointVector rest_of(const JointVector& rate, double resting_rate) {
   return (-(rate.array() / resting_rate).square()).exp();
 }
 
-/// Passes torque, friction and rest of a residual through the filters of an answer, which have settled on them
-/// where they are the first; `T` is the time since the last ones [s].
+/// Passes torque, friction and rest of a residual through the filters of an answer, which have settled where
+/// they are the first; `T` is the time since the last ones [s].
 void answer(const EstimatorAnswer& by, bool is_first, double T, const ResidualMemory& memory,
             ResidualMemory& next) {
   DriveResidual& level = next.seen.level;

@@ -138,7 +138,6 @@ Hexapod::LegRates Hexapod::rates(const Leg& leg, const Platform& platform) noexc
   return rates;
 }
 
-// J_d = [I, -S(r)].
 PointMotion<6> Hexapod::joint_motion(const Leg& leg, const Platform& platform) noexcept {
   const Eigen::Vector3d omega = platform.velocity.tail<3>();
   PointMotion<6> joint;
@@ -147,7 +146,7 @@ PointMotion<6> Hexapod::joint_motion(const Leg& leg, const Platform& platform) n
   return joint;
 }
 
-// J_s = (I - s s^T) J_d / q maps to the velocity of s.
+// J_s = (I - s s^T) J / q maps to the velocity of s, J to that of the joint.
 UniversalLeg<6> Hexapod::universal(std::size_t index, const Leg& leg, const LegRates& rates,
                                    const PointMotion<6>& joint) const noexcept {
   const Eigen::Vector3d& s = leg.direction;
@@ -169,12 +168,22 @@ BodyMotion<6> Hexapod::platform_motion(const Platform& platform) noexcept {
 }
 
 BodyMotion<6> Hexapod::cylinder_motion(std::size_t index, const UniversalLeg<6>& leg) const noexcept {
-  return {parameters_.legs[index].base_joint, leg.axes, Map::Zero(), leg.J_w, Map::Zero(), leg.dJ_w};
+  return {.origin = parameters_.legs[index].base_joint,
+          .axes = leg.axes,
+          .J_o = Map::Zero(),
+          .J_w = leg.J_w,
+          .dJ_o = Map::Zero(),
+          .dJ_w = leg.dJ_w};
 }
 
 BodyMotion<6> Hexapod::rod_motion(const Leg& leg, const PointMotion<6>& joint,
                                   const UniversalLeg<6>& universal, const Platform& platform) noexcept {
-  return {platform.origin + leg.arm, universal.axes, joint.J, universal.J_w, joint.dJ, universal.dJ_w};
+  return {.origin = platform.origin + leg.arm,
+          .axes = universal.axes,
+          .J_o = joint.J,
+          .J_w = universal.J_w,
+          .dJ_o = joint.dJ,
+          .dJ_w = universal.dJ_w};
 }
 
 BodyMotion<6> Hexapod::motion(BodyId body, const Platform& platform) const noexcept {

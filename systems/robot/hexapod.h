@@ -75,7 +75,8 @@ class Hexapod final : public ParallelRobot {
   static Platform platform(const Configuration& pose, const Twist& velocity) noexcept;
   Leg leg(std::size_t index, const Platform& platform) const noexcept;
   static LegRates rates(const Leg& leg, const Platform& platform) noexcept;
-  /// Of the joint between leg and platform.
+  /// Maps from v to the velocity of the joint between leg and platform; as platform_motion().point(), without
+  /// products by zeros and ones.
   static PointMotion<6> joint_motion(const Leg& leg, const Platform& platform) noexcept;
   UniversalLeg<6> universal(std::size_t index, const Leg& leg, const LegRates& rates,
                             const PointMotion<6>& joint) const noexcept;

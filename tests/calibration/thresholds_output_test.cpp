@@ -105,11 +105,11 @@ TEST(TheParameterFile, SaysOfWhichRobotsTheFusedDetectorKeepsTheRate) {
   found.recordings = {{"a", "1"}, {"b", "2"}, {"c", "3"}};
   EXPECT_THAT(
       thresholds_yaml(found, "2026-11-22"),
-      HasSubstr("\n#   of the fused detector: by robots that differ as those of 3 recordings do,\n"));
+      HasSubstr("\n#   fused detector: for robots that differ as those of the 3 recordings; how far"));
   EXPECT_THAT(warnings(found), IsEmpty());
   found.goal.one_robot = true;
   EXPECT_THAT(thresholds_yaml(found, "2026-11-22"),
-              HasSubstr("\n#   of the fused detector: by the one robot that was recorded (--one-robot)\n"));
+              HasSubstr("\n#   fused detector: for the one robot that was recorded (--one-robot)\n"));
   EXPECT_EQ(nlohmann::json::parse(thresholds_json(found))["one_robot"], true);
 }
 

@@ -53,6 +53,10 @@ TEST_F(CalibrateThresholds, FindsThoseOfEachEstimatorAndAScenarioTakesThem) {
       test::bytes_of(place / "thresholds.yaml"),
       HasSubstr("  - {file: '" + recording + "', sha256: '" + sha256(test::bytes_of(recording)) + "'}\n"));
   EXPECT_EQ(flinch({"check", place.at("thresholds.yaml")}).status, 0);
+  const std::string found = test::bytes_of(place / "thresholds.yaml");
+  place.write("broken.yaml", found.substr(0, found.find("control:")) + "control: {contact_detctor: {}}\n");
+  EXPECT_THAT(flinch({"check", place.at("broken.yaml")}).err,
+              HasSubstr("control.contact_detctor: is not a known key; did you mean 'contact_detector'?"));
   place.replace(collision, "control:\n", "calibrations: [{file: ../thresholds.yaml}]\ncontrol:\n");
   const Outcome run = flinch({"run", place.at(collision), "--out", place.at("out"), "--json"});
   const auto contact = nlohmann::json::parse(run.out)["contacts"][0];
@@ -66,8 +70,9 @@ TEST_F(CalibrateThresholds, FindsThoseOfEachEstimatorAndAScenarioTakesThem) {
 TEST_F(CalibrateThresholds, FindsWhatTheFusedDetectorJudgesByAndAScenarioTakesIt) {
   place.replace(random_motion, "duration_s: 36", "duration_s: 32.5");
   EXPECT_EQ(flinch({"run", place.at(random_motion), "--out", place.at("free"), "--quiet"}).status, 0);
-  const Outcome outcome = flinch({"calibrate", "thresholds", place.at("free/run.h5"), "--one-robot", "--json",
-                                  "--out", place.at("thresholds.yaml")});
+  const Outcome outcome = flinch(
+      {"calibrate", "thresholds", place.at("free/run.h5"), "--json", "--out", place.at("thresholds.yaml")});
+  EXPECT_THAT(outcome.err, HasSubstr("warning: one recording does not tell how robots differ"));
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(test::undocumented_keys(nlohmann::json::parse(outcome.out), "Thresholds"), IsEmpty());
   const auto json = nlohmann::json::parse(outcome.out)["fused_detector"];
@@ -76,7 +81,7 @@ TEST_F(CalibrateThresholds, FindsWhatTheFusedDetectorJudgesByAndAScenarioTakesIt
     for (const char* part : {"level", "change"}) {
       EXPECT_GT(of[part]["value"], of[part]["largest"]) << of;
       EXPECT_LT(of[part]["variation"], 0.05) << of;
-      EXPECT_LT(of[part]["value"], 7.0) << "normal errors need 6 deviations: " << of;
+      EXPECT_LT(of[part]["value"], 8.0) << "normal errors need 6 deviations, and the longest tail 7: " << of;
       constexpr double inertia = 0.3;  // at the drives, hardly ever less [kg m^2]
       EXPECT_GT(std::hypot(of[part]["noise"].get<double>(), inertia * of[part]["acceleration"].get<double>()),
                 0.05)

@@ -253,6 +253,11 @@ TEST(Campaign, ThatVariesFilesOfWhichOneIsNoGoodIsRefusedAtOnce) {
                                  "../calibrations/mismatched_thresholds.yaml}],[{file: gone.yaml}]"}}),
       ElementsAre(HasSubstr("mismatched_thresholds.yaml:43: control.contact_detector.by_estimatr"),
                   HasSubstr("calibrations[0].file: is 'gone.yaml': no such file")));
+  const std::string robot = test::bytes_of(place / "robots/planar_3rrr.yaml");
+  place.write("robots/calibrated.yaml",
+              robot + "\ncalibrations: [{file: ../calibrations/mismatched_thresholds.yaml}]\n");
+  EXPECT_THAT(problems_of(file, {.set = {"robot=../robots/planar_3rrr.yaml,../robots/calibrated.yaml"}}),
+              ElementsAre(HasSubstr("mismatched_thresholds.yaml:43: control.contact_detector.by_estimatr")));
   EXPECT_THAT(problems_of(file, {.set = {"robot=../robots/planar_3rrr.yaml,../robots/gone.yaml"}}),
               ElementsAre(HasSubstr("robot: is '../robots/gone.yaml': no such file")));
 }

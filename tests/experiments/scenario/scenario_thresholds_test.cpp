@@ -124,7 +124,24 @@ TEST_F(CalibratedThresholds, OfTwoFilesAreThoseOfTheLastAndThatIsSaid) {
   EXPECT_EQ(scenario.control.reaction_thresholds.at("imu_residual").force, 6.0);
   EXPECT_EQ(scenario.control.reaction_thresholds.at("momentum_observer").force, 5.0);
   EXPECT_THAT(scenario.doubts,
-              ElementsAre("later.yaml: replaces what found.yaml says of thresholds of imu_residual"));
+              ElementsAre("later.yaml: replaces what found.yaml says of reaction_force_N of imu_residual"));
+}
+
+TEST_F(CalibratedThresholds, OfTwoFilesDoNotReplaceOneAnotherWhereOneHasTheForceAndOneTheMoment) {
+  write("found.yaml", by_estimator);
+  write("later.yaml",
+        "control: {contact_detector: {by_estimator: [{estimator: imu_residual, reaction_moment_Nm: 2}]}}\n");
+  const Scenario scenario = read("{}", "[{file: found.yaml}, {file: later.yaml}]");
+  EXPECT_THAT(scenario.doubts, IsEmpty());
+  EXPECT_EQ(scenario.control.detector_of("imu_residual").reaction.force, 8.0);
+  EXPECT_EQ(scenario.control.detector_of("imu_residual").reaction.moment, 2.0);
+}
+
+TEST_F(CalibratedThresholds, OfTheTrackingReplaceThoseBeforeThemAndThatIsSaid) {
+  write("found.yaml", with_residuals);
+  write("later.yaml", "control: {fused_detector: {smoothing_per_s: 200}}\n");
+  EXPECT_THAT(read("{}", "[{file: found.yaml}, {file: later.yaml}]").doubts,
+              ElementsAre("later.yaml: replaces what found.yaml says of fused_detector.smoothing_per_s"));
 }
 
 TEST_F(CalibratedThresholds, OfTwoFilesDoNotReplaceThoseOfOtherEstimators) {
@@ -140,7 +157,8 @@ TEST_F(CalibratedThresholds, OfFilesWithOneNameAreToldByTheirPlaceAmongThem) {
   write("anew/found.yaml", with_residuals);
   EXPECT_THAT(read("{}", "[{file: found.yaml}, {file: anew/found.yaml}]").doubts,
               ElementsAre("found.yaml (calibration 2): replaces what found.yaml (calibration 1) says of "
-                          "thresholds of momentum_observer, thresholds of imu_residual, the fused detector"));
+                          "fused_detector.smoothing_per_s, fused_detector.residuals, reaction_force_N of "
+                          "momentum_observer and 2 more"));
 }
 
 TEST_F(CalibratedThresholds, ThatAreNoGoodAreToldByTheirOwnFile) {
@@ -164,6 +182,7 @@ TEST_F(CalibratedThresholds, AreCheckedWithoutARobot) {
   for (std::size_t at = 0; (at = of_pushing_drives.find("noise_Nm", at)) != std::string::npos;)
     of_pushing_drives.replace(at, 8, "noise_N");
   checked(of_pushing_drives);
+  checked("control: {contact_detector: {reaction_force_N: 80}}\n");  // another file may have harder hard ones
   EXPECT_THAT(test::problems_of([&] { checked("control: 5\n"); }),
               ElementsAre(HasSubstr("found.yaml:4: control")));
   EXPECT_THAT(test::problems_of([&] { checked(of_pushing_drives + "        chnge: {}\n"); }),
