@@ -131,8 +131,8 @@ std::vector<std::string> without_effect(const Scenario& scenario, const std::str
     if (is_calibrated && !says_of(scenario, estimator, quantity)) others.push_back(estimator);
   }
   if (others.empty()) return {};
-  return {key + ": does not count for " + listed(others) +
-          ", calibrated by itself; say it in 'by_estimator' where it shall"};
+  return {"the scenario's " + key + " does not count for " + listed(others) +
+          ", calibrated by themselves; say it in 'by_estimator' where it shall"};
 }
 
 }  // namespace

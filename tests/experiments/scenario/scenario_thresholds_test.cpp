@@ -93,10 +93,10 @@ TEST_F(CalibratedThresholds, CountBeforeThoseThatTheScenarioHasForAllEstimatorsA
   EXPECT_EQ(scenario.control.detector_of("imu_residual").reaction.force, 8.0);
   EXPECT_EQ(scenario.control.detector_of("disturbance_filter").reaction.force, 4.0);
   EXPECT_THAT(scenario.doubts,
-              ElementsAre(HasSubstr("control.contact_detector.reaction_force: does not count for "
-                                    "imu_residual, calibrated by itself"),
-                          HasSubstr("control.contact_detector.reaction_moment: does not count for "
-                                    "momentum_observer, calibrated by itself")));
+              ElementsAre(HasSubstr("control.contact_detector.reaction_force does not count for "
+                                    "imu_residual, calibrated by themselves"),
+                          HasSubstr("control.contact_detector.reaction_moment does not count for "
+                                    "momentum_observer, calibrated by themselves")));
 }
 
 TEST_F(CalibratedThresholds, GiveWayToTheResidualsOfTheScenarioAsAWhole) {
