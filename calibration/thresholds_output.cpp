@@ -133,7 +133,7 @@ std::string promise(const ThresholdFindings& found, const char* begin) {
   const std::size_t recordings = found.recordings.size();
   if (recordings == 1) {
     return text + begin +
-           "fused detector: one recording does not tell how robots differ; with the longest tail\n";
+           "fused detector: one recording does not tell how robots differ; the longest tail is taken\n";
   }
   return text + fmt::format(
                     "{}fused detector: for robots that differ as those of the {} recordings; how far they "
@@ -216,9 +216,8 @@ void note_robot(const std::vector<Scenario>& scenarios, ThresholdFindings& found
 std::vector<std::string> warnings(const ThresholdFindings& found) {
   if (found.residuals.empty() || found.goal.one_robot || found.recordings.size() > 1) return {};
   return {
-      "one recording does not tell how robots differ, so the longest tail is taken for thresholds of the "
-      "fused "
-      "detector; add recordings of other robots, or say --one-robot where they shall serve this one"};
+      "one recording does not tell how robots differ, so the longest tail is taken for the fused detector; "
+      "add recordings of other robots, or say --one-robot where its thresholds shall serve this one"};
 }
 
 std::string thresholds_table(const ThresholdFindings& found) {

@@ -154,9 +154,10 @@ std::shared_ptr<const ConfigNode> varied(const ConfigNode& scenario, const std::
   }
 }
 
-/// Reads robot and calibrations that a scenario names. Throws SetupError with all that is wrong with them.
+/// Reads robot and calibrations that a scenario names, `together`: of which one is for the other. Throws
+/// SetupError with all that is wrong with them.
 void read_named(const std::shared_ptr<const ConfigNode>& scenario, const std::filesystem::path& file,
-                RobotFiles& robots) {
+                bool together, RobotFiles& robots) {
   ConfigReader reader = ConfigReader::over(scenario, file.string());
   reader.leave_rest_unread();
   std::filesystem::path name;
@@ -170,6 +171,7 @@ void read_named(const std::shared_ptr<const ConfigNode>& scenario, const std::fi
   const std::vector<ParameterFile> own = read_calibrations(
       reader, [&robots](const std::filesystem::path& each) { return *robots.read_calibration(each); });
   reader.finish();
+  if (!together) return;
   std::vector<ParameterFile> all = robot->calibrations;
   all.insert(all.end(), own.begin(), own.end());
   check_thresholds(all, robot->robot);
@@ -181,13 +183,17 @@ void read_varied_files(const Campaign& campaign) {
   const auto note = [&problems](const std::string& problem) {
     if (std::find(problems.begin(), problems.end(), problem) == problems.end()) problems.push_back(problem);
   };
+  std::vector<std::string> keys;
+  for (const CampaignAxis& axis : campaign.grid) keys.push_back(axis.key);
+  for (const CampaignDraw& draw : campaign.drawn) keys.push_back(draw.key);
+  const bool together = std::count_if(keys.begin(), keys.end(), names_files) < 2;
   const auto read_values = [&](const std::string& key, const auto& values) {
     if (!names_files(key)) return;
     for (const auto& value : values) {
       for (std::size_t i = 0; i < campaign.scenarios.size(); ++i) {
         const auto scenario = varied(*campaign.scenario_nodes[i], key, value);
         try {
-          if (scenario) read_named(scenario, campaign.scenarios[i], *campaign.robots);
+          if (scenario) read_named(scenario, campaign.scenarios[i], together, *campaign.robots);
         } catch (const SetupError& error) {
           std::for_each(error.problems().begin(), error.problems().end(), note);
         }
