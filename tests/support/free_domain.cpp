@@ -55,7 +55,8 @@ class Reservation {
 }  // namespace
 
 std::uint32_t free_domain() {
-  constexpr std::uint32_t domains = 100;  // 101 is never in use; above, ports are those that the kernel gives
+  // In 100 there is never a robot, in 101 that of an example; above, ports are those that the kernel gives.
+  constexpr std::uint32_t domains = 99;
   static std::list<Reservation> ours;
   constexpr std::size_t most = 4;  // of one test; those of earlier tests of this program are given back
   if (ours.size() == most) ours.pop_front();

@@ -28,7 +28,7 @@ bool is_replayed(const std::string& file, const std::string& folder) {
 /// the other tests never gives this domain.
 bool asks_for_the_robot(const std::string& scenario, const std::string& folder) {
   try {
-    run_live_experiment(read_scenario(scenario), DdsBus({.domain = 101, .interface = "lo"}),
+    run_live_experiment(read_scenario(scenario), DdsBus({.domain = 100, .interface = "lo"}),
                         folder + "/live.h5", {.patience = 200ms});
   } catch (const SetupError& error) {
     std::printf("live: %s\n", error.what());

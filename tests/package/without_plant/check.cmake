@@ -21,7 +21,7 @@ expect(0 "verdict: good" run ${RECORDING} --station recorded --out ${FOLDER})
 expect(2 "${needs_plant}" run ${scenario} --out ${FOLDER}/simulated)
 expect(2 "${needs_plant}" serve ${scenario})
 # A domain that free_domain() gives to no other test.
-expect(2 "nobody sends joint readings" run ${scenario} --station dds --domain 101 --patience 0.2)
+expect(2 "nobody sends joint readings" run ${scenario} --station dds --domain 100 --patience 0.2)
 
 execute_process(COMMAND ldd ${FLINCH} OUTPUT_VARIABLE libraries COMMAND_ERROR_IS_FATAL ANY)
 if(libraries MATCHES "sundials|Bullet|LinearMath")
