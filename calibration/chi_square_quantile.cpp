@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "systems/foundation/bisection.h"
+
 namespace flinch {
 namespace {
 
@@ -17,13 +19,10 @@ double above(double x, int degrees) {
 }  // namespace
 
 double chi_square_quantile(int degrees, double probability) {
-  double low = 0.0, high = 1.0;
-  while (1.0 - above(high, degrees) < probability) high *= 2.0;
-  for (int i = 0; i < 200; ++i) {
-    const double middle = 0.5 * (low + high);
-    (1.0 - above(middle, degrees) < probability ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
+  const auto missing = [=](double x) { return probability - (1.0 - above(x, degrees)); };
+  double high = 1.0;
+  while (missing(high) > 0.0) high *= 2.0;
+  return bisect(missing, 0.0, high);
 }
 
 }  // namespace flinch

@@ -3,15 +3,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "systems/foundation/bisection.h"
+
 namespace flinch {
 
 double normal_quantile(double probability) {
-  double low = -40.0, high = 40.0;
-  for (int i = 0; i < 100; ++i) {
-    const double middle = 0.5 * (low + high);
-    (0.5 * std::erfc(-middle / std::numbers::sqrt2) < probability ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
+  return bisect([=](double x) { return probability - 0.5 * std::erfc(-x / std::numbers::sqrt2); }, -40.0,
+                40.0);
 }
 
 }  // namespace flinch

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "systems/foundation/bisection.h"
 #include "systems/foundation/findings.h"
 
 namespace flinch {
@@ -11,16 +12,6 @@ namespace {
 // ln((1 - e a) / (1 + a)) + a (1 + e): zero where a = c v and the restitution e belong together, positive for
 // smaller and negative for larger values of either.
 double impact_balance(double a, double e) { return std::log1p(-e * a) - std::log1p(a) + a * (1.0 + e); }
-
-// The root between `low`, where `f` is positive, and `high`, to the last bit.
-template <class Function>
-double bisect(Function f, double low, double high) {
-  while (true) {
-    const double middle = 0.5 * (low + high);
-    if (middle <= low || middle >= high) return middle;
-    (f(middle) > 0.0 ? low : high) = middle;
-  }
-}
 
 }  // namespace
 

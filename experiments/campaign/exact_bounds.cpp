@@ -3,18 +3,10 @@
 #include <cmath>
 #include <limits>
 
+#include "systems/foundation/bisection.h"
+
 namespace flinch {
 namespace {
-
-/// Where a function that falls from above `level` to below it meets it.
-template <class Function>
-double solve_falling(double low, double high, double level, Function&& function) {
-  for (int i = 0; i < 200; ++i) {
-    const double middle = 0.5 * (low + high);
-    (function(middle) > level ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
 
 double poisson_at_most(std::size_t events, double mean) {
   double sum = 0.0;
@@ -42,9 +34,8 @@ double upper_rate(std::size_t events, double exposure, double confidence) {
   if (exposure <= 0.0) return std::numeric_limits<double>::infinity();
   const double count = static_cast<double>(events);
   const double highest = 10.0 * (count + 10.0) * (1.0 - std::log(1.0 - confidence));
-  return solve_falling(0.0, highest, 1.0 - confidence,
-                       [events](double mean) { return poisson_at_most(events, mean); }) /
-         exposure;
+  const auto likelier = [=](double mean) { return poisson_at_most(events, mean) - (1.0 - confidence); };
+  return bisect(likelier, 0.0, highest) / exposure;
 }
 
 double lower_rate(std::size_t events, double exposure, double confidence) {
@@ -53,8 +44,10 @@ double lower_rate(std::size_t events, double exposure, double confidence) {
 
 double upper_share(std::size_t events, std::size_t trials, double confidence) {
   if (events >= trials) return 1.0;
-  return solve_falling(0.0, 1.0, 1.0 - confidence,
-                       [=](double share) { return binomial_at_most(events, trials, share); });
+  const auto likelier = [=](double share) {
+    return binomial_at_most(events, trials, share) - (1.0 - confidence);
+  };
+  return bisect(likelier, 0.0, 1.0);
 }
 
 }  // namespace flinch

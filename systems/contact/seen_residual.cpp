@@ -117,7 +117,7 @@ void follow_residual(const WrenchEstimate& estimate, const DriveLoad& fresh, con
   } else {
     next.since = now;
     next.mean = next.seen.smoothed = level;
-    subtract(level, level, next.seen.change);
+    subtract(level, next.mean, next.seen.change);
   }
   next.started = true;
   next.seen.is_new = true;
