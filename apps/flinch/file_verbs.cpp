@@ -55,6 +55,12 @@ void draw_svg(const std::string& dot, const std::filesystem::path& file) {
                    ": Graphviz could not draw it; is the program 'dot' installed (package graphviz)?");
 }
 
+/// The kind of a good file, and what to know of it.
+struct Checked {
+  std::string what;
+  std::vector<CalibrationDoubt> doubts = {};
+};
+
 /// Checks a file of HDF5, and says of which kind it is.
 std::string check_results(const CheckOptions& options) {
   const std::string format = hdf5_format(options.file);
@@ -75,31 +81,29 @@ std::string check_results(const CheckOptions& options) {
 }
 
 /// The same of YAML.
-std::string check_text(const std::filesystem::path& file) {
+Checked check_text(const std::filesystem::path& file) {
   switch (kind_of(file).value_or(FileKind::scenario)) {
     case FileKind::parameters:
       check_thresholds(read_parameter_file(file));
-      return "calibration";
+      return {"calibration"};
     case FileKind::mapping:
       read_csv_recording(file);
-      return "import mapping";
+      return {"import mapping"};
     case FileKind::campaign:
-      check_campaign(file);
-      return "campaign";
+      return {"campaign", check_campaign(file)};
     case FileKind::data_spec:
       check_data_spec(file);
-      return "data specification";
+      return {"data specification"};
     case FileKind::robot: {
       const std::string text = read_config_file(file);
       const RobotFile robot = parse_robot_file(text, file.string());
       check_thresholds(robot_calibrations(text, file.string()), robot);
-      return "robot";
+      return {"robot"};
     }
     case FileKind::scenario:
       break;
   }
-  closed_loop(file);
-  return "scenario";
+  return {"scenario", check_scenario(file)};
 }
 
 }  // namespace
@@ -143,23 +147,29 @@ ExitStatus graph(const GraphOptions& options) {
 }
 
 ExitStatus check(const CheckOptions& options) {
-  std::string what;
+  Checked checked;
   if (options.file.extension() == ".onnx") {
     check_classifier(options.file);
-    what = "classifier";
+    checked = {"classifier"};
   } else if (options.file.extension() == ".h5" || is_journal(options.file)) {
-    what = check_results(options);
+    checked = {check_results(options)};
   } else {
-    what = check_text(options.file);
+    checked = check_text(options.file);
   }
+  const std::string& what = checked.what;
+  std::vector<std::string> warnings;
+  for (const CalibrationDoubt& doubt : checked.doubts) warnings.push_back(doubt.sentence);
   if (options.common.json) {
-    fmt::print("{}\n", json_text(Json{{"file", options.file.string()}, {"kind", what}, {"good", true}}));
+    fmt::print("{}\n",
+               json_text(Json{
+                   {"file", options.file.string()}, {"kind", what}, {"good", true}, {"warnings", warnings}}));
   } else if (!options.common.quiet) {
     const char* more = "";
     if (what == "readings") more = ", for flinch calibrate";
     if (what == "campaign results") more = ", by what it says it is; its columns were not read";
     fmt::print("{}: a good {} file{}\n", options.file.string(), what, more);
   }
+  for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
   return ExitStatus::done;
 }
 

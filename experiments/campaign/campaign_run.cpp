@@ -262,6 +262,21 @@ std::vector<std::string> of_run(const CampaignRun& run, const std::vector<std::s
   return result;
 }
 
+/// Whether the campaign varies calibrations, and leaves the threshold that they replace to the scenario.
+bool is_meant(const Campaign& campaign, const CalibrationDoubt& doubt) {
+  const auto varies = [&campaign](const std::string& key) {
+    const auto begins = [&key](const auto& of) { return of.key.starts_with(key); };
+    return std::any_of(campaign.grid.begin(), campaign.grid.end(), begins) ||
+           std::any_of(campaign.drawn.begin(), campaign.drawn.end(), begins);
+  };
+  return !doubt.key.empty() && varies("calibrations") && !varies(doubt.key);
+}
+
+bool is_told(const std::vector<CalibrationDoubt>& doubts, const CalibrationDoubt& doubt) {
+  return std::any_of(doubts.begin(), doubts.end(),
+                     [&doubt](const CalibrationDoubt& told) { return told.sentence == doubt.sentence; });
+}
+
 }  // namespace
 
 CampaignRun draw_run(const Campaign& campaign, std::size_t number, int most_attempts) {
@@ -291,8 +306,9 @@ CampaignRun draw_run(const Campaign& campaign, std::size_t number, int most_atte
   return run;
 }
 
-void check_keys(const Campaign& campaign) {
+std::vector<CalibrationDoubt> check_keys(const Campaign& campaign) {
   std::vector<std::string> wrong;
+  std::vector<CalibrationDoubt> doubts;
   for (std::size_t scenario = 0; scenario < campaign.scenarios.size(); ++scenario) {
     try {
       CampaignRun unused;
@@ -301,18 +317,23 @@ void check_keys(const Campaign& campaign) {
       Draft draft = undrawn(campaign, digits, unused);
       draw_values(campaign, random, draft, unused);
       if (campaign.contact && campaign.contact->by == CampaignContact::By::pushing) make_hand(draft);
-      parse_simulated_scenario(draft.root(), draft.file(), *campaign.robots);
+      for (const CalibrationDoubt& doubt :
+           parse_simulated_scenario(draft.root(), draft.file(), *campaign.robots).doubts) {
+        if (!is_meant(campaign, doubt) && !is_told(doubts, doubt)) doubts.push_back(doubt);
+      }
     } catch (const KeyError& error) {
       wrong.insert(wrong.end(), error.of_keys().begin(), error.of_keys().end());
     } catch (const SetupError&) {  // of values, which other draws may mend
     }
   }
   throw_if_any(std::move(wrong));
+  return doubts;
 }
 
-void check_campaign(const Campaign& campaign) {
-  check_keys(campaign);
+std::vector<CalibrationDoubt> check_campaign(const Campaign& campaign) {
+  std::vector<CalibrationDoubt> doubts = check_keys(campaign);
   draw_run(campaign, 0);
+  return doubts;
 }
 
 }  // namespace flinch

@@ -30,10 +30,11 @@ struct CampaignRun {
 CampaignRun draw_run(const Campaign& campaign, std::size_t number, int most_attempts = 200);
 
 /// Throws SetupError with what is wrong with keys of the grid and of draws, whatever their values, in the
-/// first run of each scenario.
-void check_keys(const Campaign& campaign);
+/// first run of each scenario. Returns what is doubtful about the calibrations of these runs, none twice;
+/// where it varies them itself, they are meant to take the place of what the scenario says.
+std::vector<CalibrationDoubt> check_keys(const Campaign& campaign);
 
 /// All that can be told of a campaign before its runs: check_keys(), and whether a first run can be drawn.
-void check_campaign(const Campaign& campaign);
+std::vector<CalibrationDoubt> check_campaign(const Campaign& campaign);
 
 }  // namespace flinch

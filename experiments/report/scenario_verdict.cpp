@@ -7,7 +7,7 @@ namespace flinch {
 
 Verdict verdict_of(const Scenario& scenario, const Recording& recording) {
   Verdict verdict = judge(recording, scenario.robot.robot->space(), scenario.expected, scenario.force_limits);
-  verdict.remarks.insert(verdict.remarks.end(), scenario.doubts.begin(), scenario.doubts.end());
+  for (const CalibrationDoubt& doubt : scenario.doubts) verdict.remarks.push_back(doubt.sentence);
   return verdict;
 }
 

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double telling_change = 0.01;  // of a torque constant: more than its calibration is off
 
-void append(std::vector<std::string>& all, const std::vector<std::string>& more) {
-  all.insert(all.end(), more.begin(), more.end());
+void append(std::vector<CalibrationDoubt>& all, const std::vector<std::string>& sentences) {
+  for (const std::string& sentence : sentences) all.push_back({sentence});
 }
 
 /// How the calibrations of a scenario are called wherever it is read, from its files or from a recording: by
@@ -120,39 +120,41 @@ bool says_of(const Scenario& scenario, const std::string& estimator, const std::
 }
 
 /// A threshold that the scenario gives for all estimators, where that of each is calibrated.
-std::vector<std::string> without_effect(const Scenario& scenario, const std::string& quantity,
-                                        std::optional<double> OwnThreshold::*value) {
+void add_without_effect(std::vector<CalibrationDoubt>& doubts, const Scenario& scenario,
+                        const std::string& quantity, std::optional<double> OwnThreshold::*value) {
   const std::string key = "control.contact_detector." + quantity;
-  if (!says(scenario, key)) return {};
+  if (!says(scenario, key)) return;
   std::vector<std::string> others;
   for (const std::string& estimator : names_of(scenario.control.stages.estimators)) {
     const auto own = scenario.control.reaction_thresholds.find(estimator);
     const bool is_calibrated = own != scenario.control.reaction_thresholds.end() && own->second.*value;
     if (is_calibrated && !says_of(scenario, estimator, quantity)) others.push_back(estimator);
   }
-  if (others.empty()) return {};
-  return {"the scenario's " + key + " does not count for " + listed(others) +
-          ", calibrated by themselves; say it in 'by_estimator' where it shall"};
+  if (others.empty()) return;
+  doubts.push_back({"the scenario's " + key + " does not count for " + listed(others) +
+                        ", calibrated by themselves; say it in 'by_estimator' where it shall",
+                    key});
 }
 
 }  // namespace
 
-std::vector<std::string> doubts_about_calibrations(const Scenario& scenario) {
+std::vector<CalibrationDoubt> doubts_about_calibrations(const Scenario& scenario) {
   const std::vector<ParameterFile>& files = scenario.calibrations;
   if (files.empty()) return {};
   const Names names(files);
   const std::string robot_hash = calibrated_robot_hash(scenario.robot_text);
-  std::vector<std::string> doubts;
+  std::vector<CalibrationDoubt> doubts;
   for (std::size_t i = 0; i < files.size(); ++i) {
     if (!files[i].robot.sha256.empty() && files[i].robot.sha256 != robot_hash) {
-      doubts.push_back(names.of(i) + ": the robot file has changed since this calibration of " +
-                       files[i].date + "; calibrate again, or check that what changed does not matter to it");
+      doubts.push_back({names.of(i) + ": the robot file has changed since this calibration of " +
+                        files[i].date +
+                        "; calibrate again, or check that what changed does not matter to it"});
     }
     append(doubts, assumed_otherwise(files[i], names.of(i), scenario));
   }
   append(doubts, replaced(files));
-  append(doubts, without_effect(scenario, "reaction_force", &OwnThreshold::force));
-  append(doubts, without_effect(scenario, "reaction_moment", &OwnThreshold::moment));
+  add_without_effect(doubts, scenario, "reaction_force", &OwnThreshold::force);
+  add_without_effect(doubts, scenario, "reaction_moment", &OwnThreshold::moment);
   return doubts;
 }
 

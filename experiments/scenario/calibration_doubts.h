@@ -7,9 +7,16 @@ namespace flinch {
 
 struct Scenario;
 
-/// What is doubtful about the calibrations of a scenario once it has been read, one sentence each: of another
-/// robot file; resting on torque constants that are no longer used; one replacing another; thresholds of the
-/// scenario that do not count beside those of estimators.
-std::vector<std::string> doubts_about_calibrations(const Scenario& scenario);
+/// Something doubtful about the calibrations of a scenario.
+struct CalibrationDoubt {
+  std::string sentence;
+  /// Of a threshold of the scenario that does not count beside those of estimators, without its unit; empty
+  /// where the doubt is about a calibration.
+  std::string key = {};
+};
+
+/// All of a scenario that has been read: calibrations of another robot file; resting on torque constants that
+/// are no longer used; one replacing another; thresholds of the scenario that do not count.
+std::vector<CalibrationDoubt> doubts_about_calibrations(const Scenario& scenario);
 
 }  // namespace flinch

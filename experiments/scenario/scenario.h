@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "diagrams/contact_control_settings.h"
+#include "experiments/scenario/calibration_doubts.h"
 #include "experiments/scenario/scenario_obstacles.h"
 #include "experiments/verdict/verdict.h"
 #include "systems/config/parameter_file.h"
@@ -45,10 +46,10 @@ struct Scenario {
   Expectations expected;
   ForceLimits force_limits;
 
-  std::vector<std::string> doubts;  ///< about the calibrations, one sentence each
-  std::vector<ReadValue> values;    ///< every parameter of the scenario, defaults included
-  std::string text;                 ///< of the file
-  std::string robot_text;           ///< of the robot file
+  std::vector<CalibrationDoubt> doubts;
+  std::vector<ReadValue> values;  ///< every parameter of the scenario, defaults included
+  std::string text;               ///< of the file
+  std::string robot_text;         ///< of the robot file
 };
 
 /// Reads sections of a scenario file that a Scenario has no place for. `so_far` has robot, motion, control,

@@ -5,6 +5,13 @@
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
+namespace {
+
+LiveExperiment built(const Scenario& scenario) {
+  return out_of(scenario.file, [&scenario] { return build_live_experiment(scenario); });
+}
+
+}  // namespace
 
 ExitStatus run_simulated(const RunOptions& options) {
   throw SetupError(options.input.string() +
@@ -12,7 +19,7 @@ ExitStatus run_simulated(const RunOptions& options) {
                    "(FLINCH_BUILD_PLANT=OFF); choose --station dds or recorded");
 }
 
-void check_campaign(const std::filesystem::path& file) {
+std::vector<CalibrationDoubt> check_campaign(const std::filesystem::path& file) {
   throw SetupError(file.string() +
                    ": its runs are simulated, and this flinch was built without the simulation "
                    "(FLINCH_BUILD_PLANT=OFF)");
@@ -24,8 +31,13 @@ ExitStatus campaign(const CampaignOptions& options) {
 }
 
 std::unique_ptr<Diagram> closed_loop(const std::filesystem::path& scenario) {
-  const Scenario read = read_scenario(scenario);
-  return out_of(read.file, [&read] { return build_live_experiment(read); }).diagram;
+  return built(read_scenario(scenario)).diagram;
+}
+
+std::vector<CalibrationDoubt> check_scenario(const std::filesystem::path& file) {
+  const Scenario scenario = read_scenario(file);
+  built(scenario);
+  return scenario.doubts;
 }
 
 Scenario scenario_of(const Recording& recording, const std::filesystem::path& file,

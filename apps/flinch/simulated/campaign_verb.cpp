@@ -110,7 +110,8 @@ ExitStatus campaign(const CampaignOptions& options) {
     helpers->work(campaign);
     return ExitStatus::done;
   }
-  check_campaign(campaign);  // before anything is written
+  for (const CalibrationDoubt& doubt : check_campaign(campaign))  // before anything is written
+    fmt::print(stderr, "warning: {}\n", doubt.sentence);
   std::optional<CountedAlarms> alarms;
   if (!options.false_alarms.empty()) alarms.emplace(campaign, options.false_alarms);
   const RunFolder folder = campaign_folder(options, campaign);

@@ -43,7 +43,15 @@ std::unique_ptr<Diagram> closed_loop(const std::filesystem::path& scenario) {
   return built(read_simulated_scenario(scenario)).diagram;
 }
 
-void check_campaign(const std::filesystem::path& file) { check_campaign(read_campaign(file)); }
+std::vector<CalibrationDoubt> check_scenario(const std::filesystem::path& file) {
+  const SimulatedScenario scenario = read_simulated_scenario(file);
+  built(scenario);
+  return scenario.doubts;
+}
+
+std::vector<CalibrationDoubt> check_campaign(const std::filesystem::path& file) {
+  return check_campaign(read_campaign(file));
+}
 
 Scenario scenario_of(const Recording& recording, const std::filesystem::path& file,
                      const std::filesystem::path& control) {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "apps/flinch/command_line.h"
 #include "experiments/scenario/scenario.h"
@@ -17,9 +18,13 @@ ExitStatus run_simulated(const RunOptions& options);
 /// built without the simulation, with a robot outside. Throws SetupError for all that is wrong with the file.
 std::unique_ptr<Diagram> closed_loop(const std::filesystem::path& scenario);
 
-/// Draws the first run of a campaign. Throws SetupError for all that is wrong with the file, and where this
-/// program was built without the simulation.
-void check_campaign(const std::filesystem::path& file);
+/// Builds the closed loop of a scenario. Returns what is doubtful about its calibrations. Throws SetupError
+/// as closed_loop().
+std::vector<CalibrationDoubt> check_scenario(const std::filesystem::path& file);
+
+/// Draws the first run of a campaign. Returns what is doubtful about its calibrations, likewise. Throws
+/// SetupError for all that is wrong with the file, and where this program was built without the simulation.
+std::vector<CalibrationDoubt> check_campaign(const std::filesystem::path& file);
 
 /// The scenario that a recording was made from, or that of the file `control` if it is named. Where the run
 /// was simulated, and this program can, its parameters are those of the simulation, too. Throws SetupError

@@ -203,7 +203,10 @@ TEST_F(CommandLine, PrintsNullInJsonForWhatDidNotHappen) {
 TEST_F(CommandLine, PrintsOneJsonObjectForEveryVerb) {
   run(collision);
   EXPECT_EQ(json::parse(flinch({"check", place.at(collision), "--json"}).out),
-            json({{"file", place.at(collision)}, {"kind", "scenario"}, {"good", true}}));
+            json({{"file", place.at(collision)},
+                  {"kind", "scenario"},
+                  {"good", true},
+                  {"warnings", json::array()}}));
   EXPECT_EQ(json::parse(flinch({"report", place.at("out/run.h5"), "--json"}).out),
             json({{"report", place.at("out/report.html")}}));
   EXPECT_EQ(json::parse(flinch({"graph", place.at(collision), "--out", place.at("loop.svg"), "--json"}).out),
@@ -337,6 +340,32 @@ TEST_F(CommandLine, ChecksScenariosRobotsAndRecordings) {
             place.at("robots/planar_3rrr.yaml") + ": a good robot file\n");
   EXPECT_EQ(flinch({"check", place.at("out/run.h5")}).out,
             place.at("out/run.h5") + ": a good recording file\n");
+}
+
+/// A threshold that counts for nobody, in a scenario and as an axis of a campaign.
+TEST_F(CommandLine, WarnsOfWhatIsDoubtfulAboutCalibrations) {
+  const auto warned =
+      HasSubstr("warning: the scenario's control.contact_detector.reaction_force does not count for");
+  const std::string campaign = "campaigns/sweep.yaml";
+  place.write(
+      "found.yaml",
+      "flinch_calibration: 1\nkind: thresholds\ndate: '2026-11-27'\n"
+      "control: {contact_detector: {by_estimator: [{estimator: momentum_observer, reaction_force_N: 9, "
+      "reaction_moment_Nm: 1}]}}\n");
+  place.write(campaign,
+              "scenario: ../scenarios/platform_collision.yaml\n"
+              "grid: [{key: calibrations, values: [[{file: ../found.yaml}]]}]\n");
+  EXPECT_THAT(flinch({"check", place.at(campaign)}).err, "")
+      << "calibrations that it varies are meant to replace what the scenario says";
+  place.replace(campaign, "]]}]", "]]}, {key: control.contact_detector.reaction_force_N, values: [5, 10]}]");
+  EXPECT_THAT(flinch({"check", place.at(campaign)}).err, warned);
+  EXPECT_THAT(flinch({"campaign", place.at(campaign), "--out", place.at("sweep")}).err, warned);
+
+  place.replace(collision, "\nseed: ", "\ncalibrations: [{file: ../found.yaml}]\nseed: ");
+  const Outcome checked = flinch({"check", place.at(collision)});
+  EXPECT_EQ(checked.status, 0);
+  EXPECT_THAT(checked.err, warned);
+  EXPECT_EQ(json::parse(flinch({"check", place.at(collision), "--json"}).out).at("warnings").size(), 2U);
 }
 
 TEST_F(CommandLine, ChecksTheKeysOfACampaign) {

@@ -17,6 +17,11 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
+/// Matches a doubt by its sentence.
+auto Tells(const ::testing::Matcher<std::string>& sentence) {
+  return ::testing::Field("sentence", &CalibrationDoubt::sentence, sentence);
+}
+
 class Calibrations : public ::testing::Test {
  protected:
   ParameterFile made() const {
@@ -63,7 +68,7 @@ TEST_F(Calibrations, GiveWayToWhatTheScenarioSaysItself) {
 TEST_F(Calibrations, OfARobotFileThatHasChangedAreDoubted) {
   const ParameterFile file = made();
   place.replace("robots/planar_3rrr.yaml", "mass_kg: 0.642", "mass_kg: 0.7");
-  EXPECT_THAT(read(file).doubts, ElementsAre(HasSubstr("the robot file has changed since")));
+  EXPECT_THAT(read(file).doubts, ElementsAre(Tells(HasSubstr("the robot file has changed since"))));
 }
 
 TEST_F(Calibrations, MayBeNamedByTheRobotFileAsWell) {
@@ -87,7 +92,7 @@ TEST_F(Calibrations, OfTheScenarioReplaceThoseOfTheRobotFileAndThatIsSaid) {
   file.parameters[0].value = 7.5;
   const Scenario scenario = read(file);
   EXPECT_EQ(scenario.robot.drives.torque_constant, Eigen::Vector3d(7.5, 8.0, 9.0));
-  EXPECT_THAT(scenario.doubts, Contains(HasSubstr("found.yaml: replaces what")));
+  EXPECT_THAT(scenario.doubts, Contains(Tells(HasSubstr("found.yaml: replaces what"))));
 }
 
 TEST_F(Calibrations, ThatTheRobotFileNamesAndThatAreNotThereAreToldWithTheirLine) {
@@ -101,7 +106,8 @@ TEST_F(Calibrations, ThatRestOnOtherTorqueConstantsAreDoubted) {
   ParameterFile file = made();
   file.kind = "dynamics";
   file.assumed = {{.name = "drives.torque_constant_Nm_per_A[1]", .value = 6.6}};
-  EXPECT_THAT(read(file).doubts, ElementsAre(HasSubstr("rests on drives.torque_constant_Nm_per_A[1] = 6.6")));
+  EXPECT_THAT(read(file).doubts,
+              ElementsAre(Tells(HasSubstr("rests on drives.torque_constant_Nm_per_A[1] = 6.6"))));
 }
 
 TEST_F(Calibrations, OfARobotWithMoreLegsAreRefusedByTheirName) {

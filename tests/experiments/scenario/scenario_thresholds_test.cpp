@@ -29,6 +29,11 @@ const std::string with_residuals = by_estimator +
                                    "        level: {threshold: 7, noise_Nm: 0.25}\n"
                                    "        change: {threshold: 7.5, noise_Nm: 0.125}\n";
 
+/// Matches a doubt by its sentence.
+auto Tells(const ::testing::Matcher<std::string>& sentence) {
+  return ::testing::Field("sentence", &CalibrationDoubt::sentence, sentence);
+}
+
 class CalibratedThresholds : public ::testing::Test {
  protected:
   void write(const std::string& name, const std::string& control) const {
@@ -93,10 +98,10 @@ TEST_F(CalibratedThresholds, CountBeforeThoseThatTheScenarioHasForAllEstimatorsA
   EXPECT_EQ(scenario.control.detector_of("imu_residual").reaction.force, 8.0);
   EXPECT_EQ(scenario.control.detector_of("disturbance_filter").reaction.force, 4.0);
   EXPECT_THAT(scenario.doubts,
-              ElementsAre(HasSubstr("control.contact_detector.reaction_force does not count for "
-                                    "imu_residual, calibrated by themselves"),
-                          HasSubstr("control.contact_detector.reaction_moment does not count for "
-                                    "momentum_observer, calibrated by themselves")));
+              ElementsAre(Tells(HasSubstr("control.contact_detector.reaction_force does not count for "
+                                          "imu_residual, calibrated by themselves")),
+                          Tells(HasSubstr("control.contact_detector.reaction_moment does not count for "
+                                          "momentum_observer, calibrated by themselves"))));
 }
 
 TEST_F(CalibratedThresholds, GiveWayToTheResidualsOfTheScenarioAsAWhole) {
@@ -123,8 +128,9 @@ TEST_F(CalibratedThresholds, OfTwoFilesAreThoseOfTheLastAndThatIsSaid) {
   const Scenario scenario = read("{}", "[{file: found.yaml}, {file: later.yaml}]");
   EXPECT_EQ(scenario.control.reaction_thresholds.at("imu_residual").force, 6.0);
   EXPECT_EQ(scenario.control.reaction_thresholds.at("momentum_observer").force, 5.0);
-  EXPECT_THAT(scenario.doubts,
-              ElementsAre("later.yaml: replaces what found.yaml says of reaction_force_N of imu_residual"));
+  EXPECT_THAT(
+      scenario.doubts,
+      ElementsAre(Tells("later.yaml: replaces what found.yaml says of reaction_force_N of imu_residual")));
 }
 
 TEST_F(CalibratedThresholds, OfTwoFilesDoNotReplaceOneAnotherWhereOneHasTheForceAndOneTheMoment) {
@@ -140,8 +146,9 @@ TEST_F(CalibratedThresholds, OfTwoFilesDoNotReplaceOneAnotherWhereOneHasTheForce
 TEST_F(CalibratedThresholds, OfTheTrackingReplaceThoseBeforeThemAndThatIsSaid) {
   write("found.yaml", with_residuals);
   write("later.yaml", "control: {fused_detector: {smoothing_per_s: 200}}\n");
-  EXPECT_THAT(read("{}", "[{file: found.yaml}, {file: later.yaml}]").doubts,
-              ElementsAre("later.yaml: replaces what found.yaml says of fused_detector.smoothing_per_s"));
+  EXPECT_THAT(
+      read("{}", "[{file: found.yaml}, {file: later.yaml}]").doubts,
+      ElementsAre(Tells("later.yaml: replaces what found.yaml says of fused_detector.smoothing_per_s")));
 }
 
 TEST_F(CalibratedThresholds, OfTwoFilesDoNotReplaceThoseOfOtherEstimators) {
@@ -155,10 +162,11 @@ TEST_F(CalibratedThresholds, OfTwoFilesDoNotReplaceThoseOfOtherEstimators) {
 TEST_F(CalibratedThresholds, OfFilesWithOneNameAreToldByTheirPlaceAmongThem) {
   write("found.yaml", with_residuals);
   write("anew/found.yaml", with_residuals);
-  EXPECT_THAT(read("{}", "[{file: found.yaml}, {file: anew/found.yaml}]").doubts,
-              ElementsAre("found.yaml (calibration 2): replaces what found.yaml (calibration 1) says of "
-                          "fused_detector.smoothing_per_s, fused_detector.residuals, reaction_force_N of "
-                          "momentum_observer and 2 more"));
+  EXPECT_THAT(
+      read("{}", "[{file: found.yaml}, {file: anew/found.yaml}]").doubts,
+      ElementsAre(Tells("found.yaml (calibration 2): replaces what found.yaml (calibration 1) says of "
+                        "fused_detector.smoothing_per_s, fused_detector.residuals, "
+                        "reaction_force_N of momentum_observer and 2 more")));
 }
 
 TEST_F(CalibratedThresholds, ThatAreNoGoodAreToldByTheirOwnFile) {
