@@ -1,7 +1,7 @@
 #include "calibration/residual_calibration.h"
 
 #include <algorithm>
-#include <functional>
+#include <array>
 #include <map>
 #include <optional>
 #include <utility>
@@ -26,19 +26,25 @@ std::string loads_of(const Recording& recording) {
   return "";
 }
 
+/// A recording that is followed once and again.
+struct Motion {
+  const ResidualRecording& of;
+  std::vector<bool> nominal;  ///< samples of the nominal motion
+  const std::function<void()>& followed;
+};
+
 /// Whether the sample belongs to the nominal motion, and what is seen of the residual then.
 using Visit = std::function<void(bool nominal, const ResidualMemory& memory)>;
 
 /// Follows an estimator's residual through a recording as `WhitenedDetector` does.
-void follow(const ResidualRecording& of, const std::string& estimator, const Visit& visit) {
-  const Recording& recording = *of.recording;
-  const std::vector<bool> nominal = nominal_samples(recording, of.space);
+void follow(const Motion& motion, const std::string& estimator, const Visit& visit) {
+  const Recording& recording = *motion.of.recording;
   const auto signals = estimates_of(recording);
   const auto signal =
       std::find_if(signals.begin(), signals.end(), [&](const auto& each) { return each.first == estimator; });
   const auto estimates = read<WrenchEstimate>(recording, signal->second);
   const auto loads = read<DriveLoad>(recording, loads_of(recording));
-  const ResidualTracking tracking = of.tracking.at(estimator);
+  const ResidualTracking tracking = motion.of.tracking.at(estimator);
   LoadHistory past;
   ResidualMemory memory, next;
   for (std::size_t k = 0; k < estimates.size(); ++k) {
@@ -46,8 +52,9 @@ void follow(const ResidualRecording& of, const std::string& estimator, const Vis
     follow_residual(estimates[k], load, past, Time(recording.time_ns[k]), tracking, memory, next);
     if (load.valid) past.push(load);
     memory = next;
-    visit(nominal[k], memory);
+    visit(motion.nominal[k], memory);
   }
+  motion.followed();
 }
 
 /// A part of a residual: what is seen of it, where it means something.
@@ -65,37 +72,59 @@ struct Statistic {
 constexpr Statistic level_statistic{&SeenResidual::level, nullptr, true};
 constexpr Statistic change_statistic{&SeenResidual::change, &SeenResidual::settled, false};
 constexpr Statistic smoothed_statistic{&SeenResidual::smoothed, &SeenResidual::smooth, true};
+constexpr std::array statistics{level_statistic, change_statistic, smoothed_statistic};
 
-ResidualErrors fit(const std::vector<ResidualRecording>& recordings, const std::string& estimator,
-                   const Statistic& statistic) {
+/// Every `stride`-th error of a statistic.
+class ErrorSamples {
+ public:
+  ErrorSamples(const Statistic& statistic, std::size_t stride) : statistic_(statistic), stride_(stride) {}
+
+  void add(bool nominal, const SeenResidual& all) {
+    const DriveResidual* const seen = statistic_.of(nominal, all);
+    if (seen == nullptr || ticks_++ % stride_ != 0) return;
+    for (int i = 0; i < seen->effort.size(); ++i) {
+      ErrorSample& sample = samples_.emplace_back();
+      sample.squared = seen->effort[i] * seen->effort[i];
+      sample.features = error_features(all.load, *seen, i);
+      sample.known = rising_variance(*seen);
+      if (statistic_.has_whole_torque) sample.features[2] = 0.0;  // it would count twice
+    }
+  }
+  const std::vector<ErrorSample>& all() const { return samples_; }
+
+ private:
+  Statistic statistic_;
+  std::size_t stride_;
+  std::size_t ticks_ = 0;
+  std::vector<ErrorSample> samples_;
+};
+
+/// Of each statistic.
+std::vector<ResidualErrors> fit(const std::vector<Motion>& motions, const std::string& estimator) {
   std::size_t ticks = 0;
-  for (const ResidualRecording& each : recordings) ticks += each.recording->samples();
+  for (const Motion& each : motions) ticks += each.nominal.size();
   const std::size_t stride = 1 + ticks / most_samples;
-  std::vector<ErrorSample> samples;
-  std::size_t k = 0;
-  for (const ResidualRecording& each : recordings) {
-    follow(each, estimator, [&](bool nominal, const ResidualMemory& memory) {
-      const DriveResidual* const seen = statistic.of(nominal, memory.seen);
-      if (seen == nullptr || k++ % stride != 0) return;
-      for (int i = 0; i < seen->effort.size(); ++i) {
-        ErrorSample& sample = samples.emplace_back();
-        sample.squared = seen->effort[i] * seen->effort[i];
-        sample.features = error_features(memory.seen.load, *seen, i);
-        sample.known = rising_variance(*seen);
-        if (statistic.has_whole_torque) sample.features[2] = 0.0;  // it would count twice
-      }
+  std::vector<ErrorSamples> samples;
+  for (const Statistic& statistic : statistics) samples.emplace_back(statistic, stride);
+  for (const Motion& each : motions) {
+    follow(each, estimator, [&samples](bool nominal, const ResidualMemory& memory) {
+      for (ErrorSamples& of : samples) of.add(nominal, memory.seen);
     });
   }
-  if (samples.empty()) throw SetupError(estimator + ": no valid estimate is recorded");
-  return fit_error_sizes(samples);
+  std::vector<ResidualErrors> errors;
+  for (const ErrorSamples& of : samples) {
+    if (of.all().empty()) throw SetupError(estimator + ": no valid estimate is recorded");
+    errors.push_back(fit_error_sizes(of.all()));
+  }
+  return errors;
 }
 
 /// Of the errors of a residual's change, which `OnsetRatio` follows as far as no sample is missing.
-std::optional<ErrorCourse> fit_course(const std::vector<ResidualRecording>& recordings,
-                                      const std::string& estimator, const ResidualErrors& errors) {
+std::optional<ErrorCourse> fit_course(const std::vector<Motion>& motions, const std::string& estimator,
+                                      const ResidualErrors& errors) {
   ErrorCourseFit fit;
-  for (const ResidualRecording& each : recordings) {
-    const Sampling sampling = each.tracking.at(estimator).sampling;
+  for (const Motion& each : motions) {
+    const Sampling sampling = each.of.tracking.at(estimator).sampling;
     Time last{};
     fit.interrupt();
     follow(each, estimator, [&](bool nominal, const ResidualMemory& memory) {
@@ -113,37 +142,58 @@ std::optional<ErrorCourse> fit_course(const std::vector<ResidualRecording>& reco
 /// How surprising a residual is at a tick; none where there is nothing to judge.
 using Surprise = std::function<std::optional<double>(bool nominal, const ResidualMemory& memory)>;
 
-/// How surprising motion without contact is.
-struct Surprises {
-  std::vector<double> largest;  ///< of each stretch
-  SurpriseTail tail;
+/// How surprising motion without contact is. Ticks without a surprise, as where the IMU is left out, are no
+/// part of a stretch.
+class Surprises {
+ public:
+  Surprises(Surprise surprise, const ThresholdGoal& goal) : surprise_(std::move(surprise)), goal_(goal) {}
+
+  void begin(const Recording& recording) {
+    length_ = static_cast<std::size_t>(std::max<std::int64_t>(1, goal_.stretch / recording.period));
+    if (!goal_.one_robot) tail_.begin_robot();
+    ticks_ = 0;
+    largest_now_ = 0.0;
+  }
+  void add(bool nominal, const ResidualMemory& memory) {
+    const bool waits = nominal && memory.started && !memory.seen.is_new;
+    const std::optional<double> seen = surprise_(nominal, memory);
+    if (!seen && !waits) return;
+    if (ticks_ == 0) largest_now_ = 0.0;
+    if (seen) {
+      largest_now_ = std::max(largest_now_, *seen);
+      tail_.add(*seen, static_cast<int>(memory.seen.load.torque.size()));
+    }
+    if (++ticks_ < length_) return;
+    largest_.push_back(largest_now_);
+    ticks_ = 0;
+  }
+
+  const std::vector<double>& largest() const { return largest_; }  ///< of each stretch
+  const SurpriseTail& tail() const { return tail_; }
+
+ private:
+  Surprise surprise_;
+  ThresholdGoal goal_;
+  std::size_t length_ = 1;
+  std::size_t ticks_ = 0;  // of the present stretch
+  double largest_now_ = 0.0;
+  std::vector<double> largest_;
+  SurpriseTail tail_;
 };
 
-/// Ticks without a surprise, as where the IMU is left out, are no part of a stretch.
-Surprises surprises(const std::vector<ResidualRecording>& recordings, const std::string& estimator,
-                    const Surprise& surprise_at, const ThresholdGoal& goal) {
-  Surprises found;
-  for (const ResidualRecording& each : recordings) {
-    const auto length =
-        static_cast<std::size_t>(std::max<std::int64_t>(1, goal.stretch / each.recording->period));
-    if (!goal.one_robot) found.tail.begin_robot();
-    std::size_t ticks = 0;  // of the present stretch
-    double largest = 0.0;
-    follow(each, estimator, [&](bool nominal, const ResidualMemory& memory) {
-      const bool waits = nominal && memory.started && !memory.seen.is_new;
-      const std::optional<double> seen = surprise_at(nominal, memory);
-      if (!seen && !waits) return;
-      if (ticks == 0) largest = 0.0;
-      if (seen) {
-        largest = std::max(largest, *seen);
-        found.tail.add(*seen, static_cast<int>(memory.seen.load.torque.size()));
-      }
-      if (++ticks < length) return;
-      found.largest.push_back(largest);
-      ticks = 0;
+/// Of each of `which`. Throws SetupError where there is too little motion.
+std::vector<Surprises> surprises(const std::vector<Motion>& motions, const std::string& estimator,
+                                 const std::vector<Surprise>& which, const ThresholdGoal& goal) {
+  std::vector<Surprises> all;
+  for (const Surprise& surprise : which) all.emplace_back(surprise, goal);
+  for (const Motion& each : motions) {
+    for (Surprises& of : all) of.begin(*each.of.recording);
+    follow(each, estimator, [&all](bool nominal, const ResidualMemory& memory) {
+      for (Surprises& of : all) of.add(nominal, memory);
     });
   }
-  return found;
+  for (const Surprises& of : all) require_enough(estimator, of.largest().size(), goal);
+  return all;
 }
 
 Surprise surprise_of(const Statistic& statistic, const ResidualErrors& errors) {
@@ -184,35 +234,43 @@ std::vector<std::string> calibrated_residuals(const std::vector<ResidualRecordin
 
 std::vector<CalibratedResidual> calibrate_residuals(const std::vector<ResidualRecording>& recordings,
                                                     const std::vector<std::string>& estimators,
-                                                    const ThresholdGoal& goal) {
-  constexpr double parts = 3.0;  // level, change and smoothed
+                                                    const ThresholdGoal& goal,
+                                                    const std::function<void(double)>& progress) {
+  const auto parts = static_cast<double>(statistics.size());
   const double share = 1.0 / (parts * static_cast<double>(estimators.size()));
   const double probability = share * goal.false_alarms_per_hour / 3600.0 * to_seconds(goal.stretch);
+  const std::size_t passes = 1 + 4 * estimators.size();
+  std::size_t done = 0;
+  const std::function<void()> followed = [&] {
+    if (progress) progress(static_cast<double>(++done) / static_cast<double>(passes * recordings.size()));
+  };
+  std::vector<Motion> motions;
+  for (const ResidualRecording& each : recordings) {
+    motions.push_back({each, nominal_samples(*each.recording, each.space), followed});
+    followed();
+  }
   std::vector<CalibratedResidual> all;
   for (const std::string& estimator : estimators) {
     CalibratedResidual& residual = all.emplace_back();
     residual.estimator = estimator;
-    const auto told = [&](const Surprise& surprise_at) {
-      Surprises found = surprises(recordings, estimator, surprise_at, goal);
-      require_enough(estimator, found.largest.size(), goal);
-      residual.stretches = found.largest.size();
-      return found;
-    };
-    const auto calibrate_part = [&](const Statistic& statistic, CalibratedSurprise& part) {
-      part.errors = fit(recordings, estimator, statistic);
-      const Surprises found = told(surprise_of(statistic, part.errors));
-      part.variation = found.tail.variation();
-      part.between_robots = found.tail.between_robots();
-      part.threshold =
-          calibrated_threshold(found.largest, probability, goal, found.tail.power(goal.confidence));
-    };
-    calibrate_part(level_statistic, residual.level);
-    calibrate_part(change_statistic, residual.change);
-    calibrate_part(smoothed_statistic, residual.smoothed);
-    if (const auto course = fit_course(recordings, estimator, residual.change.errors)) {
-      residual.onset.emplace().course = *course;
+    const std::vector<ResidualErrors> errors = fit(motions, estimator);
+    std::vector<Surprise> of_statistics;
+    for (std::size_t i = 0; i < statistics.size(); ++i)
+      of_statistics.push_back(surprise_of(statistics[i], errors[i]));
+    const std::vector<Surprises> found = surprises(motions, estimator, of_statistics, goal);
+    const std::array parts_of{&residual.level, &residual.change, &residual.smoothed};
+    for (std::size_t i = 0; i < statistics.size(); ++i) {
+      const SurpriseTail& tail = found[i].tail();
+      *parts_of[i] = {
+          errors[i], tail.variation(), tail.between_robots(),
+          calibrated_threshold(found[i].largest(), probability, goal, tail.power(goal.confidence))};
+    }
+    residual.stretches = found.back().largest().size();
+    if (const auto course = fit_course(motions, estimator, residual.change.errors)) {
       const OnsetRatio ratio(residual.change.errors, *course, recordings.front().tracking.at(estimator));
-      residual.onset->threshold = calibrated_threshold(told(surprise_of(ratio)).largest, probability, goal);
+      const Surprises onsets = surprises(motions, estimator, {surprise_of(ratio)}, goal).front();
+      residual.stretches = onsets.largest().size();
+      residual.onset = {*course, calibrated_threshold(onsets.largest(), probability, goal)};
     }
   }
   return all;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -50,9 +51,11 @@ std::vector<std::string> calibrated_residuals(const std::vector<ResidualRecordin
 
 /// Sizes of the errors, fitted to all recordings together, and thresholds, so that all residuals together
 /// give the rate of false alarms that is asked: the level of each, its change or its onset, and what is
-/// smoothed of it have an equal share. Throws SetupError as `calibrate_thresholds`.
+/// smoothed of it have an equal share. `progress` is told the share that is done. Throws SetupError as
+/// `calibrate_thresholds`.
 std::vector<CalibratedResidual> calibrate_residuals(const std::vector<ResidualRecording>& recordings,
                                                     const std::vector<std::string>& estimators,
-                                                    const ThresholdGoal& goal);
+                                                    const ThresholdGoal& goal,
+                                                    const std::function<void(double)>& progress = {});
 
 }  // namespace flinch

@@ -3,6 +3,7 @@
 
 #include "apps/flinch/command_line.h"
 #include "apps/flinch/conclusion.h"
+#include "apps/flinch/progress.h"
 #include "apps/flinch/simulated/simulated_parts.h"
 #include "apps/flinch/today.h"
 #include "calibration/calibration_sources.h"
@@ -28,9 +29,11 @@ struct FreeMotions {
 };
 
 /// Throws SetupError with all that is wrong with all of them.
-FreeMotions read_motions(const CalibrateThresholdsOptions& options, const ThresholdGoal& goal) {
+FreeMotions read_motions(const CalibrateThresholdsOptions& options, const ThresholdGoal& goal, bool quiet) {
   FreeMotions read;
   std::vector<std::string> problems;
+  Progress progress("reading recordings", quiet);
+  double done = 0.0;
   for (const std::filesystem::path& file : options.recordings) {
     try {
       require_no_kind(file, "a recording");
@@ -45,13 +48,15 @@ FreeMotions read_motions(const CalibrateThresholdsOptions& options, const Thresh
     } catch (const SetupError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
+    progress.show(++done / static_cast<double>(options.recordings.size()));
   }
   throw_if_any(std::move(problems));
   return read;
 }
 
 /// Of the estimators whose residuals a fused detector judges by, as far as they are recorded.
-std::vector<CalibratedResidual> residuals_of(const FreeMotions& motions, const ThresholdGoal& goal) {
+std::vector<CalibratedResidual> residuals_of(const FreeMotions& motions, const ThresholdGoal& goal,
+                                             bool quiet) {
   const std::vector<std::string> judged{"disturbance_filter", "imu_residual"};
   std::vector<ResidualRecording> recordings;
   for (std::size_t i = 0; i < motions.recordings.size(); ++i) {
@@ -62,7 +67,8 @@ std::vector<CalibratedResidual> residuals_of(const FreeMotions& motions, const T
   }
   const std::vector<std::string> estimators = calibrated_residuals(recordings, judged);
   if (estimators.empty()) return {};
-  return calibrate_residuals(recordings, estimators, goal);
+  Progress progress("calibrating the fused detector", quiet);
+  return calibrate_residuals(recordings, estimators, goal, [&](double share) { progress.show(share); });
 }
 
 }  // namespace
@@ -74,11 +80,12 @@ ExitStatus calibrate_thresholds(const CalibrateThresholdsOptions& options) {
   found.goal.confidence = options.confidence;
   found.goal.safety_factor = options.safety_factor;
   found.goal.one_robot = options.one_robot;
-  const FreeMotions motions = read_motions(options, found.goal);
+  const bool quiet = options.common.quiet || options.common.json;
+  const FreeMotions motions = read_motions(options, found.goal, quiet);
   for (const std::filesystem::path& file : options.recordings) found.recordings.push_back(source_of(file));
   require_different(found.recordings);
   found.estimators = calibrate_thresholds(pooled(motions.peaks), found.goal);
-  found.residuals = residuals_of(motions, found.goal);
+  found.residuals = residuals_of(motions, found.goal, quiet);
   found.tracking = motions.scenarios.front().control.fused_detector.tracking;
   note_robot(motions.scenarios, found);
   fmt::print("{}", options.common.json ? thresholds_json(found) + "\n" : thresholds_table(found));

@@ -62,6 +62,12 @@ CalibrationRecordings open_recordings(const CalibrateOptions& options) {
   const auto unseen = opened.used.begin() + static_cast<std::ptrdiff_t>(options.recordings.size());
   std::move(unseen, opened.used.end(), std::back_inserter(opened.unseen));
   opened.used.erase(unseen, opened.used.end());
+  if (!options.common.quiet && !options.common.json) {
+    double seconds = 0.0;
+    for (const OpenedRecording& each : opened.used)
+      seconds += static_cast<double>(each.recording.samples()) * to_seconds(each.recording.period);
+    fmt::print(stderr, "fitting to {:.1f} s of recorded samples ...\n", seconds);
+  }
   return opened;
 }
 

@@ -27,7 +27,7 @@ struct CalibrationRecordings {
   std::vector<OpenedRecording> used, unseen;
 };
 
-/// The same of all that the call names.
+/// The same of all that the call names; says on stderr how much that is, for what follows takes some seconds.
 CalibrationRecordings open_recordings(const CalibrateOptions& options);
 
 /// Throws SetupError where the parameter file and the page beside it cannot be written, or would replace what
