@@ -46,7 +46,7 @@ struct ContactControlSettings {
   // ---- what the sensors say
   VelocityFilterSettings velocity_filter;  ///< 30 Hz
   ForwardKinematicsSettings forward_kinematics;
-  DriveTorqueSettings drive_torque;  ///< 6.1 Nm/A until calibrated, [ICRA23] III-B
+  DriveTorqueSettings drive_torque;  ///< as default_drives() says until calibrated
   /// The drive torques go through the low pass of `velocity_filter`, so that they lag as the velocity does.
   bool aligned_with_velocity = true;
 

@@ -56,6 +56,8 @@ ContactControlSettings settings_for(const ParallelRobot& robot, const DriveParam
   settings.limits.limits.workspace = limits;
   settings.limits.max_torque = drives.max_torque;
   settings.limits.max_torque_rate = drives.max_torque_rate;
+  settings.tasks.levels.largest_torque = drives.max_torque;
+  settings.tasks.levels.largest_torque_rate = drives.max_torque_rate;
   settings.tasks.reaction.rest_speed = settings.sequence.rest_speed;
   settings.tasks.reaction.max_torque = drives.max_torque;
   settings.tasks.reaction.max_torque_rate = drives.max_torque_rate;

@@ -16,14 +16,6 @@ void check_count(const JointVector& values, const std::string& name, int drives,
                     std::to_string(drives) + " drives");
 }
 
-JointVector limits(const SimulatedDrivesSettings& settings, const Mechanism& robot) {
-  JointVector limit(robot.drives());
-  for (int i = 0; i < robot.drives(); ++i) {
-    limit[i] = robot.drive_kind(i) == DriveKind::revolute ? settings.torque_limit : settings.force_limit;
-  }
-  return limit;
-}
-
 }  // namespace
 
 std::vector<std::string> problems(const SimulatedDrivesSettings& settings, const Mechanism& robot) {
@@ -32,6 +24,7 @@ std::vector<std::string> problems(const SimulatedDrivesSettings& settings, const
   check_count(settings.driver_torque_constant, "driver_torque_constant", robot.drives(), found);
   check_count(settings.current_lag, "current_lag", robot.drives(), found);
   check_count(settings.torque_delay, "torque_delay", robot.drives(), found);
+  check_count(settings.max_torque, "max_torque", robot.drives(), found);
   for (const double constant : settings.torque_constant) found.positive("torque_constant", constant);
   for (const double constant : settings.driver_torque_constant) {
     found.positive("driver_torque_constant", constant);
@@ -39,36 +32,40 @@ std::vector<std::string> problems(const SimulatedDrivesSettings& settings, const
   for (const double lag : settings.current_lag) found.not_negative("current_lag", lag, "s");
   for (const double delay : settings.torque_delay)
     found.at_most(longest_torque_delay, "torque_delay", std::abs(delay), "s");
-  found.positive("torque_limit", settings.torque_limit, "Nm");
-  found.positive("force_limit", settings.force_limit, "N");
+  for (const double most : settings.max_torque) found.positive("max_torque", most);
   found.not_negative("longest_silence", to_seconds(settings.longest_silence), "s");
   return found.take();
 }
 
 SimulatedDrivesSettings complete(SimulatedDrivesSettings settings, const Mechanism& robot) {
   throw_if_any(problems(settings, robot));
-  constexpr double usual_constant = 6.1;
-  if (settings.torque_constant.size() == 0)
-    settings.torque_constant.setConstant(robot.drives(), usual_constant);
+  JointVector constant(robot.drives()), most(robot.drives());
+  for (int i = 0; i < robot.drives(); ++i) {
+    const DriveParameters usual = default_drives(robot.drive_kind(i), 1);
+    constant[i] = usual.torque_constant[0];
+    most[i] = usual.max_torque;
+  }
+  if (settings.torque_constant.size() == 0) settings.torque_constant = constant;
+  if (settings.max_torque.size() == 0) settings.max_torque = most;
   if (settings.driver_torque_constant.size() == 0) settings.driver_torque_constant = settings.torque_constant;
   return settings;
 }
 
 SimulatedDrives::SimulatedDrives(const SimulatedDrivesSettings& settings, const Mechanism& robot, Time tick)
-    : settings_(complete(settings, robot)), limit_(limits(settings, robot)), tick_(tick) {}
+    : settings_(complete(settings, robot)), tick_(tick) {}
 
 DriveAction SimulatedDrives::act(Time now, const DriveAction& before, const TorqueCommand& command,
                                  const BrakeCommand& brakes) const {
   const Time age = now - command.computed;
   const bool fresh = age >= Time::zero() && age <= settings_.longest_silence;
-  const bool usable =
-      command.valid && fresh && command.torque.size() == limit_.size() && command.torque.allFinite();
+  const bool usable = command.valid && fresh && command.torque.size() == settings_.max_torque.size() &&
+                      command.torque.allFinite();
   DriveAction action = at_rest();
   if (!usable || brakes.engage) {
     spoil(now, before, action);
     return action;
   }
-  const JointVector wanted = command.torque.cwiseMax(-limit_).cwiseMin(limit_);
+  const JointVector wanted = command.torque.cwiseMax(-settings_.max_torque).cwiseMin(settings_.max_torque);
   action.current = wanted.cwiseQuotient(settings_.driver_torque_constant);
   JointVector mean = action.current;
   // i(t) = i_wanted + (i_before - i_wanted) exp(-t / lag), its mean over the tick, and its value at the end.
@@ -92,9 +89,9 @@ DriveAction SimulatedDrives::act(Time now, const DriveAction& before, const Torq
 void SimulatedDrives::spoil(Time now, const DriveAction& before, DriveAction& action) const {
   action.since = action.braked == before.braked ? before.since : now;
   if (settings_.faults.empty()) return;
-  action.hold.setConstant(limit_.size(), action.braked ? 1.0 : 0.0);
+  action.hold.setConstant(settings_.max_torque.size(), action.braked ? 1.0 : 0.0);
   for (const RequestedFault& fault : settings_.faults) {
-    for (int i = 0; i < limit_.size() && now >= fault.begin; ++i) {
+    for (int i = 0; i < settings_.max_torque.size() && now >= fault.begin; ++i) {
       if (fault.index && *fault.index != i) continue;
       const double size = fault.size.value_or(0.0);
       if (fault.signal == FaultSignal::drive && fault.kind == FaultKind::scaled) action.torque[i] *= size;
@@ -109,8 +106,8 @@ void SimulatedDrives::spoil(Time now, const DriveAction& before, DriveAction& ac
 
 DriveAction SimulatedDrives::at_rest() const {
   DriveAction action;
-  action.torque.setZero(limit_.size());
-  action.current.setZero(limit_.size());
+  action.torque.setZero(settings_.max_torque.size());
+  action.current.setZero(settings_.max_torque.size());
   return action;
 }
 

@@ -16,16 +16,16 @@ namespace flinch {
 
 /// Drives with current control.
 struct SimulatedDrivesSettings {
-  /// What a motor makes of its current [Nm/A or N/A]; empty: 6.1 for each. [ICRA23] III-B
+  /// What a motor makes of its current [Nm/A or N/A]; empty: as default_drives() says.
   JointVector torque_constant{};
   /// What the driver believes when it turns a torque command into a current; empty: the truth.
   JointVector driver_torque_constant{};
   /// Time constant with which each current follows its command [s]; empty: at once.
   JointVector current_lag{};
-  JointVector torque_delay{};   ///< By which each torque is behind its current besides [s]; empty: none.
-  double torque_limit = 100.0;  ///< Commands are cut to this [Nm].
-  double force_limit = 500.0;   ///< Those for drives that slide [N].
-  Time longest_silence = 3ms;   ///< Age of a command from which on it is not obeyed.
+  JointVector torque_delay{};  ///< By which each torque is behind its current besides [s]; empty: none.
+  /// Commands are cut to this [Nm or N]; empty: as default_drives() says.
+  JointVector max_torque{};
+  Time longest_silence = 3ms;  ///< Age of a command from which on it is not obeyed.
   /// Those of brakes, and of drives that make another torque of their current, act here; others are left to
   /// whatever stands before the drives.
   std::vector<RequestedFault> faults{};
@@ -34,7 +34,7 @@ struct SimulatedDrivesSettings {
 /// All that is wrong with `settings` for the drives of `robot`.
 std::vector<std::string> problems(const SimulatedDrivesSettings& settings, const Mechanism& robot);
 
-/// The same with the constants of all drives of `robot` written out. Throws SetupError.
+/// The same with the constants and limits of all drives of `robot` written out. Throws SetupError.
 SimulatedDrivesSettings complete(SimulatedDrivesSettings settings, const Mechanism& robot);
 
 /// Turns commands into torque, held from tick to tick. Where the current lags the torque is its mean over the
@@ -44,7 +44,6 @@ SimulatedDrivesSettings complete(SimulatedDrivesSettings settings, const Mechani
 /// without these faults.
 class SimulatedDrives final : public System {
   SimulatedDrivesSettings settings_;
-  JointVector limit_;
   Time tick_;
   State<DriveAction> acting_ = state<DriveAction>("acting", at_rest());  // from this tick on
 

@@ -17,8 +17,8 @@ namespace flinch {
 namespace {
 
 /// Whether every drive is known to be so slow that the platform moves by some mm/s at most.
-bool is_at_rest(const JointMotion& joints) {
-  constexpr double resting_speed = 0.02;  // [rad/s]
+bool is_at_rest(const JointMotion& joints, const DriveParameters& drives) {
+  const double resting_speed = drives.max_speed / 400.0;
   return joints.valid && joints.velocity.cwiseAbs().maxCoeff() < resting_speed;
 }
 
@@ -161,7 +161,8 @@ bool LiveRun::is_stopped() const {
   const GateStatus& gate = context_.get(experiment_.control.gate);
   if (gate.passes()) return false;
   return gate.reaction == GateReaction::zero_torque_and_brake ||
-         is_at_rest(context_.get(experiment_.control.joint_motion)) || !station_.link().enabled;
+         is_at_rest(context_.get(experiment_.control.joint_motion), scenario_.robot.drives) ||
+         !station_.link().enabled;
 }
 
 void LiveRun::run() {

@@ -16,13 +16,16 @@ void read_gains(ConfigReader reader, const Unit& force, TaskGains& gains) {
   reader.number("damping_ratio", unit::none, gains.damping_ratio[0], positive);
 }
 
-void read_levels(ConfigReader reader, TaskLevelSettings& levels) {
+void read_levels(ConfigReader reader, bool turn, TaskLevelSettings& levels) {
+  const Unit& damping = turn ? unit::Nms_per_rad : unit::Ns_per_m;
   reader.number("free_damping", unit::per_s, levels.free_damping, positive);
-  reader.number("velocity_gain", unit::Nms_per_rad, levels.velocity_gain, positive);
-  reader.number("velocity_feedforward", unit::Nms_per_rad, levels.velocity_feedforward, not_negative);
-  reader.number("largest_acceleration", unit::rad_per_s2, levels.largest_acceleration, positive);
-  reader.number("largest_torque", unit::Nm, levels.largest_torque, positive);
-  reader.number("largest_torque_rate", unit::Nm_per_s, levels.largest_torque_rate, positive);
+  reader.number("velocity_gain", damping, levels.velocity_gain, positive);
+  reader.number("velocity_feedforward", damping, levels.velocity_feedforward, not_negative);
+  reader.number("largest_acceleration", turn ? unit::rad_per_s2 : unit::m_per_s2, levels.largest_acceleration,
+                positive);
+  reader.number("largest_torque", turn ? unit::Nm : unit::N, levels.largest_torque, positive);
+  reader.number("largest_torque_rate", turn ? unit::Nm_per_s : unit::N_per_s, levels.largest_torque_rate,
+                positive);
 }
 
 void read_motion_limits(ConfigReader reader, MotionLimits& limits, bool angular) {
@@ -76,7 +79,7 @@ void read_constraints(ConfigReader reader, ConstraintSettings& constraints) {
 void read_tasks(ConfigReader& control, const ParallelRobot& robot, TaskSettings& settings) {
   ConfigReader tasks = control.section("tasks");
   tasks.duration("blend", settings.blend, not_negative);
-  read_levels(tasks.section("levels"), settings.levels);
+  read_levels(tasks.section("levels"), robot.drive_kind(0) == DriveKind::revolute, settings.levels);
   ConfigReader nominal = tasks.section("nominal");
   read_gains(nominal.section("position"), unit::N_per_m, settings.nominal.position);
   if (robot.space().rotations() > 0) {

@@ -82,6 +82,7 @@ Realism read_plant(ConfigReader plant, const Scenario& scenario, SimulatedStatio
   station.bench.uneven_torque = uneven_torque(built.drives.cogging);
   station.drives.torque_delay = built.drives.torque_delay;
   station.drives.torque_constant = built.drives.torque_constant;
+  station.drives.max_torque.setConstant(drives, built.drives.max_torque);
   station.drives.driver_torque_constant = scenario.robot.drives.torque_constant;
   plant.choice("friction", friction,
                {{"as_robot_file", PlantFriction::as_robot_file}, {"none", PlantFriction::none}});

@@ -23,11 +23,12 @@ struct TaskLevelSettings {
   /// What the tasks leave free is braked: ddx = -damping dx [1/s]. On the velocity level it stands still.
   double free_damping = 20.0;
 
-  double velocity_feedforward = 1.0;    ///< K_qa dt, of (32e) [Nms/rad]
-  double velocity_gain = 60.0;          ///< D_qa, of (32e) [Nms/rad]
-  double largest_acceleration = 100.0;  ///< of a drive's reference [rad/s^2]
-  double largest_torque = 100.0;        ///< of a drive [Nm]
-  double largest_torque_rate = 20e3;    ///< of a drive, so that no switch makes a step [Nm/s]
+  // Units of a turning drive, of a sliding one in brackets.
+  double velocity_feedforward = 1.0;    ///< K_qa dt, of (32e) [Nms/rad] ([Ns/m])
+  double velocity_gain = 60.0;          ///< D_qa, of (32e) [Nms/rad] ([Ns/m])
+  double largest_acceleration = 100.0;  ///< of a drive's reference [rad/s^2] ([m/s^2])
+  double largest_torque = 100.0;        ///< of a drive [Nm] ([N])
+  double largest_torque_rate = 20e3;    ///< of a drive, so that no switch makes a step [Nm/s] ([N/s])
 };
 
 /// What the tasks of `list` want together, one entry a drive or platform coordinate: dq_a,ref [rad/s],

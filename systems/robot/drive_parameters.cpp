@@ -6,7 +6,8 @@ namespace flinch {
 
 // The torque rate is what a blend over 10 ms from one end of the torque range to the other needs.
 DriveParameters default_drives(DriveKind kind, int drives) {
-  if (kind == DriveKind::revolute) return {.torque_constant = JointVector::Constant(drives, 6.1)};
+  if (kind == DriveKind::revolute)
+    return {.torque_constant = JointVector::Constant(drives, 6.1)};  // [ICRA23] III-B
   return {.torque_constant = JointVector::Constant(drives, 100.0),
           .max_torque = 500.0,
           .max_torque_rate = 100e3,

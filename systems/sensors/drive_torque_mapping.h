@@ -16,7 +16,7 @@
 namespace flinch {
 
 struct DriveTorqueSettings {
-  /// k_t of each drive [Nm/A or N/A]; empty: 6.1 for each, until calibrated. [ICRA23] III-B
+  /// k_t of each drive [Nm/A or N/A]; empty: as default_drives() says, until calibrated.
   JointVector torque_constant;
   Sampling sampling;
   Cogging cogging{};    ///< As far as it is known [Nm or N].

@@ -39,6 +39,8 @@ TEST_P(ShippedRobot, IsBoundedByItsFile) {
   EXPECT_EQ(settings.faults.torque_range, file.drives.max_torque);
   EXPECT_EQ(settings.torque_gate.max_torque, file.drives.max_torque);
   EXPECT_EQ(settings.torque_gate.max_torque_rate, file.drives.max_torque_rate);
+  EXPECT_EQ(settings.tasks.levels.largest_torque, file.drives.max_torque);
+  EXPECT_EQ(settings.tasks.levels.largest_torque_rate, file.drives.max_torque_rate);
 }
 
 TEST(RobotSettings, AreForTheBenchThoseOfTheTables) {

@@ -318,12 +318,12 @@ Failure changed(const std::function<void(SimulatedScenario&)>& change) {
 // What the robot plans and keeps limits by is what its drives can do, which the reaction takes whole.
 TEST(AReaction, OfWeakDrivesEndsAtRestWithinTheWorkspace) {
   constexpr double most = 40.0;  // [Nm]
-  const std::map<std::string, Endings> endings = fail(changed([](SimulatedScenario& scenario) {
+  const std::map<std::string, Endings> endings = fail(changed([most](SimulatedScenario& scenario) {
     ContactControlSettings& control = scenario.control;
     control.torque_gate.max_torque = control.limits.max_torque = most;
     control.tasks.levels.largest_torque = control.tasks.reaction.max_torque = most;
     control.faults.torque_range = most;
-    scenario.station.drives.torque_limit = most;
+    scenario.station.drives.max_torque.setConstant(most);
   }));
   expect_open("drives of 40 Nm", endings, 600ms);
   for (const auto& [level, seen] : endings) {

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "systems/foundation/setup_error.h"
+#include "systems/robot/hexapod.h"
+#include "systems/robot/hexapod_presets.h"
 #include "tests/plant/bench_scene.h"
 #include "tests/plant/sensor_bench.h"
 
@@ -195,7 +197,7 @@ TEST(SimulatedDrives, HaveBrakesThatTakeTheirTime) {
 }
 
 TEST(SimulatedDrives, CutCommandsToTheirLimit) {
-  Drives drives({.torque_limit = 50.0});
+  Drives drives({.max_torque = Eigen::Vector3d::Constant(50.0)});
   const DriveAction action = drives.after(drives.fresh(80.0, -1e9, 20.0));
   EXPECT_TRUE(action.torque.isApprox(Eigen::Vector3d(50.0, -50.0, 20.0)));
 }
@@ -251,10 +253,20 @@ TEST(SimulatedDrives, AreDisabledByAFaultWhenTheRobotCameApart) {
   EXPECT_FALSE(drives.status().enabled);
 }
 
+TEST(SimulatedDrives, HaveConstantsAndLimitsOfTheirKindUnlessTold) {
+  const SimulatedDrivesSettings turning = complete({}, *test::individual_bench());
+  const SimulatedDrivesSettings sliding = complete({}, Hexapod(hexapod_robot()));
+  EXPECT_EQ(turning.torque_constant, JointVector::Constant(3, 6.1));
+  EXPECT_EQ(turning.max_torque, JointVector::Constant(3, 100.0));
+  EXPECT_EQ(sliding.torque_constant, JointVector::Constant(6, 100.0));
+  EXPECT_EQ(sliding.driver_torque_constant, sliding.torque_constant);
+  EXPECT_EQ(sliding.max_torque, JointVector::Constant(6, 500.0));
+}
+
 TEST(SimulatedDrives, RefuseConstantsAndLimitsThatAreNotPositive) {
   SimulatedDrivesSettings settings = bench_constants();
   settings.torque_constant[1] = 0.0;
-  settings.torque_limit = -1.0;
+  settings.max_torque = Eigen::Vector3d(100.0, -1.0, 100.0);
   const auto robot = test::individual_bench();
   EXPECT_EQ(problems(settings, *robot).size(), 2U);
   EXPECT_THROW(SimulatedDrives(settings, *robot), SetupError);

@@ -112,6 +112,12 @@ TEST(ScenarioRealism, LetsMotorsCogAsTheRobotFileSays) {
   }
 }
 
+TEST(ScenarioRealism, CutsTorquesWhereTheRobotFileSays) {
+  const test::Workplace place;
+  place.replace("robots/five_bar.yaml", "max_torque_Nm: 10", "max_torque_Nm: 12");
+  EXPECT_EQ(scenario_with(place, "", "five_bar").station.drives.max_torque, JointVector::Constant(2, 12.0));
+}
+
 TEST(ScenarioRealism, HasTheUnitsOfDrivesThatSlide) {
   const test::Workplace place;
   const SimulatedScenario scenario = scenario_with(
