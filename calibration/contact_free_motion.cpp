@@ -9,6 +9,8 @@
 namespace flinch {
 namespace {
 
+constexpr double longest_pause = 1.0;  // of a motion [s]; a robot that waits for longer stands still
+
 std::string at(double seconds) {
   char text[32];
   std::snprintf(text, sizeof text, "at %.3f s", seconds);
@@ -20,6 +22,7 @@ std::string at(double seconds) {
 std::vector<bool> nominal_samples(const Recording& recording, const ConfigurationSpace& space) {
   const RecordedRun run(recording, space);
   std::vector<bool> nominal(run.size());
+  double moved_last = -longest_pause;  // [s]
   for (std::size_t k = 0; k < nominal.size(); ++k) {
     const RunSample now = run[k];
     if (now.is_touched()) {
@@ -31,7 +34,8 @@ std::vector<bool> nominal_samples(const Recording& recording, const Configuratio
                        ", and nobody knows whether there was one; record with higher thresholds in "
                        "control.contact_detector");
     }
-    nominal[k] = now.mode == ReactionMode::nominal;
+    if (!now.reference_valid || !now.reference_rests) moved_last = now.time;
+    nominal[k] = now.mode == ReactionMode::nominal && now.time - moved_last <= longest_pause;
   }
   return nominal;
 }

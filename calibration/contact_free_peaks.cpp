@@ -18,6 +18,7 @@ std::vector<EstimatorPeaks> contact_free_peaks(const Recording& recording, const
     const auto estimates = read<RecordedEstimate>(recording, path);
     std::size_t samples = 0;  // of the present stretch
     double force = 0.0, moment = 0.0;
+    const auto seconds = [&recording](std::size_t k) { return to_seconds(Time(recording.time_ns[k])); };
     for (std::size_t k = 0; k < estimates.size(); ++k) {
       const RecordedEstimate estimate = estimates[k];
       const bool counts = estimate.valid && nominal[k] && estimate.wrench_in_base.size() == space.dimension();
@@ -31,6 +32,7 @@ std::vector<EstimatorPeaks> contact_free_peaks(const Recording& recording, const
       if (++samples < length) continue;
       peaks.force.push_back(force);
       if (space.rotations() > 0) peaks.moment.push_back(moment);
+      peaks.stretches.push_back({0, seconds(k + 1 - length)});
       samples = 0;
     }
   }

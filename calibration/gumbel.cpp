@@ -17,6 +17,11 @@ double reduced(double probability) { return -std::log(-std::log1p(-probability))
 
 double Gumbel::quantile_above(double probability) const { return location + scale * reduced(probability); }
 
+double Gumbel::probability_above(double value) const {
+  if (scale <= 0.0) return value < location ? 1.0 : 0.0;
+  return -std::expm1(-std::exp(-(value - location) / scale));
+}
+
 Gumbel fit_gumbel(std::span<const double> maxima) {
   std::vector<double> sorted(maxima.begin(), maxima.end());
   std::sort(sorted.begin(), sorted.end());
@@ -28,6 +33,16 @@ Gumbel fit_gumbel(std::span<const double> maxima) {
   }
   const double scale = (2.0 * weighted - mean) / std::numbers::ln2;
   return {.location = mean - std::numbers::egamma * scale, .scale = scale};
+}
+
+Gumbel fit_gumbel_to_quartiles(std::span<const double> maxima) {
+  std::vector<double> sorted(maxima.begin(), maxima.end());
+  std::sort(sorted.begin(), sorted.end());
+  const auto quantile = [&sorted](double share) {
+    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+  };
+  const double scale = (quantile(0.75) - quantile(0.25)) / (reduced(0.25) - reduced(0.75));
+  return {.location = quantile(0.5) - reduced(0.5) * scale, .scale = scale};
 }
 
 double upper_quantile_above(const Gumbel& fit, std::size_t maxima, double probability, double confidence) {

@@ -12,10 +12,15 @@ struct Gumbel {
 
   /// What the largest exceeds with this probability.
   double quantile_above(double probability) const;
+  /// How probable it is that the largest exceeds `value`.
+  double probability_above(double value) const;
 };
 
 /// Fits it to block maxima by their first two L-moments (Hosking 1990). Needs two values or more.
 Gumbel fit_gumbel(std::span<const double> maxima);
+
+/// Fits it to their quartiles, which a few maxima of something else hardly move. Needs two values or more.
+Gumbel fit_gumbel_to_quartiles(std::span<const double> maxima);
 
 /// Upper confidence bound of `fit.quantile_above(probability)`, where `fit` was made from so many maxima: by
 /// the large-sample covariance of location and scale so fitted (Phien 1987).

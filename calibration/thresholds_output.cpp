@@ -16,6 +16,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr double largest_variation = 0.3;  // up to which thresholds keep the rate, see `SurpriseTail`
+
 Json json_of(const CalibratedThreshold& threshold) {
   return {{"value", threshold.value},
           {"best_guess", threshold.best_guess},
@@ -214,10 +216,21 @@ void note_robot(const std::vector<Scenario>& scenarios, ThresholdFindings& found
 }
 
 std::vector<std::string> warnings(const ThresholdFindings& found) {
-  if (found.residuals.empty() || found.goal.one_robot || found.recordings.size() > 1) return {};
-  return {
+  std::vector<std::string> all;
+  for (const CalibratedResidual& of : found.residuals) {
+    const double variation = std::max({of.level.variation, of.change.variation, of.smoothed.variation});
+    if (variation <= largest_variation) continue;
+    all.push_back(
+        fmt::format("{}: the variance of its errors varies by {:.2g} beside what is expected, and thresholds "
+                    "keep the rate up to "
+                    "{}; see whether the robot failed or was touched in these recordings",
+                    of.estimator, variation, largest_variation));
+  }
+  if (found.residuals.empty() || found.goal.one_robot || found.recordings.size() > 1) return all;
+  all.push_back(
       "one recording does not tell how robots differ, so the longest tail is taken for the fused detector; "
-      "add recordings of other robots, or say --one-robot where its thresholds shall serve this one"};
+      "add recordings of other robots, or say --one-robot where its thresholds shall serve this one");
+  return all;
 }
 
 std::string thresholds_table(const ThresholdFindings& found) {

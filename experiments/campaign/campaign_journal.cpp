@@ -35,6 +35,22 @@ SetupError cannot_be_read(const std::filesystem::path& file) {
   return SetupError(file.string() + ": what was written there cannot be read");
 }
 
+constexpr const char* journal_name = "results.part";
+
+/// The rows of the journal `file`; at their end where there is none. Throws SetupError where it does not begin
+/// with `first_line`.
+std::ifstream rows_of(const std::filesystem::path& file, const std::string& first_line) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string line;
+  if (stream && std::getline(stream, line) && line != first_line) {
+    throw SetupError(
+        file.string() +
+        ": holds the results of another campaign, or of other scenarios, options, seeds or versions; choose "
+        "another folder with --out, or begin anew with --fresh");
+  }
+  return stream;
+}
+
 /// Where the rows of a journal stand.
 class WrittenRows {
  public:
@@ -77,8 +93,12 @@ class WrittenRows {
 
 }  // namespace
 
+void require_no_other_results(const std::filesystem::path& folder, const Campaign& campaign) {
+  rows_of(folder / journal_name, first_line(campaign));
+}
+
 CampaignJournal::CampaignJournal(const std::filesystem::path& folder, const Campaign& campaign)
-    : file_(folder / "results.part"), first_line_(first_line(campaign)), is_done_(campaign.runs()) {
+    : file_(folder / journal_name), first_line_(first_line(campaign)), is_done_(campaign.runs()) {
   std::ifstream before = rows();
   // Written anew, so that what follows does not stand behind half a row.
   begin_journal(file_, stream_, [&] {
@@ -87,17 +107,7 @@ CampaignJournal::CampaignJournal(const std::filesystem::path& folder, const Camp
   });
 }
 
-std::ifstream CampaignJournal::rows() const {
-  std::ifstream stream(file_, std::ios::binary);
-  std::string line;
-  if (stream && std::getline(stream, line) && line != first_line_) {
-    throw SetupError(
-        file_.string() +
-        ": holds the results of another campaign, or of other scenarios, seeds or versions; choose "
-        "another folder with --out, or begin anew with --fresh");
-  }
-  return stream;
-}
+std::ifstream CampaignJournal::rows() const { return rows_of(file_, first_line_); }
 
 void CampaignJournal::read(std::ifstream rows, const TakeRow& take) const {
   std::vector<std::string> names;

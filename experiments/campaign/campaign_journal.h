@@ -13,6 +13,9 @@ namespace flinch {
 
 struct Campaign;
 
+/// Throws SetupError where `folder` has the results of another campaign.
+void require_no_other_results(const std::filesystem::path& folder, const Campaign& campaign);
+
 /// The results of a campaign while it runs: a file to which each run adds its row as soon as it is done. A
 /// program that is killed leaves whole rows and at most one torn one, which is left out; the next call goes
 /// on where it stopped.

@@ -119,9 +119,8 @@ class FaultWatch {
     if (ticks > 0)
       return fmt::format("; {} {} missed just before", ticks, ticks == 1 ? "tick was" : "ticks were");
     if (readings == 0) return "";
-    return fmt::format("; {} of the joints {} lost just before",
-                       readings == 1 ? "a reading" : fmt::format("{} readings", readings),
-                       readings == 1 ? "was" : "were");
+    return fmt::format("; {} of the joints came to no tick just before",
+                       readings == 1 ? "a reading" : fmt::format("{} readings", readings));
   }
 
   LossWatch ticks_, readings_;

@@ -50,6 +50,16 @@ TEST(Peaks, LeaveOutStretchesWithoutAnEstimateOrOutsideTheNominalMotion) {
   EXPECT_EQ(peaks[0].force.size(), 3U) << "6 to 15, 16 to 25, 26 to 35";
 }
 
+TEST(Peaks, LeaveOutWhereTheRobotStandsStillButNotWhereItWaitsForAMoment) {
+  SyntheticRun run(3000);
+  for (int k = 100; k < 500; ++k) run.at(k).reference.finished = true;
+  for (int k = 600; k < 3000; ++k) run.at(k).reference.finished = true;
+  const auto peaks = contact_free_peaks(named(run.recording()), space, 10ms);
+  EXPECT_NEAR(static_cast<double>(peaks[0].force.size()), 160.0, 1.0) << "until 1 s after it has arrived";
+  EXPECT_EQ(peaks[0].stretches.size(), peaks[0].force.size());
+  EXPECT_NEAR(peaks[0].stretches[10].begin, 0.1, 1e-9);
+}
+
 TEST(ARecordingWithContact, IsRefusedWithItsTime) {
   EXPECT_THAT(complaint(named(SyntheticRun(40).touch(BodyId::platform(), 12, 14, 5.0).recording())),
               HasSubstr("touched or pushed the robot at 0.012 s"));

@@ -21,7 +21,18 @@ TEST(Gumbel, IsExceededAsOftenAsItSays) {
   for (const double probability : {0.5, 0.1, 1e-4, 1e-9}) {
     const double x = gumbel.quantile_above(probability);
     EXPECT_NEAR(-std::expm1(-std::exp(-(x - 3.0) / 0.7)), probability, 1e-12 * probability + 1e-16);
+    EXPECT_NEAR(gumbel.probability_above(x) / probability, 1.0, 1e-6);
   }
+}
+
+TEST(AFitToQuartiles, IsHardlyMovedByAFewMaximaOfSomethingElse) {
+  std::mt19937_64 random(3);
+  std::vector<double> maxima = drawn(random, 2000, 3.0, 0.7);
+  for (int i = 0; i < 40; ++i) maxima[static_cast<std::size_t>(50 * i)] = 50.0;
+  const Gumbel fit = fit_gumbel_to_quartiles(maxima);
+  EXPECT_NEAR(fit.location, 3.0, 0.05);
+  EXPECT_NEAR(fit.scale, 0.7, 0.05);
+  EXPECT_GT(fit_gumbel(maxima).scale, 1.0) << "by moments it is";
 }
 
 TEST(TheFit, FindsWhatTheMaximaWereDrawnFrom) {

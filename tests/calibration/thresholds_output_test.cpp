@@ -122,6 +122,15 @@ TEST(OneRecording, OfOneOfManyRobotsIsWarnedOf) {
   EXPECT_THAT(warnings(some), IsEmpty()) << "of plain thresholds";
 }
 
+TEST(Errors, ThatAreNotWhatTheirSizesSayAreWarnedOf) {
+  ThresholdFindings found = with_a_residual(true);
+  found.goal.one_robot = true;
+  found.residuals[0].change.variation = 0.29;
+  EXPECT_THAT(warnings(found), IsEmpty());
+  found.residuals[0].change.variation = 9.5;
+  EXPECT_THAT(warnings(found), ElementsAre(HasSubstr("the variance of its errors varies by 9.5 beside")));
+}
+
 TEST(TheParameterFile, SaysWhichParameterFilesItRestsOnAndHowSurprisingTheMotionWas) {
   ThresholdFindings found = with_a_residual(true);
   found.with = {{"b/dynamics.yaml", "4567"}};

@@ -15,6 +15,7 @@
 #include "apps/flinch/stop_watch.h"
 #include "experiments/campaign/campaign.h"
 #include "experiments/campaign/campaign_helpers.h"
+#include "experiments/campaign/campaign_journal.h"
 #include "experiments/campaign/campaign_page.h"
 #include "experiments/campaign/campaign_results.h"
 #include "experiments/campaign/campaign_run.h"
@@ -42,9 +43,11 @@ ExitStatus repeat_run(const CampaignOptions& options, const Campaign& campaign) 
     throw SetupError(
         fmt::format("--run {}: the campaign has the runs 0 to {}", *options.run, campaign.runs() - 1));
   }
+  const std::filesystem::path of_table = options.out.empty() ? default_folder(campaign.name) : options.out;
+  require_no_other_results(of_table, campaign);  // its run of this number would be another
   const CampaignRun run = draw_run(campaign, *options.run);
-  const RunFolder folder = make_run_folder(
-      options.out.empty() ? default_folder(campaign.name) / fmt::format("run_{}", run.number) : options.out);
+  const RunFolder folder =
+      make_run_folder(options.out.empty() ? of_table / fmt::format("run_{}", run.number) : options.out);
   const StopWatch watch;
   record_experiment(run.scenario, recording_in(folder), {{"command_line", options.common.command_line}});
   return conclude(run.scenario, watch.seconds(), folder, options.common);
@@ -136,6 +139,7 @@ ExitStatus campaign(const CampaignOptions& options) {
   const CampaignPace pace{results.size() - before, watch.seconds()};
   const std::vector<CampaignGroup> groups = groups_of(campaign, results);
   print(campaign, results, groups, pace, options.common.json);
+  std::fflush(stdout);  // before what stderr says, where both go into one file
   const std::filesystem::path page = folder.path / "campaign.html";
   write_campaign_page(campaign, results, groups, alarms.value_or(CountedAlarms(groups)),
                       options.common.command_line, page);

@@ -78,6 +78,17 @@ TEST_F(CampaignVerb, RepeatsOneRunWithRecordingAndPage) {
   EXPECT_THAT(replayed.err, HasSubstr("bit for bit"));
 }
 
+/// With other options the run of that number is another than that of the table.
+TEST_F(CampaignVerb, RepeatsNoRunOfAnotherCampaignThanThatOfTheTable) {
+  campaign({"--set", "pylon.stiffness_N_per_m=5000,50000"});
+  const Outcome other = campaign({"--run", "1"});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.err, HasSubstr("results.part: holds the results of another campaign, or of other"));
+  EXPECT_FALSE(std::filesystem::exists(place / "out/run.h5"));
+  campaign({"--set", "pylon.stiffness_N_per_m=5000,50000", "--run", "1"});
+  EXPECT_TRUE(std::filesystem::exists(place / "out/run.h5"));
+}
+
 TEST_F(CampaignVerb, RefusesTheResultsOfAnotherCampaignUnlessToldToBeginAnew) {
   campaign({});
   const Outcome other = campaign({"--seed", "2"});

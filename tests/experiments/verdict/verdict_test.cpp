@@ -435,7 +435,7 @@ TEST(Fault, IsToldWithTheReadingsThatNobodySaw) {
   SyntheticRun run = closed_by(GateFault::joints_invalid);
   for (int k = 298; k < 500; ++k) run.at(k).joints_link.skipped = 3;
   EXPECT_EQ(judged(run).fault,
-            "no usable angles of the drives; 3 readings of the joints were lost just before");
+            "no usable angles of the drives; 3 readings of the joints came to no tick just before");
 }
 
 TEST(Fault, OfTheRobotItselfHasNoOtherCause) {
