@@ -10,8 +10,9 @@ namespace flinch {
 
 struct Recording;
 
-/// Whether each sample belongs to a nominal motion; where its reference rests for more than 1 s, it does not. Throws SetupError where something touched the robot, or
-/// where the robot noticed something, so that nobody knows.
+/// Whether each sample belongs to a nominal motion; where its reference rests for more than 1 s, it does not.
+/// Throws SetupError where something touched the robot, or where the robot noticed something, so that nobody
+/// knows.
 std::vector<bool> nominal_samples(const Recording& recording, const ConfigurationSpace& space);
 
 /// Names of the estimators and the signals of what they say. Throws SetupError where there are none.

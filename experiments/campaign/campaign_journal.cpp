@@ -37,8 +37,8 @@ SetupError cannot_be_read(const std::filesystem::path& file) {
 
 constexpr const char* journal_name = "results.part";
 
-/// The rows of the journal `file`; at their end where there is none. Throws SetupError where it does not begin
-/// with `first_line`.
+/// The rows of the journal `file`; at their end where there is none. Throws SetupError where it does not
+/// begin with `first_line`.
 std::ifstream rows_of(const std::filesystem::path& file, const std::string& first_line) {
   std::ifstream stream(file, std::ios::binary);
   std::string line;
