@@ -45,10 +45,10 @@ FreeMotions read_motions(const CalibrateThresholdsOptions& options, const Thresh
           file, [&] { return contact_free_peaks(recording, scenario.robot.robot->space(), goal.stretch); }));
       read.recordings.push_back(std::move(recording));
       read.scenarios.push_back(std::move(scenario));
+      progress.show(++done / static_cast<double>(options.recordings.size()));
     } catch (const SetupError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
-    progress.show(++done / static_cast<double>(options.recordings.size()));
   }
   throw_if_any(std::move(problems));
   return read;
