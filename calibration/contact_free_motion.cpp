@@ -4,7 +4,9 @@
 
 #include "experiments/verdict/recorded_run.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/framework/recorded_values.h"
 #include "systems/framework/recording.h"
+#include "systems/signals/platform_reference.h"
 
 namespace flinch {
 namespace {
@@ -17,12 +19,17 @@ std::string at(double seconds) {
   return text;
 }
 
+bool rests(const PlatformReference& reference) {
+  return reference.valid && reference.velocity.isZero(0.0) && reference.acceleration.isZero(0.0);
+}
+
 }  // namespace
 
 std::vector<bool> nominal_samples(const Recording& recording, const ConfigurationSpace& space) {
   const RecordedRun run(recording, space);
   std::vector<bool> nominal(run.size());
-  double moved_last = -longest_pause;  // [s]
+  const auto reference = read<PlatformReference>(recording, "reference");
+  double moved_last = 0.0;  // [s]
   for (std::size_t k = 0; k < nominal.size(); ++k) {
     const RunSample now = run[k];
     if (now.is_touched()) {
@@ -34,7 +41,7 @@ std::vector<bool> nominal_samples(const Recording& recording, const Configuratio
                        ", and nobody knows whether there was one; record with higher thresholds in "
                        "control.contact_detector");
     }
-    if (!now.reference_valid || !now.reference_rests) moved_last = now.time;
+    if (k == 0 || !rests(reference[k])) moved_last = now.time;
     nominal[k] = now.mode == ReactionMode::nominal && now.time - moved_last <= longest_pause;
   }
   return nominal;

@@ -1,15 +1,44 @@
 #include "calibration/contact_free_peaks.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "calibration/contact_free_motion.h"
+#include "calibration/gumbel.h"
 #include "experiments/verdict/recorded_estimate.h"
+#include "experiments/verdict/recorded_run.h"
+#include "systems/foundation/setup_error.h"
 #include "systems/framework/recorded_values.h"
 
 namespace flinch {
+namespace {
+
+/// Throws where one of the peaks, of stretches that begin at these times [s], cannot be of the same motion as
+/// the others.
+void require_alike(const std::string& estimator, const std::vector<double>& peaks,
+                   const std::vector<double>& begin, const char* quantity, const char* unit) {
+  constexpr std::size_t fewest = 20;     // that tell what is usual
+  constexpr double least_chance = 1e-6;  // of a recording with so large a peak
+  if (peaks.size() < fewest) return;
+  const Gumbel usual = fit_gumbel_to_quartiles(peaks);
+  const auto largest = std::max_element(peaks.begin(), peaks.end());
+  const double chance = static_cast<double>(peaks.size()) * usual.probability_above(*largest);
+  if (usual.scale <= 0.0 || chance >= least_chance) return;
+  throw SetupError(
+      fmt::format("{}: a {} of {:.3g} {} after {:.1f} s is no error like those of the other {} stretches; "
+                  "something touched the "
+                  "robot then, it took up a load, or it failed: record without that",
+                  estimator, quantity, *largest, unit,
+                  begin[static_cast<std::size_t>(largest - peaks.begin())], peaks.size() - 1));
+}
+
+}  // namespace
+
 std::vector<EstimatorPeaks> contact_free_peaks(const Recording& recording, const ConfigurationSpace& space,
                                                Time stretch) {
   const std::vector<bool> nominal = nominal_samples(recording, space);
+  const bool is_watched = RecordedRun(recording, space).witness() != Witness::none;
   const auto length = static_cast<std::size_t>(std::max<std::int64_t>(1, stretch / recording.period));
   std::vector<EstimatorPeaks> all;
   for (const auto& [estimator, path] : estimates_of(recording)) {
@@ -18,7 +47,7 @@ std::vector<EstimatorPeaks> contact_free_peaks(const Recording& recording, const
     const auto estimates = read<RecordedEstimate>(recording, path);
     std::size_t samples = 0;  // of the present stretch
     double force = 0.0, moment = 0.0;
-    const auto seconds = [&recording](std::size_t k) { return to_seconds(Time(recording.time_ns[k])); };
+    std::vector<double> begin;  // of each stretch [s]
     for (std::size_t k = 0; k < estimates.size(); ++k) {
       const RecordedEstimate estimate = estimates[k];
       const bool counts = estimate.valid && nominal[k] && estimate.wrench_in_base.size() == space.dimension();
@@ -32,9 +61,12 @@ std::vector<EstimatorPeaks> contact_free_peaks(const Recording& recording, const
       if (++samples < length) continue;
       peaks.force.push_back(force);
       if (space.rotations() > 0) peaks.moment.push_back(moment);
-      peaks.stretches.push_back({0, seconds(k + 1 - length)});
+      begin.push_back(to_seconds(Time(recording.time_ns[k + 1 - length])));
       samples = 0;
     }
+    if (is_watched) continue;
+    require_alike(estimator, peaks.force, begin, "force", "N");
+    require_alike(estimator, peaks.moment, begin, "moment", "Nm");
   }
   return all;
 }

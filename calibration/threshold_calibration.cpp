@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::size_t fewest_stretches = 60;
 constexpr double furthest_extrapolation = 1000.0;
-constexpr double least_chance = 1e-6;  // of a recording with so large a peak
 
 }  // namespace
 
@@ -43,36 +42,11 @@ void require_enough(const std::string& estimator, std::size_t stretches, const T
                   estimator, recorded, needed, goal.false_alarms_per_hour));
 }
 
-namespace {
-
-/// Throws where one of the peaks cannot be of the same motion as the others.
-void require_alike(const EstimatorPeaks& of, const std::vector<double>& peaks, const char* quantity,
-                   const char* unit) {
-  if (peaks.empty()) return;
-  const auto largest = std::max_element(peaks.begin(), peaks.end());
-  const double chance =
-      static_cast<double>(peaks.size()) * fit_gumbel_to_quartiles(peaks).probability_above(*largest);
-  if (chance >= least_chance) return;
-  const auto at = static_cast<std::size_t>(largest - peaks.begin());
-  const std::string place = at < of.stretches.size()
-                                ? fmt::format(" after {:.1f} s of recording {}", of.stretches[at].begin,
-                                              of.stretches[at].recording + 1)
-                                : "";
-  throw SetupError(
-      fmt::format("{}: a {} of {:.3g} {}{} is no error like those of the other {} stretches; "
-                  "something touched the robot then, or failed: record without that",
-                  of.estimator, quantity, *largest, unit, place, peaks.size() - 1));
-}
-
-}  // namespace
-
 std::vector<EstimatorThresholds> calibrate_thresholds(const std::vector<EstimatorPeaks>& peaks,
                                                       const ThresholdGoal& goal) {
   std::vector<EstimatorThresholds> all;
   for (const EstimatorPeaks& of : peaks) {
     require_enough(of.estimator, of.force.size(), goal);
-    require_alike(of, of.force, "force", "N");
-    require_alike(of, of.moment, "moment", "Nm");
     const double alarms_a_stretch = goal.false_alarms_per_hour / 3600.0 * to_seconds(goal.stretch);
     const double share = of.moment.empty() ? 1.0 : 0.5;  // force and moment have half of the alarms each
     all.push_back({.estimator = of.estimator,
@@ -95,10 +69,6 @@ std::vector<EstimatorPeaks> pooled(const std::vector<std::vector<EstimatorPeaks>
       same = recording[i].estimator == all[i].estimator;
       all[i].force.insert(all[i].force.end(), recording[i].force.begin(), recording[i].force.end());
       all[i].moment.insert(all[i].moment.end(), recording[i].moment.begin(), recording[i].moment.end());
-      for (Stretch stretch : recording[i].stretches) {
-        stretch.recording = static_cast<std::size_t>(&recording - &recordings.front());
-        all[i].stretches.push_back(stretch);
-      }
     }
     if (!same) throw SetupError("the recordings have other estimators than the first one");
   }

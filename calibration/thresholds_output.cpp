@@ -218,13 +218,20 @@ void note_robot(const std::vector<Scenario>& scenarios, ThresholdFindings& found
 std::vector<std::string> warnings(const ThresholdFindings& found) {
   std::vector<std::string> all;
   for (const CalibratedResidual& of : found.residuals) {
-    const double variation = std::max({of.level.variation, of.change.variation, of.smoothed.variation});
+    double variation = 0.0, of_one = 0.0;
+    for (const CalibratedSurprise* part : {&of.level, &of.change, &of.smoothed}) {
+      variation = std::max(variation, part->variation);
+      of_one = std::max(of_one, (1.0 + part->variation) / (1.0 + part->between_robots) - 1.0);
+    }
     if (variation <= largest_variation) continue;
+    const char* const why =
+        of_one <= largest_variation
+            ? "the robots or their loads differ by so much: calibrate their dynamics, or thresholds for each"
+            : "see whether the robot failed or was touched in these recordings, or record longer";
     all.push_back(
         fmt::format("{}: the variance of its errors varies by {:.2g} beside what is expected, and thresholds "
-                    "keep the rate up to "
-                    "{}; see whether the robot failed or was touched in these recordings",
-                    of.estimator, variation, largest_variation));
+                    "keep the rate up to {}; {}",
+                    of.estimator, variation, largest_variation, why));
   }
   if (found.residuals.empty() || found.goal.one_robot || found.recordings.size() > 1) return all;
   all.push_back(

@@ -37,16 +37,17 @@ SetupError cannot_be_read(const std::filesystem::path& file) {
 
 constexpr const char* journal_name = "results.part";
 
-/// The rows of the journal `file`; at their end where there is none. Throws SetupError where it does not
-/// begin with `first_line`.
-std::ifstream rows_of(const std::filesystem::path& file, const std::string& first_line) {
+/// The rows of the journal `file`; at their end where there is none. Throws SetupError, with the way out,
+/// where it does not begin with `first_line`.
+std::ifstream rows_of(const std::filesystem::path& file, const std::string& first_line,
+                      const std::string& way_out) {
   std::ifstream stream(file, std::ios::binary);
   std::string line;
   if (stream && std::getline(stream, line) && line != first_line) {
-    throw SetupError(
-        file.string() +
-        ": holds the results of another campaign, or of other scenarios, options, seeds or versions; choose "
-        "another folder with --out, or begin anew with --fresh");
+    throw SetupError(file.string() +
+                     ": holds the results of another campaign, or of other scenarios, options, seeds or "
+                     "versions; " +
+                     way_out);
   }
   return stream;
 }
@@ -94,7 +95,9 @@ class WrittenRows {
 }  // namespace
 
 void require_no_other_results(const std::filesystem::path& folder, const Campaign& campaign) {
-  rows_of(folder / journal_name, first_line(campaign));
+  rows_of(folder / journal_name, first_line(campaign),
+          "its runs have other numbers or values; give the options that it was made with, or another folder "
+          "with --out");
 }
 
 CampaignJournal::CampaignJournal(const std::filesystem::path& folder, const Campaign& campaign)
@@ -107,7 +110,9 @@ CampaignJournal::CampaignJournal(const std::filesystem::path& folder, const Camp
   });
 }
 
-std::ifstream CampaignJournal::rows() const { return rows_of(file_, first_line_); }
+std::ifstream CampaignJournal::rows() const {
+  return rows_of(file_, first_line_, "choose another folder with --out, or begin anew with --fresh");
+}
 
 void CampaignJournal::read(std::ifstream rows, const TakeRow& take) const {
   std::vector<std::string> names;

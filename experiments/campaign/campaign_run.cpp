@@ -265,7 +265,9 @@ std::vector<std::string> of_run(const CampaignRun& run, const std::vector<std::s
 /// Whether the campaign varies calibrations, and leaves the threshold that they replace to the scenario.
 bool is_meant(const Campaign& campaign, const CalibrationDoubt& doubt) {
   const auto varies = [&campaign](const std::string& key) {
-    const auto begins = [&key](const auto& of) { return of.key.starts_with(key); };
+    const auto begins = [&key](const auto& of) {
+      return of.key.starts_with(key) || key.starts_with(of.key + ".");
+    };
     return std::any_of(campaign.grid.begin(), campaign.grid.end(), begins) ||
            std::any_of(campaign.drawn.begin(), campaign.drawn.end(), begins);
   };

@@ -101,29 +101,6 @@ TEST(ARecordingThatIsTooShort, IsRefusedWithWhatIsNeeded) {
   EXPECT_THAT(complaint(200, {.false_alarms_per_hour = 0.01}), HasSubstr("360.0 s are needed for 0.01"));
 }
 
-/// Of a robot that nobody watched: it would raise the thresholds.
-TEST(AContactThatNobodyNoted, IsRefusedWithItsPlace) {
-  std::mt19937_64 random(1);
-  EstimatorPeaks first = noise(random, 100), second = noise(random, 100);
-  for (std::size_t i = 0; i < 100; ++i) first.stretches.push_back({0, 0.5 * static_cast<double>(i)});
-  second.stretches = first.stretches;
-  second.moment[30] = 2.0;
-  try {
-    calibrate_thresholds(pooled({{first}, {second}}), {});
-    FAIL();
-  } catch (const SetupError& error) {
-    EXPECT_THAT(error.problems().front(),
-                HasSubstr("observer: a moment of 2 Nm after 15.0 s of recording 2 is no error like those of "
-                          "the other 199 stretches"));
-  }
-}
-
-TEST(AContactThatNobodyNoted, IsNotSeenInNoise) {
-  std::mt19937_64 random(2);
-  for (int trial = 0; trial < 200; ++trial)
-    EXPECT_NO_THROW(calibrate_thresholds({noise(random, 60)}, {})) << trial;
-}
-
 TEST(PeaksOfSeveralRecordings, ArePooledByEstimator) {
   const auto all =
       pooled({{{"a", {1.0}, {0.1}}, {"b", {2.0}, {0.2}}}, {{"a", {3.0}, {0.3}}, {"b", {4.0}, {0.4}}}});

@@ -129,6 +129,9 @@ TEST(Errors, ThatAreNotWhatTheirSizesSayAreWarnedOf) {
   EXPECT_THAT(warnings(found), IsEmpty());
   found.residuals[0].change.variation = 9.5;
   EXPECT_THAT(warnings(found), ElementsAre(HasSubstr("the variance of its errors varies by 9.5 beside")));
+  EXPECT_THAT(warnings(found), ElementsAre(HasSubstr("whether the robot failed or was touched")));
+  found.residuals[0].change.between_robots = 9.4;
+  EXPECT_THAT(warnings(found), ElementsAre(HasSubstr("the robots or their loads differ by so much")));
 }
 
 TEST(TheParameterFile, SaysWhichParameterFilesItRestsOnAndHowSurprisingTheMotionWas) {

@@ -21,6 +21,7 @@
 #include "identification/imu_pose_calibration.h"
 #include "identification/torque_constant_calibration.h"
 #include "systems/foundation/json_text.h"
+#include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
 
@@ -109,8 +110,9 @@ ThresholdFindings thresholds_with(const std::vector<OpenedRecording>& motion,
       know_drives(scenario.robot.drives, scenario.control.drive_torque);
     }
     const Replay replayed = replay(scenario, read_recording(file.source.file));
-    peaks.push_back(
-        contact_free_peaks(replayed.recording, scenario.robot.robot->space(), found.goal.stretch));
+    peaks.push_back(out_of(file.source.file, [&] {
+      return contact_free_peaks(replayed.recording, scenario.robot.robot->space(), found.goal.stretch);
+    }));
     found.recordings.push_back(file.source);
     played.push_back(std::move(scenario));
   }

@@ -360,6 +360,9 @@ TEST_F(CommandLine, WarnsOfWhatIsDoubtfulAboutCalibrations) {
   place.replace(campaign, "]]}]", "]]}, {key: control.contact_detector.reaction_force_N, values: [5, 10]}]");
   EXPECT_THAT(flinch({"check", place.at(campaign)}).err, warned);
   EXPECT_THAT(flinch({"campaign", place.at(campaign), "--out", place.at("sweep")}).err, warned);
+  place.replace(campaign, "detector.reaction_force_N, values: [5, 10]}",
+                "detector, values: [{reaction_force_N: 5}]}");
+  EXPECT_THAT(flinch({"check", place.at(campaign)}).err, warned) << "by the whole section";
 
   place.replace(collision, "\nseed: ", "\ncalibrations: [{file: ../found.yaml}]\nseed: ");
   const Outcome checked = flinch({"check", place.at(collision)});

@@ -28,7 +28,7 @@ SimulatedScenario scenario_called(const std::string& name, std::optional<std::ui
   return read_simulated_scenario(test::shipped("scenarios/" + name + ".yaml"), seed);
 }
 
-/// Its first seconds, in which whatever moves or touches the robot has done so.
+/// Its first seconds; motions and pulls that go on for longer do the same again.
 SimulatedScenario beginning_of(const std::string& name, std::optional<std::uint64_t> seed = std::nullopt) {
   SimulatedScenario scenario = scenario_called(name, seed);
   scenario.duration = std::min<Time>(scenario.duration, 8s);
