@@ -22,13 +22,13 @@ void require_alike(const std::string& estimator, const std::vector<double>& peak
   constexpr double least_chance = 1e-6;  // of a recording with so large a peak
   if (peaks.size() < fewest) return;
   const Gumbel usual = fit_gumbel_to_quartiles(peaks);
+  if (usual.scale <= 0.0) return;
   const auto largest = std::max_element(peaks.begin(), peaks.end());
   const double chance = static_cast<double>(peaks.size()) * usual.probability_above(*largest);
-  if (usual.scale <= 0.0 || chance >= least_chance) return;
+  if (chance >= least_chance) return;
   throw SetupError(
       fmt::format("{}: a {} of {:.3g} {} after {:.1f} s is no error like those of the other {} stretches; "
-                  "something touched the "
-                  "robot then, it took up a load, or it failed: record without that",
+                  "something touched the robot then, it took up a load, or it failed: record without that",
                   estimator, quantity, *largest, unit,
                   begin[static_cast<std::size_t>(largest - peaks.begin())], peaks.size() - 1));
 }

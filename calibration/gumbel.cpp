@@ -18,7 +18,6 @@ double reduced(double probability) { return -std::log(-std::log1p(-probability))
 double Gumbel::quantile_above(double probability) const { return location + scale * reduced(probability); }
 
 double Gumbel::probability_above(double value) const {
-  if (scale <= 0.0) return value < location ? 1.0 : 0.0;
   return -std::expm1(-std::exp(-(value - location) / scale));
 }
 

@@ -152,7 +152,6 @@ class Surprises {
     length_ = static_cast<std::size_t>(std::max<std::int64_t>(1, goal_.stretch / recording.period));
     if (!goal_.one_robot) tail_.begin_robot();
     ticks_ = 0;
-    largest_now_ = 0.0;
   }
   void add(bool nominal, const ResidualMemory& memory) {
     const bool waits = nominal && memory.started && !memory.seen.is_new;

@@ -274,11 +274,6 @@ bool is_meant(const Campaign& campaign, const CalibrationDoubt& doubt) {
   return !doubt.key.empty() && varies("calibrations") && !varies(doubt.key);
 }
 
-bool is_told(const std::vector<CalibrationDoubt>& doubts, const CalibrationDoubt& doubt) {
-  return std::any_of(doubts.begin(), doubts.end(),
-                     [&doubt](const CalibrationDoubt& told) { return told.sentence == doubt.sentence; });
-}
-
 }  // namespace
 
 CampaignRun draw_run(const Campaign& campaign, std::size_t number, int most_attempts) {
@@ -321,7 +316,8 @@ std::vector<CalibrationDoubt> check_keys(const Campaign& campaign) {
       if (campaign.contact && campaign.contact->by == CampaignContact::By::pushing) make_hand(draft);
       for (const CalibrationDoubt& doubt :
            parse_simulated_scenario(draft.root(), draft.file(), *campaign.robots).doubts) {
-        if (!is_meant(campaign, doubt) && !is_told(doubts, doubt)) doubts.push_back(doubt);
+        const bool is_told = std::find(doubts.begin(), doubts.end(), doubt) != doubts.end();
+        if (!is_told && !is_meant(campaign, doubt)) doubts.push_back(doubt);
       }
     } catch (const KeyError& error) {
       wrong.insert(wrong.end(), error.of_keys().begin(), error.of_keys().end());

@@ -13,6 +13,8 @@ struct CalibrationDoubt {
   /// Of a threshold of the scenario that does not count beside those of estimators, without its unit; empty
   /// where the doubt is about a calibration.
   std::string key = {};
+
+  bool operator==(const CalibrationDoubt&) const = default;
 };
 
 /// All of a scenario that has been read: calibrations of another robot file; resting on torque constants that
