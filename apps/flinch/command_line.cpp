@@ -152,6 +152,12 @@ void add_run_verb(CLI::App& app, Verbs& verbs) {
       .add_flag("--reset-faults", verbs.run.reset_faults,
                 "Reset faults that the drives report; without it they end the run before it begins")
       ->group("Bus");
+  run_verb
+      .add_flag(
+          "--attended", verbs.run.attended,
+          "An operator sees the robot: follow the orders that he types (stop, reset, start, go, step, end; "
+          "help tells more), and run until he ends it")
+      ->group("Bus");
   const auto is_of_bus = [](const CLI::Option* option) { return option->get_group() == "Bus"; };
   for (CLI::Option* const option : run_verb.get_options(is_of_bus))
     option->each([&verbs](const std::string&) { verbs.run.names_a_bus = true; });

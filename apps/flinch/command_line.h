@@ -43,6 +43,7 @@ struct RunOptions {
   BusOptions bus;
   double patience = 10.0;     ///< with a robot that does not answer, or is not enabled [s]
   bool reset_faults = false;  ///< of the drives, before the run
+  bool attended = false;      ///< an operator gives orders on stdin, and ends the run
   bool names_a_bus = false;   ///< whether any of these was given
 };
 

@@ -9,6 +9,7 @@
 #include "experiments/bus/names.h"
 #include "experiments/recorded/recorded_signals.h"
 #include "experiments/scenario/scenario.h"
+#include "experiments/verdict/fault_words.h"
 #include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/quantity_units.h"
@@ -149,11 +150,13 @@ void LiveRun::enable() {
 Tidings LiveRun::watch() {
   const LiveState& now = panel_.last();
   constexpr const char* phases[] = {"waiting", "open", "closed", "recovering"};
-  return {fmt::format("{}; gate {}; drives: {}", name(now.mode), phases[static_cast<int>(now.gate.phase)],
-                      name(now.link.drive_state)),
-          fmt::format("at {:.1f} of {:.1f} s, force {:.0f} N, round trip {:.0f} us, lost {}, refused {}",
-                      to_seconds(now.time), to_seconds(end_), now.force,
-                      1e6 * to_seconds(now.link.round_trip), now.link.lost, now.link.refused)};
+  const std::string fault = now.gate.passes() ? "" : description_of(now.gate.fault);
+  const std::string end = settings_.attended ? "" : fmt::format(" of {:.1f}", to_seconds(end_));
+  return {fmt::format("{}; gate {}{}; drives: {}", name(now.mode), phases[static_cast<int>(now.gate.phase)],
+                      fault.empty() ? "" : ": " + fault, name(now.link.drive_state)),
+          fmt::format("at {:.1f}{} s, force {:.0f} N, round trip {:.0f} us, lost {}, refused {}",
+                      to_seconds(now.time), end, now.force, 1e6 * to_seconds(now.link.round_trip),
+                      now.link.lost, now.link.refused)};
 }
 
 /// By its own motion or by its brakes.
@@ -165,20 +168,28 @@ bool LiveRun::is_stopped() const {
          !station_.link().enabled;
 }
 
+/// As at the start; also out of a fault.
+void LiveRun::switch_drives_on() noexcept {
+  if (station_.link().drive_state == DriveState::fault) ++wish_.fault_resets;
+  station_.request(wish_);
+}
+
 void LiveRun::run() {
   std::uint32_t received = 0;
   Time heard{};
   const std::function<bool()> over = [&, this] {
     if (std::exchange(received, station_.link().received) != received) heard = context_.time();
     was_left_ = context_.time() - heard > settings_.patience;
-    return was_left_ || settings_.interrupts() > 1 || (is_interrupted() && is_stopped());
+    if (panel_.resets() && !stands_ready()) switch_drives_on();
+    return was_left_ || panel_.end_is_ordered() || settings_.interrupts() > 1 ||
+           (is_interrupted() && is_stopped());
   };
   fall_into_step(station_, ticks_);
   station_.forget_times();
   station_.request(wish_);  // again, in case that the way here took so long that the robot has given us up
   panel_.release_stop();
   context_ = *start_;
-  recorded_->run(context_, end_, over);
+  recorded_->run(context_, settings_.attended ? Time::max() : end_, over);
 }
 
 void LiveRun::end() {

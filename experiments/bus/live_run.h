@@ -27,6 +27,7 @@ struct Scenario;
 struct LiveRunSettings {
   Time patience = 10s;         ///< with a robot that does not answer, is not enabled, or falls silent
   bool reset_faults = false;   ///< of the drives, before the run
+  bool attended = false;       ///< runs until an operator orders its end, not for the scenario's duration
   int bus_priority = 0;        ///< SCHED_FIFO of the thread that receives, where permitted; 0: ordinary
   RealtimeSettings loop = {};  ///< what the loop's thread asks the machine for
   InterruptCount interrupts = no_interrupts;
@@ -64,6 +65,11 @@ class LiveRun {
   /// robot, when that rests; at the second interrupt at once.
   void run();
 
+  /// Gives an operator's order to run(), attended or not. A reset also switches drives on that have gone off,
+  /// and resets their faults; they are on some ticks later, and the gate takes another reset then. For one
+  /// other thread. False, and not followed, where too many wait.
+  bool give(const OperatorOrder& order) noexcept { return panel_.give(order); }
+
   /// Brings the robot to rest, closes the brakes, switches the drives off. What does not happen in time is
   /// left: the silence that follows lets the other end brake.
   void end();
@@ -81,6 +87,7 @@ class LiveRun {
   void tick_until(Time longest, const std::function<bool()>& done);
   bool is_interrupted() const { return settings_.interrupts() > 0; }
   bool stands_ready() const;
+  void switch_drives_on() noexcept;
   bool is_stopped() const;
   std::string why_not_enabled() const;
 

@@ -9,13 +9,22 @@ OperatorPanel::OperatorPanel(const LiveExperiment& experiment, const DdsStation&
     : station_(station),
       interrupts_(std::move(interrupts)),
       buttons_(experiment.diagram->slot(experiment.operator_command)),
+      target_(experiment.diagram->slot(experiment.target)),
       reaction_(experiment.diagram->slot(experiment.control.reaction_state)),
       gate_(experiment.diagram->slot(experiment.control.gate)),
       wrench_(experiment.diagram->slot(experiment.control.wrench_estimate)),
       translations_(experiment.translations) {}
 
 void OperatorPanel::set_inputs(Context& context) {
-  context[buttons_] = {.start = false, .reset = false, .stop = stop_ || interrupts_() > 0};
+  OperatorOrder order;
+  follows_ = !follows_ && orders_.pop(order);
+  resets_ = order.buttons.reset;
+  end_is_ordered_ = end_is_ordered_ || order.end;
+  order.buttons.stop = order.buttons.stop || stop_ || interrupts_() > 0;
+  context[buttons_] = order.buttons;
+  if (order.target.kind == TargetCommand::Kind::none) return;
+  order.target.number = context[target_].number + 1;
+  context[target_] = order.target;
 }
 
 void OperatorPanel::take_outputs(const Context& context) {

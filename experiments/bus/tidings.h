@@ -6,8 +6,10 @@ namespace flinch {
 
 /// What a running program says of itself.
 struct Tidings {
-  std::string state;    ///< changes seldom
-  std::string figures;  ///< change all the time
+  std::string state;       ///< changes seldom
+  std::string figures;     ///< change all the time
+  std::string typed = {};  ///< by an operator who has not finished the line
+  std::string said = {};   ///< to an operator, once; whole lines
 };
 
 }  // namespace flinch

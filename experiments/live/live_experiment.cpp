@@ -12,7 +12,8 @@ LiveExperiment build_live_experiment(const Scenario& scenario) {
   if (!scenario.operator_script.events.empty()) {
     throw SetupError(
         "'operator' resets and starts the robot though nobody sees what is near it; a real robot is reset by "
-        "hand. Leave it out, or run the scenario with the simulated station");
+        "hand, as 'flinch run --attended' lets you. Leave it out, or run the scenario with the simulated "
+        "station");
   }
   DiagramBuilder builder("experiment");
   LiveExperiment experiment;

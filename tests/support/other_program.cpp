@@ -1,5 +1,6 @@
 #include "tests/support/other_program.h"
 
+#include <fcntl.h>
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -9,6 +10,7 @@
 #include <array>
 #include <cstdlib>
 #include <thread>
+#include <utility>
 
 #include "systems/framework/monotonic_clock.h"
 
@@ -32,14 +34,38 @@ void preload(const std::string& library) {
   ::setenv("LD_PRELOAD", (others == nullptr ? library : library + ":" + others).c_str(), 1);
 }
 
+struct Ends {
+  int here = -1, there = -1;
+};
+
+Ends ends_of(OtherProgram::Start::Input input) {
+  using Input = OtherProgram::Start::Input;
+  std::array<int, 2> pipe{-1, -1};
+  if (input == Input::pipe && ::pipe2(pipe.data(), O_CLOEXEC) == 0)
+    return {.here = pipe[1], .there = pipe[0]};
+  if (input != Input::terminal) return {};
+  const int here = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+  ::grantpt(here);
+  ::unlockpt(here);
+  std::array<char, 64> name{};
+  ::ptsname_r(here, name.data(), name.size());
+  return {.here = here, .there = ::open(name.data(), O_RDWR | O_NOCTTY | O_CLOEXEC)};
+}
+
 }  // namespace
 
 OtherProgram::OtherProgram(const Start& start) : output_(::memfd_create("output", MFD_CLOEXEC)) {
+  const Ends input = ends_of(start.input);
+  input_ = input.here;
   std::vector<char*> words;
   for (const std::string& word : start.command) words.push_back(const_cast<char*>(word.c_str()));
   words.push_back(nullptr);
   id_ = copy_of_this_program();
-  if (id_ != 0) return;
+  if (id_ != 0) {
+    if (input.there >= 0) ::close(input.there);
+    return;
+  }
+  if (input.there >= 0) ::dup2(input.there, STDIN_FILENO);
   ::dup2(output_, STDOUT_FILENO);
   ::dup2(output_, STDERR_FILENO);
   for (const auto& [name, value] : start.environment) ::setenv(name.c_str(), value.c_str(), 1);
@@ -60,6 +86,7 @@ OtherProgram::~OtherProgram() {
     ::waitpid(id_, nullptr, 0);
   }
   if (output_ >= 0) ::close(output_);
+  end_input();
 }
 
 void OtherProgram::send(int signal) {
@@ -69,6 +96,14 @@ void OtherProgram::kill() { send(SIGKILL); }
 void OtherProgram::stop() { send(SIGSTOP); }
 void OtherProgram::resume() { send(SIGCONT); }
 void OtherProgram::interrupt() { send(SIGINT); }
+
+void OtherProgram::type(const std::string& text) {
+  ::signal(SIGPIPE, SIG_IGN);  // where it has ended meanwhile
+  [[maybe_unused]] const ssize_t written = ::write(input_, text.data(), text.size());
+}
+void OtherProgram::end_input() {
+  if (input_ >= 0) ::close(std::exchange(input_, -1));
+}
 
 bool OtherProgram::is_running() {
   if (!ended_) ended_ = ::waitpid(id_, &status_, WNOHANG) != 0;

@@ -21,6 +21,7 @@ class OtherProgram {
     std::map<std::string, std::string> environment;  ///< that it has besides ours
     std::string preloaded;                           ///< a library that stands before all others
     std::function<bool()> prepare;  ///< what it does before; where that fails it ends with 127
+    enum class Input { ours, pipe, terminal } input = Input::ours;
   };
 
   explicit OtherProgram(const Start& start);
@@ -37,6 +38,11 @@ class OtherProgram {
   void resume();
   void interrupt();
 
+  /// Writes to its input, which is a pipe or a terminal.
+  void type(const std::string& text);
+  /// Ends it.
+  void end_input();
+
   bool is_running();
   /// Its exit status; none if it still runs after `patience`, or was killed.
   std::optional<int> wait(Time patience);
@@ -50,6 +56,7 @@ class OtherProgram {
 
   pid_t id_ = 0;
   int output_ = -1;
+  int input_ = -1;
   bool ended_ = false;
   int status_ = 0;
 };

@@ -4,6 +4,7 @@
 #include "apps/flinch/bus/bus_start.h"
 #include "apps/flinch/bus/bus_verbs.h"
 #include "apps/flinch/bus/interrupts.h"
+#include "apps/flinch/bus/operator_console.h"
 #include "apps/flinch/bus/status_line.h"
 #include "apps/flinch/conclusion.h"
 #include "apps/flinch/learning_verbs.h"
@@ -34,12 +35,14 @@ ExitStatus run_on_bus(const RunOptions& options) {
   const bool silent = options.common.quiet || options.common.json;
   Scenario scenario = read_scenario(options.input, options.set);
   if (!options.classifier.empty()) classifier_of(options.classifier)(scenario);
+  if (options.attended) scenario.operator_script.events.clear();  // who attends does it in his place
   const Interrupts interrupts;
   const BusSettings settings = bus_settings(options.bus, silent);
   const DdsBus bus(settings);
   LiveRun run(scenario, bus,
               {.patience = from_seconds(options.patience),
                .reset_faults = options.reset_faults,
+               .attended = options.attended,
                .bus_priority = settings.realtime_priority,
                .loop = loop_settings(options.bus),
                .interrupts = Interrupts::count});
@@ -53,7 +56,14 @@ ExitStatus run_on_bus(const RunOptions& options) {
   const StopWatch watch;
   double wall = 0.0;
   {
-    const StatusLine line([&run] { return run.watch(); }, silent);
+    std::optional<OperatorConsole> console;
+    if (options.attended) console.emplace(scenario, run, silent);
+    const auto ask = [&run, &console] {
+      Tidings now = run.watch();
+      if (console) console->tell(now);
+      return now;
+    };
+    const StatusLine line(ask, silent);
     run.run();
     wall = watch.seconds();
     run.end();

@@ -1,13 +1,26 @@
 #include "apps/flinch/bus/status_line.h"
 
-#include <pthread.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <cstdio>
 #include <utility>
 
+#include "apps/flinch/bus/ordinary_thread.h"
+
 namespace flinch {
+namespace {
+
+/// As much of `line` as fits into a line of the terminal; all of it where the width is not known.
+std::string fitting(std::string line) {
+  winsize size{};
+  const bool is_known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
+  if (is_known && line.size() >= size.ws_col) line.resize(size.ws_col - 1U);
+  return line;
+}
+
+}  // namespace
 
 StatusLine::StatusLine(std::function<Tidings()> ask, bool quiet)
     : ask_(std::move(ask)),
@@ -22,8 +35,7 @@ StatusLine::~StatusLine() {
 }
 
 void StatusLine::run(const std::stop_token& ending) {
-  const sched_param ordinary{};  // whoever made this may be in more of a hurry
-  pthread_setschedparam(pthread_self(), SCHED_OTHER, &ordinary);
+  become_ordinary_thread();
   while (!ending.stop_requested()) {
     tell(ask_());
     std::this_thread::sleep_for(std::chrono::milliseconds(terminal_ ? 100 : 20));
@@ -32,10 +44,12 @@ void StatusLine::run(const std::stop_token& ending) {
 }
 
 void StatusLine::tell(const Tidings& now) {
+  const std::string above = terminal_ && !now.said.empty() ? "\r\x1b[K" + now.said : now.said;
+  std::fputs(above.c_str(), stderr);
   if (quiet_) return;
   const std::string line = now.state + "  " + now.figures;
   if (terminal_) {
-    std::fputs(("\r\x1b[K" + line).c_str(), stderr);
+    std::fputs(("\r\x1b[K" + fitting(now.typed + line)).c_str(), stderr);
     std::fflush(stderr);
   } else if (now.state != last_state_) {
     std::fputs((line + "\n").c_str(), stderr);

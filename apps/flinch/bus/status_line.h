@@ -9,8 +9,8 @@
 namespace flinch {
 
 /// Tells on stderr how a running program is, from a thread of its own: one line that redraws itself ten times
-/// a second on a terminal; where stderr is a pipe or file, a plain line whenever the state changes. Says
-/// nothing when quiet.
+/// a second on a terminal, no wider than that; where stderr is a pipe or file, a plain line whenever the
+/// state changes. When quiet nothing but what is said to an operator.
 class StatusLine {
  public:
   /// `ask` is called on that thread, of ordinary priority, also when quiet.

@@ -61,6 +61,7 @@ TEST(ControlThread, TakesNoMemoryAndNoLockAndNeverCallsTheBus) {
   runner.feed_timing(experiment.tick_timing);
   Context context = experiment.diagram->make_context();
   bool opened = false;
+  const PlatformVector no_step = PlatformVector::Zero(scenario.robot.robot->dof());
   const std::function<bool()> enabled = [&] { return station.link().enabled; };
   const std::function<bool()> watch_the_gate = [&] {
     opened |= context.get(experiment.control.gate).phase == GatePhase::open;
@@ -73,6 +74,8 @@ TEST(ControlThread, TakesNoMemoryAndNoLockAndNeverCallsTheBus) {
   for (int attempt = 0; attempt < 5 && !opened; ++attempt) {  // a busy machine may let the robot give us up
     station.request({.state = DriveWish::State::operation_enabled, .engage_brake = false});
     panel.release_stop();
+    panel.give({.buttons = {.reset = true}, .target = {}});
+    panel.give({.buttons = {}, .target = {.kind = TargetCommand::Kind::step, .pose = {}, .step = no_step}});
     const std::int64_t calls = test::dds_calls(), locks = test::locks(), allocations = test::allocations();
     runner.run(context, context.time() + 10s, enabled);
     runner.run(context, context.time() + 600ms, watch_the_gate);

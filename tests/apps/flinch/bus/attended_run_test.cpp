@@ -1,0 +1,146 @@
+// flinch run --station dds --attended: what an operator types reaches the robot.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "systems/framework/monotonic_clock.h"
+#include "systems/framework/recording.h"
+#include "tests/apps/flinch/bus/bench_on_the_bus.h"
+
+namespace flinch {
+namespace {
+
+using test::BenchOnTheBus;
+using Input = test::OtherProgram::Start::Input;
+
+test::OtherProgram::Start attended(const BenchOnTheBus& bench, Input input) {
+  std::vector<std::string> arguments = bench.run_arguments();
+  arguments.insert(arguments.end(), {"--attended"});
+  test::OtherProgram::Start start = test::flinch_program(arguments);
+  start.input = input;
+  return start;
+}
+
+/// Somebody who types and sees what follows.
+class AttendedRun : public testing::Test {
+ protected:
+  void begin(const std::string& scenario, Input input = Input::pipe) {
+    run.reset();
+    bench.emplace(scenario);
+    seen_ = 0;
+    run.emplace(attended(*bench, input));
+  }
+  void type(const std::string& text) { run->type(text); }
+  /// Whether `text` is told, behind all that was seen before.
+  bool sees(const std::string& text, Time patience = 20s) {
+    const Time deadline = MonotonicClock::now() + patience;
+    std::size_t found = std::string::npos;
+    while ((found = run->output().find(text, seen_)) == std::string::npos &&
+           MonotonicClock::now() < deadline && run->is_running()) {
+      std::this_thread::sleep_for(10ms);
+    }
+    if (found != std::string::npos) seen_ = found + text.size();
+    return found != std::string::npos;
+  }
+  /// What has gone wrong where something was not seen: the machine, or the program.
+  void complain_of(const std::string& what) {
+    if (test::machine_stall() >= test::noticeable_stall) GTEST_SKIP() << test::not_measured() << ": " << what;
+    FAIL() << what << "\n" << run->output();
+  }
+  std::optional<BenchOnTheBus> bench;
+  std::optional<test::OtherProgram> run;
+
+ private:
+  std::size_t seen_ = 0;
+};
+
+TEST_F(AttendedRun, IsBroughtBackFromBeyondTheWorkspaceToItsMotion) {
+  const auto is_pushed_out = [this] { return sees("stopped; gate closed: the platform is too far out", 5s); };
+  begin("brought_back");
+  for (int again = 0; !is_pushed_out(); ++again) {  // a late machine closes the gate before that
+    if (again == 3) return complain_of("it was not pushed out");
+    begin("brought_back");
+  }
+  std::this_thread::sleep_for(1s);  // it comes to rest
+  type("reset\n");
+  if (!sees("recover; gate recovering")) return complain_of("it does not recover");
+  type("go x_mm: -260, y_mm: 0\n");
+  if (!sees("nominal; gate open")) return complain_of("it does not come back inside");
+  std::this_thread::sleep_for(3s);  // it arrives
+  type("start\n");
+  std::this_thread::sleep_for(1s);
+  type("end\n");
+  EXPECT_TRUE(sees("where the gate had closed: the platform is too far out")) << run->output();
+  if (!sees("  nominal motion   at ")) complain_of("the motion did not begin again");
+}
+
+TEST_F(AttendedRun, SwitchesDrivesOnAgainThatHaveGivenItUp) {
+  begin("square");
+  if (!sees("nominal; gate open")) return complain_of("it does not begin");
+  run->stop();  // for longer than drives wait for a command
+  std::this_thread::sleep_for(300ms);
+  run->resume();
+  ASSERT_TRUE(sees("drives: switch-on disabled")) << run->output();
+  type("reset\n");
+  ASSERT_TRUE(sees("stopped; gate closed")) << run->output();
+  ASSERT_TRUE(sees("drives: operation enabled")) << "they stay off\n" << run->output();
+  for (int attempt = 0; attempt < 5; ++attempt) {
+    type("reset\n");
+    if (sees("nominal; gate open", 2s)) break;
+    ASSERT_LT(attempt, 4) << "it does not go on\n" << run->output();
+  }
+  type("end\n");
+  EXPECT_TRUE(sees("verdict: bad")) << "the gate had closed\n" << run->output();
+}
+
+TEST_F(AttendedRun, OutlastsItsScenarioAndEndsWithItsInput) {
+  begin("platform_collision");  // of less than 2 s
+  if (!sees("nominal; gate open")) return complain_of("it does not begin");
+  std::this_thread::sleep_for(4s);
+  EXPECT_TRUE(run->is_running()) << run->output();
+  run->end_input();
+  EXPECT_TRUE(run->wait(20s)) << run->output();
+  const Recording recording = read_recording(bench->place / "live/run.h5");
+  EXPECT_GT(to_seconds(Time(recording.time_ns.back())), 3.5);
+}
+
+TEST_F(AttendedRun, TakesWhatIsTypedOnATerminal) {
+  begin("square", Input::terminal);
+  if (!sees("nominal; gate open")) return complain_of("it does not begin");
+  type(
+      "resst\x7f\x7f"
+      "et\x1b[A\x1b[3~\r");
+  EXPECT_TRUE(sees("ordered:   reset\n")) << run->output();
+  type(
+      "nonsense\x15"
+      "stop\r");
+  EXPECT_TRUE(sees("ordered:   stop\n")) << run->output();
+  EXPECT_TRUE(sees("gate closed: ")) << run->output();
+  type(
+      "\x1a"
+      "hello\r");
+  EXPECT_TRUE(sees("error: 'hello' is no order; did you mean 'help'?")) << run->output();
+  type(std::string(300, 'x') + "\r");
+  EXPECT_TRUE(sees("error: an order has at most 200 letters")) << run->output();
+  type("help\r");
+  EXPECT_TRUE(sees("end      end the run")) << run->output();
+  type("\x04");
+  EXPECT_TRUE(run->wait(20s)) << run->output();
+}
+
+TEST_F(AttendedRun, DoesWhatItCanWithWhatIsNoOrder) {
+  begin("square");
+  std::string garbage;
+  for (int i = 0; i < 2000; ++i) garbage += static_cast<char>(i * 37 % 256);
+  type(garbage + "\n\n\r\n");
+  for (int i = 0; i < 100; ++i) type("reset\n");
+  if (!sees("nominal; gate open")) return complain_of("it does not begin");
+  type("stop\n");
+  EXPECT_TRUE(sees("gate closed: ")) << run->output();
+  type("end\n");
+  EXPECT_TRUE(run->wait(20s)) << run->output();
+}
+
+}  // namespace
+}  // namespace flinch
