@@ -5,11 +5,15 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <utility>
 
+#include "experiments/scenario/estimate_settings.h"
 #include "experiments/scenario/scenario.h"
 #include "systems/config/robot_file.h"
 #include "systems/foundation/json_text.h"
+#include "systems/foundation/setup_error.h"
 
 namespace flinch {
 namespace {
@@ -215,6 +219,23 @@ void note_robot(const std::vector<Scenario>& scenarios, ThresholdFindings& found
   }
 }
 
+void note_settings(const std::vector<Scenario>& scenarios, ThresholdFindings& found) {
+  std::map<std::string, std::pair<std::string, std::size_t>> first;  // value of a key, and its recording
+  std::vector<std::string> problems;
+  for (std::size_t i = 0; i < scenarios.size(); ++i) {
+    for (const ReadValue& setting : estimate_settings(scenarios[i])) {
+      const auto [known, is_new] = first.emplace(setting.key, std::pair(setting.value, i));
+      const auto& [value, recording] = known->second;
+      if (is_new) found.settings.push_back(setting);
+      if (value == setting.value) continue;
+      problems.push_back(found.recordings[i].file + ": " + setting.key + " was " + setting.value + ", and " +
+                         value + " in " + found.recordings[recording].file +
+                         "; thresholds hold for one of them: calibrate from recordings that agree");
+    }
+  }
+  throw_if_any(std::move(problems));
+}
+
 std::vector<std::string> warnings(const ThresholdFindings& found) {
   std::vector<std::string> all;
   for (const CalibratedResidual& of : found.residuals) {
@@ -291,6 +312,7 @@ std::string thresholds_yaml(const ThresholdFindings& found, const std::string& d
   file.robot = found.robot;
   file.recordings = found.recordings;
   file.assumed = found.assumed;
+  file.settings = found.settings;
   std::string text =
       parameter_file_text(file) + provenance(found) + "control:\n  contact_detector:\n    by_estimator:\n";
   for (const EstimatorThresholds& of : found.estimators) {

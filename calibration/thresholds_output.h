@@ -18,6 +18,7 @@ struct ThresholdFindings {
   std::vector<CalibrationSource> recordings{};  ///< that they come from
   HashedFile robot{};                           ///< of all of them; no hash: they are of several
   std::vector<FileParameter> assumed{};         ///< torque constants of all of them; none: they differ
+  std::vector<ReadValue> settings{};            ///< of the estimators, in all of them
   std::vector<CalibrationSource> with{};        ///< parameter files with which these were played again
   ResidualTracking tracking{};                  ///< with which the fused detector must follow its residuals
   bool drives_turn = true;
@@ -25,6 +26,10 @@ struct ThresholdFindings {
 
 /// Notes of which robot, and with which torque constants, all recordings of these scenarios were made.
 void note_robot(const std::vector<Scenario>& scenarios, ThresholdFindings& found);
+
+/// Notes with which settings of their estimators the recordings of these scenarios, which are
+/// `found.recordings`, were made. Throws SetupError where they differ: thresholds hold for one of them.
+void note_settings(const std::vector<Scenario>& scenarios, ThresholdFindings& found);
 
 /// What is wrong with the recordings and what to do about it, one sentence each.
 std::vector<std::string> warnings(const ThresholdFindings& found);

@@ -84,6 +84,7 @@ ExitStatus calibrate_thresholds(const CalibrateThresholdsOptions& options) {
   const FreeMotions motions = read_motions(options, found.goal, quiet);
   for (const std::filesystem::path& file : options.recordings) found.recordings.push_back(source_of(file));
   require_different(found.recordings);
+  note_settings(motions.scenarios, found);
   found.estimators = calibrate_thresholds(pooled(motions.peaks), found.goal);
   found.residuals = residuals_of(motions, found.goal, quiet);
   found.tracking = motions.scenarios.front().control.fused_detector.tracking;

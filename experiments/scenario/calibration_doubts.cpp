@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 
+#include "experiments/scenario/estimate_settings.h"
 #include "experiments/scenario/scenario.h"
 #include "systems/config/config_reader.h"
 #include "systems/foundation/nearest_name.h"
@@ -104,6 +105,21 @@ std::vector<std::string> assumed_otherwise(const ParameterFile& file, const std:
   return sentences;
 }
 
+/// On settings of estimators that run, and are others now.
+std::vector<std::string> set_otherwise(const ParameterFile& file, const std::string& name,
+                                       const std::vector<ReadValue>& settings) {
+  std::vector<std::string> sentences;
+  for (const ReadValue& rests_on : file.settings) {
+    const auto used = std::find_if(settings.begin(), settings.end(),
+                                   [&](const ReadValue& setting) { return setting.key == rests_on.key; });
+    if (used == settings.end() || used->value == rests_on.value) continue;
+    const std::string unit = rests_on.unit.empty() ? "" : " " + rests_on.unit;
+    sentences.push_back(name + ": rests on " + rests_on.key + " = " + rests_on.value + unit + ", and " +
+                        used->value + unit + " is used; calibrate '" + file.kind + "' again");
+  }
+  return sentences;
+}
+
 /// Whether the scenario itself says `key`, a path without its unit.
 bool says(const Scenario& scenario, const std::string& key) {
   return std::any_of(scenario.values.begin(), scenario.values.end(),
@@ -143,6 +159,7 @@ std::vector<CalibrationDoubt> doubts_about_calibrations(const Scenario& scenario
   if (files.empty()) return {};
   const Names names(files);
   const std::string robot_hash = calibrated_robot_hash(scenario.robot_text);
+  const std::vector<ReadValue> settings = estimate_settings(scenario);
   std::vector<CalibrationDoubt> doubts;
   for (std::size_t i = 0; i < files.size(); ++i) {
     if (!files[i].robot.sha256.empty() && files[i].robot.sha256 != robot_hash) {
@@ -151,6 +168,7 @@ std::vector<CalibrationDoubt> doubts_about_calibrations(const Scenario& scenario
                         "; calibrate again, or check that what changed does not matter to it"});
     }
     append(doubts, assumed_otherwise(files[i], names.of(i), scenario));
+    append(doubts, set_otherwise(files[i], names.of(i), settings));
   }
   append(doubts, replaced(files));
   add_without_effect(doubts, scenario, "reaction_force", &OwnThreshold::force);

@@ -17,8 +17,8 @@ struct CalibrationDoubt {
   bool operator==(const CalibrationDoubt&) const = default;
 };
 
-/// All of a scenario that has been read: calibrations of another robot file; resting on torque constants that
-/// are no longer used; one replacing another; thresholds of the scenario that do not count.
+/// All of a scenario that has been read: calibrations of another robot file; resting on torque constants or
+/// settings of estimators that are no longer used; one replacing another; thresholds of the scenario that do not count.
 std::vector<CalibrationDoubt> doubts_about_calibrations(const Scenario& scenario);
 
 }  // namespace flinch

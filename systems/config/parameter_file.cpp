@@ -44,6 +44,14 @@ FileParameter read_parameter(ConfigReader& reader) {
   return parameter;
 }
 
+ReadValue read_setting(ConfigReader& entry) {
+  ReadValue setting;
+  entry.required().text("name", setting.key);
+  entry.required().text("value", setting.value);
+  entry.text("unit", setting.unit);
+  return setting;
+}
+
 /// In single quotes, in which YAML doubles one that is meant.
 std::string quoted(const std::string& text) {
   std::string result = "'";
@@ -57,6 +65,12 @@ std::string line_of(const FileParameter& parameter) {
   if (!parameter.unit.empty()) text += ", unit: " + quoted(parameter.unit);
   text += std::string(", identifiable: ") + (parameter.identifiable ? "true" : "false");
   if (!parameter.belongs_to.empty()) text += ", belongs_to: " + parameter.belongs_to;
+  return text + "}\n";
+}
+
+std::string line_of(const ReadValue& setting) {
+  std::string text = "  - {name: " + quoted(setting.key) + ", value: " + quoted(setting.value);
+  if (!setting.unit.empty()) text += ", unit: " + quoted(setting.unit);
   return text + "}\n";
 }
 
@@ -104,6 +118,7 @@ ParameterFile parse_parameter_file(std::string_view text, const std::string& fil
     result.parameters.push_back(read_parameter(parameter));
   for (ConfigReader& parameter : reader.sections("assumed"))
     result.assumed.push_back(read_parameter(parameter));
+  for (ConfigReader& setting : reader.sections("settings")) result.settings.push_back(read_setting(setting));
   reader.finish();
   return result;
 }
@@ -168,6 +183,8 @@ std::string parameter_file_text(const ParameterFile& parameters) {
   for (const FileParameter& parameter : parameters.parameters) text += line_of(parameter);
   if (!parameters.assumed.empty()) text += "assumed:\n";
   for (const FileParameter& parameter : parameters.assumed) text += line_of(parameter);
+  if (!parameters.settings.empty()) text += "settings:\n";
+  for (const ReadValue& setting : parameters.settings) text += line_of(setting);
   return text;
 }
 

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "systems/config/read_value.h"
+
 namespace flinch {
 
 class ConfigReader;
@@ -44,6 +46,7 @@ struct ParameterFile {
   std::string residual_unit;  ///< empty: nothing was fitted
   std::vector<FileParameter> parameters;
   std::vector<FileParameter> assumed;  ///< other parameters that these rest on: torque constants
+  std::vector<ReadValue> settings;     ///< of the control path in the recordings, on which these rest, too
   /// `text` as it was parsed, of which calibrate_control() reads the section `control`; null: made in code.
   std::shared_ptr<const ConfigNode> nodes;
 };

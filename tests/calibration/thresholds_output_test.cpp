@@ -8,6 +8,7 @@
 
 #include "calibration/threshold_calibration.h"
 #include "experiments/scenario/scenario.h"
+#include "tests/support/problems_of.h"
 
 namespace flinch {
 namespace {
@@ -189,6 +190,35 @@ TEST(TheRobot, IsNotedWhereAllRecordingsAreOfOneAndItsTorqueConstantsWhereTheyAg
   note_robot({one, other}, found);
   EXPECT_EQ(found.robot.sha256, "");
   EXPECT_THAT(thresholds_yaml(found, "2026-11-22"), Not(HasSubstr("robot:")));
+}
+
+TEST(TheSettings, OfEstimatorsAreNotedOnce) {
+  const Scenario one = read_scenario(FLINCH_SOURCE_DIR "/apps/scenarios/square.yaml");
+  ThresholdFindings found;
+  found.recordings = {{"a.h5", ""}, {"b.h5", ""}};
+  note_settings({one, one}, found);
+  const std::string text = thresholds_yaml(found, "2026-11-22");
+  const std::string gain =
+      "  - {name: 'control.momentum_observer.gain', value: '[20, 20, 20]', unit: '1/s'}\n";
+  ASSERT_THAT(text, HasSubstr(gain));
+  EXPECT_THAT(text.substr(text.find(gain) + 1), Not(HasSubstr(gain)));
+  EXPECT_THAT(text, AllOf(HasSubstr("velocity_filter.cutoff_frequency"), Not(HasSubstr("disturbance_filter")),
+                          Not(HasSubstr("impedance"))));
+}
+
+TEST(TheSettings, MustBeThoseOfAllRecordings) {
+  const Scenario one = read_scenario(FLINCH_SOURCE_DIR "/apps/scenarios/square.yaml");
+  const Scenario other = read_scenario(
+      FLINCH_SOURCE_DIR "/apps/scenarios/square.yaml",
+      {"control.velocity_filter={cutoff_frequency_Hz: 60}", "control.impedance={damping_ratio: [2, 2, 2]}"});
+  ThresholdFindings found;
+  found.recordings = {{"a.h5", ""}, {"b.h5", ""}, {"c.h5", ""}};
+  EXPECT_THAT(
+      test::problems_of([&] {
+        note_settings({one, one, other}, found);
+      }),
+      ElementsAre("c.h5: control.velocity_filter.cutoff_frequency was 60, and 30 in a.h5; thresholds hold "
+                  "for one of them: calibrate from recordings that agree"));
 }
 
 TEST(TheRobot, MayHaveDrivesThatSlide) {

@@ -118,6 +118,7 @@ ThresholdFindings thresholds_with(const std::vector<OpenedRecording>& motion,
   }
   for (const ParameterFile& file : calibrations) found.with.push_back(source_of(file.file));
   note_robot(played, found);
+  note_settings(played, found);
   found.estimators = calibrate_thresholds(pooled(peaks), found.goal);
   return found;
 }

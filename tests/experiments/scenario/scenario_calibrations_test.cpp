@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "experiments/scenario/estimate_settings.h"
 #include "experiments/scenario/scenario.h"
 #include "tests/support/problems_of.h"
 #include "tests/support/workplace.h"
@@ -100,6 +101,27 @@ TEST_F(Calibrations, ThatTheRobotFileNamesAndThatAreNotThereAreToldWithTheirLine
   place.write("robots/planar_3rrr.yaml", "calibrations: [{file: gone.yaml}]\n" + robot);
   EXPECT_THAT(test::problems_of([&] { read(made()); }),
               Contains(HasSubstr("planar_3rrr.yaml:1: calibrations[0].file: is 'gone.yaml'")));
+}
+
+TEST_F(Calibrations, ThatRestOnOtherSettingsOfAnEstimatorThatRunsAreDoubted) {
+  ParameterFile file = made();
+  file.settings = estimate_settings(read(file));
+  ASSERT_GE(file.settings.size(), 4U);
+  EXPECT_THAT(read(file).doubts, IsEmpty());
+  EXPECT_THAT(
+      read(file, "{velocity_filter: {cutoff_frequency_Hz: 60}}").doubts,
+      ElementsAre(Tells(HasSubstr("found.yaml: rests on control.velocity_filter.cutoff_frequency = 30 "
+                                  "Hz, and 60 Hz is used; calibrate"))));
+  EXPECT_THAT(read(file, "{drive_torque: {aligned_with_velocity: false}}").doubts,
+              ElementsAre(Tells(HasSubstr("aligned_with_velocity = true, and false is used"))));
+  EXPECT_THAT(
+      read(file, "{momentum_observer: {gain_per_s: [20, 20, 50]}}").doubts,
+      ElementsAre(Tells(HasSubstr("momentum_observer.gain = [20, 20, 20] 1/s, and [20, 20, 50] 1/s"))));
+  EXPECT_THAT(
+      read(file, "{disturbance_filter: {pole_per_s: 100}, impedance: {damping_ratio: [2, 2, 2]}}").doubts,
+      IsEmpty())
+      << "neither has an estimate that rests on it";
+  EXPECT_THAT(read(file, "{estimators: [disturbance_filter]}").doubts, IsEmpty()) << "it runs no more";
 }
 
 TEST_F(Calibrations, ThatRestOnOtherTorqueConstantsAreDoubted) {

@@ -42,13 +42,17 @@ ParameterFile sample() {
 }
 
 TEST(ParameterFile, ReadsBackToTheSameNumbers) {
-  const ParameterFile wrote = sample();
+  ParameterFile wrote = sample();
+  wrote.settings = {{.key = "control.filter.form", .value = "it's [1, 2]", .unit = "1/s"},
+                    {.key = "control.filter.aligned", .value = "true", .unit = ""}};
   const ParameterFile read = parse_parameter_file(parameter_file_text(wrote), "file.yaml");
   EXPECT_EQ(parameter_file_text(read), parameter_file_text(wrote));
   EXPECT_EQ(read.residual_after, 0.1 + 0.2);
   EXPECT_EQ(read.parameters[0].deviation, 0.01);
   EXPECT_EQ(read.parameters[3].deviation, std::nullopt);
   EXPECT_FALSE(read.parameters[4].identifiable);
+  ASSERT_EQ(read.settings.size(), 2U);
+  EXPECT_EQ(read.settings[0].value, "it's [1, 2]");
 }
 
 TEST(ParameterFile, TakesThePlaceOfWhatTheRobotFileSays) {
