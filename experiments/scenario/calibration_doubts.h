@@ -18,7 +18,8 @@ struct CalibrationDoubt {
 };
 
 /// All of a scenario that has been read: calibrations of another robot file; resting on torque constants or
-/// settings of estimators that are no longer used; one replacing another; thresholds of the scenario that do not count.
+/// settings of estimators that are no longer used; one replacing another; thresholds of the scenario that do
+/// not count.
 std::vector<CalibrationDoubt> doubts_about_calibrations(const Scenario& scenario);
 
 }  // namespace flinch
