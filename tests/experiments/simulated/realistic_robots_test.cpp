@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <vector>
 
 #include "experiments/simulated/experiment.h"
 #include "experiments/verdict/verdict.h"
@@ -78,21 +80,30 @@ TEST(RealisticRobots, OfOtherKindsMoveWithoutAFaultEither) {
 class ACollision : public ::testing::TestWithParam<const char*> {};
 
 INSTANTIATE_TEST_SUITE_P(RealisticRobots, ACollision,
-                         ::testing::Values("platform_collision_realistic", "platform_collision_fused"),
+                         ::testing::Values("platform_collision_realistic", "platform_collision_fused",
+                                           "first_link_collision", "second_link_collision", "clamping",
+                                           "five_bar_collision"),
                          [](const auto& each) { return std::string(each.param); });
 
 TEST_P(ACollision, IsAnsweredByEachAsItsScenarioExpects) {
+  std::vector<double> times, forces;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const auto file = test::shipped("scenarios/" + std::string(GetParam()) + ".yaml");
-    const SimulatedScenario scenario = read_simulated_scenario(file, seed);
+    const SimulatedScenario scenario = read_simulated_scenario(file, {"plant.realism=bench"}, seed);
     const Verdict verdict = judge(run_experiment(scenario), scenario.robot.robot->space(), scenario.expected,
                                   scenario.force_limits);
     ASSERT_EQ(verdict.contacts.size(), 1U) << "robot " << seed;
     const ContactVerdict& contact = verdict.contacts.front();
     ASSERT_TRUE(verdict.good()) << "robot " << seed << ": " << verdict.failures.front();
-    std::printf("  robot %2d: noticed after %4.1f ms, %3.0f N\n", static_cast<int>(seed),
-                1e3 * (*contact.detected - contact.onset), contact.peak_force);
+    const double time = 1e3 * (*contact.detected - contact.onset);
+    std::printf("  robot %2d: noticed after %4.1f ms, %3.0f N\n", static_cast<int>(seed), time,
+                contact.peak_force);
+    times.push_back(time);
+    forces.push_back(contact.peak_force);
   }
+  const auto [soonest, latest] = std::minmax_element(times.begin(), times.end());
+  const auto [softest, hardest] = std::minmax_element(forces.begin(), forces.end());
+  std::printf("%s: %.1f to %.1f ms, %.0f to %.0f N\n", GetParam(), *soonest, *latest, *softest, *hardest);
 }
 
 }  // namespace
