@@ -6,6 +6,10 @@ namespace flinch {
 namespace {
 
 constexpr double stopping_time = 29e-3;  // time constant of the controlled stop [s]
+// D_qa and K_qa dt of [SafePR] (32e) over the inertia of a drive, which the paper does not print: 60 and 1
+// Nms/rad at the bench [1/s].
+constexpr double velocity_rate = 105.55;
+constexpr double feedforward_rate = velocity_rate / 60.0;
 
 /// The least inertia that a drive feels at the home pose while the others stand still [kg m^2 or kg].
 double least_inertia(const ParallelRobot& robot) {
@@ -36,6 +40,7 @@ void know_drives(const DriveParameters& drives, DriveTorqueSettings& settings) {
 
 ContactControlSettings settings_for(const ParallelRobot& robot, const DriveParameters& drives,
                                     const WorkspaceLimits& limits) {
+  const double inertia = least_inertia(robot);
   ContactControlSettings settings;
   know_drives(drives, settings.drive_torque);
   settings.faults.workspace = limits;
@@ -46,16 +51,18 @@ ContactControlSettings settings_for(const ParallelRobot& robot, const DriveParam
   settings.faults.max_torque_jump = drives.max_torque_jump;
   settings.faults.torque_range = drives.max_torque;
   settings.faults.max_unseen_current = 0.06 * drives.max_torque / drives.torque_constant.minCoeff();
-  settings.plausibility = plausibility_for(drives, least_inertia(robot));
+  settings.plausibility = plausibility_for(drives, inertia);
   settings.torque_gate.max_torque = drives.max_torque;
   settings.torque_gate.max_torque_rate = drives.max_torque_rate;
   settings.sequence.rest_speed = drives.max_speed / 160.0;
   settings.fused_detector.tracking.resting_rate = settings.sequence.rest_speed;
-  settings.controlled_stop.damping = least_inertia(robot) / stopping_time;
+  settings.controlled_stop.damping = inertia / stopping_time;
   settings.modes.max_torque_rate = drives.max_torque_rate;
   settings.limits.limits.workspace = limits;
   settings.limits.max_torque = drives.max_torque;
   settings.limits.max_torque_rate = drives.max_torque_rate;
+  settings.tasks.levels.velocity_gain = velocity_rate * inertia;
+  settings.tasks.levels.velocity_feedforward = feedforward_rate * inertia;
   settings.tasks.levels.largest_torque = drives.max_torque;
   settings.tasks.levels.largest_torque_rate = drives.max_torque_rate;
   settings.tasks.reaction.rest_speed = settings.sequence.rest_speed;

@@ -50,6 +50,8 @@ TEST(RobotSettings, AreForTheBenchThoseOfTheTables) {
   EXPECT_EQ(bench.sequence.rest_speed, standard.sequence.rest_speed);
   EXPECT_EQ(bench.faults.max_joint_speed, standard.faults.max_joint_speed);
   EXPECT_EQ(bench.torque_gate.max_torque, standard.torque_gate.max_torque);
+  EXPECT_NEAR(bench.tasks.levels.velocity_gain, standard.tasks.levels.velocity_gain, 0.01);
+  EXPECT_NEAR(bench.tasks.levels.velocity_feedforward, standard.tasks.levels.velocity_feedforward, 1e-3);
 }
 
 /// Behind a filter of 30 Hz, which lags by 5.3 ms, a rate that is damped faster would oscillate.

@@ -116,6 +116,8 @@ TEST_P(ShippedRobot, HasTheDefaultsOfCpp) {
     of_the_robot.insert(of_the_robot.end(),
                         {"control.tasks.levels.largest_torque", "control.tasks.levels.largest_torque_rate"});
   }
+  of_the_robot.insert(of_the_robot.end(),
+                      {"control.tasks.levels.velocity_feedforward", "control.tasks.levels.velocity_gain"});
   EXPECT_EQ(different(of_cpp, of_file), of_the_robot);
 }
 

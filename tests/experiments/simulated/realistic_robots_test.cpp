@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <vector>
 
@@ -74,6 +75,27 @@ TEST(RealisticRobots, OfOtherKindsMoveWithoutAFaultEither) {
       EXPECT_GT(verdict.max_observer_error_force, 0.1);
       EXPECT_LT(verdict.max_tracking_error, 0.025);
     }
+  }
+}
+
+// Gains that are right for one robot would let another lag by centimetres, or its torques chatter.
+TEST(RealisticRobots, OfAllKindsFollowTheirMotionOnTheVelocityLevel) {
+  for (const char* const name : {"platform_collision", "five_bar_collision", "hexapod_collision"}) {
+    const SimulatedScenario scenario =
+        read_simulated_scenario(test::shipped("scenarios/" + std::string(name) + ".yaml"),
+                                {"control.nominal_laws=[velocity_tracking]"});
+    const Recording recording = run_experiment(scenario);
+    const Verdict verdict =
+        judge(recording, scenario.robot.robot->space(), scenario.expected, scenario.force_limits);
+    const std::vector<double> torque = recording.column("torque_command", "torque");
+    const double largest = scenario.robot.drives.max_torque;
+    double step = 0.0;  // while it stands with open brakes
+    for (std::size_t k = 260; k < 298; ++k) step = std::max(step, std::abs(torque[k] - torque[k - 1]));
+    std::printf("  %s: tracking %.2f mm, torque at rest steps by %.2g of the largest\n", name,
+                1e3 * verdict.max_tracking_error, step / largest);
+    EXPECT_EQ(verdict.fault, "");
+    EXPECT_LT(verdict.max_tracking_error, 6e-3) << name;
+    EXPECT_LT(step, 0.01 * largest) << name;
   }
 }
 
