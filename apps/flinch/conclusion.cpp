@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "apps/flinch/progress.h"
 #include "experiments/recorded/robot_as_drawn.h"
 #include "experiments/report/run_folder.h"
 #include "experiments/scenario/scenario.h"
@@ -33,6 +34,8 @@ bool holds_readings_alone(const Recording& recording) {
   return recording.find("detection") == nullptr && recording.find("gate") == nullptr;
 }
 
+bool is_short(const Recording& recording) { return recording.samples() < 60'000; }
+
 void require_run(const Recording& recording, const std::filesystem::path& file) {
   if (!holds_readings_alone(recording)) return;
   throw SetupError(file.string() +
@@ -43,7 +46,10 @@ void require_run(const Recording& recording, const std::filesystem::path& file) 
 ExitStatus conclude(const Scenario& scenario, double wall, const std::filesystem::path& folder,
                     const CommonOptions& common) {
   const Recording recording = open_recording(recording_in(folder));
-  const Verdict verdict = report_run(scenario, recording, folder);
+  const Verdict verdict = [&] {
+    Progress progress("judging " + scenario.name, is_short(recording) || common.quiet || common.json);
+    return report_run(scenario, recording, folder, [&progress](double share) { progress.show(share); });
+  }();
   const RunFacts facts{wall, scenario.seed, robot_as_drawn(recording)};
   fmt::print("{}", common.json ? verdict_json(verdict, facts) + "\n" : verdict_table(verdict, facts));
   if (!common.quiet) {

@@ -22,6 +22,9 @@ ExitStatus conclude(const Scenario& scenario, double wall, const std::filesystem
 /// Says where a recording holds only a part of a run.
 void tell_if_partial(const Recording& recording, const CommonOptions& common);
 
+/// Whether it is read in less than two seconds.
+bool is_short(const Recording& recording);
+
 /// Whether it holds nothing of a control path, as what flinch import makes.
 bool holds_readings_alone(const Recording& recording);
 /// Throws SetupError naming `file`, where the recording comes from, if it does.

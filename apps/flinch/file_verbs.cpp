@@ -7,12 +7,12 @@
 #include "apps/flinch/command_line.h"
 #include "apps/flinch/conclusion.h"
 #include "apps/flinch/learning_verbs.h"
+#include "apps/flinch/progress.h"
 #include "apps/flinch/shell_word.h"
 #include "apps/flinch/simulated/simulated_parts.h"
 #include "calibration/csv_recording.h"
 #include "experiments/report/experiment_report.h"
 #include "experiments/report/report_page.h"
-#include "experiments/report/scenario_verdict.h"
 #include "experiments/scenario/scenario_calibrations.h"
 #include "systems/config/config_file.h"
 #include "systems/config/file_kind.h"
@@ -39,8 +39,10 @@ Report recorded_report(const std::filesystem::path& file, const CommonOptions& c
   tell_if_partial(recording, common);
   const Scenario scenario = scenario_of(recording, file);
   require_run(recording, file);
-  return out_of(file,
-                [&] { return experiment_report(scenario, recording, verdict_of(scenario, recording)); });
+  Progress progress("judging " + file.string(), is_short(recording) || common.quiet || common.json);
+  return out_of(file, [&] {
+    return judged_report(scenario, recording, [&progress](double share) { progress.show(share); }).second;
+  });
 }
 
 /// Lets Graphviz draw `dot` into `file`, which is replaced only by a whole picture.

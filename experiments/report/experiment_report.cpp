@@ -12,6 +12,7 @@
 #include "experiments/report/limit_lane.h"
 #include "experiments/report/page_samples.h"
 #include "experiments/report/report_samples.h"
+#include "experiments/report/scenario_verdict.h"
 #include "experiments/scenario/scenario.h"
 #include "experiments/verdict/body_regions.h"
 #include "experiments/verdict/recorded_run.h"
@@ -241,7 +242,8 @@ std::vector<ReportParameter> provenance(const Recording& recording) {
 
 }  // namespace
 
-Report experiment_report(const Scenario& scenario, const Recording& recording, const Verdict& verdict) {
+Report experiment_report(const Scenario& scenario, const Recording& recording, const Verdict& verdict,
+                         const std::function<void(double share)>& progress) {
   Report report;
   report.kind = verdict.witness == Witness::truth ? "simulated experiment" : "experiment on a robot";
   report.title = scenario.title;
@@ -261,7 +263,7 @@ Report experiment_report(const Scenario& scenario, const Recording& recording, c
   for (const ScenarioObstacle& obstacle : scenario.obstacles) {
     report.obstacles.push_back(drawn_obstacle(obstacle.name, obstacle.shape, obstacle.position_in_base));
   }
-  add_samples(robot, recording, report);
+  add_samples(robot, recording, report, progress);
   report.bounds = bounds_of(scenario, verdict, report);
   report.parameters = scenario_parameters(scenario);
   for (ReportParameter& row : parameters("robot", scenario.robot.values))
@@ -275,6 +277,18 @@ Report experiment_report(const Scenario& scenario, const Recording& recording, c
     report.texts.push_back({"Calibration " + name, file.text});
   }
   return report;
+}
+
+std::pair<Verdict, Report> judged_report(const Scenario& scenario, const Recording& recording,
+                                         const std::function<void(double share)>& progress) {
+  constexpr double judged = 0.3;  // of the work
+  const auto part = [&](double from, double to) {
+    return progress ? [&progress, from, to](double share) { progress(from + share * (to - from)); }
+                    : std::function<void(double)>();
+  };
+  Verdict verdict = verdict_of(scenario, recording, part(0.0, judged));
+  Report report = experiment_report(scenario, recording, verdict, part(judged, 1.0));
+  return {std::move(verdict), std::move(report)};
 }
 
 }  // namespace flinch

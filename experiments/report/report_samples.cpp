@@ -376,7 +376,8 @@ class Isolation {
 
 }  // namespace
 
-void add_samples(const ParallelRobot& robot, const Recording& recording, Report& report) {
+void add_samples(const ParallelRobot& robot, const Recording& recording, Report& report,
+                 const std::function<void(double share)>& progress) {
   const RecordedRun run(recording, robot.space());
   const bool simulated = run.witness() == Witness::truth;
   const std::size_t together = samples_in_one(recording.samples());
@@ -398,6 +399,8 @@ void add_samples(const ParallelRobot& robot, const Recording& recording, Report&
   std::optional<RecordedTruths> truths;
   if (simulated) truths.emplace(recording);
   for (std::size_t k = 0; k < run.size(); ++k) {
+    if (progress && k % Recording::block == 0)
+      progress(static_cast<double>(k) / static_cast<double>(run.size()));
     const RunSample now = run[k];
     const std::optional<Truth> known = truths ? std::optional((*truths)[k]) : std::nullopt;
     const Truth* const truth = known ? &*known : nullptr;

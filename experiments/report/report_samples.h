@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "experiments/report/report.h"
 
 namespace flinch {
@@ -10,6 +12,7 @@ struct Recording;
 /// Adds to a page what was recorded of this robot: times, columns and lanes, in one pass over the samples.
 /// Where a page shows several samples as one, the robot is drawn at the hardest contact, and every chart has
 /// its own peak.
-void add_samples(const ParallelRobot& robot, const Recording& recording, Report& report);
+void add_samples(const ParallelRobot& robot, const Recording& recording, Report& report,
+                 const std::function<void(double share)>& progress = {});
 
 }  // namespace flinch

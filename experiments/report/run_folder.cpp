@@ -2,7 +2,6 @@
 
 #include "experiments/report/experiment_report.h"
 #include "experiments/report/report_page.h"
-#include "experiments/report/scenario_verdict.h"
 #include "experiments/scenario/scenario.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recording.h"
@@ -24,10 +23,10 @@ RunFolder make_run_folder(const std::filesystem::path& folder) {
 
 std::filesystem::path recording_in(const std::filesystem::path& folder) { return folder / "run.h5"; }
 
-Verdict report_run(const Scenario& scenario, const Recording& recording,
-                   const std::filesystem::path& folder) {
-  Verdict verdict = verdict_of(scenario, recording);
-  write_report_page(experiment_report(scenario, recording, verdict), folder / "report.html");
+Verdict report_run(const Scenario& scenario, const Recording& recording, const std::filesystem::path& folder,
+                   const std::function<void(double share)>& progress) {
+  const auto [verdict, report] = judged_report(scenario, recording, progress);
+  write_report_page(report, folder / "report.html");
   return verdict;
 }
 

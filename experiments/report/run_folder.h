@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
 #include "experiments/verdict/verdict.h"
 #include "systems/foundation/folder_lock.h"
@@ -30,7 +31,8 @@ std::filesystem::path recording_in(const std::filesystem::path& folder);
 
 /// Judges `recording`, which is in `folder`, and leaves report.html beside it. Throws SetupError where a file
 /// cannot be read or written.
-Verdict report_run(const Scenario& scenario, const Recording& recording, const std::filesystem::path& folder);
+Verdict report_run(const Scenario& scenario, const Recording& recording, const std::filesystem::path& folder,
+                   const std::function<void(double share)>& progress = {});
 
 /// The same for a recording that is not there yet.
 Verdict conclude_run(const Scenario& scenario, const Recording& recording,

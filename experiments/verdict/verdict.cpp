@@ -160,10 +160,14 @@ Verdict judge(const RunWatch& watch, const Expectations& expected) {
 }
 
 Verdict judge(const Recording& recording, const ConfigurationSpace& space, const Expectations& expected,
-              const ForceLimits& limits) {
+              const ForceLimits& limits, const std::function<void(double)>& progress) {
   const RecordedRun run(recording, space);
   RunWatch watch(run, limits);
-  for (std::size_t k = 0; k < run.size(); ++k) watch.see(run[k]);
+  for (std::size_t k = 0; k < run.size(); ++k) {
+    if (progress && k % Recording::block == 0)
+      progress(static_cast<double>(k) / static_cast<double>(run.size()));
+    watch.see(run[k]);
+  }
   Verdict verdict = judge(watch, expected);
   const auto partial = recording.attributes.find("recording.partial");
   if (partial != recording.attributes.end()) verdict.remarks.push_back(partial->second);

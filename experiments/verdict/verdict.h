@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -175,9 +176,10 @@ struct Verdict {
 };
 
 /// Judges what was recorded of a robot with this space of configurations, by the best witness that the
-/// recording holds. Throws SetupError when signals are missing.
+/// recording holds. `progress` is told now and then what share of it was read. Throws SetupError when signals
+/// are missing.
 Verdict judge(const Recording& recording, const ConfigurationSpace& space, const Expectations& expected,
-              const ForceLimits& limits);
+              const ForceLimits& limits, const std::function<void(double share)>& progress = {});
 
 /// The same for a run that was watched, up to the sample seen last.
 Verdict judge(const RunWatch& watch, const Expectations& expected);

@@ -82,21 +82,21 @@ class RecordedValues {
   const internal::Number* recorded_row(std::size_t sample) const {
     if (!signal_->rows.empty()) return signal_->rows.data() + sample * signal_->layout.numbers;
     if (sample < first_ || sample >= first_ + count_) load(sample);
-    return rows_.data() + (sample - first_) * signal_->layout.numbers;
+    return rows_->data() + (sample - first_) * signal_->layout.numbers;
   }
 
   void load(std::size_t sample) const {
     first_ = sample / Recording::block * Recording::block;
     count_ = std::min(Recording::block, size() - first_);
-    rows_.resize(count_ * signal_->layout.numbers);
-    recording_->read_rows(*signal_, first_, count_, rows_.data());
+    rows_.reset();
+    rows_ = recording_->source->shared(signal_->path, first_, count_, signal_->layout.numbers);
   }
 
   const Recording* recording_;
   const Signal* signal_;
   std::vector<Piece> pieces_;
-  mutable std::vector<internal::Number> row_;   ///< of T
-  mutable std::vector<internal::Number> rows_;  ///< recorded: samples first_ ... first_ + count_
+  mutable std::vector<internal::Number> row_;            ///< of T
+  mutable std::shared_ptr<const RowSource::Rows> rows_;  ///< recorded: samples first_ ... first_ + count_
   mutable std::size_t first_ = 0;
   mutable std::size_t count_ = 0;
 };

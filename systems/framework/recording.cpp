@@ -55,6 +55,18 @@ const Signal& Recording::signal(const std::string& path) const {
   throw SetupError("the recording has no signal '" + path + "'" + did_you_mean(path, paths));
 }
 
+std::shared_ptr<const RowSource::Rows> RowSource::shared(const std::string& path, std::size_t first,
+                                                         std::size_t count, std::size_t width) const {
+  const std::lock_guard lock(mutex_);
+  Last& last = last_[path];
+  std::shared_ptr<const Rows> held = last.rows.lock();
+  if (held != nullptr && last.first == first && held->size() == count * width) return held;
+  auto rows = std::make_shared<Rows>(count * width);
+  read(path, first, count, rows->data());
+  last = {first, rows};
+  return rows;
+}
+
 void Recording::read_rows(const Signal& signal, std::size_t first, std::size_t count,
                           internal::Number* rows) const {
   if (signal.rows.empty() && source != nullptr) {

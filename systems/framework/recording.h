@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -23,12 +24,30 @@ struct Signal {
 /// Where the rows of a recording lie that are not in memory: a file.
 class RowSource {
  public:
+  using Rows = std::vector<internal::Number>;
+
+  RowSource() = default;
+  RowSource(const RowSource&) = delete;
+  RowSource& operator=(const RowSource&) = delete;
   virtual ~RowSource() = default;
 
   /// Copies `count` rows of the signal `path`, from sample `first` on, to `rows`. Throws SetupError naming
   /// what is missing or broken.
   virtual void read(const std::string& path, std::size_t first, std::size_t count,
                     internal::Number* rows) const = 0;
+
+  /// The same rows, `width` numbers each. Those that were read last of a signal are shared with all who ask
+  /// while somebody holds them. From any thread.
+  std::shared_ptr<const Rows> shared(const std::string& path, std::size_t first, std::size_t count,
+                                     std::size_t width) const;
+
+ private:
+  struct Last {
+    std::size_t first = 0;
+    std::weak_ptr<const Rows> rows;
+  };
+  mutable std::mutex mutex_;
+  mutable std::map<std::string, Last> last_;  ///< by signal
 };
 
 /// What a Recorder has seen: signals with a common time axis, and what made them.
