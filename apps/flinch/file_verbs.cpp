@@ -94,8 +94,7 @@ Checked check_text(const std::filesystem::path& file) {
     case FileKind::campaign:
       return {"campaign", check_campaign(file)};
     case FileKind::data_spec:
-      check_data_spec(file);
-      return {"data specification"};
+      return {"data specification", check_data_spec(file)};
     case FileKind::robot: {
       const std::string text = read_config_file(file);
       const RobotFile robot = parse_robot_file(text, file.string());

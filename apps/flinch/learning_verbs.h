@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/flinch/command_line.h"
+#include "experiments/scenario/calibration_doubts.h"
 
 namespace flinch {
 
@@ -59,7 +60,7 @@ ExitStatus evaluate(const EvaluateOptions& options);
 /// what reads it.
 void check_classifier(const std::filesystem::path& model);
 void check_data_set(const std::filesystem::path& data);
-void check_data_spec(const std::filesystem::path& spec);
+std::vector<CalibrationDoubt> check_data_spec(const std::filesystem::path& spec);
 
 /// What lets the control path of scenarios follow the classifier of `models`: one of the question `touched`,
 /// or the three of the papers in any order. Throws SetupError where one cannot be read or they do not make

@@ -23,10 +23,13 @@ volatile std::sig_atomic_t interrupted = 0;
 
 }  // namespace
 
-void check_data_spec(const std::filesystem::path& spec) { read_data_spec(spec); }
+std::vector<CalibrationDoubt> check_data_spec(const std::filesystem::path& spec) {
+  return read_data_spec(spec).doubts;
+}
 
 ExitStatus dataset(const DatasetOptions& options) {
   const DataSpec spec = read_data_spec(options.spec, {.runs = options.runs, .seed = options.seed});
+  for (const CalibrationDoubt& doubt : spec.doubts) fmt::print(stderr, "warning: {}\n", doubt.sentence);
   const std::filesystem::path file =
       options.out.empty() ? std::filesystem::path("out") / (options.spec.stem().string() + ".h5")
                           : options.out;

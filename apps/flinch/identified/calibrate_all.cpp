@@ -182,9 +182,11 @@ class All {
       text += fmt::format("== {}\n{}\n", result.kind, calibration_table(result));
     if (!after_.empty()) text += "== thresholds\n";
     for (std::size_t i = 0; i < after_.size(); ++i) {
-      text += fmt::format("{:<28} {:.3g} N before, {:.3g} N after; {:.3g} Nm before, {:.3g} Nm after\n",
-                          after_[i].estimator, before_[i].force.value, after_[i].force.value,
-                          before_[i].moment.value, after_[i].moment.value);
+      text += fmt::format("{:<28} {:.3g} N, {:.3g} Nm", after_[i].estimator, after_[i].force.value,
+                          after_[i].moment.value);
+      if (i < before_.size())
+        text += fmt::format("; before {:.3g} N, {:.3g} Nm", before_[i].force.value, before_[i].moment.value);
+      text += "\n";
     }
     return text;
   }
@@ -246,17 +248,27 @@ class All {
 
   void thresholds() {
     if (files_.motion.empty()) return;
-    ThresholdFindings after;
-    try {
-      before_ = thresholds_with(files_.motion, {}, options_.rate).estimators;
-      after = thresholds_with(files_.motion, calibrations_, options_.rate);
-    } catch (const SetupError& error) {
-      for (const std::string& problem : error.problems()) warnings_.push_back("thresholds: " + problem);
-      before_.clear();
-      return;
+    const std::filesystem::path file = out_ / "thresholds.yaml";
+    const auto after = possible_thresholds("thresholds: ", calibrations_);
+    if (after) {
+      after_ = after->estimators;
+      write_result(file, thresholds_yaml(*after, today()));
+      const auto before = possible_thresholds("thresholds before the calibration: ", {});
+      if (before) before_ = before->estimators;
+    } else if (std::filesystem::exists(file)) {
+      warnings_.push_back(file.string() + ": is left as it was, of an earlier calibration; do not use it");
     }
-    after_ = after.estimators;
-    write_result(out_ / "thresholds.yaml", thresholds_yaml(after, today()));
+  }
+
+  /// None where the recordings are refused, which is a warning.
+  std::optional<ThresholdFindings> possible_thresholds(const std::string& what,
+                                                       const std::vector<ParameterFile>& calibrations) {
+    try {
+      return thresholds_with(files_.motion, calibrations, options_.rate);
+    } catch (const SetupError& error) {
+      for (const std::string& problem : error.problems()) warnings_.push_back(what + problem);
+      return std::nullopt;
+    }
   }
 
   static Json threshold_json(const std::vector<EstimatorThresholds>& thresholds) {
