@@ -46,7 +46,8 @@ std::vector<EstimatorPeaks> contact_free_peaks(const Recording& recording, const
     peaks.estimator = estimator;
     const auto estimates = read<RecordedEstimate>(recording, path);
     std::size_t samples = 0;  // of the present stretch
-    double force = 0.0, moment = 0.0;
+    PlatformVector largest;   // of it
+    peaks.components.resize(static_cast<std::size_t>(space.dimension()));
     std::vector<double> begin;  // of each stretch [s]
     for (std::size_t k = 0; k < estimates.size(); ++k) {
       const RecordedEstimate estimate = estimates[k];
@@ -55,12 +56,13 @@ std::vector<EstimatorPeaks> contact_free_peaks(const Recording& recording, const
         samples = 0;
         continue;
       }
-      if (samples == 0) force = moment = 0.0;
-      force = std::max(force, largest_component(estimate.wrench_in_base.head(space.translations())));
-      moment = std::max(moment, largest_component(estimate.wrench_in_base.tail(space.rotations())));
+      if (samples == 0) largest = PlatformVector::Zero(space.dimension());
+      largest = largest.cwiseMax(estimate.wrench_in_base.cwiseAbs());
       if (++samples < length) continue;
-      peaks.force.push_back(force);
-      if (space.rotations() > 0) peaks.moment.push_back(moment);
+      peaks.force.push_back(largest_component(largest.head(space.translations())));
+      if (space.rotations() > 0) peaks.moment.push_back(largest_component(largest.tail(space.rotations())));
+      for (int i = 0; i < space.dimension(); ++i)
+        peaks.components[static_cast<std::size_t>(i)].push_back(largest[i]);
       begin.push_back(to_seconds(Time(recording.time_ns[k + 1 - length])));
       samples = 0;
     }

@@ -16,6 +16,8 @@ struct EstimatorPeaks {
   std::string estimator;
   std::vector<double> force;   ///< [N]
   std::vector<double> moment;  ///< [Nm]; empty for a robot that does not turn
+  /// The same of each component by itself: forces along the axes of the base frame, then moments about them.
+  std::vector<std::vector<double>> components;
 };
 
 /// The peaks of every estimator of a recording, in stretches of length `stretch` in which its estimate was

@@ -14,6 +14,16 @@ namespace {
 constexpr std::size_t fewest_stretches = 60;
 constexpr double furthest_extrapolation = 1000.0;
 
+void append(const std::vector<double>& more, std::vector<double>& all) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+void append(const EstimatorPeaks& more, EstimatorPeaks& all) {
+  append(more.force, all.force);
+  append(more.moment, all.moment);
+  for (std::size_t i = 0; i < all.components.size(); ++i) append(more.components[i], all.components[i]);
+}
+
 }  // namespace
 
 CalibratedThreshold calibrated_threshold(const std::vector<double>& peaks, double probability,
@@ -53,6 +63,10 @@ std::vector<EstimatorThresholds> calibrate_thresholds(const std::vector<Estimato
                    .stretches = of.force.size(),
                    .force = calibrated_threshold(of.force, share * alarms_a_stretch, goal),
                    .moment = calibrated_threshold(of.moment, share * alarms_a_stretch, goal)});
+    if (!goal.by_component) continue;
+    const double part = 1.0 / static_cast<double>(of.components.size());  // of the alarms
+    for (const std::vector<double>& component : of.components)
+      all.back().components.push_back(calibrated_threshold(component, part * alarms_a_stretch, goal));
   }
   return all;
 }
@@ -66,9 +80,9 @@ std::vector<EstimatorPeaks> pooled(const std::vector<std::vector<EstimatorPeaks>
     }
     bool same = recording.size() == all.size();
     for (std::size_t i = 0; same && i < all.size(); ++i) {
-      same = recording[i].estimator == all[i].estimator;
-      all[i].force.insert(all[i].force.end(), recording[i].force.begin(), recording[i].force.end());
-      all[i].moment.insert(all[i].moment.end(), recording[i].moment.begin(), recording[i].moment.end());
+      same = recording[i].estimator == all[i].estimator &&
+             recording[i].components.size() == all[i].components.size();
+      if (same) append(recording[i], all[i]);
     }
     if (!same) throw SetupError("the recordings have other estimators than the first one");
   }

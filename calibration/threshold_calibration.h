@@ -13,6 +13,7 @@ struct ThresholdGoal {
   double false_alarms_per_hour = 0.5;  ///< of an estimator, by its force and its moment together
   double confidence = 0.95;    ///< with which the rate is kept, as far as the peaks speak for all motion
   double safety_factor = 2.0;  ///< of the papers' rule, which is told for comparison
+  bool by_component = false;   ///< a threshold for each component of force and moment
   bool one_robot = false;      ///< all recordings are of the robot that the thresholds shall serve
   Time stretch = 500ms;        ///< longer than a peak lasts, so that peaks are independent
 };
@@ -30,6 +31,8 @@ struct EstimatorThresholds {
   std::size_t stretches = 0;
   CalibratedThreshold force;   ///< of each component
   CalibratedThreshold moment;  ///< likewise; zero for a robot that does not turn
+  /// Of each component by itself, forces first; empty where that was not asked.
+  std::vector<CalibratedThreshold> components = {};
 };
 
 /// Thresholds for a stated rate of false alarms, from the peaks of motion without contact: the largest of a

@@ -29,10 +29,49 @@ Json json_of(const CalibratedThreshold& threshold) {
           {"papers_rule", threshold.papers_rule}};
 }
 
+Json json_of(const std::vector<CalibratedThreshold>& thresholds) {
+  Json list = Json::array();
+  for (const CalibratedThreshold& threshold : thresholds) list.push_back(json_of(threshold));
+  return list;
+}
+
 std::string row(const std::string& estimator, const char* quantity, const CalibratedThreshold& threshold,
                 const char* unit) {
-  return fmt::format("{:<28} {:<6} {:>9.3g} {:>9.3g} {:>9.3g} {:>9.3g}  {}\n", estimator, quantity,
+  return fmt::format("{:<28} {:<8} {:>9.3g} {:>9.3g} {:>9.3g} {:>9.3g}  {}\n", estimator, quantity,
                      threshold.value, threshold.best_guess, threshold.largest, threshold.papers_rule, unit);
+}
+
+/// Of forces, or of moments, by component.
+std::vector<CalibratedThreshold> part(const EstimatorThresholds& of, const ConfigurationSpace& space,
+                                      bool forces) {
+  const auto middle = of.components.begin() + (of.components.empty() ? 0 : space.translations());
+  return forces ? std::vector(of.components.begin(), middle) : std::vector(middle, of.components.end());
+}
+
+std::string rows(const EstimatorThresholds& of, const ConfigurationSpace& space) {
+  constexpr std::string_view axes = "xyz";
+  std::string text;
+  const auto add = [&](const char* quantity, const CalibratedThreshold& whole, bool forces,
+                       const char* unit) {
+    const std::string& name = text.empty() ? of.estimator : "";
+    const std::vector<CalibratedThreshold> each = part(of, space, forces);
+    if (each.empty()) text += row(name, quantity, whole, unit);
+    const std::size_t first = each.size() == 1 ? axes.size() - 1 : 0;  // a planar robot turns about z
+    for (std::size_t i = 0; i < each.size(); ++i)
+      text +=
+          row(i == 0 ? name : "", (std::string(quantity) + " " + axes.at(first + i)).c_str(), each[i], unit);
+  };
+  add("force", of.force, true, "N");
+  if (of.moment.value > 0.0) add("moment", of.moment, false, "Nm");
+  return text;
+}
+
+/// As the value of a key: of all components, or of each.
+std::string value_of(const CalibratedThreshold& whole, const std::vector<CalibratedThreshold>& each) {
+  if (each.size() < 2) return fmt::format("{:.4g}", each.empty() ? whole.value : each.front().value);
+  std::vector<double> values;
+  for (const CalibratedThreshold& of : each) values.push_back(of.value);
+  return fmt::format("[{:.4g}]", fmt::join(values, ", "));
 }
 
 double seconds(std::size_t stretches, const ThresholdGoal& goal) {
@@ -204,6 +243,7 @@ void note_robot(const std::vector<Scenario>& scenarios, ThresholdFindings& found
   const auto all = [&](const auto& agrees) {
     return std::all_of(scenarios.begin(), scenarios.end(), agrees);
   };
+  found.space = first.robot.robot->space();
   found.drives_turn = first.robot.robot->drive_kind(0) == DriveKind::revolute;
   if (all([&](const Scenario& other) { return other.robot_text == first.robot_text; }))
     found.robot = {first.robot_file.string(), calibrated_robot_hash(first.robot_text)};
@@ -264,11 +304,10 @@ std::vector<std::string> warnings(const ThresholdFindings& found) {
 std::string thresholds_table(const ThresholdFindings& found) {
   const ThresholdGoal& goal = found.goal;
   std::string text = promise(found, "") + "\n";
-  text += fmt::format("{:<28} {:<6} {:>9} {:>9} {:>9} {:>9}\n", "estimator", "of", "threshold", "guess",
+  text += fmt::format("{:<28} {:<8} {:>9} {:>9} {:>9} {:>9}\n", "estimator", "of", "threshold", "guess",
                       "largest", fmt::format("{:.3g} x max", goal.safety_factor));
   for (const EstimatorThresholds& of : found.estimators) {
-    text += row(of.estimator, "force", of.force, "N");
-    if (of.moment.value > 0.0) text += row("", "moment", of.moment, "Nm");
+    text += rows(of, found.space);
   }
   if (!found.residuals.empty()) text += residuals_table(found) + onsets_table(found);
   if (!found.estimators.empty()) {
@@ -286,6 +325,9 @@ std::string thresholds_json(const ThresholdFindings& found) {
                     {"contact_free_s", seconds(of.stretches, goal)},
                     {"force_N", json_of(of.force)},
                     {"moment_Nm", of.moment.value > 0.0 ? json_of(of.moment) : Json(nullptr)}});
+    if (of.components.empty()) continue;
+    list.back()["force_by_component_N"] = json_of(part(of, found.space, true));
+    list.back()["moment_by_component_Nm"] = json_of(part(of, found.space, false));
   }
   Json residuals = Json::array();
   for (const CalibratedResidual& residual : found.residuals) {
@@ -299,6 +341,7 @@ std::string thresholds_json(const ThresholdFindings& found) {
   return json_text(Json{{"false_alarms_per_h", goal.false_alarms_per_hour},
                         {"confidence", goal.confidence},
                         {"safety_factor", goal.safety_factor},
+                        {"by_component", goal.by_component},
                         {"one_robot", goal.one_robot},
                         {"warnings", warnings(found)},
                         {"thresholds", list},
@@ -316,8 +359,10 @@ std::string thresholds_yaml(const ThresholdFindings& found, const std::string& d
   std::string text =
       parameter_file_text(file) + provenance(found) + "control:\n  contact_detector:\n    by_estimator:\n";
   for (const EstimatorThresholds& of : found.estimators) {
-    text += fmt::format("      - {{estimator: {}, reaction_force_N: {:.4g}", of.estimator, of.force.value);
-    if (of.moment.value > 0.0) text += fmt::format(", reaction_moment_Nm: {:.4g}", of.moment.value);
+    text += "      - {estimator: " + of.estimator +
+            ", reaction_force_N: " + value_of(of.force, part(of, found.space, true));
+    if (of.moment.value > 0.0)
+      text += ", reaction_moment_Nm: " + value_of(of.moment, part(of, found.space, false));
     text += "}\n";
   }
   if (!found.residuals.empty()) text += residuals_yaml(found);

@@ -20,7 +20,8 @@ struct ThresholdFindings {
   std::vector<FileParameter> assumed{};         ///< torque constants of all of them; none: they differ
   std::vector<ReadValue> settings{};            ///< of the estimators, in all of them
   std::vector<CalibrationSource> with{};        ///< parameter files with which these were played again
-  ResidualTracking tracking{};                  ///< with which the fused detector must follow its residuals
+  ConfigurationSpace space = ConfigurationSpace::Kind::planar_pose;  ///< of the robot
+  ResidualTracking tracking{};  ///< with which the fused detector must follow its residuals
   bool drives_turn = true;
 };
 

@@ -10,8 +10,8 @@ ContactDetectorSettings ContactControlSettings::detector_of(const std::string& e
   if (own == reaction_thresholds.end()) return settings;
   settings.reaction.force = own->second.force.value_or(settings.reaction.force);
   settings.reaction.moment = own->second.moment.value_or(settings.reaction.moment);
-  settings.hard.force = std::max(settings.hard.force, settings.reaction.force);
-  settings.hard.moment = std::max(settings.hard.moment, settings.reaction.moment);
+  settings.hard.force = std::max(settings.hard.force, settings.reaction.force.largest());
+  settings.hard.moment = std::max(settings.hard.moment, settings.reaction.moment.largest());
   return settings;
 }
 

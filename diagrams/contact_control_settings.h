@@ -33,8 +33,8 @@ namespace flinch {
 
 /// Reaction thresholds of one estimator; those of all count where it has none.
 struct OwnThreshold {
-  std::optional<double> force;   ///< [N]
-  std::optional<double> moment;  ///< [Nm]
+  std::optional<ComponentBounds> force;   ///< [N]
+  std::optional<ComponentBounds> moment;  ///< [Nm]
 };
 
 /// All that can be set in the contact-control pipeline. The defaults are those of the planar bench;

@@ -81,6 +81,10 @@ void add_thresholds(CLI::App& calibrate, Verbs& verbs) {
       ->check(within(1.0, 100.0))
       ->type_name("K");
   verb.add_flag(
+      "--by-component", options.by_component,
+      "A threshold for each component of force and moment, which share the alarms; otherwise one for "
+      "all of the force and one for all of the moment");
+  verb.add_flag(
       "--one-robot", options.one_robot,
       "All recordings are of the robot that the thresholds shall serve; otherwise each counts as one of "
       "many, and others may differ as these do");

@@ -79,6 +79,7 @@ ExitStatus calibrate_thresholds(const CalibrateThresholdsOptions& options) {
   found.goal.false_alarms_per_hour = options.rate;
   found.goal.confidence = options.confidence;
   found.goal.safety_factor = options.safety_factor;
+  found.goal.by_component = options.by_component;
   found.goal.one_robot = options.one_robot;
   const bool quiet = options.common.quiet || options.common.json;
   const FreeMotions motions = read_motions(options, found.goal, quiet);

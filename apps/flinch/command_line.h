@@ -68,7 +68,8 @@ struct CalibrateThresholdsOptions {
   double rate = 0.5;          ///< of false alarms [1/h]
   double confidence = 0.95;
   double safety_factor = 2.0;
-  bool one_robot = false;  ///< all recordings are of the one that the thresholds shall serve
+  bool by_component = false;  ///< a threshold for each component of force and moment
+  bool one_robot = false;     ///< all recordings are of the one that the thresholds shall serve
 };
 
 /// What every calibration from recordings understands.

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <string_view>
 
 #include "experiments/recorded/robot_as_drawn.h"
 #include "experiments/report/drawn_robot.h"
@@ -148,6 +149,13 @@ class Bounds {
     lines.push_back({chart, name, value});
   }
 
+  void add(const std::string& chart, const std::string& name, double sign, const ComponentBounds& bounds) {
+    constexpr std::string_view axes = "xyz";
+    const std::vector<double>& values = bounds.values();
+    for (std::size_t i = 0; i < values.size(); ++i)
+      add(chart, values.size() == 1 ? name : name + " " + axes.at(i), sign * values[i]);
+  }
+
   std::vector<ReportBound> lines;
 };
 
@@ -177,9 +185,9 @@ std::vector<ReportBound> bounds_of(const Scenario& scenario, const Verdict& verd
       scenario.control.detector_of(followed_name(scenario.control.stages.estimators));
   Bounds bounds;
   for (const double sign : {1.0, -1.0}) {
-    bounds.add("force", "reaction threshold", sign * detector.reaction.force);
+    bounds.add("force", "reaction threshold", sign, detector.reaction.force);
     bounds.add("force", "hard threshold", sign * detector.hard.force);
-    bounds.add("moment", "reaction threshold", sign * detector.reaction.moment);
+    bounds.add("moment", "reaction threshold", sign, detector.reaction.moment);
     bounds.add("moment", "hard threshold", sign * detector.hard.moment);
   }
   for (const ContactVerdict& contact : verdict.contacts) {

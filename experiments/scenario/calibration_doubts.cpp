@@ -137,7 +137,7 @@ bool says_of(const Scenario& scenario, const std::string& estimator, const std::
 
 /// A threshold that the scenario gives for all estimators, where that of each is calibrated.
 void add_without_effect(std::vector<CalibrationDoubt>& doubts, const Scenario& scenario,
-                        const std::string& quantity, std::optional<double> OwnThreshold::*value) {
+                        const std::string& quantity, std::optional<ComponentBounds> OwnThreshold::*value) {
   const std::string key = "control.contact_detector." + quantity;
   if (!says(scenario, key)) return;
   std::vector<std::string> others;

@@ -29,9 +29,10 @@ bool has_thresholds(const ParameterFile& file) {
 }
 
 /// Throws SetupError with all that is wrong with the section `control` of the file.
-void take_thresholds(const ParameterFile& file, DriveKind drives, ContactControlSettings& control) {
+void take_thresholds(const ParameterFile& file, DriveKind drives, const ConfigurationSpace* space,
+                     ContactControlSettings& control) {
   ConfigReader reader = ConfigReader::over(file.nodes, file.file);
-  read_thresholds(reader.section("control"), drives, names_of(control.stages.estimators), control);
+  read_thresholds(reader.section("control"), drives, space, names_of(control.stages.estimators), control);
   reader.leave_rest_unread();
   reader.finish();
 }
@@ -76,7 +77,7 @@ void calibrate_control(const std::vector<ParameterFile>& calibrations, const Par
   std::vector<std::string> problems;
   for (const ParameterFile& file : calibrations) {
     try {
-      if (has_thresholds(file)) take_thresholds(file, robot.drive_kind(0), control);
+      if (has_thresholds(file)) take_thresholds(file, robot.drive_kind(0), &robot.space(), control);
     } catch (const SetupError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
@@ -103,7 +104,7 @@ void check_thresholds(const ParameterFile& file) {
     control.stages = known_stages();
     control.contact_detector.hard = {infinity, infinity};  // what it leaves out, another file may say
     try {
-      return take_thresholds(file, drives, control);
+      return take_thresholds(file, drives, nullptr, control);
     } catch (const SetupError& error) {
       if (fewest.empty() || error.problems().size() < fewest.size()) fewest = error.problems();
     }

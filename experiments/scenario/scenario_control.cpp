@@ -183,7 +183,7 @@ void read_control(ConfigReader control, const ParallelRobot& robot, ContactContr
   read_stages(control, settings.stages);
   read_sensing(control, robot, settings);
   read_estimators(control, robot, settings);
-  read_thresholds(control, robot.drive_kind(0), estimators, settings);
+  read_thresholds(control, robot.drive_kind(0), &robot.space(), estimators, settings);
   read_isolation(control.section("isolation"), settings.isolation);
   read_tasks(control, robot, settings.tasks);
   read_laws(control, robot, settings);

@@ -1,6 +1,7 @@
 #include "experiments/scenario/scenario_thresholds.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 
 #include "diagrams/contact_control_settings.h"
@@ -8,6 +9,7 @@
 #include "systems/config/config_reader.h"
 #include "systems/config/parsed.h"
 #include "systems/foundation/nearest_name.h"
+#include "systems/robot/configuration_space.h"
 
 namespace flinch {
 namespace {
@@ -21,23 +23,44 @@ void check_hard(ConfigReader& detector, const std::string& quantity, double hard
                                            exact_text(reaction) + " " + unit);
 }
 
+/// One threshold for all components, or a list with one for each of `components`.
+void read_bounds(ConfigReader& reader, const std::string& name, const Unit& unit,
+                 std::optional<std::size_t> components, ComponentBounds& bounds) {
+  std::vector<double> values = bounds.values();
+  reader.one_or_numbers(name, unit, values, components, positive);
+  bounds = ComponentBounds(values);
+}
+
+void read_bounds(ConfigReader& reader, const std::string& name, const Unit& unit,
+                 std::optional<std::size_t> components, std::optional<ComponentBounds>& bounds) {
+  std::vector<double> values = bounds ? bounds->values() : std::vector<double>();
+  reader.one_or_numbers(name, unit, values, components, positive);
+  if (!values.empty()) bounds = ComponentBounds(values);
+}
+
+std::optional<std::size_t> count(const ConfigurationSpace* space, int (ConfigurationSpace::*of)() const) {
+  return space == nullptr ? std::nullopt : std::optional(static_cast<std::size_t>((space->*of)()));
+}
+
 /// `estimators`: all that a file may name, whether they run or not.
-void read_contact_detector(ConfigReader detector, const std::vector<std::string>& estimators,
-                           ContactControlSettings& settings) {
-  detector.number("reaction_force", unit::N, settings.contact_detector.reaction.force, positive);
-  detector.number("reaction_moment", unit::Nm, settings.contact_detector.reaction.moment, positive);
+void read_contact_detector(ConfigReader detector, const ConfigurationSpace* space,
+                           const std::vector<std::string>& estimators, ContactControlSettings& settings) {
+  const auto forces = count(space, &ConfigurationSpace::translations),
+             moments = count(space, &ConfigurationSpace::rotations);
+  read_bounds(detector, "reaction_force", unit::N, forces, settings.contact_detector.reaction.force);
+  read_bounds(detector, "reaction_moment", unit::Nm, moments, settings.contact_detector.reaction.moment);
   detector.number("hard_force", unit::N, settings.contact_detector.hard.force, positive);
   detector.number("hard_moment", unit::Nm, settings.contact_detector.hard.moment, positive);
   const auto& [reaction, hard, period] = settings.contact_detector;
-  check_hard(detector, "force", hard.force, reaction.force, "N");
-  check_hard(detector, "moment", hard.moment, reaction.moment, "Nm");
+  check_hard(detector, "force", hard.force, reaction.force.largest(), "N");
+  check_hard(detector, "moment", hard.moment, reaction.moment.largest(), "Nm");
   std::set<std::string> named;
   for (ConfigReader& own : detector.sections("by_estimator")) {
     std::string estimator;
     own.required().text("estimator", estimator);
     OwnThreshold& threshold = settings.reaction_thresholds[estimator];
-    own.number("reaction_force", unit::N, threshold.force, positive);
-    own.number("reaction_moment", unit::Nm, threshold.moment, positive);
+    read_bounds(own, "reaction_force", unit::N, forces, threshold.force);
+    read_bounds(own, "reaction_moment", unit::Nm, moments, threshold.moment);
     if (std::find(estimators.begin(), estimators.end(), estimator) == estimators.end()) {
       own.problem("estimator",
                   "is '" + estimator + "', which is no estimator" + did_you_mean(estimator, estimators));
@@ -49,9 +72,9 @@ void read_contact_detector(ConfigReader detector, const std::vector<std::string>
 
 }  // namespace
 
-void read_thresholds(ConfigReader control, DriveKind drives, const std::vector<std::string>& estimators,
-                     ContactControlSettings& settings) {
-  read_contact_detector(control.section("contact_detector"), estimators, settings);
+void read_thresholds(ConfigReader control, DriveKind drives, const ConfigurationSpace* space,
+                     const std::vector<std::string>& estimators, ContactControlSettings& settings) {
+  read_contact_detector(control.section("contact_detector"), space, estimators, settings);
   read_fused_detector(control.section("fused_detector"), drives, estimators, settings.fused_detector);
 }
 

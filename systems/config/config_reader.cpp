@@ -116,6 +116,20 @@ void ConfigReader::numbers(std::string_view name, const Unit& unit, std::vector<
   read_list(name, unit, values, std::nullopt, range);
 }
 
+void ConfigReader::one_or_numbers(std::string_view name, const Unit& unit, std::vector<double>& values,
+                                  Count count, const Range& range) {
+  const FoundValue found = document_->find(*section_, name, unit, required_);
+  if (found.node != nullptr && found.node->kind == Kind::list)
+    return read_list(name, unit, values, count, range);
+  if (found.node != nullptr) {
+    double value = 0.0;
+    const Parsed<double> parsed = parse_number(*found.node, *found.unit, range);
+    accept(*document_, found, parsed, value);
+    if (parsed.complaint.empty()) values = {value};
+  }
+  document_->add_value(found, values.size() == 1 ? exact_text(values.front()) : text_of(values), unit);
+}
+
 void ConfigReader::read_list(std::string_view name, const Unit& unit, std::vector<double>& values,
                              Count count, const Range& range) {
   const FoundValue found = document_->find(*section_, name, unit, required_);

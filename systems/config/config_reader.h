@@ -66,6 +66,9 @@ class ConfigReader {
   /// A list of one number or more.
   void numbers(std::string_view name, const Unit& unit, std::vector<double>& values,
                const Range& range = any_number);
+  /// One number, or a list of `count`, or of one or more where that is not known. `values` has as many.
+  void one_or_numbers(std::string_view name, const Unit& unit, std::vector<double>& values,
+                      std::optional<std::size_t> count, const Range& range = any_number);
   /// A time, rounded to nanoseconds; `range` in s.
   void duration(std::string_view name, std::chrono::nanoseconds& value, const Range& range = any_number);
   /// A whole number, bounds included.

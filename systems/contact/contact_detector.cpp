@@ -13,11 +13,20 @@ namespace {
 std::vector<std::string> problems(const ContactDetectorSettings& settings) {
   const auto& [reaction, hard, period] = settings;
   Findings found;
-  found.require(reaction.force > 0.0 && reaction.moment > 0.0,
+  found.require(reaction.force.least() > 0.0 && reaction.moment.least() > 0.0,
                 "reaction has a threshold that is not positive [N, Nm]");
-  found.require(hard.force >= reaction.force && hard.moment >= reaction.moment,
+  found.require(hard.force >= reaction.force.largest() && hard.moment >= reaction.moment.largest(),
                 "hard has a threshold below that of reaction [N, Nm]");
   return found.take();
+}
+
+PlatformVector of_components(const ReactionThreshold& threshold, const ConfigurationSpace& space) {
+  if (!threshold.force.fit(space.translations()) || !threshold.moment.fit(space.rotations()))
+    throw SetupError("reaction has neither one threshold for all components nor one for each");
+  PlatformVector components = PlatformVector::Zero(space.dimension());
+  for (int i = 0; i < space.translations(); ++i) components[i] = threshold.force[i];
+  for (int i = 0; i < space.rotations(); ++i) components[space.translations() + i] = threshold.moment[i];
+  return components;
 }
 
 }  // namespace
@@ -30,7 +39,8 @@ PlatformVector of_components(const WrenchThreshold& threshold, const ParallelRob
 
 ContactDetector::ContactDetector(const std::shared_ptr<const ParallelRobot>& robot,
                                  const ContactDetectorSettings& settings)
-    : reaction_(of_components(settings.reaction, *robot)), hard_(of_components(settings.hard, *robot)) {
+    : reaction_(of_components(settings.reaction, robot->space())),
+      hard_(of_components(settings.hard, *robot)) {
   throw_if_any(problems(settings));
   keep(Every{settings.period}, previous_, contact);
 }

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "systems/contact/component_bounds.h"
 #include "systems/framework/system.h"
 #include "systems/robot/parallel_robot.h"
 #include "systems/signals/contact_detection.h"
@@ -16,12 +17,18 @@ struct WrenchThreshold {
   double moment = 0.0;  ///< [Nm]
 };
 
+/// The same, which may differ from component to component.
+struct ReactionThreshold {
+  ComponentBounds force = 0.0;   ///< [N]
+  ComponentBounds moment = 0.0;  ///< [Nm]
+};
+
 /// One threshold a component: forces first.
 PlatformVector of_components(const WrenchThreshold& threshold, const ParallelRobot& robot);
 
 struct ContactDetectorSettings {
-  WrenchThreshold reaction{10.0, 1.0};  ///< epsilon_r, [SafePR] V-B
-  WrenchThreshold hard{60.0, 3.0};      ///< epsilon_g, [PAR]
+  ReactionThreshold reaction{10.0, 1.0};  ///< epsilon_r, [SafePR] V-B
+  WrenchThreshold hard{60.0, 3.0};        ///< epsilon_g, [PAR]
   Time period = 1ms;
 };
 
@@ -33,7 +40,8 @@ class ContactDetector final : public System {
   State<ContactDetection> previous_ = state<ContactDetection>("previous");
 
  public:
-  /// Throws SetupError for thresholds that are not positive or a hard one below that of the reaction.
+  /// Throws SetupError for thresholds that are not positive, do not fit the robot, or a hard one below that
+  /// of the reaction.
   explicit ContactDetector(const std::shared_ptr<const ParallelRobot>& robot,
                            const ContactDetectorSettings& settings = {});
 

@@ -58,6 +58,8 @@ TEST(Peaks, AreTheLargestComponentOfEachStretch) {
   EXPECT_EQ(peaks[0].estimator, "observer");
   EXPECT_THAT(peaks[0].force, ElementsAre(2.0, 5.0, 0.0)) << "the last stretch is not whole";
   EXPECT_THAT(peaks[0].moment, ElementsAre(0.4, 0.0, 0.0));
+  EXPECT_THAT(peaks[0].components, ElementsAre(ElementsAre(2.0, 0.0, 0.0), ElementsAre(1.5, 5.0, 0.0),
+                                               ElementsAre(0.4, 0.0, 0.0)));
 }
 
 TEST(Peaks, LeaveOutStretchesWithoutAnEstimateOrOutsideTheNominalMotion) {

@@ -25,7 +25,7 @@ std::vector<double> peaks_of_noise(std::mt19937_64& random, std::size_t stretche
 }
 
 EstimatorPeaks noise(std::mt19937_64& random, std::size_t stretches) {
-  return {"observer", peaks_of_noise(random, stretches, 1.0), peaks_of_noise(random, stretches, 0.1)};
+  return {"observer", peaks_of_noise(random, stretches, 1.0), peaks_of_noise(random, stretches, 0.1), {}};
 }
 
 std::string complaint(std::size_t stretches, const ThresholdGoal& goal) {
@@ -94,6 +94,38 @@ TEST(Thresholds, OfARobotThatDoesNotTurnSpendAllAlarmsOnForce) {
   EXPECT_EQ(alone.moment.value, 0.0);
 }
 
+TEST(Thresholds, ByComponentShareTheAlarmsAndKeepTheRate) {
+  // Two components of noise, one three times as large as the other, in 50 hours.
+  std::mt19937_64 random(3);
+  const ThresholdGoal goal{.false_alarms_per_hour = 10.0, .by_component = true};
+  constexpr int trials = 20, check_stretches = 5 * 7200;
+  const auto peaks_of = [&](std::size_t stretches) {
+    EstimatorPeaks peaks{"observer", {}, {}, {}};
+    peaks.components = {peaks_of_noise(random, stretches, 1.0), peaks_of_noise(random, stretches, 3.0)};
+    for (std::size_t i = 0; i < stretches; ++i)
+      peaks.force.push_back(std::max(peaks.components[0][i], peaks.components[1][i]));
+    return peaks;
+  };
+  const EstimatorPeaks later = peaks_of(check_stretches);
+  int kept = 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    const EstimatorThresholds found = calibrate_thresholds({peaks_of(180)}, goal).front();
+    ASSERT_EQ(found.components.size(), 2U);
+    EXPECT_LT(found.components[0].value, 0.5 * found.force.value) << "one for both is that of the larger";
+    double alarms = 0.0;
+    for (std::size_t i = 0; i < later.force.size(); ++i) {
+      alarms += later.components[0][i] > found.components[0].value ||
+                        later.components[1][i] > found.components[1].value
+                    ? 1.0
+                    : 0.0;
+    }
+    const double hours = check_stretches * to_seconds(goal.stretch) / 3600.0;
+    kept += alarms / hours <= goal.false_alarms_per_hour ? 1 : 0;
+  }
+  EXPECT_GE(kept, trials - 3);
+  EXPECT_TRUE(calibrate_thresholds({peaks_of(180)}, {}).front().components.empty());
+}
+
 TEST(ARecordingThatIsTooShort, IsRefusedWithWhatIsNeeded) {
   EXPECT_THAT(complaint(59, {}),
               HasSubstr("observer: 29.5 s of motion with valid estimates are recorded; 30.0 s"));
@@ -102,12 +134,14 @@ TEST(ARecordingThatIsTooShort, IsRefusedWithWhatIsNeeded) {
 }
 
 TEST(PeaksOfSeveralRecordings, ArePooledByEstimator) {
-  const auto all =
-      pooled({{{"a", {1.0}, {0.1}}, {"b", {2.0}, {0.2}}}, {{"a", {3.0}, {0.3}}, {"b", {4.0}, {0.4}}}});
+  const auto all = pooled({{{"a", {1.0}, {0.1}, {{1.0}, {0.1}}}, {"b", {2.0}, {0.2}, {}}},
+                           {{"a", {3.0}, {0.3}, {{3.0}, {0.3}}}, {"b", {4.0}, {0.4}, {}}}});
   ASSERT_EQ(all.size(), 2U);
   EXPECT_THAT(all[0].force, ::testing::ElementsAre(1.0, 3.0));
   EXPECT_THAT(all[1].moment, ::testing::ElementsAre(0.2, 0.4));
-  EXPECT_THROW(pooled({{{"a", {1.0}, {}}}, {{"b", {1.0}, {}}}}), SetupError);
+  EXPECT_THAT(all[0].components,
+              ::testing::ElementsAre(::testing::ElementsAre(1.0, 3.0), ::testing::ElementsAre(0.1, 0.3)));
+  EXPECT_THROW(pooled({{{"a", {1.0}, {}, {}}}, {{"b", {1.0}, {}, {}}}}), SetupError);
 }
 
 }  // namespace

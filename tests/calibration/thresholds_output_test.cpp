@@ -101,6 +101,21 @@ TEST(TheParameterFile, IsWhatAScenarioTakes) {
             "      - {estimator: filter, reaction_force_N: 7.5}\n");
 }
 
+TEST(Thresholds, ByComponentAreListsWhereThereAreSeveral) {
+  ThresholdFindings found = some;
+  found.estimators = {some.estimators.front()};
+  found.estimators.front().components = {{5.5, 5.0, 4.0, 8.0}, {7.5, 5.0, 4.0, 8.0}, {0.25, 0.2, 0.1, 0.2}};
+  EXPECT_THAT(thresholds_yaml(found, "2026-11-22"),
+              HasSubstr("- {estimator: observer, reaction_force_N: [5.5, 7.5], reaction_moment_Nm: 0.25}\n"));
+  const std::string table = thresholds_table(found);
+  EXPECT_THAT(table, AllOf(HasSubstr("force x"), HasSubstr("force y"), HasSubstr("moment z")));
+  EXPECT_THAT(table, Not(HasSubstr("6.25")));
+  const auto json = nlohmann::json::parse(thresholds_json(found));
+  EXPECT_EQ(json["thresholds"][0]["force_N"]["value"], 6.25) << "what one for all would be";
+  EXPECT_EQ(json["thresholds"][0]["force_by_component_N"][1]["value"], 7.5);
+  EXPECT_EQ(json["thresholds"][0]["moment_by_component_Nm"].size(), 1U);
+}
+
 TEST(TheParameterFile, SaysOfWhichRobotsTheFusedDetectorKeepsTheRate) {
   ThresholdFindings found = with_a_residual(true);
   found.recordings = {{"a", "1"}, {"b", "2"}, {"c", "3"}};

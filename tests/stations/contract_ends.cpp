@@ -54,7 +54,8 @@ ContactControlSettings patient() {
   ContactControlSettings settings;
   settings.momentum_observer.gain = PlatformVector::Constant(3, 200.0);
   settings.drive_torque.torque_constant = JointVector::Constant(3, contract_torque_constant);
-  settings.contact_detector.reaction = settings.contact_detector.hard = {1e6, 1e6};
+  settings.contact_detector.reaction = {1e6, 1e6};
+  settings.contact_detector.hard = {1e6, 1e6};
   settings.faults.longest_gap = settings.faults.max_age = longest_age;
   for (Sampling* sampling : {&settings.velocity_filter.sampling, &settings.forward_kinematics.sampling,
                              &settings.momentum_observer.sampling, &settings.drive_torque.sampling}) {

@@ -75,7 +75,7 @@ TEST_F(CalibratedThresholds, OfAMomentStayWhereTheScenarioSaysOnlyTheForce) {
   write("found.yaml", by_estimator);
   const Scenario scenario =
       read("{contact_detector: {by_estimator: [{estimator: momentum_observer, reaction_force_N: 9}]}}");
-  const WrenchThreshold reaction = scenario.control.detector_of("momentum_observer").reaction;
+  const ReactionThreshold reaction = scenario.control.detector_of("momentum_observer").reaction;
   EXPECT_EQ(reaction.force, 9.0);
   EXPECT_EQ(reaction.moment, 0.5);
   EXPECT_THAT(scenario.doubts, IsEmpty());
@@ -178,6 +178,25 @@ TEST_F(CalibratedThresholds, ThatAreNoGoodAreToldByTheirOwnFile) {
                   HasSubstr("found.yaml:9: control.contact_detector.by_estimator[2].estimator: is "
                             "'imu_residue', which is no estimator; did you mean 'imu_residual'"),
                   HasSubstr("found.yaml:10: control.tasks: is not a known key")));
+}
+
+TEST_F(CalibratedThresholds, MayBeOnesForEachComponent) {
+  write("found.yaml",
+        "control: {contact_detector: {by_estimator: [{estimator: momentum_observer, reaction_force_N: [5, "
+        "70]}]}}\n");
+  const Scenario scenario = read("{contact_detector: {reaction_force_N: [8, 9], reaction_moment_Nm: [2]}}");
+  EXPECT_EQ(scenario.control.contact_detector.reaction.force, ComponentBounds({8.0, 9.0}));
+  const ContactDetectorSettings own = scenario.control.detector_of("momentum_observer");
+  EXPECT_EQ(own.reaction.force, ComponentBounds({5.0, 70.0}));
+  EXPECT_EQ(own.reaction.moment, 2.0);
+  EXPECT_EQ(own.hard.force, 70.0) << "never below that of the reaction";
+  EXPECT_THAT(
+      test::problems_of([&] { read("{contact_detector: {reaction_force_N: [8, 9, 10]}}"); }),
+      ElementsAre(HasSubstr("own.yaml:4: control.contact_detector.reaction_force_N: is a list of 3; it "
+                            "must be a list of 2 numbers")));
+  EXPECT_THAT(
+      test::problems_of([&] { read("{contact_detector: {reaction_force_N: [8, 90]}}"); }),
+      ElementsAre(HasSubstr("hard_force_N: is 60 N; it must be at least reaction_force, which is 90 N")));
 }
 
 TEST_F(CalibratedThresholds, AreCheckedWithoutARobot) {

@@ -66,7 +66,8 @@ bool meets_platform_first(const Mechanism& robot, const Eigen::Vector3d& directi
 /// When an observer with the same gain that is told the true wrench would notice the contact [s].
 double noticed_at_best(const SimulatedScenario& trial, const Recording& recording, double onset) {
   const PlatformVector gain = trial.control.momentum_observer.gain;
-  const WrenchThreshold limit = trial.control.contact_detector.reaction;
+  const ReactionThreshold& reaction = trial.control.contact_detector.reaction;
+  const WrenchThreshold limit{reaction.force.largest(), reaction.moment.largest()};
   const RecordedValues<RecordedTruth> truth(recording, "truth");
   PlatformVector estimate = PlatformVector::Zero(gain.size()), before = estimate;
   const PlatformVector a = (-1e-3 * gain).array().exp();
@@ -126,18 +127,19 @@ SimulatedScenario with_uneven_drives(SimulatedScenario trial, KnownFriction know
 }
 
 SimulatedScenario unheeding(SimulatedScenario trial) {
-  const WrenchThreshold out_of_reach{.force = 1e6, .moment = 1e6};
-  trial.control.contact_detector.reaction = trial.control.contact_detector.hard = out_of_reach;
+  trial.control.contact_detector.reaction = {1e6, 1e6};
+  trial.control.contact_detector.hard = {1e6, 1e6};
   return trial;
 }
 
 SimulatedScenario with_limits_above(SimulatedScenario trial, const Verdict& without_contact) {
   ContactDetectorSettings& detector = trial.control.contact_detector;
   detector.reaction = {
-      .force = std::max(detector.reaction.force, 1.2 * without_contact.max_observer_error_force),
-      .moment = std::max(detector.reaction.moment, 1.2 * without_contact.max_observer_error_moment)};
-  detector.hard = {.force = std::max(detector.hard.force, detector.reaction.force),
-                   .moment = std::max(detector.hard.moment, detector.reaction.moment)};
+      .force = std::max(detector.reaction.force.largest(), 1.2 * without_contact.max_observer_error_force),
+      .moment =
+          std::max(detector.reaction.moment.largest(), 1.2 * without_contact.max_observer_error_moment)};
+  detector.hard = {.force = std::max(detector.hard.force, detector.reaction.force.largest()),
+                   .moment = std::max(detector.hard.moment, detector.reaction.moment.largest())};
   return trial;
 }
 

@@ -240,11 +240,30 @@ TEST(ReadValues, ListsEverySettingInSiAndWhereItComesFrom) {
   reader.choice("shape", shape, {{"round", Shape::round}, {"square", Shape::square}});
   reader.flag("noise", noise);
   reader.duration("period", period);
+  std::vector<double> bounds = {3.0}, several = {1.0, 2.0};
+  reader.one_or_numbers("bounds", unit::N, bounds, 2);
+  reader.one_or_numbers("several", unit::N, several, 2);
   EXPECT_THAT(reader.finish(),
               ElementsAre(is_value("legs[0].length", "0.58152", "m", true),
                           is_value("legs[0].mass", "1.5", "kg", false),
                           is_value("gain", "[20, 10]", "1/s", false), is_value("shape", "square", "", false),
-                          is_value("noise", "true", "", false), is_value("period", "0.001", "s", false)));
+                          is_value("noise", "true", "", false), is_value("period", "0.001", "s", false),
+                          is_value("bounds", "3", "N", false), is_value("several", "[1, 2]", "N", false)));
+}
+
+TEST(ConfigReader, ReadsOneNumberOrAListOfThem) {
+  const auto read = [](const std::string& text, std::optional<std::size_t> count) {
+    ConfigReader reader = reader_of("force_kN: " + text + "\n");
+    std::vector<double> values{7.0};
+    reader.one_or_numbers("force", unit::N, values, count, positive);
+    reader.finish();
+    return values;
+  };
+  EXPECT_THAT(read("2", 3), ElementsAre(2000.0));
+  EXPECT_THAT(read("[1, 2, 3]", 3), ElementsAre(1000.0, 2000.0, 3000.0));
+  EXPECT_THAT(read("[1, 2]", std::nullopt), ElementsAre(1000.0, 2000.0));
+  for (const std::string text : {"[1, 2]", "[]", "-1", "[1, 2, 0]", "{}", "many"})
+    EXPECT_THROW(read(text, 3), SetupError) << text;
 }
 
 }  // namespace

@@ -22,8 +22,8 @@ std::shared_ptr<const PlanarRrr> bench() {
 }
 
 struct Detector {
-  Detector()
-      : block(builder.add<ContactDetector>("detector", bench())),
+  explicit Detector(const ContactDetectorSettings& settings = {})
+      : block(builder.add<ContactDetector>("detector", bench(), settings)),
         wrench(builder.export_input("wrench", block.wrench)),
         reset(builder.export_input("reset", block.reset)),
         ticking(builder) {}
@@ -63,6 +63,29 @@ TEST(ContactDetector, JudgesEveryComponentAgainstItsOwnThresholds) {
       EXPECT_EQ(level(hard[i]), ContactLevel::hard);
     }
   }
+}
+
+TEST(ContactDetector, MayHaveAReactionThresholdForEachComponent) {
+  const ContactDetectorSettings settings{
+      .reaction = {ComponentBounds({4.0, 20.0}), 0.5}, .hard = {60.0, 3.0}, .period = 1ms};
+  const double reaction[] = {4.0, 20.0, 0.5};
+  for (int i = 0; i < 3; ++i) {
+    const auto level = [&](double value) {
+      return Detector(settings).see(-value * PlatformVector::Unit(3, i)).level;
+    };
+    EXPECT_EQ(level(std::nextafter(reaction[i], 0.0)), ContactLevel::none);
+    EXPECT_EQ(level(reaction[i]), ContactLevel::reaction);
+  }
+}
+
+TEST(ContactDetector, RefusesThresholdsThatDoNotFit) {
+  const auto made = [](const ReactionThreshold& reaction) {
+    Detector({.reaction = reaction, .hard = {60.0, 3.0}, .period = 1ms});
+  };
+  EXPECT_THROW(made({ComponentBounds({4.0, 4.0, 4.0}), 1.0}), SetupError) << "it moves along two axes";
+  EXPECT_THROW(made({4.0, ComponentBounds({1.0, 1.0})}), SetupError);
+  EXPECT_THROW(made({ComponentBounds({4.0, 0.0}), 1.0}), SetupError);
+  EXPECT_THROW(made({ComponentBounds({4.0, 61.0}), 1.0}), SetupError) << "harder than hard";
 }
 
 TEST(ContactDetector, LooksAtComponentsNotAtTheirNorm) {
