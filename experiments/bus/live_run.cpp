@@ -62,7 +62,7 @@ LiveRun::LiveRun(const Scenario& scenario, const DdsBus& bus, LiveRunSettings se
       experiment_(out_of(scenario.file, [&] { return build_live_experiment(scenario); })),
       station_(bus, *experiment_.diagram, experiment_.station,
                {.robot = robot_hash(scenario.robot_text), .realtime_priority = settings_.bus_priority}),
-      panel_(experiment_, station_, settings_.interrupts),
+      panel_(experiment_, scenario.control, station_, settings_.interrupts),
       ros2_(bus, *experiment_.diagram, shown_to_ros2(experiment_),
             {.joint_names = names_of_drives(scenario.robot.robot->drives()),
              .space = scenario.robot.robot->space(),
@@ -152,11 +152,16 @@ Tidings LiveRun::watch() {
   constexpr const char* phases[] = {"waiting", "open", "closed", "recovering"};
   const std::string fault = now.gate.passes() ? "" : description_of(now.gate.fault);
   const std::string end = settings_.attended ? "" : fmt::format(" of {:.1f}", to_seconds(end_));
+  std::string said;
+  if (std::exchange(refusals_told_, now.refusals.count) != now.refusals.count)
+    said = fmt::format("error: {}\n", sentence(now.refusals.last));
   return {fmt::format("{}; gate {}{}; drives: {}", name(now.mode), phases[static_cast<int>(now.gate.phase)],
                       fault.empty() ? "" : ": " + fault, name(now.link.drive_state)),
           fmt::format("at {:.1f}{} s, force {:.0f} N, round trip {:.0f} us, lost {}, refused {}",
                       to_seconds(now.time), end, now.force, 1e6 * to_seconds(now.link.round_trip),
-                      now.link.lost, now.link.refused)};
+                      now.link.lost, now.link.refused),
+          {},
+          said};
 }
 
 /// By its own motion or by its brakes.
@@ -180,8 +185,8 @@ void LiveRun::run() {
   const std::function<bool()> over = [&, this] {
     if (std::exchange(received, station_.link().received) != received) heard = context_.time();
     was_left_ = context_.time() - heard > settings_.patience;
-    if (panel_.resets() && !stands_ready()) switch_drives_on();
-    return was_left_ || panel_.end_is_ordered() || settings_.interrupts() > 1 ||
+    if (panel_.orders().resets() && !stands_ready()) switch_drives_on();
+    return was_left_ || panel_.orders().end_is_ordered() || settings_.interrupts() > 1 ||
            (is_interrupted() && is_stopped());
   };
   fall_into_step(station_, ticks_);
@@ -217,6 +222,7 @@ void LiveRun::finish_recording() {
     attributes["run.ended"] =
         fmt::format("the robot has sent nothing for {:g} s", to_seconds(settings_.patience));
   }
+  if (panel_.orders().end_is_ordered()) attributes["run.ended"] = "by the operator, or the end of his input";
   attributes["link.lost"] = std::to_string(link.lost);
   attributes["link.refused"] = std::to_string(link.refused);
   attributes["link.round_trip"] = attribute(times.round_trip);

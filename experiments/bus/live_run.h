@@ -66,9 +66,9 @@ class LiveRun {
   void run();
 
   /// Gives an operator's order to run(), attended or not. A reset also switches drives on that have gone off,
-  /// and resets their faults; they are on some ticks later, and the gate takes another reset then. For one
-  /// other thread. False, and not followed, where too many wait.
-  bool give(const OperatorOrder& order) noexcept { return panel_.give(order); }
+  /// and resets their faults; they are on some ticks later, and the gate takes another reset then. watch()
+  /// says which were refused. For one other thread. False, and not followed, where too many wait.
+  bool give(const OperatorOrder& order) noexcept { return panel_.orders().give(order); }
 
   /// Brings the robot to rest, closes the brakes, switches the drives off. What does not happen in time is
   /// left: the silence that follows lets the other end brake.
@@ -109,6 +109,7 @@ class LiveRun {
   std::unique_ptr<Context> start_;
   DriveWish wish_;
   bool was_left_ = false;
+  std::uint32_t refusals_told_ = 0;
   std::unique_ptr<RealtimeThread> thread_;
   RealtimeReport granted_;
   Time end_{};

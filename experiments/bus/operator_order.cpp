@@ -42,9 +42,8 @@ TargetCommand read_target(const std::string& word, std::string_view keys, const 
     reader.finish();
   } catch (const SetupError& error) {
     std::vector<std::string> problems = error.problems();
-    const std::string place = from + ":1: ";
     for (std::string& problem : problems) {
-      if (problem.starts_with(place)) problem.erase(0, place.size());
+      if (problem.starts_with(from + ":")) problem.erase(0, problem.find(": ") + 2);
     }
     throw SetupError(problems);
   }
@@ -76,7 +75,7 @@ OperatorOrder read_order(std::string_view line, const Scenario& scenario) {
 
 std::string_view known_orders() {
   return "stop     come to rest; the torque gate closes until a reset\n"
-         "reset    acknowledge a reaction or a fault; nothing moves. Drives that are off go on: then reset "
+         "reset    once it rests: acknowledge a reaction or fault. Drives that are off go on; then reset "
          "again\n"
          "start    go to the begin of the motion and follow it\n"
          "go       to a pose by its keys in a scenario, as in 'go x_mm: 20'; those left out are home's\n"

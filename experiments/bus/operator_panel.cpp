@@ -4,30 +4,25 @@
 
 namespace flinch {
 
-OperatorPanel::OperatorPanel(const LiveExperiment& experiment, const DdsStation& station,
-                             InterruptCount interrupts)
+OperatorPanel::OperatorPanel(const LiveExperiment& experiment, const ContactControlSettings& control,
+                             const DdsStation& station, InterruptCount interrupts)
     : station_(station),
       interrupts_(std::move(interrupts)),
       buttons_(experiment.diagram->slot(experiment.operator_command)),
-      target_(experiment.diagram->slot(experiment.target)),
       reaction_(experiment.diagram->slot(experiment.control.reaction_state)),
       gate_(experiment.diagram->slot(experiment.control.gate)),
       wrench_(experiment.diagram->slot(experiment.control.wrench_estimate)),
-      translations_(experiment.translations) {}
+      translations_(experiment.translations),
+      orders_(experiment, control) {}
 
 void OperatorPanel::set_inputs(Context& context) {
-  OperatorOrder order;
-  follows_ = !follows_ && orders_.pop(order);
-  resets_ = order.buttons.reset;
-  end_is_ordered_ = end_is_ordered_ || order.end;
-  order.buttons.stop = order.buttons.stop || stop_ || interrupts_() > 0;
-  context[buttons_] = order.buttons;
-  if (order.target.kind == TargetCommand::Kind::none) return;
-  order.target.number = context[target_].number + 1;
-  context[target_] = order.target;
+  OperatorCommand buttons = orders_.follow(context);
+  buttons.stop = buttons.stop || stop_ || interrupts_() > 0;
+  context[buttons_] = buttons;
 }
 
 void OperatorPanel::take_outputs(const Context& context) {
+  orders_.see(context);
   const WrenchEstimate& wrench = context[wrench_];
   LiveState now;
   now.time = context.time();
@@ -35,6 +30,7 @@ void OperatorPanel::take_outputs(const Context& context) {
   now.gate = context[gate_];
   if (wrench.valid) now.force = wrench.wrench_in_base.head(translations_).norm();
   now.link = station_.link();
+  now.refusals = orders_.refusals();
   states_.publish(now);
 }
 

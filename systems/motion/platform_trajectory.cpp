@@ -99,7 +99,7 @@ PoseMotion PlatformTrajectory::way_to_path(Time now, const Course& course) const
 PoseMotion PlatformTrajectory::way_to(const TargetCommand& wanted, const PlatformReference& present,
                                       const PoseLimits& limits) const {
   const ConfigurationSpace& space = robot_->space();
-  if (!present.valid) return {};
+  if (!present.valid || is_faster(present.velocity, space.translations(), limits)) return {};
   PlatformVector way;
   if (wanted.kind == TargetCommand::Kind::step) way = wanted.step;
   if (wanted.kind == TargetCommand::Kind::pose && space.contains(wanted.pose)) {

@@ -30,8 +30,8 @@ struct PlatformTrajectorySettings {
 ///   by itself at the given time or as soon as the nominal mode has begun, but only before the first
 ///   interruption; on a start command, as often as wanted, whenever it is at rest.
 /// It goes where the operator's target says from wherever it is, in the modes `nominal` and, more slowly,
-/// `recover`; a target that is not finite or that the legs do not reach is ignored. What began in a recovery
-/// goes on when the nominal mode follows it.
+/// `recover`; a target that is not finite, that the legs do not reach, or that comes while it shall be faster
+/// than such a way is ignored. What began in a recovery goes on when the nominal mode follows it.
 /// While another mode is active, the clock goes on; what it says then is not meant to be followed.
 /// Not valid before the nominal mode has begun, or if the pose was not known then.
 class PlatformTrajectory final : public System {

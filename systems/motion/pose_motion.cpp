@@ -16,6 +16,12 @@ PlatformVector stacked(const PlatformVector& translation, const PlatformVector& 
 
 }  // namespace
 
+bool is_faster(const PlatformVector& velocity, int translations, const PoseLimits& limits) noexcept {
+  constexpr double margin = 1.05;  // for a motion that just reaches them
+  return velocity.head(translations).norm() > margin * limits.translation.velocity ||
+         velocity.tail(velocity.size() - translations).norm() > margin * limits.rotation.velocity;
+}
+
 PoseMotion PoseMotion::plan(const ConfigurationSpace& space, const Configuration& start,
                             const PlatformVector& start_velocity, const PlatformVector& displacement,
                             const PoseLimits& limits) noexcept {

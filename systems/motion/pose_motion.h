@@ -16,6 +16,10 @@ struct PoseLimits {
   MotionLimits rotation;
 };
 
+/// Whether the first `translations` entries of a platform's velocity, or the others, are faster than a motion
+/// with these limits is: to come to rest within them it would go on for longer than anybody expects.
+bool is_faster(const PlatformVector& velocity, int translations, const PoseLimits& limits) noexcept;
+
 /// Motion of the platform to rest at a goal pose: its position along a straight line, its orientation about a
 /// fixed axis, each in its own time under its own limits. Time is in seconds since the start of the motion.
 /// Where the platform turns about another axis at first, the limits of the rotation hold for its rotation

@@ -2,9 +2,11 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/ioctl.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <array>
@@ -44,7 +46,7 @@ Ends ends_of(OtherProgram::Start::Input input) {
   if (input == Input::pipe && ::pipe2(pipe.data(), O_CLOEXEC) == 0)
     return {.here = pipe[1], .there = pipe[0]};
   if (input != Input::terminal) return {};
-  const int here = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+  const int here = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
   ::grantpt(here);
   ::unlockpt(here);
   std::array<char, 64> name{};
@@ -57,6 +59,7 @@ Ends ends_of(OtherProgram::Start::Input input) {
 OtherProgram::OtherProgram(const Start& start) : output_(::memfd_create("output", MFD_CLOEXEC)) {
   const Ends input = ends_of(start.input);
   input_ = input.here;
+  has_terminal_ = start.input == Start::Input::terminal;
   std::vector<char*> words;
   for (const std::string& word : start.command) words.push_back(const_cast<char*>(word.c_str()));
   words.push_back(nullptr);
@@ -67,7 +70,8 @@ OtherProgram::OtherProgram(const Start& start) : output_(::memfd_create("output"
   }
   if (input.there >= 0) ::dup2(input.there, STDIN_FILENO);
   ::dup2(output_, STDOUT_FILENO);
-  ::dup2(output_, STDERR_FILENO);
+  ::dup2(has_terminal_ ? input.there : output_, STDERR_FILENO);
+  if (has_terminal_ && ::setsid() > 0) ::ioctl(input.there, TIOCSCTTY, 0);
   for (const auto& [name, value] : start.environment) ::setenv(name.c_str(), value.c_str(), 1);
   preload(start.preloaded);
   if (!start.prepare || start.prepare()) ::execv(words.front(), words.data());
@@ -105,7 +109,13 @@ void OtherProgram::end_input() {
   if (input_ >= 0) ::close(std::exchange(input_, -1));
 }
 
+bool OtherProgram::echoes() const {
+  termios settings{};
+  return ::tcgetattr(input_, &settings) == 0 && (settings.c_lflag & ECHO) != 0;
+}
+
 bool OtherProgram::is_running() {
+  output();  // a terminal that nobody reads stops who writes
   if (!ended_) ended_ = ::waitpid(id_, &status_, WNOHANG) != 0;
   return !ended_;
 }
@@ -131,7 +141,9 @@ std::string OtherProgram::output() const {
        (size = ::pread(output_, part.data(), part.size(), static_cast<off_t>(text.size()))) > 0;) {
     text.append(part.data(), static_cast<std::size_t>(size));
   }
-  return text;
+  for (ssize_t size = 0; has_terminal_ && (size = ::read(input_, part.data(), part.size())) > 0;)
+    screen_.append(part.data(), static_cast<std::size_t>(size));
+  return screen_ + text;
 }
 
 }  // namespace flinch::test

@@ -21,7 +21,7 @@ class OtherProgram {
     std::map<std::string, std::string> environment;  ///< that it has besides ours
     std::string preloaded;                           ///< a library that stands before all others
     std::function<bool()> prepare;  ///< what it does before; where that fails it ends with 127
-    enum class Input { ours, pipe, terminal } input = Input::ours;
+    enum class Input { ours, pipe, terminal } input = Input::ours;  ///< a terminal shows stderr, too
   };
 
   explicit OtherProgram(const Start& start);
@@ -42,6 +42,8 @@ class OtherProgram {
   void type(const std::string& text);
   /// Ends it.
   void end_input();
+  /// Whether its terminal shows what is typed by itself.
+  bool echoes() const;
 
   bool is_running();
   /// Its exit status; none if it still runs after `patience`, or was killed.
@@ -57,6 +59,8 @@ class OtherProgram {
   pid_t id_ = 0;
   int output_ = -1;
   int input_ = -1;
+  bool has_terminal_ = false;
+  mutable std::string screen_;  ///< what the terminal has shown
   bool ended_ = false;
   int status_ = 0;
 };

@@ -22,32 +22,44 @@ namespace {
 constexpr std::size_t longest_line = 200;
 constexpr char end_of_input = 4, backspace = 8, rub_out = 127, kill_line = 21, escape = 27;
 
-/// How the terminal on stdin is; none where there is none.
+constexpr std::array terminal_signals{SIGTTIN, SIGTTOU};  // that would hang a program in the background
+
+/// How the terminal is that what is typed is read from and told on; none where there is none of our own.
 std::optional<termios> settings_of_terminal() {
   termios now{};
-  if (tcgetattr(STDIN_FILENO, &now) != 0) return std::nullopt;
+  const bool is_ours = isatty(STDERR_FILENO) == 1 && tcgetpgrp(STDIN_FILENO) == getpgrp();
+  if (!is_ours || tcgetattr(STDIN_FILENO, &now) != 0) return std::nullopt;
   return now;
 }
 
-/// Letter by letter and unseen. A program that Ctrl-Z suspends would leave the robot alone.
+/// Letter by letter and unseen. A program that a key suspends or kills would leave the robot alone, and one
+/// whose output a key stops could not end.
 termios unseen(termios settings) {
+  settings.c_iflag &= ~static_cast<tcflag_t>(IXON);
   settings.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
-  settings.c_cc[VSUSP] = _POSIX_VDISABLE;
+  settings.c_cc[VSUSP] = settings.c_cc[VQUIT] = _POSIX_VDISABLE;
   settings.c_cc[VMIN] = 1;
   settings.c_cc[VTIME] = 0;
   return settings;
 }
 
 bool is_printable(char letter) { return std::isprint(static_cast<unsigned char>(letter)) != 0; }
+bool is_letter(char letter) { return std::isalpha(static_cast<unsigned char>(letter)) != 0; }
 
 }  // namespace
 
 OperatorConsole::OperatorConsole(const Scenario& scenario, LiveRun& run, bool quiet)
-    : scenario_(scenario), run_(run), quiet_(quiet), terminal_(settings_of_terminal()) {
-  for (const int signal : {SIGTTIN, SIGTTOU}) std::signal(signal, SIG_IGN);  // in the background, too
+    : scenario_(scenario),
+      run_(run),
+      quiet_(quiet),
+      terminal_(quiet ? std::nullopt : settings_of_terminal()) {
+  struct sigaction ignored {};
+  ignored.sa_handler = SIG_IGN;
+  for (std::size_t i = 0; i < terminal_signals.size(); ++i)
+    sigaction(terminal_signals.at(i), &ignored, &handlers_.at(i));
   if (terminal_) {
     const termios settings = unseen(*terminal_);
-    tcsetattr(STDIN_FILENO, TCSANOW, &settings);
+    tcsetattr(STDIN_FILENO, TCSAFLUSH, &settings);  // what was typed before is no order
   }
   if (!quiet_) say("orders:    stop, reset, start, go, step, end; 'help' tells more\n");
   thread_ = std::jthread([this](const std::stop_token& ending) { read_until(ending); });
@@ -57,13 +69,14 @@ OperatorConsole::~OperatorConsole() {
   thread_.request_stop();
   thread_.join();
   if (terminal_) tcsetattr(STDIN_FILENO, TCSANOW, &*terminal_);
-  for (const int signal : {SIGTTIN, SIGTTOU}) std::signal(signal, SIG_DFL);
+  for (std::size_t i = 0; i < terminal_signals.size(); ++i)
+    sigaction(terminal_signals.at(i), &handlers_.at(i), nullptr);
 }
 
 void OperatorConsole::tell(Tidings& now) {
   const std::lock_guard lock(mutex_);
   if (terminal_) now.typed = "> " + line_ + "  ";
-  now.said = std::exchange(said_, {});
+  now.said = std::exchange(said_, {}) + now.said;
 }
 
 void OperatorConsole::say(const std::string& lines) {
@@ -71,10 +84,10 @@ void OperatorConsole::say(const std::string& lines) {
   said_ += lines;
 }
 
-void OperatorConsole::end_run(const std::stop_token& ending) {
-  while (!run_.give({.buttons = {}, .target = {}, .end = true}) && !ending.stop_requested()) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
+/// Who no longer can order shall not leave a robot that moves.
+void OperatorConsole::end_run() {
+  say("ended:     the end of the input\n");
+  run_.give({.buttons = {}, .target = {}, .end = true});
 }
 
 void OperatorConsole::read_until(const std::stop_token& ending) {
@@ -85,34 +98,55 @@ void OperatorConsole::read_until(const std::stop_token& ending) {
     std::array<char, 256> letters{};
     const ssize_t size = read(STDIN_FILENO, letters.data(), letters.size());
     if (size < 0 && (errno == EINTR || errno == EAGAIN)) continue;
-    if (size <= 0) return end_run(ending);
+    if (size <= 0) return end_run();
     for (const char letter : std::span(letters).first(static_cast<std::size_t>(size))) {
-      if (terminal_ && letter == end_of_input) return end_run(ending);
+      if (terminal_ && letter == end_of_input) return end_run();
       take(letter);
     }
   }
 }
 
+/// Whether the letter is part of what a key sends that has none: Esc [ ... or Esc O and a letter.
+bool OperatorConsole::escapes(char letter) {
+  switch (std::exchange(escape_, Escape::none)) {
+    case Escape::begun:
+      if (letter == '[') escape_ = Escape::arrow_key;
+      if (letter == 'O') escape_ = Escape::function_key;
+      return letter == '[' || letter == 'O';
+    case Escape::function_key:
+      return is_letter(letter);
+    case Escape::arrow_key:
+      if (!is_printable(letter)) return false;
+      if (!is_letter(letter) && letter != '~') escape_ = Escape::arrow_key;
+      return true;
+    case Escape::none:
+      break;
+  }
+  return false;
+}
+
 void OperatorConsole::take(char letter) {
   std::unique_lock lock(mutex_);
-  if (escapes_) {
-    escapes_ = std::isalpha(static_cast<unsigned char>(letter)) == 0 && letter != '~';
-  } else if (letter == '\n' || letter == '\r') {
-    const std::string line = std::exchange(line_, {});
-    const bool is_too_long = std::exchange(is_too_long_, false);
+  if (escapes(letter)) return;
+  if (letter == '\n' || letter == '\r') {
+    const std::string line = std::exchange(line_, {}), problem = std::exchange(problem_, {});
     lock.unlock();
-    if (is_too_long) return say("error: an order has at most " + std::to_string(longest_line) + " letters\n");
-    follow(line);
-  } else if (letter == escape) {
-    escapes_ = true;
+    return problem.empty() ? follow(line) : say("error: " + problem + "\n");
+  }
+  if (letter == escape && terminal_) {
+    escape_ = Escape::begun;
   } else if (letter == kill_line) {
     line_.clear();
+    problem_.clear();
   } else if (letter == backspace || letter == rub_out) {
     if (!line_.empty()) line_.pop_back();
   } else if (line_.size() == longest_line) {
-    is_too_long_ = true;
+    problem_ = "an order has at most " + std::to_string(longest_line) + " letters";
   } else if (is_printable(letter) || letter == '\t') {
     line_ += letter == '\t' ? ' ' : letter;
+  } else {
+    problem_ =
+        "'" + line_ + "' is followed by a letter that no order has, as a minus that is none; type it anew";
   }
 }
 

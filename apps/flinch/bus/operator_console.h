@@ -1,6 +1,9 @@
 #pragma once
 
+#include <signal.h>
 #include <termios.h>
+
+#include <array>
 
 #include <mutex>
 #include <optional>
@@ -16,7 +19,8 @@ class LiveRun;
 struct Scenario;
 
 /// Hands the lines that an operator types to a run, as orders; read from stdin on a thread of its own. The
-/// end of stdin ends the run. On a terminal what is typed is not shown by the terminal but told by tell().
+/// end of stdin ends the run. Where stdin and stderr are a terminal, what is typed is not shown by that but
+/// told by tell().
 class OperatorConsole {
  public:
   /// Both must outlive this. `quiet`: only problems are said, and what the operator asks for.
@@ -30,17 +34,19 @@ class OperatorConsole {
 
  private:
   void read_until(const std::stop_token& ending);
+  bool escapes(char letter);
   void take(char letter);
   void follow(std::string_view line);
   void say(const std::string& lines);
-  void end_run(const std::stop_token& ending);
+  void end_run();
 
   const Scenario& scenario_;
   LiveRun& run_;
   bool quiet_;
-  std::optional<termios> terminal_;  ///< as it was; none: stdin is no terminal
-  bool escapes_ = false;             ///< within what an arrow key sends
-  bool is_too_long_ = false;         ///< the line
+  std::optional<termios> terminal_;  ///< as it was; none: what is typed is not told
+  enum class Escape { none, begun, function_key, arrow_key } escape_ = Escape::none;
+  std::string problem_;                         ///< with the line so far
+  std::array<struct sigaction, 2> handlers_{};  ///< of the signals of a terminal, as they were
   std::mutex mutex_;
   std::string line_;  ///< guarded by mutex_, as what follows
   std::string said_;

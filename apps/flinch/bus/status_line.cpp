@@ -12,12 +12,15 @@
 namespace flinch {
 namespace {
 
-/// As much of `line` as fits into a line of the terminal; all of it where the width is not known.
-std::string fitting(std::string line) {
+/// The end of what is typed, in half a line of the terminal at most, and as much of `line` as fits behind it;
+/// all of both where the width is not known.
+std::string fitting(std::string typed, const std::string& line) {
   winsize size{};
   const bool is_known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
-  if (is_known && line.size() >= size.ws_col) line.resize(size.ws_col - 1U);
-  return line;
+  if (is_known && typed.size() > size.ws_col / 2U) typed.erase(0, typed.size() - size.ws_col / 2U);
+  typed += line;
+  if (is_known && typed.size() >= size.ws_col) typed.resize(size.ws_col - 1U);
+  return typed;
 }
 
 }  // namespace
@@ -49,7 +52,7 @@ void StatusLine::tell(const Tidings& now) {
   if (quiet_) return;
   const std::string line = now.state + "  " + now.figures;
   if (terminal_) {
-    std::fputs(("\r\x1b[K" + fitting(now.typed + line)).c_str(), stderr);
+    std::fputs(("\r\x1b[K" + fitting(now.typed, line)).c_str(), stderr);
     std::fflush(stderr);
   } else if (now.state != last_state_) {
     std::fputs((line + "\n").c_str(), stderr);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "systems/foundation/setup_error.h"
@@ -242,6 +243,22 @@ TEST(PlatformTrajectory, TurnsToANewTargetOnTheWayWithoutAJump) {
   trajectory.tick();
   trajectory.finish();
   EXPECT_LT((trajectory.reference().pose - pose(0.0, 0.1, 0.0)).norm(), 1e-12);
+}
+
+// Within the limits of the approach it would come to rest half a metre further.
+TEST(PlatformTrajectory, IgnoresATargetWhileItIsFasterThanTheWayThereWouldBe) {
+  Nominal trajectory({.path = there_and_back(), .start = Time::zero()});
+  Nominal undisturbed({.path = there_and_back(), .start = Time::zero()});
+  double fastest = 0.0;
+  for (int k = 0; k < 400; ++k) {
+    trajectory.tick();
+    undisturbed.tick();
+    const double speed = trajectory.reference().velocity.head(2).norm();
+    fastest = std::max(fastest, speed);
+    if (speed > 0.3) trajectory.go_to(pose(0.0, 0.0, 0.0));
+    EXPECT_EQ(trajectory.reference().pose, undisturbed.reference().pose);
+  }
+  EXPECT_GT(fastest, 0.5);
 }
 
 TEST(PlatformTrajectory, IgnoresTargetsThatAreNone) {

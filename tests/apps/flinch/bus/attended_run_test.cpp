@@ -81,10 +81,9 @@ TEST_F(AttendedRun, SwitchesDrivesOnAgainThatHaveGivenItUp) {
   run->stop();  // for longer than drives wait for a command
   std::this_thread::sleep_for(300ms);
   run->resume();
-  ASSERT_TRUE(sees("drives: switch-on disabled")) << run->output();
+  if (!sees("drives: switch-on disabled")) return complain_of("the drives stay on");
   type("reset\n");
-  ASSERT_TRUE(sees("stopped; gate closed")) << run->output();
-  ASSERT_TRUE(sees("drives: operation enabled")) << "they stay off\n" << run->output();
+  if (!sees("drives: operation enabled")) return complain_of("they stay off");
   for (int attempt = 0; attempt < 5; ++attempt) {
     type("reset\n");
     if (sees("nominal; gate open", 2s)) break;
@@ -105,28 +104,76 @@ TEST_F(AttendedRun, OutlastsItsScenarioAndEndsWithItsInput) {
   EXPECT_GT(to_seconds(Time(recording.time_ns.back())), 3.5);
 }
 
+TEST_F(AttendedRun, DoesNotBeginWhatWasStoppedBeforeItCould) {
+  begin("square");
+  type("stop\n");
+  ASSERT_TRUE(sees("ordered:   stop")) << run->output();
+  std::this_thread::sleep_for(1500ms);
+  EXPECT_THAT(run->output(), testing::Not(testing::HasSubstr("gate open"))) << run->output();
+  type("reset\n");
+  if (!sees("nominal; gate open")) return complain_of("it does not begin after the reset");
+}
+
+TEST_F(AttendedRun, RefusesWhatWouldLetAFastRobotRunOut) {
+  begin("square");
+  if (!sees("nominal; gate open")) return complain_of("it does not begin");
+  std::this_thread::sleep_for(1500ms);  // it moves with 1.5 m/s
+  type("go\n");
+  if (!sees("error: go and step have no effect while the robot moves so fast")) return complain_of("it goes");
+  type("start\n");
+  if (!sees("error: start has no effect before the robot is at rest")) return complain_of("it starts");
+  type("stop\n");
+  std::this_thread::sleep_for(10ms);  // it still moves
+  type("reset\n");
+  if (!sees("error: reset has no effect while the robot moves")) return complain_of("it was reset");
+  type("step x_mm: 5\n");
+  if (!sees("error: start, go and step have no effect in this mode; reset first"))
+    return complain_of("it steps");
+  std::this_thread::sleep_for(1s);
+  type("reset\n");
+  if (!sees("nominal; gate open")) return complain_of("it was not reset at rest");
+  std::this_thread::sleep_for(500ms);  // its reference rests, too
+  type("step x_mm: 900\n");
+  if (!sees("error: step has no effect: it leads out of the reach of the legs")) complain_of("it was taken");
+}
+
 TEST_F(AttendedRun, TakesWhatIsTypedOnATerminal) {
   begin("square", Input::terminal);
   if (!sees("nominal; gate open")) return complain_of("it does not begin");
+  EXPECT_FALSE(run->echoes()) << "the line of state shows it";
+  type("hel");
+  EXPECT_TRUE(sees("> hel ")) << run->output();
+  type("\x15");
   type(
-      "resst\x7f\x7f"
-      "et\x1b[A\x1b[3~\r");
-  EXPECT_TRUE(sees("ordered:   reset\n")) << run->output();
+      "helo\x7f\x7f"
+      "lp\x1b[A\x1b[3~\x1bOA\r");
+  EXPECT_TRUE(sees("end      end the run")) << run->output();
   type(
-      "nonsense\x15"
-      "stop\r");
-  EXPECT_TRUE(sees("ordered:   stop\n")) << run->output();
-  EXPECT_TRUE(sees("gate closed: ")) << run->output();
+      "step x_mm: \xe2\x88\x92"
+      "5\r");  // a minus that is none
+  EXPECT_TRUE(sees("error: 'step x_mm: ' is followed by a letter that no order has")) << run->output();
   type(
-      "\x1a"
-      "hello\r");
+      "\x13\x1a\x1c"
+      "\x15"
+      "hello\r");  // keys that would stop, suspend or kill another program
   EXPECT_TRUE(sees("error: 'hello' is no order; did you mean 'help'?")) << run->output();
   type(std::string(300, 'x') + "\r");
   EXPECT_TRUE(sees("error: an order has at most 200 letters")) << run->output();
-  type("help\r");
-  EXPECT_TRUE(sees("end      end the run")) << run->output();
+  type("\x1bstop\r");  // Esc, in alarm
+  EXPECT_TRUE(sees("ordered:   stop")) << run->output();
+  EXPECT_TRUE(sees("gate closed: ")) << run->output();
   type("\x04");
+  EXPECT_TRUE(sees("ended:     the end of the input")) << run->output();
   EXPECT_TRUE(run->wait(20s)) << run->output();
+  EXPECT_TRUE(run->echoes()) << "the terminal is left as it was";
+}
+
+TEST_F(AttendedRun, EndsInOrderByCtrlC) {
+  begin("square", Input::terminal);
+  if (!sees("nominal; gate open")) return complain_of("it does not begin");
+  type("\x03");
+  EXPECT_EQ(run->wait(20s), 3) << run->output();
+  EXPECT_TRUE(run->echoes());
 }
 
 TEST_F(AttendedRun, DoesWhatItCanWithWhatIsNoOrder) {

@@ -36,7 +36,7 @@ TEST(ControlThread, TakesNoMemoryAndNoLockAndNeverCallsTheBus) {
                     .realtime_priority = priority});
   DdsStation station(bus, *experiment.diagram, experiment.station,
                      {.robot = robot_hash(scenario.robot_text), .realtime_priority = priority});
-  OperatorPanel panel(experiment, station, no_interrupts);
+  OperatorPanel panel(experiment, scenario.control, station, no_interrupts);
   Ros2Publisher ros2(bus, *experiment.diagram,
                      {.joint_motion = experiment.control.joint_motion,
                       .drive_torque = experiment.control.drive_torque,
@@ -61,10 +61,16 @@ TEST(ControlThread, TakesNoMemoryAndNoLockAndNeverCallsTheBus) {
   runner.feed_timing(experiment.tick_timing);
   Context context = experiment.diagram->make_context();
   bool opened = false;
-  const PlatformVector no_step = PlatformVector::Zero(scenario.robot.robot->dof());
+  const PlatformVector step = PlatformVector::Constant(scenario.robot.robot->dof(), 1e-3);
   const std::function<bool()> enabled = [&] { return station.link().enabled; };
   const std::function<bool()> watch_the_gate = [&] {
-    opened |= context.get(experiment.control.gate).phase == GatePhase::open;
+    const bool is_open = context.get(experiment.control.gate).phase == GatePhase::open;
+    if (is_open && !opened) {  // a step is planned in the loop; the queue is of this thread here
+      panel.orders().give(
+          {.buttons = {}, .target = {.kind = TargetCommand::Kind::step, .pose = {}, .step = step}});
+      panel.orders().give({.buttons = {.reset = true}, .target = {}});
+    }
+    opened |= is_open;
     return false;
   };
   const RealtimeThread thread{RealtimeSettings()};
@@ -74,8 +80,6 @@ TEST(ControlThread, TakesNoMemoryAndNoLockAndNeverCallsTheBus) {
   for (int attempt = 0; attempt < 5 && !opened; ++attempt) {  // a busy machine may let the robot give us up
     station.request({.state = DriveWish::State::operation_enabled, .engage_brake = false});
     panel.release_stop();
-    panel.give({.buttons = {.reset = true}, .target = {}});
-    panel.give({.buttons = {}, .target = {.kind = TargetCommand::Kind::step, .pose = {}, .step = no_step}});
     const std::int64_t calls = test::dds_calls(), locks = test::locks(), allocations = test::allocations();
     runner.run(context, context.time() + 10s, enabled);
     runner.run(context, context.time() + 600ms, watch_the_gate);
