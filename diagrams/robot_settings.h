@@ -14,7 +14,7 @@ namespace flinch {
 ///   below which speed a drive counts as at rest: 1/160 of the largest;
 ///   damping of the controlled stop: the least inertia that a drive feels at home, in 29 ms, [PAR]; after a
 ///   hard contact from a quarter of the largest speed on, less below;
-///   gains of the velocity level: that inertia times 106 1/s, and times 1.8 1/s.
+///   gains of the velocity level: that inertia times 106 1/s, and times 1.76 1/s.
 ContactControlSettings settings_for(const ParallelRobot& robot, const DriveParameters& drives,
                                     const WorkspaceLimits& limits);
 

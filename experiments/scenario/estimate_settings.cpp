@@ -1,6 +1,8 @@
 #include "experiments/scenario/estimate_settings.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
 #include <string>
 
 #include "experiments/scenario/scenario.h"
@@ -8,12 +10,26 @@
 namespace flinch {
 namespace {
 
-/// "control.", the names of stages that run, each with a dot, and single keys.
-std::vector<std::string> beginnings(const ControlStages& stages) {
-  std::vector<std::string> all{"control.drive_torque.aligned_with_velocity", "control.follow.velocity"};
-  for (const auto& names :
-       {names_of(stages.velocities), names_of(stages.accelerations), names_of(stages.estimators)}) {
-    for (const std::string& name : names) all.push_back("control." + name + ".");
+/// Sections that estimators read besides the one of their own name: of the filter that each makes for itself
+/// where it does not run, and of the observer to which it falls back.
+const std::map<std::string, std::vector<std::string>> other_sections = {
+    {"direct_method", {"momentum_observer"}},
+    {"direct_imu_ekf", {"imu_ekf", "momentum_observer"}},
+    {"direct_extended_imu_ekf", {"extended_imu_ekf", "momentum_observer"}},
+    {"imu_residual", {"momentum_observer"}}};
+
+/// Of the keys that count: sections, each with a dot, and single keys.
+std::set<std::string> beginnings(const ControlStages& stages) {
+  std::set<std::string> all{"control.drive_torque.aligned_with_velocity", "control.follow.velocity",
+                            "control.follow.acceleration"};
+  const std::vector<std::string> estimators = names_of(stages.estimators);
+  for (const auto& names : {names_of(stages.velocities), names_of(stages.accelerations), estimators}) {
+    for (const std::string& name : names) all.insert("control." + name + ".");
+  }
+  for (const std::string& name : estimators) {
+    const auto others = other_sections.find(name);
+    if (others == other_sections.end()) continue;
+    for (const std::string& section : others->second) all.insert("control." + section + ".");
   }
   return all;
 }
@@ -21,7 +37,7 @@ std::vector<std::string> beginnings(const ControlStages& stages) {
 }  // namespace
 
 std::vector<ReadValue> estimate_settings(const Scenario& scenario) {
-  const std::vector<std::string> begin = beginnings(scenario.control.stages);
+  const std::set<std::string> begin = beginnings(scenario.control.stages);
   std::vector<ReadValue> settings;
   for (const ReadValue& value : scenario.values) {
     const bool counts = std::any_of(begin.begin(), begin.end(),

@@ -86,10 +86,13 @@ class RecordedValues {
   }
 
   void load(std::size_t sample) const {
-    first_ = sample / Recording::block * Recording::block;
-    count_ = std::min(Recording::block, size() - first_);
+    const std::size_t first = sample / Recording::block * Recording::block;
+    const std::size_t count = std::min(Recording::block, size() - first);
+    count_ = 0;  // until they are there
     rows_.reset();
-    rows_ = recording_->source->shared(signal_->path, first_, count_, signal_->layout.numbers);
+    rows_ = recording_->shared_rows(*signal_, first, count);
+    first_ = first;
+    count_ = count;
   }
 
   const Recording* recording_;

@@ -76,6 +76,12 @@ void Recording::read_rows(const Signal& signal, std::size_t first, std::size_t c
   }
 }
 
+std::shared_ptr<const RowSource::Rows> Recording::shared_rows(const Signal& signal, std::size_t first,
+                                                              std::size_t count) const {
+  if (source == nullptr) throw SetupError("the signal '" + signal.path + "' has no samples");
+  return source->shared(signal.path, first, count, signal.layout.numbers);
+}
+
 std::vector<double> Recording::column(const std::string& path, const std::string& field, int element) const {
   const Signal& found = signal(path);
   const FieldPlace place = place_of(found, field);

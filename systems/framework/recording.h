@@ -73,6 +73,10 @@ struct Recording {
 
   /// Copies `count` rows of `signal`, from sample `first` on, to `rows`, wherever they lie.
   void read_rows(const Signal& signal, std::size_t first, std::size_t count, internal::Number* rows) const;
+  /// The same of a signal whose rows lie in the source, shared as it says. Throws SetupError where there is
+  /// none.
+  std::shared_ptr<const RowSource::Rows> shared_rows(const Signal& signal, std::size_t first,
+                                                     std::size_t count) const;
 
   /// Column `element` of `field` ("joints.active") of the port `path`, as real numbers; NaN where it was
   /// shorter.

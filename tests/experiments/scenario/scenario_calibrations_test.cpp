@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "experiments/scenario/estimate_settings.h"
 #include "experiments/scenario/scenario.h"
 #include "tests/support/problems_of.h"
@@ -122,6 +124,27 @@ TEST_F(Calibrations, ThatRestOnOtherSettingsOfAnEstimatorThatRunsAreDoubted) {
       IsEmpty())
       << "neither has an estimate that rests on it";
   EXPECT_THAT(read(file, "{estimators: [disturbance_filter]}").doubts, IsEmpty()) << "it runs no more";
+}
+
+TEST_F(Calibrations, RestOnWhatAnEstimatorBringsThatRunsNowhereElse) {
+  const auto keys = [&](const std::string& estimator) {
+    std::set<std::string> sections;
+    for (const ReadValue& setting :
+         estimate_settings(read(made(), "{estimators: [" + estimator + "], accelerations: [imu_ekf]}"))) {
+      const std::string key = setting.key.substr(std::string("control.").size());
+      sections.insert(key.substr(0, key.find('.')));
+    }
+    return sections;
+  };
+  const std::set<std::string> always{"drive_torque", "follow", "velocity_filter", "imu_ekf"};
+  const auto with = [&](std::set<std::string> more) {
+    more.insert(always.begin(), always.end());
+    return more;
+  };
+  EXPECT_EQ(keys("momentum_observer"), with({"momentum_observer"}));
+  EXPECT_EQ(keys("direct_method"), with({"momentum_observer"}));
+  EXPECT_EQ(keys("direct_extended_imu_ekf"), with({"extended_imu_ekf", "momentum_observer"}));
+  EXPECT_EQ(keys("imu_residual"), with({"imu_residual", "momentum_observer"}));
 }
 
 TEST_F(Calibrations, ThatRestOnOtherTorqueConstantsAreDoubted) {
