@@ -247,17 +247,20 @@ TEST(Campaign, ThatVariesFilesOfWhichOneIsNoGoodIsRefusedAtOnce) {
   const test::Workplace place;
   test::small_campaign(place);
   const std::filesystem::path file = place / "campaigns/small.yaml";
-  place.replace("calibrations/mismatched_thresholds.yaml", "by_estimator", "by_estimatr");
+  const std::string thresholds = "calibrations/mismatched_thresholds.yaml";
+  place.replace(thresholds, "by_estimator", "by_estimatr");
+  const std::string refused =
+      "mismatched_thresholds.yaml:" + std::to_string(place.line_of(thresholds, "by_estimatr")) +
+      ": control.contact_detector.by_estimatr";
   EXPECT_THAT(
       problems_of(file, {.set = {"calibrations=[{file: ../calibrations/bench_thresholds.yaml}],[{file: "
                                  "../calibrations/mismatched_thresholds.yaml}],[{file: gone.yaml}]"}}),
-      ElementsAre(HasSubstr("mismatched_thresholds.yaml:43: control.contact_detector.by_estimatr"),
-                  HasSubstr("calibrations[0].file: is 'gone.yaml': no such file")));
+      ElementsAre(HasSubstr(refused), HasSubstr("calibrations[0].file: is 'gone.yaml': no such file")));
   const std::string robot = test::bytes_of(place / "robots/planar_3rrr.yaml");
   place.write("robots/calibrated.yaml",
               robot + "\ncalibrations: [{file: ../calibrations/mismatched_thresholds.yaml}]\n");
   EXPECT_THAT(problems_of(file, {.set = {"robot=../robots/planar_3rrr.yaml,../robots/calibrated.yaml"}}),
-              ElementsAre(HasSubstr("mismatched_thresholds.yaml:43: control.contact_detector.by_estimatr")));
+              ElementsAre(HasSubstr(refused)));
   EXPECT_THAT(problems_of(file, {.set = {"robot=../robots/planar_3rrr.yaml,../robots/gone.yaml"}}),
               ElementsAre(HasSubstr("robot: is '../robots/gone.yaml': no such file")));
 }

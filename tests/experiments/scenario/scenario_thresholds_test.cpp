@@ -196,7 +196,7 @@ TEST_F(CalibratedThresholds, MayBeOnesForEachComponent) {
                             "must be a list of 2 numbers")));
   EXPECT_THAT(
       test::problems_of([&] { read("{contact_detector: {reaction_force_N: [8, 90]}}"); }),
-      ElementsAre(HasSubstr("hard_force_N: is 60 N; it must be at least reaction_force, which is 90 N")));
+      ElementsAre(HasSubstr("hard_force: is 60 N; it must be at least reaction_force, which is 90 N")));
 }
 
 TEST_F(CalibratedThresholds, AreCheckedWithoutARobot) {
