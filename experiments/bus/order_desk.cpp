@@ -1,8 +1,11 @@
 #include "experiments/bus/order_desk.h"
 
+#include <utility>
+
 #include "diagrams/contact_control_settings.h"
 
 namespace flinch {
+
 const char* sentence(Refusal refusal) noexcept {
   switch (refusal) {
     case Refusal::moves:
@@ -51,34 +54,42 @@ Refusal OrderDesk::objection(const OperatorOrder& order) const {
   return is_too_fast ? Refusal::too_fast : Refusal::none;
 }
 
-OperatorCommand OrderDesk::follow(Context& context) {
-  OperatorOrder order;
-  steps_ = false;
-  if (stop_.exchange(false, std::memory_order_relaxed)) {
-    is_stopped_ = true;
-    reset_is_next_ = false;
-    while (orders_.pop(order)) refuse(Refusal::overtaken);
-    order = {};
-  }
-  resets_ = reset_is_next_;
+void OrderDesk::stop() noexcept {
+  is_stopped_ = true;
   reset_is_next_ = false;
-  follows_ = resets_ || (!follows_ && orders_.pop(order));
-  if (resets_) {
+  OperatorOrder waiting;
+  while (orders_.pop(waiting)) refuse(Refusal::overtaken);
+}
+
+OperatorOrder OrderDesk::next() {
+  OperatorOrder order;
+  if (std::exchange(reset_is_next_, false)) {
+    follows_ = true;
     order.buttons.reset = true;
-  } else if (follows_) {
-    const Refusal why = objection(order);
-    if (why != Refusal::none) {
-      refuse(why);
-      order = {};
-    } else if (order.buttons.reset && is_stopped_) {
-      is_stopped_ = false;
-      reset_is_next_ = true;
-      order = {};
-    }
-    resets_ = order.buttons.reset;
+    return order;
   }
-  if (order.target.kind != TargetCommand::Kind::none) {
-    steps_ = order.target.kind == TargetCommand::Kind::step && order.target.step.norm() > 0.0;
+  follows_ = !follows_ && orders_.pop(order);
+  if (!follows_) return {};
+  const Refusal why = objection(order);
+  if (why != Refusal::none) {
+    refuse(why);
+    return {};
+  }
+  if (order.buttons.reset && is_stopped_) {
+    is_stopped_ = false;
+    reset_is_next_ = true;
+    return {};
+  }
+  return order;
+}
+
+OperatorCommand OrderDesk::follow(Context& context) {
+  if (stop_.exchange(false, std::memory_order_relaxed)) stop();
+  OperatorOrder order = next();
+  resets_ = order.buttons.reset;
+  const TargetCommand::Kind kind = order.target.kind;
+  steps_ = kind == TargetCommand::Kind::step && order.target.step.norm() > 0.0;
+  if (kind != TargetCommand::Kind::none) {
     order.target.number = context[target_].number + 1;
     context[target_] = order.target;
   }

@@ -58,6 +58,10 @@ class OrderDesk {
  private:
   void refuse(Refusal why) noexcept { refusals_ = {refusals_.count + 1, why}; }
   Refusal objection(const OperatorOrder& order) const;
+  /// From now on, and nothing that waits.
+  void stop() noexcept;
+  /// What this tick follows; nothing in a tick in which all buttons are up.
+  OperatorOrder next();
 
   Slot<TargetCommand> target_;
   Slot<JointMotion> joints_;

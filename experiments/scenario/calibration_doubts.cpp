@@ -88,6 +88,12 @@ std::vector<std::string> replaced(const std::vector<ParameterFile>& files) {
   return sentences;
 }
 
+std::string rests_on(const ParameterFile& file, const std::string& name, const std::string& what,
+                     const std::string& noted, const std::string& used) {
+  return name + ": rests on " + what + " = " + noted + ", and " + used + " is used; calibrate '" + file.kind +
+         "' again";
+}
+
 /// Of torque constants that are no longer used.
 std::vector<std::string> assumed_otherwise(const ParameterFile& file, const std::string& name,
                                            const Scenario& scenario) {
@@ -97,9 +103,8 @@ std::vector<std::string> assumed_otherwise(const ParameterFile& file, const std:
     for (int i = 0; i < static_cast<int>(constant.size()); ++i) {
       const bool differs = std::abs(constant[i] / assumed.value - 1.0) > telling_change;
       if (assumed.name != drive_constant_key(*scenario.robot.robot, i) || !differs) continue;
-      sentences.push_back(name + ": rests on " + assumed.name + " = " + std::to_string(assumed.value) +
-                          ", and " + std::to_string(constant[i]) + " is used; calibrate '" + file.kind +
-                          "' again");
+      sentences.push_back(
+          rests_on(file, name, assumed.name, std::to_string(assumed.value), std::to_string(constant[i])));
     }
   }
   return sentences;
@@ -109,13 +114,12 @@ std::vector<std::string> assumed_otherwise(const ParameterFile& file, const std:
 std::vector<std::string> set_otherwise(const ParameterFile& file, const std::string& name,
                                        const std::vector<ReadValue>& settings) {
   std::vector<std::string> sentences;
-  for (const ReadValue& rests_on : file.settings) {
+  for (const ReadValue& noted : file.settings) {
     const auto used = std::find_if(settings.begin(), settings.end(),
-                                   [&](const ReadValue& setting) { return setting.key == rests_on.key; });
-    if (used == settings.end() || used->value == rests_on.value) continue;
-    const std::string unit = rests_on.unit.empty() ? "" : " " + rests_on.unit;
-    sentences.push_back(name + ": rests on " + rests_on.key + " = " + rests_on.value + unit + ", and " +
-                        used->value + unit + " is used; calibrate '" + file.kind + "' again");
+                                   [&](const ReadValue& setting) { return setting.key == noted.key; });
+    if (used == settings.end() || used->value == noted.value) continue;
+    const std::string unit = noted.unit.empty() ? "" : " " + noted.unit;
+    sentences.push_back(rests_on(file, name, noted.key, noted.value + unit, used->value + unit));
   }
   return sentences;
 }

@@ -25,17 +25,17 @@ void check_hard(ConfigReader& detector, const std::string& quantity, double hard
 
 /// One threshold for all components, or a list with one for each of `components`.
 void read_bounds(ConfigReader& reader, const std::string& name, const Unit& unit,
-                 std::optional<std::size_t> components, ComponentBounds& bounds) {
-  std::vector<double> values = bounds.values();
-  reader.one_or_numbers(name, unit, values, components, positive);
-  bounds = ComponentBounds(values);
-}
-
-void read_bounds(ConfigReader& reader, const std::string& name, const Unit& unit,
                  std::optional<std::size_t> components, std::optional<ComponentBounds>& bounds) {
   std::vector<double> values = bounds ? bounds->values() : std::vector<double>();
   reader.one_or_numbers(name, unit, values, components, positive);
   if (!values.empty()) bounds = ComponentBounds(values);
+}
+
+void read_bounds(ConfigReader& reader, const std::string& name, const Unit& unit,
+                 std::optional<std::size_t> components, ComponentBounds& bounds) {
+  std::optional<ComponentBounds> read = bounds;
+  read_bounds(reader, name, unit, components, read);
+  bounds = *read;
 }
 
 std::optional<std::size_t> count(const ConfigurationSpace* space, int (ConfigurationSpace::*of)() const) {

@@ -4,7 +4,6 @@
 #include <termios.h>
 
 #include <array>
-
 #include <mutex>
 #include <optional>
 #include <string>
