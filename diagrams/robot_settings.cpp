@@ -43,8 +43,10 @@ ContactControlSettings settings_for(const ParallelRobot& robot, const DriveParam
   const double inertia = least_inertia(robot);
   ContactControlSettings settings;
   know_drives(drives, settings.drive_torque);
+  settings.sequence.rest_speed = drives.max_speed / 160.0;
   settings.faults.workspace = limits;
   settings.faults.max_joint_speed = drives.max_speed;
+  settings.faults.rest_speed = settings.sequence.rest_speed;
   settings.faults.max_encoder_rate = drives.max_encoder_rate;
   settings.faults.max_control_error = drives.max_control_error;
   settings.faults.max_unseen_motion = drives.max_unseen_motion;
@@ -54,7 +56,6 @@ ContactControlSettings settings_for(const ParallelRobot& robot, const DriveParam
   settings.plausibility = plausibility_for(drives, inertia);
   settings.torque_gate.max_torque = drives.max_torque;
   settings.torque_gate.max_torque_rate = drives.max_torque_rate;
-  settings.sequence.rest_speed = drives.max_speed / 160.0;
   settings.fused_detector.tracking.resting_rate = settings.sequence.rest_speed;
   settings.controlled_stop.damping = inertia / stopping_time;
   settings.modes.max_torque_rate = drives.max_torque_rate;

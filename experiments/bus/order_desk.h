@@ -36,8 +36,7 @@ const char* sentence(Refusal refusal) noexcept;
 /// Hands an operator's orders to the loop, one a tick with a tick between them in which all buttons are up.
 /// - A stop takes effect at the next tick, whatever waits, which is refused; its button stays down until a
 ///   reset, so that a gate that has not opened yet does not open.
-/// - A reset counts only while the robot rests: one that comes during a controlled stop would end it.
-/// - A start or target that would have no effect is refused, not kept.
+/// - A reset, start or target that would have no effect is refused, not kept.
 class OrderDesk {
  public:
   OrderDesk(const LiveExperiment& experiment, const ContactControlSettings& control);

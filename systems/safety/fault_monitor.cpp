@@ -78,7 +78,8 @@ FaultReport FaultMonitor::judge(Time now, const FaultMonitorMemory& memory, cons
                           .has_command = is_usable(memory.command, *robot_)};
   return {.valid = true,
           .present = find_faults(evidence),
-          .tolerable = tolerable_faults(memory.recovery, limits_.recovery_margin)};
+          .tolerable = tolerable_faults(memory.recovery, limits_.recovery_margin),
+          .at_rest = evidence.has_motion && (rates.velocity.array().abs() < limits_.rest_speed).all()};
 }
 
 }  // namespace flinch

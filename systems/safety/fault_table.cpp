@@ -242,6 +242,7 @@ std::vector<std::string> problems(const FaultLimits& limits, const ParallelRobot
   found.require(limits.longest_gap >= Time::zero(), "longest_gap must not be negative");
   found.require(limits.max_age >= Time::zero(), "max_age must not be negative");
   found.require(limits.max_joint_speed > 0, "max_joint_speed must be positive");
+  found.require(limits.rest_speed > 0, "rest_speed must be positive");
   found.require(limits.max_control_error > 0, "max_control_error must be positive");
   found.require(limits.max_torque_jump > 0, "max_torque_jump must be positive");
   found.require(limits.torque_range > 0, "torque_range must be positive");

@@ -54,7 +54,8 @@ struct FaultLimits {
                             .min_active = -35.0 * std::numbers::pi / 180.0,
                             .max_active = 150.0 * std::numbers::pi / 180.0};  ///< [PAR]
   double max_joint_speed = 8.0;                                               ///< of a drive [rad/s]
-  double max_control_error = 25.0 * std::numbers::pi / 180.0;                 ///< of a drive [rad]. [PAR]
+  double rest_speed = 0.05;                                    ///< below it a drive counts as at rest [rad/s]
+  double max_control_error = 25.0 * std::numbers::pi / 180.0;  ///< of a drive [rad]. [PAR]
   double max_torque_jump = 40.0;  ///< from tick to tick, both within the torque range [Nm]
   double torque_range = 100.0;    ///< what lies outside counts as its end [Nm]
 

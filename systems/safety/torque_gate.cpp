@@ -58,7 +58,7 @@ TorqueGate::TorqueGate(const TorqueGateSettings& settings) : settings_(settings)
 void TorqueGate::decide(Time now, const Decision& last, const FaultReport& report, const TorqueCommand& asked,
                         const TorqueCommand& stopping, const ResetCommand& button, Decision& decision) const {
   const FaultReport found = checked(report, asked);
-  decision.status = advance(now, last, found, usable(stopping), button.reset);
+  decision.status = advance(now, last, found, usable(stopping), button.reset && found.at_rest);
   const bool recovers = decision.status.phase == GatePhase::recovering;
   const bool begins = recovers && last.status.phase != GatePhase::recovering;
   decision.faulty = begins || found.present != 0 ? now : last.faulty;

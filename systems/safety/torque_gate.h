@@ -21,8 +21,9 @@ struct TorqueGateSettings {
 ///
 /// It is closed, with no torque and the brakes on, until a tick without any fault. Then it lets the laws'
 /// torques through. At a fault it closes in the same tick and stays closed: it does what the worst of all
-/// faults since asks for, and opens again only when the operator resets at a tick without faults. Should the
-/// controlled stop have no valid torques, it falls back to no torque and brakes, and stays there.
+/// faults since asks for, and opens again only when the operator resets at a tick without faults at which the
+/// robot rests: a law that took over a robot in motion would have to stop it once more. Should the controlled
+/// stop have no valid torques, it falls back to no torque and brakes, and stays there.
 ///
 /// Where the robot stands beyond a limit no tick is without faults. There the operator's reset, also at the
 /// start of a run, begins a recovery: the gate lets the laws' torques through, reduced, as long as no other

@@ -60,6 +60,7 @@ struct FaultReport {
   bool valid = false;       ///< they have been looked for
   FaultMask present = 0;    ///< set of GateFault
   FaultMask tolerable = 0;  ///< those that, if present, a recovery bears now
+  bool at_rest = false;     ///< no drive moves, as far as its rate is known
 
   bool none() const { return valid && present == 0; }
   FaultMask intolerable() const { return present & ~tolerable; }
@@ -69,6 +70,7 @@ struct FaultReport {
     visit("valid", "", self.valid);
     visit("present", "", self.present);
     visit("tolerable", "", self.tolerable);
+    visit("at_rest", "", self.at_rest);
   }
 };
 

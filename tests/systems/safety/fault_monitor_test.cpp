@@ -76,6 +76,24 @@ TEST(FaultMonitor, JudgesJumpsWithinTheTorqueRange) {
   EXPECT_EQ(ask(-500.0), fault_bit(GateFault::torque_jump));
 }
 
+TEST(FaultMonitor, SaysThatTheRobotRestsOnlyWhereTheRatesSaySo) {
+  const double rest_speed = FaultLimits().rest_speed;
+  Safety safety;
+  const auto rests = [&safety](double rate, bool valid) {
+    Inputs inputs(*safety.robot, safety.ticking.now());
+    inputs.posture.motion.velocity[1] = rate;
+    inputs.posture.motion.valid = valid;
+    safety.tick(inputs);
+    return safety.ticking.get(safety.monitor.faults).at_rest;
+  };
+  EXPECT_TRUE(rests(0.0, true));
+  EXPECT_TRUE(rests(-0.9 * rest_speed, true));
+  EXPECT_FALSE(rests(1.1 * rest_speed, true));
+  EXPECT_FALSE(rests(-1.1 * rest_speed, true));
+  EXPECT_FALSE(rests(nan, true));
+  EXPECT_FALSE(rests(0.0, false)) << "what is not known is no rest";
+}
+
 /// No input that is not a number may pass unnoticed where it matters, and none may reach the station.
 TEST(FaultMonitor, FindsEveryNumberThatIsNone) {
   const std::vector<std::function<double&(Inputs&)>> numbers{
@@ -119,10 +137,11 @@ TEST(FaultLimits, MustNotExcludeTheRobotAtHome) {
 TEST(FaultLimits, NameEverythingThatIsWrongWithThem) {
   FaultLimits limits;
   limits.max_joint_speed = 0.0;
+  limits.rest_speed = nan;
   limits.max_control_error = nan;
   limits.max_torque_jump = -1.0;
   limits.longest_gap = -1ms;
-  EXPECT_EQ(problems(limits, *test::planar_bench()).size(), 4U);
+  EXPECT_EQ(problems(limits, *test::planar_bench()).size(), 5U);
   EXPECT_TRUE(problems(FaultLimits(), *test::planar_bench()).empty());
 }
 

@@ -36,7 +36,7 @@ struct Gate {
 
   /// One tick with these faults present.
   const GateStatus& tick(FaultMask present, bool reset_now = false) {
-    ticking.set(faults, {.valid = true, .present = present, .tolerable = tolerable});
+    ticking.set(faults, {.valid = true, .present = present, .tolerable = tolerable, .at_rest = at_rest});
     ticking.set(reset, {.reset = reset_now});
     ticking.tick();
     return status();
@@ -46,6 +46,7 @@ struct Gate {
   bool brakes() const { return ticking.get(block.brake).engage; }
 
   FaultMask tolerable = 0;
+  bool at_rest = true;
   DiagramBuilder builder;
   TorqueGate& block;
   InputPort<FaultReport> faults;
@@ -131,6 +132,28 @@ TEST(TorqueGate, OpensAgainOnlyByResetAtATickWithoutFaults) {
   EXPECT_EQ(gate.status().faults, none);
   EXPECT_TRUE(gate.torque().valid);
   EXPECT_FALSE(gate.brakes());
+}
+
+TEST(TorqueGate, HeedsNoResetWhileTheRobotMoves) {
+  for (const FaultMask left : {none, stopping}) {
+    Gate gate;
+    gate.tick(none);
+    gate.tick(stopping);
+    gate.tolerable = left;
+    gate.at_rest = false;
+    EXPECT_EQ(gate.tick(left, true).phase, GatePhase::closed);
+    EXPECT_EQ(gate.torque().torque, Eigen::Vector3d(-1, -2, -3)) << "the controlled stop goes on";
+    gate.at_rest = true;
+    EXPECT_EQ(gate.tick(left).phase, GatePhase::closed) << "nor is it kept";
+    EXPECT_EQ(gate.tick(left, true).phase, left == none ? GatePhase::open : GatePhase::recovering);
+  }
+}
+
+TEST(TorqueGate, BeginsNoRecoveryOfARobotThatMovesAtTheStart) {
+  Gate gate;
+  gate.tolerable = stopping;
+  gate.at_rest = false;
+  EXPECT_EQ(gate.tick(stopping, true).phase, GatePhase::waiting);
 }
 
 TEST(TorqueGate, IsNotClosedByAReset) {
