@@ -66,11 +66,18 @@ std::string rows(const EstimatorThresholds& of, const ConfigurationSpace& space)
   return text;
 }
 
-/// As the value of a key: of all components, or of each.
-std::string value_of(const CalibratedThreshold& whole, const std::vector<CalibratedThreshold>& each) {
-  if (each.size() < 2) return fmt::format("{:.4g}", each.empty() ? whole.value : each.front().value);
+/// One for all components, or one of each.
+std::vector<double> values_of(const CalibratedThreshold& whole,
+                              const std::vector<CalibratedThreshold>& each) {
+  if (each.empty()) return {whole.value};
   std::vector<double> values;
   for (const CalibratedThreshold& of : each) values.push_back(of.value);
+  return values;
+}
+
+/// As the value of a key.
+std::string text_of(const std::vector<double>& values) {
+  if (values.size() == 1) return fmt::format("{:.4g}", values.front());
   return fmt::format("[{:.4g}]", fmt::join(values, ", "));
 }
 
@@ -301,6 +308,15 @@ std::vector<std::string> warnings(const ThresholdFindings& found) {
   return all;
 }
 
+std::vector<double> force_values(const EstimatorThresholds& of, const ConfigurationSpace& space) {
+  return values_of(of.force, part(of, space, true));
+}
+
+std::vector<double> moment_values(const EstimatorThresholds& of, const ConfigurationSpace& space) {
+  if (!(of.moment.value > 0.0)) return {};
+  return values_of(of.moment, part(of, space, false));
+}
+
 std::string thresholds_table(const ThresholdFindings& found) {
   const ThresholdGoal& goal = found.goal;
   std::string text = promise(found, "") + "\n";
@@ -360,9 +376,9 @@ std::string thresholds_yaml(const ThresholdFindings& found, const std::string& d
       parameter_file_text(file) + provenance(found) + "control:\n  contact_detector:\n    by_estimator:\n";
   for (const EstimatorThresholds& of : found.estimators) {
     text += "      - {estimator: " + of.estimator +
-            ", reaction_force_N: " + value_of(of.force, part(of, found.space, true));
-    if (of.moment.value > 0.0)
-      text += ", reaction_moment_Nm: " + value_of(of.moment, part(of, found.space, false));
+            ", reaction_force_N: " + text_of(force_values(of, found.space));
+    const std::vector<double> moment = moment_values(of, found.space);
+    if (!moment.empty()) text += ", reaction_moment_Nm: " + text_of(moment);
     text += "}\n";
   }
   if (!found.residuals.empty()) text += residuals_yaml(found);

@@ -35,6 +35,11 @@ void note_settings(const std::vector<Scenario>& scenarios, ThresholdFindings& fo
 /// What is wrong with the recordings and what to do about it, one sentence each.
 std::vector<std::string> warnings(const ThresholdFindings& found);
 
+/// Thresholds of force [N] and of moment [Nm], none for a robot that does not turn: one for all components,
+/// or one of each where that was asked.
+std::vector<double> force_values(const EstimatorThresholds& of, const ConfigurationSpace& space);
+std::vector<double> moment_values(const EstimatorThresholds& of, const ConfigurationSpace& space);
+
 /// As a table for people; as one JSON object on one line, to which later versions add keys and rename none;
 /// and as a parameter file with the sections `contact_detector` and `fused_detector` of `control`, with what
 /// they come from above: made on `date`, "2026-11-22".

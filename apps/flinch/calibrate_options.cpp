@@ -4,6 +4,11 @@
 namespace flinch {
 namespace {
 
+constexpr const char* by_component =
+    "A threshold for each component of force and moment, which share the alarms; otherwise one for all of "
+    "the "
+    "force and one for all of the moment";
+
 /// Adds a calibration from recordings, with what all of them understand.
 CLI::App& add_calibration(CLI::App& calibrate, Verbs& verbs, const char* kind, const char* help,
                           const char* example, const char* recordings, CalibrateOptions& options,
@@ -55,6 +60,7 @@ void add_fits(CLI::App& calibrate, Verbs& verbs) {
   verb.add_option("--rate", all.rate, "False alarms an hour, of each estimator, for thresholds [0.5]")
       ->check(within(1e-6, 1e6))
       ->type_name("N");
+  verb.add_flag("--by-component", all.by_component, by_component);
 }
 
 void add_thresholds(CLI::App& calibrate, Verbs& verbs) {
@@ -80,10 +86,7 @@ void add_thresholds(CLI::App& calibrate, Verbs& verbs) {
           "Of the papers' rule, a multiple of the largest value seen, which is told for comparison [2]")
       ->check(within(1.0, 100.0))
       ->type_name("K");
-  verb.add_flag(
-      "--by-component", options.by_component,
-      "A threshold for each component of force and moment, which share the alarms; otherwise one for "
-      "all of the force and one for all of the moment");
+  verb.add_flag("--by-component", options.by_component, by_component);
   verb.add_flag(
       "--one-robot", options.one_robot,
       "All recordings are of the robot that the thresholds shall serve; otherwise each counts as one of "

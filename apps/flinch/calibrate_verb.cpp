@@ -23,35 +23,51 @@ namespace {
 
 /// The recordings, and what those who made them knew of their robots.
 struct FreeMotions {
-  std::vector<Recording> recordings;
-  std::vector<Scenario> scenarios;
-  std::vector<std::vector<EstimatorPeaks>> peaks;
+  std::vector<std::filesystem::path> files;
+  std::vector<Recording> recordings{};
+  std::vector<Scenario> scenarios{};
 };
 
-/// Throws SetupError with all that is wrong with all of them.
-FreeMotions read_motions(const CalibrateThresholdsOptions& options, const ThresholdGoal& goal, bool quiet) {
-  FreeMotions read;
+/// Calls look(i) for each file and throws SetupError with all that was wrong with all of them.
+template <class Look>
+void look_at_all(const std::vector<std::filesystem::path>& files, Look&& look) {
   std::vector<std::string> problems;
-  Progress progress("reading recordings", quiet);
-  double done = 0.0;
-  for (const std::filesystem::path& file : options.recordings) {
+  for (std::size_t i = 0; i < files.size(); ++i) {
     try {
-      require_no_kind(file, "a recording");
-      Recording recording = open_recording(file);
-      tell_if_partial(recording, options.common);
-      Scenario scenario = scenario_of(recording, file);
-      require_run(recording, file);
-      read.peaks.push_back(out_of(
-          file, [&] { return contact_free_peaks(recording, scenario.robot.robot->space(), goal.stretch); }));
-      read.recordings.push_back(std::move(recording));
-      read.scenarios.push_back(std::move(scenario));
-      progress.show(++done / static_cast<double>(options.recordings.size()));
+      look(i);
     } catch (const SetupError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
   }
   throw_if_any(std::move(problems));
-  return read;
+}
+
+FreeMotions open_motions(const CalibrateThresholdsOptions& options) {
+  FreeMotions opened{.files = options.recordings};
+  look_at_all(opened.files, [&](std::size_t i) {
+    const std::filesystem::path& file = opened.files[i];
+    require_no_kind(file, "a recording");
+    Recording recording = open_recording(file);
+    tell_if_partial(recording, options.common);
+    Scenario scenario = scenario_of(recording, file);
+    require_run(recording, file);
+    opened.recordings.push_back(std::move(recording));
+    opened.scenarios.push_back(std::move(scenario));
+  });
+  return opened;
+}
+
+std::vector<EstimatorPeaks> peaks_of(const FreeMotions& motions, const ThresholdGoal& goal, bool quiet) {
+  std::vector<std::vector<EstimatorPeaks>> peaks;
+  Progress progress("reading recordings", quiet);
+  look_at_all(motions.files, [&](std::size_t i) {
+    peaks.push_back(out_of(motions.files[i], [&] {
+      return contact_free_peaks(motions.recordings[i], motions.scenarios[i].robot.robot->space(),
+                                goal.stretch);
+    }));
+    progress.show(static_cast<double>(i + 1) / static_cast<double>(motions.files.size()));
+  });
+  return pooled(peaks);
 }
 
 /// Of the estimators whose residuals a fused detector judges by, as far as they are recorded.
@@ -82,11 +98,11 @@ ExitStatus calibrate_thresholds(const CalibrateThresholdsOptions& options) {
   found.goal.by_component = options.by_component;
   found.goal.one_robot = options.one_robot;
   const bool quiet = options.common.quiet || options.common.json;
-  const FreeMotions motions = read_motions(options, found.goal, quiet);
+  const FreeMotions motions = open_motions(options);
   for (const std::filesystem::path& file : options.recordings) found.recordings.push_back(source_of(file));
   require_different(found.recordings);
   note_settings(motions.scenarios, found);
-  found.estimators = calibrate_thresholds(pooled(motions.peaks), found.goal);
+  found.estimators = calibrate_thresholds(peaks_of(motions, found.goal, quiet), found.goal);
   found.residuals = residuals_of(motions, found.goal, quiet);
   found.tracking = motions.scenarios.front().control.fused_detector.tracking;
   note_robot(motions.scenarios, found);

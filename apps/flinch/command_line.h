@@ -86,6 +86,7 @@ struct CalibrateAllOptions {
   std::filesystem::path folder;  ///< with recordings anywhere below it
   std::filesystem::path out;     ///< a folder; empty: calibration in that one
   double rate = 0.5;             ///< of false alarms [1/h]
+  bool by_component = false;     ///< a threshold for each component
 };
 
 struct ExciteOptions {

@@ -1,6 +1,7 @@
 // flinch calibrate all: every calibration that a folder of recordings allows, in the order in which they rest
 // on one another.
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -96,29 +97,30 @@ JointVector found_constants(const CalibrationResult& result, JointVector constan
 
 /// The thresholds that a control path with these calibrations needs, by playing the readings to it again.
 ThresholdFindings thresholds_with(const std::vector<OpenedRecording>& motion,
-                                  const std::vector<ParameterFile>& calibrations, double rate) {
-  ThresholdFindings found;
-  found.goal.false_alarms_per_hour = rate;
-  std::vector<std::vector<EstimatorPeaks>> peaks;
+                                  const std::vector<ParameterFile>& calibrations, const ThresholdGoal& goal) {
+  ThresholdFindings found{.goal = goal};
   std::vector<Scenario> played;
   for (const OpenedRecording& file : motion) {
-    Scenario scenario = file.scenario;
+    Scenario& scenario = played.emplace_back(file.scenario);
+    found.recordings.push_back(file.source);
     if (!calibrations.empty()) {
       scenario.calibrations = calibrations;
       scenario.robot = calibrated_robot(scenario);
       calibrate_control(calibrations, *scenario.robot.robot, scenario.control);
       know_drives(scenario.robot.drives, scenario.control.drive_torque);
     }
-    const Replay replayed = replay(scenario, read_recording(file.source.file));
-    peaks.push_back(out_of(file.source.file, [&] {
-      return contact_free_peaks(replayed.recording, scenario.robot.robot->space(), found.goal.stretch);
-    }));
-    found.recordings.push_back(file.source);
-    played.push_back(std::move(scenario));
   }
   for (const ParameterFile& file : calibrations) found.with.push_back(source_of(file.file));
   note_robot(played, found);
   note_settings(played, found);
+  std::vector<std::vector<EstimatorPeaks>> peaks;
+  for (std::size_t i = 0; i < played.size(); ++i) {
+    const std::string& file = found.recordings[i].file;
+    const Replay replayed = replay(played[i], read_recording(file));
+    peaks.push_back(out_of(file, [&] {
+      return contact_free_peaks(replayed.recording, played[i].robot.robot->space(), goal.stretch);
+    }));
+  }
   found.estimators = calibrate_thresholds(pooled(peaks), found.goal);
   return found;
 }
@@ -180,12 +182,10 @@ class All {
     std::string text;
     for (const CalibrationResult& result : results_)
       text += fmt::format("== {}\n{}\n", result.kind, calibration_table(result));
-    if (!after_.empty()) text += "== thresholds\n";
-    for (std::size_t i = 0; i < after_.size(); ++i) {
-      text += fmt::format("{:<28} {:.3g} N, {:.3g} Nm", after_[i].estimator, after_[i].force.value,
-                          after_[i].moment.value);
-      if (i < before_.size())
-        text += fmt::format("; before {:.3g} N, {:.3g} Nm", before_[i].force.value, before_[i].moment.value);
+    if (!after_.estimators.empty()) text += "== thresholds\n";
+    for (std::size_t i = 0; i < after_.estimators.size(); ++i) {
+      text += fmt::format("{:<28} {}", after_.estimators[i].estimator, text_of(after_, i));
+      if (i < before_.estimators.size()) text += "; before " + text_of(before_, i);
       text += "\n";
     }
     return text;
@@ -251,10 +251,10 @@ class All {
     const std::filesystem::path file = out_ / "thresholds.yaml";
     const auto after = possible_thresholds("thresholds: ", calibrations_);
     if (after) {
-      after_ = after->estimators;
+      after_ = *after;
       write_result(file, thresholds_yaml(*after, today()));
       const auto before = possible_thresholds("thresholds before the calibration: ", {});
-      if (before) before_ = before->estimators;
+      if (before) before_ = *before;
     } else if (std::filesystem::exists(file)) {
       warnings_.push_back(file.string() + ": is left as it was, of an earlier calibration; do not use it");
     }
@@ -264,19 +264,31 @@ class All {
   std::optional<ThresholdFindings> possible_thresholds(const std::string& what,
                                                        const std::vector<ParameterFile>& calibrations) {
     try {
-      return thresholds_with(files_.motion, calibrations, options_.rate);
+      return thresholds_with(files_.motion, calibrations,
+                             {.false_alarms_per_hour = options_.rate, .by_component = options_.by_component});
     } catch (const SetupError& error) {
       for (const std::string& problem : error.problems()) warnings_.push_back(what + problem);
       return std::nullopt;
     }
   }
 
-  static Json threshold_json(const std::vector<EstimatorThresholds>& thresholds) {
+  /// "12 N, 1.2 Nm"; by component "12, 13 N, 1.2 Nm".
+  static std::string text_of(const ThresholdFindings& found, std::size_t estimator) {
+    const EstimatorThresholds& of = found.estimators[estimator];
+    const std::vector<double> moment = moment_values(of, found.space);
+    const std::string force = fmt::format("{:.3g} N", fmt::join(force_values(of, found.space), ", "));
+    return moment.empty() ? force : fmt::format("{}, {:.3g} Nm", force, fmt::join(moment, ", "));
+  }
+
+  static Json threshold_json(const ThresholdFindings& found) {
     Json list = Json::array();
-    for (const EstimatorThresholds& of : thresholds) {
+    for (const EstimatorThresholds& of : found.estimators) {
       list.push_back({{"estimator", of.estimator},
                       {"force_N", of.force.value},
                       {"moment_Nm", of.moment.value > 0.0 ? Json(of.moment.value) : Json(nullptr)}});
+      if (of.components.empty()) continue;
+      list.back()["force_by_component_N"] = force_values(of, found.space);
+      list.back()["moment_by_component_Nm"] = moment_values(of, found.space);
     }
     return list;
   }
@@ -288,7 +300,7 @@ class All {
   JointVector constant_;
   std::vector<CalibrationResult> results_;
   std::vector<ParameterFile> calibrations_;
-  std::vector<EstimatorThresholds> before_, after_;
+  ThresholdFindings before_, after_;
 };
 
 }  // namespace
