@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <memory>
+#include <numeric>
 #include <optional>
 
 #include "experiments/campaign/campaign.h"
@@ -262,6 +264,26 @@ std::vector<std::string> of_run(const CampaignRun& run, const std::vector<std::s
   return result;
 }
 
+/// Points of the grid that have, between them, every value of each axis with every scenario.
+std::vector<std::size_t> points_of_all_values(const Campaign& campaign) {
+  std::size_t stride = campaign.scenarios.size();
+  std::vector<std::size_t> points(stride);
+  std::iota(points.begin(), points.end(), 0);
+  for (const CampaignAxis& axis : campaign.grid) {
+    for (std::size_t value = 1; value < axis.values.size(); ++value) {
+      for (std::size_t scenario = 0; scenario < campaign.scenarios.size(); ++scenario)
+        points.push_back(scenario + value * stride);
+    }
+    stride *= axis.values.size();
+  }
+  return points;
+}
+
+void append_new(const auto& more, auto& all) {
+  std::copy_if(more.begin(), more.end(), std::back_inserter(all),
+               [&all](const auto& each) { return std::find(all.begin(), all.end(), each) == all.end(); });
+}
+
 /// Whether the campaign varies calibrations, and leaves the threshold that they replace to the scenario.
 bool is_meant(const Campaign& campaign, const CalibrationDoubt& doubt) {
   const auto varies = [&campaign](const std::string& key) {
@@ -306,21 +328,19 @@ CampaignRun draw_run(const Campaign& campaign, std::size_t number, int most_atte
 std::vector<CalibrationDoubt> check_keys(const Campaign& campaign) {
   std::vector<std::string> wrong;
   std::vector<CalibrationDoubt> doubts;
-  for (std::size_t scenario = 0; scenario < campaign.scenarios.size(); ++scenario) {
+  for (const std::size_t point : points_of_all_values(campaign)) {
     try {
       CampaignRun unused;
       RandomGenerator random(campaign.seed);
-      std::size_t digits = scenario;
+      std::size_t digits = point;
       Draft draft = undrawn(campaign, digits, unused);
       draw_values(campaign, random, draft, unused);
       if (campaign.contact && campaign.contact->by == CampaignContact::By::pushing) make_hand(draft);
-      for (const CalibrationDoubt& doubt :
-           parse_simulated_scenario(draft.root(), draft.file(), *campaign.robots).doubts) {
-        const bool is_told = std::find(doubts.begin(), doubts.end(), doubt) != doubts.end();
-        if (!is_told && !is_meant(campaign, doubt)) doubts.push_back(doubt);
-      }
+      auto told = parse_simulated_scenario(draft.root(), draft.file(), *campaign.robots).doubts;
+      std::erase_if(told, [&](const CalibrationDoubt& doubt) { return is_meant(campaign, doubt); });
+      append_new(told, doubts);
     } catch (const KeyError& error) {
-      wrong.insert(wrong.end(), error.of_keys().begin(), error.of_keys().end());
+      append_new(error.of_keys(), wrong);
     } catch (const SetupError&) {  // of values, which other draws may mend
     }
   }
