@@ -104,7 +104,7 @@ class ACollision : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(RealisticRobots, ACollision,
                          ::testing::Values("platform_collision_realistic", "platform_collision_fused",
                                            "first_link_collision", "second_link_collision", "clamping",
-                                           "five_bar_collision"),
+                                           "five_bar_collision", "hexapod_collision_realistic"),
                          [](const auto& each) { return std::string(each.param); });
 
 TEST_P(ACollision, IsAnsweredByEachAsItsScenarioExpects) {

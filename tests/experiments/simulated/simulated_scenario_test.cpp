@@ -39,17 +39,18 @@ const PlanarRrrParameters& believed(const SimulatedScenario& scenario) {
 }
 
 TEST(ShippedScenarios, AreTheseAndNoOthers) {
-  EXPECT_THAT(test::shipped_scenarios(),
-              ElementsAre("brought_back", "calibration_excitation", "calibration_motion", "calibration_pulls",
-                          "calibration_pulls_second", "calibration_rectangle", "calibration_standstill",
-                          "clamping", "clamping_reaction", "constraints_without_contact",
-                          "first_link_collision", "first_link_reaction", "five_bar_collision",
-                          "hexapod_calibration_excitation", "hexapod_calibration_motion",
-                          "hexapod_calibration_pulls", "hexapod_collision", "hexapod_push",
-                          "platform_collision", "platform_collision_fused", "platform_collision_realistic",
-                          "platform_reaction", "random_motion", "reaction_near_itself",
-                          "reaction_near_singularity", "second_link_collision", "second_link_reaction",
-                          "square", "square_realistic", "square_tasks", "square_unaligned", "stiffness"));
+  EXPECT_THAT(
+      test::shipped_scenarios(),
+      ElementsAre("brought_back", "calibration_excitation", "calibration_motion", "calibration_pulls",
+                  "calibration_pulls_second", "calibration_rectangle", "calibration_standstill", "clamping",
+                  "clamping_reaction", "constraints_without_contact", "first_link_collision",
+                  "first_link_reaction", "five_bar_collision", "hexapod_calibration_excitation",
+                  "hexapod_calibration_motion", "hexapod_calibration_pulls", "hexapod_collision",
+                  "hexapod_collision_realistic", "hexapod_push", "platform_collision",
+                  "platform_collision_fused", "platform_collision_realistic", "platform_reaction",
+                  "random_motion", "reaction_near_itself", "reaction_near_singularity",
+                  "second_link_collision", "second_link_reaction", "square", "square_realistic",
+                  "square_tasks", "square_unaligned", "stiffness"));
 }
 
 TEST(ShippedScenarios, AreAllGood) {
