@@ -21,11 +21,6 @@ constexpr int of_platform = 6 * per_leg;  // mass, first moments, inertia about 
 /// depends on these linearly.
 using Moments = Eigen::Matrix<double, 10, 1>;
 
-Eigen::Matrix3d about_origin(const RigidBodyInertia& body) {
-  const Eigen::Matrix3d S = cross_matrix(body.centre_of_mass);
-  return body.inertia - body.mass * S * S;
-}
-
 Moments moments_of(const RigidBodyInertia& body) {
   const Eigen::Matrix3d I = about_origin(body);
   Moments moments;

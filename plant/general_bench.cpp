@@ -56,10 +56,8 @@ Configuration GeneralBench::pose(const BenchState& state, const BenchChart& char
 
 bool GeneralBench::at(const BenchState& state, const BenchChart& chart, Instant& now) const noexcept {
   const int n = robot_->dof();
-  robot_->kinematics(pose(state, chart), state.segment(n, n), now.kinematics);
-  if (!now.kinematics.reachable) return false;
-  robot_->dynamics(now.kinematics, now.dynamics);
-  return now.dynamics.valid;
+  robot_->equations_of_motion(pose(state, chart), state.segment(n, n), now.kinematics, now.equations);
+  return now.equations.valid;
 }
 
 void GeneralBench::coordinate_rates(const BenchState& state, const BenchChart& chart,
@@ -73,13 +71,13 @@ void GeneralBench::coordinate_rates(const BenchState& state, const BenchChart& c
 
 PlatformVector GeneralBench::acceleration(const Instant& now, const JointVector& torque,
                                           const PlatformVector& wrench) const noexcept {
-  return forward_dynamics(now.kinematics, now.dynamics, torque, wrench)
+  return forward_dynamics(now.kinematics, now.equations, torque, wrench)
       .value_or(PlatformVector::Zero(robot_->dof()));
 }
 
 void GeneralBench::describe(const Instant& now, BenchSnapshot& out) const noexcept {
   out.joints = now.kinematics.joints;
-  out.kinetic_energy = kinetic_energy(now.kinematics, now.dynamics);
+  out.kinetic_energy = kinetic_energy(now.kinematics, now.equations);
   const auto* parallel = dynamic_cast<const ParallelRobot*>(robot_.get());
   const bool has_chains = parallel != nullptr && out.joints.passive.size() > 0;
   out.loop_closure_error =

@@ -7,9 +7,9 @@
 
 #include "plant/bench_dynamics.h"
 #include "plant/narrow_phase.h"
-#include "systems/robot/dynamics.h"
 #include "systems/robot/kinematics.h"
 #include "systems/robot/mechanism.h"
+#include "systems/robot/motion_equations.h"
 
 namespace flinch {
 
@@ -20,7 +20,7 @@ class GeneralBench {
  public:
   struct Instant {
     Kinematics kinematics;
-    Dynamics dynamics;
+    MotionEquations equations;
   };
 
   explicit GeneralBench(const BenchSettings& settings);

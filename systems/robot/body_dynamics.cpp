@@ -15,6 +15,8 @@ RigidBodyInertia scaled(const RigidBodyInertia& body, double factor) {
   return {factor * body.mass, body.centre_of_mass, factor * body.inertia};
 }
 
+Eigen::Matrix3d about_origin(const RigidBodyInertia& body) { return moved(body, body.centre_of_mass); }
+
 RigidBodyInertia together(const RigidBodyInertia& a, const RigidBodyInertia& b) {
   const double mass = a.mass + b.mass;
   const Eigen::Vector3d centre = (a.mass * a.centre_of_mass + b.mass * b.centre_of_mass) / mass;

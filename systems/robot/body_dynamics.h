@@ -18,6 +18,9 @@ struct RigidBodyInertia {
 /// A body of the same shape that is `factor` times as heavy.
 RigidBodyInertia scaled(const RigidBodyInertia& body, double factor);
 
+/// Inertia about the origin of the body's frame, in the body's axes [kg m^2].
+Eigen::Matrix3d about_origin(const RigidBodyInertia& body);
+
 /// Inertia of two bodies that are fixed to one another, both given in one frame.
 RigidBodyInertia together(const RigidBodyInertia& a, const RigidBodyInertia& b);
 

@@ -4,6 +4,7 @@
 
 #include "systems/robot/dynamics.h"
 #include "systems/robot/kinematics.h"
+#include "systems/robot/motion_equations.h"
 #include "systems/robot/vectors.h"
 
 namespace flinch {
@@ -15,8 +16,14 @@ std::optional<PlatformVector> forward_dynamics(const Kinematics& kinematics, con
                                                const JointVector& drive_efforts,
                                                const PlatformVector& external_wrench) noexcept;
 
+/// The same of equations that are at hand as such.
+std::optional<PlatformVector> forward_dynamics(const Kinematics& kinematics, const MotionEquations& equations,
+                                               const JointVector& drive_efforts,
+                                               const PlatformVector& external_wrench) noexcept;
+
 /// v^T M v / 2 [J].
 double kinetic_energy(const Kinematics& kinematics, const Dynamics& dynamics) noexcept;
+double kinetic_energy(const Kinematics& kinematics, const MotionEquations& equations) noexcept;
 
 /// Power that friction takes from the motion [W], never negative.
 double friction_power(const Kinematics& kinematics, const Dynamics& dynamics) noexcept;

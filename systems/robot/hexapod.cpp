@@ -18,14 +18,14 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 constexpr int max_iterations = 10;
+constexpr JointCounts joints{.active = 6, .passive = 0, .coupling = 0};
+
 constexpr double largest_length_error = 1e-10;  // [m]
 constexpr double largest_last_step = 1e-8;      // [m, rad]
 // Beyond this, inverting the drive map leaves less than ten digits.
 constexpr double largest_condition_number = 1e6;
 // A leg nearer to the first axis of its universal joint cannot be said to turn about it.
 constexpr double least_sine_squared = 1e-12;
-
-constexpr JointCounts joints{.active = 6, .passive = 0, .coupling = 0};
 
 ConvexHull prism(double radius, double bottom, double top) {
   ConvexHull hull;
@@ -91,6 +91,7 @@ Hexapod::Hexapod(const HexapodParameters& parameters)
     cylinders_[i] = scaled(parameters.cylinder, parameters.legs[i].mass_scale);
     rods_[i] = scaled(parameters.rod, parameters.legs[i].mass_scale);
   }
+    link_inertia_[i] = about_origin(cylinders_[i]) + about_origin(rods_[i]);
   scale_ << Eigen::Vector3d::Ones(), Eigen::Vector3d::Constant(1.0 / parameters.characteristic_length);
 }
 
@@ -153,7 +154,8 @@ UniversalLeg<6> Hexapod::universal(std::size_t index, const Leg& leg, const LegR
   const Map J_s = (joint.J - s * rates.row) / leg.length;
   const Map dJ_s = (joint.dJ - rates.direction_rate * rates.row - s * rates.row_rate) / leg.length -
                    rates.length_rate / leg.length * J_s;
-  return universal_leg<6>(parameters_.legs[index].universal_axis, s, rates.direction_rate, J_s, dJ_s);
+  return universal_leg<6>(universal_turn(parameters_.legs[index].universal_axis, s, rates.direction_rate),
+                          J_s, dJ_s);
 }
 
 // ---------------------------------------------------------------- bodies
@@ -259,40 +261,51 @@ double Hexapod::chain_closure_error(const JointVector& active, const JointVector
   return all_usable ? 0.0 : std::numeric_limits<double>::infinity();
 }
 
-// ---------------------------------------------------------------- differential kinematics, dynamics
+// ---------------------------------------------------------------- differential kinematics
 
-void Hexapod::kinematics(const Configuration& pose, const PlatformVector& velocity, const WorkingMode& mode,
-                         Kinematics& out) const noexcept {
-  const bool reachable = usable(velocity, 6) && inverse_kinematics(pose, mode).reachable;
-  if (!reachable) return set_unreachable(space(), joints, out);
+// What needs no inverse of the drive map.
+bool Hexapod::close(const Configuration& pose, const PlatformVector& velocity, const WorkingMode& mode,
+                    Legs& legs, Kinematics& out) const noexcept {
+  const bool is_usable =
+      usable(velocity, 6) && is_working_mode(mode) && usable(pose, 7) && space().contains(pose);
   // Which may be part of `out`. NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
   const Configuration x = pose;
-  const Platform at = platform(pose, velocity);
+  const Platform at = is_usable ? platform(pose, velocity) : Platform{};
   set_unreachable(space(), joints, out);
-  Matrix6 A;
-  Matrix6 dA;
+  if (!is_usable) return false;
+  for (std::size_t i = 0; i < 6; ++i) {
+    legs[i].leg = leg(i, at);
+    if (!reaches(legs[i].leg)) return false;
+  }
+  out.pose = x;
+  out.velocity = at.velocity;
   out.det_B = 1.0;
   for (int i = 0; i < 6; ++i) {
     const auto index = static_cast<std::size_t>(i);
-    const Leg closed = leg(index, at);
-    const LegRates moving = rates(closed, at);
+    const Leg& closed = legs[index].leg;
     const Eigen::Vector3d& base = parameters_.legs[index].base_joint;
-    A.row(i) = moving.row;
-    dA.row(i) = moving.row_rate;
+    const LegRates& moving = legs[index].rates = rates(closed, at);
+    out.J_qa_x.row(i) = moving.row;
+    out.dJ_qa_x.row(i) = moving.row_rate;
     out.joints.active[i] = closed.length;
     out.rates.active[i] = moving.length_rate;
     out.det_B *= closed.sine_squared;
     out.legs[index] = {base, base + parameters_.cylinder_length * closed.direction, at.origin + closed.arm};
   }
   const Matrix6 scaled = A * scale_.asDiagonal();
+  out.reachable = true;
+  return true;
+}
+
+void Hexapod::kinematics(const Configuration& pose, const PlatformVector& velocity, const WorkingMode& mode,
+                         Kinematics& out) const noexcept {
+  Legs legs;
+  if (!close(pose, velocity, mode, legs, out)) return;
+  const Matrix6 A = out.J_qa_x;
+  const Matrix6 dA = out.dJ_qa_x;
   const Eigen::PartialPivLU<Matrix6> lu(A);
-  out.pose = x;
-  out.velocity = at.velocity;
-  out.J_qa_x = A;
-  out.dJ_qa_x = dA;
   out.det_A = lu.determinant() * scale_.prod();
   out.sigma_kappa = condition_number(scaled);
-  out.reachable = true;
   out.valid = out.sigma_kappa < largest_condition_number;
   if (out.valid) {
     const Matrix6 J_x = lu.inverse();
@@ -325,12 +338,7 @@ void Hexapod::dynamics(const Kinematics& kinematics, Dynamics& out) const noexce
     resist(p.legs[i].universal_friction, turning.J_first, p.universal_friction_velocity);
     resist(p.legs[i].universal_friction, turning.J_second, p.universal_friction_velocity);
   }
-  if (!sum.M.allFinite() || !sum.C.allFinite() || !friction.allFinite()) return set_invalid(6, out);
-  out.M_x = sum.M;
-  out.C_x = sum.C;
-  out.g_x = sum.g;
-  out.F_fr_x = friction;
-  out.valid = true;
+  return std::make_shared<const Hexapod>(robot);
 }
 
 // ---------------------------------------------------------------- points

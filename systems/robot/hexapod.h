@@ -76,6 +76,15 @@ class Hexapod final : public ParallelRobot {
   Leg leg(std::size_t index, const Platform& platform) const noexcept;
   static LegRates rates(const Leg& leg, const Platform& platform) noexcept;
   /// Maps from v to the velocity of the joint between leg and platform; as platform_motion().point(), without
+  struct MovingLeg {
+    Leg leg;
+    LegRates rates;
+  };
+  using Legs = std::array<MovingLeg, 6>;
+
+  /// Legs, joints and the drive map; false, and `out` unreachable, where that cannot be.
+  bool close(const Configuration& pose, const PlatformVector& velocity, const WorkingMode& mode, Legs& legs,
+             Kinematics& out) const noexcept;
   /// products by zeros and ones.
   static PointMotion<6> joint_motion(const Leg& leg, const Platform& platform) noexcept;
   UniversalLeg<6> universal(std::size_t index, const Leg& leg, const LegRates& rates,
@@ -96,3 +105,4 @@ class Hexapod final : public ParallelRobot {
 };
 
 }  // namespace flinch
+  std::array<Eigen::Matrix3d, 6> link_inertia_;  ///< Of both links, each about its own joint, in their axes.

@@ -2,6 +2,7 @@
 
 #include "systems/robot/angles.h"
 #include "systems/robot/forward_dynamics.h"
+#include "systems/robot/motion_equations.h"
 
 namespace flinch {
 
@@ -13,6 +14,17 @@ JointVector Mechanism::drive_difference(const JointVector& a, const JointVector&
     if (drive_kind(i) == DriveKind::revolute) difference[i] = wrap_angle(difference[i]);
   }
   return difference;
+}
+
+void Mechanism::equations_of_motion(const Configuration& pose, const PlatformVector& velocity,
+                                    Kinematics& now, MotionEquations& equations) const noexcept {
+  Dynamics model;
+  kinematics(pose, velocity, now);
+  dynamics(now, model);
+  equations.valid = model.valid;
+  if (!model.valid) return;
+  equations.M_x = model.M_x;
+  equations.h_x = model.C_x * now.velocity + model.g_x + model.F_fr_x;
 }
 
 std::optional<JointVector> Mechanism::drive_acceleration(const Configuration& pose,

@@ -19,6 +19,9 @@
 namespace flinch {
 
 /// How a drive moves: an angle [rad] with a torque [Nm], or a length [m] with a force [N].
+struct MotionEquations;
+struct RobotDeviation;
+
 enum class DriveKind { revolute, prismatic };
 
 /// What does not change of a mechanism.
@@ -80,6 +83,12 @@ class Mechanism {
   virtual void dynamics(const Kinematics& kinematics, Dynamics& out) const noexcept = 0;
 
   /// How the rates of the drives change under their efforts [Nm or N] while nothing else acts, at `pose` and
+  /// What an integration of the motion needs at an instant, in one go: the equations, and the kinematics
+  /// without what follows from the inverse of the drive map. The same as kinematics() and dynamics() say, to
+  /// rounding; these two, unless a mechanism has something faster.
+  virtual void equations_of_motion(const Configuration& pose, const PlatformVector& velocity,
+                                   Kinematics& kinematics, MotionEquations& equations) const noexcept;
+
   /// `velocity`: J_qa,x dv + dJ_qa,x v [rad/s^2 or m/s^2]. Nothing where that cannot be said.
   virtual std::optional<JointVector> drive_acceleration(const Configuration& pose,
                                                         const PlatformVector& velocity,

@@ -29,12 +29,6 @@ Coefficients coefficients(double t) {
 
 }  // namespace
 
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& a) noexcept {
-  Eigen::Matrix3d S;
-  S << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;
-  return S;
-}
-
 Eigen::Vector4d quaternion_exp(const Eigen::Vector3d& xi) noexcept {
   const double t = xi.norm();
   const double half_sinc = t < 1e-4 ? 0.5 - t * t / 48.0 : std::sin(0.5 * t) / t;

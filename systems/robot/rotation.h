@@ -6,7 +6,11 @@
 namespace flinch {
 
 /// S(a) with S(a) b = a x b.
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& a) noexcept;
+inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& a) noexcept {
+  Eigen::Matrix3d S;
+  S << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;
+  return S;
+}
 
 /// Unit quaternion (w, x, y, z) of the rotation by `xi`.
 Eigen::Vector4d quaternion_exp(const Eigen::Vector3d& xi) noexcept;

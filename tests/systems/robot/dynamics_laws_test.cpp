@@ -158,6 +158,32 @@ TEST_P(DynamicLaws, AccelerationIsThatOfBodiesHeldTogetherByConstraintForces) {
   }
 }
 
+TEST_P(DynamicLaws, EquationsOfMotionAreThoseOfKinematicsAndDynamics) {
+  Residual mass("M of both", 1e-13);
+  Residual rest("h against C v + g + F_fr", 1e-12);
+  Residual acceleration("acceleration from both, relative", 1e-11);
+  for (const MotionState& state : states) {
+    const Kinematics k = kinematics_at(state.pose, state.velocity);
+    const Dynamics dynamics = dynamics_of(k);
+    Kinematics moving;
+    MotionEquations equations;
+    robot.equations_of_motion(state.pose, state.velocity, moving, equations);
+    ASSERT_TRUE(equations.valid && moving.reachable);
+    EXPECT_EQ(moving.joints.active, k.joints.active);
+    EXPECT_EQ(moving.rates.active, k.rates.active);
+    EXPECT_EQ(moving.J_qa_x, k.J_qa_x);
+    compare(mass, equations.M_x, dynamics.M_x);
+    compare(rest, equations.h_x,
+            PlatformVector(dynamics.C_x * state.velocity + dynamics.g_x + dynamics.F_fr_x));
+    const Loads loads = loads_at(k);
+    const PlatformVector direct = *forward_dynamics(k, dynamics, loads.drives, loads.wrench);
+    const auto found = forward_dynamics(moving, equations, loads.drives, loads.wrench);
+    ASSERT_TRUE(found.has_value());
+    acceleration.add((*found - direct).norm() / direct.norm());
+    EXPECT_NEAR(kinetic_energy(moving, equations), kinetic_energy(k, dynamics), 1e-12);
+  }
+}
+
 TEST_P(DynamicLaws, DrivesAccelerateAsTheRatesOfTheirMapAndThePlatformSay) {
   Residual residual("drive acceleration, relative", tolerances.acceleration);
   for (const MotionState& state : states) {
@@ -208,7 +234,8 @@ TEST_P(DynamicLaws, JointSpaceFormHasTheSameSolution) {
     ASSERT_TRUE(joints.valid);
     const JointVector efforts = loads_at(k).drives;
     const JointVector bias = joints.C_qa * k.rates.active + joints.g_qa + joints.tau_fr_qa;
-    const JointVector ddq = Eigen::MatrixXd(joints.M_qa).ldlt().solve(Eigen::VectorXd(efforts - bias));
+    const JointVector ddq =
+        Eigen::MatrixXd(joints.M_qa).completeOrthogonalDecomposition().solve(Eigen::VectorXd(efforts - bias));
     const PlatformVector from_joints = k.J_x_qa * ddq + k.dJ_x_qa * k.rates.active;
     const PlatformVector direct = *forward_dynamics(k, dynamics, efforts, PlatformVector::Zero(n));
     acceleration.add((from_joints - direct).norm() / direct.norm());

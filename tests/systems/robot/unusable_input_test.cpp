@@ -161,6 +161,23 @@ TEST_P(UnusableInput, OfForwardDynamicsHasNoResult) {
   EXPECT_FALSE(forward_dynamics(k, dynamics, efforts, PlatformVector::Constant(n, nan)).has_value());
 }
 
+TEST_P(UnusableInput, OfEquationsOfMotionMakesThemInvalid) {
+  Kinematics k;
+  MotionEquations equations;
+  const auto are_valid = [&](const Configuration& pose, const PlatformVector& velocity) {
+    robot.equations_of_motion(pose, velocity, k, equations);
+    expect_finite(k);
+    return equations.valid || k.reachable;
+  };
+  EXPECT_TRUE(are_valid(home, still));
+  for (const Configuration& pose : spoilt(home)) EXPECT_FALSE(are_valid(pose, still)) << pose.transpose();
+  for (const PlatformVector& v : spoilt(GetParam().velocity)) EXPECT_FALSE(are_valid(home, v));
+  EXPECT_FALSE(are_valid(space.plus(home, PlatformVector::Constant(n, 9.0)), still)) << "out of reach";
+  const AllocationCounter counter;
+  robot.equations_of_motion(home, still, k, equations);
+  EXPECT_EQ(counter.count(), 0);
+}
+
 TEST_P(UnusableInput, OfDriveAccelerationHasNoResult) {
   const JointVector efforts = JointVector::Zero(robot.drives());
   EXPECT_TRUE(robot.drive_acceleration(home, still, efforts).has_value());
