@@ -8,9 +8,9 @@
 #include "plant/position_wave.h"
 #include "plant/realism.h"
 #include "plant/simulated_station.h"
-#include "plant/true_robot.h"
 #include "plant/uneven_torque.h"
 #include "systems/robot/parallel_robot.h"
+#include "systems/robot/robot_deviation.h"
 
 namespace flinch {
 

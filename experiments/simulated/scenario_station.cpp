@@ -18,10 +18,10 @@
 #include "plant/delay_line.h"
 #include "plant/simulated_station.h"
 #include "plant/specimen.h"
-#include "plant/true_robot.h"
 #include "systems/config/config_reader.h"
 #include "systems/foundation/nearest_name.h"
 #include "systems/robot/parallel_robot.h"
+#include "systems/robot/robot_deviation.h"
 #include "systems/signals/contact_classes.h"
 
 namespace flinch {
@@ -96,7 +96,7 @@ Realism read_plant(ConfigReader plant, const Scenario& scenario, SimulatedStatio
   plant.numbers("driver_torque_constant", per_ampere, entries(station.drives.driver_torque_constant),
                 positive);
 
-  deviation.leg_inertia_scale.setConstant(drives, mass_scale);
+  deviation.leg_inertia_scale.setConstant(built.robot->legs(), mass_scale);
   if (friction == PlantFriction::none) {
     deviation.drive_friction_scale.setZero();
     deviation.passive_friction_scale.setZero();

@@ -6,41 +6,13 @@
 
 #include "systems/config/config_reader.h"
 #include "systems/config/file_kind.h"
-#include "systems/config/five_bar_file.h"
-#include "systems/config/hexapod_file.h"
-#include "systems/config/planar_rrr_file.h"
 #include "systems/config/robot_keys.h"
+#include "systems/config/robot_kind.h"
 #include "systems/foundation/setup_error.h"
-#include "systems/robot/five_bar.h"
-#include "systems/robot/five_bar_presets.h"
-#include "systems/robot/hexapod.h"
-#include "systems/robot/hexapod_presets.h"
 #include "systems/robot/parallel_robot.h"
-#include "systems/robot/planar_rrr.h"
-#include "systems/robot/planar_rrr_presets.h"
 
 namespace flinch {
 namespace {
-
-/// A mechanism that a file can describe.
-struct RobotKind {
-  DriveKind drive;
-  int drives;
-  int directions;  ///< in which the platform moves
-  std::shared_ptr<const ParallelRobot> (*read)(ConfigReader& file);
-  std::shared_ptr<const ParallelRobot> (*make_preset)();
-};
-
-constexpr RobotKind planar_3rrr{
-    DriveKind::revolute, 3, 2, &read_planar_rrr, []() -> std::shared_ptr<const ParallelRobot> {
-      return std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::none));
-    }};
-constexpr RobotKind five_bar{
-    DriveKind::revolute, 2, 2, &read_five_bar,
-    []() -> std::shared_ptr<const ParallelRobot> { return std::make_shared<FiveBar>(five_bar_robot()); }};
-constexpr RobotKind hexapod_6ups{
-    DriveKind::prismatic, 6, 3, &read_hexapod,
-    []() -> std::shared_ptr<const ParallelRobot> { return std::make_shared<Hexapod>(hexapod_robot()); }};
 
 /// Keys and units that follow from how drives move.
 struct DriveKeys {
@@ -58,8 +30,10 @@ constexpr DriveKeys keys_of_sliding{
     "min_active_length", "max_active_length", unit::N_per_A,    unit::N,
     unit::N_per_s,       unit::m_per_s,       unit::m};
 
+DriveKind drive_kind(const RobotKind& kind) { return kind.preset->drive_kind(0); }
+
 const DriveKeys& keys_of(const RobotKind& kind) {
-  return kind.drive == DriveKind::revolute ? keys_of_turning : keys_of_sliding;
+  return drive_kind(kind) == DriveKind::revolute ? keys_of_turning : keys_of_sliding;
 }
 
 std::span<double> entries(auto& v) { return {v.data(), static_cast<std::size_t>(v.size())}; }
@@ -72,7 +46,7 @@ bool says_any(const ConfigReader& file, std::string_view prefix) {
 /// Of all drives, or nothing where the file says nothing of it.
 Cogging read_cogging(ConfigReader& file, const RobotKind& kind) {
   if (!says_any(file, "cogging_")) return {};
-  const JointVector none = JointVector::Zero(kind.drives);
+  const JointVector none = JointVector::Zero(kind.preset->drives());
   Cogging cogging{none, none, none};
   ConfigReader all = file.required();
   all.numbers("cogging_wavelength", keys_of(kind).position, entries(cogging.wavelength), positive);
@@ -84,14 +58,14 @@ Cogging read_cogging(ConfigReader& file, const RobotKind& kind) {
 /// Of all drives, or nothing where the file says nothing of it.
 JointVector read_torque_delay(ConfigReader& file, const RobotKind& kind) {
   if (!says_any(file, "torque_delay")) return {};
-  JointVector delay = JointVector::Zero(kind.drives);
+  JointVector delay = JointVector::Zero(kind.preset->drives());
   file.numbers("torque_delay", unit::s, entries(delay), between(-longest_torque_delay, longest_torque_delay));
   return delay;
 }
 
 DriveParameters read_drives(ConfigReader file, const RobotKind& kind) {
   const DriveKeys& keys = keys_of(kind);
-  DriveParameters drives = default_drives(kind.drive, kind.drives);
+  DriveParameters drives = default_drives(drive_kind(kind), kind.preset->drives());
   file.numbers(keys.torque_constant, keys.per_ampere, entries(drives.torque_constant), positive);
   drives.cogging = read_cogging(file, kind);
   drives.torque_delay = read_torque_delay(file, kind);
@@ -108,7 +82,7 @@ DriveParameters read_drives(ConfigReader file, const RobotKind& kind) {
 WorkspaceLimits read_limits(ConfigReader& file, const RobotKind& kind) {
   const DriveKeys& keys = keys_of(kind);
   WorkspaceLimits limits;
-  limits.centre.setZero(kind.directions);
+  limits.centre.setZero(kind.preset->space_dimension());
   file.numbers("centre", unit::m, entries(limits.centre));
   file.number("max_distance", unit::m, limits.max_distance);
   file.number("max_rotation", unit::rad, limits.max_rotation);
@@ -122,11 +96,14 @@ WorkspaceLimits read_limits(ConfigReader& file, const RobotKind& kind) {
 
 /// Null where the file names none.
 const RobotKind* read_kind(ConfigReader& file) {
-  const RobotKind* kind = nullptr;
-  file.required().choice(
-      "kind", kind,
-      {{"planar_3rrr", &planar_3rrr}, {"five_bar", &five_bar}, {"hexapod_6ups", &hexapod_6ups}});
-  return kind;
+  std::vector<std::string> names;
+  for (const RobotKind& kind : robot_kinds()) names.push_back(kind.name);
+  std::string name;
+  file.required().word("kind", name, names);
+  for (const RobotKind& kind : robot_kinds()) {
+    if (kind.name == name) return &kind;
+  }
+  return nullptr;
 }
 
 RobotFile read_any(ConfigReader file) {
@@ -165,8 +142,8 @@ std::optional<RobotFile> preset_of_kind(const std::filesystem::path& file) {
     const RobotKind* const kind = read_kind(reader);
     if (kind == nullptr) return std::nullopt;
     RobotFile preset;
-    preset.robot = kind->make_preset();
-    preset.drives = default_drives(kind->drive, kind->drives);
+    preset.robot = kind->preset;
+    preset.drives = default_drives(drive_kind(*kind), kind->preset->drives());
     return preset;
   } catch (const SetupError&) {
     return std::nullopt;

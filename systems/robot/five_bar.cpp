@@ -215,6 +215,13 @@ void FiveBar::dynamics(const Kinematics& kinematics, Dynamics& out) const noexce
   sum.write(out);
 }
 
+std::shared_ptr<const Mechanism> FiveBar::deviating(const RobotDeviation& deviation) const {
+  FiveBarParameters robot = parameters_;
+  for (std::size_t i = 0; i < 2; ++i) robot.legs[i] = flinch::deviating(robot.legs[i], deviation, i);
+  robot.platform_mass = robot.platform_mass * deviation.platform_inertia_scale + deviation.payload;
+  return std::make_shared<const FiveBar>(robot);
+}
+
 CartesianVector FiveBar::point_on_body(const Kinematics& kinematics, BodyId body,
                                        const CartesianVector& point_in_body) const noexcept {
   return planar_point_on_body<2>(kinematics, 2, body, point_in_body);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <memory>
 #include <optional>
 
 #include "systems/robot/five_bar_parameters.h"
@@ -38,6 +39,7 @@ class FiveBar final : public ParallelRobot {
   void kinematics(const Configuration& pose, const PlatformVector& velocity, const WorkingMode& mode,
                   Kinematics& out) const noexcept override;
   void dynamics(const Kinematics& kinematics, Dynamics& out) const noexcept override;
+  std::shared_ptr<const Mechanism> deviating(const RobotDeviation& deviation) const override;
   CartesianVector point_on_body(const Kinematics& kinematics, BodyId body,
                                 const CartesianVector& point_in_body) const noexcept override;
   ContactJacobian contact_jacobian(const Kinematics& kinematics, BodyId body,

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "systems/foundation/setup_error.h"
+#include "systems/robot/robot_deviation.h"
 #include "systems/robot/rotation.h"
 
 namespace flinch {
@@ -17,9 +18,9 @@ namespace {
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-constexpr int max_iterations = 10;
 constexpr JointCounts joints{.active = 6, .passive = 0, .coupling = 0};
 
+constexpr int max_iterations = 10;
 constexpr double largest_length_error = 1e-10;  // [m]
 constexpr double largest_last_step = 1e-8;      // [m, rad]
 // Beyond this, inverting the drive map leaves less than ten digits.
@@ -90,8 +91,8 @@ Hexapod::Hexapod(const HexapodParameters& parameters)
   for (std::size_t i = 0; i < 6; ++i) {
     cylinders_[i] = scaled(parameters.cylinder, parameters.legs[i].mass_scale);
     rods_[i] = scaled(parameters.rod, parameters.legs[i].mass_scale);
-  }
     link_inertia_[i] = about_origin(cylinders_[i]) + about_origin(rods_[i]);
+  }
   scale_ << Eigen::Vector3d::Ones(), Eigen::Vector3d::Constant(1.0 / parameters.characteristic_length);
 }
 
@@ -292,7 +293,6 @@ bool Hexapod::close(const Configuration& pose, const PlatformVector& velocity, c
     out.det_B *= closed.sine_squared;
     out.legs[index] = {base, base + parameters_.cylinder_length * closed.direction, at.origin + closed.arm};
   }
-  const Matrix6 scaled = A * scale_.asDiagonal();
   out.reachable = true;
   return true;
 }
@@ -303,6 +303,7 @@ void Hexapod::kinematics(const Configuration& pose, const PlatformVector& veloci
   if (!close(pose, velocity, mode, legs, out)) return;
   const Matrix6 A = out.J_qa_x;
   const Matrix6 dA = out.dJ_qa_x;
+  const Matrix6 scaled = A * scale_.asDiagonal();
   const Eigen::PartialPivLU<Matrix6> lu(A);
   out.det_A = lu.determinant() * scale_.prod();
   out.sigma_kappa = condition_number(scaled);
@@ -315,28 +316,18 @@ void Hexapod::kinematics(const Configuration& pose, const PlatformVector& veloci
   if (!all_finite(out)) set_unreachable(space(), joints, out);
 }
 
-void Hexapod::dynamics(const Kinematics& kinematics, Dynamics& out) const noexcept {
-  if (!serves(kinematics, BodyId::platform(), Eigen::Vector3d::Zero())) return set_invalid(6, out);
-  const HexapodParameters& p = parameters_;
-  const Platform at = platform(kinematics.pose, kinematics.velocity);
-  const Twist& v = at.velocity;
-  BodyDynamics<6> sum;
-  Twist friction = Twist::Zero();
-  sum.add_body(loaded_platform_, platform_motion(at), v, p.gravity);
+std::shared_ptr<const Mechanism> Hexapod::deviating(const RobotDeviation& deviation) const {
+  HexapodParameters robot = parameters_;
   for (std::size_t i = 0; i < 6; ++i) {
-    const Leg closed = leg(i, at);
-    const LegRates moving = rates(closed, at);
-    const PointMotion<6> joint = joint_motion(closed, at);
-    const UniversalLeg<6> turning = universal(i, closed, moving, joint);
-    sum.add_body(cylinders_[i], cylinder_motion(i, turning), v, p.gravity);
-    sum.add_body(rods_[i], rod_motion(closed, joint, turning, at), v, p.gravity);
-    sum.add_armature(p.drive_armature, moving.row, moving.row_rate);
-    const auto resist = [&](const JointFriction& of, const Row& row, double friction_velocity) {
-      friction += row.transpose() * friction_effort(of, row.dot(v), friction_velocity);
-    };
-    resist(p.legs[i].drive_friction, moving.row, p.drive_friction_velocity);
-    resist(p.legs[i].universal_friction, turning.J_first, p.universal_friction_velocity);
-    resist(p.legs[i].universal_friction, turning.J_second, p.universal_friction_velocity);
+    HexapodLeg& leg = robot.legs[i];
+    leg.mass_scale *= deviation.scale(deviation.leg_inertia_scale, i);
+    leg.drive_friction = scaled(leg.drive_friction, deviation.scale(deviation.drive_friction_scale, i));
+    leg.universal_friction =
+        scaled(leg.universal_friction, deviation.scale(deviation.passive_friction_scale, i));
+  }
+  robot.platform = scaled(robot.platform, deviation.platform_inertia_scale);
+  if (deviation.payload > 0.0) {
+    robot.platform = together(robot.platform, RigidBodyInertia{.mass = deviation.payload});
   }
   return std::make_shared<const Hexapod>(robot);
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <memory>
 
 #include "systems/robot/body_dynamics.h"
 #include "systems/robot/hexapod_parameters.h"
@@ -42,6 +43,9 @@ class Hexapod final : public ParallelRobot {
   void kinematics(const Configuration& pose, const PlatformVector& velocity, const WorkingMode& mode,
                   Kinematics& out) const noexcept override;
   void dynamics(const Kinematics& kinematics, Dynamics& out) const noexcept override;
+  void equations_of_motion(const Configuration& pose, const PlatformVector& velocity, Kinematics& kinematics,
+                           MotionEquations& equations) const noexcept override;
+  std::shared_ptr<const Mechanism> deviating(const RobotDeviation& deviation) const override;
   CartesianVector point_on_body(const Kinematics& kinematics, BodyId body,
                                 const CartesianVector& point_in_body) const noexcept override;
   ContactJacobian contact_jacobian(const Kinematics& kinematics, BodyId body,
@@ -72,10 +76,6 @@ class Hexapod final : public ParallelRobot {
     Row row, row_rate;
   };
 
-  static Platform platform(const Configuration& pose, const Twist& velocity) noexcept;
-  Leg leg(std::size_t index, const Platform& platform) const noexcept;
-  static LegRates rates(const Leg& leg, const Platform& platform) noexcept;
-  /// Maps from v to the velocity of the joint between leg and platform; as platform_motion().point(), without
   struct MovingLeg {
     Leg leg;
     LegRates rates;
@@ -85,6 +85,10 @@ class Hexapod final : public ParallelRobot {
   /// Legs, joints and the drive map; false, and `out` unreachable, where that cannot be.
   bool close(const Configuration& pose, const PlatformVector& velocity, const WorkingMode& mode, Legs& legs,
              Kinematics& out) const noexcept;
+  static Platform platform(const Configuration& pose, const Twist& velocity) noexcept;
+  Leg leg(std::size_t index, const Platform& platform) const noexcept;
+  static LegRates rates(const Leg& leg, const Platform& platform) noexcept;
+  /// Maps from v to the velocity of the joint between leg and platform; as platform_motion().point(), without
   /// products by zeros and ones.
   static PointMotion<6> joint_motion(const Leg& leg, const Platform& platform) noexcept;
   UniversalLeg<6> universal(std::size_t index, const Leg& leg, const LegRates& rates,
@@ -101,8 +105,8 @@ class Hexapod final : public ParallelRobot {
   RigidBodyInertia loaded_platform_;
   std::array<RigidBodyInertia, 6> cylinders_;
   std::array<RigidBodyInertia, 6> rods_;
+  std::array<Eigen::Matrix3d, 6> link_inertia_;  ///< Of both links, each about its own joint, in their axes.
   Twist scale_;  ///< Of the columns of the drive map: 1 for translations, 1 / characteristic length.
 };
 
 }  // namespace flinch
-  std::array<Eigen::Matrix3d, 6> link_inertia_;  ///< Of both links, each about its own joint, in their axes.

@@ -39,6 +39,10 @@ std::optional<JointVector> Mechanism::drive_acceleration(const Configuration& po
   return now.J_qa_x * *dv + now.dJ_qa_x * velocity;
 }
 
+std::shared_ptr<const Mechanism> Mechanism::deviating(const RobotDeviation& /*deviation*/) const {
+  return nullptr;
+}
+
 void Mechanism::place(const Configuration& pose, PlaceKinematics& out) const noexcept {
   Kinematics at_rest;
   kinematics(pose, PlatformVector::Zero(dof()), at_rest);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,10 +19,10 @@
 
 namespace flinch {
 
-/// How a drive moves: an angle [rad] with a torque [Nm], or a length [m] with a force [N].
 struct MotionEquations;
 struct RobotDeviation;
 
+/// How a drive moves: an angle [rad] with a torque [Nm], or a length [m] with a force [N].
 enum class DriveKind { revolute, prismatic };
 
 /// What does not change of a mechanism.
@@ -82,13 +83,13 @@ class Mechanism {
   /// Equations of motion at the instant that `kinematics` describes.
   virtual void dynamics(const Kinematics& kinematics, Dynamics& out) const noexcept = 0;
 
-  /// How the rates of the drives change under their efforts [Nm or N] while nothing else acts, at `pose` and
   /// What an integration of the motion needs at an instant, in one go: the equations, and the kinematics
   /// without what follows from the inverse of the drive map. The same as kinematics() and dynamics() say, to
   /// rounding; these two, unless a mechanism has something faster.
   virtual void equations_of_motion(const Configuration& pose, const PlatformVector& velocity,
                                    Kinematics& kinematics, MotionEquations& equations) const noexcept;
 
+  /// How the rates of the drives change under their efforts [Nm or N] while nothing else acts, at `pose` and
   /// `velocity`: J_qa,x dv + dJ_qa,x v [rad/s^2 or m/s^2]. Nothing where that cannot be said.
   virtual std::optional<JointVector> drive_acceleration(const Configuration& pose,
                                                         const PlatformVector& velocity,
@@ -100,6 +101,9 @@ class Mechanism {
   /// Velocity map of that point. [SafePR] (3), [ICRA23] (4)-(6)
   virtual ContactJacobian contact_jacobian(const Kinematics& kinematics, BodyId body,
                                            const CartesianVector& point_in_body) const noexcept = 0;
+
+  /// The same robot with these differences; null where a mechanism cannot be made to differ.
+  virtual std::shared_ptr<const Mechanism> deviating(const RobotDeviation& deviation) const;
 
   /// That part of the kinematics which limits of the place need, assembled as at home.
   virtual void place(const Configuration& pose, PlaceKinematics& out) const noexcept;

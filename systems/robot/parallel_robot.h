@@ -24,7 +24,8 @@ class ParallelRobot : public Mechanism {
   virtual InverseSolution inverse_kinematics(const Configuration& pose,
                                              const WorkingMode& mode) const noexcept = 0;
 
-  /// Pose from the drives alone, by iteration from `start` until they agree to 1e-10 rad or m.
+  /// Pose from the drives alone, by iteration from `start` until they agree to 1e-10 rad or m; of more drives
+  /// than coordinates, which never agree quite, the pose that fits them best.
   virtual ForwardSolution forward_kinematics(const JointVector& active, const Configuration& start,
                                              const WorkingMode& mode) const noexcept = 0;
   /// Velocity of the platform at `pose` from the rates of the drives; nothing where it does not follow from

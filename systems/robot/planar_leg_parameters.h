@@ -10,6 +10,7 @@
 #include "systems/robot/body.h"
 #include "systems/robot/body_id.h"
 #include "systems/robot/joint_friction.h"
+#include "systems/robot/robot_deviation.h"
 
 namespace flinch {
 
@@ -55,6 +56,16 @@ std::vector<Body> planar_bodies(double platform_radius, const std::array<Leg, co
   std::vector<Body> bodies = {{body_name(BodyId::platform()), -1, {Sphere{.radius = platform_radius}}}};
   for (const Leg& leg : legs) add_links(leg, link_radius, bodies);
   return bodies;
+}
+
+/// Leg `i` of a robot with these differences.
+template <class Leg>
+Leg deviating(Leg leg, const RobotDeviation& deviation, std::size_t i) {
+  const double inertia = deviation.scale(deviation.leg_inertia_scale, i);
+  leg.inertia = {leg.inertia.p1 * inertia, leg.inertia.p2 * inertia, leg.inertia.p3 * inertia};
+  leg.active_friction = scaled(leg.active_friction, deviation.scale(deviation.drive_friction_scale, i));
+  leg.passive_friction = scaled(leg.passive_friction, deviation.scale(deviation.passive_friction_scale, i));
+  return leg;
 }
 
 /// Adds what is wrong with a leg, `path` before each field.

@@ -338,6 +338,14 @@ SelfCollisionTasks PlanarRrr::self_collision_tasks(const Kinematics& kinematics,
   return coupling_angles(*this, kinematics, distance);
 }
 
+std::shared_ptr<const Mechanism> PlanarRrr::deviating(const RobotDeviation& deviation) const {
+  PlanarRrrParameters robot = parameters_;
+  for (std::size_t i = 0; i < 3; ++i) robot.legs[i] = flinch::deviating(robot.legs[i], deviation, i);
+  robot.platform_mass = robot.platform_mass * deviation.platform_inertia_scale + deviation.payload;
+  robot.platform_inertia *= deviation.platform_inertia_scale;
+  return std::make_shared<const PlanarRrr>(robot);
+}
+
 CartesianVector PlanarRrr::point_on_body(const Kinematics& kinematics, BodyId body,
                                          const CartesianVector& point_in_body) const noexcept {
   return planar_point_on_body<3>(kinematics, 3, body, point_in_body);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <memory>
 #include <optional>
 
 #include "systems/robot/parallel_robot.h"
@@ -40,6 +41,7 @@ class PlanarRrr final : public ParallelRobot {
   void dynamics(const Kinematics& kinematics, Dynamics& out) const noexcept override;
   std::optional<JointVector> drive_acceleration(const Configuration& pose, const PlatformVector& velocity,
                                                 const JointVector& drive_torques) const noexcept override;
+  std::shared_ptr<const Mechanism> deviating(const RobotDeviation& deviation) const override;
   CartesianVector point_on_body(const Kinematics& kinematics, BodyId body,
                                 const CartesianVector& point_in_body) const noexcept override;
   ContactJacobian contact_jacobian(const Kinematics& kinematics, BodyId body,

@@ -1,4 +1,5 @@
 #include "tests/experiments/simulated/hexapod_trials.h"
+#include "systems/robot/robot_deviation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +11,6 @@
 #include "experiments/verdict/recorded_truth.h"
 #include "plant/narrow_phase.h"
 #include "plant/obstacle_path.h"
-#include "plant/true_robot.h"
 #include "systems/framework/random.h"
 #include "systems/framework/recorded_values.h"
 #include "systems/framework/recording.h"

@@ -137,6 +137,7 @@ const std::vector<MechanismCase>& mechanism_cases() {
       planar_rrr_case("PlanarRrrNominal", BenchGeometry::nominal),
       five_bar_case("FiveBarElbowsOutward", FiveBarElbows::outward),
       five_bar_case("FiveBarElbowsInward", FiveBarElbows::inward),
+      point_on_three_legs_case("PointOnThreeLegs"),
       hexapod_case("Hexapod", hexapod_robot()),
       hexapod_case("HexapodWithPayload",
                    hexapod_robot(HexapodPayload::eccentric, HexapodFriction::ball_screws)),

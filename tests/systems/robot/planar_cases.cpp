@@ -1,7 +1,10 @@
 #include "tests/systems/robot/planar_cases.h"
 
+#include <array>
 #include <cmath>
+#include <utility>
 
+#include "apps/examples/08_own_mechanism/point_on_three_legs.h"
 #include "systems/robot/five_bar.h"
 #include "systems/robot/five_bar_presets.h"
 #include "systems/robot/planar_rrr.h"
@@ -88,6 +91,61 @@ void make_uneven(std::size_t i, const LinkBody& link1, const LinkBody& link2, Pl
   bodies.push_back(rigid(second));
 }
 
+// The point of a five-bar and the links of its legs, which are made uneven.
+template <std::size_t count>
+std::vector<RigidBodyInertia> point_and_links(double mass, std::array<FiveBarLeg, count>& legs) {
+  std::vector<RigidBodyInertia> bodies = {rigid({.mass = mass, .inertia = 1.0})};
+  for (std::size_t i = 0; i < count; ++i) {
+    make_uneven(i, five_bar_link1(), five_bar_link2(), legs[i], bodies);
+  }
+  return bodies;
+}
+
+// A robot whose legs meet in a point.
+MechanismCase point_case(const std::string& name, std::shared_ptr<const ParallelRobot> robot,
+                         const std::vector<FiveBarLeg>& robot_legs,
+                         const std::vector<RigidBodyInertia>& bodies) {
+  const Vector gravity = robot->gravity();
+  const auto reference = [robot_legs, bodies, gravity](const MotionState& state, const Loads& loads) {
+    constexpr double friction_velocity = 0.01;  // [rad/s]
+    const Vector point(state.pose[0], state.pose[1], 0.0);
+    ConstrainedBodies model;
+    model.add_body(bodies[0].mass, point, bodies[0].inertia);
+    model.same_axes(ConstrainedBodies::base, 0);  // A point mass does not turn.
+    std::vector<ReferenceLegOfBodies> legs;
+    for (std::size_t i = 0; i < robot_legs.size(); ++i) {
+      const FiveBarLeg& leg = robot_legs[i];
+      legs.push_back({leg, Vector(leg.base_joint.x(), leg.base_joint.y(), 0.0), point, friction_velocity});
+      add_links(model, legs[i], bodies[1 + 2 * i], bodies[2 + 2 * i]);
+      model.ball(static_cast<int>(2 + 2 * i), 0, point);
+    }
+    const Vector velocity(state.velocity[0], state.velocity[1], 0.0);
+    EXPECT_LT(model.set_velocity(0, point, velocity, Vector::Zero()), 1e-12);
+    for (std::size_t i = 0; i < legs.size(); ++i) {
+      const int leg = static_cast<int>(i);
+      load_leg(model, leg, legs[i], loads.drives[leg]);
+    }
+    model.push(0, point, {loads.wrench[0], loads.wrench[1], 0.0});
+    push(model, loads.pushes);
+    model.set_gravity(gravity);
+    model.solve();
+    return PlatformVector(model.acceleration(0, point).head<2>());
+  };
+  return {.name = name,
+          .robot = std::move(robot),
+          .region = Eigen::Vector2d(0.09, 0.055),
+          .velocity = Eigen::Vector2d(0.6, 0.6),
+          .bodies = bodies,
+          .reference = reference,
+          .tolerances = {.step = 1e-4,
+                         .drive_map = 2e-10,
+                         .drive_map_rate = 2e-9,
+                         .contact = 4e-9,
+                         .contact_rate = 2e-9,
+                         .mass_rate = 2e-9,
+                         .momentum = 1e-7}};
+}
+
 }  // namespace
 
 MechanismCase planar_rrr_case(const std::string& name, BenchGeometry geometry) {
@@ -139,45 +197,16 @@ MechanismCase planar_rrr_case(const std::string& name, BenchGeometry geometry) {
 
 MechanismCase five_bar_case(const std::string& name, FiveBarElbows elbows) {
   FiveBarParameters parameters = five_bar_robot(elbows);
-  std::vector<RigidBodyInertia> bodies = {rigid({.mass = parameters.platform_mass, .inertia = 1.0})};
-  for (std::size_t i = 0; i < 2; ++i) {
-    make_uneven(i, five_bar_link1(), five_bar_link2(), parameters.legs[i], bodies);
-  }
-  const auto reference = [parameters, bodies](const MotionState& state, const Loads& loads) {
-    const Vector point(state.pose[0], state.pose[1], 0.0);
-    ConstrainedBodies model;
-    model.add_body(bodies[0].mass, point, bodies[0].inertia);
-    model.same_axes(ConstrainedBodies::base, 0);  // A point mass does not turn.
-    std::vector<ReferenceLegOfBodies> legs;
-    for (std::size_t i = 0; i < 2; ++i) {
-      const FiveBarLeg& leg = parameters.legs[i];
-      legs.push_back(
-          {leg, Vector(leg.base_joint.x(), leg.base_joint.y(), 0.0), point, parameters.friction_velocity});
-      add_links(model, legs[i], bodies[1 + 2 * i], bodies[2 + 2 * i]);
-      model.ball(static_cast<int>(2 + 2 * i), 0, point);
-    }
-    const Vector velocity(state.velocity[0], state.velocity[1], 0.0);
-    EXPECT_LT(model.set_velocity(0, point, velocity, Vector::Zero()), 1e-12);
-    for (int i = 0; i < 2; ++i) load_leg(model, i, legs[static_cast<std::size_t>(i)], loads.drives[i]);
-    model.push(0, point, {loads.wrench[0], loads.wrench[1], 0.0});
-    push(model, loads.pushes);
-    model.set_gravity(parameters.gravity);
-    model.solve();
-    return PlatformVector(model.acceleration(0, point).head<2>());
-  };
-  return {.name = name,
-          .robot = std::make_shared<const FiveBar>(parameters),
-          .region = Eigen::Vector2d(0.09, 0.055),
-          .velocity = Eigen::Vector2d(0.6, 0.6),
-          .bodies = bodies,
-          .reference = reference,
-          .tolerances = {.step = 1e-4,
-                         .drive_map = 2e-10,
-                         .drive_map_rate = 2e-9,
-                         .contact = 4e-9,
-                         .contact_rate = 2e-9,
-                         .mass_rate = 2e-9,
-                         .momentum = 1e-7}};
+  std::vector<RigidBodyInertia> bodies = point_and_links(parameters.platform_mass, parameters.legs);
+  const std::vector<FiveBarLeg> legs(parameters.legs.begin(), parameters.legs.end());
+  return point_case(name, std::make_shared<const FiveBar>(parameters), legs, bodies);
+}
+
+MechanismCase point_on_three_legs_case(const std::string& name) {
+  PointOnThreeLegs::Parameters parameters = point_on_three_legs();
+  std::vector<RigidBodyInertia> bodies = point_and_links(parameters.platform_mass, parameters.legs);
+  const std::vector<FiveBarLeg> legs(parameters.legs.begin(), parameters.legs.end());
+  return point_case(name, std::make_shared<const PointOnThreeLegs>(parameters), legs, bodies);
 }
 
 }  // namespace flinch::test
