@@ -32,8 +32,9 @@ if(PROJECT_IS_TOP_LEVEL)
   endif()
 endif()
 
-# It links the tests in a fifth of the time.
+# lld links the tests in a fifth of the time.
 find_program(FLINCH_LLD ld.lld)
+mark_as_advanced(FLINCH_LLD)
 if(FLINCH_LLD AND FLINCH_DEVELOPER)
   add_link_options($<$<NOT:$<CONFIG:Release>>:-fuse-ld=lld>)
 endif()

@@ -11,7 +11,8 @@ constexpr double stopping_time = 29e-3;  // time constant of the controlled stop
 constexpr double velocity_rate = 105.55;
 constexpr double feedforward_rate = velocity_rate / 60.0;
 
-/// The least inertia that a drive feels at the home pose while the others stand still [kg m^2 or kg].
+/// The least inertia that a drive feels at the home pose while the others stand still [kg m^2 or kg]. Of more
+/// drives than coordinates none can move alone: of the motion nearest to that.
 double least_inertia(const ParallelRobot& robot) {
   Kinematics kinematics;
   Dynamics dynamics;

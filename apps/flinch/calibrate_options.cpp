@@ -5,9 +5,8 @@ namespace flinch {
 namespace {
 
 constexpr const char* by_component =
-    "A threshold for each component of force and moment, which share the alarms; otherwise one for all of "
-    "the "
-    "force and one for all of the moment";
+    "A threshold for each component of force and moment, which share the alarms; otherwise one for all "
+    "of the force and one for all of the moment";
 
 /// Adds a calibration from recordings, with what all of them understand.
 CLI::App& add_calibration(CLI::App& calibrate, Verbs& verbs, const char* kind, const char* help,

@@ -21,52 +21,54 @@ namespace flinch {
 
 namespace {
 
-/// The recordings, and what those who made them knew of their robots.
+/// The recordings that could be opened, and what those who made them knew of their robots.
 struct FreeMotions {
-  std::vector<std::filesystem::path> files;
+  std::vector<std::filesystem::path> files{};
   std::vector<Recording> recordings{};
   std::vector<Scenario> scenarios{};
+  std::vector<std::string> problems{};  ///< of the others
 };
 
-/// Calls look(i) for each file and throws SetupError with all that was wrong with all of them.
-template <class Look>
-void look_at_all(const std::vector<std::filesystem::path>& files, Look&& look) {
-  std::vector<std::string> problems;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    try {
-      look(i);
-    } catch (const SetupError& error) {
-      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
-    }
-  }
-  throw_if_any(std::move(problems));
+void append(const SetupError& error, std::vector<std::string>& problems) {
+  problems.insert(problems.end(), error.problems().begin(), error.problems().end());
 }
 
 FreeMotions open_motions(const CalibrateThresholdsOptions& options) {
-  FreeMotions opened{.files = options.recordings};
-  look_at_all(opened.files, [&](std::size_t i) {
-    const std::filesystem::path& file = opened.files[i];
-    require_no_kind(file, "a recording");
-    Recording recording = open_recording(file);
-    tell_if_partial(recording, options.common);
-    Scenario scenario = scenario_of(recording, file);
-    require_run(recording, file);
-    opened.recordings.push_back(std::move(recording));
-    opened.scenarios.push_back(std::move(scenario));
-  });
+  FreeMotions opened;
+  for (const std::filesystem::path& file : options.recordings) {
+    try {
+      require_no_kind(file, "a recording");
+      Recording recording = open_recording(file);
+      tell_if_partial(recording, options.common);
+      Scenario scenario = scenario_of(recording, file);
+      require_run(recording, file);
+      opened.files.push_back(file);
+      opened.recordings.push_back(std::move(recording));
+      opened.scenarios.push_back(std::move(scenario));
+    } catch (const SetupError& error) {
+      append(error, opened.problems);
+    }
+  }
   return opened;
 }
 
+/// Of all estimators. Throws SetupError with all that is wrong with all recordings.
 std::vector<EstimatorPeaks> peaks_of(const FreeMotions& motions, const ThresholdGoal& goal, bool quiet) {
   std::vector<std::vector<EstimatorPeaks>> peaks;
+  std::vector<std::string> problems = motions.problems;
   Progress progress("reading recordings", quiet);
-  look_at_all(motions.files, [&](std::size_t i) {
-    peaks.push_back(out_of(motions.files[i], [&] {
-      return contact_free_peaks(motions.recordings[i], motions.scenarios[i].robot.robot->space(),
-                                goal.stretch);
-    }));
-    progress.show(static_cast<double>(i + 1) / static_cast<double>(motions.files.size()));
-  });
+  for (std::size_t i = 0; i < motions.files.size(); ++i) {
+    try {
+      peaks.push_back(out_of(motions.files[i], [&] {
+        return contact_free_peaks(motions.recordings[i], motions.scenarios[i].robot.robot->space(),
+                                  goal.stretch);
+      }));
+      progress.show(static_cast<double>(i + 1) / static_cast<double>(motions.files.size()));
+    } catch (const SetupError& error) {
+      append(error, problems);
+    }
+  }
+  throw_if_any(std::move(problems));
   return pooled(peaks);
 }
 
@@ -99,9 +101,11 @@ ExitStatus calibrate_thresholds(const CalibrateThresholdsOptions& options) {
   found.goal.one_robot = options.one_robot;
   const bool quiet = options.common.quiet || options.common.json;
   const FreeMotions motions = open_motions(options);
-  for (const std::filesystem::path& file : options.recordings) found.recordings.push_back(source_of(file));
-  require_different(found.recordings);
-  note_settings(motions.scenarios, found);
+  if (motions.problems.empty()) {  // told before hours of recordings are read
+    for (const std::filesystem::path& file : motions.files) found.recordings.push_back(source_of(file));
+    require_different(found.recordings);
+    note_settings(motions.scenarios, found);
+  }
   found.estimators = calibrate_thresholds(peaks_of(motions, found.goal, quiet), found.goal);
   found.residuals = residuals_of(motions, found.goal, quiet);
   found.tracking = motions.scenarios.front().control.fused_detector.tracking;

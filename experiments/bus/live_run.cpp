@@ -19,8 +19,7 @@ namespace {
 
 /// Whether every drive is known to be so slow that the platform moves by some mm/s at most.
 bool is_at_rest(const JointMotion& joints, const DriveParameters& drives) {
-  const double resting_speed = drives.max_speed / 400.0;
-  return joints.valid && joints.velocity.cwiseAbs().maxCoeff() < resting_speed;
+  return joints.rests(drives.max_speed / 400.0);
 }
 
 std::string attribute(const DurationHistogram& histogram) {

@@ -31,7 +31,7 @@ OrderDesk::OrderDesk(const LiveExperiment& experiment, const ContactControlSetti
       joints_(experiment.diagram->slot(experiment.control.joint_motion)),
       reaction_(experiment.diagram->slot(experiment.control.reaction_state)),
       reference_(experiment.diagram->slot(experiment.control.reference)),
-      rest_speed_(control.sequence.rest_speed),
+      rest_speed_(control.faults.rest_speed),
       approach_(control.trajectory.approach),
       recovery_(control.trajectory.recovery),
       translations_(experiment.translations) {}
@@ -98,7 +98,7 @@ OperatorCommand OrderDesk::follow(Context& context) {
 
 void OrderDesk::see(const Context& context) {
   const JointMotion& joints = context[joints_];
-  moves_ = joints.valid && joints.velocity.cwiseAbs().maxCoeff() > rest_speed_;
+  moves_ = joints.valid && !joints.rests(rest_speed_);
   mode_ = context[reaction_].mode;
   const bool rested = present_.valid && present_.finished;
   present_ = context[reference_];

@@ -36,7 +36,8 @@ const char* sentence(Refusal refusal) noexcept;
 /// Hands an operator's orders to the loop, one a tick with a tick between them in which all buttons are up.
 /// - A stop takes effect at the next tick, whatever waits, which is refused; its button stays down until a
 ///   reset, so that a gate that has not opened yet does not open.
-/// - A reset, start or target that would have no effect is refused, not kept.
+/// - A reset is refused while the robot is known to move, for the gate would not heed it; so is a start or
+///   target that would have no effect. None is kept.
 class OrderDesk {
  public:
   OrderDesk(const LiveExperiment& experiment, const ContactControlSettings& control);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <iterator>
 #include <memory>
-#include <numeric>
 #include <optional>
 
 #include "experiments/campaign/campaign.h"
@@ -264,15 +263,17 @@ std::vector<std::string> of_run(const CampaignRun& run, const std::vector<std::s
   return result;
 }
 
-/// Points of the grid that have, between them, every value of each axis with every scenario.
-std::vector<std::size_t> points_of_all_values(const Campaign& campaign) {
+/// Points of the grid that differ from the first one of their scenario by one value of one axis at most: those
+/// of no axis, then of each its second value and those after it.
+std::vector<std::vector<std::size_t>> points_by_axis(const Campaign& campaign) {
   std::size_t stride = campaign.scenarios.size();
-  std::vector<std::size_t> points(stride);
-  std::iota(points.begin(), points.end(), 0);
+  std::vector<std::vector<std::size_t>> points(1);
+  for (std::size_t scenario = 0; scenario < stride; ++scenario) points.front().push_back(scenario);
   for (const CampaignAxis& axis : campaign.grid) {
+    std::vector<std::size_t>& of_axis = points.emplace_back();
     for (std::size_t value = 1; value < axis.values.size(); ++value) {
       for (std::size_t scenario = 0; scenario < campaign.scenarios.size(); ++scenario)
-        points.push_back(scenario + value * stride);
+        of_axis.push_back(scenario + value * stride);
     }
     stride *= axis.values.size();
   }
@@ -326,25 +327,33 @@ CampaignRun draw_run(const Campaign& campaign, std::size_t number, int most_atte
 }
 
 std::vector<CalibrationDoubt> check_keys(const Campaign& campaign) {
-  std::vector<std::string> wrong;
+  const bool draws_again = !campaign.drawn.empty() || campaign.contact;  // which may mend values
   std::vector<CalibrationDoubt> doubts;
-  for (const std::size_t point : points_of_all_values(campaign)) {
-    try {
-      CampaignRun unused;
-      RandomGenerator random(campaign.seed);
-      std::size_t digits = point;
-      Draft draft = undrawn(campaign, digits, unused);
-      draw_values(campaign, random, draft, unused);
-      if (campaign.contact && campaign.contact->by == CampaignContact::By::pushing) make_hand(draft);
-      auto told = parse_simulated_scenario(draft.root(), draft.file(), *campaign.robots).doubts;
-      std::erase_if(told, [&](const CalibrationDoubt& doubt) { return is_meant(campaign, doubt); });
-      append_new(told, doubts);
-    } catch (const KeyError& error) {
-      append_new(error.of_keys(), wrong);
-    } catch (const SetupError&) {  // of values, which other draws may mend
+  const auto look_at = [&](std::size_t point) {
+    CampaignRun unused;
+    RandomGenerator random(campaign.seed);
+    std::size_t digits = point;
+    Draft draft = undrawn(campaign, digits, unused);
+    draw_values(campaign, random, draft, unused);
+    if (campaign.contact && campaign.contact->by == CampaignContact::By::pushing) make_hand(draft);
+    auto told = parse_simulated_scenario(draft.root(), draft.file(), *campaign.robots).doubts;
+    std::erase_if(told, [&](const CalibrationDoubt& doubt) { return is_meant(campaign, doubt); });
+    append_new(told, doubts);
+  };
+  for (const std::vector<std::size_t>& points : points_by_axis(campaign)) {
+    std::vector<std::string> of_keys, of_values;
+    for (const std::size_t point : points) {
+      try {
+        look_at(point);
+      } catch (const KeyError& error) {
+        append_new(error.of_keys(), of_keys);
+      } catch (const SetupError& error) {
+        if (!draws_again) append_new(error.problems(), of_values);
+      }
     }
+    throw_if_any(std::move(of_keys));
+    throw_if_any(std::move(of_values));
   }
-  throw_if_any(std::move(wrong));
   return doubts;
 }
 

@@ -106,6 +106,16 @@ const RobotKind* read_kind(ConfigReader& file) {
   return nullptr;
 }
 
+/// Throws SetupError where a reader of a kind does not what it must.
+void require_robot(const RobotKind& kind, const ParallelRobot* robot, const ConfigReader& file) {
+  if (robot == nullptr && file.good())
+    throw SetupError("robot kind '" + kind.name + "': its reader has made no robot and noted no problem");
+  const bool fits = robot == nullptr || (robot->description().drives == kind.preset->description().drives &&
+                                         robot->space_dimension() == kind.preset->space_dimension());
+  if (!fits)
+    throw SetupError("robot kind '" + kind.name + "': its reader has made a robot unlike its preset");
+}
+
 RobotFile read_any(ConfigReader file) {
   require_kind(file, FileKind::robot);
   RobotFile result;
@@ -117,6 +127,7 @@ RobotFile read_any(ConfigReader file) {
   }
   for (ConfigReader& calibration : file.sections("calibrations")) calibration.leave_rest_unread();
   result.robot = kind->read(file);
+  require_robot(*kind, result.robot.get(), file);
   result.drives = read_drives(file.section("drives"), *kind);
   ConfigReader limits = file.section("workspace_limits");
   result.limits = read_limits(limits, *kind);

@@ -28,7 +28,8 @@ std::vector<RobotKind>& kinds() {
 
 bool moves_alike(const ParallelRobot& robot) {
   const auto& drives = robot.description().drives;
-  return std::all_of(drives.begin(), drives.end(), [&](DriveKind kind) { return kind == drives.front(); });
+  return !drives.empty() &&
+         std::all_of(drives.begin(), drives.end(), [&](DriveKind kind) { return kind == drives.front(); });
 }
 
 }  // namespace
@@ -43,7 +44,7 @@ void add_robot_kind(RobotKind kind) {
   if (!kind.read) problems.push_back(of + "it needs a function that reads its keys");
   if (!kind.preset) problems.push_back(of + "it needs a preset");
   if (kind.preset && !moves_alike(*kind.preset))
-    problems.push_back(of + "its drives must all turn or all slide");
+    problems.push_back(of + "its preset must have drives that all turn, or all slide");
   throw_if_any(std::move(problems));
   kinds().push_back(std::move(kind));
 }

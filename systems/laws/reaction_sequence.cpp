@@ -48,8 +48,7 @@ ReactionState ReactionSequence::advance(Time now, const ReactionState& last, boo
 
 bool ReactionSequence::is_quiet(const ContactDetection& contact, const JointMotion& motion) const {
   const bool free = contact.valid && contact.present_level == ContactLevel::none;
-  const bool at_rest = motion.valid && (motion.velocity.array().abs() < settings_.rest_speed).all();
-  return free && at_rest && motion.velocity.size() > 0;
+  return free && motion.rests(settings_.rest_speed);
 }
 
 }  // namespace flinch

@@ -34,10 +34,6 @@ bool is_so(After what, const Seen& seen) {
   return false;
 }
 
-bool rests(const JointMotion& motion, double speed) {
-  return motion.valid && motion.velocity.size() > 0 && (motion.velocity.array().abs() < speed).all();
-}
-
 /// Hands a target on, under a number of its own.
 void give(const TargetCommand& target, ScriptedOperator::Course& course) {
   const std::uint32_t number = course.target.number + 1;
@@ -111,7 +107,7 @@ void ScriptedOperator::advance(Time now, const Course& last, ReactionMode mode, 
   course.buttons = pressed;
   course.is_silent |= pressed.stop;
   course.panel_target = wanted.number;
-  const Seen seen{mode, phase, finished, rests(motion, script_.rest_speed)};
+  const Seen seen{mode, phase, finished, motion.rests(script_.rest_speed)};
   if (!course.is_silent) follow(script_, after_end_, now, seen, course);
   if (wanted.number != last.panel_target) give(wanted, course);
 }

@@ -217,7 +217,7 @@ void FiveBar::dynamics(const Kinematics& kinematics, Dynamics& out) const noexce
 
 std::shared_ptr<const Mechanism> FiveBar::deviating(const RobotDeviation& deviation) const {
   FiveBarParameters robot = parameters_;
-  for (std::size_t i = 0; i < 2; ++i) robot.legs[i] = flinch::deviating(robot.legs[i], deviation, i);
+  for (std::size_t i = 0; i < 2; ++i) robot.legs[i] = deviating_leg(robot.legs[i], deviation, i);
   robot.platform_mass = robot.platform_mass * deviation.platform_inertia_scale + deviation.payload;
   return std::make_shared<const FiveBar>(robot);
 }

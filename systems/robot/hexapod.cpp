@@ -320,10 +320,9 @@ std::shared_ptr<const Mechanism> Hexapod::deviating(const RobotDeviation& deviat
   HexapodParameters robot = parameters_;
   for (std::size_t i = 0; i < 6; ++i) {
     HexapodLeg& leg = robot.legs[i];
-    leg.mass_scale *= deviation.scale(deviation.leg_inertia_scale, i);
-    leg.drive_friction = scaled(leg.drive_friction, deviation.scale(deviation.drive_friction_scale, i));
-    leg.universal_friction =
-        scaled(leg.universal_friction, deviation.scale(deviation.passive_friction_scale, i));
+    leg.mass_scale *= scale_of(deviation.leg_inertia_scale, i);
+    leg.drive_friction = scaled(leg.drive_friction, scale_of(deviation.drive_friction_scale, i));
+    leg.universal_friction = scaled(leg.universal_friction, scale_of(deviation.passive_friction_scale, i));
   }
   robot.platform = scaled(robot.platform, deviation.platform_inertia_scale);
   if (deviation.payload > 0.0) {

@@ -81,10 +81,20 @@ class Hexapod final : public ParallelRobot {
     LegRates rates;
   };
   using Legs = std::array<MovingLeg, 6>;
+  /// M and h of MotionEquations.
+  struct Equations {
+    Eigen::Matrix<double, 6, 6> M;
+    Twist h;
+  };
 
   /// Legs, joints and the drive map; false, and `out` unreachable, where that cannot be.
   bool close(const Configuration& pose, const PlatformVector& velocity, const WorkingMode& mode, Legs& legs,
              Kinematics& out) const noexcept;
+  /// Of the platform, with what is fixed to it.
+  Equations platform_equations(const Platform& platform) const noexcept;
+  /// Adds those of a leg, friction included.
+  void add_leg(std::size_t index, const MovingLeg& moving, const Platform& platform,
+               Equations& sum) const noexcept;
   static Platform platform(const Configuration& pose, const Twist& velocity) noexcept;
   Leg leg(std::size_t index, const Platform& platform) const noexcept;
   static LegRates rates(const Leg& leg, const Platform& platform) noexcept;

@@ -37,85 +37,95 @@ void Hexapod::dynamics(const Kinematics& kinematics, Dynamics& out) const noexce
   out.valid = true;
 }
 
-// Links of a leg turn alike, so that what they sum up to needs their inertia about their own joints alone,
-// cylinder's and rod's together. With the accelerations a_o of a body's origin and alpha of the body at dv = 0,
-// c from its origin to its centre of mass, and I about its origin, it needs the force and the moment
+// ---------------------------------------------------------------- for an integration
+
+// A body needs, with a_o and alpha the accelerations of its origin and of itself while dv = 0, c from its
+// origin to its centre of mass, and I about its origin,
 //   f = m (a_o + alpha x c + omega x (omega x c) - g),  n = I alpha + omega x I omega + m c x (a_o - g),
 // and h = J_o^T f + J_w^T n. No time derivative of a Jacobian is formed.
+
 void Hexapod::equations_of_motion(const Configuration& pose, const PlatformVector& velocity,
                                   Kinematics& kinematics, MotionEquations& equations) const noexcept {
   Legs legs;
   equations.valid = close(pose, velocity, home_working_mode(), legs, kinematics);
   if (!equations.valid) return;
-  const HexapodParameters& p = parameters_;
   const Platform at = platform(kinematics.pose, kinematics.velocity);
+  Equations sum = platform_equations(at);
+  for (std::size_t i = 0; i < legs.size(); ++i) add_leg(i, legs[i], at, sum);
+  equations.valid = sum.M.allFinite() && sum.h.allFinite();
+  equations.M_x = sum.M;
+  equations.h_x = sum.h;
+}
+
+// J_o = [1, 0], J_w = [0, 1].
+Hexapod::Equations Hexapod::platform_equations(const Platform& at) const noexcept {
+  const Eigen::Vector3d& g = parameters_.gravity;
   const Eigen::Vector3d omega = at.velocity.tail<3>();
-  const auto centripetal = [](const Eigen::Vector3d& turning, const Eigen::Vector3d& arm) -> Eigen::Vector3d {
-    return turning.cross(turning.cross(arm));
+  const Eigen::Vector3d c = at.axes * loaded_platform_.centre_of_mass;
+  const Eigen::Matrix3d I = at.axes * about_origin(loaded_platform_) * at.axes.transpose();
+  const double m = loaded_platform_.mass;
+  const Eigen::Matrix3d S = m * cross_matrix(c);
+  Equations sum;
+  sum.M << m * Eigen::Matrix3d::Identity(), -S, S, I;
+  sum.h << m * (omega.cross(omega.cross(c)) - g), omega.cross(I * omega) - m * c.cross(g);
+  return sum;
+}
+
+// Both links turn alike, so that I is that of both, each about its own joint. The cylinder's joint is fixed;
+// the rod's has J_o = [1, -S(r)], a_o = omega x (omega x r).
+void Hexapod::add_leg(std::size_t index, const MovingLeg& moving, const Platform& at,
+                      Equations& sum) const noexcept {
+  const HexapodParameters& p = parameters_;
+  const HexapodLeg& of = p.legs[index];
+  const Leg& leg = moving.leg;
+  const LegRates& rates = moving.rates;
+  const Eigen::Vector3d& r = leg.arm;
+  const Eigen::Vector3d omega = at.velocity.tail<3>();
+  const UniversalTurn turn = universal_turn(of.universal_axis, leg.direction, rates.direction_rate);
+  const Map J_joint = joint_motion(leg, at).J;
+  const Map J_w = turn.W * ((J_joint - leg.direction * rates.row) / leg.length);
+
+  // While dv = 0, of the rod's joint, of the leg's direction, and of the links.
+  const Eigen::Vector3d a_o = omega.cross(omega.cross(r));
+  const double row_drift = rates.row_rate.dot(at.velocity);
+  const Eigen::Vector3d a_direction =
+      (a_o - 2.0 * rates.length_rate * rates.direction_rate - row_drift * leg.direction) / leg.length;
+  const Eigen::Vector3d turning = turn.W * rates.direction_rate;
+  const Eigen::Vector3d alpha = turn.W_rate * rates.direction_rate + turn.W * a_direction;
+
+  const double m = rods_[index].mass;
+  const Eigen::Vector3d c = turn.axes * rods_[index].centre_of_mass;
+  const Eigen::Vector3d of_cylinder = cylinders_[index].mass * (turn.axes * cylinders_[index].centre_of_mass);
+  const Eigen::Matrix3d I = turn.axes * link_inertia_[index] * turn.axes.transpose();
+  const Eigen::Vector3d f = m * (a_o + alpha.cross(c) + turning.cross(turning.cross(c)) - p.gravity);
+  const Eigen::Vector3d n =
+      I * alpha + turning.cross(I * turning) + m * c.cross(a_o - p.gravity) - of_cylinder.cross(p.gravity);
+
+  // J_o^T X = [X; S(r) X].
+  const Eigen::Matrix3d S = cross_matrix(r);
+  const Map S_c_J_w = m * cross_matrix(c) * J_w;
+  Eigen::Matrix<double, 6, 6> crossed;
+  crossed << S_c_J_w, S * S_c_J_w;
+  Eigen::Matrix<double, 6, 6>& M = sum.M;
+  M.noalias() += J_w.transpose() * (I * J_w) + p.drive_armature * rates.row.transpose() * rates.row;
+  M -= crossed + crossed.transpose();
+  M.topLeftCorner<3, 3>().diagonal().array() += m;
+  M.topRightCorner<3, 3>() -= m * S;
+  M.bottomLeftCorner<3, 3>() += m * S;
+  M.bottomRightCorner<3, 3>() -= m * S * S;
+  sum.h += J_joint.transpose() * f + J_w.transpose() * n;
+  sum.h += p.drive_armature * row_drift * rates.row.transpose();
+
+  // The first axis lies across the leg: its row is first . (J_o - s row) / q, and first . s = 0.
+  const double first_rate = turn.first.dot(rates.direction_rate);
+  const double second_rate = turn.second.dot(turning);
+  const auto universal = [&](double rate) {
+    return friction_effort(of.universal_friction, rate, p.universal_friction_velocity);
   };
-
-  Eigen::Matrix<double, 6, 6> M;
-  Twist h;
-  {
-    const Eigen::Vector3d c = at.axes * loaded_platform_.centre_of_mass;
-    const Eigen::Matrix3d I = at.axes * about_origin(loaded_platform_) * at.axes.transpose();
-    const double m = loaded_platform_.mass;
-    const Eigen::Matrix3d S = m * cross_matrix(c);
-    M << m * Eigen::Matrix3d::Identity(), -S, S, I;
-    h << m * (centripetal(omega, c) - p.gravity), omega.cross(I * omega) - m * c.cross(p.gravity);
-  }
-  for (std::size_t i = 0; i < 6; ++i) {
-    const Leg& leg = legs[i].leg;
-    const LegRates& moving = legs[i].rates;
-    const HexapodLeg& of = p.legs[i];
-    const Eigen::Vector3d& r = leg.arm;
-    const UniversalTurn turn = universal_turn(of.universal_axis, leg.direction, moving.direction_rate);
-    const PointMotion<6> joint = joint_motion(leg, at);
-    const Map J_w = turn.W * ((joint.J - leg.direction * moving.row) / leg.length);
-
-    // At dv = 0: of the joint on the platform, of the direction of the leg, of the leg.
-    const Eigen::Vector3d a_joint = centripetal(omega, r);
-    const double row_drift = moving.row_rate.dot(at.velocity);
-    const Eigen::Vector3d a_direction =
-        (a_joint - 2.0 * moving.length_rate * moving.direction_rate - leg.direction * row_drift) / leg.length;
-    const Eigen::Vector3d turning = turn.W * moving.direction_rate;
-    const Eigen::Vector3d alpha = turn.W_rate * moving.direction_rate + turn.W * a_direction;
-
-    const double m = rods_[i].mass;
-    const Eigen::Vector3d c = turn.axes * rods_[i].centre_of_mass;
-    const Eigen::Vector3d c_cylinder = turn.axes * cylinders_[i].centre_of_mass;
-    const Eigen::Matrix3d I = turn.axes * link_inertia_[i] * turn.axes.transpose();
-    const Eigen::Vector3d f = m * (a_joint + alpha.cross(c) + centripetal(turning, c) - p.gravity);
-    const double first = friction_effort(of.universal_friction, turn.first.dot(moving.direction_rate),
-                                         p.universal_friction_velocity);
-    const double second =
-        friction_effort(of.universal_friction, turn.second.dot(turning), p.universal_friction_velocity);
-    const Eigen::Vector3d n = I * alpha + turning.cross(I * turning) + m * c.cross(a_joint - p.gravity) -
-                              cylinders_[i].mass * c_cylinder.cross(p.gravity) + second * turn.second;
-    const double along = p.drive_armature * row_drift +
-                         friction_effort(of.drive_friction, moving.length_rate, p.drive_friction_velocity);
-
-    // J_joint = [1, -S(r)]: products with it are those with 1 and cross products.
-    const Map cross_term = m * cross_matrix(c) * J_w;
-    const Eigen::Matrix3d S = cross_matrix(r);
-    Eigen::Matrix<double, 6, 6> joint_term;
-    joint_term << cross_term, S * cross_term;
-    M.noalias() += J_w.transpose() * (I * J_w);
-    M -= joint_term + joint_term.transpose();
-    M.topLeftCorner<3, 3>().diagonal().array() += m;
-    M.topRightCorner<3, 3>() -= m * S;
-    M.bottomLeftCorner<3, 3>() += m * S;
-    M.bottomRightCorner<3, 3>() -= m * S * S;
-    M.noalias() += p.drive_armature * moving.row.transpose() * moving.row;
-    h.head<3>() += f;
-    h.tail<3>() += r.cross(f);
-    h.noalias() += J_w.transpose() * n + moving.row.transpose() * along;
-    // The first axis lies across the leg, so that its row is J_joint^T alone: first . (J_joint - s row) / q.
-    h.noalias() += joint.J.transpose() * (first / leg.length * turn.first);
-  }
-  equations.valid = M.allFinite() && h.allFinite();
-  equations.M_x = M;
-  equations.h_x = h;
+  sum.h += J_joint.transpose() * (universal(first_rate) / leg.length * turn.first) +
+           J_w.transpose() * (universal(second_rate) * turn.second) +
+           friction_effort(of.drive_friction, rates.length_rate, p.drive_friction_velocity) *
+               rates.row.transpose();
 }
 
 }  // namespace flinch

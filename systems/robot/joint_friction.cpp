@@ -4,6 +4,10 @@
 
 namespace flinch {
 
+JointFriction scaled(const JointFriction& friction, double factor) {
+  return {.viscous = friction.viscous * factor, .coulomb = friction.coulomb * factor};
+}
+
 void find_friction_problems(const std::string& field, const JointFriction& friction, Findings& findings) {
   findings.not_negative(field + ".viscous", friction.viscous, "Nm s/rad");
   findings.not_negative(field + ".coulomb", friction.coulomb, "Nm");

@@ -20,6 +20,9 @@ inline double friction_effort(const JointFriction& friction, double rate, double
   return friction.coulomb == 0.0 ? viscous : viscous + friction.coulomb * std::tanh(rate / friction_velocity);
 }
 
+/// That friction `factor` times.
+JointFriction scaled(const JointFriction& friction, double factor);
+
 /// Adds where a part of a turning joint's friction is negative.
 void find_friction_problems(const std::string& field, const JointFriction& friction, Findings& findings);
 

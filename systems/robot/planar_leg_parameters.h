@@ -60,11 +60,11 @@ std::vector<Body> planar_bodies(double platform_radius, const std::array<Leg, co
 
 /// Leg `i` of a robot with these differences.
 template <class Leg>
-Leg deviating(Leg leg, const RobotDeviation& deviation, std::size_t i) {
-  const double inertia = deviation.scale(deviation.leg_inertia_scale, i);
+Leg deviating_leg(Leg leg, const RobotDeviation& deviation, std::size_t i) {
+  const double inertia = scale_of(deviation.leg_inertia_scale, i);
   leg.inertia = {leg.inertia.p1 * inertia, leg.inertia.p2 * inertia, leg.inertia.p3 * inertia};
-  leg.active_friction = scaled(leg.active_friction, deviation.scale(deviation.drive_friction_scale, i));
-  leg.passive_friction = scaled(leg.passive_friction, deviation.scale(deviation.passive_friction_scale, i));
+  leg.active_friction = scaled(leg.active_friction, scale_of(deviation.drive_friction_scale, i));
+  leg.passive_friction = scaled(leg.passive_friction, scale_of(deviation.passive_friction_scale, i));
   return leg;
 }
 

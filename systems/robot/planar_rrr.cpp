@@ -340,7 +340,7 @@ SelfCollisionTasks PlanarRrr::self_collision_tasks(const Kinematics& kinematics,
 
 std::shared_ptr<const Mechanism> PlanarRrr::deviating(const RobotDeviation& deviation) const {
   PlanarRrrParameters robot = parameters_;
-  for (std::size_t i = 0; i < 3; ++i) robot.legs[i] = flinch::deviating(robot.legs[i], deviation, i);
+  for (std::size_t i = 0; i < 3; ++i) robot.legs[i] = deviating_leg(robot.legs[i], deviation, i);
   robot.platform_mass = robot.platform_mass * deviation.platform_inertia_scale + deviation.payload;
   robot.platform_inertia *= deviation.platform_inertia_scale;
   return std::make_shared<const PlanarRrr>(robot);

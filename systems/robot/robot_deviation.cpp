@@ -7,7 +7,7 @@
 
 namespace flinch {
 
-double RobotDeviation::scale(const JointVector& scales, std::size_t i) {
+double scale_of(const JointVector& scales, std::size_t i) {
   const auto index = static_cast<Eigen::Index>(i);
   return index < scales.size() ? scales[index] : 1.0;
 }
@@ -18,17 +18,13 @@ bool RobotDeviation::none() const {
          platform_inertia_scale == 1.0 && payload == 0.0;
 }
 
-JointFriction scaled(const JointFriction& friction, double factor) {
-  return {.viscous = friction.viscous * factor, .coulomb = friction.coulomb * factor};
-}
-
 std::shared_ptr<const Mechanism> true_robot(const std::shared_ptr<const Mechanism>& robot,
                                             const RobotDeviation& deviation) {
   if (deviation.none()) return robot;
   std::shared_ptr<const Mechanism> other = robot->deviating(deviation);
   if (!other) {
     throw SetupError("a robot called '" + robot->name() +
-                     "' is of a kind whose parameters cannot be made to differ");
+                     "' is of a kind that cannot differ from its model: see Mechanism::deviating()");
   }
   return other;
 }

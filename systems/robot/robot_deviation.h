@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <memory>
 
-#include "systems/robot/joint_friction.h"
 #include "systems/robot/vectors.h"
 
 namespace flinch {
@@ -18,14 +17,12 @@ struct RobotDeviation {
   double platform_inertia_scale = 1.0;
   double payload = 0.0;  ///< A point mass at the platform's origin [kg].
 
-  /// Of drive or leg `i`.
-  static double scale(const JointVector& scales, std::size_t i);
   /// Whether there is none.
   bool none() const;
 };
 
-/// That friction `factor` times.
-JointFriction scaled(const JointFriction& friction, double factor);
+/// Of drive or leg `i`; 1 where none is given.
+double scale_of(const JointVector& scales, std::size_t i);
 
 /// `robot` with these differences. Throws SetupError where its kind cannot differ from itself, see
 /// Mechanism::deviating(), and there are any.

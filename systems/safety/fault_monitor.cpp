@@ -79,7 +79,7 @@ FaultReport FaultMonitor::judge(Time now, const FaultMonitorMemory& memory, cons
   return {.valid = true,
           .present = find_faults(evidence),
           .tolerable = tolerable_faults(memory.recovery, limits_.recovery_margin),
-          .at_rest = evidence.has_motion && (rates.velocity.array().abs() < limits_.rest_speed).all()};
+          .at_rest = evidence.has_motion && rates.rests(limits_.rest_speed)};
 }
 
 }  // namespace flinch

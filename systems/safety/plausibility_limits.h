@@ -34,7 +34,7 @@ struct PlausibilityLimits {
   double current_noise = 8.0;     ///< the same in standard deviations
   double current_scale = 0.03;    ///< share of the current besides
   double still_torque = 10.0;     ///< change of a torque that must move something [Nm]
-  double resting_rate = 0.1;      ///< of a drive that counts as held [rad/s]
+  double resting_rate = 0.1;      ///< of a drive that counts as held; by half of it, as at rest [rad/s]
   bool commands_act = true;       ///< what is commanded reaches the drives whose readings are seen
 };
 

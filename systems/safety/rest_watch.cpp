@@ -16,14 +16,27 @@ constexpr Time torque_turns = 15ms;  // from one end of the range to the other, 
 constexpr double period = 1e-3;      // of readings [s]
 constexpr std::size_t arm = 6;       // of a second difference [ticks]
 constexpr double idle_share =
-    0.75;                       // of a change of torque; lags and friction leave half of it without effect
-constexpr double surely = 5.0;  // standard deviations
+    0.75;                        // of a change of torque; lags and friction leave half of it without effect
+constexpr double surely = 5.0;   // standard deviations
+constexpr Time stop_takes = 1s;  // at most; the damping alone takes a tenth of that
+constexpr int rest_lasts = 100;  // ticks; at the turn of a motion a robot seems to rest for a third of that
 constexpr double energy_left = 0.9;  // share of what it was 6 ms before; damping leaves two thirds
 
 /// 1/2 v^T M_x v with the rates of the last two ticks [J].
 double kinetic_energy(const PlausibilityTick& tick, const JointVector& rates) {
   const PlatformVector velocity = tick.kinematics.J_x_qa * rates;
   return 0.5 * velocity.dot(tick.dynamics.M_x * velocity);
+}
+
+/// A force that the model does not know, as of a payload, leads a robot that is only damped for as long as it
+/// acts. Once the robot has rested it may be pushed by hand.
+void judge_end_of_stop(RestWatch& watch, const PlausibilityTick& tick, Plausibility& found) {
+  const double fastest = tick.kinematics.rates.active.lpNorm<Eigen::Infinity>();
+  const double moves = fastest / (0.5 * tick.limits.resting_rate);
+  watch.resting = moves < 1.0 ? watch.resting + 1 : 0;
+  watch.stays = watch.stays || watch.resting >= rest_lasts;
+  if (!watch.stays && tick.now - watch.gate.since > stop_takes)
+    note(found, PlausibilityCheck::stop, moves, GateFault::stop_ineffective);
 }
 
 /// From rates that the fault of the stop has not called in doubt: those that do are no controlled stop.
@@ -34,9 +47,11 @@ void judge_stop(RestWatch& watch, const PlausibilityTick& tick, const JointVecto
                      tick.dynamics.valid && rates.size() > 0;
   if (!stops) {
     watch.energies = 0;
-    watch.rested = false;
+    watch.resting = 0;
+    watch.rested = watch.stays = false;
     return;
   }
+  judge_end_of_stop(watch, tick, found);
   const double energy = kinetic_energy(tick, rates);
   const std::size_t ring = watch.energy.size();
   const double before = watch.energy[watch.energies % ring];

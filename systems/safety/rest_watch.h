@@ -25,6 +25,8 @@ struct RestWatch {
   std::array<double, 6> energy{};  ///< kinetic, a ring [J]
   std::size_t energies = 0;        ///< since the controlled stop began
   bool rested = false;             ///< it has come to its end
+  int resting = 0;                 ///< ticks in a row without motion to speak of
+  bool stays = false;              ///< it has come to a rest that lasted
   Driven driven;                   ///< ticks in a row with drives that obey
   JointVector torque;              ///< commanded at the tick before [Nm]; empty: none
 };

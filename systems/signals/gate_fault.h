@@ -60,7 +60,7 @@ struct FaultReport {
   bool valid = false;       ///< they have been looked for
   FaultMask present = 0;    ///< set of GateFault
   FaultMask tolerable = 0;  ///< those that, if present, a recovery bears now
-  bool at_rest = false;     ///< no drive moves, as far as its rate is known
+  bool at_rest = false;     ///< every drive is known to be slower than FaultLimits::rest_speed
 
   bool none() const { return valid && present == 0; }
   FaultMask intolerable() const { return present & ~tolerable; }

@@ -12,6 +12,11 @@ struct JointMotion {
   JointVector position;  ///< q_a [rad]
   JointVector velocity;  ///< its filtered derivative [rad/s]
 
+  /// Whether every drive is known to be slower than `speed` [rad/s or m/s].
+  bool rests(double speed) const {
+    return valid && velocity.size() > 0 && (velocity.array().abs() < speed).all();
+  }
+
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("acquired", "ns", self.acquired);

@@ -5,7 +5,7 @@ namespace flinch {
 /// The buttons of whoever supervises the robot, as they are held now.
 struct OperatorCommand {
   bool start = false;  ///< begin the nominal motion from where the robot stands
-  bool reset = false;  ///< end a reaction, leave zero gravity, clear the faults of the torque gate
+  bool reset = false;  ///< end a reaction, leave zero gravity; at rest, clear the faults of the torque gate
   bool stop = false;   ///< come to rest: fault `operator_stop` of the torque gate, as long as it is down
 
   template <class Self, class Visit>

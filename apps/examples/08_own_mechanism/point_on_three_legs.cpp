@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <utility>
 
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
@@ -187,7 +186,7 @@ void PointOnThreeLegs::kinematics(const Configuration& pose, const PlatformVecto
   }
   out.J_qa_x = J;
   out.dJ_qa_x = dJ;
-  out.det_A = std::sqrt((A.transpose() * A).determinant());
+  out.det_A = std::sqrt(std::max(0.0, (A.transpose() * A).determinant()));
   const Eigen::Vector2d values = J.jacobiSvd().singularValues();
   out.sigma_kappa = values[1] > 0.0 ? values[0] / values[1] : std::numeric_limits<double>::infinity();
   out.reachable = true;
@@ -215,7 +214,7 @@ void PointOnThreeLegs::dynamics(const Kinematics& kinematics, Dynamics& out) con
 
 std::shared_ptr<const Mechanism> PointOnThreeLegs::deviating(const RobotDeviation& deviation) const {
   Parameters robot = parameters_;
-  for (std::size_t i = 0; i < n; ++i) robot.legs[i] = flinch::deviating(robot.legs[i], deviation, i);
+  for (std::size_t i = 0; i < n; ++i) robot.legs[i] = deviating_leg(robot.legs[i], deviation, i);
   robot.platform_mass = robot.platform_mass * deviation.platform_inertia_scale + deviation.payload;
   return std::make_shared<const PointOnThreeLegs>(robot);
 }

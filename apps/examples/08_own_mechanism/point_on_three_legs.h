@@ -13,7 +13,8 @@
 
 /// A mechanism of your own: a point in the plane held by three legs of two links, each driven at its base. It
 /// has more drives than coordinates, as no robot of the library has. A five-bar has two of these legs, and
-/// what flinch knows of such a leg is used: systems/robot/planar_leg.h, planar_leg_dynamics.h.
+/// what flinch knows of such a leg is used: systems/robot/planar_leg.h, planar_leg_dynamics.h. All else is
+/// written out, as it has to be for a mechanism that is like none of the library.
 ///
 /// det_A is sqrt(det(A^T A)), A of |p - elbow|^2 - l2^2 = 0 by position: it has no sign, and is 0 where all
 /// second links are in line. det_B is as in a five-bar.

@@ -272,12 +272,16 @@ class All {
     }
   }
 
-  /// "12 N, 1.2 Nm"; by component "12, 13 N, 1.2 Nm".
+  /// "12 N, 1.2 Nm"; by component "[12, 13] N, 1.2 Nm".
   static std::string text_of(const ThresholdFindings& found, std::size_t estimator) {
     const EstimatorThresholds& of = found.estimators[estimator];
+    const auto listed = [](const std::vector<double>& values) {
+      const std::string all = fmt::format("{:.3g}", fmt::join(values, ", "));
+      return values.size() > 1 ? "[" + all + "]" : all;
+    };
     const std::vector<double> moment = moment_values(of, found.space);
-    const std::string force = fmt::format("{:.3g} N", fmt::join(force_values(of, found.space), ", "));
-    return moment.empty() ? force : fmt::format("{}, {:.3g} Nm", force, fmt::join(moment, ", "));
+    const std::string force = listed(force_values(of, found.space)) + " N";
+    return moment.empty() ? force : force + ", " + listed(moment) + " Nm";
   }
 
   static Json threshold_json(const ThresholdFindings& found) {

@@ -9,12 +9,15 @@
 #include "experiments/campaign/campaign.h"
 #include "systems/foundation/setup_error.h"
 #include "tests/experiments/campaign/small_campaign.h"
+#include "tests/support/problems_of.h"
 
 namespace flinch {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
 std::string value(const CampaignRun& run, const std::string& key) {
@@ -166,6 +169,27 @@ TEST(DoubtsAboutCalibrations, AreToldOfEveryValueOfTheGrid) {
   const auto of_both = doubts("300, 150");
   ASSERT_EQ(of_both.size(), 2U);
   EXPECT_THAT(of_both[1].sentence, HasSubstr("control.disturbance_filter.pole"));
+}
+
+/// A campaign that varies the speed of a motion, an entry a line, and draws nothing.
+std::vector<std::string> problems_of_speeds(const std::string& key, const std::vector<std::string>& values) {
+  const test::Workplace place;
+  std::string text =
+      "scenario: ../scenarios/platform_collision.yaml\nruns: 1\ngrid:\n  - key: " + key + "\n    values:\n";
+  for (const std::string& value : values) text += "      - " + value + "\n";
+  place.write("campaigns/own.yaml", text);
+  return test::problems_of([&] { check_keys(read_campaign(place / "campaigns/own.yaml")); });
+}
+
+TEST(TheGridOfACampaign, IsRefusedForALaterValueThatNoDrawMends) {
+  EXPECT_THAT(problems_of_speeds("motion.speed_m_per_s", {"0.5", "0.6", "-1"}),
+              ElementsAre(HasSubstr("own.yaml:8: motion.speed_m_per_s: is -1")));
+  EXPECT_THAT(problems_of_speeds("motion.speed_m_per_s", {"0.5", "0.6"}), IsEmpty());
+}
+
+TEST(TheGridOfACampaign, HasAMisspeltKeyOnceWhateverItsValues) {
+  EXPECT_THAT(problems_of_speeds("motion.sped_m_per_s", {"0.5", "0.6", "0.7"}),
+              ElementsAre(HasSubstr("motion.sped_m_per_s")));
 }
 
 }  // namespace

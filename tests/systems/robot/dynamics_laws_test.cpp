@@ -234,6 +234,7 @@ TEST_P(DynamicLaws, JointSpaceFormHasTheSameSolution) {
     ASSERT_TRUE(joints.valid);
     const JointVector efforts = loads_at(k).drives;
     const JointVector bias = joints.C_qa * k.rates.active + joints.g_qa + joints.tau_fr_qa;
+    // M_qa is singular where there are more drives than coordinates.
     const JointVector ddq =
         Eigen::MatrixXd(joints.M_qa).completeOrthogonalDecomposition().solve(Eigen::VectorXd(efforts - bias));
     const PlatformVector from_joints = k.J_x_qa * ddq + k.dJ_x_qa * k.rates.active;

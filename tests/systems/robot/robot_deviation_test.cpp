@@ -1,5 +1,7 @@
 #include "systems/robot/robot_deviation.h"
 
+#include <algorithm>
+
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/forward_dynamics.h"
 #include "tests/systems/robot/mechanism_laws.h"
@@ -37,27 +39,46 @@ TEST_P(DeviationLaws, APayloadMovesWithThePlatform) {
   }
 }
 
-TEST_P(DeviationLaws, InertiaOfLegsAndPlatformAddsUp) {
-  Residual residual("kinetic energy without legs and without platform, relative", 1e-12);
+TEST_P(DeviationLaws, InertiaOfEachLegAndOfThePlatformGrowsByItsScale) {
+  Residual residual("kinetic energy of legs and platform by themselves, relative", 1e-12);
   for (const MotionState& state : states) {
     const Kinematics k = kinematics_after(state, 0.0);
     const double whole = energy_with({}, k);
-    // What neither scales is left in each: rotors, screws and what is fixed to the platform.
-    const double heavier_legs = energy_with({.leg_inertia_scale = of_each_leg(1.5)}, k) - whole;
-    const double heavier_platform = energy_with({.platform_inertia_scale = 1.5}, k) - whole;
-    const double heavier =
-        energy_with({.leg_inertia_scale = of_each_leg(1.5), .platform_inertia_scale = 1.5}, k) - whole;
-    EXPECT_GT(heavier_legs, 0.0);
-    EXPECT_GT(heavier_platform, 0.0);
-    residual.add((heavier_legs + heavier_platform - heavier) / whole);
+    const auto gain = [&](const RobotDeviation& deviation) { return energy_with(deviation, k) - whole; };
+    const auto legs = [&](double scale) { return RobotDeviation{.leg_inertia_scale = of_each_leg(scale)}; };
+    EXPECT_GT(gain(legs(1.5)), 0.0);
+    residual.add((gain(legs(2.0)) - 2.0 * gain(legs(1.5))) / whole);
+    const double platform = gain({.platform_inertia_scale = 1.5});
+    EXPECT_GT(platform, 0.0);
+    residual.add((gain({.platform_inertia_scale = 2.0}) - 2.0 * platform) / whole);
+    double one_by_one = 0.0;
+    for (int leg = 0; leg < robot.legs(); ++leg) {
+      RobotDeviation deviation = legs(1.0);
+      deviation.leg_inertia_scale[leg] = 1.5;
+      one_by_one += gain(deviation);
+    }
+    residual.add((one_by_one - gain(legs(1.5))) / whole);
   }
 }
 
-TEST_P(DeviationLaws, WithoutFrictionNothingRubs) {
-  const RobotDeviation smooth{.drive_friction_scale = JointVector::Zero(robot.drives()),
-                              .passive_friction_scale = of_each_leg(0.0)};
+TEST_P(DeviationLaws, DrivesAndPassiveJointsRubByTheirOwnScales) {
+  Residual residual("friction of drives, of passive joints and of all, relative", 1e-12);
+  const auto friction = [&](double drives, double passive, const Kinematics& k) {
+    return dynamics_with({.drive_friction_scale = JointVector::Constant(robot.drives(), drives),
+                          .passive_friction_scale = of_each_leg(passive)},
+                         k)
+        .F_fr_x;
+  };
   for (const MotionState& state : states) {
-    EXPECT_EQ(dynamics_with(smooth, kinematics_after(state, 0.0)).F_fr_x.norm(), 0.0);
+    const Kinematics k = kinematics_after(state, 0.0);
+    EXPECT_EQ(friction(0.0, 0.0, k).norm(), 0.0);
+    const PlatformVector of_drives = friction(1.0, 0.0, k), of_passive = friction(0.0, 1.0, k);
+    const PlatformVector sum = 2.0 * of_drives + 3.0 * of_passive;
+    residual.add((friction(2.0, 3.0, k) - sum).norm() / std::max(1.0, sum.norm()));
+    if (robot.drives() != n) continue;
+    const JointVector efforts = drive_torques(k, of_drives);
+    for (int i = 0; i < n; ++i)
+      EXPECT_GE(efforts[i] * k.rates.active[i], -1e-12) << "each drive by its own rate alone";
   }
 }
 

@@ -167,7 +167,8 @@ TEST_P(UnusableInput, OfEquationsOfMotionMakesThemInvalid) {
   const auto are_valid = [&](const Configuration& pose, const PlatformVector& velocity) {
     robot.equations_of_motion(pose, velocity, k, equations);
     expect_finite(k);
-    return equations.valid || k.reachable;
+    EXPECT_EQ(equations.valid, k.reachable);
+    return equations.valid;
   };
   EXPECT_TRUE(are_valid(home, still));
   for (const Configuration& pose : spoilt(home)) EXPECT_FALSE(are_valid(pose, still)) << pose.transpose();
