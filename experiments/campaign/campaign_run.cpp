@@ -263,8 +263,8 @@ std::vector<std::string> of_run(const CampaignRun& run, const std::vector<std::s
   return result;
 }
 
-/// Points of the grid that differ from the first one of their scenario by one value of one axis at most: those
-/// of no axis, then of each its second value and those after it.
+/// Points of the grid that differ from the first one of their scenario by one value of one axis at most:
+/// those of no axis, then of each its second value and those after it.
 std::vector<std::vector<std::size_t>> points_by_axis(const Campaign& campaign) {
   std::size_t stride = campaign.scenarios.size();
   std::vector<std::vector<std::size_t>> points(1);

@@ -29,8 +29,8 @@ struct CampaignRun {
 /// and what was drawn for it where none was possible, and at once for keys that fit no scenario.
 CampaignRun draw_run(const Campaign& campaign, std::size_t number, int most_attempts = 200);
 
-/// Throws SetupError with what is wrong with keys of the grid and of draws, whatever is drawn, and with values
-/// where nothing is drawn: tried with every scenario and every value of the grid, but not with every
+/// Throws SetupError with what is wrong with keys of the grid and of draws, whatever is drawn, and with
+/// values where nothing is drawn: tried with every scenario and every value of the grid, but not with every
 /// combination. Returns what is doubtful about the calibrations of these runs, none twice; where the campaign
 /// varies them itself, they are meant to replace what the scenario says.
 std::vector<CalibrationDoubt> check_keys(const Campaign& campaign);

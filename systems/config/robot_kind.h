@@ -23,8 +23,8 @@ struct RobotKind {
 };
 
 /// Lets robot files be of one more kind, anywhere in this program, which brings its own mechanism. Call it
-/// from one thread, before anything is read. Throws SetupError where the kind is incomplete, its drives do not
-/// move alike, or there is one of that name.
+/// from one thread, before anything is read. Throws SetupError where the kind is incomplete, its drives do
+/// not move alike, or there is one of that name.
 void add_robot_kind(RobotKind kind);
 
 /// All kinds: those of the library, then those that were added.
