@@ -52,7 +52,8 @@ FreeMotions open_motions(const CalibrateThresholdsOptions& options) {
   return opened;
 }
 
-/// Of all estimators. Throws SetupError with all that is wrong with all recordings.
+/// Of all estimators. Throws SetupError with all that is wrong with all recordings, also those that could not
+/// be opened: told together, be it late.
 std::vector<EstimatorPeaks> peaks_of(const FreeMotions& motions, const ThresholdGoal& goal, bool quiet) {
   std::vector<std::vector<EstimatorPeaks>> peaks;
   std::vector<std::string> problems = motions.problems;

@@ -30,9 +30,9 @@ struct CampaignRun {
 CampaignRun draw_run(const Campaign& campaign, std::size_t number, int most_attempts = 200);
 
 /// Throws SetupError with what is wrong with keys of the grid and of draws, whatever is drawn, and with
-/// values where nothing is drawn: tried with every scenario and every value of the grid, but not with every
-/// combination. Returns what is doubtful about the calibrations of these runs, none twice; where the campaign
-/// varies them itself, they are meant to replace what the scenario says.
+/// values where nothing is drawn: of the first axis that has any, tried with every scenario and every value
+/// but not with every combination. Returns what is doubtful about the calibrations of these runs, none twice;
+/// where the campaign varies them itself, they are meant to replace what the scenario says.
 std::vector<CalibrationDoubt> check_keys(const Campaign& campaign);
 
 /// All that can be told of a campaign before its runs: check_keys(), and whether a first run can be drawn.

@@ -111,7 +111,7 @@ void require_robot(const RobotKind& kind, const ParallelRobot* robot, const Conf
   if (robot == nullptr && file.good())
     throw SetupError("robot kind '" + kind.name + "': its reader has made no robot and noted no problem");
   const bool fits = robot == nullptr || (robot->description().drives == kind.preset->description().drives &&
-                                         robot->space_dimension() == kind.preset->space_dimension());
+                                         robot->space() == kind.preset->space());
   if (!fits)
     throw SetupError("robot kind '" + kind.name + "': its reader has made a robot unlike its preset");
 }

@@ -215,7 +215,7 @@ constexpr std::array rows{
     FaultRow{GateFault::drives_without_effect, Doubt::drives, 0,
              found_contradicted<GateFault::drives_without_effect>, "torques change and nothing moves"},
     FaultRow{GateFault::stop_ineffective, Doubt::drives, 0, found_contradicted<GateFault::stop_ineffective>,
-             "a controlled stop does not slow the robot down"},
+             "a controlled stop does not slow the robot down, or does not end"},
     FaultRow{GateFault::brake_not_holding, Doubt::drives, 0, found_contradicted<GateFault::brake_not_holding>,
              "a drive moves that its brake should hold"},
 };

@@ -16,10 +16,11 @@ constexpr Time torque_turns = 15ms;  // from one end of the range to the other, 
 constexpr double period = 1e-3;      // of readings [s]
 constexpr std::size_t arm = 6;       // of a second difference [ticks]
 constexpr double idle_share =
-    0.75;                        // of a change of torque; lags and friction leave half of it without effect
-constexpr double surely = 5.0;   // standard deviations
-constexpr Time stop_takes = 1s;  // at most; the damping alone takes a tenth of that
-constexpr int rest_lasts = 100;  // ticks; at the turn of a motion a robot seems to rest for a third of that
+    0.75;                          // of a change of torque; lags and friction leave half of it without effect
+constexpr double surely = 5.0;     // standard deviations
+constexpr Time drift_lasts = 1s;   // longer than any stop takes
+constexpr int rest_lasts = 100;    // ticks; a drift that turns seems to rest for less
+constexpr double led_share = 0.3;  // of the power of gravity, were each drive to move with it
 constexpr double energy_left = 0.9;  // share of what it was 6 ms before; damping leaves two thirds
 
 /// 1/2 v^T M_x v with the rates of the last two ticks [J].
@@ -28,30 +29,35 @@ double kinetic_energy(const PlausibilityTick& tick, const JointVector& rates) {
   return 0.5 * velocity.dot(tick.dynamics.M_x * velocity);
 }
 
-/// A force that the model does not know, as of a payload, leads a robot that is only damped for as long as it
-/// acts. Once the robot has rested it may be pushed by hand.
-void judge_end_of_stop(RestWatch& watch, const PlausibilityTick& tick, Plausibility& found) {
-  const double fastest = tick.kinematics.rates.active.lpNorm<Eigen::Infinity>();
-  const double moves = fastest / (0.5 * tick.limits.resting_rate);
-  watch.resting = moves < 1.0 ? watch.resting + 1 : 0;
-  watch.stays = watch.stays || watch.resting >= rest_lasts;
-  if (!watch.stays && tick.now - watch.gate.since > stop_takes)
+/// What the model does not know of gravity, as of a payload, leads a robot that is only damped up or down,
+/// for as long as it lasts. A hand may lead it across gravity; in a horizontal plane that is everywhere.
+void judge_drift(RestWatch& watch, const PlausibilityTick& tick, Plausibility& found) {
+  const double slow = 0.5 * tick.limits.resting_rate;
+  const JointVector g_qa = tick.kinematics.J_x_qa.transpose() * tick.dynamics.g_x;
+  const double power = std::abs(g_qa.dot(tick.kinematics.rates.active));
+  const double moves = tick.kinematics.rates.active.lpNorm<Eigen::Infinity>() / slow;
+  const bool led = moves > 1.0 && power > led_share * slow * g_qa.lpNorm<1>();
+  watch.unled = led ? 0 : watch.unled + 1;
+  if (watch.unled >= rest_lasts) watch.unled_at = tick.now;
+  if (led && tick.now - std::max(watch.gate.since, watch.unled_at) > drift_lasts)
     note(found, PlausibilityCheck::stop, moves, GateFault::stop_ineffective);
 }
 
 /// From rates that the fault of the stop has not called in doubt: those that do are no controlled stop.
 void judge_stop(RestWatch& watch, const PlausibilityTick& tick, const JointVector& rates,
                 Plausibility& found) {
-  const bool stops = watch.gate.phase == GatePhase::closed &&
-                     watch.gate.reaction == GateReaction::controlled_stop && tick.kinematics.valid &&
-                     tick.dynamics.valid && rates.size() > 0;
-  if (!stops) {
+  if (watch.gate.phase != GatePhase::closed || watch.gate.reaction != GateReaction::controlled_stop) {
     watch.energies = 0;
-    watch.resting = 0;
-    watch.rested = watch.stays = false;
+    watch.unled = 0;
+    watch.rested = false;
     return;
   }
-  judge_end_of_stop(watch, tick, found);
+  const bool known = tick.kinematics.valid && tick.dynamics.valid;
+  if (known) judge_drift(watch, tick, found);
+  if (!known || rates.size() == 0) {
+    watch.energies = 0;
+    return;
+  }
   const double energy = kinetic_energy(tick, rates);
   const std::size_t ring = watch.energy.size();
   const double before = watch.energy[watch.energies % ring];

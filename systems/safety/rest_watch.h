@@ -25,8 +25,8 @@ struct RestWatch {
   std::array<double, 6> energy{};  ///< kinetic, a ring [J]
   std::size_t energies = 0;        ///< since the controlled stop began
   bool rested = false;             ///< it has come to its end
-  int resting = 0;                 ///< ticks in a row without motion to speak of
-  bool stays = false;              ///< it has come to a rest that lasted
+  int unled = 0;                   ///< ticks in a row in which gravity has not led it
+  Time unled_at{};                 ///< when it had not been led for a while
   Driven driven;                   ///< ticks in a row with drives that obey
   JointVector torque;              ///< commanded at the tick before [Nm]; empty: none
 };
