@@ -163,7 +163,7 @@ const bool registered = [] {
   closed_loop("square_by_fused_detector", with_fused_detector, "square");
   closed_loop("platform_collision", shipped, "platform_collision");
   closed_loop("clamping", shipped, "clamping");
-  closed_loop("platform_collision_by_fused_detector", with_fused_detector, "platform_collision");
+  closed_loop("platform_collision_fused", shipped, "platform_collision_fused");
   return true;
 }();
 
