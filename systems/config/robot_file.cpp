@@ -106,7 +106,7 @@ const RobotKind* read_kind(ConfigReader& file) {
   return nullptr;
 }
 
-/// Throws SetupError where a reader of a kind does not what it must.
+/// Throws SetupError where the reader of a kind has not kept what it promises.
 void require_robot(const RobotKind& kind, const ParallelRobot* robot, const ConfigReader& file) {
   if (robot == nullptr && file.good())
     throw SetupError("robot kind '" + kind.name + "': its reader has made no robot and noted no problem");

@@ -88,6 +88,7 @@ Hexapod::Hexapod(const HexapodParameters& parameters)
     : ParallelRobot(describe(parameters)), parameters_(parameters) {
   loaded_platform_ =
       parameters.payload ? together(parameters.platform, *parameters.payload) : parameters.platform;
+  platform_inertia_ = about_origin(loaded_platform_);
   for (std::size_t i = 0; i < 6; ++i) {
     cylinders_[i] = scaled(parameters.cylinder, parameters.legs[i].mass_scale);
     rods_[i] = scaled(parameters.rod, parameters.legs[i].mass_scale);
@@ -266,32 +267,33 @@ double Hexapod::chain_closure_error(const JointVector& active, const JointVector
 
 // What needs no inverse of the drive map.
 bool Hexapod::close(const Configuration& pose, const PlatformVector& velocity, const WorkingMode& mode,
-                    Legs& legs, Kinematics& out) const noexcept {
+                    Closed& closed, Kinematics& out) const noexcept {
   const bool is_usable =
       usable(velocity, 6) && is_working_mode(mode) && usable(pose, 7) && space().contains(pose);
   // Which may be part of `out`. NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
   const Configuration x = pose;
-  const Platform at = is_usable ? platform(pose, velocity) : Platform{};
+  if (is_usable) closed.platform = platform(pose, velocity);
   set_unreachable(space(), joints, out);
   if (!is_usable) return false;
+  const Platform& at = closed.platform;
   for (std::size_t i = 0; i < 6; ++i) {
-    legs[i].leg = leg(i, at);
-    if (!reaches(legs[i].leg)) return false;
+    closed.legs[i].leg = leg(i, at);
+    if (!reaches(closed.legs[i].leg)) return false;
   }
   out.pose = x;
   out.velocity = at.velocity;
   out.det_B = 1.0;
   for (int i = 0; i < 6; ++i) {
     const auto index = static_cast<std::size_t>(i);
-    const Leg& closed = legs[index].leg;
+    const Leg& leg = closed.legs[index].leg;
     const Eigen::Vector3d& base = parameters_.legs[index].base_joint;
-    const LegRates& moving = legs[index].rates = rates(closed, at);
+    const LegRates& moving = closed.legs[index].rates = rates(leg, at);
     out.J_qa_x.row(i) = moving.row;
     out.dJ_qa_x.row(i) = moving.row_rate;
-    out.joints.active[i] = closed.length;
+    out.joints.active[i] = leg.length;
     out.rates.active[i] = moving.length_rate;
-    out.det_B *= closed.sine_squared;
-    out.legs[index] = {base, base + parameters_.cylinder_length * closed.direction, at.origin + closed.arm};
+    out.det_B *= leg.sine_squared;
+    out.legs[index] = {base, base + parameters_.cylinder_length * leg.direction, at.origin + leg.arm};
   }
   out.reachable = true;
   return true;
@@ -299,8 +301,8 @@ bool Hexapod::close(const Configuration& pose, const PlatformVector& velocity, c
 
 void Hexapod::kinematics(const Configuration& pose, const PlatformVector& velocity, const WorkingMode& mode,
                          Kinematics& out) const noexcept {
-  Legs legs;
-  if (!close(pose, velocity, mode, legs, out)) return;
+  Closed closed;
+  if (!close(pose, velocity, mode, closed, out)) return;
   const Matrix6 A = out.J_qa_x;
   const Matrix6 dA = out.dJ_qa_x;
   const Matrix6 scaled = A * scale_.asDiagonal();

@@ -80,16 +80,20 @@ class Hexapod final : public ParallelRobot {
     Leg leg;
     LegRates rates;
   };
-  using Legs = std::array<MovingLeg, 6>;
+  /// The whole at an instant.
+  struct Closed {
+    Platform platform;
+    std::array<MovingLeg, 6> legs;
+  };
   /// M and h of MotionEquations.
   struct Equations {
     Eigen::Matrix<double, 6, 6> M;
     Twist h;
   };
 
-  /// Legs, joints and the drive map; false, and `out` unreachable, where that cannot be.
-  bool close(const Configuration& pose, const PlatformVector& velocity, const WorkingMode& mode, Legs& legs,
-             Kinematics& out) const noexcept;
+  /// Platform, legs, joints and the drive map; false, and `out` unreachable, where that cannot be.
+  bool close(const Configuration& pose, const PlatformVector& velocity, const WorkingMode& mode,
+             Closed& closed, Kinematics& out) const noexcept;
   /// Of the platform, with what is fixed to it.
   Equations platform_equations(const Platform& platform) const noexcept;
   /// Adds those of a leg, friction included.
@@ -115,6 +119,7 @@ class Hexapod final : public ParallelRobot {
   RigidBodyInertia loaded_platform_;
   std::array<RigidBodyInertia, 6> cylinders_;
   std::array<RigidBodyInertia, 6> rods_;
+  Eigen::Matrix3d platform_inertia_;             ///< Loaded, about the origin of E, in its axes.
   std::array<Eigen::Matrix3d, 6> link_inertia_;  ///< Of both links, each about its own joint, in their axes.
   Twist scale_;  ///< Of the columns of the drive map: 1 for translations, 1 / characteristic length.
 };

@@ -46,12 +46,11 @@ void Hexapod::dynamics(const Kinematics& kinematics, Dynamics& out) const noexce
 
 void Hexapod::equations_of_motion(const Configuration& pose, const PlatformVector& velocity,
                                   Kinematics& kinematics, MotionEquations& equations) const noexcept {
-  Legs legs;
-  equations.valid = close(pose, velocity, home_working_mode(), legs, kinematics);
+  Closed closed;
+  equations.valid = close(pose, velocity, home_working_mode(), closed, kinematics);
   if (!equations.valid) return;
-  const Platform at = platform(kinematics.pose, kinematics.velocity);
-  Equations sum = platform_equations(at);
-  for (std::size_t i = 0; i < legs.size(); ++i) add_leg(i, legs[i], at, sum);
+  Equations sum = platform_equations(closed.platform);
+  for (std::size_t i = 0; i < 6; ++i) add_leg(i, closed.legs[i], closed.platform, sum);
   equations.valid = sum.M.allFinite() && sum.h.allFinite();
   equations.M_x = sum.M;
   equations.h_x = sum.h;
@@ -62,7 +61,7 @@ Hexapod::Equations Hexapod::platform_equations(const Platform& at) const noexcep
   const Eigen::Vector3d& g = parameters_.gravity;
   const Eigen::Vector3d omega = at.velocity.tail<3>();
   const Eigen::Vector3d c = at.axes * loaded_platform_.centre_of_mass;
-  const Eigen::Matrix3d I = at.axes * about_origin(loaded_platform_) * at.axes.transpose();
+  const Eigen::Matrix3d I = at.axes * platform_inertia_ * at.axes.transpose();
   const double m = loaded_platform_.mass;
   const Eigen::Matrix3d S = m * cross_matrix(c);
   Equations sum;

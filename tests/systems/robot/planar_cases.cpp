@@ -91,14 +91,19 @@ void make_uneven(std::size_t i, const LinkBody& link1, const LinkBody& link2, Pl
   bodies.push_back(rigid(second));
 }
 
-// The point of a five-bar and the links of its legs, which are made uneven.
+// The platform and the links of all legs, which are made uneven.
+template <class Leg, std::size_t count>
+std::vector<RigidBodyInertia> platform_and_links(const LinkBody& platform, const LinkBody& link1,
+                                                 const LinkBody& link2, std::array<Leg, count>& legs) {
+  std::vector<RigidBodyInertia> bodies = {rigid(platform)};
+  for (std::size_t i = 0; i < count; ++i) make_uneven(i, link1, link2, legs[i], bodies);
+  return bodies;
+}
+
+// Of a robot whose legs meet in a point, where inertia of the platform has no effect.
 template <std::size_t count>
 std::vector<RigidBodyInertia> point_and_links(double mass, std::array<FiveBarLeg, count>& legs) {
-  std::vector<RigidBodyInertia> bodies = {rigid({.mass = mass, .inertia = 1.0})};
-  for (std::size_t i = 0; i < count; ++i) {
-    make_uneven(i, five_bar_link1(), five_bar_link2(), legs[i], bodies);
-  }
-  return bodies;
+  return platform_and_links({.mass = mass, .inertia = 1.0}, five_bar_link1(), five_bar_link2(), legs);
 }
 
 // A robot whose legs meet in a point.
@@ -150,11 +155,9 @@ MechanismCase point_case(const std::string& name, std::shared_ptr<const Parallel
 
 MechanismCase planar_rrr_case(const std::string& name, BenchGeometry geometry) {
   PlanarRrrParameters parameters = bench_robot(geometry, BenchFriction::none);
-  std::vector<RigidBodyInertia> bodies = {
-      rigid({.mass = parameters.platform_mass, .inertia = parameters.platform_inertia})};
-  for (std::size_t i = 0; i < 3; ++i) {
-    make_uneven(i, bench_link1(), bench_link2(), parameters.legs[i], bodies);
-  }
+  const std::vector<RigidBodyInertia> bodies =
+      platform_and_links({.mass = parameters.platform_mass, .inertia = parameters.platform_inertia},
+                         bench_link1(), bench_link2(), parameters.legs);
   const auto reference = [parameters, bodies](const MotionState& state, const Loads& loads) {
     const Vector origin(state.pose[0], state.pose[1], 0.0);
     ConstrainedBodies model;
@@ -197,14 +200,14 @@ MechanismCase planar_rrr_case(const std::string& name, BenchGeometry geometry) {
 
 MechanismCase five_bar_case(const std::string& name, FiveBarElbows elbows) {
   FiveBarParameters parameters = five_bar_robot(elbows);
-  std::vector<RigidBodyInertia> bodies = point_and_links(parameters.platform_mass, parameters.legs);
+  const std::vector<RigidBodyInertia> bodies = point_and_links(parameters.platform_mass, parameters.legs);
   const std::vector<FiveBarLeg> legs(parameters.legs.begin(), parameters.legs.end());
   return point_case(name, std::make_shared<const FiveBar>(parameters), legs, bodies);
 }
 
 MechanismCase point_on_three_legs_case(const std::string& name) {
   PointOnThreeLegs::Parameters parameters = point_on_three_legs();
-  std::vector<RigidBodyInertia> bodies = point_and_links(parameters.platform_mass, parameters.legs);
+  const std::vector<RigidBodyInertia> bodies = point_and_links(parameters.platform_mass, parameters.legs);
   const std::vector<FiveBarLeg> legs(parameters.legs.begin(), parameters.legs.end());
   return point_case(name, std::make_shared<const PointOnThreeLegs>(parameters), legs, bodies);
 }
