@@ -91,6 +91,7 @@ struct WatchedImu {
 WatchedImu add_imu(const Path& path) {
   PlausibilityLimits limits = path.settings.plausibility;
   limits.imu_mount = path.settings.imu_mount;
+  if (limits.torque_constant.size() == 0) limits.torque_constant = path.settings.drive_torque.torque_constant;
   return {path.builder.optional_input<ImuReading>("imu"),
           path.builder.add<PlausibilityMonitor>("plausibility_monitor", path.robot, limits)};
 }

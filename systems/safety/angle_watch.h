@@ -22,6 +22,10 @@ struct AngleWatch {
   double angle_noise(Eigen::Index drive, const PlausibilityLimits& limits) const noexcept;
   /// Rates over the last two intervals [rad/s]; empty without them.
   JointVector rates() const noexcept;
+  /// How the rates have changed at the last reading beyond what the drives do [rad/s]; empty: not known.
+  JointVector unexplained() const noexcept { return residuals > 0 ? residual.back() : JointVector(); }
+  /// Between the readings that tell them [s].
+  double mean_interval() const noexcept { return 0.5 * (interval[3] + interval[2]); }
   /// The instant to which they belong.
   Time rates_at() const noexcept;
 };

@@ -218,6 +218,12 @@ constexpr std::array rows{
              "a controlled stop does not slow the robot down, or does not end"},
     FaultRow{GateFault::brake_not_holding, Doubt::drives, 0, found_contradicted<GateFault::brake_not_holding>,
              "a drive moves that its brake should hold"},
+    FaultRow{GateFault::status_contradicted, Doubt::drives, 0,
+             found_contradicted<GateFault::status_contradicted>,
+             "the station says that the brakes are closed, which should be open"},
+    FaultRow{GateFault::torque_contradicted, Doubt::drives, 0,
+             found_contradicted<GateFault::torque_contradicted>,
+             "a drive's torque has the wrong sign or is missing"},
 };
 
 constexpr bool in_order() {

@@ -70,7 +70,12 @@ void PlausibilityMonitor::advance(Time now, const PlausibilityMemory& last, cons
                               .dynamics = dynamic,
                               .held = !next.moved && status.valid && status.braked,
                               .free = next.free == settling};
-  flinch::advance(next.angles, tick, limits_.commands_act ? acting_torque(next) : JointVector(), next.found);
+  const JointVector acts = limits_.commands_act ? acting_torque(next) : JointVector();
+  flinch::advance(next.status, status, next.rest.engage, next.angles, tick, next.found);
+  flinch::advance(next.angles, tick, acts, next.found);
+  if (next.angles.acquired != last.angles.acquired || !tick.free)
+    flinch::advance(next.response, next.angles.unexplained(), next.angles.mean_interval(), acts,
+                    next.angles.rates(), tick, next.found);
   flinch::advance(next.currents, tick, next.found);
   if (command.reset) next.imu = ImuWatch();
   flinch::advance(next.imu, past.imu, next.inertial, next.angles, tick, next.found);

@@ -7,7 +7,9 @@
 #include "systems/safety/imu_watch.h"
 #include "systems/safety/inertial_watch.h"
 #include "systems/safety/parity_watch.h"
+#include "systems/safety/response_watch.h"
 #include "systems/safety/rest_watch.h"
+#include "systems/safety/status_watch.h"
 #include "systems/signals/brake_command.h"
 #include "systems/signals/reset_command.h"
 #include "systems/signals/station_status.h"
@@ -22,6 +24,8 @@ struct PlausibilityMemory {
   ImuWatch imu;
   ParityWatch parity;
   RestWatch rest;
+  StatusWatch status;
+  ResponseWatch response;
   JointVector torque, torque_before;         ///< commanded in the two ticks before [Nm]; empty: none
   int free = 0;                              ///< ticks since the brakes have opened
   bool moved = false;                        ///< they have been open before: nothing is learned any more

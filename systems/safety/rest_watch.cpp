@@ -21,6 +21,8 @@ constexpr double surely = 5.0;     // standard deviations
 constexpr Time drift_lasts = 1s;   // longer than any stop takes
 constexpr int rest_lasts = 100;    // ticks; a drift that turns seems to rest for less
 constexpr double led_share = 0.3;  // of the power of gravity, were each drive to move with it
+constexpr double slow = 3.0;       // resting rates: a hand may lead a stopped robot so fast
+constexpr Time longest_blind = 10ms;
 constexpr double energy_left = 0.9;  // share of what it was 6 ms before; damping leaves two thirds
 
 /// 1/2 v^T M_x v with the rates of the last two ticks [J].
@@ -32,39 +34,45 @@ double kinetic_energy(const PlausibilityTick& tick, const JointVector& rates) {
 /// What the model does not know of gravity, as of a payload, leads a robot that is only damped up or down,
 /// for as long as it lasts. A hand may lead it across gravity; in a horizontal plane that is everywhere.
 void judge_drift(RestWatch& watch, const PlausibilityTick& tick, Plausibility& found) {
-  const double slow = 0.5 * tick.limits.resting_rate;
+  const double resting = 0.5 * tick.limits.resting_rate;
   const JointVector g_qa = tick.kinematics.J_x_qa.transpose() * tick.dynamics.g_x;
   const double power = std::abs(g_qa.dot(tick.kinematics.rates.active));
-  const double moves = tick.kinematics.rates.active.lpNorm<Eigen::Infinity>() / slow;
-  const bool led = moves > 1.0 && power > led_share * slow * g_qa.lpNorm<1>();
+  const double moves = tick.kinematics.rates.active.lpNorm<Eigen::Infinity>() / resting;
+  const bool led = moves > 1.0 && power > led_share * resting * g_qa.lpNorm<1>();
   watch.unled = led ? 0 : watch.unled + 1;
   if (watch.unled >= rest_lasts) watch.unled_at = tick.now;
   if (led && tick.now - std::max(watch.gate.since, watch.unled_at) > drift_lasts)
     note(found, PlausibilityCheck::stop, moves, GateFault::stop_ineffective);
 }
 
-/// From rates that the fault of the stop has not called in doubt: those that do are no controlled stop.
+bool stops(const GateStatus& gate) {
+  return gate.phase == GatePhase::closed && gate.reaction == GateReaction::controlled_stop;
+}
+
+/// From rates that the fault of the stop has not called in doubt: those that do are no controlled stop. Asked
+/// until the brakes are closed: a robot that has come to rest may be driven again.
 void judge_stop(RestWatch& watch, const PlausibilityTick& tick, const JointVector& rates,
                 Plausibility& found) {
-  if (watch.gate.phase != GatePhase::closed || watch.gate.reaction != GateReaction::controlled_stop) {
+  const bool known = tick.kinematics.valid && tick.dynamics.valid && rates.size() > 0;
+  if (!stops(watch.gate) || known) watch.blind = tick.now;
+  if (!stops(watch.gate)) {
     watch.energies = 0;
     watch.unled = 0;
-    watch.rested = false;
     return;
   }
-  const bool known = tick.kinematics.valid && tick.dynamics.valid;
-  if (known) judge_drift(watch, tick, found);
-  if (!known || rates.size() == 0) {
+  if (!known) {
     watch.energies = 0;
+    const double blind = to_seconds(tick.now - watch.blind) / to_seconds(longest_blind);
+    note(found, PlausibilityCheck::stop, blind, GateFault::stop_ineffective);
     return;
   }
+  judge_drift(watch, tick, found);
   const double energy = kinetic_energy(tick, rates);
   const std::size_t ring = watch.energy.size();
   const double before = watch.energy[watch.energies % ring];
-  const bool asked = watch.energies >= ring && tick.now - watch.gate.since > torque_turns && !watch.rested;
+  const bool asked = watch.energies >= ring && tick.now - watch.gate.since > torque_turns;
   watch.energy[watch.energies++ % ring] = energy;
-  if (rates.lpNorm<Eigen::Infinity>() < 2.0 * tick.limits.resting_rate) watch.rested = true;
-  if (asked && !watch.rested)
+  if (asked && rates.lpNorm<Eigen::Infinity>() > slow * tick.limits.resting_rate)
     note(found, PlausibilityCheck::stop, energy / (energy_left * before), GateFault::stop_ineffective);
 }
 

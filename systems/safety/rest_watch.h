@@ -24,7 +24,7 @@ struct RestWatch {
   bool engage = true;
   std::array<double, 6> energy{};  ///< kinetic, a ring [J]
   std::size_t energies = 0;        ///< since the controlled stop began
-  bool rested = false;             ///< it has come to its end
+  Time blind{};                    ///< since when nobody can tell whether it slows the robot down
   int unled = 0;                   ///< ticks in a row in which gravity has not led it
   Time unled_at{};                 ///< when it had not been led for a while
   Driven driven;                   ///< ticks in a row with drives that obey

@@ -41,6 +41,8 @@ enum class GateFault : std::uint8_t {
   drives_without_effect,
   stop_ineffective,
   brake_not_holding,
+  status_contradicted,
+  torque_contradicted,
 };
 
 /// What the torque gate does about a fault, in order of severity.

@@ -24,8 +24,10 @@ enum class PlausibilityCheck : std::uint8_t {
   still,          ///< torques change, and nothing moves
   stop,           ///< a controlled stop does not take energy out
   brakes,         ///< what should be held moves
+  status,         ///< the station says that the brakes are closed, against orders and motion
+  response,       ///< a drive moves the robot as if its torque had another sign, or were none
 };
-inline constexpr std::size_t plausibility_checks = 12;
+inline constexpr std::size_t plausibility_checks = 14;
 
 /// What contradicts itself among the readings.
 struct Plausibility {

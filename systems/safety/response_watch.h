@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+
+#include "systems/safety/plausibility_tick.h"
+
+namespace flinch {
+
+/// What each drive makes of its torque: the motion that the torques do not explain, against the motion that
+/// the torque of this drive should have made. A drive of gain k leaves k - 1 times its own share, along its
+/// own column and at every instant alike. A contact does neither; an obstacle that holds a drive looks like
+/// k = 0, but gives no energy, and never like a negative k for long.
+struct ResponseWatch {
+  static constexpr std::size_t window = 16;  ///< [ticks]
+
+  /// Sums of one tick over the drives' accelerations; a_i: what 1 Nm of drive i makes of them.
+  struct Tick {
+    Padded<max_dof> own = Padded<max_dof>::Zero();     ///< (a_i tau_i)^2
+    Padded<max_dof> shared = Padded<max_dof>::Zero();  ///< a_i tau_i times what is not explained
+    Padded<max_dof> torque = Padded<max_dof>::Zero();  ///< tau_i [Nm or N]
+    Padded<max_dof> given = Padded<max_dof>::Zero();   ///< what takes the place of tau_i gives [W]
+    double rest = 0.0;                                 ///< square of what is not explained
+  };
+
+  Padded<max_dof> unexplained = Padded<max_dof>::Zero();  ///< low-passed [rad/s^2 or m/s^2]
+  Padded<max_dof> torque = Padded<max_dof>::Zero();       ///< likewise [Nm or N]
+  std::array<Tick, window> ticks{};                       ///< a ring
+  std::size_t count = 0;                                  ///< in a row
+};
+
+/// The watch after a tick. `unexplained`: change of the drives' rates since the reading before, less what
+/// `torque` makes of them [rad/s or m/s], over `interval` [s]; empty: not known. `rates`: of the drives.
+void advance(ResponseWatch& watch, const JointVector& unexplained, double interval, const JointVector& torque,
+             const JointVector& rates, const PlausibilityTick& tick, Plausibility& found) noexcept;
+
+}  // namespace flinch
