@@ -37,9 +37,7 @@ Sums sum(const ResponseWatch& watch, Eigen::Index drive, std::size_t from, std::
   return sums;
 }
 
-double over(double value, double limit) {
-  return value < limit / surely ? surely : limit / value;
-}
+double over(double value, double limit) { return value < limit / surely ? surely : limit / value; }
 
 /// The least of all that must be true of a drive whose torque does something else, each over its limit.
 double judge(const ResponseWatch& watch, Eigen::Index drive, double least_torque) {
@@ -58,8 +56,8 @@ double judge(const ResponseWatch& watch, Eigen::Index drive, double least_torque
   const double old = sum(watch, drive, n / 2, n).gain_error();
   const double uneven = std::max(std::abs(young - error), std::abs(old - error)) / std::abs(error);
   const double torque = std::sqrt(squares / n) / least_torque;
-  return std::min({torque, std::max(error / reversed, given / energy), over(elsewhere, along),
-                   over(uneven, steady)});
+  return std::min(
+      {torque, std::max(error / reversed, given / energy), over(elsewhere, along), over(uneven, steady)});
 }
 
 }  // namespace

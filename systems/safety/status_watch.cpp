@@ -7,9 +7,9 @@ namespace flinch {
 namespace {
 
 constexpr double moving_ticks = 3.5;  // in a row; brakes that close on their own stop no robot sooner
-constexpr double play = 50e-3;        // of closed brakes: what a drive at its resting rate moves meanwhile [s]
-constexpr Time opening = 500ms;       // of slow brakes, and the way of the word that they are open
-constexpr Time flutter = 20ms;        // of brakes that close for want of commands, and open with the next one
+constexpr double play = 50e-3;   // of closed brakes: what a drive at its resting rate moves meanwhile [s]
+constexpr Time opening = 500ms;  // of slow brakes, and the way of the word that they are open
+constexpr Time flutter = 20ms;   // of brakes that close for want of commands, and open with the next one
 
 /// By how much the drives have moved since the station began to contradict its orders [rad or m].
 double moved(const StatusWatch& watch, const PlausibilityTick& tick) {

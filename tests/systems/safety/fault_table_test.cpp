@@ -248,7 +248,8 @@ std::map<GateFault, std::vector<Way>> ways_of_contradictions() {
   std::map<GateFault, std::vector<Way>> all;
   for (const GateFault fault :
        {GateFault::motion_contradicted, GateFault::drive_not_following, GateFault::drives_without_effect,
-        GateFault::stop_ineffective, GateFault::brake_not_holding}) {
+        GateFault::stop_ineffective, GateFault::brake_not_holding, GateFault::status_contradicted,
+        GateFault::torque_contradicted}) {
     all[fault] = contradicted(fault);
   }
   return all;

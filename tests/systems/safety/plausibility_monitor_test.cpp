@@ -308,6 +308,79 @@ TEST(PlausibilityMonitor, NoticesAStopThatTakesNoEnergyOut) {
   }
 }
 
+/// A robot that has come to rest in a controlled stop, and is driven again with 10 rad/s^2; slowly: with 0.1
+/// rad/s^2, as a hand does it.
+std::optional<int> driven_after_rest(double acceleration) {
+  Watched watched;
+  const Time begin = Time(1ms) * watched.ticks();
+  const auto driven = [=, k = 0](Told& told) mutable {
+    told.gate = {.phase = GatePhase::closed, .reaction = GateReaction::controlled_stop, .since = begin};
+    const double time = 1e-3 * std::max(0, ++k - 100);
+    told.joints.active.array() += 0.5 * acceleration * time * time;
+  };
+  return ticks_until(watched, GateFault::stop_ineffective, driven);
+}
+
+TEST(PlausibilityMonitor, WatchesAStoppedRobotThatHasComeToRest) {
+  const std::optional<int> found = driven_after_rest(10.0);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_GT(*found, 100);
+  EXPECT_LE(*found, 140) << "0.3 rad/s are reached after 30 ms";
+  EXPECT_EQ(driven_after_rest(0.1), std::nullopt) << "a hand may lead a stopped robot slowly";
+}
+
+TEST(PlausibilityMonitor, BrakesAStopOfWhichItSeesNothing) {
+  for (const int blind : {9, 12}) {
+    Watched watched;
+    const Time begin = Time(1ms) * watched.ticks();
+    const auto unseen = [=, k = 0](Told& told) mutable {
+      told.gate = {.phase = GatePhase::closed, .reaction = GateReaction::controlled_stop, .since = begin};
+      told.joints.valid = ++k > blind;
+    };
+    EXPECT_EQ(ticks_until(watched, GateFault::stop_ineffective, unseen).has_value(), blind > 10) << blind;
+  }
+}
+
+/// What follows where the station says from now on that the brakes are closed, and the drives move at `rate`.
+std::optional<int> said_to_be_braked(double rate, int said = 1000) {
+  Watched watched;
+  const auto braked = [=, k = 0](Told& told) mutable {
+    told.station.braked = k++ < said;
+    told.joints.active.array() += rate * 1e-3 * k;
+  };
+  return ticks_until(watched, GateFault::status_contradicted, braked);
+}
+
+TEST(PlausibilityMonitor, DoesNotBelieveThatAMovingRobotIsBraked) {
+  EXPECT_LE(said_to_be_braked(1.0).value_or(1000), 6);
+  EXPECT_LE(said_to_be_braked(0.0).value_or(1000), 22) << "nor that brakes close on their own for long";
+  EXPECT_EQ(said_to_be_braked(1.0, 3), std::nullopt) << "a command that was lost closes brakes for a moment";
+  EXPECT_EQ(said_to_be_braked(0.0, 15), std::nullopt);
+}
+
+TEST(PlausibilityMonitor, WaitsForBrakesThatOpenSlowly) {
+  for (const int opening : {400, 600}) {
+    Watched watched;
+    for (int k = 0; k < 10; ++k) watched.tick(Watched::held);
+    bool found = false;
+    for (int k = 0; k < opening; ++k) {
+      const Plausibility& seen = watched.tick([](Told& told) { told.station.braked = true; });
+      found = found || (seen.present & fault_bit(GateFault::status_contradicted)) != 0;
+    }
+    EXPECT_EQ(found, opening > 500);
+  }
+}
+
+TEST(PlausibilityMonitor, DoesNotDoubtAStationWhoseBrakesWereToldToClose) {
+  Watched watched;
+  const auto closing = [k = 0](Told& told) mutable {
+    Watched::held(told);
+    told.gate = {.phase = GatePhase::closed};
+    told.joints.active.array() += 1e-3 * std::min(++k, 30);
+  };
+  EXPECT_EQ(ticks_until(watched, GateFault::status_contradicted, closing), std::nullopt);
+}
+
 TEST(PlausibilityMonitor, NeverAllocates) {
   Watched watched;
   std::int64_t allocations = 0;
