@@ -14,10 +14,12 @@ struct LinkReport {
   DdsLink link;
   DdsLinkTimes times;
   TickStatistics loop;
-  SeenPose pose;  ///< at the end
+  SeenPose pose;                       ///< at the end
+  std::vector<SeenRobot> robots = {};  ///< that were seen
+  bool is_chosen = false;              ///< the user has said which is meant
 
   /// What speaks against moving a robot over this link, one sentence each: commands that take longer than a
-  /// tick, readings older than the station lets in, more than one lost in a thousand, of readings or of
+  /// tick, a choice between robots that nobody has made, readings older than the station lets in, more than one lost in a thousand, of readings or of
   /// this program's ticks.
   std::vector<std::string> objections() const;
 
