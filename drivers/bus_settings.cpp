@@ -34,7 +34,7 @@ std::string discovery(const BusSettings& settings) {
   std::string list;
   for (const std::string& peer : peers) list += "<Peer address=\"" + peer + "\"/>";
   return "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>" +
-         std::to_string(programs_of_domain - 1) + "</MaxAutoParticipantIndex><Peers>" + list +
+         std::to_string(programs_of_domain) + "</MaxAutoParticipantIndex><Peers>" + list +
          "</Peers></Discovery>";
 }
 

@@ -1,5 +1,6 @@
 #include "experiments/bus/await_robot.h"
 
+#include "drivers/bus_log.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/monotonic_clock.h"
 
@@ -24,6 +25,11 @@ std::string why_nothing_arrives(const DdsStation& station) {
     return "the robot that --robot chooses does not send joint readings; these do: " + text_of(robots);
   }
   if (station.unreadable_robots() > 0) return other_version;
+  if (refused_certificates() > 0) {
+    return "somebody is there whose certificate was refused, as said above: keys of another authority, or "
+           "not "
+           "valid now; give both ends keys that 'flinch keys' made together";
+  }
   if (station.peers() > 0) return "the robot is there, but none of its joint readings arrives";
   return "nobody sends joint readings there; start the robot's driver, or 'flinch serve' with the same "
          "--domain and --interface";
