@@ -7,7 +7,8 @@
 namespace flinch {
 
 /// What Cyclone DDS tells of itself. Of packets that are none it writes a line each, with their bytes:
-/// whoever reaches the bus could fill terminals and disks with that; so could somebody whose keys are refused.
+/// whoever reaches the bus could fill terminals and disks with that, and so could somebody whose keys are
+/// refused.
 class BusLog {
  public:
   /// The lines that are to be shown for a message; empty: none. The first few malformed packets are told in

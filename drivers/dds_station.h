@@ -29,16 +29,16 @@ struct DdsStationSettings {
 /// How the link has been since the start.
 struct DdsLink {
   std::uint32_t received = 0;  ///< joint samples
-  std::uint32_t refused =
-      0;  ///< samples of any kind: another protocol version, description or sender, or old
-  std::uint32_t other_version = 0;  ///< of these
-  std::uint32_t other_description = 0;
-  std::uint32_t other_robot = 0;       ///< besides: of robots that this station does not command
-  std::uint64_t robot_id = 0;          ///< of the robot that is commanded; 0: none yet
-  int robots = 0;                      ///< that were seen
-  std::uint32_t lost = 0;              ///< joint samples that never came, by their numbers
-  std::uint32_t deadlines_missed = 0;  ///< periods of 5 ms without joint samples
-  bool enabled = false;                ///< by the last status
+  /// Samples of any kind: another protocol version, description or sender, or old.
+  std::uint32_t refused = 0;
+  std::uint32_t other_version = 0;      ///< of these
+  std::uint32_t other_description = 0;  ///< likewise
+  std::uint32_t other_robot = 0;        ///< besides: of robots that this station does not command
+  std::uint64_t robot_id = 0;           ///< of the robot that is commanded; 0: none yet
+  int robots = 0;                       ///< that were seen
+  std::uint32_t lost = 0;               ///< joint samples that never came, by their numbers
+  std::uint32_t deadlines_missed = 0;   ///< periods of 5 ms without joint samples
+  bool enabled = false;                 ///< by the last status
   DriveState drive_state = DriveState::not_ready_to_switch_on;  ///< likewise
   bool commands_obeyed = false;                                 ///< the other end obeys this session
   Time round_trip{};  ///< of the last echoed command, without the time that the other end kept it
@@ -60,9 +60,9 @@ struct DdsLinkTimes {
 /// of the last tick begins a new run on the same link. Drives that obey somebody else are not enabled for
 /// this diagram.
 ///
-/// It commands one robot. It looks 300 ms for those that are there, and takes the only one, or the chosen one,
-/// for good; another one that appears later is not heard, and a robot whose program starts anew is another
-/// one. Every command names the robot, and no other obeys it. Until then nothing is sent.
+/// It commands one robot. It looks 300 ms for those that are there, and takes the only one, or the chosen
+/// one, for good; another one that appears later is not heard, and a robot whose program starts anew is
+/// another one. Every command names the robot, and no other obeys it. Until then nothing is sent.
 class DdsStation final : public Exchange {
  public:
   /// `diagram` is the one to run, with the inputs of `station`. Throws SetupError.

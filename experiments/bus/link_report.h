@@ -18,9 +18,9 @@ struct LinkReport {
   std::vector<SeenRobot> robots = {};  ///< that were seen
   bool is_chosen = false;              ///< the user has said which is meant
 
-  /// What speaks against moving a robot over this link, one sentence each: commands that take longer than a
-  /// tick, a choice between robots that nobody has made, readings older than the station lets in, more than one lost in a thousand, of readings or of
-  /// this program's ticks.
+  /// What speaks against moving a robot over this link, one sentence each: several robots of which nobody has
+  /// chosen one, commands that take longer than a tick, readings older than the station lets in, more than
+  /// one lost in a thousand, of readings or of this program's ticks.
   std::vector<std::string> objections() const;
 
   std::string table() const;
