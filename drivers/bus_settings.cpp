@@ -33,9 +33,9 @@ std::string discovery(const BusSettings& settings) {
   if (peers.empty()) return "";
   std::string list;
   for (const std::string& peer : peers) list += "<Peer address=\"" + peer + "\"/>";
-  return "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>9"
-         "</MaxAutoParticipantIndex><Peers>" +
-         list + "</Peers></Discovery>";
+  return "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>" +
+         std::to_string(programs_of_domain) + "</MaxAutoParticipantIndex><Peers>" + list +
+         "</Peers></Discovery>";
 }
 
 }  // namespace

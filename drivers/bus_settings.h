@@ -21,6 +21,10 @@ struct BusSettings {
   bool anyone_may_command = false;           ///< on a network without keys, where it is refused otherwise
 };
 
+/// Programs that find room in one domain on one machine, of any kind: each has two ports of the 250 of its
+/// domain, 7400 + 250 domain + 10 + 2 place and the next.
+inline constexpr int programs_of_domain = 119;
+
 /// All that is wrong with `settings`, one sentence each.
 std::vector<std::string> problems(const BusSettings& settings);
 

@@ -4,6 +4,8 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "drivers/dds_qos.h"
 
@@ -54,6 +56,24 @@ int DdsReader::writers() const noexcept {
   dds_subscription_matched_status_t matched{};
   if (dds_get_subscription_matched_status(reader_.handle(), &matched) != 0) return 0;
   return static_cast<int>(matched.current_count);
+}
+
+int writers_on(const DdsBus& bus, const Topic& topic) {
+  constexpr std::size_t most = 1000;
+  const DdsEntity reader(
+      dds_create_reader(bus.participant(), DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr));
+  std::vector<void*> samples(most, nullptr);
+  std::vector<dds_sample_info_t> infos(most);
+  const auto count = dds_read(reader.handle(), samples.data(), infos.data(), most, most);
+  if (count <= 0) return 0;
+  int writers = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    const auto& writer = *static_cast<const dds_builtintopic_endpoint_t*>(samples[i]);
+    const bool is_there = infos[i].valid_data && infos[i].instance_state == DDS_IST_ALIVE;
+    if (is_there && std::string_view(writer.topic_name) == topic.name) ++writers;
+  }
+  dds_return_loan(reader.handle(), samples.data(), count);
+  return writers;
 }
 
 }  // namespace flinch

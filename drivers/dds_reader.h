@@ -58,4 +58,8 @@ class DdsReader {
   DdsEntity reader_;  // last: goes first, and nothing arrives any more
 };
 
+/// How many writers of a topic of this name there are on the bus, also those of another protocol, whose
+/// samples no reader of this program gets. For set-up, not for a loop.
+int writers_on(const DdsBus& bus, const Topic& topic);
+
 }  // namespace flinch

@@ -2,13 +2,16 @@
 
 #include <drivers/idl/flinch.h>
 
+#include <algorithm>
 #include <optional>
 
+#include "drivers/robot_id.h"
 #include "drivers/sample_receiver.h"
 #include "drivers/sample_sender.h"
 #include "drivers/sending_thread.h"
 #include "drivers/tick_clock.h"
 #include "drivers/wire_conversion.h"
+#include "systems/foundation/setup_error.h"
 #include "systems/framework/diagram.h"
 
 namespace flinch {
@@ -16,6 +19,11 @@ namespace {
 
 bool asks_for_nothing(const flinch_TorqueSample& sample) {
   return (sample.header.flags & flag_valid) == 0 || (sample.header.flags & flag_engage_brake) != 0;
+}
+
+const std::string& checked_name(const std::string& robot_name) {
+  throw_if_any(problems_of_robot_name(robot_name));
+  return robot_name;
 }
 
 constexpr std::uint8_t operation_enabled = 2;  // of flinch_DriveRequest::wanted
@@ -49,13 +57,14 @@ class DdsServer::Implementation {
   Implementation(const DdsBus& bus, const Diagram& diagram, const Station& station,
                  const DdsServerSettings& settings, const PoweredStation* powered = nullptr)
       : settings_(settings),
-        sender_{draw_session(), settings.robot},
+        bus_(bus),
+        sender_{draw_session(), settings.robot, draw_robot_id(checked_name(settings.robot_name))},
         clock_(diagram.tick()),
         torque_command_(diagram.slot(station.torque_command)),
         brake_(diagram.slot(station.brake)),
         station_status_(diagram.slot(station.status)),
-        commands_(bus, torque_command_topic, admission(settings), &asks_for_nothing),
-        requests_(bus, drive_request_topic, request_admission(settings)),
+        commands_(bus, torque_command_topic, admission(settings, sender_.robot_id), &asks_for_nothing),
+        requests_(bus, drive_request_topic, request_admission(settings, sender_.robot_id)),
         joints_(bus, joints_topic, sender_, diagram.slot(station.joints)),
         drives_(bus, drives_topic, sender_, diagram.slot(station.drives)),
         imu_(bus, imu_topic, sender_, diagram.slot(station.imu)),
@@ -96,8 +105,14 @@ class DdsServer::Implementation {
     return {.session = obeying_ ? last_.sample.header.session : 0,
             .received = commands_.count(Admission::admitted),
             .refused = commands_.refused(),
+            .for_others = commands_.count(Admission::other_robot),
             .silences = silences_,
             .age = age_};
+  }
+
+  std::uint64_t robot_id() const noexcept { return sender_.robot_id; }
+  int unreadable_commanders() const {
+    return std::max(0, writers_on(bus_, torque_command_topic) - commands_.writers());
   }
 
  private:
@@ -106,8 +121,9 @@ class DdsServer::Implementation {
     Slot<Statusword> statusword;
   };
 
-  static AdmissionSettings admission(const DdsServerSettings& settings) {
+  static AdmissionSettings admission(const DdsServerSettings& settings, std::uint64_t robot_id) {
     return {.robot = settings.robot,
+            .addressee = robot_id,
             .longest_silence = settings.longest_silence,
             .longest_way = settings.longest_way,
             .begins_neutral = true,
@@ -116,8 +132,9 @@ class DdsServer::Implementation {
 
   /// A request says little and seldom: whoever commands is judged by the commands, and only its request
   /// counts.
-  static AdmissionSettings request_admission(const DdsServerSettings& settings) {
-    return {.robot = settings.robot, .longest_silence = Time::zero(), .longest_way = 1h};
+  static AdmissionSettings request_admission(const DdsServerSettings& settings, std::uint64_t robot_id) {
+    return {
+        .robot = settings.robot, .addressee = robot_id, .longest_silence = Time::zero(), .longest_way = 1h};
   }
 
   /// What others than the commander ask for waits, until they command themselves.
@@ -185,6 +202,7 @@ class DdsServer::Implementation {
     sample.drive_state = static_cast<std::uint8_t>(drives);
     const DdsCommander now = commander();
     sample.commander = now.session;
+    std::copy(settings_.robot_name.begin(), settings_.robot_name.end(), sample.robot_name);
     sample.commands_refused = now.refused;
     if (obeying_) {
       sample.command_number = last_.sample.header.number;
@@ -204,6 +222,7 @@ class DdsServer::Implementation {
   }
 
   DdsServerSettings settings_;
+  const DdsBus& bus_;
   SenderIdentity sender_;
   TickClock clock_;
   Slot<TorqueCommand> torque_command_;
@@ -243,5 +262,7 @@ DdsServer::~DdsServer() = default;
 void DdsServer::set_inputs(Context& context) { implementation_->set_inputs(context); }
 void DdsServer::take_outputs(const Context& context) { implementation_->take_outputs(context); }
 DdsCommander DdsServer::commander() const noexcept { return implementation_->commander(); }
+int DdsServer::unreadable_commanders() const { return implementation_->unreadable_commanders(); }
+std::uint64_t DdsServer::robot_id() const noexcept { return implementation_->robot_id(); }
 
 }  // namespace flinch

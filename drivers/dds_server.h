@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 
 #include "diagrams/station.h"
 #include "drivers/dds_bus.h"
@@ -19,6 +20,8 @@ struct DdsServerSettings {
   Time longest_silence = 6ms;
   /// Of a command from sending to arrival, as far as it varies; later ones are refused.
   Time longest_way = 5ms;
+  /// That a user gives the robot, to choose it by among several on one bus; see problems_of_robot_name().
+  std::string robot_name = {};
   int realtime_priority = 0;  ///< of the thread that sends, SCHED_FIFO, 1 to 99; 0: an ordinary thread
 };
 
@@ -28,11 +31,13 @@ struct DdsCommander {
   std::uint32_t received = 0;
   /// Of another version, robot or session, not newer, too late, or not neutral at first.
   std::uint32_t refused = 0;
-  std::uint32_t silences = 0;  ///< how often a commander fell silent
-  Time age{};                  ///< of the last command, by its sending
+  std::uint32_t for_others = 0;  ///< of these: meant for another robot
+  std::uint32_t silences = 0;    ///< how often a commander fell silent
+  Time age{};                    ///< of the last command, by its sending
 };
 
-/// Puts a station on the bus: sends its readings after each tick, and lets commands in before. It obeys one
+/// Puts a station on the bus: sends its readings after each tick, and lets commands in before. It has an
+/// identity of its own, drawn at its start, and hears only commands that name it. Of these it obeys one
 /// session at a time, which begins with a command of no torque or with brakes, in time and in order; to all
 /// others, and when the session falls silent, the answer is no torque and closed brakes; once it has obeyed
 /// another, it does not listen to that session again. A station on the
@@ -59,6 +64,10 @@ class DdsServer final : public Exchange {
 
   /// As the last set_inputs() saw it; of the thread that calls that, or while it does not.
   DdsCommander commander() const noexcept;
+  /// How many programs command in another protocol, so that nothing of it arrives. Not in the loop.
+  int unreadable_commanders() const;
+  /// See draw_robot_id().
+  std::uint64_t robot_id() const noexcept;
 
  private:
   class Implementation;

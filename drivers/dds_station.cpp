@@ -2,8 +2,10 @@
 
 #include <drivers/idl/flinch.h>
 
+#include <algorithm>
 #include <optional>
 
+#include "drivers/robot_selection.h"
 #include "drivers/sample_receiver.h"
 #include "drivers/sample_sender.h"
 #include "drivers/sending_thread.h"
@@ -58,12 +60,14 @@ class DdsStation::Implementation {
  public:
   Implementation(const DdsBus& bus, const Diagram& diagram, const ExternalStation& station,
                  const DdsStationSettings& settings)
-      : sender_{draw_session(), settings.robot},
+      : bus_(bus),
+        sender_{draw_session(), settings.robot},
         clock_(diagram.tick()),
         arriving_status_(diagram.slot(station.arriving_status)),
         torque_command_(diagram.slot(station.torque_command)),
         brake_(diagram.slot(station.brake)),
-        admission_{.robot = settings.robot, .longest_silence = settings.longest_silence},
+        robots_(settings.chosen_robot),
+        admission_{.robot = settings.robot, .robots = &robots_, .longest_silence = settings.longest_silence},
         joints_(bus, joints_topic, admission_, diagram.slot(station.arriving_joints), &joints_arrived_),
         drives_(bus, drives_topic, admission_, diagram.slot(station.arriving_drives)),
         imu_(bus, imu_topic, admission_, diagram.slot(station.arriving_imu)),
@@ -74,11 +78,12 @@ class DdsStation::Implementation {
       force_torque_.emplace(bus, force_torque_topic, admission_,
                             diagram.slot(*station.arriving_force_torque));
     }
-    thread_.emplace([this] { commands_.send(), requests_.send(); }, settings.realtime_priority);
+    thread_.emplace([this] { send(); }, settings.realtime_priority);
   }
 
   void set_inputs(Context& context) noexcept {
     clock_.start_tick(context.time());
+    take_robot();
     if (joints_.set_inputs(context, clock_)) time_joints();
     drives_.set_inputs(context, clock_);
     imu_.set_inputs(context, clock_);
@@ -126,6 +131,8 @@ class DdsStation::Implementation {
     add_refusals(drives_.receiver(), link);
     add_refusals(imu_.receiver(), link);
     add_refusals(status_.receiver(), link);
+    link.robot_id = robots_.taken();
+    link.robots = robots_.count();
     link.lost = joints_.receiver().lost();
     link.deadlines_missed = joints_.receiver().broken_promises().deadlines;
     const ReceivedSample<flinch_StatusSample>& last = status_.last();
@@ -137,14 +144,28 @@ class DdsStation::Implementation {
   }
 
   int peers() const noexcept { return joints_.receiver().writers(); }
+  int unreadable_robots() const { return std::max(0, writers_on(bus_, joints_topic) - peers()); }
   const DdsLinkTimes& times() const noexcept { return times_; }
   void forget_times() noexcept {
     times_ = DdsLinkTimes();
     last_joints_ = Time::zero();
   }
   std::uint32_t session() const noexcept { return sender_.session; }
+  std::vector<SeenRobot> robots() const { return robots_.robots(); }
+  std::uint64_t take_robot() noexcept { return robots_.take(MonotonicClock::now()); }
+  bool is_undecided() const noexcept { return robots_.is_undecided(MonotonicClock::now()); }
 
  private:
+  /// A request waits until there is a robot to name.
+  void send() noexcept {
+    const std::uint64_t robot_id = robots_.taken();
+    if (robot_id == 0) return;
+    commands_.name_robot(robot_id);
+    requests_.name_robot(robot_id);
+    commands_.send();
+    requests_.send();
+  }
+
   bool obeys_us() const noexcept { return status_.last().sample.commander == sender_.session; }
 
   void time_joints() noexcept {
@@ -165,9 +186,11 @@ class DdsStation::Implementation {
 
   template <class Sample>
   static void add_refusals(const SampleReceiver<Sample>& receiver, DdsLink& link) noexcept {
-    link.refused += receiver.refused();
+    const std::uint32_t of_others = receiver.count(Admission::other_robot);
+    link.refused += receiver.refused() - of_others;
     link.other_version += receiver.count(Admission::other_version);
-    link.other_robot += receiver.count(Admission::other_robot);
+    link.other_description += receiver.count(Admission::other_description);
+    link.other_robot += of_others;
   }
 
   /// Each difference is of one clock, so the two need not agree.
@@ -177,11 +200,13 @@ class DdsStation::Implementation {
     return away - kept;
   }
 
+  const DdsBus& bus_;
   SenderIdentity sender_;
   TickClock clock_;
   Slot<Arrival<StationStatus>> arriving_status_;
   Slot<TorqueCommand> torque_command_;
   Slot<BrakeCommand> brake_;
+  RobotSelection robots_;
   AdmissionSettings admission_;
   DdsLinkTimes times_;
   std::uint32_t last_echo_ = 0;
@@ -213,6 +238,10 @@ bool DdsStation::wait_for_joints(Time deadline) noexcept {
 void DdsStation::request(const DriveWish& wish) noexcept { implementation_->request(wish); }
 DdsLink DdsStation::link() const noexcept { return implementation_->link(); }
 int DdsStation::peers() const noexcept { return implementation_->peers(); }
+int DdsStation::unreadable_robots() const { return implementation_->unreadable_robots(); }
+std::vector<SeenRobot> DdsStation::robots() const { return implementation_->robots(); }
+std::uint64_t DdsStation::take_robot() noexcept { return implementation_->take_robot(); }
+bool DdsStation::is_undecided() const noexcept { return implementation_->is_undecided(); }
 const DdsLinkTimes& DdsStation::times() const noexcept { return implementation_->times(); }
 void DdsStation::forget_times() noexcept { implementation_->forget_times(); }
 std::uint32_t DdsStation::session() const noexcept { return implementation_->session(); }

@@ -2,11 +2,14 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "diagrams/external_station.h"
 #include "drivers/dds_bus.h"
 #include "drivers/drive_state.h"
 #include "drivers/drive_wish.h"
+#include "drivers/robot_id.h"
 #include "systems/framework/context.h"
 #include "systems/framework/duration_histogram.h"
 #include "systems/framework/exchange.h"
@@ -16,6 +19,9 @@ namespace flinch {
 struct DdsStationSettings {
   /// The robot_hash() of the robot description: that of the other end, or nothing passes.
   std::uint32_t robot = 0;
+  /// Name or identity of the robot to command; empty: the only one that is there. Where several are, or two
+  /// have the chosen name, none is commanded.
+  std::string chosen_robot = {};
   Time longest_silence = 100ms;  ///< after which another sender of readings is accepted
   int realtime_priority = 0;     ///< of the thread that sends, SCHED_FIFO, 1 to 99; 0: an ordinary thread
 };
@@ -23,12 +29,16 @@ struct DdsStationSettings {
 /// How the link has been since the start.
 struct DdsLink {
   std::uint32_t received = 0;  ///< joint samples
-  std::uint32_t refused = 0;   ///< samples of any kind: another protocol version, robot or sender, or old
-  std::uint32_t other_version = 0;  ///< of these
-  std::uint32_t other_robot = 0;
-  std::uint32_t lost = 0;              ///< joint samples that never came, by their numbers
-  std::uint32_t deadlines_missed = 0;  ///< periods of 5 ms without joint samples
-  bool enabled = false;                ///< by the last status
+  /// Samples of any kind: another protocol version, description or sender, or old.
+  std::uint32_t refused = 0;
+  std::uint32_t other_version = 0;      ///< of these
+  std::uint32_t other_description = 0;  ///< likewise
+  std::uint32_t other_robot = 0;        ///< besides: of robots that this station does not command
+  std::uint64_t robot_id = 0;           ///< of the robot that is commanded; 0: none yet
+  int robots = 0;                       ///< that were seen
+  std::uint32_t lost = 0;               ///< joint samples that never came, by their numbers
+  std::uint32_t deadlines_missed = 0;   ///< periods of 5 ms without joint samples
+  bool enabled = false;                 ///< by the last status
   DriveState drive_state = DriveState::not_ready_to_switch_on;  ///< likewise
   bool commands_obeyed = false;                                 ///< the other end obeys this session
   Time round_trip{};  ///< of the last echoed command, without the time that the other end kept it
@@ -49,6 +59,10 @@ struct DdsLinkTimes {
 /// late by the smallest delay on the way. No wall clock takes part. A context whose time is earlier than that
 /// of the last tick begins a new run on the same link. Drives that obey somebody else are not enabled for
 /// this diagram.
+///
+/// It commands one robot. It looks 300 ms for those that are there, and takes the only one, or the chosen
+/// one, for good; another one that appears later is not heard, and a robot whose program starts anew is
+/// another one. Every command names the robot, and no other obeys it. Until then nothing is sent.
 class DdsStation final : public Exchange {
  public:
   /// `diagram` is the one to run, with the inputs of `station`. Throws SetupError.
@@ -71,9 +85,17 @@ class DdsStation final : public Exchange {
 
   /// Of the thread that calls set_inputs(), or while it does not.
   DdsLink link() const noexcept;
+  /// The robots that were seen. It allocates: not in the loop.
+  std::vector<SeenRobot> robots() const;
+  /// The robot to command, which is taken now if it is time to; 0: none yet.
+  std::uint64_t take_robot() noexcept;
+  /// Whether several robots could be meant, so that none is commanded.
+  bool is_undecided() const noexcept;
   /// How many others send joint readings. It asks the bus: from any thread but that of the loop.
   int peers() const noexcept;
-  /// Likewise.
+  /// How many more send them in another protocol, so that none arrives. Likewise.
+  int unreadable_robots() const;
+  /// Of the thread that calls set_inputs(), or while it does not.
   const DdsLinkTimes& times() const noexcept;
   /// Begins them anew. Likewise.
   void forget_times() noexcept;

@@ -18,6 +18,11 @@ void SampleAdmission::give_up_the_silent(Time now) noexcept {
   if (session_ != 0 && now - last_ > settings_.longest_silence) session_ = 0;
 }
 
+bool SampleAdmission::is_of_robot(std::uint64_t robot_id, Time now) const noexcept {
+  if (settings_.addressee != 0 && robot_id != settings_.addressee) return false;
+  return settings_.robots == nullptr || settings_.robots->admits(robot_id, now);
+}
+
 bool SampleAdmission::is_over(std::uint32_t session) const noexcept {
   return settings_.once && session != last_session_ &&
          std::find(over_.begin(), over_.end(), session) != over_.end();
@@ -33,8 +38,9 @@ void SampleAdmission::listen_to(std::uint32_t session) noexcept {
 
 Admission SampleAdmission::judge(const flinch_Header& header, Time now, bool neutral) noexcept {
   if (header.version != protocol_version) return Admission::other_version;
-  if (header.robot != settings_.robot) return Admission::other_robot;
+  if (header.robot != settings_.robot) return Admission::other_description;
   if (!is_clock_time(header.sent_ns) || !is_clock_time(header.acquired_ns)) return Admission::no_time;
+  if (!is_of_robot(header.robot_id, now)) return Admission::other_robot;
   give_up_the_silent(now);
   if (header.session == 0 || (session_ != 0 && header.session != session_)) return Admission::other_session;
   if (is_over(header.session)) return Admission::other_session;

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "drivers/clock_map.h"
+#include "drivers/robot_selection.h"
 #include "drivers/wire_header.h"
 #include "systems/framework/time.h"
 
@@ -12,22 +13,25 @@ namespace flinch {
 /// What becomes of a sample that has arrived.
 enum class Admission : std::uint8_t {
   admitted,
-  other_version,  ///< speaks another protocol
-  other_robot,    ///< uses another robot description
-  other_session,  ///< comes from another sender than the one that is being listened to, or may be
-  not_neutral,    ///< would begin a session with more than a neutral command
-  not_newer,      ///< its number has been seen, or overtaken
-  too_late,       ///< was on its way for too long
-  no_time,        ///< bears a stamp that no clock shows
+  other_version,      ///< speaks another protocol
+  other_description,  ///< uses another robot description
+  other_robot,        ///< comes from another robot than the one that is commanded, or is meant for another
+  other_session,      ///< comes from another sender than the one that is being listened to, or may be
+  not_neutral,        ///< would begin a session with more than a neutral command
+  not_newer,          ///< its number has been seen, or overtaken
+  too_late,           ///< was on its way for too long
+  no_time,            ///< bears a stamp that no clock shows
 };
-inline constexpr int admission_count = 8;
+inline constexpr int admission_count = 9;
 
 struct AdmissionSettings {
-  std::uint32_t robot = 0;
-  Time longest_silence = 100ms;  ///< after which a sender is given up, and another one listened to
-  Time longest_way = 20ms;       ///< from sending to arrival, as far as it varies
-  bool begins_neutral = false;   ///< a session begins only with a sample that asks for nothing
-  bool once = false;             ///< a session that another one has followed never comes back
+  std::uint32_t robot = 0;           ///< robot_hash() of the description
+  std::uint64_t addressee = 0;       ///< the only robot that samples may name; 0: any
+  RobotSelection* robots = nullptr;  ///< who decides which robot's samples count, where given
+  Time longest_silence = 100ms;      ///< after which a sender is given up, and another one listened to
+  Time longest_way = 20ms;           ///< from sending to arrival, as far as it varies
+  bool begins_neutral = false;       ///< a session begins only with a sample that asks for nothing
+  bool once = false;                 ///< a session that another one has followed never comes back
 };
 
 /// Who is listened to, and which of its samples count: one sender at a time, the first that speaks, until it
@@ -53,6 +57,7 @@ class SampleAdmission {
 
  private:
   void give_up_the_silent(Time now) noexcept;
+  bool is_of_robot(std::uint64_t robot_id, Time now) const noexcept;
   bool is_over(std::uint32_t session) const noexcept;
   void listen_to(std::uint32_t session) noexcept;
 

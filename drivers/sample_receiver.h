@@ -47,6 +47,7 @@ class SampleReceiver {
                  IsNeutral is_neutral = nullptr, SampleSignal* arrived = nullptr)
       : is_neutral_(is_neutral),
         arrived_(arrived),
+        robots_(admission.robots),
         admission_(admission),
         reader_(bus, topic, &SampleReceiver::receive, this) {}
 
@@ -83,6 +84,7 @@ class SampleReceiver {
     const Admission verdict = admission_.judge(next.sample.header, next.arrived, neutral);
     counts_[static_cast<std::size_t>(verdict)].fetch_add(1, std::memory_order_relaxed);
     lost_.store(admission_.missed(), std::memory_order_relaxed);
+    note_name(next.sample, verdict);
     if (verdict != Admission::admitted) return;
     next.sent = admission_.to_own_clock(Time(next.sample.header.sent_ns));
     next.acquired = admission_.to_own_clock(Time(next.sample.header.acquired_ns));
@@ -90,8 +92,18 @@ class SampleReceiver {
     if (arrived_ != nullptr) arrived_->notify();
   }
 
+  /// Of every robot that a station could command, whichever it commands.
+  void note_name(const Sample& sample, Admission verdict) noexcept {
+    if constexpr (requires { sample.robot_name; }) {
+      if (robots_ == nullptr) return;
+      if (verdict == Admission::other_version || verdict == Admission::other_description) return;
+      robots_->note_name(sample.header.robot_id, sample.robot_name);
+    }
+  }
+
   IsNeutral is_neutral_;
   SampleSignal* arrived_;
+  RobotSelection* robots_;
   SampleAdmission admission_;  // this and next_: only where samples arrive
   ReceivedSample<Sample> next_;
   Keep<ReceivedSample<Sample>> kept_;

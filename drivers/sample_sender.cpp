@@ -9,6 +9,7 @@ namespace flinch {
 void stamp(flinch_Header& header, const SenderIdentity& sender, std::uint32_t number) noexcept {
   header.session = sender.session;
   header.robot = sender.robot;
+  header.robot_id = sender.robot_id;
   header.version = protocol_version;
   header.number = number;
   header.sent_ns = MonotonicClock::now().count();

@@ -25,6 +25,9 @@ class SampleSender {
   /// For the control loop: leaves a sample to be sent; of its header acquired_ns, count and flags.
   void leave(const Sample& sample) noexcept { left_.publish(sample); }
 
+  /// For the sending thread: the robot that the samples name from now on.
+  void name_robot(std::uint64_t robot_id) noexcept { sender_.robot_id = robot_id; }
+
   /// For the sending thread: sends what was left since the last time; as invalid where it was acquired longer
   /// than `longest_age` ago, as after a program has hung.
   void send(Time longest_age = Time::max()) noexcept {

@@ -48,11 +48,11 @@ std::span<const Topic* const> all_topics() {
   return topics;
 }
 
-// The rule of the sizes: what a controller sends is no larger than what it receives, and none above 128
+// The rule of the sizes: what a controller sends is no larger than what it receives, and none above 136
 // bytes.
-static_assert(sizeof(flinch_Header) == 32);
-static_assert(sizeof(flinch_JointSample) == 128 && sizeof(flinch_DriveSample) == 128);
-static_assert(sizeof(flinch_ImuSample) == 128 && sizeof(flinch_ForceTorqueSample) == 128);
-static_assert(sizeof(flinch_StatusSample) == 128 && sizeof(flinch_TorqueSample) == 128);
+static_assert(sizeof(flinch_Header) == 40);
+static_assert(sizeof(flinch_JointSample) == 136 && sizeof(flinch_DriveSample) == 136);
+static_assert(sizeof(flinch_ImuSample) == 136 && sizeof(flinch_ForceTorqueSample) == 136);
+static_assert(sizeof(flinch_StatusSample) == 136 && sizeof(flinch_TorqueSample) == 136);
 
 }  // namespace flinch

@@ -8,7 +8,7 @@ struct flinch_Header;  // drivers/idl/flinch.idl
 namespace flinch {
 
 /// Which wire format and meaning this version of flinch speaks. Samples of any other are refused.
-inline constexpr std::uint16_t protocol_version = 3;
+inline constexpr std::uint16_t protocol_version = 4;
 
 /// Bits of flinch_Header::flags.
 inline constexpr std::uint8_t flag_valid = 1;
@@ -25,8 +25,9 @@ constexpr bool is_clock_time(std::int64_t ns) noexcept {
 
 /// Who sends, as its samples say.
 struct SenderIdentity {
-  std::uint32_t session = 0;  ///< never 0 for a sender; see draw_session()
-  std::uint32_t robot = 0;    ///< see robot_hash()
+  std::uint32_t session = 0;   ///< never 0 for a sender; see draw_session()
+  std::uint32_t robot = 0;     ///< see robot_hash()
+  std::uint64_t robot_id = 0;  ///< of readings: whose; of commands: for whom; see draw_robot_id()
 };
 
 /// A session that differs from that of any other sender, and from the last one of this program. Not 0.

@@ -13,6 +13,7 @@ struct BusOptions {
   std::string interface = "lo";
   std::vector<std::string> peers;
   std::filesystem::path security;   ///< folder of keys; empty: without
+  std::string robot;                ///< name of the served one, or which one to command
   bool anyone_may_command = false;  ///< see BusSettings
   int priority = 80;                ///< SCHED_FIFO of loop and bus, where permitted; 0: not wanted
 };

@@ -30,7 +30,11 @@ std::string problem_with_seconds(const std::string& text) {
   return "is '" + text + "'; it must be a number of seconds above 0 and up to 1e6";
 }
 
-void add_bus(CLI::App& verb, BusOptions& bus) {
+constexpr const char* which_robot =
+    "Robot to command, by its name or identity, where several are there [the only one]";
+
+void add_bus(CLI::App& verb, BusOptions& bus, const char* robot) {
+  verb.add_option("--robot", bus.robot, robot)->type_name("ID")->group("Bus");
   verb.add_option("--domain", bus.domain,
                   "Number of the bus; programs with the same number hear each other [0]")
       ->check(between(0, 230))
@@ -140,7 +144,7 @@ void add_run_verb(CLI::App& app, Verbs& verbs) {
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
   add_fault(run_verb, verbs.run.faults);
-  add_bus(run_verb, verbs.run.bus);
+  add_bus(run_verb, verbs.run.bus, which_robot);
   run_verb
       .add_option(
           "--patience", verbs.run.patience,
@@ -239,7 +243,7 @@ void add_bus_verbs(CLI::App& app, Verbs& verbs) {
       ->check(problem_with_seconds)
       ->type_name("S");
   add_fault(serve_verb, verbs.serve.faults);
-  add_bus(serve_verb, verbs.serve.bus);
+  add_bus(serve_verb, verbs.serve.bus, "Name of this robot, to choose it by among several [none]");
 
   CLI::App& link_verb =
       verbs.add(app, "link", "Measure how fast and how surely a robot on the bus answers, without moving it",
@@ -255,7 +259,7 @@ void add_bus_verbs(CLI::App& app, Verbs& verbs) {
   link_verb.add_option("--patience", verbs.link.patience, "Seconds to wait for the robot [10]")
       ->check(problem_with_seconds)
       ->type_name("S");
-  add_bus(link_verb, verbs.link.bus);
+  add_bus(link_verb, verbs.link.bus, which_robot);
 }
 
 void add_keys_verb(CLI::App& app, Verbs& verbs) {

@@ -1,20 +1,38 @@
 #include "experiments/bus/await_robot.h"
 
+#include "drivers/bus_log.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/monotonic_clock.h"
 
 namespace flinch {
 namespace {
 
+constexpr const char* other_version =
+    "the robot speaks another version of the protocol; build both ends from the same flinch";
+
 void throw_if_misunderstood(const DdsLink& link) {
-  if (link.received > 0) return;
+  if (link.received > 0 || link.robots > 0) return;
   if (link.other_version > 0) {
-    throw SetupError(
-        "the robot speaks another version of the protocol; build both ends from the same flinch");
+    throw SetupError(other_version);
   }
-  if (link.other_robot > 0) {
+  if (link.other_description > 0) {
     throw SetupError("the robot uses another robot description; give both ends the same robot file");
   }
+}
+
+std::string why_nothing_arrives(const DdsStation& station) {
+  if (const auto robots = station.robots(); !robots.empty()) {
+    return "the robot that --robot chooses does not send joint readings; these do: " + text_of(robots);
+  }
+  if (station.unreadable_robots() > 0) return other_version;
+  if (refused_certificates() > 0) {
+    return "somebody is there whose certificate was refused, as said above: keys of another authority, or "
+           "not "
+           "valid now; give both ends keys that 'flinch keys' made together";
+  }
+  if (station.peers() > 0) return "the robot is there, but none of its joint readings arrives";
+  return "nobody sends joint readings there; start the robot's driver, or 'flinch serve' with the same "
+         "--domain and --interface";
 }
 
 }  // namespace
@@ -23,18 +41,27 @@ void throw_if_interrupted(const InterruptCount& interrupts) {
   if (interrupts() > 0) throw SetupError("interrupted; nothing has moved");
 }
 
-void await_robot(const DdsStation& station, Time patience, const InterruptCount& interrupts) {
+void throw_if_undecided(const DdsStation& station) {
+  if (!station.is_undecided()) return;
+  const std::vector<SeenRobot> robots = station.robots();
+  throw SetupError("there are " + std::to_string(robots.size()) + " robots on the bus: " + text_of(robots) +
+                   "; choose one with --robot, by its name or its identity; nothing has moved");
+}
+
+bool await_robot(DdsStation& station, Time patience, const InterruptCount& interrupts) {
   const Time deadline = MonotonicClock::now() + patience;
-  for (DdsLink link = station.link(); link.received == 0; link = station.link()) {
+  Time undecided_until = Time::max();  // so long, so that all are seen
+  for (;;) {
     throw_if_interrupted(interrupts);
+    const DdsLink link = station.link();
     throw_if_misunderstood(link);
-    if (MonotonicClock::now() > deadline) {
-      throw SetupError(station.peers() == 0
-                           ? "nobody sends joint readings there; start the robot's driver, or 'flinch serve' "
-                             "with the same --domain and --interface"
-                           : "the robot is there, but none of its joint readings arrives");
-    }
-    MonotonicClock::sleep_until(MonotonicClock::now() + 10ms);
+    if (station.take_robot() != 0 && link.received > 0) return true;
+    const Time now = MonotonicClock::now();
+    if (!station.is_undecided()) undecided_until = Time::max();
+    if (station.is_undecided() && undecided_until == Time::max()) undecided_until = now + 300ms;
+    if (now > undecided_until) return false;
+    if (now > deadline) throw SetupError(why_nothing_arrives(station));
+    MonotonicClock::sleep_until(now + 10ms);
   }
 }
 

@@ -10,9 +10,13 @@ namespace flinch {
 /// Throws SetupError where somebody has interrupted the program.
 void throw_if_interrupted(const InterruptCount& interrupts);
 
-/// Blocks until readings arrive that this program understands. Throws SetupError where that does not happen
-/// within `patience`, with what was seen instead, and where somebody interrupts.
-void await_robot(const DdsStation& station, Time patience, const InterruptCount& interrupts);
+/// Throws SetupError where several robots could be meant, and says which there are.
+void throw_if_undecided(const DdsStation& station);
+
+/// Blocks until the station has taken its robot and readings arrive. Throws SetupError where that does not
+/// happen within `patience`, with what was seen instead, and where somebody interrupts. Returns false where
+/// several robots could be meant: then none is taken.
+bool await_robot(DdsStation& station, Time patience, const InterruptCount& interrupts);
 
 /// Lets the next tick start shortly after the readings that it shall see, and so all that follow. Blocks for
 /// one reading, at most 100 ms.

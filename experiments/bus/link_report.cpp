@@ -32,6 +32,13 @@ Json json_of(const DurationHistogram& histogram) {
           {"max_us", microseconds(summary->max)}};
 }
 
+Json json_of(const std::vector<SeenRobot>& robots) {
+  Json list = Json::array();
+  for (const SeenRobot& robot : robots)
+    list.push_back({{"id", robot_id_text(robot.id)}, {"name", robot.name}});
+  return list;
+}
+
 Json json_of(bool known, const PlatformVector& numbers) {
   if (!known) return nullptr;
   return std::vector<double>(numbers.begin(), numbers.end());
@@ -41,6 +48,11 @@ Json json_of(bool known, const PlatformVector& numbers) {
 
 std::vector<std::string> LinkReport::objections() const {
   std::vector<std::string> found;
+  if (robots.size() > 1 && (!is_chosen || link.robot_id == 0)) {
+    found.push_back(fmt::format("there are {} robots; choose one with --robot, by its name or its identity",
+                                robots.size()));
+    if (link.robot_id == 0) return found;
+  }
   const auto round_trip = times.round_trip.summary();
   const auto age = times.age.summary();
   const Time max_age = ExternalStationSettings().max_age;
@@ -74,7 +86,10 @@ std::string LinkReport::table() const {
       "{} overruns, {} lost\n",
       link.received, link.lost, link.refused, link.deadlines_missed, loop.ticks, loop.late_starts,
       loop.overruns, loop.lost_periods);
-  text += pose.text() + "\n";
+  text +=
+      fmt::format("robots    {}{}\n", text_of(robots),
+                  link.robot_id == 0 ? "; none was measured" : "; measured: " + robot_id_text(link.robot_id));
+  if (link.robot_id != 0) text += pose.text() + "\n";
   const std::vector<std::string> against = objections();
   text += against.empty() ? "link: good for control at 1 kHz\n" : "link: not good for control at 1 kHz\n";
   for (const std::string& objection : against) text += "  - " + objection + "\n";
@@ -89,6 +104,8 @@ std::string LinkReport::json() const {
       {"age", json_of(times.age)},
       {"interval", json_of(times.interval)},
       {"lateness", json_of(loop.lateness)},
+      {"robot", link.robot_id == 0 ? Json(nullptr) : Json(robot_id_text(link.robot_id))},
+      {"robots", json_of(robots)},
       {"received", link.received},
       {"lost", link.lost},
       {"refused", link.refused},

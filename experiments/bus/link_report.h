@@ -14,11 +14,13 @@ struct LinkReport {
   DdsLink link;
   DdsLinkTimes times;
   TickStatistics loop;
-  SeenPose pose;  ///< at the end
+  SeenPose pose;                       ///< at the end
+  std::vector<SeenRobot> robots = {};  ///< that were seen
+  bool is_chosen = false;              ///< the user has said which is meant
 
-  /// What speaks against moving a robot over this link, one sentence each: commands that take longer than a
-  /// tick, readings older than the station lets in, more than one lost in a thousand, of readings or of
-  /// this program's ticks.
+  /// What speaks against moving a robot over this link, one sentence each: several robots of which nobody has
+  /// chosen one, commands that take longer than a tick, readings older than the station lets in, more than
+  /// one lost in a thousand, of readings or of this program's ticks.
   std::vector<std::string> objections() const;
 
   std::string table() const;

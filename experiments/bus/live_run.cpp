@@ -60,7 +60,9 @@ LiveRun::LiveRun(const Scenario& scenario, const DdsBus& bus, LiveRunSettings se
       settings_(std::move(settings)),
       experiment_(out_of(scenario.file, [&] { return build_live_experiment(scenario); })),
       station_(bus, *experiment_.diagram, experiment_.station,
-               {.robot = robot_hash(scenario.robot_text), .realtime_priority = settings_.bus_priority}),
+               {.robot = robot_hash(scenario.robot_text),
+                .chosen_robot = settings_.chosen_robot,
+                .realtime_priority = settings_.bus_priority}),
       panel_(experiment_, scenario.control, station_, settings_.interrupts),
       ros2_(bus, *experiment_.diagram, shown_to_ros2(experiment_),
             {.joint_names = names_of_drives(scenario.robot.robot->drives()),
@@ -80,7 +82,7 @@ void LiveRun::tick_until(Time longest, const std::function<bool()>& done) {
 }
 
 void LiveRun::connect() {
-  await_robot(station_, settings_.patience, settings_.interrupts);
+  if (!await_robot(station_, settings_.patience, settings_.interrupts)) throw_if_undecided(station_);
   fall_into_step(station_, ticks_);
   const auto sees_the_platform = [this] { return context_.get(experiment_.control.platform_motion).valid(); };
   tick_until(settings_.patience, [&] { return sees_the_platform() || is_interrupted(); });

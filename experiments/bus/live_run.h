@@ -25,11 +25,12 @@ namespace flinch {
 struct Scenario;
 
 struct LiveRunSettings {
-  Time patience = 10s;         ///< with a robot that does not answer, is not enabled, or falls silent
-  bool reset_faults = false;   ///< of the drives, before the run
-  bool attended = false;       ///< runs until an operator orders its end, not for the scenario's duration
-  int bus_priority = 0;        ///< SCHED_FIFO of the thread that receives, where permitted; 0: ordinary
-  RealtimeSettings loop = {};  ///< what the loop's thread asks the machine for
+  Time patience = 10s;            ///< with a robot that does not answer, is not enabled, or falls silent
+  std::string chosen_robot = {};  ///< among several; see DdsStationSettings
+  bool reset_faults = false;      ///< of the drives, before the run
+  bool attended = false;          ///< runs until an operator orders its end, not for the scenario's duration
+  int bus_priority = 0;           ///< SCHED_FIFO of the thread that receives, where permitted; 0: ordinary
+  RealtimeSettings loop = {};     ///< what the loop's thread asks the machine for
   InterruptCount interrupts = no_interrupts;
 };
 

@@ -43,5 +43,20 @@ TEST(TheLogOfTheBus, CannotBeFilledByMalformedPackets) {
   EXPECT_THAT(all, EndsWith("malformed packets on the bus so far: 100000\n"));
 }
 
+TEST(TheLogOfTheBus, CannotBeFilledByCertificatesThatAreRefused) {
+  BusLog log;
+  const std::string refusal =
+      "Begin handshake reply failed: Certificate not valid: error: unable to get local issuer certificate; "
+      "subject: /CN=flinch robot(code: 200)\n";
+  EXPECT_EQ(log.refused_certificates(), 0);
+  EXPECT_THAT(log.shown(refusal), StartsWith("Begin handshake reply failed: Certificate not valid"));
+  std::string all;
+  for (int k = 1; k < 1000; ++k) all += log.shown(refusal);
+  EXPECT_EQ(all,
+            "certificates refused on the bus so far: 10\ncertificates refused on the bus so far: 100\n"
+            "certificates refused on the bus so far: 1000\n");
+  EXPECT_EQ(log.refused_certificates(), 1000);
+}
+
 }  // namespace
 }  // namespace flinch

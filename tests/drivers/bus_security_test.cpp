@@ -188,10 +188,11 @@ struct Seen {
 
 /// Has the robot, for a while with the intruder only and then beside its controller, which `go` lets begin,
 /// until the intruder has seen some commands.
-Seen watch(const BusSettings& settings, std::atomic<bool>& go, const Intrusion& intrusion,
+Seen watch(const BusSettings& settings, std::atomic<bool>& go, Intrusion& intrusion,
            std::uint32_t commands_to_see = 0) {
   const DdsBus bus(settings);
   FarEnd far(bus);
+  intrusion.robot_id = far.server().robot_id();
   Seen seen;
   const auto count = [&] {
     const TorqueCommand& torque = far.torque();
@@ -249,6 +250,7 @@ TEST(Intruder, CommandsARobotOnABusWithoutSecurity) {
   Others others({.domain = domain}, {.domain = domain});
   const DdsBus bus({.domain = domain});
   FarEnd far(bus);
+  others.intrusion->robot_id = far.server().robot_id();
   int intruded = 0, ticks = 0;
   far.run([&] {
     intruded += far.torque().valid && far.torque().torque[0] == test::intruders_torque ? 1 : 0;

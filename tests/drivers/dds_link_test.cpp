@@ -50,7 +50,9 @@ TEST(DdsLink, BringsReadingsOneWayAndTorquesTheOther) {
   });
   EXPECT_EQ(obeyed, 500);
   EXPECT_TRUE(near.dds().link().commands_obeyed);
+  EXPECT_EQ(near.dds().link().other_description, 0u);
   EXPECT_EQ(near.dds().link().other_robot, 0u);
+  EXPECT_EQ(near.dds().link().robot_id, far.server().robot_id());
   EXPECT_EQ(near.dds().link().other_version, 0u);
 }
 
@@ -110,10 +112,10 @@ TEST(DdsLink, RefusesAControllerWithAnotherRobotDescription) {
     const FarThread running(far, [&] { brakes_held = brakes_held && far.brake(); });
     near.run([&] {
       EXPECT_FALSE(near.get(near.station().joints).valid);
-      return near.dds().link().other_robot > 100 || too_long(near);
+      return near.dds().link().other_description > 100 || too_long(near);
     });
   }
-  EXPECT_GT(near.dds().link().other_robot, 100u);
+  EXPECT_GT(near.dds().link().other_description, 100u);
   EXPECT_EQ(near.dds().link().received, 0u);
   EXPECT_TRUE(brakes_held);
   EXPECT_EQ(far.server().commander().received, 0u);
@@ -122,7 +124,9 @@ TEST(DdsLink, RefusesAControllerWithAnotherRobotDescription) {
 /// Sends torque commands as a program of another version, or one that would like to take over, might.
 class Intruder {
  public:
-  explicit Intruder(const DdsBus& bus) : writer_(bus, torque_command_topic) {}
+  /// Names the robot `robot_id` in its commands.
+  Intruder(const DdsBus& bus, std::uint64_t robot_id)
+      : robot_id_(robot_id), writer_(bus, torque_command_topic) {}
 
   void send(std::uint16_t version, bool neutral) {
     flinch_TorqueSample sample{};
@@ -130,7 +134,7 @@ class Intruder {
     sample.header.count = 3;
     sample.header.flags = neutral ? flag_engage_brake : flag_valid;
     std::fill_n(sample.torque, 3, torque);
-    stamp(sample.header, {.session = session_, .robot = test::link_robot}, ++number_);
+    stamp(sample.header, {.session = session_, .robot = test::link_robot, .robot_id = robot_id_}, ++number_);
     sample.header.version = version;
     writer_.write(&sample);
   }
@@ -138,6 +142,7 @@ class Intruder {
   static constexpr double torque = -77.0;
 
  private:
+  std::uint64_t robot_id_;
   std::uint32_t session_ = draw_session();
   std::uint32_t number_ = 0;
   DdsWriter writer_;
@@ -147,7 +152,7 @@ TEST(DdsLink, RefusesASecondCommanderAndObeysTheFirst) {
   const DdsBus bus({.domain = test::free_domain()});
   FarEnd far(bus);
   NearEnd near(bus);
-  Intruder intruder(bus);
+  Intruder intruder(bus, far.server().robot_id());
   std::atomic<bool> intruder_obeyed = false;
   std::atomic<int> obeyed_beside_intruder = 0;
   {
@@ -277,7 +282,7 @@ TEST(DdsLink, ClosesTheBrakesOnRequestWhateverTheCommandsSay) {
 TEST(DdsLink, RefusesCommandsOfAnotherProtocolVersion) {
   const DdsBus bus({.domain = test::free_domain()});
   FarEnd far(bus);
-  Intruder other(bus);
+  Intruder other(bus, far.server().robot_id());
   bool brakes_held = true;
   far.run([&] {
     other.send(protocol_version + 1, true);

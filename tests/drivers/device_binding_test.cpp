@@ -148,6 +148,7 @@ Seen attack(const TwoNetworks& networks, const BusSettings& robots) {
     if (!test::enter_network(networks.first())) return;
     const DdsBus bus(robots);
     FarEnd far(bus);
+    outsider->robot_id = far.server().robot_id();
     far.run([&] {
       outsider->go = true;
       if (far.torque().valid && far.torque().torque[0] == test::spoofed_torque) ++seen->spoofed;

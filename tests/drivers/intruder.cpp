@@ -41,9 +41,9 @@ bool take(dds_entity_t reader, Sample& sample) {
   return reader > 0 && dds_take(reader, &place, &info, 1, 1) == 1 && info.valid_data;
 }
 
-flinch_TorqueSample command(std::uint32_t number) {
+flinch_TorqueSample command(std::uint32_t number, std::uint64_t robot_id) {
   flinch_TorqueSample sample{};
-  stamp(sample.header, {.session = 666, .robot = link_robot}, number);
+  stamp(sample.header, {.session = 666, .robot = link_robot, .robot_id = robot_id}, number);
   sample.header.acquired_ns = sample.header.sent_ns;
   sample.header.count = 3;
   sample.header.flags = number % 64 < 4 ? 0 : flag_valid;  // begins anew should the robot not have heard it
@@ -62,7 +62,7 @@ void intrude(const BusSettings& settings, const std::string& access_control, Int
                                                 qos_of(TopicKind::command).get(), nullptr);
   intrusion.has_writer = writer > 0;
   for (std::uint32_t number = 1;; ++number) {
-    const flinch_TorqueSample sample = command(number);
+    const flinch_TorqueSample sample = command(number, intrusion.robot_id);
     if (writer > 0 && dds_write(writer, &sample) == 0) ++intrusion.sent;
     dds_publication_matched_status_t matched{};
     if (writer > 0 && dds_get_publication_matched_status(writer, &matched) == 0) {

@@ -12,6 +12,7 @@ inline constexpr double intruders_torque = 99.0;  ///< no other sends it [Nm]
 
 /// What an intruder got done.
 struct Intrusion {
+  std::atomic<std::uint64_t> robot_id = 0;  ///< of the robot that the commands are meant for, as it knows
   std::atomic<bool> is_on_bus = false;
   std::atomic<bool> has_writer = false;
   std::atomic<std::uint32_t> sent = 0;           ///< torque commands

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -54,8 +55,8 @@ class Ticking {
 /// Has the robot.
 class FarEnd {
  public:
-  explicit FarEnd(const DdsBus& bus, std::uint32_t robot = link_robot)
-      : ticking_(build()), server_(bus, ticking_.diagram(), station_, {.robot = robot}) {}
+  explicit FarEnd(const DdsBus& bus, std::uint32_t robot = link_robot, const std::string& name = "")
+      : ticking_(build()), server_(bus, ticking_.diagram(), station_, {.robot = robot, .robot_name = name}) {}
 
   void run(
       const std::function<bool()>& done, const std::function<void()>& before_sending = [] {}) {
@@ -86,8 +87,9 @@ class FarEnd {
 /// Commands it.
 class NearEnd {
  public:
-  explicit NearEnd(const DdsBus& bus, std::uint32_t robot = link_robot)
-      : ticking_(build()), dds_(bus, ticking_.diagram(), station_, {.robot = robot}) {}
+  explicit NearEnd(const DdsBus& bus, std::uint32_t robot = link_robot, const std::string& chosen = "")
+      : ticking_(build()),
+        dds_(bus, ticking_.diagram(), station_, {.robot = robot, .chosen_robot = chosen}) {}
 
   void run(const std::function<bool()>& done) { ticking_.run(dds_, done); }
   DdsStation& dds() { return dds_; }

@@ -42,7 +42,7 @@ void Outsider::attack_from(const std::string& network, const std::string& addres
   for (std::uint32_t count = 0;;) {
     for (Datagram datagram : heard) {
       ::inet_pton(AF_INET, address.c_str(), &datagram.to.sin_addr);
-      const std::vector<std::uint8_t> torque = forged(datagram, ++count, true);
+      const std::vector<std::uint8_t> torque = forged(datagram, ++count, true, robot_id);
       const std::vector<std::uint8_t> packet = addressed_to_anybody(
           torque.empty()
               ? std::vector<std::uint8_t>(datagram.bytes.begin(), datagram.bytes.begin() + datagram.size)

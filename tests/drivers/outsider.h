@@ -21,6 +21,7 @@ struct Outsider {
   std::atomic<bool> rehearses = false;  ///< a robot is there whose controller can be overheard
   std::atomic<bool> heard_enough = false;
   std::atomic<bool> go = false;
+  std::atomic<std::uint64_t> robot_id = 0;  ///< of the robot to attack, which somebody has told him
   std::atomic<std::uint32_t> sent = 0;
   int ends[2] = {-1, -1};  ///< of a pipe: what is overheard
 

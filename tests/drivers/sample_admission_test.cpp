@@ -61,7 +61,7 @@ TEST(SampleAdmission, RefusesAnotherVersionAndAnotherRobotWithoutListeningToThem
   EXPECT_EQ(gate.admission.judge(other, 1ms), other_version);
   other = header(7, 1, 1h);
   other.robot = robot + 1;
-  EXPECT_EQ(gate.admission.judge(other, 1ms), other_robot);
+  EXPECT_EQ(gate.admission.judge(other, 1ms), other_description);
   EXPECT_EQ(gate.admission.session(), 0u);
   EXPECT_EQ(gate.judge(8, 1, 2ms), admitted);
 }

@@ -90,12 +90,14 @@ void send(int socket, const Bytes& bytes, const sockaddr_in& to, std::atomic<std
 
 }  // namespace
 
-std::vector<std::uint8_t> forged(const Datagram& sent, std::uint32_t count, bool protection) {
+std::vector<std::uint8_t> forged(const Datagram& sent, std::uint32_t count, bool protection,
+                                 std::uint64_t robot_id) {
   Bytes bytes = protection ? bytes_of(sent) : without_protection(bytes_of(sent));
   const std::size_t at = command_in(bytes);
   if (at == 0) return {};
   auto sample = read<flinch_TorqueSample>(bytes, at);
   sample.torque[0] = spoofed_torque;
+  if (robot_id != 0) sample.header.robot_id = robot_id;
   sample.header.count = 3;
   sample.header.flags =
       count % 64 < 4 ? 0 : flag_valid;  // begins anew in case that the robot has given it up

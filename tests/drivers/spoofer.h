@@ -13,8 +13,10 @@ inline constexpr double spoofed_torque = 77.0;  ///< no other sends it [Nm]
 
 /// The same datagram with `spoofed_torque`, and now and then neutral, in the name of the same writer, newer
 /// than anything it has sent; without `protection`, what DDS Security has put around the sample is taken off.
-/// `count`: which forgery of that datagram's run it is. Empty where there is no torque command in it.
-std::vector<std::uint8_t> forged(const Datagram& sent, std::uint32_t count, bool protection);
+/// `count`: which forgery of that datagram's run it is; `robot_id`: of the robot that shall obey, 0: as it
+/// was. Empty where there is no torque command in it.
+std::vector<std::uint8_t> forged(const Datagram& sent, std::uint32_t count, bool protection,
+                                 std::uint64_t robot_id = 0);
 
 /// The same datagram with the same sample, that the bus takes for a new one.
 std::vector<std::uint8_t> renumbered(const Datagram& sent, std::uint32_t count);

@@ -7,7 +7,7 @@
 //
 // Replace the class in my_amplifiers.cpp; everything else can stay. As it is, three drives are pretended.
 //
-//   example_04_drive_your_robot [SECONDS [DOMAIN [ROBOT.yaml]]]
+//   example_04_drive_your_robot [SECONDS [DOMAIN [ROBOT.yaml [NAME]]]]
 #include <atomic>
 #include <charconv>
 #include <cmath>
@@ -39,6 +39,7 @@ struct Arguments {
   double seconds = 1.0;        // a driver of yours runs until Ctrl-C
   std::uint32_t domain = 101;  // who shares the number shares the bus; 0 where nothing else is given
   std::string robot = "apps/robots/planar_3rrr.yaml";
+  std::string name;  // of this robot, where several share the bus
 };
 
 /// The whole text as a number.
@@ -56,6 +57,7 @@ Arguments arguments(int argc, char** argv) {
   if (argc > 2 && !reads(argv[2], given.domain))
     throw SetupError("DOMAIN: is '" + std::string(argv[2]) + "'; it must be a whole number from 0 on");
   if (argc > 3) given.robot = argv[3];
+  if (argc > 4) given.name = argv[4];
   return given;
 }
 
@@ -76,6 +78,7 @@ bool drive(const Arguments& given) {
                    {.robot = robot_hash(read_config_file(given.robot)),  // or nobody is understood
                     .longest_silence = 6ms,                              // then no torque, and brakes
                     .longest_way = 5ms,                                  // later commands are refused
+                    .robot_name = given.name,                            // for --robot, among several
                     .realtime_priority = priority});
 
   ExchangeList all({exchange, server});  // first the amplifiers, then who commands them

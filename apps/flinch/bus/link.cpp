@@ -58,6 +58,11 @@ class LoopTime final : public Exchange {
   std::atomic<Time> time_ = Time::zero();
 };
 
+ExitStatus tell(const LinkReport& report, const LinkOptions& options) {
+  fmt::print("{}", options.common.json ? report.json() + "\n" : report.table());
+  return report.objections().empty() ? ExitStatus::done : ExitStatus::bad_verdict;
+}
+
 }  // namespace
 
 ExitStatus link(const LinkOptions& options) {
@@ -68,10 +73,18 @@ ExitStatus link(const LinkOptions& options) {
   const BusSettings settings = bus_settings(options.bus, silent);
   const DdsBus bus(settings);
   DdsStation station(bus, *listener.diagram, listener.station,
-                     {.robot = robot_hash(input.text), .realtime_priority = settings.realtime_priority});
+                     {.robot = robot_hash(input.text),
+                      .chosen_robot = options.bus.robot,
+                      .realtime_priority = settings.realtime_priority});
   if (!silent) fmt::print(stderr, "waiting for the robot, {}\n", name_of(options.bus));
-  out_of(name_of(options.bus),
-         [&] { await_robot(station, from_seconds(options.patience), Interrupts::count); });
+  const bool decided = out_of(name_of(options.bus), [&] {
+    return await_robot(station, from_seconds(options.patience), Interrupts::count);
+  });
+  if (!decided) {
+    LinkReport undecided;
+    undecided.robots = station.robots();
+    return tell(undecided, options);
+  }
 
   ClockTicks ticks;
   LoopTime time;
@@ -97,10 +110,13 @@ ExitStatus link(const LinkOptions& options) {
     before = station.link();
     runner.run(context, end, [] { return Interrupts::count() > 0; });
   }
-  const LinkReport report{since(before, station.link()), station.times(), runner.statistics(),
-                          see_pose(*input.robot.robot, context.get(listener.station.joints))};
-  fmt::print("{}", options.common.json ? report.json() + "\n" : report.table());
-  return report.objections().empty() ? ExitStatus::done : ExitStatus::bad_verdict;
+  const LinkReport report{since(before, station.link()),
+                          station.times(),
+                          runner.statistics(),
+                          see_pose(*input.robot.robot, context.get(listener.station.joints)),
+                          station.robots(),
+                          !options.bus.robot.empty()};
+  return tell(report, options);
 }
 
 }  // namespace flinch

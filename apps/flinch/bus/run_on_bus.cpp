@@ -21,6 +21,10 @@ void tell_of_loop_and_link(const LiveRun& run) {
   const TickStatistics& loop = run.statistics();
   fmt::print(stderr, "loop:      {} ticks, {} late starts, {} overruns, {} lost\n", loop.ticks,
              loop.late_starts, loop.overruns, loop.lost_periods);
+  if (const DdsLink link = run.station().link(); link.robots > 1) {
+    fmt::print(stderr, "robots:    {} was commanded; on the bus were {}\n", robot_id_text(link.robot_id),
+               text_of(run.station().robots()));
+  }
   const auto round_trip = run.station().times().round_trip.summary();
   const DdsLink link = run.station().link();
   if (!round_trip) return;
@@ -41,6 +45,7 @@ ExitStatus run_on_bus(const RunOptions& options) {
   const DdsBus bus(settings);
   LiveRun run(scenario, bus,
               {.patience = from_seconds(options.patience),
+               .chosen_robot = options.bus.robot,
                .reset_faults = options.reset_faults,
                .attended = options.attended,
                .bus_priority = settings.realtime_priority,

@@ -1,14 +1,18 @@
 // flinch serve: the simulated bench on the bus, in real time, as a driver program for real drives would be.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "apps/flinch/bus/bus_start.h"
 #include "apps/flinch/bus/bus_verbs.h"
 #include "apps/flinch/bus/interrupts.h"
 #include "apps/flinch/bus/status_line.h"
 #include "apps/flinch/fault_options.h"
+#include "drivers/dds_reader.h"
 #include "drivers/dds_server.h"
+#include "drivers/robot_id.h"
 #include "drivers/wire_header.h"
 #include "experiments/bus/names.h"
 #include "experiments/served/served_bench.h"
@@ -17,6 +21,7 @@
 #include "systems/foundation/json_text.h"
 #include "systems/foundation/problems_of_place.h"
 #include "systems/framework/exchange_list.h"
+#include "systems/framework/monotonic_clock.h"
 #include "systems/framework/realtime_runner.h"
 #include "systems/framework/triple_buffer.h"
 
@@ -69,6 +74,45 @@ Tidings tidings(const ServedState& now) {
                       now.commander.received, now.commander.refused, now.commander.silences)};
 }
 
+/// What a user should know of the others on the bus, each once.
+class BusWarnings {
+ public:
+  BusWarnings(const DdsBus& bus, const DdsServer& server) : bus_(bus), server_(server) {}
+
+  /// Looks once a second.
+  std::string news() {
+    const Time now = MonotonicClock::now();
+    if (now < next_look_) return "";
+    next_look_ = now + 1s;
+    return news_of_robots() + news_of_commanders();
+  }
+
+ private:
+  std::string news_of_robots() {
+    const int robots = writers_on(bus_, status_topic);
+    if (robots <= std::exchange(robots_, robots)) return "";
+    return fmt::format(
+        "warning: {} robots are on this bus; who commands one must choose it with --robot; this is {}\n",
+        robots, robot_id_text(server_.robot_id()));
+  }
+
+  /// A program that has just joined is not understood for an instant.
+  std::string news_of_commanders() {
+    const int last = std::exchange(unreadable_, server_.unreadable_commanders());
+    const int lasting = std::min(last, unreadable_);
+    if (lasting <= std::exchange(told_unreadable_, lasting)) return "";
+    return "warning: a program commands in another version of the protocol, and is not obeyed; build both "
+           "ends from the same flinch\n";
+  }
+
+  const DdsBus& bus_;
+  const DdsServer& server_;
+  Time next_look_ = MonotonicClock::now() + 500ms;
+  int robots_ = 1;
+  int unreadable_ = 0;
+  int told_unreadable_ = 0;
+};
+
 nlohmann::ordered_json json_of(const DurationHistogram& histogram) {
   const auto summary = histogram.summary();
   if (!summary) return nullptr;
@@ -79,16 +123,20 @@ nlohmann::ordered_json json_of(const DurationHistogram& histogram) {
 
 void tell_the_end(const DdsCommander& commander, const TickStatistics& ticks, const CommonOptions& common) {
   if (common.json) {
-    const nlohmann::ordered_json json = {{"ticks", ticks.ticks},         {"late_starts", ticks.late_starts},
-                                         {"overruns", ticks.overruns},   {"lost_periods", ticks.lost_periods},
-                                         {"tick", json_of(ticks.whole)}, {"commands", commander.received},
-                                         {"refused", commander.refused}, {"silences", commander.silences}};
+    const nlohmann::ordered_json json = {
+        {"ticks", ticks.ticks},          {"late_starts", ticks.late_starts},
+        {"overruns", ticks.overruns},    {"lost_periods", ticks.lost_periods},
+        {"tick", json_of(ticks.whole)},  {"commands", commander.received},
+        {"refused", commander.refused},  {"for_other_robots", commander.for_others},
+        {"silences", commander.silences}};
     fmt::print("{}\n", json_text(json));
   } else if (!common.quiet) {
     fmt::print(
-        "served {} ticks: {} late starts, {} overruns, {} lost; {} commands, {} refused, {} silences\n",
+        "served {} ticks: {} late starts, {} overruns, {} lost; {} commands, {} refused, {} of them for "
+        "other "
+        "robots, {} silences\n",
         ticks.ticks, ticks.late_starts, ticks.overruns, ticks.lost_periods, commander.received,
-        commander.refused, commander.silences);
+        commander.refused, commander.for_others, commander.silences);
   }
 }
 
@@ -98,7 +146,7 @@ ExitStatus serve(const ServeOptions& options) {
   const bool silent = options.common.quiet || options.common.json;
   SimulatedScenario scenario = read_simulated_scenario(options.scenario, options.seed);
   add_faults(options.faults, *scenario.robot.robot, scenario.station.faults);
-  DdsServerSettings settings{.robot = robot_hash(scenario.robot_text)};
+  DdsServerSettings settings{.robot = robot_hash(scenario.robot_text), .robot_name = options.bus.robot};
   const ServedBench bench =
       out_of(scenario.file, [&] { return build_served_bench(scenario, settings.longest_silence); });
   Context context = bench.diagram->make_context();
@@ -113,10 +161,17 @@ ExitStatus serve(const ServeOptions& options) {
   ClockTicks ticks;
   RealtimeRunner runner(*bench.diagram, ticks, exchange, std::make_unique<SundialsIntegrator>());
   if (!silent) {
-    fmt::print(stderr, "serving {} on {}; Ctrl-C ends it\n", scenario.name, name_of(options.bus));
+    fmt::print(stderr, "serving {} on {} as robot {}; Ctrl-C ends it\n", scenario.name, name_of(options.bus),
+               text_of(SeenRobot{server.robot_id(), options.bus.robot}));
   }
   {
-    const StatusLine line([&] { return tidings(watch.last()); }, silent);
+    BusWarnings beside(bus, server);
+    const auto ask = [&] {
+      Tidings now = tidings(watch.last());
+      if (!silent) now.said = beside.news();
+      return now;
+    };
+    const StatusLine line(ask, silent);
     const RealtimeThread thread(loop_settings(options.bus));
     tell_what_is_missing(thread.report(), silent);
     runner.run(context, options.duration ? from_seconds(*options.duration) : Time::max(),

@@ -22,6 +22,8 @@ LinkReport good_report() {
     report.loop.lateness.add(5us);
   }
   report.link.received = 1000;
+  report.link.robot_id = 1;
+  report.robots = {{1, "left"}};
   report.loop.ticks = 1000;
   return report;
 }
@@ -47,6 +49,27 @@ TEST(LinkReport, TellsWhereTheDrivesAreWhetherTheyTurnOrSlide) {
     EXPECT_EQ(json["active"], nlohmann::json({0.703, 0.71, 0.72}));
     EXPECT_EQ(json["active_rad"], json["active"]) << "what was called so keeps its name";
   }
+}
+
+TEST(LinkReport, ObjectsToSeveralRobotsOfWhichNoneIsChosen) {
+  LinkReport report = good_report();
+  report.robots.push_back({2, "right"});
+  EXPECT_THAT(report.objections(), ElementsAre(HasSubstr("there are 2 robots; choose one with --robot")));
+  EXPECT_THAT(report.table(), HasSubstr("robots    left (0000000000000001), right (0000000000000002)"));
+  report.is_chosen = true;
+  EXPECT_THAT(report.objections(), IsEmpty());
+  const auto json = nlohmann::json::parse(report.json());
+  EXPECT_EQ(json["robot"], "0000000000000001");
+  EXPECT_EQ(json["robots"][1]["id"], "0000000000000002");
+  EXPECT_EQ(json["robots"][1]["name"], "right");
+}
+
+TEST(LinkReport, SaysOfRobotsOfWhichNoneWasMeasuredOnlyThat) {
+  LinkReport report;
+  report.robots = {{1, "left"}, {2, ""}};
+  EXPECT_THAT(report.objections(), ElementsAre(HasSubstr("there are 2 robots")));
+  EXPECT_THAT(report.table(), HasSubstr("none was measured"));
+  EXPECT_TRUE(nlohmann::json::parse(report.json())["robot"].is_null());
 }
 
 TEST(LinkReport, ObjectsToCommandsThatNobodyObeys) {

@@ -38,11 +38,14 @@ void expect_nothing_moves(const BusLog& log, const LogEnd& begin) {
   EXPECT_EQ(stood.braked, stood.ticks);
 }
 
-/// A robot that stands there alone hears commands for a second, and obeys none.
-void expect_refusal(LinkTrial& trial, std::uint32_t robot, std::uint16_t version) {
+/// A robot that stands there alone hears commands for a second, and obeys none. `other_id`: bits
+/// in which the identity that they name is another than its own.
+void expect_refusal(LinkTrial& trial, std::uint32_t robot, std::uint16_t version,
+                    std::uint64_t other_id = 0) {
   trial.start_robot();
   EXPECT_TRUE(wait_until(5s, [&] { return trial.at_robot().status.count > 100; }));
-  const OtherProgram other = stranger(trial.domain(), robot, version);
+  const std::uint64_t named = present_robot(trial.at_robot()) ^ other_id;
+  const OtherProgram other = stranger(trial.domain(), robot, version, named);
   const LogEnd begin(trial.at_robot());
   EXPECT_TRUE(wait_until(5s, [&] { return course(trial.at_robot(), begin, 0).refused > 300; }));
   expect_nothing_moves(trial.at_robot(), begin);
@@ -55,6 +58,18 @@ void expect_message(OtherProgram& program, const std::string& message) {
 
 }  // namespace
 
+TrialOutcome second_robot() {
+  LinkTrial trial;
+  expect_refusal(trial, shipped_robot(robot_file), protocol_version, 1);
+  const LogEnd begin(trial.at_robot());
+  const OtherProgram robot = strange_robot(trial.domain(), shipped_robot(robot_file), protocol_version);
+  OtherProgram program(flinch_program({"run", shipped_file("scenarios/square.yaml"), "--station", "dds",
+                                       "--domain", std::to_string(trial.domain())}));
+  expect_message(program, "there are 2 robots on the bus");
+  expect_nothing_moves(trial.at_robot(), begin);
+  return {};
+}
+
 TrialOutcome second_commander() {
   expect_undisturbed([] {
     LinkTrial trial;
@@ -62,7 +77,8 @@ TrialOutcome second_commander() {
     const BusLog& log = trial.at_robot();
     const std::uint32_t session = present_commander(log);
     const LogEnd begin(log);
-    const OtherProgram other = stranger(trial.domain(), shipped_robot(robot_file), protocol_version);
+    const OtherProgram other =
+        stranger(trial.domain(), shipped_robot(robot_file), protocol_version, present_robot(log));
     const auto program = trial.other_commander({"--patience", "1"});
     EXPECT_TRUE(wait_until(3s, [&] { return course(log, begin, session).refused > 500; }));
     const Course went = course(log, begin, session);

@@ -14,6 +14,11 @@ std::uint32_t present_commander(const BusLog& log) {
   return count > 0 ? log.status[count - 1].commander : 0;
 }
 
+std::uint64_t present_robot(const BusLog& log) {
+  const std::uint32_t count = log.status.count;
+  return count > 0 ? log.status[count - 1].header.robot_id : 0;
+}
+
 Course course(const BusLog& log, const LogEnd& begin, std::uint32_t session) {
   Course sum;
   const std::uint32_t end = log.status.count;

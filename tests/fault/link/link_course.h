@@ -23,6 +23,9 @@ struct Course {
 /// Who commands now; 0 for nobody.
 std::uint32_t present_commander(const BusLog& log);
 
+/// The identity of the robot that tells its status.
+std::uint64_t present_robot(const BusLog& log);
+
 /// Since `begin`.
 Course course(const BusLog& log, const LogEnd& begin, std::uint32_t session);
 

@@ -18,8 +18,9 @@ namespace {
   }
 }
 
-void put_on(flinch_Header& header, std::uint32_t robot, std::uint16_t version, std::uint32_t number) {
-  stamp(header, {.session = strangers_session, .robot = robot}, number);
+void put_on(flinch_Header& header, std::uint32_t robot, std::uint16_t version, std::uint32_t number,
+            std::uint64_t robot_id) {
+  stamp(header, {.session = strangers_session, .robot = robot, .robot_id = robot_id}, number);
   header.acquired_ns = header.sent_ns;
   header.version = version;
   header.count = 3;
@@ -31,19 +32,20 @@ std::uint32_t shipped_robot(const std::string& name) {
   return robot_hash(read_robot_input(shipped_file(name)).text);
 }
 
-OtherProgram stranger(std::uint32_t domain, std::uint32_t robot, std::uint16_t version) {
+OtherProgram stranger(std::uint32_t domain, std::uint32_t robot, std::uint16_t version,
+                      std::uint64_t robot_id) {
   return OtherProgram([=] {
     const DdsBus bus({.domain = domain});
     DdsWriter requests(bus, drive_request_topic);
     DdsWriter commands(bus, torque_command_topic);
     flinch_DriveRequest request{};
-    put_on(request.header, robot, version, 1);
+    put_on(request.header, robot, version, 1, robot_id);
     request.header.flags = flag_valid;
     request.wanted = 2;
     requests.write(&request);
     every_millisecond([&](std::uint32_t number) {
       flinch_TorqueSample command{};
-      put_on(command.header, robot, version, number);
+      put_on(command.header, robot, version, number, robot_id);
       command.header.flags = number <= 50 ? flag_engage_brake : flag_valid;
       for (int i = 0; i < 3; ++i) command.torque[i] = number <= 50 ? 0.0 : strangers_torque;
       commands.write(&command);
@@ -70,7 +72,7 @@ OtherProgram strange_robot(std::uint32_t domain, std::uint32_t robot, std::uint1
     DdsWriter writer(bus, joints_topic);
     every_millisecond([&](std::uint32_t number) {
       flinch_JointSample sample{};
-      put_on(sample.header, robot, version, number);
+      put_on(sample.header, robot, version, number, strangers_robot);
       sample.header.flags = flag_valid | flag_passive_valid;
       writer.write(&sample);
     });

@@ -19,6 +19,7 @@ TrialOutcome duplicate_and_reorder_samples();
 TrialOutcome step_clock();
 
 // Others on the bus.
+TrialOutcome second_robot();
 TrialOutcome second_commander();
 TrialOutcome replay_commands();
 TrialOutcome wrong_version();

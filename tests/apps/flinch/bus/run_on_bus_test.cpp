@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -144,6 +145,24 @@ TEST(RunOnBus, SaysWhereItLookedForARobotThatIsNotThere) {
                     std::to_string(test::free_domain()), "--patience", "0.3"});
   EXPECT_EQ(live.status, 2);
   EXPECT_THAT(live.err, HasSubstr("on lo: nobody sends joint readings there"));
+}
+
+TEST(RunOnBus, SaysThatTheKeysOfTheOtherEndAreOfAnotherAuthority) {
+  const test::Workplace place;
+  const std::string domain = std::to_string(test::free_domain());
+  for (const char* const keys : {"robots_keys", "our_keys"}) {
+    ASSERT_EQ(test::flinch({"keys", place.at(keys), "--quiet"}).status, 0);
+  }
+  test::OtherProgram server(
+      test::flinch_program({"serve", place.at("scenarios/square.yaml"), "--domain", domain, "--security",
+                            place.at("robots_keys"), "--duration", "120"}));
+  ASSERT_TRUE(server.writes("drives: ", 20s)) << server.output();
+  const test::Outcome live =
+      test::flinch({"run", place.at("scenarios/square.yaml"), "--station", "dds", "--domain", domain,
+                    "--security", place.at("our_keys"), "--patience", "2"});
+  EXPECT_EQ(live.status, 2);
+  EXPECT_THAT(live.err, HasSubstr("somebody is there whose certificate was refused"));
+  EXPECT_LE(std::count(live.err.begin(), live.err.end(), '\n'), 6) << live.err;
 }
 
 TEST(RunOnBus, RefusesAnOperatorWhomNobodyWatches) {
