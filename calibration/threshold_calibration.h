@@ -37,8 +37,8 @@ struct EstimatorThresholds {
 
 /// Thresholds for a stated rate of false alarms, from the peaks of motion without contact: the largest of a
 /// stretch follows a Gumbel distribution, whose upper confidence bound is taken at the rate. Throws
-/// SetupError where there are fewer than 60 stretches, where the rate asked is more than 1000 times rarer than
-/// what was recorded can show, or where the recordings hold no errors.
+/// SetupError where there are fewer than 60 stretches, where the rate asked is more than 1000 times rarer
+/// than what was recorded can show, or where the recordings hold no errors.
 std::vector<EstimatorThresholds> calibrate_thresholds(const std::vector<EstimatorPeaks>& peaks,
                                                       const ThresholdGoal& goal);
 

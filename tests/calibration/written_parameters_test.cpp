@@ -39,7 +39,8 @@ TEST(WrittenParameters, AreReadAgain) {
 TEST(WrittenParameters, AreReadAgainWhateverTheFilesAreCalledThatTheyComeFrom) {
   const test::TemporaryFolder folder;
   ParameterFile file = with_value(1.0);
-  const std::vector<std::string> names = {"it's: #1", "two\nlines", "a\ttab\x1b[31m", "{x}", "\\n \"q\"", "-"};
+  const std::vector<std::string> names = {"it's: #1", "two\nlines", "a\ttab\x1b[31m",
+                                          "{x}",      "\\n \"q\"",  "-"};
   for (const std::string& name : names) file.recordings.push_back({name, std::string(64, 'b')});
   write_parameters(folder / "found.yaml", parameter_file_text(file));
   const ParameterFile read = read_parameter_file(folder / "found.yaml");
@@ -58,7 +59,8 @@ TEST(WrittenParameters, ThatNobodyCouldReadAreNotWritten) {
         << value;
   }
   const std::string thresholds =
-      "control: {contact_detector: {by_estimator: [{estimator: momentum_observer, reaction_force_N: 2.262e-27}]}}\n";
+      "control:\n  contact_detector:\n    by_estimator:\n"
+      "      - {estimator: momentum_observer, reaction_force_N: 2.262e-27}\n";
   EXPECT_THAT(
       test::problems_of([&] { write_parameters(place, parameter_file_text(with_value(1.0)) + thresholds); }),
       ElementsAre(HasSubstr("reaction_force_N: is 2.262e-27; it must be 0 or of a size")));
