@@ -7,6 +7,7 @@
 #include "apps/flinch/bus/bus_verbs.h"
 #include "apps/flinch/bus/interrupts.h"
 #include "apps/flinch/bus/status_line.h"
+#include "apps/flinch/printing.h"
 #include "drivers/wire_header.h"
 #include "experiments/bus/await_robot.h"
 #include "experiments/bus/link_report.h"
@@ -69,7 +70,7 @@ ExitStatus link(const LinkOptions& options) {
   const DdsBus bus(settings);
   DdsStation station(bus, *listener.diagram, listener.station,
                      {.robot = robot_hash(input.text), .realtime_priority = settings.realtime_priority});
-  if (!silent) fmt::print(stderr, "waiting for the robot, {}\n", name_of(options.bus));
+  if (!silent) print_message("waiting for the robot, {}\n", name_of(options.bus));
   out_of(name_of(options.bus),
          [&] { await_robot(station, from_seconds(options.patience), Interrupts::count); });
 
@@ -99,7 +100,7 @@ ExitStatus link(const LinkOptions& options) {
   }
   const LinkReport report{since(before, station.link()), station.times(), runner.statistics(),
                           see_pose(*input.robot.robot, context.get(listener.station.joints))};
-  fmt::print("{}", options.common.json ? report.json() + "\n" : report.table());
+  print_result("{}", options.common.json ? report.json() + "\n" : report.table());
   return report.objections().empty() ? ExitStatus::done : ExitStatus::bad_verdict;
 }
 

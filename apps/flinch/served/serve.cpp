@@ -8,6 +8,7 @@
 #include "apps/flinch/bus/interrupts.h"
 #include "apps/flinch/bus/status_line.h"
 #include "apps/flinch/fault_options.h"
+#include "apps/flinch/printing.h"
 #include "drivers/dds_server.h"
 #include "drivers/wire_header.h"
 #include "experiments/bus/names.h"
@@ -83,9 +84,9 @@ void tell_the_end(const DdsCommander& commander, const TickStatistics& ticks, co
                                          {"overruns", ticks.overruns},   {"lost_periods", ticks.lost_periods},
                                          {"tick", json_of(ticks.whole)}, {"commands", commander.received},
                                          {"refused", commander.refused}, {"silences", commander.silences}};
-    fmt::print("{}\n", json_text(json));
+    print_result("{}\n", json_text(json));
   } else if (!common.quiet) {
-    fmt::print(
+    print_result(
         "served {} ticks: {} late starts, {} overruns, {} lost; {} commands, {} refused, {} silences\n",
         ticks.ticks, ticks.late_starts, ticks.overruns, ticks.lost_periods, commander.received,
         commander.refused, commander.silences);
@@ -113,7 +114,7 @@ ExitStatus serve(const ServeOptions& options) {
   ClockTicks ticks;
   RealtimeRunner runner(*bench.diagram, ticks, exchange, std::make_unique<SundialsIntegrator>());
   if (!silent) {
-    fmt::print(stderr, "serving {} on {}; Ctrl-C ends it\n", scenario.name, name_of(options.bus));
+    print_message("serving {} on {}; Ctrl-C ends it\n", scenario.name, name_of(options.bus));
   }
   {
     const StatusLine line([&] { return tidings(watch.last()); }, silent);
