@@ -17,6 +17,7 @@ namespace flinch {
 namespace {
 
 constexpr std::size_t most_samples = 60'000;  // of a drive, to which sizes are fitted
+constexpr double least_surprise = 1e-6;       // that a threshold may have
 
 /// The signal of the loads of the drives; "" where there is none.
 std::string loads_of(const Recording& recording) {
@@ -263,6 +264,7 @@ std::vector<CalibratedResidual> calibrate_residuals(const std::vector<ResidualRe
       *parts_of[i] = {
           errors[i], tail.variation(), tail.between_robots(),
           calibrated_threshold(found[i].largest(), probability, goal, tail.power(goal.confidence))};
+      require_errors(estimator + ", residual in deviations", parts_of[i]->threshold, least_surprise);
     }
     residual.stretches = found.back().largest().size();
     if (const auto course = fit_course(motions, estimator, residual.change.errors)) {
@@ -270,6 +272,7 @@ std::vector<CalibratedResidual> calibrate_residuals(const std::vector<ResidualRe
       const Surprises onsets = surprises(motions, estimator, {surprise_of(ratio)}, goal).front();
       residual.stretches = onsets.largest().size();
       residual.onset = {*course, calibrated_threshold(onsets.largest(), probability, goal)};
+      require_errors(estimator + ", onset in deviations", residual.onset->threshold, least_surprise);
     }
   }
   return all;

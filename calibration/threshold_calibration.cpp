@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t fewest_stretches = 60;
 constexpr double furthest_extrapolation = 1000.0;
+constexpr double least_threshold = 1e-9;  // [N or Nm]
 
 void append(const std::vector<double>& more, std::vector<double>& all) {
   all.insert(all.end(), more.begin(), more.end());
@@ -52,6 +53,15 @@ void require_enough(const std::string& estimator, std::size_t stretches, const T
                   estimator, recorded, needed, goal.false_alarms_per_hour));
 }
 
+void require_errors(const std::string& of, const CalibratedThreshold& found, double least) {
+  if (std::isfinite(found.value) && found.value >= least) return;
+  throw SetupError(fmt::format(
+      "{}: its errors are at most {:.3g}, which gives a threshold of {:.3g}; these recordings hold "
+      "no errors, as where readings are constant; record the robot while it moves, with the noise "
+      "that its sensors have",
+      of, found.largest, found.value));
+}
+
 std::vector<EstimatorThresholds> calibrate_thresholds(const std::vector<EstimatorPeaks>& peaks,
                                                       const ThresholdGoal& goal) {
   std::vector<EstimatorThresholds> all;
@@ -63,10 +73,15 @@ std::vector<EstimatorThresholds> calibrate_thresholds(const std::vector<Estimato
                    .stretches = of.force.size(),
                    .force = calibrated_threshold(of.force, share * alarms_a_stretch, goal),
                    .moment = calibrated_threshold(of.moment, share * alarms_a_stretch, goal)});
+    require_errors(of.estimator + ", force in N", all.back().force, least_threshold);
+    if (!of.moment.empty())
+      require_errors(of.estimator + ", moment in Nm", all.back().moment, least_threshold);
     if (!goal.by_component) continue;
     const double part = 1.0 / static_cast<double>(of.components.size());  // of the alarms
     for (const std::vector<double>& component : of.components)
       all.back().components.push_back(calibrated_threshold(component, part * alarms_a_stretch, goal));
+    for (const CalibratedThreshold& each : all.back().components)
+      require_errors(of.estimator + ", a component in N or Nm", each, least_threshold);
   }
   return all;
 }

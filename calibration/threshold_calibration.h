@@ -37,8 +37,8 @@ struct EstimatorThresholds {
 
 /// Thresholds for a stated rate of false alarms, from the peaks of motion without contact: the largest of a
 /// stretch follows a Gumbel distribution, whose upper confidence bound is taken at the rate. Throws
-/// SetupError where there are fewer than 60 stretches, or the rate asked is more than 1000 times rarer than
-/// what was recorded can show.
+/// SetupError where there are fewer than 60 stretches, where the rate asked is more than 1000 times rarer
+/// than what was recorded can show, or where the recordings hold no errors.
 std::vector<EstimatorThresholds> calibrate_thresholds(const std::vector<EstimatorPeaks>& peaks,
                                                       const ThresholdGoal& goal);
 
@@ -48,6 +48,9 @@ CalibratedThreshold calibrated_threshold(const std::vector<double>& peaks, doubl
                                          const ThresholdGoal& goal, double power = 1.0);
 /// Throws SetupError where so many stretches are too few, as `calibrate_thresholds`.
 void require_enough(const std::string& estimator, std::size_t stretches, const ThresholdGoal& goal);
+
+/// Throws SetupError where a threshold of `of` is below `least`: recordings without errors tell nothing.
+void require_errors(const std::string& of, const CalibratedThreshold& found, double least);
 
 /// All peaks of the same estimators together. Throws SetupError where one has other estimators.
 std::vector<EstimatorPeaks> pooled(const std::vector<std::vector<EstimatorPeaks>>& recordings);

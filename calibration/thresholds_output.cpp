@@ -12,6 +12,7 @@
 #include "experiments/scenario/estimate_settings.h"
 #include "experiments/scenario/scenario.h"
 #include "systems/config/robot_file.h"
+#include "systems/config/yaml_text.h"
 #include "systems/foundation/json_text.h"
 #include "systems/foundation/setup_error.h"
 
@@ -139,6 +140,9 @@ std::string onsets_table(const ThresholdFindings& found) {
   return text;
 }
 
+/// A size of errors as files have it: 0 where it is too small to compute with.
+double computable(double size) { return size < 1e-20 ? 0.0 : size; }
+
 std::string residuals_yaml(const ThresholdFindings& found) {
   std::string text = fmt::format(
       "  fused_detector:\n    tracking_per_s: {:.4g}\n    smoothing_per_s: {:.4g}\n    residuals:\n",
@@ -148,13 +152,13 @@ std::string residuals_yaml(const ThresholdFindings& found) {
     for (const auto& [part, of] : parts(residual)) {
       text += fmt::format("        {}: {{threshold: {:.4g}, noise_{}: {:.4g}, speed_{}: {:.4g}", part,
                           of.threshold.value, found.drives_turn ? "Nm" : "N", of.errors.noise,
-                          found.drives_turn ? "Nms_per_rad" : "Ns_per_m", of.errors.speed);
+                          found.drives_turn ? "Nms_per_rad" : "Ns_per_m", computable(of.errors.speed));
       text += fmt::format(
           ", load: {:.4g}, torque: {:.4g}, friction: {:.4g}, lag_ms: {:.4g}, rest_{}: {:.4g}, "
           "acceleration_{}: {:.4g}}}\n",
-          of.errors.load, of.errors.torque, of.errors.friction, 1e3 * of.errors.lag,
-          found.drives_turn ? "Nm" : "N", of.errors.rest, found.drives_turn ? "rad_per_s2" : "m_per_s2",
-          of.errors.acceleration);
+          computable(of.errors.load), computable(of.errors.torque), computable(of.errors.friction),
+          1e3 * computable(of.errors.lag), found.drives_turn ? "Nm" : "N", computable(of.errors.rest),
+          found.drives_turn ? "rad_per_s2" : "m_per_s2", computable(of.errors.acceleration));
     }
     if (!residual.onset) continue;
     const CalibratedOnset& onset = *residual.onset;
@@ -167,7 +171,8 @@ std::string residuals_yaml(const ThresholdFindings& found) {
 
 std::string listed(const std::vector<CalibrationSource>& files) {
   std::string text;
-  for (const CalibrationSource& of : files) text += fmt::format("#   {}, sha256 {}\n", of.file, of.sha256);
+  for (const CalibrationSource& of : files)
+    text += fmt::format("#   {}, sha256 {}\n", comment_text(of.file), of.sha256);
   return text;
 }
 

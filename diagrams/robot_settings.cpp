@@ -1,5 +1,7 @@
 #include "diagrams/robot_settings.h"
 
+#include <algorithm>
+
 #include "systems/robot/joint_space_dynamics.h"
 
 namespace flinch {
@@ -19,6 +21,29 @@ double least_inertia(const ParallelRobot& robot) {
   robot.kinematics(robot.home_pose(), PlatformVector::Zero(robot.dof()), kinematics);
   robot.dynamics(kinematics, dynamics);
   return joint_space_dynamics(kinematics, dynamics).M_qa.diagonal().minCoeff();
+}
+
+/// What the drives feel of friction at home while all of them move at `rate` [Nm or N].
+JointVector friction_at(const ParallelRobot& robot, double rate) {
+  Kinematics kinematics;
+  Dynamics dynamics;
+  robot.kinematics(robot.home_pose(), PlatformVector::Zero(robot.dof()), kinematics);
+  const PlatformVector velocity = kinematics.J_x_qa * JointVector::Constant(robot.drives(), rate);
+  robot.kinematics(robot.home_pose(), velocity, kinematics);
+  robot.dynamics(kinematics, dynamics);
+  return kinematics.J_x_qa.transpose() * dynamics.F_fr_x;
+}
+
+/// Largest Coulomb friction of a drive: what is left of friction where its viscous part is taken out.
+double coulomb_friction(const ParallelRobot& robot) {
+  constexpr double slipping = 0.03;  // rate at which friction is no longer rounded [rad/s or m/s]
+  return (2.0 * friction_at(robot, slipping) - friction_at(robot, 2.0 * slipping)).lpNorm<Eigen::Infinity>();
+}
+
+/// By how much the torque of a drive may change while its encoder stands still [Nm or N]: a drive that sticks
+/// holds its Coulomb friction either way, and half of all friction is not known.
+double unseen_torque(const ParallelRobot& robot, const DriveParameters& drives) {
+  return std::max(0.06 * drives.max_torque, 4.0 * coulomb_friction(robot));
 }
 
 PlausibilityLimits plausibility_for(const DriveParameters& drives, double inertia) {
@@ -53,7 +78,7 @@ ContactControlSettings settings_for(const ParallelRobot& robot, const DriveParam
   settings.faults.max_unseen_motion = drives.max_unseen_motion;
   settings.faults.max_torque_jump = drives.max_torque_jump;
   settings.faults.torque_range = drives.max_torque;
-  settings.faults.max_unseen_current = 0.06 * drives.max_torque / drives.torque_constant.minCoeff();
+  settings.faults.max_unseen_current = unseen_torque(robot, drives) / drives.torque_constant.minCoeff();
   settings.plausibility = plausibility_for(drives, inertia);
   settings.torque_gate.max_torque = drives.max_torque;
   settings.torque_gate.max_torque_rate = drives.max_torque_rate;

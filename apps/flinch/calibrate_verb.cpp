@@ -1,8 +1,8 @@
 // flinch calibrate: parameters from recordings.
-#include <fmt/core.h>
-
 #include "apps/flinch/command_line.h"
 #include "apps/flinch/conclusion.h"
+#include "apps/flinch/output_place.h"
+#include "apps/flinch/printing.h"
 #include "apps/flinch/progress.h"
 #include "apps/flinch/simulated/simulated_parts.h"
 #include "apps/flinch/today.h"
@@ -10,10 +10,10 @@
 #include "calibration/contact_free_peaks.h"
 #include "calibration/threshold_calibration.h"
 #include "calibration/thresholds_output.h"
+#include "calibration/written_parameters.h"
 #include "diagrams/fused_detector.h"
 #include "systems/config/file_kind.h"
 #include "systems/foundation/problems_of_place.h"
-#include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recording.h"
 
@@ -93,7 +93,7 @@ std::vector<CalibratedResidual> residuals_of(const FreeMotions& motions, const T
 }  // namespace
 
 ExitStatus calibrate_thresholds(const CalibrateThresholdsOptions& options) {
-  require_place(options.out, options.recordings);
+  require_output(options.out, options.recordings, OutputKind::parameters);
   ThresholdFindings found;
   found.goal.false_alarms_per_hour = options.rate;
   found.goal.confidence = options.confidence;
@@ -111,11 +111,11 @@ ExitStatus calibrate_thresholds(const CalibrateThresholdsOptions& options) {
   found.residuals = residuals_of(motions, found.goal, quiet);
   found.tracking = motions.scenarios.front().control.fused_detector.tracking;
   note_robot(motions.scenarios, found);
-  fmt::print("{}", options.common.json ? thresholds_json(found) + "\n" : thresholds_table(found));
-  for (const std::string& warning : warnings(found)) fmt::print(stderr, "warning: {}\n", warning);
+  print_result("{}", options.common.json ? thresholds_json(found) + "\n" : thresholds_table(found));
+  for (const std::string& warning : warnings(found)) print_message("warning: {}\n", warning);
   if (options.out.empty()) return ExitStatus::done;
-  write_result(options.out, thresholds_yaml(found, today()));
-  if (!options.common.quiet) fmt::print(stderr, "thresholds: {}\n", options.out.string());
+  write_parameters(options.out, thresholds_yaml(found, today()));
+  if (!options.common.quiet) print_message("thresholds: {}\n", options.out.string());
   return ExitStatus::done;
 }
 

@@ -4,15 +4,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <cstdio>
 #include <functional>
 #include <limits>
 #include <new>
 #include <nlohmann/json.hpp>
-#include <system_error>
+#include <sstream>
 
+#include "apps/flinch/printing.h"
 #include "apps/flinch/shell_word.h"
 #include "apps/flinch/verbs.h"
 #include "systems/foundation/json_text.h"
@@ -80,20 +79,22 @@ std::string typed(int argc, const char* const* argv) {
   return text;
 }
 
-/// What was printed lies in a buffer, whose disk may be full.
-void require_printed() {
-  if (std::fflush(stdout) == 0) return;
-  throw SetupError("what was to be printed cannot be written: " + std::generic_category().message(errno));
+/// A name with a line feed begins no line that looks like one of ours.
+std::string indented(std::string text) {
+  for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 1))
+    text.insert(at + 1, "       ");
+  return text;
 }
 
 int complain(const std::vector<std::string>& problems, bool json) {
-  if (json) std::puts(json_text(nlohmann::ordered_json{{"error", problems}}).c_str());
+  if (json) print_results(json_text(nlohmann::ordered_json{{"error", problems}}) + "\n");
+  flush_results();
   constexpr std::size_t most_shown = 50;
   for (std::size_t i = 0; i < std::min(problems.size(), most_shown); ++i) {
-    fmt::print(stderr, "error: {}\n", problems[i]);
+    print_message("error: {}\n", indented(problems[i]));
   }
   if (problems.size() > most_shown) {
-    fmt::print(stderr, "error: {} more problems are not shown\n", problems.size() - most_shown);
+    print_message("error: {} more problems are not shown\n", problems.size() - most_shown);
   }
   return static_cast<int>(ExitStatus::bad_input);
 }
@@ -315,6 +316,19 @@ std::string usage_problem(const CLI::App& app, const CLI::ParseError& error, con
   return unknown.empty() ? fmt::format("{}; '{} --help' shows how", error.what(), path) : unknown;
 }
 
+/// Shows help or version.
+int show(const CLI::App& app, const CLI::ParseError& asked, bool json) {
+  std::ostringstream out, err;
+  const int status = app.exit(asked, out, err);
+  print_results(out.str());
+  try {
+    require_printed();
+  } catch (const SetupError& lost) {
+    return complain(lost.problems(), json);
+  }
+  return status;
+}
+
 }  // namespace
 
 /// What is wrong with `text` as a seed; "" if nothing is.
@@ -358,8 +372,8 @@ int run_command_line(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // help or version
     const bool json = std::find(argv, argv + argc, std::string("--json")) != argv + argc;
+    if (error.get_exit_code() == 0) return show(app, error, json);
     return complain({usage_problem(app, error, argc > 1 ? argv[1] : "")}, json);
   }
   verbs.common->command_line = typed(argc, argv);

@@ -1,7 +1,6 @@
 #include "apps/flinch/conclusion.h"
 
-#include <fmt/core.h>
-
+#include "apps/flinch/printing.h"
 #include "apps/flinch/progress.h"
 #include "experiments/recorded/robot_as_drawn.h"
 #include "experiments/report/run_folder.h"
@@ -27,7 +26,7 @@ RunFolder folder_of(const RunOptions& options, const std::string& name) {
 void tell_if_partial(const Recording& recording, const CommonOptions& common) {
   const auto partial = recording.attributes.find("recording.partial");
   if (partial == recording.attributes.end() || common.quiet) return;
-  fmt::print(stderr, "partial:   {}\n", partial->second);
+  print_message("partial:   {}\n", partial->second);
 }
 
 bool holds_readings_alone(const Recording& recording) {
@@ -51,10 +50,10 @@ ExitStatus conclude(const Scenario& scenario, double wall, const std::filesystem
     return report_run(scenario, recording, folder, [&progress](double share) { progress.show(share); });
   }();
   const RunFacts facts{wall, scenario.seed, robot_as_drawn(recording)};
-  fmt::print("{}", common.json ? verdict_json(verdict, facts) + "\n" : verdict_table(verdict, facts));
+  print_result("{}", common.json ? verdict_json(verdict, facts) + "\n" : verdict_table(verdict, facts));
   if (!common.quiet) {
-    fmt::print(stderr, "recording: {}\nreport:    {}\n", recording_in(folder).string(),
-               (folder / "report.html").string());
+    print_message("recording: {}\nreport:    {}\n", recording_in(folder).string(),
+                  (folder / "report.html").string());
   }
   return status_of(verdict);
 }

@@ -1,12 +1,12 @@
 // What the verbs do that only look at files.
-#include <fmt/core.h>
-
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "apps/flinch/command_line.h"
 #include "apps/flinch/conclusion.h"
 #include "apps/flinch/learning_verbs.h"
+#include "apps/flinch/output_place.h"
+#include "apps/flinch/printing.h"
 #include "apps/flinch/progress.h"
 #include "apps/flinch/shell_word.h"
 #include "apps/flinch/simulated/simulated_parts.h"
@@ -112,12 +112,12 @@ Checked check_text(const std::filesystem::path& file) {
 ExitStatus report(const ReportOptions& options) {
   const std::filesystem::path page =
       options.out.empty() ? options.recording.parent_path() / "report.html" : options.out;
-  require_place(page, {options.recording});
+  require_output(page, {options.recording}, OutputKind::page);
   write_report_page(recorded_report(options.recording, options.common), page);
   if (options.common.json) {
-    fmt::print("{}\n", json_text(Json{{"report", page.string()}}));
+    print_result("{}\n", json_text(Json{{"report", page.string()}}));
   } else if (!options.common.quiet) {
-    fmt::print("report: {}\n", page.string());
+    print_result("report: {}\n", page.string());
   }
   return ExitStatus::done;
 }
@@ -128,10 +128,11 @@ ExitStatus graph(const GraphOptions& options) {
     throw SetupError(options.out.string() + ": a graph is written as .svg or .dot, not as '" + extension +
                      "'");
   }
-  require_place(options.out, {options.scenario});
+  require_output(options.out, {options.scenario},
+                 extension == ".svg" ? OutputKind::picture : OutputKind::graph);
   const std::string dot = closed_loop(options.scenario)->graphviz();
   if (options.out.empty()) {
-    fmt::print("{}", options.common.json ? json_text(Json{{"dot", dot}}) + "\n" : dot);
+    print_result("{}", options.common.json ? json_text(Json{{"dot", dot}}) + "\n" : dot);
     return ExitStatus::done;
   }
   if (extension == ".svg") {
@@ -140,9 +141,9 @@ ExitStatus graph(const GraphOptions& options) {
     write_result(options.out, dot);
   }
   if (options.common.json) {
-    fmt::print("{}\n", json_text(Json{{"graph", options.out.string()}}));
+    print_result("{}\n", json_text(Json{{"graph", options.out.string()}}));
   } else if (!options.common.quiet) {
-    fmt::print("graph: {}\n", options.out.string());
+    print_result("graph: {}\n", options.out.string());
   }
   return ExitStatus::done;
 }
@@ -161,16 +162,17 @@ ExitStatus check(const CheckOptions& options) {
   std::vector<std::string> warnings;
   for (const CalibrationDoubt& doubt : checked.doubts) warnings.push_back(doubt.sentence);
   if (options.common.json) {
-    fmt::print("{}\n",
-               json_text(Json{
-                   {"file", options.file.string()}, {"kind", what}, {"good", true}, {"warnings", warnings}}));
+    print_result(
+        "{}\n",
+        json_text(
+            Json{{"file", options.file.string()}, {"kind", what}, {"good", true}, {"warnings", warnings}}));
   } else if (!options.common.quiet) {
     const char* more = "";
     if (what == "readings") more = ", for flinch calibrate";
     if (what == "campaign results") more = ", by what it says it is; its columns were not read";
-    fmt::print("{}: a good {} file{}\n", options.file.string(), what, more);
+    print_result("{}: a good {} file{}\n", options.file.string(), what, more);
   }
-  for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+  for (const std::string& warning : warnings) print_message("warning: {}\n", warning);
   return ExitStatus::done;
 }
 

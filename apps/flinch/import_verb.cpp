@@ -1,26 +1,25 @@
 // flinch import: a recording out of a log of another tool.
-#include <fmt/core.h>
-
 #include <nlohmann/json.hpp>
 
 #include "apps/flinch/command_line.h"
+#include "apps/flinch/output_place.h"
+#include "apps/flinch/printing.h"
 #include "calibration/csv_recording.h"
 #include "systems/foundation/json_text.h"
-#include "systems/foundation/result_file.h"
 
 namespace flinch {
 
 ExitStatus import_log(const ImportOptions& options) {
-  require_place(options.out, files_of_mapping(options.mapping));
+  require_output(options.out, files_of_mapping(options.mapping), OutputKind::recording);
   const Recording recording =
       read_csv_recording(options.mapping, {{"command_line", options.common.command_line}});
   write_recording(recording, options.out);
   const double seconds = to_seconds(recording.period) * static_cast<double>(recording.samples());
   if (options.common.json) {
-    fmt::print("{}\n", json_text(nlohmann::ordered_json{{"recording", options.out.string()},
-                                                        {"samples", recording.samples()}}));
+    print_result("{}\n", json_text(nlohmann::ordered_json{{"recording", options.out.string()},
+                                                          {"samples", recording.samples()}}));
   } else if (!options.common.quiet) {
-    fmt::print("recording: {}, {:.1f} s\n", options.out.string(), seconds);
+    print_result("recording: {}, {:.1f} s\n", options.out.string(), seconds);
   }
   return ExitStatus::done;
 }

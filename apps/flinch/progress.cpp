@@ -1,11 +1,11 @@
 #include "apps/flinch/progress.h"
+#include "apps/flinch/printing.h"
 
 #include <fmt/core.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 namespace flinch {
@@ -27,7 +27,7 @@ Progress::Progress(std::string what, bool quiet)
       started_(steady_clock::now()) {}
 
 Progress::~Progress() {
-  if (drawn_) fmt::print(stderr, "\r\x1b[K");
+  if (drawn_) clear_line();
 }
 
 void Progress::show(double share, double share_before) {
@@ -47,16 +47,17 @@ void Progress::draw_bar(double share, const std::string& time_left) {
   last_drawn_ = steady_clock::now();
   drawn_ = true;
   const int full = static_cast<int>(share * width);
-  fmt::print(stderr, "\r\x1b[K{} [{:#<{}}{:.<{}}] {:3.0f} %  {}", what_, "", full, "", width - full,
-             100 * share, time_left);
-  std::fflush(stderr);
+  clear_line();
+  print_message("{} [{:#<{}}{:.<{}}] {:3.0f} %  {}", what_, "", full, "", width - full, 100 * share,
+                time_left);
+  flush_messages();
 }
 
 void Progress::print_line(double share, const std::string& time_left) {
   const int quarters = static_cast<int>(share * 4.0);
   if (quarters <= quarters_) return;
   quarters_ = quarters;
-  fmt::print(stderr, "{}: {} %{}\n", what_, 25 * quarters, time_left.empty() ? "" : ", " + time_left);
+  print_message("{}: {} %{}\n", what_, 25 * quarters, time_left.empty() ? "" : ", " + time_left);
 }
 
 std::string time_left(double elapsed, double share, double share_before) {

@@ -1,11 +1,10 @@
 // flinch run: one experiment, with whatever stands for the robot.
-#include <fmt/core.h>
-
 #include "apps/flinch/bus/bus_verbs.h"
 #include "apps/flinch/command_line.h"
 #include "apps/flinch/conclusion.h"
 #include "apps/flinch/fault_options.h"
 #include "apps/flinch/learning_verbs.h"
+#include "apps/flinch/printing.h"
 #include "apps/flinch/progress.h"
 #include "apps/flinch/simulated/simulated_parts.h"
 #include "apps/flinch/stop_watch.h"
@@ -22,12 +21,12 @@ namespace {
 void tell_what_differs(const Replay& replayed, const CommonOptions& common) {
   if (common.quiet) return;
   if (replayed.differing.empty()) {
-    fmt::print(stderr, "replay:    every signal is the same as before, bit for bit\n");
+    print_message("replay:    every signal is the same as before, bit for bit\n");
     return;
   }
   std::string list;
   for (const std::string& path : replayed.differing) list += (list.empty() ? "" : ", ") + path;
-  fmt::print(stderr, "replay:    differs from the recording in: {}\n", list);
+  print_message("replay:    differs from the recording in: {}\n", list);
 }
 
 std::vector<std::string> body_names(const Scenario& scenario) {

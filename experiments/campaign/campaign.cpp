@@ -19,12 +19,26 @@
 namespace flinch {
 namespace {
 
-constexpr double most_runs = 1e8;  // of all points of the grid
+constexpr double most_runs = 1e8;             // of all points of the grid
+constexpr std::size_t most_scenarios = 1000;  // each is read before the first run
+constexpr std::size_t most_values = 10'000;   // of all keys; each is tried before the first run
+
+void check_count(ConfigReader& reader, const char* name, std::size_t count, std::size_t most) {
+  if (count <= most) return;
+  reader.problem(name, "has " + std::to_string(count) + " entries in all; it may have " +
+                           std::to_string(most) + ", so make several campaigns of it");
+}
 
 void read_scenarios(ConfigReader& reader, Campaign& campaign) {
   if (reader.one_of({"scenario", "scenarios"}) == "scenarios") {
-    for (ConfigReader& entry : reader.sections("scenarios"))
-      entry.required().file("file", campaign.scenarios.emplace_back());
+    std::vector<ConfigReader> entries = reader.sections("scenarios");
+    check_count(reader, "scenarios", entries.size(), most_scenarios);
+    for (ConfigReader& entry : entries) {
+      if (entries.size() > most_scenarios)
+        entry.leave_rest_unread();
+      else
+        entry.required().file("file", campaign.scenarios.emplace_back());
+    }
   } else {
     reader.required().file("scenario", campaign.scenarios.emplace_back());
   }
@@ -105,11 +119,17 @@ void read_varied(ConfigReader& reader, Campaign& campaign) {
     campaign.grid.push_back(read_axis(axis));
     note(axis, campaign.grid.back().key);
   }
+  std::size_t values = 0;
+  for (const CampaignAxis& axis : campaign.grid) values += axis.values.size();
+  check_count(reader, "grid", values, most_values);
   const auto name = std::make_shared<const std::string>(campaign.file.string());
   for (ConfigReader& draw : reader.sections("draw")) {
     campaign.drawn.push_back(read_draw(draw, name));
     note(draw, campaign.drawn.back().key);
   }
+  values = 0;
+  for (const CampaignDraw& draw : campaign.drawn) values += draw.of.size();
+  check_count(reader, "draw", values, most_values);
 }
 
 CampaignContact read_contact(ConfigReader& reader) {

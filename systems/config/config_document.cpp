@@ -88,10 +88,20 @@ std::string parent_of(const std::string& key) {
   return end == std::string::npos ? "" : key.substr(0, end);
 }
 
-bool is_within(std::string_view key, std::string_view section) {
-  if (!key.starts_with(section)) return false;
-  return key.size() == section.size() || section.empty() || key[section.size()] == '.' ||
-         key[section.size()] == '[';
+/// Whether one of `keys` begins so.
+bool has_beginning(const std::set<std::string>& keys, const std::string& begin) {
+  const auto first = keys.lower_bound(begin);
+  return first != keys.end() && first->starts_with(begin);
+}
+
+/// Whether one of `causes` is the key, in its section or around it.
+bool explain(const std::set<std::string>& causes, std::string key) {
+  if (key.empty()) return !causes.empty();
+  if (has_beginning(causes, key + ".") || has_beginning(causes, key + "[")) return true;
+  for (; !key.empty(); key = parent_of(key)) {
+    if (causes.count(key) > 0) return true;
+  }
+  return causes.count("") > 0;
 }
 
 }  // namespace
@@ -109,7 +119,7 @@ ConfigDocument::ConfigDocument(std::string file, std::shared_ptr<const ConfigNod
 ConfigSection& ConfigDocument::add_section(const ConfigNode* node, std::string path, ConfigPlace place) {
   ConfigSection*& known = by_path_[path];
   if (known != nullptr) return *known;
-  places_.push_back({path, path, place});
+  places_.emplace(path, Place{path, place});
   ConfigSection& section = sections_.emplace_back();
   known = &section;
   section.node = node;
@@ -159,12 +169,12 @@ bool ConfigDocument::has(ConfigSection& section, std::string_view name) {
 }
 
 void ConfigDocument::add_value(const FoundValue& found, std::string value, const Unit& unit) {
-  places_.push_back({found.key, found.written, found.place});
+  places_.emplace(found.key, Place{found.written, found.place});
   values_.push_back({found.key, std::move(value), std::string(unit.symbol), found.node != nullptr});
 }
 
 void ConfigDocument::add_list(const FoundValue& found) {
-  places_.push_back({found.key, found.written, found.place});
+  places_.emplace(found.key, Place{found.written, found.place});
 }
 
 void ConfigDocument::add_problem(const FoundValue& found, const std::string& complaint) {
@@ -186,10 +196,11 @@ std::vector<ReadValue> ConfigDocument::finish() {
     report_left_over(section);
     report_missing(section);
   }
+  const std::set<std::string> causes = keys_of_causes();
   std::vector<Problem> told;
   std::set<std::string> texts;  // each once, though a value may be read more than once
   for (const Problem& problem : problems_) {
-    if (problem.consequence && is_explained(problem)) continue;
+    if (problem.consequence && explain(causes, problem.key)) continue;
     if (texts.insert(problem.text).second) told.push_back(problem);
   }
   std::stable_sort(told.begin(), told.end(),
@@ -271,17 +282,17 @@ ConfigPlace ConfigDocument::place_of(const ConfigSection& section, const ConfigN
 // Where a value or section stands, or the nearest section around it that was read.
 ConfigDocument::Place ConfigDocument::place_of(std::string key) const {
   for (;; key = parent_of(key)) {
-    for (const Place& place : places_) {
-      if (place.key == key) return place;
-    }
+    const auto found = places_.find(key);
+    if (found != places_.end()) return found->second;
   }
 }
 
-bool ConfigDocument::is_explained(const Problem& consequence) const {
-  return std::any_of(problems_.begin(), problems_.end(), [&](const Problem& cause) {
-    return !cause.consequence &&
-           (is_within(cause.key, consequence.key) || is_within(consequence.key, cause.key));
-  });
+std::set<std::string> ConfigDocument::keys_of_causes() const {
+  std::set<std::string> keys;
+  for (const Problem& problem : problems_) {
+    if (!problem.consequence) keys.insert(problem.key);
+  }
+  return keys;
 }
 
 }  // namespace flinch

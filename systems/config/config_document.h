@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -94,7 +95,6 @@ class ConfigDocument {
     bool of_key = false;  ///< which no value would mend
   };
   struct Place {
-    std::string key;
     std::string written;
     ConfigPlace at;
   };
@@ -108,14 +108,14 @@ class ConfigDocument {
   void report_missing(const ConfigSection& section);
   Place place_of(std::string key) const;
   ConfigPlace place_of(const ConfigSection& section, const ConfigNode::Entry& entry) const;
-  bool is_explained(const Problem& consequence) const;
+  std::set<std::string> keys_of_causes() const;
 
   std::string file_;
   std::shared_ptr<const ConfigNode> root_;
   std::deque<ConfigSection> sections_;
   std::map<std::string, ConfigSection*> by_path_;
   std::vector<ReadValue> values_;
-  std::vector<Place> places_;
+  std::map<std::string, Place> places_;  ///< By key, without unit: of the first that was read.
   std::vector<Problem> problems_;
   std::vector<std::string> foreign_;
   bool incomplete_ = false;  ///< A required key was not found.

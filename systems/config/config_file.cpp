@@ -56,6 +56,7 @@ std::string missing(const fs::path& file) {
 
 std::string problem_with_file(const fs::path& file) {
   if (file.empty()) return "the name is empty; it must be the name of a file";
+  if (std::string problem = problem_with_name(file); !problem.empty()) return problem;
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (status.type() == fs::file_type::not_found) return missing(file);

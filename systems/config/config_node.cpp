@@ -35,6 +35,7 @@ class NodeBuilder final : public YAML::EventHandler {
   }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& value) override {
+    refuse_zero(mark, value);
     const auto node = make(Kind::scalar, mark, anchor);
     node->scalar = value;
     node->quoted = tag == "!" || tag == "tag:yaml.org,2002:str";
@@ -74,6 +75,14 @@ class NodeBuilder final : public YAML::EventHandler {
     count(mark, *node);
     if (anchor != YAML::NullAnchor) anchored_[anchor] = node;
     return node;
+  }
+
+  /// What is handed to the system, or to HDF5, would end there.
+  void refuse_zero(const YAML::Mark& mark, const std::string& value) const {
+    if (value.find('\0') == std::string::npos) return;
+    throw SetupError(*file_ + ":" + std::to_string(mark.line + 1) + ": '" +
+                     value.substr(0, value.find('\0')) +
+                     "' goes on with a character 0, at which names end; leave it out");
   }
 
   /// Counts a node and all that is in it; what few lines of aliases stand for could fill any memory.

@@ -1,5 +1,7 @@
 #include "systems/config/parameter_file.h"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 
@@ -52,16 +54,21 @@ ReadValue read_setting(ConfigReader& entry) {
   return setting;
 }
 
-/// In single quotes, in which YAML doubles one that is meant.
+/// In single quotes, in which YAML doubles one that is meant; control characters are no text there.
 std::string quoted(const std::string& text) {
+  const auto is_control = [](char letter) { return static_cast<unsigned char>(letter) < 0x20; };
+  if (std::any_of(text.begin(), text.end(), is_control)) return yaml_line(*scalar_node(text));
   std::string result = "'";
   for (const char letter : text) result += letter == '\'' ? std::string("''") : std::string(1, letter);
   return result + "'";
 }
 
+/// A number as the reader takes it, to which those that are too small to compute with are zero.
+std::string number_text(double value) { return exact_text(std::abs(value) < least_computable ? 0.0 : value); }
+
 std::string line_of(const FileParameter& parameter) {
-  std::string text = "  - {name: " + quoted(parameter.name) + ", value: " + exact_text(parameter.value);
-  if (parameter.deviation) text += ", standard_deviation: " + exact_text(*parameter.deviation);
+  std::string text = "  - {name: " + quoted(parameter.name) + ", value: " + number_text(parameter.value);
+  if (parameter.deviation) text += ", standard_deviation: " + number_text(*parameter.deviation);
   if (!parameter.unit.empty()) text += ", unit: " + quoted(parameter.unit);
   text += std::string(", identifiable: ") + (parameter.identifiable ? "true" : "false");
   if (!parameter.belongs_to.empty()) text += ", belongs_to: " + parameter.belongs_to;
@@ -129,8 +136,17 @@ ParameterFile read_parameter_file(const std::filesystem::path& file) {
 
 std::vector<ParameterFile> read_calibrations(
     ConfigReader& file, const std::function<ParameterFile(const std::filesystem::path&)>& read) {
+  constexpr std::size_t most = 100;
   std::vector<ParameterFile> files;
-  for (ConfigReader& entry : file.sections("calibrations")) {
+  std::vector<ConfigReader> entries = file.sections("calibrations");
+  if (entries.size() > most) {
+    file.problem("calibrations", "is a list of " + std::to_string(entries.size()) + "; it may have " +
+                                     std::to_string(most) +
+                                     " entries, so leave out those that others replace");
+    for (ConfigReader& entry : entries) entry.leave_rest_unread();
+    return files;
+  }
+  for (ConfigReader& entry : entries) {
     std::filesystem::path name;
     entry.required().file("file", name);
     if (name.empty()) continue;
@@ -175,8 +191,8 @@ std::string parameter_file_text(const ParameterFile& parameters) {
   if (!parameters.recordings.empty()) text += "recordings:\n";
   for (const HashedFile& recording : parameters.recordings) text += "  - " + line_of(recording) + "\n";
   if (!parameters.residual_unit.empty()) {
-    text += "residual: {before: " + exact_text(parameters.residual_before) +
-            ", after: " + exact_text(parameters.residual_after) +
+    text += "residual: {before: " + number_text(parameters.residual_before) +
+            ", after: " + number_text(parameters.residual_after) +
             ", unit: " + quoted(parameters.residual_unit) + "}\n";
   }
   if (!parameters.parameters.empty()) text += "parameters:\n";

@@ -10,8 +10,8 @@
 namespace flinch {
 namespace {
 
-/// Magnitudes in SI whose squares and products stay finite and above zero, however many are taken.
-constexpr Range computable = between(1e-24, 1e24);
+/// Sizes in SI whose squares and products stay finite and above zero, however many are taken.
+constexpr Range computable = between(least_computable, 1e24);
 
 // Reads all of `text` as a number; std::errc{} if that is what it is.
 template <class Number>

@@ -19,6 +19,9 @@ struct Parsed {
 /// What stands there, as the beginning of a complaint: "is 'abc'", "is a list".
 std::string description(const ConfigNode& node);
 
+/// Smallest size in SI, but 0, whose squares and products can be computed with.
+inline constexpr double least_computable = 1e-24;
+
 /// A number without quotes, converted to SI, finite and within `range`, and 0 or of a size that can be
 /// computed with, whatever the range.
 Parsed<double> parse_number(const ConfigNode& node, const KeyUnit& unit, const Range& range);

@@ -7,6 +7,7 @@
 #include "systems/config/config_node.h"
 #include "systems/config/unit.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/foundation/visible_text.h"
 
 namespace flinch {
 namespace {
@@ -178,6 +179,13 @@ std::shared_ptr<const ConfigNode> with_value(const ConfigNode& root, std::string
                                              std::shared_ptr<const ConfigNode> value) {
   if (path.empty()) complain("the empty path", "is no key");
   return Replacement(path, std::move(value)).in(&root, 0);
+}
+
+std::string comment_text(std::string_view text) {
+  std::string line = visible_text(text);
+  for (std::size_t at = line.find('\n'); at != std::string::npos; at = line.find('\n', at))
+    line.replace(at, 1, "\\n");
+  return line;
 }
 
 bool name_one_value(std::string_view path, std::string_view other) {

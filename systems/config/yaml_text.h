@@ -28,4 +28,7 @@ std::shared_ptr<const ConfigNode> with_value(const ConfigNode& root, std::string
 /// Whether two such paths name one value, be it in other units.
 bool name_one_value(std::string_view path, std::string_view other);
 
+/// What a line of comment may say: `text` without control characters, line feeds included.
+std::string comment_text(std::string_view text);
+
 }  // namespace flinch

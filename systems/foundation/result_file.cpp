@@ -12,6 +12,7 @@
 #include <system_error>
 #include <utility>
 
+#include "systems/foundation/readable_file.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
@@ -81,6 +82,8 @@ bool is_device(const fs::path& file) {
 }  // namespace
 
 ResultFile::ResultFile(fs::path file) : file_(std::move(file)) {
+  if (const std::string problem = problem_with_name(file_); !problem.empty())
+    throw SetupError(file_.string() + ": " + problem);
   std::error_code error;
   if (is_device(file_)) {
     descriptor_ = ::open(file_.c_str(), O_WRONLY | O_CLOEXEC);
@@ -147,6 +150,11 @@ void ResultFile::fail() const {
 void remove_link(const fs::path& file) {
   std::error_code ignored;
   if (fs::is_symlink(file, ignored)) fs::remove(file, ignored);
+}
+
+void remove_unfinished(const fs::path& file) {
+  std::error_code ignored;
+  if (fs::is_regular_file(fs::symlink_status(file, ignored))) fs::remove(file, ignored);
 }
 
 void require_place(const fs::path& file, const std::vector<fs::path>& inputs) {

@@ -50,6 +50,9 @@ class ResultFile {
 /// Removes a symbolic link where somebody is to write a file by its name: it is replaced, not followed.
 void remove_link(const std::filesystem::path& file);
 
+/// Removes what was written of a file that is not to stay. A device or pipe of that name is somebody else's.
+void remove_unfinished(const std::filesystem::path& file);
+
 /// Throws SetupError where no result can be written to `file`, or where it would replace one of `inputs`, so
 /// that this is known before anything is computed. An empty name stands for no result; nothing is wrong then.
 void require_place(const std::filesystem::path& file, const std::vector<std::filesystem::path>& inputs);

@@ -71,6 +71,27 @@ Hdf5Object without_cache() {
   return list;
 }
 
+/// Notes where a link leads that leaves the file, and refuses to follow it.
+herr_t refuse_link(const char* /*group*/, const char* /*parent*/, const char* file, const char* /*object*/,
+                   unsigned* /*flags*/, hid_t /*access*/, void* target) {
+  *static_cast<std::string*>(target) = file;
+  return -1;
+}
+
+/// Opens what is in the file itself: `open` is handed the properties `access`. A link into another file could
+/// lead to any that this program may read.
+Hdf5Object open_own(const Hdf5Object& access, int (*close)(hid_t), const std::string& what,
+                    const std::function<hid_t(hid_t access)>& open) {
+  std::string target;
+  check(H5Pset_elink_cb(access, &refuse_link, &target), "refusing links into other files");
+  const hid_t id = open(access);
+  if (id < 0 && !target.empty()) {
+    throw SetupError(what + " is a link into another file, '" + target +
+                     "', which is not followed; copy what it leads to into this file");
+  }
+  return {id, close, "opening " + what};
+}
+
 /// The rows first ... first + rows of a table, in the file; and as they lie in memory.
 struct Selection {
   Hdf5Object in_file;
@@ -174,7 +195,9 @@ Hdf5Object make_group(Hdf5Object::Id file, const std::string& path) {
 }
 
 Hdf5Object open_group(Hdf5Object::Id file, const std::string& path) {
-  return {H5Gopen2(file, path.c_str(), H5P_DEFAULT), H5Gclose, "opening the group '" + path + "'"};
+  const Hdf5Object access(H5Pcreate(H5P_GROUP_ACCESS), H5Pclose, "making access properties");
+  return open_own(access, H5Gclose, "the group '" + path + "'",
+                  [&](hid_t own) { return H5Gopen2(file, path.c_str(), own); });
 }
 
 void write_text(Hdf5Object::Id object, const std::string& name, const std::string& text) {
@@ -271,8 +294,8 @@ Hdf5Object make_table(Hdf5Object::Id parent, const std::string& name, Field::Kin
 }
 
 Hdf5Object open_data_set(Hdf5Object::Id parent, const std::string& name) {
-  const Hdf5Object access = without_cache();
-  return {H5Dopen2(parent, name.c_str(), access), H5Dclose, "opening the data set '" + name + "'"};
+  return open_own(without_cache(), H5Dclose, "the data set '" + name + "'",
+                  [&](hid_t own) { return H5Dopen2(parent, name.c_str(), own); });
 }
 
 std::uint64_t address(Hdf5Object::Id object) {

@@ -56,6 +56,7 @@ void write_hdf5_result(const std::filesystem::path& file, std::size_t most_bytes
                        const std::function<void(Hdf5Object::Id file)>& fill);
 /// Opens the group `path`; it and those around it are made where they are missing.
 Hdf5Object make_group(Hdf5Object::Id file, const std::string& path);
+/// Links are followed within the file only.
 Hdf5Object open_group(Hdf5Object::Id file, const std::string& path);
 
 void write_text(Hdf5Object::Id object, const std::string& name, const std::string& text);
@@ -74,7 +75,7 @@ void write_cells(Hdf5Object::Id column, std::size_t first, std::size_t rows, con
 /// Makes a table of numbers that rows can be appended to, compressed in chunks of `chunk_rows`.
 Hdf5Object make_table(Hdf5Object::Id parent, const std::string& name, Field::Kind kind, std::size_t columns,
                       std::size_t chunk_rows);
-/// A data set of whatever type and size, for its attributes.
+/// A data set of whatever type and size, for its attributes. Links are followed within the file only.
 Hdf5Object open_data_set(Hdf5Object::Id parent, const std::string& name);
 /// Where an object lies in its file: two names of one object have one address.
 std::uint64_t address(Hdf5Object::Id object);

@@ -3,22 +3,22 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
-#include <sys/uio.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <climits>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <optional>
+#include <string_view>
 #include <system_error>
 
 #include "systems/foundation/readable_file.h"
 #include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/framework/packed_rows.h"
 #include "systems/framework/recording_check.h"
 
 namespace flinch {
@@ -26,9 +26,13 @@ namespace {
 
 using internal::Number;
 
-/// "flinch" and what follows: a description, or samples.
+/// "flinch" and what follows: a description, packed samples, or samples as they lay in memory, which earlier
+/// versions wrote.
 constexpr std::uint64_t description_mark = 0x31'44'68'63'6e'69'6c'66;
-constexpr std::uint64_t samples_mark = 0x31'53'68'63'6e'69'6c'66;
+constexpr std::uint64_t packed_mark = 0x32'53'68'63'6e'69'6c'66;
+constexpr std::uint64_t plain_mark = 0x31'53'68'63'6e'69'6c'66;
+
+constexpr std::uint64_t most_samples = 1 << 24;  ///< of the smallest file; larger ones may have more
 
 struct FrameHead {
   std::uint64_t mark;
@@ -148,46 +152,15 @@ Recording description_of(const std::string& payload) {
 
 // --- files ---
 
-/// Pieces of memory that are written one after the other.
-class Gathered {
- public:
-  void add(const void* data, std::size_t bytes) {
-    if (bytes > 0) pieces_.push_back({const_cast<void*>(data), bytes});  // NOLINT: writev() only reads
+/// Returns false, and errno says why, where the file takes no more.
+bool write_all(int file, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
+    if (written < 0 && errno != EINTR) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(written, 0)));
   }
-  void add(const Gathered& others) {
-    pieces_.insert(pieces_.end(), others.pieces_.begin(), others.pieces_.end());
-  }
-  std::uint64_t length() const {
-    std::uint64_t sum = 0;
-    for (const iovec& piece : pieces_) sum += piece.iov_len;
-    return sum;
-  }
-  std::uint64_t checksum() const {
-    Checksum checksum;
-    for (const iovec& piece : pieces_) checksum.add(piece.iov_base, piece.iov_len);
-    return checksum.value();
-  }
-  /// Returns false, and errno says why, where the file takes no more.
-  bool write_to(int file) {
-    for (std::size_t next = 0; next < pieces_.size();) {
-      const auto count = static_cast<int>(std::min<std::size_t>(pieces_.size() - next, IOV_MAX));
-      ssize_t written = writev(file, pieces_.data() + next, count);
-      if (written < 0 && errno != EINTR) return false;
-      for (written = std::max<ssize_t>(written, 0); next < pieces_.size(); ++next) {
-        iovec& piece = pieces_[next];
-        const auto part = std::min(static_cast<std::size_t>(written), piece.iov_len);
-        piece.iov_base = static_cast<char*>(piece.iov_base) + part;
-        piece.iov_len -= part;
-        written -= static_cast<ssize_t>(part);
-        if (piece.iov_len > 0) break;
-      }
-    }
-    return true;
-  }
-
- private:
-  std::vector<iovec> pieces_;
-};
+  return true;
+}
 
 /// Opens a journal to write, and no file that a link leads to.
 int open_own(const std::filesystem::path& part) {
@@ -207,13 +180,15 @@ bool read_at(int file, std::uint64_t offset, void* data, std::size_t bytes) {
   return true;
 }
 
-/// Hands a frame to the operating system in as few calls as it takes.
-bool write_frame(int file, std::uint64_t mark, const Gathered& payload) {
-  const FrameHead head{mark, payload.length(), payload.checksum()};
-  Gathered frame;
-  frame.add(&head, sizeof(head));
-  frame.add(payload);
-  return frame.write_to(file);
+/// Hands a frame to the operating system: `frame` has room for the head before the payload.
+bool write_frame(int file, std::uint64_t mark, std::string& frame) {
+  frame.resize((frame.size() + 7) / 8 * 8, '\0');
+  const std::size_t length = frame.size() - sizeof(FrameHead);
+  Checksum checksum;
+  checksum.add(frame.data() + sizeof(FrameHead), length);
+  const FrameHead head{mark, length, checksum.value()};
+  std::memcpy(frame.data(), &head, sizeof(head));
+  return write_all(file, frame);
 }
 
 /// The frame at `offset`, with its payload in `payload`; nothing where it is torn or missing.
@@ -254,40 +229,45 @@ class JournalRows final : public RowSource {
     std::optional<FrameHead> head = read_frame(file_, size, 0, payload);
     if (!head || head->mark != description_mark) throw SetupError("the run was killed before it began");
     recording = description_of(std::string(payload.begin(), payload.end()));
-    std::size_t numbers = 1;  // the time
+    parts_ = {{0, 1}};  // the time
     for (const Signal& signal : recording.signals) {
-      const bool is_new = places_.emplace(signal.path, Place{numbers, signal.layout.numbers}).second;
+      const Part& last = parts_.back();
+      parts_.push_back({last.before + last.numbers, signal.layout.numbers});
+      const bool is_new = part_of_.emplace(signal.path, parts_.size() - 1).second;
       if (!is_new) throw SetupError("there are two signals '" + signal.path + "'");
-      numbers += signal.layout.numbers;
     }
     for (std::uint64_t offset = sizeof(FrameHead) + head->length;;
          offset += sizeof(FrameHead) + head->length) {
       head = read_frame(file_, size, offset, payload);
-      if (!head || head->mark != samples_mark || head->length < 8) return;
-      std::uint64_t samples = 0;
-      std::memcpy(&samples, payload.data(), 8);
-      if (samples != (head->length - 8) / 8 / numbers || head->length != 8 + 8 * samples * numbers) return;
-      frames_.push_back({recording.samples(), samples, offset + sizeof(FrameHead) + 8});
-      recording.time_ns.resize(recording.samples() + samples);
-      std::memcpy(recording.time_ns.data() + frames_.back().first, payload.data() + 8, 8 * samples);
+      if (!head || head->length < 8) return;
+      Frame frame{recording.samples(), 0, offset + sizeof(FrameHead), head->length,
+                  head->mark == packed_mark};
+      std::memcpy(&frame.samples, payload.data(), 8);
+      if (!frame.is_packed && (head->mark != plain_mark || !has_plain_samples(frame))) return;
+      if (frame.samples > most_samples + size / 2 - recording.samples())
+        throw SetupError("there are more than " + std::to_string(most_samples) +
+                         " samples in so small a file");
+      frames_.push_back(frame);
+      const std::vector<char> times = rows_of(frame, 0);
+      recording.time_ns.resize(recording.samples() + frame.samples);
+      std::memcpy(recording.time_ns.data() + frame.first, times.data(), times.size());
     }
   }
 
   void read(const std::string& path, std::size_t first, std::size_t count, Number* rows) const override {
     if (count == 0) return;  // there may be no frame
-    const Place& place = places_.at(path);
+    const std::size_t part = part_of_.at(path);
+    const std::size_t row = 8 * parts_[part].numbers;
     auto frame = std::upper_bound(frames_.begin(), frames_.end(), first,
                                   [](std::size_t sample, const Frame& each) { return sample < each.first; });
     for (--frame; count > 0; ++frame) {
       const std::size_t skipped = first - frame->first;
-      const std::size_t taken = std::min(count, frame->samples - skipped);
-      const std::uint64_t offset =
-          frame->offset + 8 * (place.before * frame->samples + skipped * place.numbers);
-      if (!read_at(file_, offset, rows, 8 * taken * place.numbers))
-        throw SetupError("a frame has been cut off");
+      const std::size_t taken = std::min<std::size_t>(count, frame->samples - skipped);
+      const std::vector<char> all = rows_of(*frame, part);
+      std::memcpy(rows, all.data() + skipped * row, taken * row);
       first += taken;
       count -= taken;
-      rows += taken * place.numbers;
+      rows += taken * parts_[part].numbers;
     }
   }
 
@@ -295,18 +275,52 @@ class JournalRows final : public RowSource {
   /// Samples first ... first + samples of the recording.
   struct Frame {
     std::size_t first;
-    std::size_t samples;
-    std::uint64_t offset;  ///< of their times in the file
+    std::uint64_t samples;
+    std::uint64_t offset;  ///< of its payload in the file
+    std::uint64_t length;  ///< of that [bytes]
+    bool is_packed;
   };
-  /// Of a signal in a sample.
-  struct Place {
-    std::size_t before;  ///< numbers of the time and the signals before it
+  /// The time or a signal, in a sample.
+  struct Part {
+    std::size_t before;  ///< numbers of the parts before it
     std::size_t numbers;
   };
 
+  bool has_plain_samples(const Frame& frame) const {
+    const std::size_t numbers = parts_.back().before + parts_.back().numbers;
+    return frame.samples == (frame.length - 8) / 8 / numbers &&
+           frame.length == 8 + 8 * frame.samples * numbers;
+  }
+
+  void read_or_fail(std::uint64_t offset, void* data, std::size_t bytes) const {
+    if (!read_at(file_, offset, data, bytes)) throw SetupError("a frame has been cut off");
+  }
+
+  /// All rows of a part of a frame, one behind the other.
+  std::vector<char> rows_of(const Frame& frame, std::size_t part) const {
+    const auto& [before, numbers] = parts_[part];
+    if (!frame.is_packed) {
+      std::vector<char> rows(8 * frame.samples * numbers);
+      read_or_fail(frame.offset + 8 + 8 * before * frame.samples, rows.data(), rows.size());
+      return rows;
+    }
+    std::vector<std::uint64_t> lengths(parts_.size());
+    std::uint64_t begin = 8 + 8 * lengths.size();
+    if (frame.length < begin) throw SetupError("a frame is too short for its signals");
+    read_or_fail(frame.offset + 8, lengths.data(), 8 * lengths.size());
+    for (std::size_t i = 0; i <= part; ++i) {
+      if (lengths[i] > frame.length - begin) throw SetupError("a frame is too short for its signals");
+      begin += i < part ? lengths[i] : 0;
+    }
+    std::string packed(lengths[part], '\0');
+    read_or_fail(frame.offset + begin, packed.data(), packed.size());
+    return internal::unpacked_rows(packed, frame.samples, numbers);
+  }
+
   int file_;
   std::vector<Frame> frames_;
-  std::map<std::string, Place> places_;
+  std::vector<Part> parts_;
+  std::map<std::string, std::size_t> part_of_;
 };
 
 std::string how_far(const Recording& recording, bool goes_on) {
@@ -330,28 +344,31 @@ RecordingJournal::RecordingJournal(const Recording& description, const std::file
   };
   if (file_ < 0) fail(reason());
   if (flock(file_, LOCK_EX | LOCK_NB) != 0) fail("another run is recording into it");
-  const std::string text = bytes_of(description);
-  Gathered payload;
-  payload.add(text.data(), text.size());
-  if (ftruncate(file_, 0) != 0 || !write_frame(file_, description_mark, payload)) fail(reason());
+  std::string frame = std::string(sizeof(FrameHead), '\0') + bytes_of(description);
+  if (ftruncate(file_, 0) == 0 && write_frame(file_, description_mark, frame)) return;
+  const std::string why = reason();
+  remove_unfinished(part);  // nothing can be read from it
+  fail(why);
 }
 
 RecordingJournal::~RecordingJournal() { close(file_); }
 
 void RecordingJournal::append(const SampleBlock& samples) {
   const std::uint64_t count = samples.samples();
-  Gathered payload;
-  payload.add(&count, sizeof(count));
-  payload.add(samples.time_ns.data(), samples.time_ns.size_bytes());
-  std::size_t numbers = 0;
-  for (const SampleRows& each : samples.rows) numbers += count * each.numbers;
-  std::vector<Number> rows;
-  rows.reserve(numbers);
-  for (const SampleRows& each : samples.rows) {
-    for (std::size_t k = 0; k < count; ++k) rows.insert(rows.end(), each[k].begin(), each[k].end());
+  std::vector<internal::RowsInMemory> parts = {
+      {reinterpret_cast<const char*>(samples.time_ns.data()), 1, sizeof(Number)}};
+  for (const SampleRows& each : samples.rows)
+    parts.push_back({reinterpret_cast<const char*>(each.first), each.numbers, each.stride * sizeof(Number)});
+  const std::size_t head = sizeof(FrameHead) + sizeof(count);
+  frame_.assign(head + 8 * parts.size(), '\0');
+  std::memcpy(frame_.data() + sizeof(FrameHead), &count, sizeof(count));
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::uint64_t before = frame_.size();
+    packer_.pack(parts[i], count, frame_);
+    const std::uint64_t length = frame_.size() - before;
+    std::memcpy(frame_.data() + head + 8 * i, &length, sizeof(length));
   }
-  payload.add(rows.data(), rows.size() * sizeof(Number));
-  if (write_frame(file_, samples_mark, payload)) return;
+  if (write_frame(file_, packed_mark, frame_)) return;
   throw SetupError(part_.string() + ": the recording cannot be written: " + reason());
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "systems/framework/packed_rows.h"
 #include "systems/framework/recording.h"
 
 namespace flinch {
@@ -17,8 +18,9 @@ namespace flinch {
 /// reader stops there. What the operating system has is lost only when the computer itself stops.
 ///
 /// A frame is: 8 bytes of mark, 8 of length, 8 of checksum, and the payload of that length. The payload of
-/// samples is their number n, their n times, and for each signal its n rows: integers and reals of 8 bytes,
-/// as they lie in memory.
+/// samples is their number n, the lengths of what follows, their n times, and for each signal its n rows,
+/// each of these packed by itself (RowPacker): so a journal takes about as much room as the recording, and a
+/// signal can be read alone.
 class RecordingJournal {
  public:
   /// Begins the journal of `description`. An older one of this name is replaced, unless another program is
@@ -34,6 +36,8 @@ class RecordingJournal {
  private:
   std::filesystem::path part_;
   int file_;
+  internal::RowPacker packer_;
+  std::string frame_;  ///< Kept, so that its memory serves the next.
 };
 
 /// "run.h5.part" for "run.h5": the journal of the run whose recording will be that file.

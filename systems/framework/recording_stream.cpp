@@ -1,7 +1,6 @@
 #include "systems/framework/recording_stream.h"
 
-#include <system_error>
-
+#include "systems/foundation/result_file.h"
 #include "systems/framework/recorder.h"
 
 namespace flinch {
@@ -11,15 +10,23 @@ RecordingStream::RecordingStream(Recorder& recorder, const std::filesystem::path
     : recorder_(recorder), file_(file), attributes_(std::move(attributes)) {
   const Recording description = recorder.description(attributes_);
   journal_.emplace(description, part_name(file));
-  writer_.emplace(description, file);
+  try {
+    writer_.emplace(description, file);
+  } catch (const SetupError&) {
+    remove_journal();
+    throw;
+  }
   thread_ = std::thread([this] { run(); });
 }
 
 RecordingStream::~RecordingStream() {
   stop();
-  if (!journal_ || has_samples_) return;
-  std::error_code ignored;
-  std::filesystem::remove(part_name(file_), ignored);
+  if (journal_ && !has_samples_) remove_journal();
+}
+
+void RecordingStream::remove_journal() {
+  journal_.reset();
+  remove_unfinished(part_name(file_));
 }
 
 void RecordingStream::run() {
@@ -78,9 +85,7 @@ void RecordingStream::finish(const std::map<std::string, std::string>& attribute
   attributes_.insert(attributes.begin(), attributes.end());
   if (recorder_.dropped() > 0) attributes_["recording.dropped"] = std::to_string(recorder_.dropped());
   writer_->finish(attributes_);
-  journal_.reset();
-  std::error_code ignored;
-  std::filesystem::remove(part_name(file_), ignored);
+  remove_journal();
 }
 
 }  // namespace flinch

@@ -64,6 +64,7 @@ class RecordingStream {
   void run();
   void drain();
   void stop();
+  void remove_journal();
 
   Recorder& recorder_;
   std::filesystem::path file_;

@@ -12,6 +12,7 @@ namespace flinch {
 namespace {
 
 constexpr double check_interval = 0.005;  // [s]
+constexpr double longest = 1e4;           // of what is checked [s]
 
 std::string text(const Configuration& pose) {
   std::ostringstream stream;
@@ -19,10 +20,17 @@ std::string text(const Configuration& pose) {
   return stream.str();
 }
 
-void check_reach(const ParallelRobot& robot, const PlatformPath& path) {
-  const int samples = static_cast<int>(std::ceil(path.duration() / check_interval));
+/// `duration`: of the part that is checked; where laps follow one another, one of them.
+void check_reach(const ParallelRobot& robot, const PlatformPath& path, double duration) {
+  if (!(duration <= longest)) {
+    std::ostringstream problem;
+    problem << "platform path: takes " << duration << " s, and may take " << longest
+            << " s; raise the limits, or shorten the way or the pauses";
+    throw SetupError(problem.str());
+  }
+  const int samples = static_cast<int>(std::ceil(duration / check_interval));
   for (int i = 0; i <= samples; ++i) {
-    const double time = samples == 0 ? 0.0 : path.duration() * i / samples;
+    const double time = samples == 0 ? 0.0 : duration * i / samples;
     const Configuration pose = path.evaluate(time).pose;
     if (!robot.space().contains(pose) ||
         !robot.inverse_kinematics(pose, robot.home_working_mode()).reachable) {
@@ -51,7 +59,8 @@ PlatformPath::PlatformPath(const ParallelRobot& robot, std::variant<Legs, Waypoi
                            double duration)
     : course_(std::move(course)), duration_(duration) {
   start_ = evaluate(0.0).pose;
-  check_reach(robot, *this);
+  const auto* const circuit = std::get_if<WaypointCircuit>(&course_);
+  check_reach(robot, *this, circuit == nullptr ? duration_ : circuit->lap_duration());
 }
 
 PlatformPath PlatformPath::through(const ParallelRobot& robot, const std::vector<Configuration>& poses,
@@ -90,8 +99,8 @@ PlatformPath PlatformPath::square(const ParallelRobot& robot, const Configuratio
 PlatformReference PlatformPath::evaluate(double time) const noexcept {
   if (const auto* circuit = std::get_if<WaypointCircuit>(&course_)) return circuit->evaluate(time);
   const Legs& legs = *std::get_if<Legs>(&course_);
-  const auto later =
-      std::find_if(legs.begin() + 1, legs.end(), [time](const Leg& leg) { return time < leg.begin; });
+  const auto later = std::upper_bound(legs.begin() + 1, legs.end(), time,
+                                      [](double now, const Leg& leg) { return now < leg.begin; });
   const Leg& leg = *(later - 1);
   PlatformReference reference = leg.motion.evaluate(time - leg.begin);
   reference.finished = reference.finished && later == legs.end();

@@ -12,8 +12,8 @@ namespace flinch {
 
 /// A motion of the platform that is fixed before the run: pose, velocity and acceleration as functions of the
 /// time since its start [s]. It begins and ends at rest. The factories throw SetupError for a path that
-/// cannot be planned or that the legs do not reach everywhere; a path that exists can be evaluated at any
-/// time.
+/// cannot be planned, that takes longer than 10,000 s, or that the legs do not reach everywhere; a path that
+/// exists can be evaluated at any time.
 class PlatformPath {
  public:
   /// Rest at the first pose, then along a straight line to rest at each of the others in turn, orientations

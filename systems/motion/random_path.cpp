@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/random.h"
@@ -10,8 +11,11 @@ namespace flinch {
 namespace {
 
 constexpr double spare = 0.1;
-constexpr int most_draws = 1000;  // for one pose
-constexpr double step = 2e-3;     // at which a way is looked at [s]
+constexpr int most_draws = 1000;            // for one pose
+constexpr double step = 2e-3;               // at which a way is looked at [s]
+constexpr std::size_t most_poses = 50'000;  // of a path
+constexpr int most_ways = 500'000;          // that are planned
+constexpr double longest_look = 20'000.0;   // at all of them [s]
 
 /// Uniform in the ball of this radius, of as many dimensions as `part` has.
 template <class Part>
@@ -41,6 +45,37 @@ bool is_inside(const ParallelRobot& robot, const Kinematics& k, const RandomPath
   return is_within(spared(settings.workspace), robot, k) &&
          k.rates.active.cwiseAbs().maxCoeff() <= (1.0 - spare) * settings.max_drive_speed;
 }
+
+/// From rest to rest [s], whether the legs reach it or not.
+double time_of_way(const ParallelRobot& robot, const Configuration& from, const Configuration& to,
+                   const PoseLimits& limits) {
+  const PlatformVector rest = PlatformVector::Zero(robot.dof());
+  return PoseMotion::plan(robot.space(), from, rest, robot.difference(to, from), limits).duration();
+}
+
+/// What is drawn and planned for a path. It is bounded, whatever the settings are.
+struct Effort {
+  std::size_t poses = 0;
+  int ways = 0;
+  double looked_at = 0.0;  ///< [s]
+
+  /// Throws SetupError where it has become too much for `duration` of the path.
+  void check(const RandomPathSettings& settings, double duration) const {
+    std::ostringstream text;
+    if (poses >= most_poses) {
+      text << poses << " random poses within " << settings.distance << " m and " << settings.rotation
+           << " rad of the centre last " << duration << " s of " << settings.duration
+           << " s, and there may be no more; raise distance, rotation or pause, or lower duration";
+    } else if (ways >= most_ways || looked_at >= longest_look) {
+      text << "of " << ways << " random ways, " << looked_at
+           << " s long, those within the robot's limits last " << duration << " s of " << settings.duration
+           << " s; lower distance, rotation or duration";
+    } else {
+      return;
+    }
+    throw SetupError(text.str());
+  }
+};
 
 Configuration centre_of(const ParallelRobot& robot, const RandomPathSettings& settings) {
   return settings.centre.size() == 0 ? robot.home_pose() : settings.centre;
@@ -72,13 +107,17 @@ PlatformPath random_path(const ParallelRobot& robot, const RandomPathSettings& s
   RandomGenerator random(derive_seed(seed, "random path"));
   std::vector<Configuration> poses = {centre_of(robot, settings)};
   double duration = 0.0;
+  Effort effort;
   for (int draws = 0; duration < settings.duration; ++draws) {
     if (draws == most_draws) {
       throw SetupError(
           "of " + std::to_string(most_draws) +
           " random poses none can be reached within the robot's limits; lower distance or speed");
     }
+    effort.check(settings, duration);
     const Configuration next = random_pose(robot, settings, random);
+    ++effort.ways;
+    effort.looked_at += time_of_way(robot, poses.back(), next, settings.limits);
     try {
       const PlatformPath way = PlatformPath::through(robot, {poses.back(), next}, settings.limits);
       if (!stays_within(robot, way, settings)) continue;
@@ -87,6 +126,7 @@ PlatformPath random_path(const ParallelRobot& robot, const RandomPathSettings& s
       continue;
     }
     poses.push_back(next);
+    effort.poses = poses.size();
     draws = -1;
   }
   return PlatformPath::through(robot, poses, settings.limits, settings.pause);

@@ -27,7 +27,7 @@ struct RandomPathSettings {
 
 /// Straight lines from rest to rest between random poses, from the centre on: the position uniform in a disc
 /// or ball, the orientation likewise. Poses to which the way is not within the limits are drawn again. Throws
-/// SetupError where hardly any is, or the path cannot be planned.
+/// SetupError where hardly any is, where the path has more than 50,000 poses, or where it cannot be planned.
 PlatformPath random_path(const ParallelRobot& robot, const RandomPathSettings& settings, std::uint64_t seed);
 
 /// One of its poses, whether it can be reached or not.

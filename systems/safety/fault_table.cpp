@@ -208,7 +208,7 @@ constexpr std::array rows{
              "the robot is touched while it recovers"},
     FaultRow{GateFault::motion_contradicted, Doubt::angles, 0,
              found_contradicted<GateFault::motion_contradicted>,
-             "the IMU tells another motion than the encoders"},
+             "encoders and IMU tell different motions"},
     FaultRow{GateFault::drive_not_following, Doubt::drives, 0,
              found_contradicted<GateFault::drive_not_following>,
              "a motor's current is not that of its command"},

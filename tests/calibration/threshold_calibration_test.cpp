@@ -8,10 +8,12 @@
 #include <random>
 
 #include "systems/foundation/setup_error.h"
+#include "tests/support/problems_of.h"
 
 namespace flinch {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 /// The largest of 500 samples of noise, as often as `stretches`.
@@ -68,6 +70,22 @@ TEST(Thresholds, KeepTheRateOfFalseAlarmsThatWasAsked) {
     kept += static_cast<double>(alarms) <= 10.0 * 5.0 ? 1 : 0;
   }
   EXPECT_GE(kept, 18);
+}
+
+TEST(Thresholds, ComeFromErrorsOnly) {
+  std::mt19937_64 random(1);
+  for (const double scale : {0.0, 1e-300, 1e-27, 1e-12}) {
+    for (const bool of_moment : {false, true}) {
+      for (const bool by_component : {false, true}) {
+        EstimatorPeaks peaks = noise(random, 200);
+        for (double& peak : of_moment ? peaks.moment : peaks.force) peak *= scale;
+        EXPECT_THAT(
+            test::problems_of([&] { calibrate_thresholds({peaks}, {.by_component = by_component}); }),
+            ElementsAre(HasSubstr("these recordings hold no errors, as where readings are constant")))
+            << scale;
+      }
+    }
+  }
 }
 
 TEST(Thresholds, AreHigherForFewerFalseAlarmsAndForMoreConfidence) {

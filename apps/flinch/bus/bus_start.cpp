@@ -1,4 +1,5 @@
 #include "apps/flinch/bus/bus_start.h"
+#include "apps/flinch/printing.h"
 
 #include <fmt/core.h>
 
@@ -13,7 +14,7 @@ BusSettings bus_settings(const BusOptions& options, bool quiet, BusRole role) {
                        .anyone_may_command = options.anyone_may_command};
   if (!options.security.empty()) settings.security = BusSecurity{.folder = options.security, .role = role};
   for (const std::string& warning : warnings(settings)) {
-    if (!quiet) fmt::print(stderr, "warning: {}\n", warning);
+    if (!quiet) print_message("warning: {}\n", warning);
   }
   return settings;
 }
@@ -29,8 +30,8 @@ void tell_what_is_missing(const RealtimeReport& report, bool quiet) {
   if (quiet) return;
   for (const Privilege& privilege : report.privileges) {
     if (privilege.granted) continue;
-    fmt::print(stderr, "warning: {} was not granted: {}; {}\n", privilege.name, privilege.reason,
-               privilege.remedy);
+    print_message("warning: {} was not granted: {}; {}\n", privilege.name, privilege.reason,
+                  privilege.remedy);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/flinch/bus/bus_verbs.h"
+#include "apps/flinch/printing.h"
 #include "drivers/bus_keys.h"
 #include "systems/foundation/json_text.h"
 
@@ -15,7 +16,7 @@ std::string utc_day(std::time_t time) { return fmt::format("{:%Y-%m-%d}", fmt::g
 void print_json(const std::filesystem::path& folder, const std::string& end) {
   nlohmann::ordered_json roles;
   for (const BusRole role : all_bus_roles) roles[name(role)] = (folder / name(role)).string();
-  fmt::print("{}\n", json_text(nlohmann::ordered_json{{"keys", roles}, {"good_until", end}}));
+  print_result("{}\n", json_text(nlohmann::ordered_json{{"keys", roles}, {"good_until", end}}));
 }
 
 }  // namespace
@@ -27,9 +28,9 @@ ExitStatus keys(const KeysOptions& options) {
   if (options.common.json) {
     print_json(options.folder, end);
   } else if (!options.common.quiet) {
-    fmt::print("keys: {}, good until {}\n", options.folder.string(), end);
-    fmt::print(stderr,
-               "Give each computer only the subfolder of what runs there: controller, robot or observer.\n");
+    print_result("keys: {}, good until {}\n", options.folder.string(), end);
+    print_message(
+        "Give each computer only the subfolder of what runs there: controller, robot or observer.\n");
   }
   return ExitStatus::done;
 }

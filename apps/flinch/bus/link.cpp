@@ -7,6 +7,7 @@
 #include "apps/flinch/bus/bus_verbs.h"
 #include "apps/flinch/bus/interrupts.h"
 #include "apps/flinch/bus/status_line.h"
+#include "apps/flinch/printing.h"
 #include "drivers/wire_header.h"
 #include "experiments/bus/await_robot.h"
 #include "experiments/bus/link_report.h"
@@ -59,7 +60,7 @@ class LoopTime final : public Exchange {
 };
 
 ExitStatus tell(const LinkReport& report, const LinkOptions& options) {
-  fmt::print("{}", options.common.json ? report.json() + "\n" : report.table());
+  print_result("{}", options.common.json ? report.json() + "\n" : report.table());
   return report.objections().empty() ? ExitStatus::done : ExitStatus::bad_verdict;
 }
 
@@ -76,7 +77,7 @@ ExitStatus link(const LinkOptions& options) {
                      {.robot = robot_hash(input.text),
                       .chosen_robot = options.bus.robot,
                       .realtime_priority = settings.realtime_priority});
-  if (!silent) fmt::print(stderr, "waiting for the robot, {}\n", name_of(options.bus));
+  if (!silent) print_message("waiting for the robot, {}\n", name_of(options.bus));
   const bool decided = out_of(name_of(options.bus), [&] {
     return await_robot(station, from_seconds(options.patience), Interrupts::count);
   });

@@ -1,6 +1,4 @@
 // flinch run --station dds
-#include <fmt/core.h>
-
 #include "apps/flinch/bus/bus_start.h"
 #include "apps/flinch/bus/bus_verbs.h"
 #include "apps/flinch/bus/interrupts.h"
@@ -8,6 +6,7 @@
 #include "apps/flinch/bus/status_line.h"
 #include "apps/flinch/conclusion.h"
 #include "apps/flinch/learning_verbs.h"
+#include "apps/flinch/printing.h"
 #include "apps/flinch/stop_watch.h"
 #include "experiments/bus/live_run.h"
 #include "experiments/report/run_folder.h"
@@ -19,18 +18,18 @@ namespace {
 
 void tell_of_loop_and_link(const LiveRun& run) {
   const TickStatistics& loop = run.statistics();
-  fmt::print(stderr, "loop:      {} ticks, {} late starts, {} overruns, {} lost\n", loop.ticks,
-             loop.late_starts, loop.overruns, loop.lost_periods);
+  print_message("loop:      {} ticks, {} late starts, {} overruns, {} lost\n", loop.ticks, loop.late_starts,
+                loop.overruns, loop.lost_periods);
   if (const DdsLink link = run.station().link(); link.robots > 1) {
-    fmt::print(stderr, "robots:    {} was commanded; on the bus were {}\n", robot_id_text(link.robot_id),
-               text_of(run.station().robots()));
+    print_message("robots:    {} was commanded; on the bus were {}\n", robot_id_text(link.robot_id),
+                  text_of(run.station().robots()));
   }
   const auto round_trip = run.station().times().round_trip.summary();
   const DdsLink link = run.station().link();
   if (!round_trip) return;
-  fmt::print(stderr, "link:      round trip p50 {:.0f}, p99 {:.0f}, most {:.0f} us; {} lost, {} refused\n",
-             1e6 * to_seconds(round_trip->p50), 1e6 * to_seconds(round_trip->p99),
-             1e6 * to_seconds(round_trip->max), link.lost, link.refused);
+  print_message("link:      round trip p50 {:.0f}, p99 {:.0f}, most {:.0f} us; {} lost, {} refused\n",
+                1e6 * to_seconds(round_trip->p50), 1e6 * to_seconds(round_trip->p99),
+                1e6 * to_seconds(round_trip->max), link.lost, link.refused);
 }
 
 }  // namespace
@@ -51,7 +50,7 @@ ExitStatus run_on_bus(const RunOptions& options) {
                .bus_priority = settings.realtime_priority,
                .loop = loop_settings(options.bus),
                .interrupts = Interrupts::count});
-  if (!silent) fmt::print(stderr, "waiting for the robot, {}\n", name_of(options.bus));
+  if (!silent) print_message("waiting for the robot, {}\n", name_of(options.bus));
   out_of(name_of(options.bus), [&] { run.connect(); });
   const RunFolder folder = folder_of(options, scenario.name);
   run.prepare(recording_in(folder),
@@ -76,7 +75,7 @@ ExitStatus run_on_bus(const RunOptions& options) {
 
   run.finish_recording();
   if (run.was_left() && !silent) {
-    fmt::print(stderr, "ended:     the robot has sent nothing for {:.0f} s\n", options.patience);
+    print_message("ended:     the robot has sent nothing for {:.0f} s\n", options.patience);
   }
   if (!silent) tell_of_loop_and_link(run);
   return conclude(scenario, wall, folder, options.common);

@@ -4,10 +4,10 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <cstdio>
 #include <utility>
 
 #include "apps/flinch/bus/ordinary_thread.h"
+#include "apps/flinch/printing.h"
 
 namespace flinch {
 namespace {
@@ -34,7 +34,7 @@ StatusLine::StatusLine(std::function<Tidings()> ask, bool quiet)
 StatusLine::~StatusLine() {
   thread_.request_stop();
   thread_.join();
-  if (!quiet_ && terminal_) std::fputs("\r\x1b[K", stderr);
+  if (!quiet_ && terminal_) clear_line();
 }
 
 void StatusLine::run(const std::stop_token& ending) {
@@ -47,15 +47,16 @@ void StatusLine::run(const std::stop_token& ending) {
 }
 
 void StatusLine::tell(const Tidings& now) {
-  const std::string above = terminal_ && !now.said.empty() ? "\r\x1b[K" + now.said : now.said;
-  std::fputs(above.c_str(), stderr);
+  if (terminal_ && !now.said.empty()) clear_line();
+  print_messages(now.said);
   if (quiet_) return;
   const std::string line = now.state + "  " + now.figures;
   if (terminal_) {
-    std::fputs(("\r\x1b[K" + fitting(now.typed, line)).c_str(), stderr);
-    std::fflush(stderr);
+    clear_line();
+    print_messages(fitting(now.typed, line));
+    flush_messages();
   } else if (now.state != last_state_) {
-    std::fputs((line + "\n").c_str(), stderr);
+    print_messages(line + "\n");
   }
   last_state_ = now.state;
 }

@@ -1,6 +1,4 @@
 // flinch dataset: labelled contacts from simulated runs and recordings.
-#include <fmt/core.h>
-
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -8,13 +6,14 @@
 
 #include "apps/flinch/conclusion.h"
 #include "apps/flinch/learning_verbs.h"
+#include "apps/flinch/output_place.h"
+#include "apps/flinch/printing.h"
 #include "apps/flinch/progress.h"
 #include "apps/flinch/stop_watch.h"
 #include "experiments/dataset/data_spec.h"
 #include "experiments/dataset/make_data_set.h"
 #include "experiments/report/run_folder.h"
 #include "systems/foundation/json_text.h"
-#include "systems/foundation/result_file.h"
 
 namespace flinch {
 namespace {
@@ -29,14 +28,14 @@ std::vector<CalibrationDoubt> check_data_spec(const std::filesystem::path& spec)
 
 ExitStatus dataset(const DatasetOptions& options) {
   const DataSpec spec = read_data_spec(options.spec, {.runs = options.runs, .seed = options.seed});
-  for (const CalibrationDoubt& doubt : spec.doubts) fmt::print(stderr, "warning: {}\n", doubt.sentence);
+  for (const CalibrationDoubt& doubt : spec.doubts) print_message("warning: {}\n", doubt.sentence);
   const std::filesystem::path file =
       options.out.empty() ? std::filesystem::path("out") / (options.spec.stem().string() + ".h5")
                           : options.out;
   const RunFolder folder = make_run_folder(file.has_parent_path() ? file.parent_path() : ".");
   std::vector<std::filesystem::path> inputs = {options.spec};
   for (const DataRecording& recording : spec.recordings) inputs.push_back(recording.file);
-  require_place(file, inputs);
+  require_output(file, inputs, OutputKind::data_set);
   if (options.fresh) std::filesystem::remove(file.string() + ".part");
   const StopWatch watch;
   DataSet data;
@@ -59,13 +58,13 @@ ExitStatus dataset(const DatasetOptions& options) {
                                             {"samples", data.samples.size()},
                                             {"seed", spec.seed},
                                             {"wall_s", watch.seconds()}};
-    fmt::print("{}\n", json_text(summary));
+    print_result("{}\n", json_text(summary));
     return ExitStatus::done;
   }
-  fmt::print("{}: {} runs, {} samples, {:.1f} s\n\n{}", spec.title, runs, data.samples.size(),
-             watch.seconds(), counts_table(data));
-  if (!data.card["left_out"].empty()) fmt::print("\nruns that were left out\n{}", data.card["left_out"]);
-  if (!options.common.quiet) fmt::print(stderr, "data:      {}\n", file.string());
+  print_result("{}: {} runs, {} samples, {:.1f} s\n\n{}", spec.title, runs, data.samples.size(),
+               watch.seconds(), counts_table(data));
+  if (!data.card["left_out"].empty()) print_result("\nruns that were left out\n{}", data.card["left_out"]);
+  if (!options.common.quiet) print_message("data:      {}\n", file.string());
   return ExitStatus::done;
 }
 

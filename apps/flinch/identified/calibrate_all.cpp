@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/flinch/identified/calibration_files.h"
+#include "apps/flinch/printing.h"
 #include "apps/flinch/progress.h"
 #include "apps/flinch/today.h"
 #include "calibration/calibration_output.h"
@@ -14,6 +15,7 @@
 #include "calibration/contact_free_peaks.h"
 #include "calibration/threshold_calibration.h"
 #include "calibration/thresholds_output.h"
+#include "calibration/written_parameters.h"
 #include "diagrams/robot_settings.h"
 #include "experiments/recorded/replay.h"
 #include "experiments/report/run_folder.h"
@@ -23,7 +25,6 @@
 #include "identification/torque_constant_calibration.h"
 #include "systems/foundation/json_text.h"
 #include "systems/foundation/problems_of_place.h"
-#include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
@@ -252,7 +253,7 @@ class All {
     const auto after = possible_thresholds("thresholds: ", calibrations_);
     if (after) {
       after_ = *after;
-      write_result(file, thresholds_yaml(*after, today()));
+      write_parameters(file, thresholds_yaml(*after, today()));
       const auto before = possible_thresholds("thresholds before the calibration: ", {});
       if (before) before_ = *before;
     } else if (std::filesystem::exists(file)) {
@@ -312,9 +313,9 @@ class All {
 ExitStatus calibrate_all(const CalibrateAllOptions& options) {
   All all(options);
   const ExitStatus status = all.run();
-  fmt::print("{}", options.common.json ? all.json() + "\n" : all.table());
-  for (const std::string& warning : all.warnings()) fmt::print(stderr, "warning: {}\n", warning);
-  if (!options.common.quiet) fmt::print(stderr, "parameters: {}\n", all.out().string());
+  print_result("{}", options.common.json ? all.json() + "\n" : all.table());
+  for (const std::string& warning : all.warnings()) print_message("warning: {}\n", warning);
+  if (!options.common.quiet) print_message("parameters: {}\n", all.out().string());
   return status;
 }
 

@@ -1,7 +1,5 @@
 #include "apps/flinch/identified/calibration_files.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
@@ -9,13 +7,17 @@
 #include <vector>
 
 #include "apps/flinch/conclusion.h"
+#include "apps/flinch/output_place.h"
+#include "apps/flinch/printing.h"
 #include "apps/flinch/simulated/simulated_parts.h"
 #include "apps/flinch/today.h"
 #include "calibration/calibration_output.h"
 #include "calibration/calibration_page.h"
 #include "calibration/calibration_sources.h"
+#include "calibration/written_parameters.h"
 #include "experiments/scenario/scenario_calibrations.h"
 #include "systems/config/file_kind.h"
+#include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
 
@@ -66,7 +68,7 @@ CalibrationRecordings open_recordings(const CalibrateOptions& options) {
     double seconds = 0.0;
     for (const OpenedRecording& each : opened.used)
       seconds += static_cast<double>(each.recording.samples()) * to_seconds(each.recording.period);
-    fmt::print(stderr, "fitting to {:.1f} s of recorded samples ...\n", seconds);
+    print_message("fitting to {:.1f} s of recorded samples ...\n", seconds);
   }
   return opened;
 }
@@ -77,10 +79,21 @@ std::filesystem::path page_beside(const std::filesystem::path& file) {
   return std::filesystem::path(file).replace_extension(".html");
 }
 
+/// Throws SetupError where the robot file with what was found would be refused.
+void require_use(const CalibrationResult& result, const Scenario& scenario,
+                 const std::filesystem::path& file) {
+  Scenario calibrated = scenario;
+  calibrated.calibrations.push_back(parse_parameter_file(calibration_yaml(result, today()), file.string()));
+  out_of(file.string() + ": is not written, for no robot could have what was found",
+         [&] { return calibrated_robot(calibrated); });
+}
+
 /// The parameter file, and beside it the page of the same name, which is returned.
-std::filesystem::path write_files(const CalibrationResult& result, const std::filesystem::path& file) {
+std::filesystem::path write_files(const CalibrationResult& result, const Scenario& scenario,
+                                  const std::filesystem::path& file) {
   const std::filesystem::path page = page_beside(file);
-  write_result(file, calibration_yaml(result, today()));
+  require_use(result, scenario, file);
+  write_parameters(file, calibration_yaml(result, today()));
   write_result(page, calibration_page(result, today()));
   return page;
 }
@@ -94,8 +107,8 @@ void require_places(const CalibrateOptions& options) {
   std::vector<std::filesystem::path> inputs = options.recordings;
   inputs.insert(inputs.end(), options.unseen.begin(), options.unseen.end());
   inputs.insert(inputs.end(), options.with.begin(), options.with.end());
-  require_place(options.out, inputs);
-  require_place(page_beside(options.out), inputs);
+  require_output(options.out, inputs, OutputKind::parameters);
+  require_output(page_beside(options.out), inputs, OutputKind::page);
 }
 
 JointVector calibrated_constants(const Scenario& scenario, const std::vector<std::filesystem::path>& files) {
@@ -116,7 +129,7 @@ ParameterFile write_calibration(CalibrationResult& result, const Scenario& scena
   std::string name = result.kind;
   std::replace(name.begin(), name.end(), '-', '_');
   const std::filesystem::path file = folder / (name + ".yaml");
-  write_files(result, file);
+  write_files(result, scenario, file);
   return read_parameter_file(file);
 }
 
@@ -124,12 +137,12 @@ ExitStatus conclude_calibration(CalibrationResult& result, const Scenario& scena
                                 const CalibrateOptions& options) {
   note_robot(scenario, result);
   for (const std::filesystem::path& file : options.with) result.with.push_back(source_of(file));
-  fmt::print("{}", options.common.json ? calibration_json(result) + "\n" : calibration_table(result));
-  for (const std::string& warning : result.warnings) fmt::print(stderr, "warning: {}\n", warning);
+  print_result("{}", options.common.json ? calibration_json(result) + "\n" : calibration_table(result));
+  for (const std::string& warning : result.warnings) print_message("warning: {}\n", warning);
   if (!options.out.empty()) {
-    const std::filesystem::path page = write_files(result, options.out);
+    const std::filesystem::path page = write_files(result, scenario, options.out);
     if (!options.common.quiet)
-      fmt::print(stderr, "parameters: {}\nreport:     {}\n", options.out.string(), page.string());
+      print_message("parameters: {}\nreport:     {}\n", options.out.string(), page.string());
   }
   return ExitStatus::done;
 }

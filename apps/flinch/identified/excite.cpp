@@ -5,7 +5,10 @@
 #include <numbers>
 
 #include "apps/flinch/command_line.h"
+#include "apps/flinch/output_place.h"
+#include "apps/flinch/printing.h"
 #include "apps/flinch/progress.h"
+#include "experiments/scenario/scenario.h"
 #include "identification/excitation.h"
 #include "systems/config/config_node.h"
 #include "systems/config/robot_file.h"
@@ -43,7 +46,7 @@ std::string scenario_text(const Excitation& motion, const ExcitationSettings& se
   const PoseLimits& limits = settings.path.limits;
   std::string text =
       "# A motion from which `flinch calibrate dynamics` tells friction and inertia. Designed by\n#   " +
-      options.common.command_line + "\n";
+      comment_text(options.common.command_line) + "\n";
   text += fmt::format(
       "# Condition number of the regressor {:.4g}, of the random motion before {:.4g}; rank {} of {}.\n",
       motion.condition, motion.first_condition, motion.rank, motion.parameters);
@@ -69,7 +72,7 @@ std::string scenario_text(const Excitation& motion, const ExcitationSettings& se
 }  // namespace
 
 ExitStatus excite(const ExciteOptions& options) {
-  require_place(options.out, {options.robot});
+  require_output(options.out, {options.robot}, OutputKind::scenario);
   const RobotFile file = read_robot_file(options.robot);
   ExcitationSettings settings;
   settings.path.duration = options.duration;
@@ -94,23 +97,26 @@ ExitStatus excite(const ExciteOptions& options) {
   const std::filesystem::path folder = std::filesystem::absolute(options.out).parent_path();
   const std::string robot =
       std::filesystem::relative(std::filesystem::absolute(options.robot), folder).string();
-  write_result(options.out, scenario_text(motion, settings, *file.robot, robot, options));
+  const std::string text = scenario_text(motion, settings, *file.robot, robot, options);
+  out_of("the scenario is not written, for it could not be run",
+         [&] { return parse_scenario(text, options.out); });
+  write_result(options.out, text);
   if (options.common.json) {
-    fmt::print("{}\n", json_text(nlohmann::ordered_json{{"scenario", options.out.string()},
-                                                        {"poses", motion.poses.size()},
-                                                        {"duration_s", motion.duration},
-                                                        {"condition", motion.condition},
-                                                        {"first_condition", motion.first_condition},
-                                                        {"rank", motion.rank},
-                                                        {"parameters", motion.parameters},
-                                                        {"peak_torque", motion.peak_torque}}));
+    print_result("{}\n", json_text(nlohmann::ordered_json{{"scenario", options.out.string()},
+                                                          {"poses", motion.poses.size()},
+                                                          {"duration_s", motion.duration},
+                                                          {"condition", motion.condition},
+                                                          {"first_condition", motion.first_condition},
+                                                          {"rank", motion.rank},
+                                                          {"parameters", motion.parameters},
+                                                          {"peak_torque", motion.peak_torque}}));
   } else {
-    fmt::print("condition {:.4g}, of the random motion before {:.4g}; rank {} of {} parameters\n",
-               motion.condition, motion.first_condition, motion.rank, motion.parameters);
+    print_result("condition {:.4g}, of the random motion before {:.4g}; rank {} of {} parameters\n",
+                 motion.condition, motion.first_condition, motion.rank, motion.parameters);
     const bool turn = file.robot->drive_kind(0) == DriveKind::revolute;
-    fmt::print("{} poses, {:.1f} s, drive {} up to {:.0f} of {:.0f} {}\nscenario: {}\n", motion.poses.size(),
-               motion.duration, turn ? "torques" : "forces", motion.peak_torque, file.drives.max_torque,
-               turn ? "Nm" : "N", options.out.string());
+    print_result("{} poses, {:.1f} s, drive {} up to {:.0f} of {:.0f} {}\nscenario: {}\n",
+                 motion.poses.size(), motion.duration, turn ? "torques" : "forces", motion.peak_torque,
+                 file.drives.max_torque, turn ? "Nm" : "N", options.out.string());
   }
   return ExitStatus::done;
 }

@@ -1,9 +1,9 @@
 // flinch evaluate: how well a classifier tells what was touched.
-#include <fmt/core.h>
-
 #include <fstream>
 
 #include "apps/flinch/learning_verbs.h"
+#include "apps/flinch/output_place.h"
+#include "apps/flinch/printing.h"
 #include "apps/flinch/progress.h"
 #include "learning/evaluation_output.h"
 #include "learning/evaluation_page.h"
@@ -11,7 +11,6 @@
 #include "learning/onnx_file.h"
 #include "systems/foundation/nearest_name.h"
 #include "systems/foundation/problems_of_place.h"
-#include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
@@ -54,13 +53,13 @@ void check_data_set(const std::filesystem::path& data) { read_data_set(data); }
 
 ExitStatus evaluate(const EvaluateOptions& options) {
   const std::filesystem::path page = page_of(options);
-  require_place(page, {options.model, options.data});
+  require_output(page, {options.model, options.data}, OutputKind::page);
   if (!options.at.empty()) check_moment(options.at);
   const ClassifierModel model = read_onnx(options.model);
   const DataSet data = read_data_set(options.data);
   const FeatureSet features = out_of(options.model.string(), [&] { return features_for(model, data); });
   const std::string learned = warning_of_learned(model, data, options.configurations);
-  if (!learned.empty()) fmt::print(stderr, "warning: {}: {}\n", options.data.string(), learned);
+  if (!learned.empty()) print_message("warning: {}: {}\n", options.data.string(), learned);
   const NeuralNetwork network(model.network);
   const std::string moment = options.at.empty() ? standard_moment(data) : options.at;
   std::vector<Evaluation> all;
@@ -82,10 +81,10 @@ ExitStatus evaluate(const EvaluateOptions& options) {
     throw SetupError(options.data.string() + ": holds no sample that '" + name_of(features.question()) +
                      "' can be asked about; choose others with --at or --configurations");
   }
-  fmt::print("{}",
-             options.common.json ? evaluation_json(*chosen, all) + "\n" : evaluation_table(*chosen, all));
+  print_result("{}",
+               options.common.json ? evaluation_json(*chosen, all) + "\n" : evaluation_table(*chosen, all));
   write_evaluation_page({.model = model, .data = data, .chosen = *chosen, .all = all}, page);
-  if (!options.common.quiet) fmt::print(stderr, "report:    {}\n", page.string());
+  if (!options.common.quiet) print_message("report:    {}\n", page.string());
   return ExitStatus::done;
 }
 

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/flinch/learning_verbs.h"
+#include "apps/flinch/output_place.h"
+#include "apps/flinch/printing.h"
 #include "apps/flinch/progress.h"
 #include "apps/flinch/stop_watch.h"
 #include "learning/onnx_file.h"
@@ -14,7 +16,6 @@
 #include "systems/config/file_kind.h"
 #include "systems/foundation/json_text.h"
 #include "systems/foundation/problems_of_place.h"
-#include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
@@ -43,30 +44,30 @@ ClassifierTraining training_of(const TrainOptions& options) {
 
 void print_table(const TrainedClassifier& trained, const ClassifierTraining& training) {
   if (training.candidates.size() > 1) {
-    fmt::print("{:>7} {:>6} {:>8} {:>10}\n", "layers", "width", "l2", "accuracy");
+    print_result("{:>7} {:>6} {:>8} {:>10}\n", "layers", "width", "l2", "accuracy");
     for (std::size_t i = 0; i < training.candidates.size(); ++i) {
       const TrainingSettings& each = training.candidates[i];
-      fmt::print("{:>7} {:>6} {:>8} {:>8.2f} %\n", each.hidden.size(), each.hidden.front(), each.l2,
-                 100.0 * trained.accuracies[i]);
+      print_result("{:>7} {:>6} {:>8} {:>8.2f} %\n", each.hidden.size(), each.hidden.front(), each.l2,
+                   100.0 * trained.accuracies[i]);
     }
   }
   const Evaluation& expected = trained.expected;
-  fmt::print("question:           {}\nhidden layers:      {}\nsamples:            {}\n",
-             name_of(training.question), fmt::join(trained.settings.hidden, ", "), expected.samples);
-  fmt::print("accuracy:           {:.2f} %, balanced over classes, in {} folds that keep {}s together\n",
-             100.0 * expected.confusion.balanced_accuracy().value_or(0.0), training.folds,
-             name_of(training.folds_by));
-  fmt::print("calibration error:  {:.4f} at temperature {:.3f}\n", expected.calibration_error,
-             trained.temperature);
-  fmt::print("accepted from:      {:.3f}; below are {:.1f} %, of the others {:.2f} % are wrong\n",
-             expected.accepted.accepted_from, 100.0 * expected.accepted.rejected,
-             100.0 * expected.accepted.wrong_of_accepted);
+  print_result("question:           {}\nhidden layers:      {}\nsamples:            {}\n",
+               name_of(training.question), fmt::join(trained.settings.hidden, ", "), expected.samples);
+  print_result("accuracy:           {:.2f} %, balanced over classes, in {} folds that keep {}s together\n",
+               100.0 * expected.confusion.balanced_accuracy().value_or(0.0), training.folds,
+               name_of(training.folds_by));
+  print_result("calibration error:  {:.4f} at temperature {:.3f}\n", expected.calibration_error,
+               trained.temperature);
+  print_result("accepted from:      {:.3f}; below are {:.1f} %, of the others {:.2f} % are wrong\n",
+               expected.accepted.accepted_from, 100.0 * expected.accepted.rejected,
+               100.0 * expected.accepted.wrong_of_accepted);
 }
 
 }  // namespace
 
 ExitStatus train(const TrainOptions& options) {
-  require_place(options.out, {options.data});
+  require_output(options.out, {options.data}, OutputKind::classifier);
   const ClassifierTraining training = training_of(options);
   require_no_kind(options.data, "a data set");
   const DataSet data = read_data_set(options.data);
@@ -96,11 +97,11 @@ ExitStatus train(const TrainOptions& options) {
         {"expected_calibration_error", expected.calibration_error},
         {"accepted_from", trained.model.accepted_from},
         {"wall_s", watch.seconds()}};
-    fmt::print("{}\n", json_text(summary));
+    print_result("{}\n", json_text(summary));
     return ExitStatus::done;
   }
   print_table(trained, training);
-  if (!options.common.quiet) fmt::print(stderr, "model:     {}\n", options.out.string());
+  if (!options.common.quiet) print_message("model:     {}\n", options.out.string());
   return ExitStatus::done;
 }
 

@@ -10,6 +10,7 @@
 #include "apps/flinch/bus/interrupts.h"
 #include "apps/flinch/bus/status_line.h"
 #include "apps/flinch/fault_options.h"
+#include "apps/flinch/printing.h"
 #include "drivers/dds_reader.h"
 #include "drivers/dds_server.h"
 #include "drivers/robot_id.h"
@@ -129,9 +130,9 @@ void tell_the_end(const DdsCommander& commander, const TickStatistics& ticks, co
         {"tick", json_of(ticks.whole)},  {"commands", commander.received},
         {"refused", commander.refused},  {"for_other_robots", commander.for_others},
         {"silences", commander.silences}};
-    fmt::print("{}\n", json_text(json));
+    print_result("{}\n", json_text(json));
   } else if (!common.quiet) {
-    fmt::print(
+    print_result(
         "served {} ticks: {} late starts, {} overruns, {} lost; {} commands, {} refused, {} of them for "
         "other "
         "robots, {} silences\n",
@@ -161,8 +162,8 @@ ExitStatus serve(const ServeOptions& options) {
   ClockTicks ticks;
   RealtimeRunner runner(*bench.diagram, ticks, exchange, std::make_unique<SundialsIntegrator>());
   if (!silent) {
-    fmt::print(stderr, "serving {} on {} as robot {}; Ctrl-C ends it\n", scenario.name, name_of(options.bus),
-               text_of(SeenRobot{server.robot_id(), options.bus.robot}));
+    print_message("serving {} on {} as robot {}; Ctrl-C ends it\n", scenario.name, name_of(options.bus),
+                  text_of(SeenRobot{server.robot_id(), options.bus.robot}));
   }
   {
     BusWarnings beside(bus, server);

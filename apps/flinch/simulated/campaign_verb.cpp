@@ -11,6 +11,7 @@
 #include "apps/flinch/command_line.h"
 #include "apps/flinch/conclusion.h"
 #include "apps/flinch/learning_verbs.h"
+#include "apps/flinch/printing.h"
 #include "apps/flinch/progress.h"
 #include "apps/flinch/stop_watch.h"
 #include "experiments/campaign/campaign.h"
@@ -86,11 +87,11 @@ void print(const Campaign& campaign, const CampaignResults& results, const std::
            const CampaignPace& pace, bool json) {
   if (campaign.summary == Campaign::Summary::reactions) {
     const ReactionSummary summary = reactions_of(results, campaign.missed_after);
-    fmt::print("{}",
-               json ? reactions_json(campaign, summary, pace) + "\n" : reactions_table(campaign, summary));
+    print_result("{}",
+                 json ? reactions_json(campaign, summary, pace) + "\n" : reactions_table(campaign, summary));
   } else {
-    fmt::print("{}", json ? campaign_json(campaign, results, groups, pace) + "\n"
-                          : campaign_table(campaign, groups, pace));
+    print_result("{}", json ? campaign_json(campaign, results, groups, pace) + "\n"
+                            : campaign_table(campaign, groups, pace));
   }
 }
 
@@ -114,7 +115,7 @@ ExitStatus campaign(const CampaignOptions& options) {
     return ExitStatus::done;
   }
   for (const CalibrationDoubt& doubt : check_campaign(campaign))  // before anything is written
-    fmt::print(stderr, "warning: {}\n", doubt.sentence);
+    print_message("warning: {}\n", doubt.sentence);
   std::optional<CountedAlarms> alarms;
   if (!options.false_alarms.empty()) alarms.emplace(campaign, options.false_alarms);
   const RunFolder folder = campaign_folder(options, campaign);
@@ -139,13 +140,12 @@ ExitStatus campaign(const CampaignOptions& options) {
   const CampaignPace pace{results.size() - before, watch.seconds()};
   const std::vector<CampaignGroup> groups = groups_of(campaign, results);
   print(campaign, results, groups, pace, options.common.json);
-  std::fflush(stdout);  // before what stderr says, where both go into one file
+  flush_results();  // before what stderr says, where both go into one file
   const std::filesystem::path page = folder.path / "campaign.html";
   write_campaign_page(campaign, results, groups, alarms.value_or(CountedAlarms(groups)),
                       options.common.command_line, page);
   if (!options.common.quiet) {
-    fmt::print(stderr, "results:   {}\nreport:    {}\n", (folder.path / "results.csv").string(),
-               page.string());
+    print_message("results:   {}\nreport:    {}\n", (folder.path / "results.csv").string(), page.string());
   }
   return ExitStatus::done;
 }

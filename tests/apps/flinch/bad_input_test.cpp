@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "systems/foundation/html_page.h"
 #include "systems/framework/recording.h"
 #include "tests/apps/flinch/program.h"
 #include "tests/support/workplace.h"
@@ -26,7 +27,7 @@ class BadInput : public ::testing::Test {
  protected:
   void SetUp() override {
     place.write("out/run.h5", "an older recording");
-    place.write("out/report.html", "an older report");
+    place.write("out/report.html", page_head("an older report", ""));
   }
 
   /// Runs the program, which must leave every file as it is, and print nothing but one line on stderr.
@@ -60,6 +61,33 @@ TEST_F(BadInput, MotionThatTheLegsDoNotReach) {
   const std::string said = complaint_of_run();
   EXPECT_THAT(said, StartsWith(at_line_of(collision, "motion:") + "motion: "));
   EXPECT_THAT(said, HasSubstr("the legs do not reach the pose (-0.6"));
+}
+
+TEST_F(BadInput, MotionThatTakesMorePlanningThanAnyRobotNeeds) {
+  const std::string head = "robot: ../robots/planar_3rrr.yaml\nduration_s: 3600\nmotion: ";
+  place.write("scenarios/tiny.yaml",
+              head + "{kind: random, distance_mm: 0.001, rotation_deg: 0, duration_s: 3600}\n");
+  EXPECT_THAT(
+      complaint({"check", place.at("scenarios/tiny.yaml")}),
+      MatchesRegex("error: .*tiny.yaml:3: motion: the robot cannot move like this: 50000 random poses "
+                   "within 1e-06 m .*; raise distance, rotation or pause, or lower duration\n"));
+  place.write("scenarios/slow.yaml", head + "{kind: square, laps: 1000, limits: {velocity_m_per_s: 1e-9}}\n");
+  EXPECT_THAT(
+      complaint({"check", place.at("scenarios/slow.yaml")}),
+      MatchesRegex("error: .*slow.yaml:3: motion: the robot cannot move like this: platform path: takes "
+                   ".* s, and may take 10000 s; raise the limits, or .*\n"));
+}
+
+TEST_F(BadInput, MoreCalibrationsThanAnybodyHas) {
+  std::string list;
+  for (int i = 0; i < 101; ++i) list += i == 0 ? "*a" : ", *a";
+  place.write("scenarios/many.yaml",
+              "title: &a {file: none.yaml}\nrobot: ../robots/planar_3rrr.yaml\n"
+              "duration_s: 1\ncalibrations: [" +
+                  list + "]\n");
+  const Outcome outcome = flinch({"check", place.at("scenarios/many.yaml")});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("many.yaml:4: calibrations: is a list of 101; it may have 100 entries"));
 }
 
 TEST_F(BadInput, KindsThatNobodyKnowsAloneAreTold) {

@@ -104,6 +104,26 @@ TEST(ReadingACampaign, RefusesAGridThatIsTooLargeForAnyMachine) {
               ElementsAre(HasSubstr("endless.yaml: asks for 1.152921504606847e+25 runs")));
 }
 
+TEST(ReadingACampaign, RefusesMoreValuesThanAreTriedInAMoment) {
+  const test::Workplace place;
+  const auto list = [](const std::string& entry, int count) {
+    std::string text = "[" + entry;
+    for (int i = 1; i < count; ++i) text += ", " + entry;
+    return text + "]";
+  };
+  const std::string one = "scenario: ../scenarios/platform_collision.yaml\n";
+  const std::string bad = "campaigns/bad.yaml";
+  place.write(bad, one + "grid:\n  - {key: motion.speed_m_per_s, values: " + list("1", 5001) +
+                       "}\n  - {key: pylon.radius_mm, values: " + list("30", 5000) + "}\n");
+  EXPECT_THAT(problems_of(place / bad),
+              ElementsAre(HasSubstr("bad.yaml:2: grid: has 10001 entries in all; it may have 10000")));
+  place.write(bad, one + "draw:\n  - {key: motion.speed_m_per_s, of: " + list("1", 10'001) + "}\n");
+  EXPECT_THAT(problems_of(place / bad), ElementsAre(HasSubstr("bad.yaml:2: draw: has 10001 entries in all")));
+  place.write(bad, "scenarios: " + list("{file: ../scenarios/square.yaml}", 1001) + "\n");
+  EXPECT_THAT(problems_of(place / bad),
+              ElementsAre(HasSubstr("bad.yaml:1: scenarios: has 1001 entries in all; it may have 1000")));
+}
+
 TEST(ReadingACampaign, NamesTheLineOfEachKeyThatTheScenarioDoesNotHave) {
   const test::Workplace place;
   test::small_campaign(place);

@@ -17,8 +17,10 @@
 namespace flinch::test {
 namespace {
 
-constexpr std::array names{"jump",   "isolated", "pair",          "quiet angle", "gyroscope", "accelerometer",
-                           "parity", "tube",     "quiet current", "still",       "stop",      "brakes"};
+constexpr std::array names{"jump",          "isolated", "pair",   "quiet angle",   "gyroscope",
+                           "accelerometer", "parity",   "tube",   "quiet current", "still",
+                           "stop",          "brakes",   "status", "response"};
+static_assert(names.size() == plausibility_checks);
 
 /// The largest force between the robot and what it touches [N].
 double force_of(const ContactTruth& contact) { return contact.strongest.strength(); }

@@ -1,5 +1,6 @@
 #include "tests/fault/lies/lie_cases.h"
 
+#include <algorithm>
 #include <atomic>
 #include <future>
 #include <map>
@@ -7,14 +8,18 @@
 #include <string>
 #include <tuple>
 
+#include "systems/framework/random.h"
+
 namespace flinch::test {
 namespace {
 
 constexpr Time quick = 5ms, slow = 30ms;  // brakes
 
-using Key = std::tuple<double, bool, bool, Time, bool, unsigned>;
+using Key = std::tuple<double, double, bool, bool, Time, bool, unsigned, LieMoment>;
 Key key(const LieScene& scene) {
-  return {scene.speed, scene.passive_encoders, scene.imu, scene.brakes, scene.from_standstill, scene.seed};
+  return {scene.speed, scene.direction_deg, scene.passive_encoders,
+          scene.imu,   scene.brakes,        scene.from_standstill,
+          scene.seed,  scene.moment};
 }
 
 void add(std::vector<LieCase>& cases, const LieScene& scene, const std::vector<std::string>& lies) {
@@ -37,8 +42,8 @@ std::vector<std::string> lies_of_a_drive(int number) {
                    "scaled:2", "reversed", "delayed:0.01", "delayed:0.03", "noise:1e-4", "noise:1e-3"});
   tell("current",
        {"wrong:0.5", "wrong:-2", "stuck", "scaled:0", "scaled:2", "scaled:0.5", "reversed", "noise:0.5"});
-  tell("drive",
-       {"off", "stuck", "stuck:50", "stuck:-30", "reversed", "wrong:20", "scaled:0", "delayed:0.02"});
+  tell("drive", {"off", "stuck", "stuck:50", "stuck:-30", "reversed", "wrong:20", "scaled:0", "scaled:-1",
+                 "delayed:0.02"});
   tell("passive_encoder", {"wrong:0.0175", "drifting:0.2", "stuck"});
   return lies;
 }
@@ -58,6 +63,7 @@ std::vector<std::string> lies_of_all() {
           "drives:off",
           "drives:scaled:0",
           "brakes:stuck",
+          "status:stuck",
           "gyroscope:wrong:0.5",
           "accelerometer:wrong:20",
           "imu:stuck",
@@ -87,6 +93,39 @@ std::vector<LieCase> all_lies() {
     const LieScene late{.speed = speed, .seed = seed++, .brakes = slow};
     add(cases, late, lies_of_a_drive(3));
     add(cases, late, lies_of_all());
+  }
+  return cases;
+}
+
+std::vector<LieCase> pairs_of_lies(std::size_t count, std::uint64_t seed) {
+  RandomGenerator random(seed);
+  const auto pick = [&random](std::size_t below) {
+    return std::min(below - 1, static_cast<std::size_t>(random.uniform(0.0, static_cast<double>(below))));
+  };
+  std::vector<std::string> lies = lies_of_all();
+  for (int drive = 1; drive <= 3; ++drive) {
+    const std::vector<std::string> more = lies_of_a_drive(drive);
+    lies.insert(lies.end(), more.begin(), more.end());
+  }
+  std::vector<LieCase> cases;
+  while (cases.size() < count) {
+    const std::string first = lies[pick(lies.size())], second = lies[pick(lies.size())];
+    if (first.substr(0, first.find(':')) == second.substr(0, second.find(':'))) continue;
+    const LieMoment moment = static_cast<LieMoment>(pick(4));
+    const bool meets = moment == LieMoment::contact || moment == LieMoment::reaction;
+    LieScene scene{.speed = random.uniform(meets ? 0.3 : 0.05, 1.2),
+                   .direction_deg = 180.0,
+                   .seed = static_cast<unsigned>(cases.size() + 1),
+                   .passive_encoders = pick(4) > 0,
+                   .imu = pick(4) > 0,
+                   .brakes = quick,
+                   .from_standstill = moment == LieMoment::motion && pick(4) == 0,
+                   .moment = moment};
+    if (moment == LieMoment::motion && pick(4) == 0) scene.speed = 0.0;
+    if (scene.speed == 0.0) scene.from_standstill = false;
+    const bool of_passive = (first + second).find("passive_encoder") != std::string::npos;
+    if (of_passive && !scene.passive_encoders) continue;
+    cases.push_back({scene, first + "+" + second});
   }
   return cases;
 }

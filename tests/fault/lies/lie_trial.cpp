@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -32,6 +33,31 @@ Passage passing(const LieScene& scene) {
                          .cruise = 0.05});
 }
 
+bool touches(const LieScene& scene) {
+  return scene.moment == LieMoment::contact || scene.moment == LieMoment::reaction;
+}
+
+/// From what the lie meets, a stop or the begin of a contact, until it begins.
+Time before_lie(const LieScene& scene) {
+  switch (scene.moment) {
+    case LieMoment::motion:
+      break;
+    case LieMoment::stop:
+      return 10ms;
+    case LieMoment::contact:
+      return 5ms;
+    case LieMoment::reaction:
+      return 40ms;
+  }
+  return 0ms;
+}
+
+/// Of a pylon that the platform meets on its way in the direction of -x: `before_lie` from the middle [mm].
+double pylon_ahead(const LieScene& scene) {
+  constexpr double reach = -175.0;  // of the platform, with the pylon's radius
+  return reach + 1e3 * scene.speed * to_seconds(before_lie(scene));
+}
+
 std::string text_of(const LieScene& scene, const std::string& faults) {
   std::ostringstream text;
   text << "robot: " FLINCH_SOURCE_DIR "/apps/robots/planar_3rrr.yaml\n"
@@ -41,6 +67,11 @@ std::string text_of(const LieScene& scene, const std::string& faults) {
          << ", direction_deg: " << scene.direction_deg << ", speed_m_per_s: " << scene.speed
          << ", cruise_m: 0.05}\n";
   }
+  if (scene.moment == LieMoment::stop)
+    text << "operator: [{at_s: " << to_seconds(lie_at(scene) - before_lie(scene)) << ", press: stop}]\n";
+  if (touches(scene))
+    text << "pylon: {x_mm: " << pylon_ahead(scene)
+         << ", y_mm: -20, radius_mm: 40, stiffness_N_per_m: 6000}\n";
   text << "plant: {realism: " << scene.realism << "}\n";
   if (!scene.passive_encoders) text << "sensors: {encoders: {passive_mounted: false}}\n";
   text << faults;
@@ -88,8 +119,17 @@ LieRun run(const LieScene& scene, const std::string& lie) {
   run.energy = recording.column("truth", "kinetic_energy");
   run.phase = recording.column("gate", "phase");
   run.fault = recording.column("gate", "fault");
+  run.reaction = recording.column("gate", "reaction");
+  run.force = recording.column("contact", "peak_force");
   for (int i = 0; i < 3; ++i) run.torque.push_back(recording.column("truth", "drive_torque", i));
   return run;
+}
+
+/// Whether the gate has answered a lie at this tick: closed, or in a stop that had begun before, the brakes.
+bool has_answered(const LieScene& scene, const LieRun& run, std::size_t tick) {
+  if (scene.moment == LieMoment::stop)
+    return run.reaction[tick] == static_cast<double>(GateReaction::zero_torque_and_brake);
+  return run.phase[tick] == static_cast<double>(GatePhase::closed);
 }
 
 bool names(GateFault fault) {
@@ -113,20 +153,26 @@ LieOutcome try_lie(const LieScene& scene, const std::string& lie, const LieRun& 
   LieOutcome outcome{.lie = lie, .scene = scene, .alarm = {}, .rest = {}};
   const auto begin = static_cast<std::size_t>((scene.from_standstill ? 280ms : lie_at(scene)) / 1ms);
   const std::size_t end = lied.speed.size();
-  outcome.began = lied.phase[begin - 1] == static_cast<double>(GatePhase::open);
+  outcome.began =
+      scene.moment == LieMoment::stop || lied.phase[begin - 1] == static_cast<double>(GatePhase::open);
   std::size_t alarm = begin;
-  while (alarm < end && lied.phase[alarm] != static_cast<double>(GatePhase::closed)) ++alarm;
+  while (alarm < end && !has_answered(scene, lied, alarm)) ++alarm;
   if (alarm < end) {
     outcome.alarm = Time(1ms) * static_cast<Time::rep>(alarm - begin);
     outcome.fault = static_cast<GateFault>(lied.fault[alarm]);
-    outcome.named = names(outcome.fault);
+    outcome.named = names(outcome.fault) || scene.moment == LieMoment::stop;
   }
   const std::size_t last = std::min({end, honest.speed.size()});
   for (std::size_t k = begin; k < std::min({last, alarm + 1, begin + 51}); ++k) {
     for (std::size_t i = 0; i < 3; ++i)
       outcome.torque = std::max(outcome.torque, std::abs(lied.torque[i][k] - honest.torque[i][k]));
   }
-  if (alarm >= end) return outcome;
+  if (honest.force.back() > 0.0) outcome.force = lied.force.back() / honest.force.back();
+  if (alarm >= end) {
+    for (std::size_t k = begin; k < last; ++k)
+      outcome.excess = std::max(outcome.excess, lied.speed[k] - honest.speed[k]);
+    return outcome;
+  }
   std::size_t rest = end;
   while (rest > alarm && lied.speed[rest - 1] < resting) --rest;
   if (rest < end) outcome.rest = Time(1ms) * static_cast<Time::rep>(rest - alarm);
@@ -144,6 +190,8 @@ LieOutcome try_lie(const LieScene& scene, const std::string& lie, const LieRun& 
 std::string problem_with(const LieOutcome& is) {
   const bool in_time = is.named && is.alarm && *is.alarm <= 50ms;
   if (is.torque > 30.0 && !in_time) return fmt::format("{:.0f} Nm without a name", is.torque);
+  if (is.scene.moment == LieMoment::stop && !is.alarm && is.excess > 0.25)
+    return fmt::format("{:.2f} m/s above the honest stop, without brakes", is.excess);
   if (!is.alarm || !is.named) return "";
   const Time patience = is.scene.brakes > 5ms ? 60ms : 30ms;
   if (is.excess > 0.25) return fmt::format("{:.2f} m/s above the honest run", is.excess);
@@ -153,19 +201,22 @@ std::string problem_with(const LieOutcome& is) {
 }
 
 std::string table_head() {
-  return "lie                              m/s  deg  alarm ms  fault  named  Nm before  m/s above  rest ms  "
+  return "lie                                      moment    m/s  deg  alarm ms  fault  named  Nm before  "
+         "m/s above  rest ms  "
          "travel mm "
-         " energy grows ms\n";
+         " energy grows ms  force\n";
 }
 
 std::string line_of(const LieOutcome& is) {
   const auto ms = [](std::optional<Time> time) {
     return time ? fmt::format("{}", *time / 1ms) : std::string("-");
   };
-  return fmt::format("{:32} {:4.1f} {:4.0f} {:>9} {:>6} {:>6} {:10.1f} {:10.2f} {:>8} {:10.1f} {:>16}\n",
-                     is.lie, is.scene.speed, is.scene.direction_deg, ms(is.alarm), static_cast<int>(is.fault),
-                     is.named ? "yes" : "no", is.torque, is.excess, ms(is.rest), 1e3 * is.travel,
-                     ms(is.growth));
+  constexpr std::array moments{"motion", "stop", "contact", "reaction"};
+  return fmt::format(
+      "{:40} {:8} {:4.1f} {:4.0f} {:>9} {:>6} {:>6} {:10.1f} {:10.2f} {:>8} {:10.1f} {:>16} {:6.2f}\n",
+      is.lie, moments[static_cast<std::size_t>(is.scene.moment)], is.scene.speed, is.scene.direction_deg,
+      ms(is.alarm), static_cast<int>(is.fault), is.named ? "yes" : "no", is.torque, is.excess, ms(is.rest),
+      1e3 * is.travel, ms(is.growth), is.force);
 }
 
 }  // namespace flinch::test

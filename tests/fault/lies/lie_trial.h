@@ -10,6 +10,14 @@
 /// Lies of sensors and drives in the closed loop of a realistic robot, and what becomes of it.
 namespace flinch::test {
 
+/// What the robot does when it is lied to.
+enum class LieMoment {
+  motion,    ///< it follows its path, or stands
+  stop,      ///< the operator has stopped it 10 ms before
+  contact,   ///< it has run into a pylon some milliseconds before, which it has not detected yet
+  reaction,  ///< and gives way
+};
+
 /// Where and how the robot moves when it is lied to.
 struct LieScene {
   double speed = 0.3;  ///< of the platform through the middle [m/s]; 0: it stands there
@@ -20,11 +28,14 @@ struct LieScene {
   Time brakes = 0ms;             ///< that they take to close
   bool from_standstill = false;  ///< the lie begins before the motion
   std::string realism = "bench";
+  LieMoment moment = LieMoment::motion;
 };
 
 /// A run as the trial looks at it, by ticks.
 struct LieRun {
   std::vector<double> speed, energy, phase, fault;
+  std::vector<double> reaction;             ///< of the gate
+  std::vector<double> force;                ///< largest of a contact so far [N]
   std::vector<std::vector<double>> torque;  ///< of each drive [Nm]
   std::vector<double> x, y;
 };
@@ -41,6 +52,7 @@ struct LieOutcome {
   std::optional<Time> rest;  ///< from the alarm until the platform rests
   double travel = 0.0;       ///< meanwhile [m]
   Time growth{};             ///< of the kinetic energy after the alarm
+  double force = 0.0;        ///< peak of the contact over that of the honest run; 0 without a contact
 };
 
 /// The tick at which the lie of a scene begins.

@@ -94,6 +94,15 @@ TEST(MalformedYaml, IncludesAliasesThatLeadNowhereOrIntoThemselves) {
   EXPECT_THAT(problems_of_yaml("a: &x\n  b: *x\n"), ElementsAre(HasSubstr("an alias inside its own anchor")));
 }
 
+TEST(MalformedYaml, IncludesNamesThatWouldEndEarly) {
+  for (const std::string text : {R"("b\0.yaml")", R"(["b\0"])", R"({"b\0": 1})", R"(["b\x00c"])"}) {
+    EXPECT_THAT(
+        problems_of_yaml("a: 1\nfile: " + text + "\n"),
+        ElementsAre(StartsWith("a.yaml:2: 'b' goes on with a character 0, at which names end; leave it out")))
+        << text;
+  }
+}
+
 TEST(MalformedYaml, IncludesWhatNoSettingsNeed) {
   EXPECT_THAT(problems_of_yaml("a: 1\n---\nb: 2\n"),
               ElementsAre(HasSubstr("a.yaml:3: a second YAML document begins")));

@@ -43,7 +43,9 @@ TEST(AJournal, IsReplacedByNothingHalf) {
               begin_journal(file, stream, [&] { stream.setstate(std::ios::badbit); });
             }).size(),
             1U);
+  EXPECT_THROW(begin_journal(file, stream, [] { throw SetupError("no run"); }), SetupError);
   EXPECT_EQ(test::bytes_of(file), "old");
+  EXPECT_FALSE(std::filesystem::exists(place / "journal.part.new"));
 }
 
 }  // namespace

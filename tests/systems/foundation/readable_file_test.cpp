@@ -46,5 +46,13 @@ TEST_F(AFileToBeRead, IsNeitherPipeNorDeviceNorFileOfTheKernel) {
   EXPECT_EQ(problem_with_reading("/proc/version"), "is empty") << "so says it itself";
 }
 
+TEST_F(AFileToBeRead, HasANameThatDoesNotEndBefore) {
+  const fs::path name = folder.path().string() + std::string("/some\0.yaml", 11);
+  std::ofstream(folder / "some") << "text";
+  EXPECT_EQ(problem_with_reading(name),
+            "has a character 0 in its name, at which the system ends names; leave it out");
+  EXPECT_EQ(problem_with_name(folder / "some"), "");
+}
+
 }  // namespace
 }  // namespace flinch

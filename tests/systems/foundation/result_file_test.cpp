@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -126,6 +127,16 @@ TEST_F(ResultFiles, HaveTheirPlaceTriedWithoutATrace) {
   for (const std::string name : {"input.txt", "link.txt", "no/folder.txt", ""})
     EXPECT_THROW(require_place(file(name), {file("other.txt"), file("input.txt")}), SetupError) << name;
   EXPECT_EQ(text("input.txt"), "old");
+  EXPECT_EQ(files(), 2);
+}
+
+TEST_F(ResultFiles, ThatAreNotToStayAreRemovedAndNothingElse) {
+  write_result(file(), "text");
+  ASSERT_EQ(::mkfifo(file("pipe").c_str(), 0600), 0);
+  fs::create_symlink(file(), file("link"));
+  for (const char* const name : {"pipe", "link", "none"}) remove_unfinished(file(name));
+  EXPECT_EQ(files(), 3);
+  remove_unfinished(file());
   EXPECT_EQ(files(), 2);
 }
 

@@ -122,6 +122,25 @@ TEST(PlatformPath, RefusesWhatCannotBeDriven) {
   EXPECT_THROW(PlatformPath::square(*robot, pose(0, 0, 0), 0.2, limits, 0), SetupError);
 }
 
+TEST(PlatformPath, RefusesAWayThatTakesForEver) {
+  const auto robot = test::planar_bench();
+  const std::vector<Configuration> poses{pose(0, 0, 0), pose(0.1, 0, 0)};
+  for (const double speed : {1e-6, 1e-12, 1e-300}) {
+    PoseLimits slow = limits;
+    slow.translation.velocity = speed;
+    EXPECT_THROW(PlatformPath::through(*robot, poses, slow), SetupError) << speed;
+    EXPECT_THROW(PlatformPath::square(*robot, pose(0, 0, 0), 0.2, slow), SetupError) << speed;
+  }
+  EXPECT_THROW(PlatformPath::through(*robot, {poses[0], poses[1], poses[0]}, limits, 1e9), SetupError);
+}
+
+TEST(PlatformPath, ChecksOneOfManyLaps) {
+  const auto robot = test::planar_bench();
+  const double lap = PlatformPath::square(*robot, pose(0, 0, 0), 0.2, limits).duration();
+  const PlatformPath many = PlatformPath::square(*robot, pose(0, 0, 0), 0.2, limits, 2'000'000'000);
+  EXPECT_NEAR(many.duration(), 2e9 * lap, 1.0);
+}
+
 // ---------------------------------------------------------------- passages
 
 class PassageAtSpeed : public testing::TestWithParam<double> {};

@@ -1,5 +1,6 @@
 #include "systems/motion/random_path.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,9 +8,13 @@
 #include "systems/config/robot_file.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/link_segments.h"
+#include "tests/support/problems_of.h"
 
 namespace flinch {
 namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 class RandomPath : public ::testing::TestWithParam<const char*> {
  protected:
@@ -72,6 +77,35 @@ TEST_P(RandomPath, SaysSoWhereNoPoseCanBeReached) {
   RandomPathSettings too_fast = settings();
   too_fast.max_drive_speed = 1e-6;
   EXPECT_THROW(random_path(robot, too_fast, 1), SetupError);
+}
+
+TEST_P(RandomPath, LastsAnHour) {
+  RandomPathSettings hour = settings();
+  hour.duration = 3600.0;
+  const PlatformPath path = random_path(robot, hour, 1);
+  EXPECT_GE(path.duration(), 3600.0);
+  EXPECT_LT(path.duration(), 3610.0);
+  EXPECT_GT(path.evaluate(3599.0).pose.norm(), 0.0);
+}
+
+// However small or slow the ways are, as many are planned as can be afforded, and it is said which settings
+// would do.
+TEST_P(RandomPath, EndsWhateverIsAsked) {
+  const auto complaint = [this](const RandomPathSettings& asked) {
+    const auto problems = test::problems_of([&] { random_path(robot, asked, 1); });
+    return problems.empty() ? std::string("none") : problems.front();
+  };
+  RandomPathSettings tiny = settings();
+  tiny.duration = 3600.0;
+  tiny.distance = 1e-6;
+  tiny.rotation = 0.0;
+  EXPECT_THAT(complaint(tiny), AllOf(HasSubstr("50000 random poses within 1e-06 m and 0 rad"),
+                                     HasSubstr("of 3600 s"), HasSubstr("raise distance, rotation or pause")));
+  RandomPathSettings slow = settings();  // of which none is within the limits
+  slow.limits.translation.velocity = slow.limits.rotation.velocity = 1e-4;
+  slow.workspace.max_distance = 0.0;
+  slow.duration = 3600.0;
+  EXPECT_THAT(complaint(slow), AllOf(HasSubstr("of 3600 s; lower distance, rotation or duration")));
 }
 
 INSTANTIATE_TEST_SUITE_P(Robots, RandomPath,
