@@ -62,8 +62,7 @@ std::string BusLog::shown_refusal(std::string_view line) {
 void tell_bus_log() {
   dds_set_log_sink(
       [](void* told, const dds_log_data_t* data) {
-        const std::string text =
-            visible_text(static_cast<BusLog*>(told)->shown({data->message, data->size}));
+        const std::string text = visible_text(static_cast<BusLog*>(told)->shown({data->message, data->size}));
         std::fwrite(text.data(), 1, text.size(), stderr);
       },
       &log_of_program());

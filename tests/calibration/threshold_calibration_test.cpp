@@ -79,9 +79,8 @@ TEST(Thresholds, ComeFromErrorsOnly) {
       for (const bool by_component : {false, true}) {
         EstimatorPeaks peaks = noise(random, 200);
         for (double& peak : of_moment ? peaks.moment : peaks.force) peak *= scale;
-        EXPECT_THAT(
-            test::problems_of([&] { calibrate_thresholds({peaks}, {.by_component = by_component}); }),
-            ElementsAre(HasSubstr("these recordings hold no errors, as where readings are constant")))
+        EXPECT_THAT(test::problems_of([&] { calibrate_thresholds({peaks}, {.by_component = by_component}); }),
+                    ElementsAre(HasSubstr("these recordings hold no errors, as where readings are constant")))
             << scale;
       }
     }

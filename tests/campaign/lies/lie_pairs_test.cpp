@@ -27,7 +27,9 @@ TEST(PairsOfLies, AreAnsweredInTheWrongMomentToo) {
     if (!problem.empty() || outcome.force > 1.2) fmt::print("{}  {} {}\n", line_of(outcome), problem, reason);
     excused += reason.empty() ? 0 : 1;
     EXPECT_TRUE(outcome.began) << "the gate was not open: " << line_of(outcome);
-    if (reason.empty()) EXPECT_EQ(problem, "") << line_of(outcome);
+    if (reason.empty()) {
+      EXPECT_EQ(problem, "") << line_of(outcome);
+    }
   }
   fmt::print(
       "{} pairs, {} beyond a bound with a reason; at most {:.2f} m/s above the honest run, {:.2f} of its "
