@@ -8,11 +8,15 @@ namespace flinch {
 namespace {
 
 constexpr double pass = 0.3;       // of a low pass, a tick: most noise of second differences is gone
-constexpr double reversed = -1.4;  // k - 1 from which on a torque has the wrong sign
-constexpr double missing = -0.75;  // and from which on little of it is left
+constexpr double reversed = -2.0;  // k - 1 of a torque of the wrong sign
+constexpr double nearly = 0.3;     // by which it may be another one
+constexpr double evenly = 0.06;    // by which the halves of the window may differ then
+constexpr double missing = -0.75;  // k - 1 from which on little of a torque is left
+constexpr double steady = 0.15;    // by which the halves of the window may differ then
 constexpr double along = 0.05;     // share of what is not explained that other causes may have
-constexpr double steady = 0.15;    // by which the two halves of the window may differ
-constexpr double energy = 0.4;     // that an obstacle would have to give within the window [J]
+constexpr double energy = 0.4;     // of what takes the place of the torque, within the window and in all [J]
+constexpr double felt = 0.5;       // of the least torque: what counts as one that is not explained
+constexpr double memory = 0.5;     // of the energy that was taken [s]
 constexpr double period = 1e-3;    // of readings [s]
 constexpr double surely = 10.0;    // of a statistic over its limit, at most
 
@@ -55,9 +59,10 @@ double judge(const ResponseWatch& watch, Eigen::Index drive, double least_torque
   const double young = sum(watch, drive, 0, n / 2).gain_error();
   const double old = sum(watch, drive, n / 2, n).gain_error();
   const double uneven = std::max(std::abs(young - error), std::abs(old - error)) / std::abs(error);
+  const double turned = std::min(over(std::abs(error - reversed), nearly), over(uneven, evenly));
+  const double driven = std::min({given / energy, watch.net[drive] / energy, over(uneven, steady)});
   const double torque = std::sqrt(squares / n) / least_torque;
-  return std::min(
-      {torque, std::max(error / reversed, given / energy), over(elsewhere, along), over(uneven, steady)});
+  return std::min({torque, over(elsewhere, along), std::max(turned, driven)});
 }
 
 }  // namespace
@@ -71,6 +76,7 @@ void advance(ResponseWatch& watch, const JointVector& unexplained, double interv
     watch.count = 0;
     watch.unexplained.setZero();
     watch.torque.setZero();
+    watch.net.setZero();
     return;
   }
   watch.unexplained += pass * (padded(unexplained) / interval - watch.unexplained);
@@ -84,6 +90,9 @@ void advance(ResponseWatch& watch, const JointVector& unexplained, double interv
     now.own[i] = a.col(i).squaredNorm() * watch.torque[i] * watch.torque[i];
     now.shared[i] = watch.torque[i] * a.col(i).dot(watch.unexplained.head(drives));
     now.given[i] = -watch.torque[i] * rates[i];
+    const double strange = a.col(i).dot(watch.unexplained.head(drives)) / a.col(i).squaredNorm();
+    const double power = std::abs(strange) > felt * tick.limits.still_torque ? strange * rates[i] : 0.0;
+    watch.net[i] += interval * (power - watch.net[i] / memory);
   }
   if (watch.count < ResponseWatch::window) return;
   for (Eigen::Index i = 0; i < drives; ++i)

@@ -8,8 +8,8 @@ namespace flinch {
 
 /// What each drive makes of its torque: the motion that the torques do not explain, against the motion that
 /// the torque of this drive should have made. A drive of gain k leaves k - 1 times its own share, along its
-/// own column and at every instant alike. A contact does neither; an obstacle that holds a drive looks like
-/// k = 0, but gives no energy, and never like a negative k for long.
+/// own column and at every instant alike. What is pressed against the link of a drive may look like that,
+/// but gives back less energy than it took, and like a drive of the wrong sign (k = -1) never for long.
 struct ResponseWatch {
   static constexpr std::size_t window = 16;  ///< [ticks]
 
@@ -24,6 +24,7 @@ struct ResponseWatch {
 
   Padded<max_dof> unexplained = Padded<max_dof>::Zero();  ///< low-passed [rad/s^2 or m/s^2]
   Padded<max_dof> torque = Padded<max_dof>::Zero();       ///< likewise [Nm or N]
+  Padded<max_dof> net = Padded<max_dof>::Zero();  ///< energy by what is not explained, lately [J]
   std::array<Tick, window> ticks{};                       ///< a ring
   std::size_t count = 0;                                  ///< in a row
 };

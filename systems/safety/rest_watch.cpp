@@ -21,7 +21,7 @@ constexpr double surely = 5.0;     // standard deviations
 constexpr Time drift_lasts = 1s;   // longer than any stop takes
 constexpr int rest_lasts = 100;    // ticks; a drift that turns seems to rest for less
 constexpr double led_share = 0.3;  // of the power of gravity, were each drive to move with it
-constexpr double slow = 3.0;       // resting rates: a hand may lead a stopped robot so fast
+constexpr double guided = 0.25;    // speed at which a hand may lead a stopped robot [m/s], ISO 10218-1
 constexpr Time longest_blind = 10ms;
 constexpr double energy_left = 0.9;  // share of what it was 6 ms before; damping leaves two thirds
 
@@ -72,7 +72,7 @@ void judge_stop(RestWatch& watch, const PlausibilityTick& tick, const JointVecto
   const double before = watch.energy[watch.energies % ring];
   const bool asked = watch.energies >= ring && tick.now - watch.gate.since > torque_turns;
   watch.energy[watch.energies++ % ring] = energy;
-  if (asked && rates.lpNorm<Eigen::Infinity>() > slow * tick.limits.resting_rate)
+  if (asked && energy > 0.5 * tick.dynamics.M_x(0, 0) * guided * guided)
     note(found, PlausibilityCheck::stop, energy / (energy_left * before), GateFault::stop_ineffective);
 }
 
