@@ -9,10 +9,13 @@ namespace {
 
 constexpr double pass = 0.3;       // of a low pass, a tick: most noise of second differences is gone
 constexpr double reversed = -2.0;  // k - 1 of a torque of the wrong sign
-constexpr double nearly = 0.3;     // by which it may be another one
-constexpr double evenly = 0.06;    // by which the halves of the window may differ then
+constexpr double nearly = 0.2;     // by which it may be another one
+constexpr double roughly = 0.4;    // by which that of a single part may be another one
+constexpr int onset = 5;           // ticks that a drive takes to turn round; a contact grows
+constexpr double evenly = 0.08;    // by which a part of the window may differ from all of it then
+constexpr std::size_t part = 4;    // [ticks]
 constexpr double missing = -0.75;  // k - 1 from which on little of a torque is left
-constexpr double steady = 0.15;    // by which the halves of the window may differ then
+constexpr double steady = 0.15;    // by which a half of the window may differ from all of it then
 constexpr double along = 0.05;     // share of what is not explained that other causes may have
 constexpr double energy = 0.4;     // of what takes the place of the torque, within the window and in all [J]
 constexpr double felt = 0.5;       // of the least torque: what counts as one that is not explained
@@ -41,28 +44,64 @@ Sums sum(const ResponseWatch& watch, Eigen::Index drive, std::size_t from, std::
   return sums;
 }
 
+/// By how much the gain of some ticks in a row differs from that of the whole window, at most; a share of it.
+double unevenness(const ResponseWatch& watch, Eigen::Index drive, std::size_t ticks) {
+  constexpr std::size_t n = ResponseWatch::window;
+  const double error = sum(watch, drive, 0, n).gain_error();
+  double most = 0.0;
+  for (std::size_t from = 0; from < n; from += ticks)
+    most = std::max(most, std::abs(sum(watch, drive, from, from + ticks).gain_error() - error));
+  return most / std::abs(error);
+}
+
 double over(double value, double limit) { return value < limit / surely ? surely : limit / value; }
 
-/// The least of all that must be true of a drive whose torque does something else, each over its limit.
+/// The least of what must be true of a torque of the wrong sign, each over its limit. A drive turns round at
+/// once and stays so; the force of what is pressed against its link grows, and its ratio to the torque with it.
+double turned_round(const ResponseWatch& watch, Eigen::Index drive, double error) {
+  if (watch.strange[drive] - watch.turned[drive] > onset) return 0.0;
+  return std::min(over(std::abs(error - reversed), nearly), over(unevenness(watch, drive, part), evenly));
+}
+
+/// Likewise of a torque of which little is left, whatever it is that drives the robot in its place.
+double driven_otherwise(const ResponseWatch& watch, Eigen::Index drive) {
+  double given = 0.0;
+  for (const ResponseWatch::Tick& tick : watch.ticks) given += tick.given[drive] * period;
+  return std::min({given / energy, watch.net[drive] / energy,
+                   over(unevenness(watch, drive, ResponseWatch::window / 2), steady)});
+}
+
+/// By how surely the torque of a drive does something else; above 1: it does.
 double judge(const ResponseWatch& watch, Eigen::Index drive, double least_torque) {
-  constexpr std::size_t n = ResponseWatch::window;
-  const Sums all = sum(watch, drive, 0, n);
+  const Sums all = sum(watch, drive, 0, ResponseWatch::window);
   const double error = all.gain_error();
   if (error > missing) return 0.0;
-  double squares = 0.0, rest = 0.0, given = 0.0;
+  double squares = 0.0, rest = 0.0;
   for (const ResponseWatch::Tick& tick : watch.ticks) {
     squares += tick.torque[drive] * tick.torque[drive];
     rest += tick.rest;
-    given += tick.given[drive] * period;
   }
   const double elsewhere = rest > 0.0 ? 1.0 - all.shared * all.shared / (all.own * rest) : 0.0;
-  const double young = sum(watch, drive, 0, n / 2).gain_error();
-  const double old = sum(watch, drive, n / 2, n).gain_error();
-  const double uneven = std::max(std::abs(young - error), std::abs(old - error)) / std::abs(error);
-  const double turned = std::min(over(std::abs(error - reversed), nearly), over(uneven, evenly));
-  const double driven = std::min({given / energy, watch.net[drive] / energy, over(uneven, steady)});
-  const double torque = std::sqrt(squares / n) / least_torque;
-  return std::min({torque, over(elsewhere, along), std::max(turned, driven)});
+  const double torque = std::sqrt(squares / static_cast<double>(ResponseWatch::window)) / least_torque;
+  const double otherwise = std::max(turned_round(watch, drive, error), driven_otherwise(watch, drive));
+  return std::min({torque, over(elsewhere, along), otherwise});
+}
+
+/// Takes in what the torque of a drive, with its column a_i of the mobility, did in this tick.
+void take_in(ResponseWatch& watch, Eigen::Index drive, const JointVector& a_i, double rate, double interval,
+             double least_torque) {
+  ResponseWatch::Tick& now = watch.ticks[(watch.count - 1) % ResponseWatch::window];
+  const double torque = watch.torque[drive];
+  const double share = a_i.dot(watch.unexplained.head(a_i.size()));
+  now.own[drive] = a_i.squaredNorm() * torque * torque;
+  now.shared[drive] = torque * share;
+  now.given[drive] = -torque * rate;
+  const double strange = share / a_i.squaredNorm();  // a torque that would explain it [Nm or N]
+  const double power = std::abs(strange) > felt * least_torque ? strange * rate : 0.0;
+  watch.net[drive] += interval * (power - watch.net[drive] / memory);
+  const bool alike = std::abs(sum(watch, drive, 0, part).gain_error() - reversed) < roughly;
+  watch.strange[drive] = std::abs(strange) > least_torque ? watch.strange[drive] + 1 : 0;
+  watch.turned[drive] = alike && watch.strange[drive] > 0 ? watch.turned[drive] + 1 : 0;
 }
 
 }  // namespace
@@ -73,27 +112,16 @@ void advance(ResponseWatch& watch, const JointVector& unexplained, double interv
   const bool known = tick.free && unexplained.size() == drives && torque.size() == drives &&
                      rates.size() == drives && interval > 0.0;
   if (!known) {
-    watch.count = 0;
-    watch.unexplained.setZero();
-    watch.torque.setZero();
-    watch.net.setZero();
+    if (watch.count > 0) watch = ResponseWatch();
     return;
   }
   watch.unexplained += pass * (padded(unexplained) / interval - watch.unexplained);
   watch.torque += pass * (padded(torque) - watch.torque);
-  const PlatformMatrix a = mobility(tick);
   ResponseWatch::Tick& now = watch.ticks[watch.count++ % ResponseWatch::window];
-  now = ResponseWatch::Tick();
-  now.rest = watch.unexplained.squaredNorm();
-  now.torque = watch.torque;
-  for (Eigen::Index i = 0; i < drives; ++i) {
-    now.own[i] = a.col(i).squaredNorm() * watch.torque[i] * watch.torque[i];
-    now.shared[i] = watch.torque[i] * a.col(i).dot(watch.unexplained.head(drives));
-    now.given[i] = -watch.torque[i] * rates[i];
-    const double strange = a.col(i).dot(watch.unexplained.head(drives)) / a.col(i).squaredNorm();
-    const double power = std::abs(strange) > felt * tick.limits.still_torque ? strange * rates[i] : 0.0;
-    watch.net[i] += interval * (power - watch.net[i] / memory);
-  }
+  now = {.torque = watch.torque, .rest = watch.unexplained.squaredNorm()};
+  const PlatformMatrix a = mobility(tick);
+  for (Eigen::Index i = 0; i < drives; ++i)
+    take_in(watch, i, a.col(i), rates[i], interval, tick.limits.still_torque);
   if (watch.count < ResponseWatch::window) return;
   for (Eigen::Index i = 0; i < drives; ++i)
     note(found, PlausibilityCheck::response, judge(watch, i, tick.limits.still_torque),

@@ -11,13 +11,13 @@ namespace flinch {
 /// own column and at every instant alike. What is pressed against the link of a drive may look like that,
 /// but gives back less energy than it took, and like a drive of the wrong sign (k = -1) never for long.
 struct ResponseWatch {
-  static constexpr std::size_t window = 16;  ///< [ticks]
+  static constexpr std::size_t window = 20;  ///< [ticks]
 
   /// Sums of one tick over the drives' accelerations; a_i: what 1 Nm of drive i makes of them.
   struct Tick {
+    Padded<max_dof> torque = Padded<max_dof>::Zero();  ///< tau_i [Nm or N]
     Padded<max_dof> own = Padded<max_dof>::Zero();     ///< (a_i tau_i)^2
     Padded<max_dof> shared = Padded<max_dof>::Zero();  ///< a_i tau_i times what is not explained
-    Padded<max_dof> torque = Padded<max_dof>::Zero();  ///< tau_i [Nm or N]
     Padded<max_dof> given = Padded<max_dof>::Zero();   ///< what takes the place of tau_i gives [W]
     double rest = 0.0;                                 ///< square of what is not explained
   };
@@ -26,6 +26,8 @@ struct ResponseWatch {
   Padded<max_dof> torque = Padded<max_dof>::Zero();       ///< likewise [Nm or N]
   Padded<max_dof> net = Padded<max_dof>::Zero();  ///< energy by what is not explained, lately [J]
   std::array<Tick, window> ticks{};                       ///< a ring
+  std::array<int, max_dof> strange{};  ///< ticks in a row that leave much of a torque unexplained
+  std::array<int, max_dof> turned{};   ///< ticks in a row like those of a torque of the wrong sign
   std::size_t count = 0;                                  ///< in a row
 };
 
