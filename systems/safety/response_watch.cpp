@@ -14,8 +14,9 @@ constexpr double roughly = 0.4;    // by which that of a single part may be anot
 constexpr int onset = 5;           // ticks that a drive takes to turn round; a contact grows
 constexpr double evenly = 0.08;    // by which a part of the window may differ from all of it then
 constexpr std::size_t part = 4;    // [ticks]
-constexpr double missing = -0.75;  // k - 1 from which on little of a torque is left
-constexpr double steady = 0.15;    // by which a half of the window may differ from all of it then
+constexpr double missing = -1.0;   // k - 1 of a torque that is missing
+constexpr double leftover = 0.15;  // by which it may be another one
+constexpr double steady = 0.1;     // by which a part of the window may differ from all of it then
 constexpr double along = 0.05;     // share of what is not explained that other causes may have
 constexpr double energy = 0.4;     // of what takes the place of the torque, within the window and in all [J]
 constexpr double felt = 0.5;       // of the least torque: what counts as one that is not explained
@@ -44,13 +45,13 @@ Sums sum(const ResponseWatch& watch, Eigen::Index drive, std::size_t from, std::
   return sums;
 }
 
-/// By how much the gain of some ticks in a row differs from that of the whole window, at most; a share of it.
-double unevenness(const ResponseWatch& watch, Eigen::Index drive, std::size_t ticks) {
+/// By how much the gain of a part of the window differs from that of all of it, at most; a share of it.
+double unevenness(const ResponseWatch& watch, Eigen::Index drive) {
   constexpr std::size_t n = ResponseWatch::window;
   const double error = sum(watch, drive, 0, n).gain_error();
   double most = 0.0;
-  for (std::size_t from = 0; from < n; from += ticks)
-    most = std::max(most, std::abs(sum(watch, drive, from, from + ticks).gain_error() - error));
+  for (std::size_t from = 0; from < n; from += part)
+    most = std::max(most, std::abs(sum(watch, drive, from, from + part).gain_error() - error));
   return most / std::abs(error);
 }
 
@@ -60,22 +61,22 @@ double over(double value, double limit) { return value < limit / surely ? surely
 /// once and stays so; the force of what is pressed against its link grows, and its ratio to the torque with it.
 double turned_round(const ResponseWatch& watch, Eigen::Index drive, double error) {
   if (watch.strange[drive] - watch.turned[drive] > onset) return 0.0;
-  return std::min(over(std::abs(error - reversed), nearly), over(unevenness(watch, drive, part), evenly));
+  return std::min(over(std::abs(error - reversed), nearly), over(unevenness(watch, drive), evenly));
 }
 
 /// Likewise of a torque of which little is left, whatever it is that drives the robot in its place.
-double driven_otherwise(const ResponseWatch& watch, Eigen::Index drive) {
+double driven_otherwise(const ResponseWatch& watch, Eigen::Index drive, double error) {
   double given = 0.0;
   for (const ResponseWatch::Tick& tick : watch.ticks) given += tick.given[drive] * period;
-  return std::min({given / energy, watch.net[drive] / energy,
-                   over(unevenness(watch, drive, ResponseWatch::window / 2), steady)});
+  return std::min({over(std::abs(error - missing), leftover), over(unevenness(watch, drive), steady),
+                   given / energy, watch.net[drive] / energy});
 }
 
 /// By how surely the torque of a drive does something else; above 1: it does.
 double judge(const ResponseWatch& watch, Eigen::Index drive, double least_torque) {
   const Sums all = sum(watch, drive, 0, ResponseWatch::window);
   const double error = all.gain_error();
-  if (error > missing) return 0.0;
+  if (error > missing + leftover) return 0.0;
   double squares = 0.0, rest = 0.0;
   for (const ResponseWatch::Tick& tick : watch.ticks) {
     squares += tick.torque[drive] * tick.torque[drive];
@@ -83,7 +84,7 @@ double judge(const ResponseWatch& watch, Eigen::Index drive, double least_torque
   }
   const double elsewhere = rest > 0.0 ? 1.0 - all.shared * all.shared / (all.own * rest) : 0.0;
   const double torque = std::sqrt(squares / static_cast<double>(ResponseWatch::window)) / least_torque;
-  const double otherwise = std::max(turned_round(watch, drive, error), driven_otherwise(watch, drive));
+  const double otherwise = std::max(turned_round(watch, drive, error), driven_otherwise(watch, drive, error));
   return std::min({torque, over(elsewhere, along), otherwise});
 }
 

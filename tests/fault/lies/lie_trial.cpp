@@ -190,11 +190,11 @@ LieOutcome try_lie(const LieScene& scene, const std::string& lie, const LieRun& 
 std::string problem_with(const LieOutcome& is) {
   const bool in_time = is.named && is.alarm && *is.alarm <= 50ms;
   if (is.torque > 30.0 && !in_time) return fmt::format("{:.0f} Nm without a name", is.torque);
-  if (is.scene.moment == LieMoment::stop && !is.alarm && is.excess > 0.25)
+  if (is.scene.moment == LieMoment::stop && !is.alarm && is.excess > 0.3)
     return fmt::format("{:.2f} m/s above the honest stop, without brakes", is.excess);
   if (!is.alarm || !is.named) return "";
   const Time patience = is.scene.brakes > 5ms ? 60ms : 30ms;
-  if (is.excess > 0.25) return fmt::format("{:.2f} m/s above the honest run", is.excess);
+  if (is.excess > 0.3) return fmt::format("{:.2f} m/s above the honest run", is.excess);
   if (!is.rest || *is.rest > patience) return "it does not come to rest in time";
   if (is.growth > 5ms) return fmt::format("its energy grows for {} ms", is.growth / 1ms);
   return "";
