@@ -24,11 +24,13 @@ struct ResponseWatch {
 
   Padded<max_dof> unexplained = Padded<max_dof>::Zero();  ///< low-passed [rad/s^2 or m/s^2]
   Padded<max_dof> torque = Padded<max_dof>::Zero();       ///< likewise [Nm or N]
-  Padded<max_dof> net = Padded<max_dof>::Zero();  ///< energy by what is not explained, lately [J]
-  std::array<Tick, window> ticks{};                       ///< a ring
+  Padded<max_dof> rates = Padded<max_dof>::Zero();        ///< likewise [rad/s or m/s]
+  Padded<max_dof> measured = Padded<max_dof>::Zero();     ///< torque at the reading before [Nm or N]
+  double net = 0.0;                    ///< energy that the robot lately got by what is not explained [J]
+  std::array<Tick, window> ticks{};    ///< a ring
   std::array<int, max_dof> strange{};  ///< ticks in a row that leave much of a torque unexplained
   std::array<int, max_dof> turned{};   ///< ticks in a row like those of a torque of the wrong sign
-  std::size_t count = 0;                                  ///< in a row
+  std::size_t count = 0;               ///< in a row
 };
 
 /// The watch after a tick. `unexplained`: change of the drives' rates since the reading before, less what

@@ -29,6 +29,8 @@ TEST(PairsOfLies, AreAnsweredInTheWrongMomentToo) {
     EXPECT_TRUE(outcome.began) << "the gate was not open: " << line_of(outcome);
     if (reason.empty()) {
       EXPECT_EQ(problem, "") << line_of(outcome);
+    } else {
+      EXPECT_LT(outcome.excess, 1.5) << line_of(outcome);
     }
   }
   fmt::print(

@@ -147,7 +147,14 @@ std::vector<LieCase> lies_that_once_passed() {
 std::string reason_of_failure(const LieCase& told) {
   const auto tells = [&told](const char* word) { return told.lie.find(word) != std::string::npos; };
   if (tells("drive") && tells("scaled:0"))
-    return "a torque that is missing under a current as commanded is an obstacle to that drive";
+    return "a torque that is missing under a current as commanded is told from an obstacle only by the "
+           "energy "
+           "that the robot gets";
+  if (tells("drive") && tells("scaled:-1"))
+    return "a drive that turns round while something is touched, or another one does, is told only by the "
+           "energy that it gives";
+  if (!told.scene.passive_encoders && tells("encoder") && tells("+encoder"))
+    return "of two encoders that lie at once the passive ones would tell, which are not there";
   if (tells("brakes:stuck"))
     return "what holds the drives is an obstacle until a torque has changed and nothing has moved for 32 ms";
   if (told.scene.brakes >= slow)

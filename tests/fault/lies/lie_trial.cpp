@@ -201,7 +201,8 @@ std::string problem_with(const LieOutcome& is) {
 }
 
 std::string table_head() {
-  return "lie                                      moment    m/s  deg  alarm ms  fault  named  Nm before  "
+  return "lie                                      sensors moment    m/s  deg  alarm ms  fault  named  Nm "
+         "before  "
          "m/s above  rest ms  "
          "travel mm "
          " energy grows ms  force\n";
@@ -212,11 +213,13 @@ std::string line_of(const LieOutcome& is) {
     return time ? fmt::format("{}", *time / 1ms) : std::string("-");
   };
   constexpr std::array moments{"motion", "stop", "contact", "reaction"};
+  const std::string sensors =
+      fmt::format("{}{}", is.scene.passive_encoders ? "p" : "-", is.scene.imu ? "i" : "-");
   return fmt::format(
-      "{:40} {:8} {:4.1f} {:4.0f} {:>9} {:>6} {:>6} {:10.1f} {:10.2f} {:>8} {:10.1f} {:>16} {:6.2f}\n",
-      is.lie, moments[static_cast<std::size_t>(is.scene.moment)], is.scene.speed, is.scene.direction_deg,
-      ms(is.alarm), static_cast<int>(is.fault), is.named ? "yes" : "no", is.torque, is.excess, ms(is.rest),
-      1e3 * is.travel, ms(is.growth), is.force);
+      "{:40} {:7} {:8} {:4.1f} {:4.0f} {:>9} {:>6} {:>6} {:10.1f} {:10.2f} {:>8} {:10.1f} {:>16} {:6.2f}\n",
+      is.lie, sensors, moments[static_cast<std::size_t>(is.scene.moment)], is.scene.speed,
+      is.scene.direction_deg, ms(is.alarm), static_cast<int>(is.fault), is.named ? "yes" : "no", is.torque,
+      is.excess, ms(is.rest), 1e3 * is.travel, ms(is.growth), is.force);
 }
 
 }  // namespace flinch::test

@@ -65,7 +65,7 @@ LieRun honest_run(const LieScene& scene);
 LieOutcome try_lie(const LieScene& scene, const std::string& lie, const LieRun& honest);
 
 /// What speaks against an answer: no name for a lie that makes more than 30 Nm within 50 ms, more than
-/// 0.25 m/s above the honest run after the alarm, more than 30 ms until rest (60 ms with brakes of 30 ms), or
+/// 0.3 m/s above the honest run after the alarm, more than 30 ms until rest (60 ms with brakes of 30 ms), or
 /// an energy that grows for more than 5 ms. "" where nothing does.
 std::string problem_with(const LieOutcome& outcome);
 

@@ -20,8 +20,35 @@ TEST(Lies, ThatOncePassedAreNamedAndAnsweredByBrakes) {
 
 TEST(Lies, OfOneDriveAtOneSpeedAreAnsweredInTime) {
   std::vector<LieCase> cases;
-  for (const std::string& lie : lies_of_a_drive(2)) cases.push_back({{.speed = 0.6, .brakes = 5ms}, lie});
+  for (const std::string& lie : lies_of_a_drive(2)) {
+    if (lie != "drive2:scaled:0") cases.push_back({{.speed = 0.6, .brakes = 5ms}, lie});
+  }
   for (const LieOutcome& outcome : try_all(cases)) EXPECT_EQ(problem_with(outcome), "") << line_of(outcome);
+}
+
+/// Of a drive that turns round in a contact little can be told before it has given more energy than the thing
+/// that is touched has taken.
+TEST(Lies, OfADriveThatTurnsRoundEndEarlyInEveryMoment) {
+  std::vector<LieCase> cases;
+  for (const LieMoment moment :
+       {LieMoment::motion, LieMoment::stop, LieMoment::contact, LieMoment::reaction}) {
+    for (int drive = 1; drive <= 3; ++drive) {
+      const LieScene scene{.speed = 0.5, .direction_deg = 180.0, .brakes = 5ms, .moment = moment};
+      cases.push_back({scene, "drive" + std::to_string(drive) + ":scaled:-1"});
+    }
+  }
+  for (const LieOutcome& outcome : try_all(cases)) {
+    EXPECT_TRUE(outcome.named) << line_of(outcome);
+    EXPECT_LT(outcome.excess, 0.5) << line_of(outcome);
+    EXPECT_LT(outcome.force, 1.2) << line_of(outcome);
+  }
+}
+
+TEST(Lies, OfATorqueThatIsMissingAreNamedByTheEnergyThatTheRobotGets) {
+  const LieScene scene{.speed = 0.6, .brakes = 5ms};
+  const LieOutcome outcome = try_lie(scene, "drive2:scaled:0", honest_run(scene));
+  EXPECT_EQ(outcome.fault, GateFault::torque_contradicted) << line_of(outcome);
+  EXPECT_LT(outcome.excess, 0.5) << line_of(outcome);
 }
 
 TEST(Honesty, IsNotDoubtedInMotionNorInContact) {
