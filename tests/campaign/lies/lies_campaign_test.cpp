@@ -61,17 +61,37 @@ INSTANTIATE_TEST_SUITE_P(Sensors, FalseAlarms,
                                   "PassiveEncoders" + (mounted.param.imu ? "With" : "Without") + "Imu";
                          });
 
+const std::string folder = FLINCH_SOURCE_DIR "/tests/campaign/lies/";
+
 TEST_P(FalseAlarms, AreNoneInThreeHoursOfDynamicMotion) {
-  const Margins margins =
-      margins_of_campaign(FLINCH_SOURCE_DIR "/tests/campaign/lies/motion.yaml", runs(310), GetParam());
+  const Margins margins = margins_of_campaign(folder + "motion.yaml", runs(310), GetParam());
   fmt::print("motion: {}", margins.table());
   EXPECT_TRUE(margins.alarms.empty());
 }
 
 TEST_P(FalseAlarms, AreNoneInThreeThousandContacts) {
-  const Margins margins =
-      margins_of_campaign(FLINCH_SOURCE_DIR "/tests/campaign/lies/contacts.yaml", runs(3200), GetParam());
+  const Margins margins = margins_of_campaign(folder + "contacts.yaml", runs(3200), GetParam());
   fmt::print("contacts: {}", margins.table());
+  EXPECT_TRUE(margins.alarms.empty());
+}
+
+struct OtherRun {
+  const char* file;
+  std::size_t runs;
+};
+
+class FalseAlarmsOfOthers : public testing::TestWithParam<OtherRun> {};
+
+INSTANTIATE_TEST_SUITE_P(Runs, FalseAlarmsOfOthers,
+                         testing::Values(OtherRun{"contacts_moving", 3200}, OtherRun{"motion_five_bar", 310},
+                                         OtherRun{"contacts_five_bar", 3200}, OtherRun{"motion_hexapod", 310},
+                                         OtherRun{"contacts_hexapod", 3200}),
+                         [](const auto& run) { return std::string(run.param.file); });
+
+TEST_P(FalseAlarmsOfOthers, AreNone) {
+  const Margins margins = margins_of_campaign(folder + GetParam().file + ".yaml",
+                                              std::max<std::size_t>(1, runs(GetParam().runs) / 4), {});
+  fmt::print("{}: {}", GetParam().file, margins.table());
   EXPECT_TRUE(margins.alarms.empty());
 }
 
