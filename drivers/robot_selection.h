@@ -14,7 +14,8 @@ namespace flinch {
 /// Which robot a station commands, of those whose samples arrive. Before it has commanded any it looks for a
 /// while, and takes the one that is there, or that was chosen among them. Where several could be meant it
 /// takes none, and the samples of none count. Once it has taken one it stays with that one, whoever else
-/// appears or leaves.
+/// appears or leaves. Only a robot of the same name that appears after that one has fallen silent, alone, is
+/// taken for it: it was started again. Who chose an identity means this start.
 ///
 /// Any thread may call anything; only robots() allocates, nothing locks. Robots that have been silent for a
 /// second are forgotten where none was taken.
@@ -57,6 +58,7 @@ class RobotSelection {
   };
 
   Candidates candidates(Time now) const noexcept;
+  bool succeeds(const Seen& seen, Time now) noexcept;
   Seen* find(std::uint64_t id) noexcept;
   Seen* place_for(std::uint64_t id, Time now) noexcept;
   bool may_be_meant(std::uint64_t id) const noexcept { return wanted_.empty() || is_meant(wanted_, id); }

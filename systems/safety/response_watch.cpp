@@ -59,15 +59,15 @@ double elsewhere(const ResponseWatch& watch, const Sums& all) {
 }
 
 /// The least of what must be true of a torque of the wrong sign, each over its limit. A drive turns round at
-/// once and stays so; the force of what is pressed against its link grows, and its ratio to the torque with it.
+/// once and stays so; the force of what is pressed against its link grows, with its ratio to the torque.
 double turned_round(const ResponseWatch& watch, Eigen::Index drive, const Sums& all) {
   if (watch.strange[drive] - watch.turned[drive] > onset) return 0.0;
   return std::min({over(std::abs(all.gain_error() - reversed), nearly),
                    over(unevenness(watch, drive), evenly), over(elsewhere(watch, all), along)});
 }
 
-/// Likewise of a drive that is moved against its torque, at every instant alike, by what gives more energy than
-/// it ever took. No thing that the robot runs into does the one, and nothing that runs into it the other.
+/// Likewise of a drive that is moved against its torque, at every instant alike, by what gives more energy
+/// than it ever took. No thing that the robot runs into does the one, nothing that runs into it the other.
 double driven_otherwise(const ResponseWatch& watch, Eigen::Index drive, const Sums& all) {
   double given = 0.0;
   for (const ResponseWatch::Tick& tick : watch.ticks) given += tick.given[drive] * period;

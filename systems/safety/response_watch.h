@@ -6,10 +6,10 @@
 
 namespace flinch {
 
-/// What each drive makes of its torque: the torques that would explain the motion besides those of the drives,
-/// "foreign" ones, against the torque of this drive. A drive of gain k leaves k - 1 times its own torque, at
-/// every instant alike, and nothing at the others. What is pressed against its link may look like that, but
-/// gives back less energy than it took, and like a drive of the wrong sign (k = -1) never for long.
+/// What each drive makes of its torque: the torques that would explain the motion besides those of the
+/// drives, "foreign" ones, against the torque of this drive. A drive of gain k leaves k - 1 times its own
+/// torque, at every instant alike, and nothing at the others. What is pressed against its link may look like
+/// that, but gives back less energy than it took, and like a drive of the wrong sign (k = -1) never for long.
 struct ResponseWatch {
   static constexpr std::size_t window = 20;  ///< [ticks]
 

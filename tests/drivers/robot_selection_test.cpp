@@ -59,6 +59,38 @@ TEST(RobotSelection, StaysWithTheOneItHasTakenWhoeverAppearsOrLeaves) {
   EXPECT_THAT(selection.robots(), SizeIs(2));
 }
 
+TEST(RobotSelection, FindsItsRobotThatWasStartedAgainByItsName) {
+  const std::uint64_t first = draw_robot_id("arm"), again = draw_robot_id("arm"),
+                      other = draw_robot_id("leg");
+  RobotSelection selection("", 300ms);
+  hear(selection, {first}, start, start + 300ms);
+  ASSERT_EQ(selection.take(start + 300ms), first);
+  EXPECT_EQ(hear(selection, {again, other}, start + 400ms, start + 590ms), 0) << "it may only be late";
+  EXPECT_GT(hear(selection, {again, other}, start + 590ms, start + 700ms), 90);
+  EXPECT_EQ(selection.taken(), again);
+  EXPECT_FALSE(selection.admits(first, start + 700ms)) << "it was there before";
+}
+
+TEST(RobotSelection, TakesNoneForItsRobotThatWasThereBeforeOrIsNotAloneOrHasNoName) {
+  const auto taken_of = [](std::uint64_t first, std::initializer_list<std::uint64_t> before,
+                           std::initializer_list<std::uint64_t> after, const std::string& wanted = "") {
+    RobotSelection selection(wanted, 300ms);
+    hear(selection, {first}, start, start + 300ms);
+    EXPECT_EQ(selection.take(start + 300ms), first);
+    hear(selection, before, start + 300ms, start + 310ms);
+    hear(selection, {first}, start + 310ms, start + 320ms);
+    hear(selection, after, start + 400ms, start + 2s);
+    return selection.taken();
+  };
+  const auto arm = [] { return draw_robot_id("arm"); };
+  const std::uint64_t first = arm(), second = arm(), third = arm(), nameless = draw_robot_id();
+  EXPECT_EQ(taken_of(first, {second}, {second}), first) << "a twin that was there all the time";
+  EXPECT_EQ(taken_of(first, {}, {second, third}), first) << "two of them";
+  EXPECT_EQ(taken_of(nameless, {}, {draw_robot_id()}), nameless);
+  EXPECT_EQ(taken_of(first, {}, {second}, robot_id_text(first)), first) << "this start was chosen";
+  EXPECT_EQ(taken_of(first, {}, {second}), second);
+}
+
 TEST(RobotSelection, ForgetsARobotThatLeftBeforeAnyWasTaken) {
   RobotSelection selection("", 300ms);
   hear(selection, {7, 8}, start, start + 100ms);

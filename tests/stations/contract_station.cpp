@@ -96,7 +96,10 @@ class FarEnd {
       : robot_(add_robot_end(builder_, RobotKind::simulated)),
         run_(export_commands()),
         server_(bus, *run_.diagram, robot_.station,
-                {.robot = robot_number, .longest_silence = longest_age, .longest_way = longest_age}) {}
+                {.robot = robot_number,
+                 .longest_silence = longest_age,
+                 .longest_way = longest_age,
+                 .robot_name = "contract"}) {}
 
   void tick(const Damage& damage) {
     run_.context.set(robot_.damage, damage);

@@ -21,8 +21,8 @@ std::vector<std::string> lies_of_all();
 /// thousand.
 std::vector<LieCase> all_lies();
 
-/// Two lies at once, `count` times: of all sorts, in motion, at rest, before a motion, in a stop, in a contact
-/// that has just begun and in the reaction to it; with and without passive encoders and IMU.
+/// Two lies at once, `count` times: of all sorts, in motion, at rest, before a motion, in a stop, in a
+/// contact that has just begun and in the reaction to it; with and without passive encoders and IMU.
 std::vector<LieCase> pairs_of_lies(std::size_t count, std::uint64_t seed);
 
 /// What was once told without being noticed, or answered by torque.

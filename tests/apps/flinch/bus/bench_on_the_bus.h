@@ -16,7 +16,8 @@ namespace flinch::test {
 struct BenchOnTheBus {
   explicit BenchOnTheBus(const std::string& scenario = "platform_collision")
       : scenario_file(place.at("scenarios/" + scenario + ".yaml")),
-        server(flinch_program({"serve", scenario_file, "--domain", domain, "--json", "--duration", "120"})) {}
+        server(flinch_program({"serve", scenario_file, "--robot", "bench", "--domain", domain, "--json",
+                               "--duration", "120"})) {}
 
   /// The arguments of a verb on this bus.
   std::vector<std::string> on_bus(std::vector<std::string> arguments) const {
