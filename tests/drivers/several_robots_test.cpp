@@ -1,5 +1,6 @@
 // Several robots on one bus: whom commands reach.
 #include <dds/dds.h>
+#include <drivers/idl/flinch.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -85,7 +86,7 @@ void expect_each_obeys_its_own(std::size_t robots, unsigned seed) {
 }
 
 TEST(SeveralRobots, ObeyOnlyWhoCommandsThemWhicheverStartsFirst) {
-  for (const std::size_t robots : {2, 3, 5})
+  for (const std::size_t robots : {2u, 3u, 5u})
     expect_each_obeys_its_own(robots, 40 + static_cast<unsigned>(robots));
 }
 

@@ -1,5 +1,5 @@
-// Two lies at once and in the wrong moment: at rest, before a motion, in a stop, in a contact, in the reaction
-// to it. FLINCH_LIE_PAIRS says how many; without it 40.
+// Two lies at once and in the wrong moment: at rest, before a motion, in a stop, in a contact, in its
+// reaction. FLINCH_LIE_PAIRS says how many; without it 40.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
