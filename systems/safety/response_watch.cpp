@@ -61,7 +61,8 @@ double elsewhere(const ResponseWatch& watch, const Sums& all) {
 /// The least of what must be true of a torque of the wrong sign, each over its limit. A drive turns round at
 /// once and stays so; the force of what is pressed against its link grows, with its ratio to the torque.
 double turned_round(const ResponseWatch& watch, Eigen::Index drive, const Sums& all) {
-  if (watch.strange[drive] - watch.turned[drive] > onset) return 0.0;
+  const auto i = static_cast<std::size_t>(drive);
+  if (watch.strange[i] - watch.turned[i] > onset) return 0.0;
   return std::min({over(std::abs(all.gain_error() - reversed), nearly),
                    over(unevenness(watch, drive), evenly), over(elsewhere(watch, all), along)});
 }
@@ -99,9 +100,10 @@ void take_in(ResponseWatch& watch, Eigen::Index drive, const JointVector& leaves
   now.shared[drive] = torque * share;
   now.given[drive] = -torque * watch.rates[drive];
   const bool strange = std::abs(share) > least_torque * leaves.squaredNorm();
-  const bool alike = std::abs(sum(watch, drive, 0, part).gain_error() - reversed) < roughly;
-  watch.strange[drive] = strange ? watch.strange[drive] + 1 : 0;
-  watch.turned[drive] = strange && alike ? watch.turned[drive] + 1 : 0;
+  const bool alike = strange && std::abs(sum(watch, drive, 0, part).gain_error() - reversed) < roughly;
+  const auto i = static_cast<std::size_t>(drive);
+  watch.strange[i] = strange ? watch.strange[i] + 1 : 0;
+  watch.turned[i] = alike ? watch.turned[i] + 1 : 0;
 }
 
 /// Energy that foreign torques gave the robot within an interval; 0 where they may be friction or mass that
