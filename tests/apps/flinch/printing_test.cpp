@@ -95,8 +95,9 @@ TEST(Printing, ShowsNamesOfEveryKindOfInput) {
   place.write("recording.h5", "no " + bad);
   place.write("classifier.onnx", bad);
   place.write(bad + ".yaml", "robot: none.yaml\n");
-  for (const std::string name : {"key.yaml", "file.yaml", "value.yaml", "mapping.yaml", "log.csv",
-                                 "recording.h5", "classifier.onnx", (bad + ".yaml").c_str()}) {
+  const std::vector<std::string> names = {"key.yaml", "file.yaml",    "value.yaml",      "mapping.yaml",
+                                          "log.csv",  "recording.h5", "classifier.onnx", bad + ".yaml"};
+  for (const std::string& name : names) {
     for (const std::string verb : {"check", "run"}) {
       const test::Outcome outcome = test::flinch({verb, place.at(name)});
       EXPECT_EQ(outcome.status, 2) << name;
