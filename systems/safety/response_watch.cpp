@@ -40,54 +40,63 @@ Sums sum(const ResponseWatch& watch, Eigen::Index drive, std::size_t from, std::
 }
 
 /// By how much the gain of a part of the window differs from that of all of it, at most; a share of it.
-double unevenness(const ResponseWatch& watch, Eigen::Index drive) {
-  constexpr std::size_t n = ResponseWatch::window;
-  const double error = sum(watch, drive, 0, n).gain_error();
+double unevenness(const ResponseWatch& watch, Eigen::Index drive, double error) {
   double most = 0.0;
-  for (std::size_t from = 0; from < n; from += part)
+  for (std::size_t from = 0; from < ResponseWatch::window; from += part)
     most = std::max(most, std::abs(sum(watch, drive, from, from + part).gain_error() - error));
   return most / std::abs(error);
 }
 
 double over(double value, double limit) { return value < limit / surely ? surely : limit / value; }
 
-/// What is not explained besides what the torque of a drive leaves; a share of its square.
-double elsewhere(const ResponseWatch& watch, const Sums& all) {
-  double rest = 0.0;
-  for (const ResponseWatch::Tick& tick : watch.ticks) rest += tick.foreign;
-  return rest > 0.0 ? 1.0 - all.shared * all.shared / (all.own * rest) : 0.0;
+/// What the window tells of a drive.
+struct Trace {
+  double error;      ///< of its gain, k - 1
+  double uneven;     ///< see unevenness()
+  double elsewhere;  ///< what is not explained besides what its torque leaves; a share of its square
+  double torque;     ///< root mean square [Nm or N]
+  double given;      ///< what takes the place of its torque gave [J]
+};
+
+Trace trace_of(const ResponseWatch& watch, Eigen::Index drive, const Sums& all) {
+  double squares = 0.0, rest = 0.0, given = 0.0;
+  for (const ResponseWatch::Tick& tick : watch.ticks) {
+    squares += tick.torque[drive] * tick.torque[drive];
+    rest += tick.foreign;
+    given += tick.given[drive] * period;
+  }
+  return {.error = all.gain_error(),
+          .uneven = unevenness(watch, drive, all.gain_error()),
+          .elsewhere = rest > 0.0 ? 1.0 - all.shared * all.shared / (all.own * rest) : 0.0,
+          .torque = std::sqrt(squares / static_cast<double>(ResponseWatch::window)),
+          .given = given};
 }
 
 /// The least of what must be true of a torque of the wrong sign, each over its limit. A drive turns round at
 /// once and stays so; the force of what is pressed against its link grows, with its ratio to the torque.
-double turned_round(const ResponseWatch& watch, Eigen::Index drive, const Sums& all) {
-  const auto i = static_cast<std::size_t>(drive);
-  if (watch.strange[i] - watch.turned[i] > onset) return 0.0;
-  return std::min({over(std::abs(all.gain_error() - reversed), nearly),
-                   over(unevenness(watch, drive), evenly), over(elsewhere(watch, all), along)});
+double turned_round(const ResponseWatch& watch, std::size_t drive, const Trace& is) {
+  if (watch.strange[drive] - watch.turned[drive] > onset) return 0.0;
+  return std::min(
+      {over(std::abs(is.error - reversed), nearly), over(is.uneven, evenly), over(is.elsewhere, along)});
 }
 
 /// Likewise of a drive that is moved against its torque, at every instant alike, by what gives more energy
 /// than it ever took. No thing that the robot runs into does the one, nothing that runs into it the other.
-double driven_otherwise(const ResponseWatch& watch, Eigen::Index drive, const Sums& all) {
-  double given = 0.0;
-  for (const ResponseWatch::Tick& tick : watch.ticks) given += tick.given[drive] * period;
-  const double gives = std::min(given, watch.net);
-  const double uneven = unevenness(watch, drive);
-  const double backward = std::min({all.gain_error() / opposed, gives / energy, over(uneven, steady)});
-  const double missed = std::min({over(std::abs(all.gain_error() - missing), hardly), gives / more_energy,
-                                  over(elsewhere(watch, all), along), over(uneven, steady)});
-  return std::max(backward, missed);
+double driven_otherwise(double net, const Trace& is) {
+  const double gives = std::min(is.given, net);
+  const double backward = std::min(is.error / opposed, gives / energy);
+  const double missed =
+      std::min({over(std::abs(is.error - missing), hardly), gives / more_energy, over(is.elsewhere, along)});
+  return std::min(std::max(backward, missed), over(is.uneven, steady));
 }
 
 /// How surely the torque of a drive does something else; above 1: it does.
 double judge(const ResponseWatch& watch, Eigen::Index drive, double least_torque) {
   const Sums all = sum(watch, drive, 0, ResponseWatch::window);
   if (all.gain_error() > missing + hardly) return 0.0;
-  double squares = 0.0;
-  for (const ResponseWatch::Tick& tick : watch.ticks) squares += tick.torque[drive] * tick.torque[drive];
-  const double torque = std::sqrt(squares / static_cast<double>(ResponseWatch::window)) / least_torque;
-  return std::min(torque, std::max(turned_round(watch, drive, all), driven_otherwise(watch, drive, all)));
+  const Trace is = trace_of(watch, drive, all);
+  const double turned = turned_round(watch, static_cast<std::size_t>(drive), is);
+  return std::min(is.torque / least_torque, std::max(turned, driven_otherwise(watch.net, is)));
 }
 
 /// Takes in what the torque of a drive did in this tick. `leaves`: what the lack of 1 Nm of it leaves at each
@@ -132,11 +141,12 @@ void advance(ResponseWatch& watch, const JointVector& unexplained, double interv
   watch.foreign += pass * (padded(foreign) - watch.foreign);
   watch.torque += pass * (padded(torque) - watch.torque);
   watch.rates += pass * (padded(rates) - watch.rates);
-  const bool measured = tick.torque.valid && tick.torque.torque.size() == drives;
-  if (watch.count == 0) watch.measured = padded(measured ? tick.torque.torque : torque);
+  const bool is_measured = tick.torque.valid && tick.torque.torque.size() == drives;
+  const Padded<max_dof> measured = padded(is_measured ? tick.torque.torque : torque);
+  if (watch.count == 0) watch.measured = measured;
   watch.net += foreign_energy(watch, foreign, interval, torque, rates, least_torque);
   watch.net -= interval / memory * watch.net;
-  watch.measured = padded(measured ? tick.torque.torque : torque);
+  watch.measured = measured;
   ResponseWatch::Tick& now = watch.ticks[watch.count++ % ResponseWatch::window];
   now = {.torque = watch.torque, .foreign = watch.foreign.squaredNorm()};
   const PlatformMatrix leaves = (tick.kinematics.J_qa_x * J).transpose();
