@@ -31,7 +31,7 @@ JointVector friction_at(const ParallelRobot& robot, double rate) {
   const PlatformVector velocity = kinematics.J_x_qa * JointVector::Constant(robot.drives(), rate);
   robot.kinematics(robot.home_pose(), velocity, kinematics);
   robot.dynamics(kinematics, dynamics);
-  return kinematics.J_x_qa.transpose() * dynamics.F_fr_x;
+  return joint_space_dynamics(kinematics, dynamics).tau_fr_qa;
 }
 
 /// Largest Coulomb friction of a drive: what is left of friction where its viscous part is taken out.

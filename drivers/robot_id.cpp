@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::size_t id_digits = 16;
 
+std::uint64_t name_half(std::uint64_t id) { return id >> 32; }
+
 bool is_hexadecimal(char letter) {
   return (letter >= '0' && letter <= '9') || (letter >= 'a' && letter <= 'f');
 }
@@ -32,8 +34,12 @@ std::uint64_t draw_robot_id(std::string_view name) {
   return upper << 32 | draw_session();
 }
 
+bool have_one_name(std::uint64_t id, std::uint64_t other) noexcept {
+  return name_half(id) == name_half(other);
+}
+
 bool is_meant(std::string_view wanted, std::uint64_t id) noexcept {
-  if (!is_robot_id(wanted)) return robot_hash(wanted) == id >> 32;
+  if (!is_robot_id(wanted)) return robot_hash(wanted) == name_half(id);
   std::uint64_t number = 0;
   std::from_chars(wanted.data(), wanted.data() + wanted.size(), number, 16);
   return number == id;

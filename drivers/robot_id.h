@@ -23,6 +23,10 @@ bool is_robot_id(std::string_view text) noexcept;
 /// writes it.
 bool is_meant(std::string_view wanted, std::uint64_t id) noexcept;
 
+/// Whether two identities have their upper halves in common: those of two starts of one robot do, where it
+/// has a name.
+bool have_one_name(std::uint64_t id, std::uint64_t other) noexcept;
+
 /// Sixteen hexadecimal digits.
 std::string robot_id_text(std::uint64_t id);
 

@@ -49,7 +49,7 @@ bool RobotSelection::admits(std::uint64_t id, Time now) noexcept {
   if (seen == nullptr) return id == taken();
   if (is_gone(seen->last_ns.exchange(now.count()), now)) seen->first_ns = now.count();
   std::uint64_t before = taken();
-  if (before != 0 && id != before && succeeds(*seen, now)) taken_.compare_exchange_strong(before, id);
+  if (before != 0 && id != before && succeeds(*seen, before, now)) taken_.compare_exchange_strong(before, id);
   if (taken() != 0) return id == taken();
   const Candidates found = candidates(now);
   return found.count == 1 && found.id == id;
@@ -76,18 +76,18 @@ RobotSelection::Candidates RobotSelection::candidates(Time now) const noexcept {
   return found;
 }
 
-/// Whether a robot is the one that was taken, started again. Of one without a name nothing tells so.
-bool RobotSelection::succeeds(const Seen& seen, Time now) noexcept {
-  const auto name_half = [](std::uint64_t id) { return id >> 32; };
+/// Whether a robot is `before`, which was taken, started again. Of one without a name nothing tells so.
+bool RobotSelection::succeeds(const Seen& seen, std::uint64_t before, Time now) noexcept {
   const std::uint64_t id = seen.id.load();
-  const Seen* const before = find(taken());
-  if (before == nullptr || is_robot_id(wanted_) || name_half(id) != name_half(taken())) return false;
-  const std::int64_t end_ns = before->last_ns.load();
+  if (is_robot_id(wanted_) || !have_one_name(id, before)) return false;
+  const Seen* const silent = find(before);
+  if (silent == nullptr) return false;
+  const std::int64_t end_ns = silent->last_ns.load();
   const bool after = seen.first_ns.load() > end_ns && now - Time(end_ns) > discovery_;
   return after && std::none_of(seen_.begin(), seen_.end(), [&](const Seen& other) {
            const std::uint64_t another = other.id.load();
            const bool there = other.last_ns.load() > end_ns && !is_gone(other.last_ns.load(), now);
-           return another != id && name_half(another) == name_half(id) && there;
+           return another != id && have_one_name(another, id) && there;
          });
 }
 

@@ -58,7 +58,7 @@ class RobotSelection {
   };
 
   Candidates candidates(Time now) const noexcept;
-  bool succeeds(const Seen& seen, Time now) noexcept;
+  bool succeeds(const Seen& seen, std::uint64_t before, Time now) noexcept;
   Seen* find(std::uint64_t id) noexcept;
   Seen* place_for(std::uint64_t id, Time now) noexcept;
   bool may_be_meant(std::uint64_t id) const noexcept { return wanted_.empty() || is_meant(wanted_, id); }

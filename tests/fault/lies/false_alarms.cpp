@@ -36,11 +36,15 @@ void Margins::add(const Margins& other) {
   for (std::size_t i = 0; i < largest.size(); ++i) largest[i] = std::max(largest[i], other.largest[i]);
 }
 
-std::string Margins::table() const {
+int Margins::false_alarms() const {
   int all = 0;
   for (const auto& [fault, count] : alarms) all += count;
+  return all;
+}
+
+std::string Margins::table() const {
   std::string text = fmt::format("{} runs, {:.2f} h, {} with contacts of up to {:.0f} N, {} false alarms",
-                                 runs, seconds / 3600.0, touched, peak_force, all);
+                                 runs, seconds / 3600.0, touched, peak_force, false_alarms());
   for (const auto& [fault, count] : alarms)
     text += fmt::format(" (fault {}: {})", static_cast<int>(fault), count);
   text += "\n";

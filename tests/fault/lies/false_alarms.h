@@ -29,6 +29,7 @@ struct Margins {
   std::array<double, plausibility_checks> largest{};  ///< statistic over threshold
 
   void add(const Margins& other);
+  int false_alarms() const;
   std::string table() const;
 };
 
