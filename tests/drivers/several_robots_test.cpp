@@ -143,18 +143,39 @@ TEST(SeveralRobots, LeaveARunAloneInWhichAnotherAppears) {
   EXPECT_EQ(near.dds().link().robot_id, first.far.server().robot_id());
 }
 
+/// A station that commands `first` when that robot falls silent, and then sees another robot.
+struct AfterTheFirst {
+  AfterTheFirst(const std::string& first_name, const std::string& second_name)
+      : bus({.domain = test::free_domain()}) {
+    auto first = std::make_unique<NotingRobot>(bus, first_name);
+    near = std::make_unique<NearEnd>(bus, link_robot);
+    near->run([&] { return first->released > 100 || too_long(*near); });
+    EXPECT_GT(first->released, 100);
+    first.reset();
+    second = std::make_unique<NotingRobot>(bus, second_name);
+  }
+
+  DdsBus bus;
+  std::unique_ptr<NearEnd> near;
+  std::unique_ptr<NotingRobot> second;
+};
+
 TEST(SeveralRobots, TakeNoOneElsesPlaceWhenTheirsIsGone) {
-  const DdsBus bus({.domain = test::free_domain()});
-  auto first = std::make_unique<NotingRobot>(bus, "arm");
-  NearEnd near(bus, link_robot, "arm");
-  near.run([&] { return first->released > 100 || too_long(near); });
-  ASSERT_GT(first->released, 100);
-  first.reset();
-  NotingRobot second(bus, "arm");
-  near.run([&] { return second.for_others > 1500 || too_long(near); });
-  EXPECT_GT(second.for_others, 1500u) << "the station commands on";
-  EXPECT_EQ(second.commander, 0u);
-  EXPECT_EQ(second.released, 0);
+  for (const auto& [first, second] : {std::pair("left", "right"), std::pair("", "")}) {
+    AfterTheFirst then(first, second);
+    then.near->run([&] { return then.second->for_others > 1500 || too_long(*then.near); });
+    EXPECT_GT(then.second->for_others, 1500u) << "the station commands on";
+    EXPECT_EQ(then.second->commander, 0u);
+    EXPECT_EQ(then.second->released, 0);
+  }
+}
+
+TEST(SeveralRobots, AreFoundAgainByTheNameUnderWhichTheyAreStartedAgain) {
+  AfterTheFirst then("arm", "arm");
+  const auto obeyed = [&] { return then.second->commander == then.near->dds().session(); };
+  then.near->run([&] { return obeyed() || too_long(*then.near); });
+  EXPECT_TRUE(obeyed());
+  EXPECT_EQ(then.near->dds().link().robot_id, then.second->far.server().robot_id());
 }
 
 /// Commands of no torque, the way in which everybody may begin, that name a robot.
