@@ -5,7 +5,7 @@ option(FLINCH_BUILD_MPI "Campaigns of many programs under mpirun (needs MPI)" ON
 option(FLINCH_BUILD_DRIVERS "Robots on the bus (left out where Cyclone DDS is not found)" ON)
 option(FLINCH_BUILD_APPS "The flinch program and the examples" ${PROJECT_IS_TOP_LEVEL})
 option(FLINCH_BUILD_TESTS "Tests and benchmarks" ${PROJECT_IS_TOP_LEVEL})
-option(FLINCH_BUNDLE_TESTS "Tests compiled several at a time, which takes half as long" ON)
+option(FLINCH_BUNDLE "Sources compiled several at a time, which takes half as long (needs Python)" ON)
 option(FLINCH_DEVELOPER "Warnings, and errors of them but in a release" ${PROJECT_IS_TOP_LEVEL})
 option(FLINCH_ASSERTIONS "assert(), Eigen's and the standard library's checks, in every build type" OFF)
 option(FLINCH_FUZZ "Fuzz targets of the readers (needs clang)" OFF)

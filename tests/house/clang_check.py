@@ -17,6 +17,8 @@ import shlex
 import subprocess
 import sys
 import tree
+
+sys.path.append(str(tree.ROOT / "cmake"))
 from bundles import clash, own_names
 
 COMPILER_ONLY = ("tests/",)

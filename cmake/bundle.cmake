@@ -1,0 +1,25 @@
+# flinch_bundle(<target> <largest> <source>...): compiles up to so many sources of a target together.
+#
+# Most of the time goes into the headers and templates that sources have in common, so those that have no name of their own
+# in common stand in one translation unit. Where an edit brings two of one name together, `cmake --preset dev` parts them.
+# Groups are named after the target: a source that two of them share is in those of its own folder only. -Wshadow would
+# complain of names of different sources, and g++ 12 warns wrongly of use after free in Eigen; clang's preset does without.
+find_package(Python3 COMPONENTS Interpreter)
+
+function(flinch_bundle target largest)
+  if(NOT FLINCH_BUNDLE OR NOT Python3_Interpreter_FOUND)
+    return()
+  endif()
+  execute_process(COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/cmake/bundles.py ${largest} ${ARGN}
+                  WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} OUTPUT_VARIABLE lines COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX MATCHALL "[^\n]+" lines "${lines}")
+  while(lines)
+    list(POP_FRONT lines number file)
+    set_source_files_properties(${file} PROPERTIES UNITY_GROUP ${target}_${number})
+  endwhile()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  target_compile_options(${target} PRIVATE
+    $<$<COMPILE_LANGUAGE:CXX>:-Wno-shadow>
+    $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-use-after-free -Wno-subobject-linkage>)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/bundles.py)
+endfunction()
