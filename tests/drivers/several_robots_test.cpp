@@ -1,5 +1,5 @@
-// Several robots on one bus: whom commands reach. Programs are started once with keys and without; FLINCH_ROBOT_STARTS says how
-// often instead.
+// Several robots on one bus: whom commands reach. Programs are started once with keys and once without;
+// FLINCH_ROBOT_STARTS says how often instead.
 #include <dds/dds.h>
 #include <drivers/idl/flinch.h>
 #include <gmock/gmock.h>
