@@ -9,6 +9,7 @@
 #include "experiments/bus/names.h"
 #include "experiments/recorded/recorded_signals.h"
 #include "experiments/scenario/scenario.h"
+#include "experiments/verdict/check_words.h"
 #include "experiments/verdict/fault_words.h"
 #include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/setup_error.h"
@@ -156,13 +157,19 @@ Tidings LiveRun::watch() {
   std::string said;
   if (std::exchange(refusals_told_, now.refusals.count) != now.refusals.count)
     said = fmt::format("error: {}\n", sentence(now.refusals.last));
+  std::string noted;
+  if (!checks_told_ && now.gate.passes()) {
+    checks_told_ = true;
+    for (const std::string& check : checks_off(now.askable)) noted += "check off: " + check + "\n";
+  }
   return {fmt::format("{}; gate {}{}; drives: {}", name(now.mode), phases[static_cast<int>(now.gate.phase)],
                       fault.empty() ? "" : ": " + fault, name(now.link.drive_state)),
           fmt::format("at {:.1f}{} s, force {:.0f} N, round trip {:.0f} us, lost {}, refused {}",
                       to_seconds(now.time), end, now.force, 1e6 * to_seconds(now.link.round_trip),
                       now.link.lost, now.link.refused),
           {},
-          said};
+          said,
+          noted};
 }
 
 /// By its own motion or by its brakes.

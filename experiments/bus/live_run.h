@@ -111,6 +111,7 @@ class LiveRun {
   DriveWish wish_;
   bool was_left_ = false;
   std::uint32_t refusals_told_ = 0;
+  bool checks_told_ = false;
   std::unique_ptr<RealtimeThread> thread_;
   RealtimeReport granted_;
   Time end_{};

@@ -12,6 +12,7 @@ OperatorPanel::OperatorPanel(const LiveExperiment& experiment, const ContactCont
       reaction_(experiment.diagram->slot(experiment.control.reaction_state)),
       gate_(experiment.diagram->slot(experiment.control.gate)),
       wrench_(experiment.diagram->slot(experiment.control.wrench_estimate)),
+      plausibility_(experiment.diagram->slot(experiment.control.plausibility)),
       translations_(experiment.translations),
       orders_(experiment, control) {}
 
@@ -24,11 +25,13 @@ void OperatorPanel::set_inputs(Context& context) {
 void OperatorPanel::take_outputs(const Context& context) {
   orders_.see(context);
   const WrenchEstimate& wrench = context[wrench_];
+  askable_ |= context[plausibility_].askable;
   LiveState now;
   now.time = context.time();
   now.mode = context[reaction_].mode;
   now.gate = context[gate_];
   if (wrench.valid) now.force = wrench.wrench_in_base.head(translations_).norm();
+  now.askable = askable_;
   now.link = station_.link();
   now.refusals = orders_.refusals();
   states_.publish(now);

@@ -15,7 +15,8 @@ struct LiveState {
   Time time{};
   ReactionMode mode = ReactionMode::stopped;
   GateStatus gate;
-  double force = 0.0;  ///< of the estimate, a norm [N]
+  double force = 0.0;     ///< of the estimate, a norm [N]
+  CheckMask askable = 0;  ///< of sensors and drives at any tick since the stop button was released
   DdsLink link;
   Refusals refusals;  ///< of an operator's orders
 };
@@ -31,7 +32,10 @@ class OperatorPanel final : public Exchange {
 
   /// The stop button is down from the start until it is released, and again once it is pressed or somebody
   /// has interrupted the program. Of the loop's thread.
-  void release_stop() noexcept { stop_ = false; }
+  void release_stop() noexcept {
+    stop_ = false;
+    askable_ = 0;
+  }
   void press_stop() noexcept { stop_ = true; }
 
   OrderDesk& orders() noexcept { return orders_; }
@@ -49,8 +53,10 @@ class OperatorPanel final : public Exchange {
   Slot<ReactionState> reaction_;
   Slot<GateStatus> gate_;
   Slot<WrenchEstimate> wrench_;
+  Slot<Plausibility> plausibility_;
   int translations_;
   bool stop_ = true;
+  CheckMask askable_ = 0;
   OrderDesk orders_;
   TripleBuffer<LiveState> states_;
   LiveState last_;

@@ -260,6 +260,7 @@ Report experiment_report(const Scenario& scenario, const Recording& recording, c
   report.good = verdict.good();
   report.reasons = verdict.failures;
   report.remarks = verdict.remarks;
+  report.checks_off = verdict.checks_off;
   report.fault = verdict.fault;
   report.contacts_known = verdict.witness != Witness::none;
   for (const ContactVerdict& contact : verdict.contacts)

@@ -109,10 +109,11 @@ struct Report {
   std::string subtitle;  ///< What was tried, in one sentence: which observer, which reaction.
   std::string note;      ///< A caveat to be read before anything else; empty: none.
   bool good = false;
-  std::vector<std::string> reasons;  ///< Why it is not good, one sentence each.
-  std::vector<std::string> remarks;  ///< What a reader must know of a good one as well, likewise.
-  std::string fault;                 ///< Why the robot was stopped; empty: it was not.
-  bool contacts_known = true;        ///< Somebody saw what touched the robot: no contacts means none.
+  std::vector<std::string> reasons;     ///< Why it is not good, one sentence each.
+  std::vector<std::string> remarks;     ///< What a reader must know of a good one as well, likewise.
+  std::vector<std::string> checks_off;  ///< What of sensors and drives could not be checked, likewise.
+  std::string fault;                    ///< Why the robot was stopped; empty: it was not.
+  bool contacts_known = true;           ///< Somebody saw what touched the robot: no contacts means none.
   std::vector<ReportContact> contacts;
   std::vector<ReportMeasure> measures;
 

@@ -126,6 +126,7 @@ std::string report_json(const Report& report) {
                      {"good", report.good},
                      {"reasons", report.reasons},
                      {"remarks", report.remarks},
+                     {"checks_off", report.checks_off},
                      {"fault", report.fault},
                      {"contacts_known", report.contacts_known},
                      {"contacts", encode_all(report.contacts)},

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "systems/signals/imu_doubt.h"
+#include "systems/signals/plausibility.h"
 
 namespace flinch {
 
@@ -13,6 +14,16 @@ struct RecordedDoubts {
   static void fields(Self& self, Visit&& visit) {
     visit("imu_doubt", "", self.imu);
     visit("passive_lost", "", self.passive_lost);
+  }
+};
+
+/// Which questions to sensors and drives could be asked. Recordings of versions before do not tell.
+struct RecordedAskable {
+  CheckMask askable = 0;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("askable", "", self.askable);
   }
 };
 

@@ -185,6 +185,7 @@ struct RecordedRun::Signals {
     if (records(recording, "contact", "self_contact")) self_contact.emplace(recording, "contact");
     if (records(recording, "contact", "self_body")) self_bodies.emplace(recording, "contact");
     if (records(recording, "plausibility", "imu_doubt")) doubts.emplace(recording, "plausibility");
+    if (records(recording, "plausibility", "askable")) askable.emplace(recording, "plausibility");
     if (recording.find("tick_timing") != nullptr) timing.emplace(recording, "tick_timing");
     if (recording.find("joints_link") != nullptr) joints_link.emplace(recording, "joints_link");
     if (witness == Witness::truth) {
@@ -203,6 +204,7 @@ struct RecordedRun::Signals {
   RecordedValues<PlatformReference> reference;
   RecordedValues<GateStatus> gate;
   std::optional<RecordedValues<RecordedDoubts>> doubts;
+  std::optional<RecordedValues<RecordedAskable>> askable;
   std::vector<std::string> class_names;  // of what can be touched
   std::optional<RecordedValues<RecordedClassification>> classification;
   std::optional<RecordedValues<RecordedResidual>> residual;
@@ -296,6 +298,7 @@ RunSample RecordedRun::operator[](std::size_t sample) const {
   const bool is_noticed = now.detection.level != ContactLevel::none;
   if (signals.braking && is_noticed) now.braking = (*signals.braking)[sample];
   if (signals.doubts) now.doubts = (*signals.doubts)[sample];
+  if (signals.askable) now.askable = (*signals.askable)[sample].askable;
   if (signals.timing) now.lost_ticks = static_cast<int>((*signals.timing)[sample].lost_periods);
   if (signals.joints_link) now.unread_readings = static_cast<int>((*signals.joints_link)[sample].skipped);
   signals.add_classification(sample, now);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "experiments/verdict/check_words.h"
 #include "experiments/verdict/contact_watch.h"
 #include "experiments/verdict/fault_words.h"
 #include "experiments/verdict/return_watch.h"
@@ -144,6 +145,7 @@ struct RunWatch::Parts {
   DetectionWatch detections;
   FaultWatch faults;
   ReturnWatch returns;
+  std::optional<CheckMask> askable;  ///< at any sample
   bool was_touched = false, gate_opens = false;
   GateStatus gate;
   std::optional<double> first;  ///< sample [s]
@@ -178,6 +180,7 @@ void RunWatch::see(const RunSample& now) {
     verdict.imu_doubt = now.doubts.imu;
     verdict.imu_doubted = now.time;
   }
+  if (now.askable) so_far.askable = so_far.askable.value_or(0) | *now.askable;
   if (!verdict.passive_lost && now.doubts.passive_lost) verdict.passive_lost = now.time;
   if (!so_far.first) so_far.first = now.time;
   so_far.last = now.time;
@@ -187,6 +190,7 @@ Verdict RunWatch::seen() const {
   Verdict verdict = parts_->verdict;
   verdict.contacts = parts_->contacts.contacts();
   verdict.returned = parts_->returns.seen();
+  if (parts_->askable) verdict.checks_off = checks_off(*parts_->askable);
   if (!parts_->first) return verdict;
   verdict.simulated = parts_->last - *parts_->first + parts_->period;
   if (!parts_->gate_opens) {

@@ -169,6 +169,9 @@ struct Verdict {
   std::optional<Return> returned;      ///< none: no operator has reset an interrupted robot
   std::optional<double> passive_lost;  ///< when the passive encoders were lost [s]; none: they were not
   double simulated = 0.0;              ///< [s]
+  /// What could not be asked of sensors and drives at any time, one sentence each; empty: everything could,
+  /// or the recording does not tell.
+  std::vector<std::string> checks_off;
 
   std::vector<std::string> failures;  ///< why the verdict is bad, one sentence each; empty: it is good
   std::vector<std::string> remarks;   ///< what a reader must know of a good verdict as well, likewise

@@ -181,6 +181,14 @@ std::string no_contact_line(const Verdict& verdict) {
   return "no instrument saw what touched the robot; noticed at:" + (times.empty() ? " never" : times) + "\n";
 }
 
+/// What nobody could ask of sensors and drives, above all the rest.
+std::string checks_off_lines(const Verdict& verdict) {
+  std::string lines;
+  for (const std::string& check : verdict.checks_off)
+    lines += fmt::format("{:<18} {}\n", lines.empty() ? "checks off" : "", check);
+  return lines.empty() ? "" : lines + "\n";
+}
+
 Json robot_json(const RunFacts& facts) {
   if (facts.robot.empty()) return nullptr;
   Json robot = Json::object();
@@ -221,7 +229,8 @@ const char* name(Witness witness) {
 }  // namespace
 
 std::string verdict_table(const Verdict& verdict, const RunFacts& facts) {
-  std::string text =
+  std::string text = checks_off_lines(verdict);
+  text +=
       fmt::format("{:<15} {:>8} {:>6} {:>10} {:>10} {:>8} {:>8}  {:<12} {:>8}  {}\n", "contact with", "at s",
                   "m/s", "noticed ms", "removed ms", "peak N", "limit N", "kind", "above ms", "within");
   for (const ContactVerdict& contact : verdict.contacts) {
@@ -271,6 +280,7 @@ std::string verdict_json(const Verdict& verdict, const RunFacts& facts) {
       {"passive_encoders_lost_s", verdict.passive_lost ? Json(*verdict.passive_lost) : Json(nullptr)},
       {"returned", return_json(verdict.returned)},
       {"fault", verdict.fault},
+      {"checks_off", verdict.checks_off},
       {"failures", verdict.failures},
       {"remarks", verdict.remarks}};
   return json_text(json);

@@ -90,7 +90,7 @@ PlatformVector opening_way(double passive, const PlatformVector& rate) {
   return Eigen::Vector2d(-s * retreat, -2.0 * s);
 }
 
-/// The force that acts on a second link across its axis; empty where it is too weak to go by.
+/// The force that acts on a link across its axis; empty where it is too weak to go by.
 CartesianVector force_across(const Kinematics& at, BodyId link, const CartesianVector& force) {
   const Segment axis = link_segment(at, link);
   const CartesianVector along = (axis.end - axis.begin).normalized();
@@ -148,17 +148,19 @@ void ReactionTask::classify(const Kinematics& at, const WrenchEstimate& contact,
     return;
   }
   const BodyId body = ContactClasses::body(touched.most_likely);
-  if (body.is_link1()) {
+  if (body.is_link1() && robot_->drive_kind(plan.leg) == DriveKind::revolute) {
     const double load = contact.drive_torque.size() > plan.leg ? contact.drive_torque[plan.leg] : 0.0;
     if (!(std::abs(load) >= settings_.load_to_go_by)) return;
     const bool clamps = is_closing(at, plan.leg) && load * at.joints.passive[plan.leg] < 0.0;
     plan.kind = clamps ? ReactionKind::opening : ReactionKind::first_link;
     return;
   }
-  if (body.is_link2()) {
+  if (!body.is_platform()) {
     const bool placed = place.valid && place.body == body.index() && place.force_in_base.size() == directions;
-    plan.point_in_body = robot_->axis_point(body, placed ? place.fraction : 0.5);
-    force = placed ? place.force_in_base : force_across(at, body, force);
+    const double fraction = body.is_link1() ? 1.0 : (placed ? place.fraction : 0.5);
+    plan.point_in_body = robot_->axis_point(BodyId::link2(plan.leg), fraction);
+    if (placed) force = place.force_in_base;
+    if (!placed || body.is_link1()) force = force_across(at, body, force);
   }
   if (!(force.norm() >= settings_.force_to_go_by)) return;
   plan.kind = body.is_platform() ? ReactionKind::platform : ReactionKind::second_link;
@@ -259,9 +261,7 @@ void ReactionTask::move(Time now, const Task& task, const PlatformVector& rate,
 
 void ReactionTask::begin(Time now, const Kinematics& at, const Dynamics& model, const WrenchEstimate& contact,
                          ReactionPlan& plan) const {
-  plan.begin = now;
-  plan.touched = now;
-  plan.unpressed = now;
+  plan.begin = plan.touched = plan.unpressed = now;
   const Task task = task_of(plan, at);
   if (!task.valid || !model.valid) {
     plan.kind = ReactionKind::brake;

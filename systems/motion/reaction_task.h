@@ -28,7 +28,7 @@ struct ReactionPlan {
 
   ReactionKind kind = ReactionKind::brake;
   int leg = -1;                   ///< of a link or clamping
-  CartesianVector point_in_body;  ///< of a second link
+  CartesianVector point_in_body;  ///< of the second link that moves
   CartesianVector direction;      ///< of the force; empty where both directions are a task
   PlatformVector way;         ///< of the two joints of a leg that opens, for 1 rad of `opened`; of a retreat
   Configuration from;         ///< pose at which a retreat begins
@@ -65,6 +65,10 @@ inline constexpr bool never_allocates<ReactionPlan> =
 /// limit or a contact may have kept the robot from it: its place is held, position before orientation. A
 /// robot that is only braked yields until nothing was felt for `released_for`, and then holds its place.
 /// (Derived.)
+///
+/// A drive that slides does not turn the first link of its leg. Touched there, the leg gives way by its far
+/// end, which moves along the force as far as it acts across the leg: what is touched goes the same way, less
+/// far. (Derived.)
 ///
 /// A link of a leg that closes, touched from between its links, is answered by opening too. What is still
 /// felt after the motion, or lies on its way, is given way to anew, half as far and half as fast. Whoever is

@@ -55,12 +55,12 @@ void judge_change(AngleWatch& watch, const PlausibilityTick& tick, Plausibility&
 /// Third differences of an angle whose noise is gone. Where there never was much there is nothing to miss.
 void judge_quiet(AngleWatch& watch, const PlausibilityTick& tick, Plausibility& found) {
   const auto& [a, b, c, d] = watch.angle;
-  const double least = 0.5 * 0.1 * tick.limits.drive_acceleration * period;
   for (Eigen::Index i = 0; i < d.size(); ++i) {
     int& ticks = watch.quiet[static_cast<std::size_t>(i)];
     const double noise = watch.change.deviation(i, 0.0);
     const double third = std::abs(d[i] - 3.0 * c[i] + 3.0 * b[i] - a[i]) / period;
-    ticks = noise > least && third < tick.limits.quiet * noise ? ticks + 1 : 0;
+    const bool is_quiet = watch.is_noisy(i, tick.limits) && third < tick.limits.quiet * noise;
+    ticks = is_quiet ? ticks + 1 : 0;
     note(found, PlausibilityCheck::quiet_angle, ticks / (tick.limits.quiet_ticks - 0.5),
          GateFault::encoder_frozen, static_cast<int>(i));
   }
@@ -89,6 +89,10 @@ double AngleWatch::angle_noise(Eigen::Index drive, const PlausibilityLimits& lim
   return change.deviation(drive, 0.1 * limits.drive_acceleration * period) * period / std::sqrt(6.0);
 }
 
+bool AngleWatch::is_noisy(Eigen::Index drive, const PlausibilityLimits& limits) const noexcept {
+  return change.deviation(drive, 0.0) > 0.5 * 0.1 * limits.drive_acceleration * period;
+}
+
 JointVector AngleWatch::rates() const noexcept {
   if (readings < 3) return {};
   return (angle[3] - angle[1]) / (interval[3] + interval[2]);
@@ -105,7 +109,7 @@ void advance(AngleWatch& watch, const PlausibilityTick& tick, const JointVector&
     watch.change.add(change);
     watch.residuals = 0;
   }
-  if (watch.readings == 4 && watch.change.known()) judge_quiet(watch, tick, found);
+  if (watch.readings == 4) judge_quiet(watch, tick, found);
   const JointVector driven = tick.free ? drive_acceleration(tick, torque) : JointVector();
   if (driven.size() == 0) {
     watch.residuals = 0;

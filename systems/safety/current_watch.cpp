@@ -52,18 +52,20 @@ void judge_quiet(CurrentWatch& watch, const PlausibilityTick& tick, Plausibility
   const auto& [a, b, c, d] = watch.measured;
   const JointVector third = d - 3.0 * c + 3.0 * b - a;
   if (tick.held) watch.third.add(third);
-  if (!watch.third.known()) return;
   for (Eigen::Index i = 0; i < third.size(); ++i) {
     int& ticks = watch.quiet[static_cast<std::size_t>(i)];
     const double noise = watch.third.deviation(i, 0.0);
-    const bool noisy = noise > 0.1 * tick.limits.current;
-    ticks = noisy && std::abs(third[i]) < tick.limits.quiet * noise ? ticks + 1 : 0;
+    ticks = watch.is_noisy(i, tick.limits) && std::abs(third[i]) < tick.limits.quiet * noise ? ticks + 1 : 0;
     note(found, PlausibilityCheck::quiet_current, ticks / (tick.limits.quiet_ticks - 0.5),
          GateFault::drive_not_following, static_cast<int>(i));
   }
 }
 
 }  // namespace
+
+bool CurrentWatch::is_noisy(Eigen::Index drive, const PlausibilityLimits& limits) const noexcept {
+  return third.deviation(drive, 0.0) > 0.1 * limits.current;
+}
 
 void advance(CurrentWatch& watch, const PlausibilityTick& tick, Plausibility& found) noexcept {
   const JointVector& current = tick.drives.current;

@@ -17,6 +17,9 @@ struct CurrentWatch {
   LearnedNoise third{};                                  ///< of its third difference [A]
   std::array<std::array<double, 2>, max_dof> outside{};  ///< how far, in its limit, at the two ticks before
   std::array<int, max_dof> quiet{};
+
+  /// Whether a current has so much noise that it would be missed.
+  bool is_noisy(Eigen::Index drive, const PlausibilityLimits& limits) const noexcept;
 };
 
 void advance(CurrentWatch& watch, const PlausibilityTick& tick, Plausibility& found) noexcept;

@@ -13,7 +13,7 @@ void advance(ParityWatch& watch, const PlausibilityTick& tick, Plausibility& fou
     ++watch.learned;
     watch.offset += (mismatch - watch.offset) / watch.learned;
   }
-  if (watch.learned < LearnedNoise::enough) return;
+  if (!watch.knows_offset()) return;
   const JointVector left = ParallelRobot::passive_difference(mismatch, watch.offset);
   watch.mismatch[watch.count++ % watch.mismatch.size()] = padded(left);
   Padded<max_dof> mean = Padded<max_dof>::Zero();

@@ -12,6 +12,8 @@ struct ParityWatch {
   JointVector offset{};                        ///< while the robot was held, mean [rad]
   std::array<Padded<max_dof>, 16> mismatch{};  ///< a ring [rad]
   std::size_t count = 0;
+
+  bool knows_offset() const noexcept { return learned >= LearnedNoise::enough; }
 };
 
 void advance(ParityWatch& watch, const PlausibilityTick& tick, Plausibility& found) noexcept;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "systems/foundation/setup_error.h"
+#include "systems/safety/askable_checks.h"
 
 namespace flinch {
 namespace {
@@ -87,6 +88,7 @@ void PlausibilityMonitor::advance(Time now, const PlausibilityMemory& last, cons
   count(inertial.valid, next.imu_seen, next.imu_missing);
   next.found.passive_lost = is_lost(next.passive_seen, next.passive_missing);
   next.found.imu_lost = is_lost(next.imu_seen, next.imu_missing);
+  next.found.askable = askable_checks(next, tick);
 }
 
 }  // namespace flinch

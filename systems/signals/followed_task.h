@@ -10,7 +10,7 @@ enum class ReactionKind : std::uint8_t {
   retreat,     ///< the same, but the robot ran into it: the platform goes back the way it came
   platform,    ///< the platform moves along the force
   first_link,  ///< the drive of a first link turns away
-  second_link,  ///< the point that is touched moves along the force
+  second_link,  ///< the point that is touched moves along the force; the far end of a leg that slides
   opening,      ///< the links of a leg that clamps open
 };
 

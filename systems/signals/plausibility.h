@@ -29,6 +29,13 @@ enum class PlausibilityCheck : std::uint8_t {
 };
 inline constexpr std::size_t plausibility_checks = 14;
 
+/// A set of questions, one bit each: bit i stands for the PlausibilityCheck with number i.
+using CheckMask = std::uint32_t;
+
+constexpr CheckMask check_bit(PlausibilityCheck check) {
+  return CheckMask{1} << static_cast<unsigned>(check);
+}
+
 /// What contradicts itself among the readings.
 struct Plausibility {
   bool valid = false;
@@ -38,6 +45,7 @@ struct Plausibility {
   bool imu_lost = false;      ///< likewise
   ImuDoubt imu_doubt = ImuDoubt::none;
   bool imu_left_out = false;  ///< nobody is told its present sample
+  CheckMask askable = 0;      ///< what each of them needs is there: sensors, and what was learned of them
   /// By PlausibilityCheck: what was found over what is allowed; 0 where it could not be asked.
   std::array<double, plausibility_checks> ratio{};
 
@@ -53,6 +61,7 @@ struct Plausibility {
     visit("imu_lost", "", self.imu_lost);
     visit("imu_doubt", "", self.imu_doubt);
     visit("imu_left_out", "", self.imu_left_out);
+    visit("askable", "", self.askable);
     visit("ratio", "", self.ratio);
   }
 };

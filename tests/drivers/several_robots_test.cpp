@@ -1,4 +1,5 @@
-// Several robots on one bus: whom commands reach.
+// Several robots on one bus: whom commands reach. Programs are started once with keys and once without;
+// FLINCH_ROBOT_STARTS says how often instead.
 #include <dds/dds.h>
 #include <drivers/idl/flinch.h>
 #include <gmock/gmock.h>
@@ -11,9 +12,12 @@
 #include "drivers/dds_reader.h"
 #include "drivers/dds_writer.h"
 #include "drivers/sample_sender.h"
+#include "tests/drivers/key_folder.h"
 #include "tests/drivers/link_ends.h"
 #include "tests/support/free_domain.h"
 #include "tests/support/other_program.h"
+#include "tests/support/shared_memory.h"
+#include "tests/support/wanted.h"
 
 namespace flinch {
 namespace {
@@ -89,6 +93,136 @@ TEST(SeveralRobots, ObeyOnlyWhoCommandsThemWhicheverStartsFirst) {
   for (const std::size_t robots : {2u, 3u, 5u})
     expect_each_obeys_its_own(robots, 40 + static_cast<unsigned>(robots));
 }
+
+// ---------------------------------------------------------------- each end a program
+
+/// What the programs of a robot and of its station tell while they run.
+struct Told {
+  std::atomic<std::uint64_t> robot_id = 0;        ///< of the robot
+  std::atomic<std::uint32_t> commander = 0;       ///< whom the robot has obeyed last
+  std::atomic<int> changes = 0;                   ///< how often it was another one
+  std::atomic<std::uint32_t> for_others = 0;      ///< commands that the robot has refused so
+  std::atomic<std::uint32_t> session = 0;         ///< of the station
+  std::atomic<std::uint64_t> commanded = 0;       ///< the robot that the station commands
+  std::atomic<int> obeyed = 0;                    ///< ticks at which the station saw its commands obeyed
+  std::atomic<std::uint64_t> commanded_else = 0;  ///< another robot that it commanded before
+  std::atomic<int> robots = 0;                    ///< that the station has seen by their names
+};
+constexpr std::size_t most_robots = 5;
+using AllTold = std::array<Told, most_robots>;
+
+/// Bus settings of a program.
+using SettingsOf = std::function<BusSettings(BusRole)>;
+
+[[noreturn]] void be_robot(const SettingsOf& settings, std::size_t k, Told& told) {
+  const DdsBus bus(settings(BusRole::robot));
+  FarEnd far(bus, link_robot, name_of(k));
+  told.robot_id = far.server().robot_id();
+  for (;;) {
+    far.run([&] {
+      const DdsCommander now = far.server().commander();
+      const std::uint32_t before = told.commander;
+      if (now.session != 0) told.commander = now.session;
+      if (now.session != 0 && before != 0 && now.session != before) ++told.changes;
+      told.for_others = now.for_others;
+      return false;
+    });
+  }
+}
+
+/// How many of the robots a station tells by name.
+int named_among(const std::vector<SeenRobot>& seen, std::size_t robots) {
+  int named = 0;
+  for (std::size_t k = 0; k < robots; ++k) {
+    named += std::any_of(seen.begin(), seen.end(),
+                         [k](const SeenRobot& robot) { return robot.name == name_of(k); });
+  }
+  return named;
+}
+
+/// Chooses its robot by name, or by the identity that the robot tells once it has begun.
+[[noreturn]] void be_station(const SettingsOf& settings, std::size_t k, std::size_t robots, bool by_name,
+                             Told& told) {
+  while (!by_name && told.robot_id == 0) MonotonicClock::sleep_until(MonotonicClock::now() + 1ms);
+  const DdsBus bus(settings(BusRole::controller));
+  NearEnd near(bus, link_robot, by_name ? name_of(k) : robot_id_text(told.robot_id));
+  told.session = near.dds().session();
+  for (;;) {
+    int ticks = 0;
+    near.run([&] {
+      const DdsLink link = near.dds().link();
+      const std::uint64_t before = told.commanded.exchange(link.robot_id);
+      if (before != 0 && before != link.robot_id) told.commanded_else = before;
+      if (link.commands_obeyed) ++told.obeyed;
+      return ++ticks == 50;
+    });
+    told.robots = named_among(near.dds().robots(), robots);
+  }
+}
+
+/// Whether each robot obeys its station and has heard the other commands, and each station sees all robots.
+bool all_have_met(const AllTold& told, std::size_t robots) {
+  const auto has_met = [robots](const Told& one) {
+    return one.obeyed >= 100 && one.for_others >= 100 && one.robots == static_cast<int>(robots);
+  };
+  return std::all_of(told.begin(), told.begin() + static_cast<std::ptrdiff_t>(robots), has_met);
+}
+
+/// Starts 2 to 5 robots and a station for each, every one a program, in an order and with pauses drawn from
+/// `seed`.
+void expect_programs_to_find_their_own(const SettingsOf& settings, unsigned seed) {
+  std::mt19937 draw(seed);
+  const std::size_t robots = 2 + draw() % (most_robots - 1);
+  SCOPED_TRACE("seed " + std::to_string(seed) + ", " + std::to_string(robots) + " robots");
+  const test::SharedMemory<AllTold> told;
+  std::vector<std::size_t> order(2 * robots);
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::shuffle(order.begin(), order.end(), draw);
+  std::vector<std::unique_ptr<test::OtherProgram>> programs;
+  for (const std::size_t which : order) {
+    const std::size_t k = which / 2;
+    const bool by_name = draw() % 2 == 0;
+    programs.push_back(std::make_unique<test::OtherProgram>([&, k, which, by_name] {
+      which % 2 == 0 ? be_robot(settings, k, (*told)[k])
+                     : be_station(settings, k, robots, by_name, (*told)[k]);
+    }));
+    MonotonicClock::sleep_until(MonotonicClock::now() + (draw() % 30) * 1ms);
+  }
+  const Time deadline = MonotonicClock::now() + 30s;
+  while (!all_have_met(*told, robots) && MonotonicClock::now() < deadline)
+    MonotonicClock::sleep_until(MonotonicClock::now() + 5ms);
+  for (std::size_t k = 0; k < robots; ++k) {
+    const Told& one = (*told)[k];
+    SCOPED_TRACE(name_of(k));
+    EXPECT_GE(one.obeyed, 100);
+    EXPECT_EQ(one.commander, one.session);
+    EXPECT_EQ(one.changes, 0);
+    EXPECT_EQ(one.commanded, one.robot_id);
+    EXPECT_EQ(one.commanded_else, 0u);
+    EXPECT_GE(one.for_others, 100u) << "commands of the others arrive here as well";
+    EXPECT_EQ(one.robots, static_cast<int>(robots)) << "that this station tells by name";
+  }
+}
+
+class StartsOfPrograms : public testing::TestWithParam<bool> {};
+
+INSTANTIATE_TEST_SUITE_P(Bus, StartsOfPrograms, testing::Bool(),
+                         [](const auto& secured) { return secured.param ? "WithKeys" : "WithoutKeys"; });
+
+TEST_P(StartsOfPrograms, LeadEachStationToItsOwnRobotInAnyOrder) {
+  const std::uint32_t domain = test::free_domain();
+  std::optional<test::KeyFolder> keys;
+  if (GetParam()) keys.emplace();
+  const SettingsOf settings = [&](BusRole role) {
+    BusSettings of_role{.domain = domain};
+    if (keys) of_role.security = keys->of(role);
+    return of_role;
+  };
+  const unsigned starts = test::wanted("FLINCH_ROBOT_STARTS", 1u);
+  for (unsigned seed = 1; seed <= starts; ++seed) expect_programs_to_find_their_own(settings, seed);
+}
+
+// ---------------------------------------------------------------- whom to command
 
 TEST(SeveralRobots, AreNotCommandedUnlessOneIsChosen) {
   const DdsBus bus({.domain = test::free_domain()});

@@ -19,6 +19,15 @@ function showHeadline() {
   }
 }
 
+/** What of sensors and drives could not be checked. */
+function showChecksOff() {
+  const off = report.checks_off;
+  const place = byId("checks-off");
+  place.hidden = off.length === 0;
+  place.querySelector("summary").textContent = off.length === 1 ? "One check was off" : `${off.length} checks were off`;
+  place.querySelector("ul").replaceChildren(...off.map((text) => element("li", {}, `${capitalised(text)}.`)));
+}
+
 /** The run in plain sentences. */
 function summary() {
   const stop = report.fault ? ` The robot was stopped: ${report.fault}.` : "";
@@ -176,6 +185,7 @@ function showMeasures() {
 
 function showVerdict() {
   showHeadline();
+  showChecksOff();
   showFigures();
   showContacts();
   showMeasures();

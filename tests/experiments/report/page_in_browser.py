@@ -62,7 +62,7 @@ def tells_the_verdict(page):
     stopped = page.value("report.fault !== ''")
     page.expect(not stopped or page.value("byId('summary').textContent.includes(report.fault)"), "the fault is not told")
     page.expect(page.value("byId('reasons').hidden === (report.reasons.length === 0)"), "reasons are hidden, or none shown")
-    for table, entries in (("#reasons li", "reasons"), ("#remarks li", "remarks"), ("#contacts tbody tr", "contacts"), ("#measure-table tbody tr", "measures"),
+    for table, entries in (("#reasons li", "reasons"), ("#remarks li", "remarks"), ("#checks-off li", "checks_off"), ("#contacts tbody tr", "contacts"), ("#measure-table tbody tr", "measures"),
                            ("#parameters tbody tr", "parameters"), ("#provenance div", "provenance")):
         rows = page.value(f"document.querySelectorAll({table!r}).length")
         page.expect(rows == page.value(f"report.{entries}.length"), f"{rows} rows for the {entries} of the report")

@@ -155,6 +155,8 @@ TEST(ReportPage, TellsInChromiumWhyARunIsNotGood) {
   report.reasons = {"nothing was touched, though a contact with platform was expected",
                     "the torque gate closed: " + report.fault};
   report.remarks = {"the contact with platform was not over at the end"};
+  report.checks_off = {"encoders against the IMU (fault 29): needs an IMU", "two (fault 2): needs more"};
+  EXPECT_EQ(json::parse(report_json(report))["checks_off"], report.checks_off);
   EXPECT_EQ(json::parse(report_json(report))["reasons"], report.reasons);
   expect_to_work(report);
 }

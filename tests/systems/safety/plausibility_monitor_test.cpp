@@ -10,95 +10,17 @@
 #include <numbers>
 
 #include "systems/foundation/setup_error.h"
-#include "systems/framework/random.h"
 #include "systems/robot/joint_space_dynamics.h"
 #include "tests/support/allocations.h"
-#include "tests/systems/safety/monitored.h"
+#include "tests/systems/safety/watched.h"
 
 namespace flinch {
 namespace {
 
-using enum PlausibilityCheck;
+using test::Told;
+using test::Watched;
 
 constexpr double degree = std::numbers::pi / 180.0;
-constexpr double angle_noise = 7e-6;    // [rad]
-constexpr double current_noise = 0.01;  // [A]
-
-PlausibilityLimits limits() {
-  PlausibilityLimits limits;
-  limits.torque_constant = Eigen::Vector3d::Constant(6.0);
-  return limits;
-}
-
-/// What a tick is told; that of a robot at rest at home with all sensors, unless a test changes it.
-struct Told {
-  JointReading joints;
-  DriveReading drives;
-  ImuReading imu;
-  StationStatus station;
-  TorqueCommand command;
-  BrakeCommand brake{.engage = false};
-  GateStatus gate{.phase = GatePhase::open, .reaction = GateReaction::none};
-};
-
-/// The monitor before a robot that stands still while its brakes hold it for 200 ms, then without.
-class Watched {
- public:
-  Watched() {
-    for (int k = 0; k < 200; ++k) tick(held);
-    for (int k = 0; k < 60; ++k) tick();
-  }
-
-  static void held(Told& told) {
-    told.station.braked = told.brake.engage = true;
-    told.command.valid = false;
-  }
-
-  const Plausibility& tick(const std::function<void(Told&)>& change = [](Told&) {}) {
-    Told told = healthy();
-    change(told);
-    monitor_.ticking.set(monitor_.joints, told.joints);
-    monitor_.ticking.set(monitor_.drives, told.drives);
-    monitor_.ticking.set(monitor_.imu, told.imu);
-    monitor_.ticking.set(monitor_.torque, DriveTorque());
-    monitor_.ticking.set(monitor_.reset, ResetCommand());
-    monitor_.ticking.set(monitor_.station, told.station);
-    monitor_.ticking.set(monitor_.platform, posture_.platform);
-    monitor_.ticking.set(monitor_.kinematics, posture_.kinematics);
-    monitor_.ticking.set(monitor_.dynamics, posture_.dynamics);
-    monitor_.ticking.set(monitor_.commanded, told.command);
-    monitor_.ticking.set(monitor_.brake, told.brake);
-    monitor_.ticking.set(monitor_.gate, told.gate);
-    monitor_.ticking.tick();
-    return monitor_.ticking.get(monitor_.block.plausibility);
-  }
-
-  int ticks() const { return static_cast<int>(monitor_.ticking.now() / 1ms); }
-
- private:
-  double noise(double deviation) { return deviation * random_.normal(); }
-
-  Told healthy() {
-    Told told;
-    const Time now = monitor_.ticking.now();
-    posture_ = test::Posture(*monitor_.robot, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), now);
-    told.joints = posture_.joints;
-    for (double& angle : told.joints.active) angle += noise(angle_noise);
-    told.drives.acquired = told.station.acquired = told.command.computed = told.imu.acquired = now;
-    told.drives.valid = told.station.valid = told.station.enabled = told.command.valid = told.imu.valid =
-        true;
-    told.drives.current.setZero(3);
-    for (double& current : told.drives.current) current += noise(current_noise);
-    told.command.torque.setZero(3);
-    told.imu.specific_force = -monitor_.robot->gravity();
-    for (double& rate : told.imu.angular_velocity) rate += noise(1e-3);
-    return told;
-  }
-
-  test::Monitored monitor_{limits()};
-  RandomGenerator random_{1};
-  test::Posture posture_{*monitor_.robot};
-};
 
 /// Ticks with `change` until `fault` is found, 0 for the first; none within 200.
 std::optional<int> ticks_until(Watched& watched, GateFault fault, const std::function<void(Told&)>& change) {
@@ -123,7 +45,7 @@ TEST(PlausibilityMonitor, SaysOfWhichDriveTheAngleJumps) {
     const Plausibility& found = watched.tick([step](Told& told) { told.joints.active[1] += step; });
     EXPECT_EQ(found.present, fault_bit(GateFault::encoder_jump));
     EXPECT_EQ(found.drive, 1);
-    EXPECT_NEAR(found.of(jump), 2e-3 / 1e-3 / (5.0 * 172.0 * 1e-3), 0.1);
+    EXPECT_NEAR(found.of(PlausibilityCheck::jump), 2e-3 / 1e-3 / (5.0 * 172.0 * 1e-3), 0.1);
   }
 }
 
@@ -181,7 +103,7 @@ TEST(PlausibilityMonitor, BelievesACurrentThatFollowsWithinSixTicks) {
       told.drives.current[1] += delayed[static_cast<std::size_t>(k + 1) % 6] / 6.0;
     });
     delayed[static_cast<std::size_t>(k) % 6] = torque;
-    EXPECT_LT(found.of(tube), 1.0) << k;
+    EXPECT_LT(found.of(PlausibilityCheck::tube), 1.0) << k;
   }
 }
 
@@ -394,7 +316,7 @@ TEST(PlausibilityMonitor, NeverAllocates) {
 }
 
 TEST(PlausibilityMonitor, RefusesLimitsThatCouldNotBeKept) {
-  PlausibilityLimits bad = limits();
+  PlausibilityLimits bad = test::watched_limits();
   bad.parity = 0.0;
   bad.torque_constant = Eigen::Vector2d::Ones();
   try {

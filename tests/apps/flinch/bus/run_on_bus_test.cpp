@@ -71,6 +71,15 @@ TEST(RunOnBus, FindsTheRobotAgainWhereTheLastRunLeftIt) {
   }
 }
 
+TEST(RunOnBus, SaysWhichChecksAreOffOnceTheGateOpens) {
+  const BenchOnTheBus bench("hexapod_collision");
+  const test::Outcome live = bench.run(bench.run_arguments());
+  EXPECT_THAT(live.out, testing::StartsWith("checks off         passive against active encoders (fault 13)"));
+  const std::size_t told = live.err.find("check off: passive against active encoders (fault 13)");
+  ASSERT_NE(told, std::string::npos) << live.err;
+  EXPECT_LT(told, live.err.find("nominal; gate open")) << live.err;
+}
+
 TEST(RunOnBus, ComesToRestInOrderOnCtrlC) {
   const BenchOnTheBus bench("square");
   test::OtherProgram run(test::flinch_program(bench.run_arguments()));
