@@ -13,17 +13,22 @@ struct LieCase {
   std::string lie;
 };
 
-/// The lies that are tried of each drive, and of all sensors of a kind together.
-std::vector<std::string> lies_of_a_drive(int number);
-std::vector<std::string> lies_of_all();
+/// The lies that are tried of each drive, and of all sensors of a kind together; as large for a robot as its
+/// drives are fast and strong, of the bench unless another one is named.
+std::vector<std::string> lies_of_a_drive(int number, const std::string& robot = "planar_3rrr");
+std::vector<std::string> lies_of_all(const std::string& robot = "planar_3rrr");
 
 /// All of them over drives, speeds, sensors that are mounted, brakes, and begun before the motion: over a
 /// thousand.
 std::vector<LieCase> all_lies();
 
+/// The same of the robots that are no bench, at the speeds that they reach.
+std::vector<LieCase> all_lies_of(const std::string& robot);
+
 /// Two lies at once, `count` times: of all sorts, in motion, at rest, before a motion, in a stop, in a
 /// contact that has just begun and in the reaction to it; with and without passive encoders and IMU.
-std::vector<LieCase> pairs_of_lies(std::size_t count, std::uint64_t seed);
+std::vector<LieCase> pairs_of_lies(std::size_t count, std::uint64_t seed,
+                                   const std::string& robot = "planar_3rrr");
 
 /// What was once told without being noticed, or answered by torque.
 std::vector<LieCase> lies_that_once_passed();

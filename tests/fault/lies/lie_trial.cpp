@@ -12,10 +12,10 @@
 #include "experiments/simulated/simulated_scenario.h"
 #include "systems/framework/recording.h"
 #include "systems/motion/platform_path.h"
-#include "systems/robot/planar_rrr.h"
-#include "systems/robot/planar_rrr_presets.h"
+#include "systems/robot/parallel_robot.h"
 #include "systems/safety/fault_table.h"
 #include "systems/signals/gate_status.h"
+#include "tests/fault/lies/lie_stage.h"
 
 namespace flinch::test {
 namespace {
@@ -24,13 +24,29 @@ constexpr Time start = 300ms;     // of the motion
 constexpr Time watched = 400ms;   // after the lie
 constexpr double resting = 0.02;  // speed of a platform that rests [m/s]
 
-Passage passing(const LieScene& scene) {
-  static const PlanarRrr robot(bench_robot(BenchGeometry::individual, BenchFriction::test_bench));
+/// Of the motion, in the plane.
+Eigen::Vector2d direction(const LieScene& scene) {
   const double angle = scene.direction_deg * std::numbers::pi / 180.0;
-  return passage(robot, {.pose = Eigen::Vector3d::Zero(),
-                         .direction = Eigen::Vector2d(std::cos(angle), std::sin(angle)),
+  return {std::cos(angle), std::sin(angle)};
+}
+
+Passage passing(const LieScene& scene) {
+  const LieStage& stage = lie_stage(scene.robot);
+  const ParallelRobot& robot = *stage.robot.robot;
+  CartesianVector along = CartesianVector::Zero(robot.space_dimension());
+  along.head<2>() = direction(scene);
+  return passage(robot, {.pose = robot.home_pose(),
+                         .direction = along,
                          .speed = scene.speed,
-                         .cruise = 0.05});
+                         .cruise = stage.cruise,
+                         .acceleration = stage.acceleration,
+                         .jerk = stage.jerk});
+}
+
+std::string direction_key(const LieScene& scene) {
+  if (lie_stage(scene.robot).robot.robot->space_dimension() == 2)
+    return fmt::format("direction_deg: {}", scene.direction_deg);
+  return fmt::format("direction: [{}, {}, 0]", direction(scene).x(), direction(scene).y());
 }
 
 bool touches(const LieScene& scene) {
@@ -52,29 +68,23 @@ Time before_lie(const LieScene& scene) {
   return 0ms;
 }
 
-/// Of a pylon that the platform meets on its way in the direction of -x: `before_lie` from the middle [mm].
-double pylon_ahead(const LieScene& scene) {
-  constexpr double reach = -175.0;  // of the platform, with the pylon's radius
-  return reach + 1e3 * scene.speed * to_seconds(before_lie(scene));
-}
-
 std::string text_of(const LieScene& scene, const std::string& faults) {
   std::ostringstream text;
-  text << "robot: " FLINCH_SOURCE_DIR "/apps/robots/planar_3rrr.yaml\n"
-       << "seed: " << scene.seed << "\nduration_s: " << to_seconds(lie_at(scene) + watched) << "\n";
+  const LieStage& stage = lie_stage(scene.robot);
+  text << "robot: " << stage.file << "\nseed: " << scene.seed
+       << "\nduration_s: " << to_seconds(lie_at(scene) + watched) << "\n";
   if (scene.speed > 0.0) {
-    text << "motion: {kind: passage, start_s: " << to_seconds(start)
-         << ", direction_deg: " << scene.direction_deg << ", speed_m_per_s: " << scene.speed
-         << ", cruise_m: 0.05}\n";
+    text << "motion: {kind: passage, start_s: " << to_seconds(start) << ", " << direction_key(scene)
+         << ", speed_m_per_s: " << scene.speed << ", cruise_m: " << stage.cruise
+         << ", acceleration_m_per_s2: " << stage.acceleration << ", jerk_m_per_s3: " << stage.jerk << "}\n";
   }
   if (scene.moment == LieMoment::stop)
     text << "operator: [{at_s: " << to_seconds(lie_at(scene) - before_lie(scene)) << ", press: stop}]\n";
-  if (touches(scene))
-    text << "pylon: {x_mm: " << pylon_ahead(scene)
-         << ", y_mm: -20, radius_mm: 40, stiffness_N_per_m: 6000}\n";
+  if (touches(scene)) text << stage.obstacle(1e3 * scene.speed * to_seconds(before_lie(scene)));
   text << "plant: {realism: " << scene.realism << "}\n";
-  if (!scene.passive_encoders) text << "sensors: {encoders: {passive_mounted: false}}\n";
-  text << faults;
+  if (!scene.passive_encoders && stage.robot.robot->passive_joints() > 0)
+    text << "sensors: {encoders: {passive_mounted: false}}\n";
+  text << stage.control << faults;
   return text.str();
 }
 
@@ -111,18 +121,28 @@ LieRun run(const LieScene& scene, const std::string& lie) {
       scenario.robot.robot->home_pose());  // without passive encoders nothing else tells it
   const Recording recording = run_experiment(scenario);
   LieRun run;
-  run.x = recording.column("truth", "pose", 0);
-  run.y = recording.column("truth", "pose", 1);
-  const auto vx = recording.column("truth", "velocity", 0);
-  const auto vy = recording.column("truth", "velocity", 1);
-  for (std::size_t k = 0; k < vx.size(); ++k) run.speed.push_back(std::hypot(vx[k], vy[k]));
+  run.speed.resize(recording.samples());
+  run.position.resize(recording.samples());
+  for (int axis = 0; axis < scenario.robot.robot->space_dimension(); ++axis) {
+    const auto position = recording.column("truth", "pose", axis);
+    const auto velocity = recording.column("truth", "velocity", axis);
+    for (std::size_t k = 0; k < velocity.size(); ++k) {
+      run.position[k][static_cast<std::size_t>(axis)] = position[k];
+      run.speed[k] = std::hypot(run.speed[k], velocity[k]);
+    }
+  }
   run.energy = recording.column("truth", "kinetic_energy");
   run.phase = recording.column("gate", "phase");
   run.fault = recording.column("gate", "fault");
   run.reaction = recording.column("gate", "reaction");
   run.force = recording.column("contact", "peak_force");
-  for (int i = 0; i < 3; ++i) run.torque.push_back(recording.column("truth", "drive_torque", i));
+  for (int i = 0; i < scenario.robot.robot->drives(); ++i)
+    run.torque.push_back(recording.column("truth", "drive_torque", i));
   return run;
+}
+
+double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
 /// Whether the gate has answered a lie at this tick: closed, or in a stop that had begun before, the brakes.
@@ -163,9 +183,12 @@ LieOutcome try_lie(const LieScene& scene, const std::string& lie, const LieRun& 
     outcome.named = names(outcome.fault) || scene.moment == LieMoment::stop;
   }
   const std::size_t last = std::min({end, honest.speed.size()});
+  const double percent = 100.0 / lie_stage(scene.robot).robot.drives.max_torque;
   for (std::size_t k = begin; k < std::min({last, alarm + 1, begin + 51}); ++k) {
-    for (std::size_t i = 0; i < 3; ++i)
-      outcome.torque = std::max(outcome.torque, std::abs(lied.torque[i][k] - honest.torque[i][k]));
+    for (std::size_t i = 0; i < lied.torque.size(); ++i) {
+      const double beyond = std::abs(lied.torque[i][k] - honest.torque[i][k]);
+      outcome.torque = std::max(outcome.torque, percent * beyond);
+    }
   }
   if (honest.force.back() > 0.0) outcome.force = lied.force.back() / honest.force.back();
   if (alarm >= end) {
@@ -175,13 +198,13 @@ LieOutcome try_lie(const LieScene& scene, const std::string& lie, const LieRun& 
   }
   std::size_t rest = end;
   while (rest > alarm && lied.speed[rest - 1] < resting) --rest;
+  outcome.watched = Time(1ms) * static_cast<Time::rep>(end - alarm);
   if (rest < end) outcome.rest = Time(1ms) * static_cast<Time::rep>(rest - alarm);
   std::size_t most = alarm;
   for (std::size_t k = alarm; k < last; ++k) {
     outcome.excess = std::max(outcome.excess, lied.speed[k] - honest.speed[k]);
     if (lied.energy[k] > lied.energy[most]) most = k;
-    if (k > alarm && k <= rest)
-      outcome.travel += std::hypot(lied.x[k] - lied.x[k - 1], lied.y[k] - lied.y[k - 1]);
+    if (k > alarm && k <= rest) outcome.travel += distance(lied.position[k], lied.position[k - 1]);
   }
   outcome.growth = Time(1ms) * static_cast<Time::rep>(most - alarm);
   return outcome;
@@ -189,19 +212,21 @@ LieOutcome try_lie(const LieScene& scene, const std::string& lie, const LieRun& 
 
 std::string problem_with(const LieOutcome& is) {
   const bool in_time = is.named && is.alarm && *is.alarm <= 50ms;
-  if (is.torque > 30.0 && !in_time) return fmt::format("{:.0f} Nm without a name", is.torque);
+  if (is.torque > 30.0 && !in_time)
+    return fmt::format("{:.0f} % of the largest torque without a name", is.torque);
   if (is.scene.moment == LieMoment::stop && !is.alarm && is.excess > 0.3)
     return fmt::format("{:.2f} m/s above the honest stop, without brakes", is.excess);
   if (!is.alarm || !is.named) return "";
   const Time patience = is.scene.brakes > 5ms ? 60ms : 30ms;
   if (is.excess > 0.3) return fmt::format("{:.2f} m/s above the honest run", is.excess);
-  if (!is.rest || *is.rest > patience) return "it does not come to rest in time";
+  if (is.rest.value_or(is.watched) > patience) return "it does not come to rest in time";
   if (is.growth > 5ms) return fmt::format("its energy grows for {} ms", is.growth / 1ms);
   return "";
 }
 
 std::string table_head() {
-  return "lie                                      sensors moment    m/s  deg  alarm ms  fault  named  Nm "
+  return "robot        lie                                      sensors moment    m/s  deg  alarm ms  fault  "
+         "named   % "
          "before  "
          "m/s above  rest ms  "
          "travel mm "
@@ -216,8 +241,9 @@ std::string line_of(const LieOutcome& is) {
   const std::string sensors =
       fmt::format("{}{}", is.scene.passive_encoders ? "p" : "-", is.scene.imu ? "i" : "-");
   return fmt::format(
-      "{:40} {:7} {:8} {:4.1f} {:4.0f} {:>9} {:>6} {:>6} {:10.1f} {:10.2f} {:>8} {:10.1f} {:>16} {:6.2f}\n",
-      is.lie, sensors, moments[static_cast<std::size_t>(is.scene.moment)], is.scene.speed,
+      "{:12} {:40} {:7} {:8} {:4.1f} {:4.0f} {:>9} {:>6} {:>6} {:10.1f} {:10.2f} {:>8} {:10.1f} {:>16} "
+      "{:6.2f}\n",
+      is.scene.robot, is.lie, sensors, moments[static_cast<std::size_t>(is.scene.moment)], is.scene.speed,
       is.scene.direction_deg, ms(is.alarm), static_cast<int>(is.fault), is.named ? "yes" : "no", is.torque,
       is.excess, ms(is.rest), 1e3 * is.travel, ms(is.growth), is.force);
 }

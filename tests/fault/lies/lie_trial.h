@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,13 +15,14 @@ namespace flinch::test {
 enum class LieMoment {
   motion,    ///< it follows its path, or stands
   stop,      ///< the operator has stopped it 10 ms before
-  contact,   ///< it has run into a pylon some milliseconds before, which it has not detected yet
+  contact,   ///< it has run into an obstacle some milliseconds before, which it has not detected yet
   reaction,  ///< and gives way
 };
 
 /// Where and how the robot moves when it is lied to.
 struct LieScene {
-  double speed = 0.3;  ///< of the platform through the middle [m/s]; 0: it stands there
+  std::string robot = "planar_3rrr";  ///< of lie_stage()
+  double speed = 0.3;                 ///< of the platform through the middle [m/s]; 0: it stands there
   double direction_deg = 0.0;
   unsigned seed = 1;  ///< draws robot and noise
   bool passive_encoders = true;
@@ -34,10 +36,10 @@ struct LieScene {
 /// A run as the trial looks at it, by ticks.
 struct LieRun {
   std::vector<double> speed, energy, phase, fault;
-  std::vector<double> reaction;             ///< of the gate
-  std::vector<double> force;                ///< largest of a contact so far [N]
-  std::vector<std::vector<double>> torque;  ///< of each drive [Nm]
-  std::vector<double> x, y;
+  std::vector<double> reaction;                 ///< of the gate
+  std::vector<double> force;                    ///< largest of a contact so far [N]
+  std::vector<std::vector<double>> torque;      ///< of each drive [Nm]
+  std::vector<std::array<double, 3>> position;  ///< [m]
 };
 
 struct LieOutcome {
@@ -46,10 +48,12 @@ struct LieOutcome {
   bool began = false;         ///< the gate was open when the lie began
   std::optional<Time> alarm;  ///< from the lie until the gate closes
   GateFault fault = GateFault::none;
-  bool named = false;        ///< a fault that doubts what lies, not a limit that is passed
-  double torque = 0.0;       ///< largest beyond the honest run's, until 50 ms or the alarm [Nm]
+  bool named = false;  ///< a fault that doubts what lies, not a limit that is passed
+  /// Largest beyond the honest run's, until 50 ms or the alarm [% of the largest; Nm at the bench].
+  double torque = 0.0;
   double excess = 0.0;       ///< speed above the honest run's, after the alarm [m/s]
   std::optional<Time> rest;  ///< from the alarm until the platform rests
+  Time watched{};            ///< from the alarm until the run ends
   double travel = 0.0;       ///< meanwhile [m]
   Time growth{};             ///< of the kinetic energy after the alarm
   double force = 0.0;        ///< peak of the contact over that of the honest run; 0 without a contact
@@ -64,7 +68,8 @@ LieRun honest_run(const LieScene& scene);
 /// The same with "SIGNAL:KIND" and a size; several are joined by '+'.
 LieOutcome try_lie(const LieScene& scene, const std::string& lie, const LieRun& honest);
 
-/// What speaks against an answer: no name for a lie that makes more than 30 Nm within 50 ms, more than
+/// What speaks against an answer: no name for a lie that makes more than 30 % of the largest torque (30 Nm at
+/// the bench) within 50 ms, more than
 /// 0.3 m/s above the honest run after the alarm, more than 30 ms until rest (60 ms with brakes of 30 ms), or
 /// an energy that grows for more than 5 ms. "" where nothing does.
 std::string problem_with(const LieOutcome& outcome);

@@ -26,6 +26,23 @@ TEST(Lies, OfOneDriveAtOneSpeedAreAnsweredInTime) {
   for (const LieOutcome& outcome : try_all(cases)) EXPECT_EQ(problem_with(outcome), "") << line_of(outcome);
 }
 
+/// Of the five-bar and the hexapod, sizes as their drives are fast and strong.
+TEST(Lies, OfOtherRobotsAreAnsweredInTime) {
+  std::vector<LieCase> cases;
+  for (const auto& [robot, passive] : {std::pair("five_bar", true), std::pair("hexapod_6ups", false)}) {
+    LieScene scene{.robot = robot, .speed = 0.3, .passive_encoders = passive, .brakes = 5ms};
+    for (const std::string lie : {"drive1:off", "drive1:reversed", "drive1:scaled:-1", "currents:stuck",
+                                  "encoder1:reversed", "encoder1:stuck", "status:stuck"})
+      cases.push_back({scene, lie});
+    scene.moment = LieMoment::stop;
+    cases.push_back({scene, "drive1:scaled:-1"});
+  }
+  for (const LieOutcome& outcome : try_all(cases)) {
+    EXPECT_TRUE(outcome.began) << line_of(outcome);
+    EXPECT_EQ(problem_with(outcome), "") << line_of(outcome);
+  }
+}
+
 /// Of a drive that turns round in a contact little can be told before it has given more energy than the thing
 /// that is touched has taken.
 TEST(Lies, OfADriveThatTurnsRoundEndEarlyInEveryMoment) {
