@@ -5,6 +5,7 @@
 # Groups are named after the target: a source that two of them share is in those of its own folder only. -Wshadow would
 # complain of names of different sources, and g++ 12 warns wrongly of use after free in Eigen; clang's preset does without.
 find_package(Python3 COMPONENTS Interpreter)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/bundles.py)
 
 function(flinch_bundle target largest)
   if(NOT FLINCH_BUNDLE OR NOT Python3_Interpreter_FOUND)
@@ -21,5 +22,4 @@ function(flinch_bundle target largest)
   target_compile_options(${target} PRIVATE
     $<$<COMPILE_LANGUAGE:CXX>:-Wno-shadow>
     $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-use-after-free -Wno-subobject-linkage>)
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/bundles.py)
 endfunction()

@@ -36,19 +36,20 @@ constexpr std::array rows{
     Row{check_bit(quiet_current), GateFault::drive_not_following, "motor currents against their own noise",
         "currents of all drives with noise, read while the brakes hold the robot before its first motion"},
     Row{check_bit(still), GateFault::drives_without_effect, "torques against standing still", reaching},
-    Row{check_bit(stop), GateFault::stop_ineffective, "a controlled stop against energy", reaching},
+    Row{check_bit(stop), GateFault::stop_ineffective, "a controlled stop against energy",
+        "rates of the drives"},
     Row{check_bit(brakes), GateFault::brake_not_holding, "closed brakes against motion",
-        "angles of the drives"},
+        "rates of the drives"},
     Row{check_bit(status), GateFault::status_contradicted, "the station's status against motion", reaching},
     Row{check_bit(response), GateFault::torque_contradicted, "torques against the motion that they make",
         reaching}};
 
-constexpr CheckMask all_of_rows() {
+constexpr CheckMask checks_of_rows() {
   CheckMask all = 0;
   for (const Row& row : rows) all |= row.checks;
   return all;
 }
-static_assert(all_of_rows() == (CheckMask{1} << plausibility_checks) - 1, "each check has a row");
+static_assert(checks_of_rows() == all_checks, "each check has a row");
 
 }  // namespace
 

@@ -32,6 +32,8 @@ inline constexpr std::size_t plausibility_checks = 14;
 /// A set of questions, one bit each: bit i stands for the PlausibilityCheck with number i.
 using CheckMask = std::uint32_t;
 
+inline constexpr CheckMask all_checks = (CheckMask{1} << plausibility_checks) - 1;
+
 constexpr CheckMask check_bit(PlausibilityCheck check) {
   return CheckMask{1} << static_cast<unsigned>(check);
 }

@@ -33,17 +33,23 @@ bool too_long(const NearEnd& near) { return near.time() > 60s; }
 
 std::string name_of(std::size_t k) { return "robot_" + std::to_string(k); }
 
+/// Notes in `last` whom a robot obeys, and in `changes` where it was another one before.
+void note_commander(std::uint32_t session, std::atomic<std::uint32_t>& last, std::atomic<int>& changes) {
+  if (session == 0) return;
+  const std::uint32_t before = last.exchange(session);
+  if (before != 0 && session != before) ++changes;
+}
+
 /// A robot that notes whom it has obeyed.
 struct NotingRobot {
   explicit NotingRobot(const DdsBus& bus, const std::string& name = "")
       : far(bus, link_robot, name), running(far, [this] { note(); }) {}
 
   void note() {
-    const std::uint32_t session = far.server().commander().session;
-    const std::uint32_t before = commander.exchange(session == 0 ? commander.load() : session);
-    if (session != 0 && before != 0 && session != before) ++changes;
+    const DdsCommander now = far.server().commander();
+    note_commander(now.session, commander, changes);
     if (!far.brake()) ++released;
-    for_others = far.server().commander().for_others;
+    for_others = now.for_others;
   }
 
   std::atomic<std::uint32_t> commander = 0;  ///< the last that it has obeyed
@@ -121,9 +127,7 @@ using SettingsOf = std::function<BusSettings(BusRole)>;
   for (;;) {
     far.run([&] {
       const DdsCommander now = far.server().commander();
-      const std::uint32_t before = told.commander;
-      if (now.session != 0) told.commander = now.session;
-      if (now.session != 0 && before != 0 && now.session != before) ++told.changes;
+      note_commander(now.session, told.commander, told.changes);
       told.for_others = now.for_others;
       return false;
     });

@@ -47,7 +47,7 @@ void StatusLine::run(const std::stop_token& ending) {
 }
 
 void StatusLine::tell(const Tidings& now) {
-  if (terminal_ && !(now.said + now.noted).empty()) clear_line();
+  if (terminal_ && (!now.said.empty() || !now.noted.empty())) clear_line();
   print_messages(now.said);
   if (quiet_) return;
   print_messages(now.noted);

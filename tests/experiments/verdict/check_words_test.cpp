@@ -20,16 +20,15 @@ using ::testing::Not;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
 
-constexpr CheckMask all = (CheckMask{1} << plausibility_checks) - 1;
 constexpr CheckMask no_imu =
-    all & ~check_bit(PlausibilityCheck::gyroscope) & ~check_bit(PlausibilityCheck::accelerometer);
+    all_checks & ~check_bit(PlausibilityCheck::gyroscope) & ~check_bit(PlausibilityCheck::accelerometer);
 
-TEST(ChecksOff, AreNoneWhereAllCanBeAsked) { EXPECT_THAT(checks_off(all), IsEmpty()); }
+TEST(ChecksOff, AreNoneWhereAllCanBeAsked) { EXPECT_THAT(checks_off(all_checks), IsEmpty()); }
 
 TEST(ChecksOff, NameWhatIsMissingAndTheFaultThatCannotFollow) {
   EXPECT_THAT(checks_off(no_imu), ElementsAre(AllOf(StartsWith("encoders against the IMU (fault 29): needs"),
                                                     HasSubstr("an IMU"))));
-  EXPECT_THAT(checks_off(all & ~check_bit(PlausibilityCheck::parity)),
+  EXPECT_THAT(checks_off(all_checks & ~check_bit(PlausibilityCheck::parity)),
               ElementsAre(HasSubstr("(fault 13): needs passive")));
   EXPECT_THAT(checks_off(0), AllOf(SizeIs(11), Each(HasSubstr(": needs "))));
 }
@@ -38,7 +37,7 @@ TEST(ChecksOff, AreThoseThatCouldBeAskedAtNoTime) {
   constexpr ConfigurationSpace planar = ConfigurationSpace::Kind::planar_pose;
   test::SyntheticRun run(100);
   for (int k = 0; k < 100; ++k)
-    run.at(k).plausibility.askable = k < 60 ? no_imu : all & ~check_bit(PlausibilityCheck::parity);
+    run.at(k).plausibility.askable = k < 60 ? no_imu : all_checks & ~check_bit(PlausibilityCheck::parity);
   EXPECT_THAT(judge(run.recording(), planar, {}, {}).checks_off, IsEmpty());
   for (int k = 0; k < 100; ++k) run.at(k).plausibility.askable = k < 60 ? no_imu : 0;
   const Verdict verdict = judge(run.recording(), planar, {}, {});

@@ -200,19 +200,16 @@ std::string reason_of_failure(const LieCase& told) {
   const auto tells = [&told](const char* word) { return told.lie.find(word) != std::string::npos; };
   if (tells("drive") && tells("scaled:0"))
     return "a torque that is missing under a current as commanded is told from an obstacle only by the "
-           "energy "
-           "that the robot gets";
+           "energy that the robot gets";
   if (tells("drive") && tells("scaled:-1"))
     return "a drive that turns round while something is touched, or another one does, is told only by the "
            "energy that it gives";
   if (!told.scene.passive_encoders && !told.scene.imu && tells("encoder") && tells("stuck"))
     return "an encoder that stands still with its noise is an obstacle to the model, and nothing else sees "
-           "the "
-           "motion";
+           "the motion";
   if (told.scene.robot == "hexapod_6ups" && tells("encoder"))
     return "a hexapod has no passive encoders, and its IMU is left out where cogging shakes it: nothing else "
-           "sees "
-           "the motion";
+           "sees the motion";
   if (told.scene.robot == "five_bar" && tells("drive") && tells("reversed"))
     return "in the 3 ms until it is named a drive that is turned round gives so light a robot 0.3 m/s";
   if (!told.scene.passive_encoders && tells("encoder") && tells("+encoder"))

@@ -19,10 +19,9 @@ using test::Told;
 using test::Watched;
 
 using Change = std::function<void(Told&)>;
-constexpr CheckMask all = (CheckMask{1} << plausibility_checks) - 1;
 
 CheckMask without(std::initializer_list<PlausibilityCheck> checks) {
-  CheckMask mask = all;
+  CheckMask mask = all_checks;
   for (const PlausibilityCheck check : checks) mask &= ~check_bit(check);
   return mask;
 }
@@ -31,7 +30,7 @@ CheckMask without(std::initializer_list<PlausibilityCheck> checks) {
 struct Lack {
   const char* name;
   Change always = [](Told&) {};
-  CheckMask askable = all;
+  CheckMask askable = all_checks;
   PlausibilityLimits limits = test::watched_limits();
 };
 
@@ -101,7 +100,7 @@ std::map<PlausibilityCheck, Change> lies(int now) {
           {response, turned_round()}};
 }
 
-TEST(AskableChecks, AreAllOfARobotWithEverything) { EXPECT_EQ(Watched().tick().askable, all); }
+TEST(AskableChecks, AreAllOfARobotWithEverything) { EXPECT_EQ(Watched().tick().askable, all_checks); }
 
 TEST(AskableChecks, AreThoseThatHaveWhatTheyNeed) {
   for (const Lack& lack : lacks())
