@@ -28,4 +28,9 @@ struct EstimatorPeaks {
 std::vector<EstimatorPeaks> contact_free_peaks(const Recording& recording, const ConfigurationSpace& space,
                                                Time stretch);
 
+/// The same of the estimates of a log, estimates_of_log(), in samples that somebody says are `free` of
+/// contact and in which the platform moved within the last second.
+std::vector<EstimatorPeaks> contact_free_peaks(const Recording& estimates, const std::vector<bool>& free,
+                                               const ConfigurationSpace& space, Time stretch);
+
 }  // namespace flinch

@@ -45,9 +45,9 @@ function(flinch_library name)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON
                                              INTERFACE_HEADER_SETS_TO_VERIFY headers_alone)
 
-  install(TARGETS ${target} EXPORT flinch-targets-${name}
-          FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/flinch
-          FILE_SET headers_alone DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/flinch)
+  install(TARGETS ${target} EXPORT flinch-targets-${name} COMPONENT development
+          FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/flinch COMPONENT development
+          FILE_SET headers_alone DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/flinch COMPONENT development)
   set_property(GLOBAL APPEND PROPERTY flinch_libraries ${name})
 endfunction()
 

@@ -3,8 +3,13 @@ include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/flinch)
 get_property(libraries GLOBAL PROPERTY flinch_libraries)
+set(libraries_of_program ${libraries})
+if(TARGET flinch::program)
+  list(APPEND libraries program)
+endif()
 foreach(name IN LISTS libraries)
-  install(EXPORT flinch-targets-${name} NAMESPACE flinch:: DESTINATION ${package_dir})
+  install(EXPORT flinch-targets-${name} NAMESPACE flinch:: DESTINATION ${package_dir}
+          COMPONENT development)
 endforeach()
 
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/flinch-config.cmake.in flinch-config.cmake
@@ -14,5 +19,9 @@ install(FILES
   ${CMAKE_CURRENT_BINARY_DIR}/flinch-config.cmake
   ${CMAKE_CURRENT_BINARY_DIR}/flinch-config-version.cmake
   ${PROJECT_SOURCE_DIR}/cmake/FindHDF5Serial.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/FindMatio.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/FindLz4.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/FindZstandard.cmake
   ${PROJECT_SOURCE_DIR}/cmake/FindBulletFloat64.cmake
-  DESTINATION ${package_dir})
+  ${PROJECT_SOURCE_DIR}/cmake/FindCppHttplib.cmake
+  DESTINATION ${package_dir} COMPONENT development)

@@ -4,9 +4,13 @@
 #include <utility>
 
 #include "diagrams/added_stages.h"
+#include "diagrams/control_rate.h"
+#include "diagrams/drive_checking.h"
 #include "diagrams/isolation_stages.h"
 #include "diagrams/lagless_motion.h"
 #include "diagrams/limit_keeping.h"
+#include "diagrams/shared_parts.h"
+#include "diagrams/watched_imu.h"
 #include "systems/contact/told_contact.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/constant.h"
@@ -14,7 +18,6 @@
 #include "systems/laws/zero_gravity.h"
 #include "systems/model/robot_model.h"
 #include "systems/safety/fault_monitor.h"
-#include "systems/safety/plausibility_monitor.h"
 
 namespace flinch {
 namespace {
@@ -26,17 +29,20 @@ struct Path {
   DiagramBuilder& builder;
   const Robot& robot;
   const ContactControlSettings& settings;
+  std::shared_ptr<SharedParts> shared = std::make_shared<SharedParts>();
   /// Which stages judge by; see StageSite.
   std::shared_ptr<std::vector<Named<OutputPort<DriveLoad>>>> loads =
       std::make_shared<std::vector<Named<OutputPort<DriveLoad>>>>();
 
+  StageSite site(const std::string& name) const {
+    return {builder, name, robot, settings, *shared, loads.get()};
+  }
+
   template <class Given, class Port>
   AddedStages<Port> add(const Stages<Stage<Given, Port>>& stages, const Given& given) const {
     AddedStages<Port> added;
-    for (const Stage<Given, Port>& stage : stages.all) {
-      const StageSite site{builder, stage.name, robot, settings, loads.get()};
-      added.all.push_back({stage.name, stage.add(site, given)});
-    }
+    for (const Stage<Given, Port>& stage : stages.all)
+      added.all.push_back({stage.name, stage.add(site(stage.name), given)});
     added.followed = followed_name(stages);
     return added;
   }
@@ -59,6 +65,7 @@ struct Operator {
   OperatorButtons& buttons;
   ReactionSequence& sequence;
   PlatformTrajectory& trajectory;
+  InputPort<TargetCommand> target;
 };
 
 /// Torques that are ready for every mode.
@@ -82,20 +89,6 @@ SensedPorts add_inputs(DiagramBuilder& builder) {
           builder.input<StationStatus>("status")};
 }
 
-/// The IMU as the station tells it, and who says what of it can be believed.
-struct WatchedImu {
-  InputPort<ImuReading> reading;
-  PlausibilityMonitor& monitor;
-};
-
-WatchedImu add_imu(const Path& path) {
-  PlausibilityLimits limits = path.settings.plausibility;
-  limits.imu_mount = path.settings.imu_mount;
-  if (limits.torque_constant.size() == 0) limits.torque_constant = path.settings.drive_torque.torque_constant;
-  return {path.builder.optional_input<ImuReading>("imu"),
-          path.builder.add<PlausibilityMonitor>("plausibility_monitor", path.robot, limits)};
-}
-
 /// That of the velocity, where the torque is to lag as it does.
 std::optional<LowPassSettings> torque_low_pass(const ContactControlSettings& settings) {
   return settings.aligned_with_velocity ? std::optional(settings.velocity_filter.low_pass) : std::nullopt;
@@ -109,8 +102,8 @@ MotionPorts add_motion(const Path& path, const SensedPorts& sensed, OutputPort<J
   path.builder.connect(sensed.joints, pose.joints);
   path.builder.connect(joint_motion, pose.motion);
   path.builder.connect(pose.platform, model.platform);
-  const StageSite site{path.builder, "drive_torque", path.robot, path.settings};
-  const OutputPort<DriveTorque> torque = add_drive_torque(site, sensed, torque_low_pass(path.settings));
+  const OutputPort<DriveTorque> torque =
+      add_drive_torque(path.site("drive_torque"), sensed, torque_low_pass(path.settings));
   return {sensed, joint_motion, pose.platform, model.kinematics, model.dynamics, model.measures, torque, imu};
 }
 
@@ -121,10 +114,11 @@ OutputPort<PlatformAcceleration> followed_acceleration(
 }
 
 Operator add_operator(const Path& path, const EstimatePorts& given, OperatorButtons& buttons,
-                      OutputPort<ContactDetection> detection, InputPort<TargetCommand> target) {
+                      OutputPort<ContactDetection> detection) {
+  const auto target = path.builder.optional_input<TargetCommand>("target");
   const Operator added{
       buttons, path.builder.add<ReactionSequence>("reaction_sequence", path.settings.sequence),
-      path.builder.add<PlatformTrajectory>("trajectory", path.robot, path.settings.trajectory)};
+      path.builder.add<PlatformTrajectory>("trajectory", path.robot, path.settings.trajectory), target};
   path.builder.connect(buttons.reset, added.sequence.reset);
   path.builder.connect(detection, added.sequence.detection);
   path.builder.connect(given.joint_motion, added.sequence.joints);
@@ -169,7 +163,7 @@ Laws add_laws(const Path& path, const ReactionPorts& given) {
   builder.connect(laws.zero_gravity.torque, laws.selector.zero_gravity);
   builder.connect(laws.nominal.port().reference, laws.selector.nominal_reference);
   builder.connect(laws.reaction.port().reference, laws.selector.reaction_reference);
-  laws.kept = add_limit_keeper({builder, "limits", path.robot, path.settings}, given, laws.selector.torque);
+  laws.kept = add_limit_keeper(path.site("limits"), given, laws.selector.torque);
   return laws;
 }
 
@@ -177,11 +171,10 @@ Laws add_laws(const Path& path, const ReactionPorts& given) {
 void connect(const Path& path, const WatchedImu& imu, const ReactionPorts& given, const Safety& safety) {
   DiagramBuilder& builder = path.builder;
   PlausibilityMonitor& monitor = imu.monitor;
-  const StageSite site{builder, "plausibility_monitor", path.robot, path.settings};
   builder.connect(given.joints, monitor.joints);
   builder.connect(given.drives, monitor.drives);
   builder.connect(imu.reading, monitor.imu);
-  builder.connect(add_drive_torque(part(site, "torque"), given), monitor.torque);
+  builder.connect(add_present_torque(path.site("plausibility_monitor"), given), monitor.torque);
   builder.connect(given.reset, monitor.reset);
   builder.connect(given.status, monitor.station);
   builder.connect(given.platform, monitor.platform);
@@ -198,11 +191,12 @@ OutputPort<TorqueCommand> stop_of(const Path& path, const Laws& laws, const Safe
   if (!laws.kept.followed) return laws.stop.torque;
   const OutputPort<TorqueCommand> commanded = safety.gate.torque_command;
   path.builder.connect(commanded, *laws.kept.commanded);
-  return add_kept_stop({path.builder, "stop_limits", path.robot, path.settings}, *laws.kept.followed,
+  return add_kept_stop(path.site("stop_limits"), *laws.kept.followed,
                        {laws.stop.torque, safety.monitor.faults, safety.gate.status, commanded});
 }
 
-Safety add_safety(const Path& path, const ReactionPorts& given, const Laws& laws) {
+Safety add_safety(const Path& path, const ReactionPorts& given, const Laws& laws,
+                  const CheckedTorques& checked) {
   DiagramBuilder& builder = path.builder;
   const Safety safety{builder.add<FaultMonitor>("fault_monitor", path.robot, path.settings.faults),
                       builder.add<TorqueGate>("torque_gate", path.settings.torque_gate)};
@@ -215,9 +209,10 @@ Safety add_safety(const Path& path, const ReactionPorts& given, const Laws& laws
   builder.connect(given.detection, safety.monitor.detection);
   builder.connect(given.reaction, safety.monitor.reaction);
   builder.connect(laws.selector.reference, safety.monitor.reference);
-  builder.connect(laws.kept.torque, safety.monitor.command);
+  builder.connect(checked.torque, safety.monitor.command);
+  builder.connect(checked.status, safety.monitor.drive_check);
   builder.connect(safety.monitor.faults, safety.gate.faults);
-  builder.connect(laws.kept.torque, safety.gate.command);
+  builder.connect(checked.torque, safety.gate.command);
   builder.connect(stop_of(path, laws, safety), safety.gate.stop);
   builder.connect(given.reset, safety.gate.reset);
   builder.connect(safety.gate.torque_command, laws.selector.commanded);
@@ -293,8 +288,7 @@ struct Isolation {
 
 Isolation add_isolation(const Path& path, const EstimatePorts& given,
                         OutputPort<ContactDetection> detection) {
-  const StageSite site{path.builder, "isolation", path.robot, path.settings};
-  Isolation isolation{flinch::add_isolation(site, given, detection), {}, {}};
+  Isolation isolation{flinch::add_isolation(path.site("isolation"), given, detection), {}, {}};
   isolation.classifiers = path.add(path.settings.stages.classifiers, isolation.contact);
   isolation.locators = path.add(path.settings.stages.locators, isolation.classified());
   return isolation;
@@ -346,10 +340,12 @@ void show_laws(const Path& path, const Laws& laws, OtherStages& shown) {
 }
 
 void show(const Path& path, const AddedStages<OutputPort<ContactDetection>>& detectors,
-          const Isolation& isolation, const Laws& laws, OtherStages& shown) {
+          const Isolation& isolation, const Laws& laws, const CheckedTorques& checked, OtherStages& shown) {
   shown.detections = path.show_others("detection", detectors);
   show_isolation(path, isolation, shown);
   show_laws(path, laws, shown);
+  if (checked.are_checked)
+    shown.drive_checks.push_back({"drive_check", path.builder.export_output("drive_check", checked.status)});
 }
 
 /// Lets the reaction believe who knows what touches the robot, where the settings say so.
@@ -371,16 +367,21 @@ Told add_told_contact(const Path& path, ReactionPorts& reaction) {
   return given;
 }
 
+void throw_if_bad(const ContactControlSettings& settings) {
+  throw_if_any(problems(settings.stages));
+  throw_if_any(problems_of_rate(settings));
+}
+
 }  // namespace
 
 ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
                                    const ContactControlSettings& settings) {
-  throw_if_any(problems(settings.stages));
-  DiagramBuilder builder("control");
+  throw_if_bad(settings);
+  DiagramBuilder builder("control", settings.control_period);
   const Path path{builder, robot, settings};
   const SensedPorts sensed = add_inputs(builder);
   const auto velocities = path.add(settings.stages.velocities, sensed);
-  const WatchedImu imu = add_imu(path);
+  const WatchedImu imu = add_watched_imu(path.site("plausibility_monitor"));
   const MotionPorts motion = add_motion(path, sensed, velocities.port(), imu.monitor.believed_imu);
   const auto accelerations = path.add(settings.stages.accelerations, motion);
   const AcceleratedPorts accelerated{motion, followed_acceleration(path, accelerations), accelerations.all};
@@ -389,23 +390,23 @@ ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
   const EstimatePorts estimated{accelerated, estimators.port(), estimators.all, buttons.reset};
   const auto detectors = path.add(settings.stages.detectors, estimated);
   const Isolation isolation = add_isolation(path, estimated, detectors.port());
-  const auto target = builder.optional_input<TargetCommand>("target");
-  const Operator wanted = add_operator(path, estimated, buttons, detectors.port(), target);
+  const Operator wanted = add_operator(path, estimated, buttons, detectors.port());
   ReactionPorts reaction{isolation.classified(), isolation.locators.port().location,
                          wanted.sequence.reaction_state, wanted.trajectory.reference};
   const Told told = add_told_contact(path, reaction);
   const Laws laws = add_laws(path, reaction);
-  const Safety safety = add_safety(path, reaction, laws);
+  const auto tried = add_drive_check(path.site("drive_check"), reaction, laws.kept.torque, wanted.trajectory);
+  const Safety safety = add_safety(path, reaction, laws, tried);
   connect(path, imu, reaction, safety);
   OtherStages others = show_others(path, velocities, accelerations, estimators, buttons.reset);
-  show(path, detectors, isolation, laws, others);
+  show(path, detectors, isolation, laws, tried, others);
   const ContactControl control{
       .joints = sensed.joints,
       .drives = sensed.drives,
       .imu = imu.reading,
       .status = sensed.status,
       .operator_command = connect_back(builder, sensed, laws, safety, wanted),
-      .target = target,
+      .target = wanted.target,
       .told_classification = told.classification,
       .told_location = told.location,
       .tick_timing = builder.export_input("tick_timing", safety.monitor.timing),

@@ -36,6 +36,8 @@ struct OtherStages {
   std::vector<Named<OutputPort<TaskEnergies>>> energies;
   /// What the followed law of the reaction leads, where it serves tasks: "reaction_task".
   std::vector<Named<OutputPort<FollowedTask>>> tasks;
+  /// How the drives answered before the first motion, where that is checked: "drive_check".
+  std::vector<Named<OutputPort<DriveCheckStatus>>> drive_checks;
   /// What detectors take for the loads of the drives, "load_" + their name.
   std::vector<Named<OutputPort<DriveLoad>>> loads;
 };
@@ -80,7 +82,8 @@ struct ContactControl {
   OtherStages others;
 };
 
-/// Adds the whole pipeline to `builder`, as one nested diagram named "control" that runs at ticks of 1 ms:
+/// Adds the whole pipeline to `builder`, as one nested diagram named "control" that runs at
+/// `settings.control_period`:
 ///
 ///   joints -> velocity source -> forward kinematics -> model -> wrench estimator -> detector -> classifier
 ///          -> locator -> reaction sequence -> trajectory -> nominal law | reaction law -> mode selector

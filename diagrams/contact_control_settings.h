@@ -23,6 +23,7 @@
 #include "systems/model/forward_kinematics.h"
 #include "systems/motion/platform_trajectory.h"
 #include "systems/motion/retraction.h"
+#include "systems/safety/drive_check.h"
 #include "systems/safety/fault_table.h"
 #include "systems/safety/plausibility_limits.h"
 #include "systems/safety/torque_gate.h"
@@ -42,6 +43,8 @@ struct OwnThreshold {
 /// where they come from.
 struct ContactControlSettings {
   ControlStages stages = standard_stages();
+  /// From tick to tick; know_period() (robot_settings.h) sets what follows from it.
+  Time control_period = 1ms;
 
   // ---- what the sensors say
   VelocityFilterSettings velocity_filter;  ///< 30 Hz
@@ -90,6 +93,8 @@ struct ContactControlSettings {
   // ---- safety
   FaultLimits faults;
   PlausibilityLimits plausibility;  ///< with `imu_mount` in the place of its own
+  bool checks_drives = false;       ///< before the first motion, where commands reach the robot
+  DriveCheckSettings drive_check;   ///< of settings_for(): a torque that overcomes friction
   ControlledStopSettings controlled_stop;
   TorqueGateSettings torque_gate;  ///< 100 Nm, 20 Nm/ms
 };

@@ -6,6 +6,7 @@
 #include "diagrams/acceleration_stages.h"
 #include "diagrams/contact_control_settings.h"
 #include "diagrams/lagless_motion.h"
+#include "diagrams/shared_parts.h"
 #include "systems/estimators/direct_method.h"
 #include "systems/estimators/estimate_fallback.h"
 #include "systems/foundation/setup_error.h"
@@ -25,8 +26,14 @@ OutputPort<WrenchEstimate> add(const StageSite& site, const AcceleratedPorts& gi
   return estimator.wrench;
 }
 
+/// Shared: the stage is that to which others fall back.
 OutputPort<WrenchEstimate> add_momentum_observer(const StageSite& site, const AcceleratedPorts& given) {
-  return add<MomentumObserver>(site, given, site.settings.momentum_observer);
+  std::optional<OutputPort<WrenchEstimate>>& observer = site.shared.momentum_observer;
+  if (!observer) {
+    const StageSite own{site.builder, "momentum_observer", site.robot, site.settings, site.shared};
+    observer = add<MomentumObserver>(own, given, site.settings.momentum_observer);
+  }
+  return *observer;
 }
 
 OutputPort<WrenchEstimate> add_momentum_kalman_filter(const StageSite& site, const AcceleratedPorts& given) {
@@ -40,11 +47,9 @@ OutputPort<WrenchEstimate> add_sliding_mode_observer(const StageSite& site, cons
 /// An estimate that needs the IMU, and beside it the momentum observer for where that fails.
 OutputPort<WrenchEstimate> add_fallback(const StageSite& site, const AcceleratedPorts& given,
                                         OutputPort<WrenchEstimate> preferred) {
-  const auto observer =
-      add<MomentumObserver>(part(site, "momentum_observer"), given, site.settings.momentum_observer);
   auto& fallback = site.builder.add<EstimateFallback>(site.name);
   site.builder.connect(preferred, fallback.preferred);
-  site.builder.connect(observer, fallback.other);
+  site.builder.connect(add_momentum_observer(site, given), fallback.other);
   return fallback.wrench;
 }
 
@@ -53,11 +58,12 @@ OutputPort<WrenchEstimate> add_direct(const StageSite& site, const AcceleratedPo
                                       const AcceleratedPorts& present,
                                       OutputPort<PlatformAcceleration> acceleration) {
   DiagramBuilder& builder = site.builder;
-  auto& direct = builder.add<DirectMethod>(site.name + "_method", site.robot);
+  auto& direct = builder.add<DirectMethod>(site.name + "_method", site.robot,
+                                           Sampling::each(site.settings.control_period));
   builder.connect(present.platform, direct.platform);
   builder.connect(present.kinematics, direct.kinematics);
   builder.connect(present.dynamics, direct.dynamics);
-  builder.connect(add_drive_torque(part(site, "torque"), given), direct.torque);
+  builder.connect(add_present_torque(site, given), direct.torque);
   builder.connect(acceleration, direct.acceleration);
   return add_fallback(site, given, direct.wrench);
 }
@@ -120,7 +126,7 @@ OutputPort<WrenchEstimate> add_imu_residual(const StageSite& site, const Acceler
   builder.connect(present.platform, residual.platform);
   builder.connect(present.kinematics, residual.kinematics);
   builder.connect(present.dynamics, residual.dynamics);
-  builder.connect(add_drive_torque(part(site, "torque"), given), residual.torque);
+  builder.connect(add_present_torque(site, given), residual.torque);
   builder.connect(given.imu, residual.imu);
   return add_fallback(site, given, residual.wrench);
 }

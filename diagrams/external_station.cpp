@@ -16,8 +16,8 @@ struct Guarded {
 };
 
 template <class Reading>
-Guarded<Reading> add_guard(DiagramBuilder& inside, const std::string& name, JointCount robot, Time max_age) {
-  auto& guard = inside.add<ReadingGuard<Reading>>(name + "_guard", robot, max_age);
+Guarded<Reading> add_guard(DiagramBuilder& inside, const std::string& name, const GuardSettings& settings) {
+  auto& guard = inside.add<ReadingGuard<Reading>>(name + "_guard", settings);
   return {inside.export_input("arriving_" + name, guard.arrival), inside.export_output(name, guard.reading),
           inside.export_output(name + "_link", guard.link)};
 }
@@ -42,13 +42,16 @@ ExternalStation add_external_station(DiagramBuilder& builder,
   check(settings);
   DiagramBuilder inside("station");
   const JointCount count{.drives = robot->drives(), .passive = robot->passive_joints()};
-  const auto joints = add_guard<JointReading>(inside, "joints", count, settings.max_age);
-  const auto drives = add_guard<DriveReading>(inside, "drives", count, settings.max_age);
-  const auto imu = add_guard<ImuReading>(inside, "imu", count, settings.max_imu_age);
-  const auto status = add_guard<StationStatus>(inside, "status", count, settings.max_age);
+  const GuardSettings usual{.robot = count, .max_age = settings.max_age, .lockstep = settings.lockstep};
+  GuardSettings of_imu = usual;
+  of_imu.max_age = settings.max_imu_age;
+  const auto joints = add_guard<JointReading>(inside, "joints", usual);
+  const auto drives = add_guard<DriveReading>(inside, "drives", usual);
+  const auto imu = add_guard<ImuReading>(inside, "imu", of_imu);
+  const auto status = add_guard<StationStatus>(inside, "status", usual);
   std::optional<Guarded<ForceTorqueReading>> sensor;
   if (settings.force_torque) {
-    sensor = add_guard<ForceTorqueReading>(inside, "force_torque", count, settings.max_age);
+    sensor = add_guard<ForceTorqueReading>(inside, "force_torque", usual);
   }
 
   ExternalStation station;

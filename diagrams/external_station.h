@@ -15,6 +15,9 @@ struct ExternalStationSettings {
   Time max_age = 3ms;         ///< of a reading, by its acquisition; older ones are not valid
   Time max_imu_age = 10ms;    ///< the unit itself delays its samples by 3 to 4 ms, [RAL25] V-B
   bool force_torque = false;  ///< the instrument is mounted
+  /// The robot is simulated and waits for each tick, so that its readings are of the tick itself, as in one
+  /// program with it: they are shown as they are, old ones and those of broken sensors as well.
+  bool lockstep = false;
 };
 
 /// The station's ports, and where its readings come in: inputs of the outer diagram, which whoever runs it

@@ -73,10 +73,10 @@ template <class Value>
 class FaultyValue final : public System {
  public:
   struct Memory {
-    std::array<Value, 64> past;  ///< a ring: the value of each tick
-    std::size_t ticks = 0;       ///< how many have been
-    Value delivered;             ///< the last one that was let through
-    Value onset;                 ///< at the begin of the fault
+    std::array<Value, 256> past;  ///< a ring: the value of each tick, of 64 ms at least
+    std::size_t ticks = 0;        ///< how many have been
+    Value delivered;              ///< the last one that was let through
+    Value onset;                  ///< at the begin of the fault
     bool begun = false;
     std::array<double, 2 * max_dof> normal{};  ///< drawn anew for each tick
     double chance = 1.0;

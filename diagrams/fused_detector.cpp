@@ -22,7 +22,7 @@ OutputPort<DriveLoad> add_loads(const StageSite& site, const AcceleratedPorts& g
   site.builder.connect(present.platform, loads.platform);
   site.builder.connect(present.kinematics, loads.kinematics);
   site.builder.connect(present.dynamics, loads.dynamics);
-  site.builder.connect(add_drive_torque(part(site, "torque"), given), loads.torque);
+  site.builder.connect(add_present_torque(site, given), loads.torque);
   return loads.load;
 }
 
@@ -84,7 +84,7 @@ ResidualTracking tracking_of(const std::string& estimator, const ContactControlS
 }
 
 OutputPort<ContactDetection> add_fused_detector(const StageSite& site, const EstimatePorts& given) {
-  const LaglessPorts present = without_lag(part(site, "motion"), given);
+  const LaglessPorts present = without_lag(site, given);
   const OutputPort<DriveLoad> load = add_loads(site, given, present);
   if (site.loads != nullptr) site.loads->push_back({site.name, load});
   const std::vector<FusedResidual>& residuals = site.settings.fused_detector.residuals;

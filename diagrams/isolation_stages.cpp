@@ -81,7 +81,8 @@ ContactClassifier learned_classifier_stage(LearnedClassifierSettings settings) {
           [settings = std::move(settings)](const StageSite& site, const ContactPorts& given) {
             DiagramBuilder& builder = site.builder;
             auto& classifier = builder.add<LearnedClassifier>(site.name, site.robot, settings);
-            auto& course = builder.add<CourseMemory>(site.name + "_course", settings.window);
+            auto& course = builder.add<CourseMemory>(site.name + "_course", settings.window,
+                                                     site.settings.control_period);
             // The evidence that it was trained with, whatever the model classifier is told.
             const auto evidence_of = [&](const std::string& name, OutputPort<WrenchEstimate> wrench) {
               auto& evidence =

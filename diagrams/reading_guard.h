@@ -43,10 +43,16 @@ inline void distrust_broken_parts(JointReading& joints, JointCount robot) {
 template <class Reading>
 void distrust_broken_parts(Reading&, JointCount) {}
 
+struct GuardSettings {
+  JointCount robot;
+  Time max_age{};         ///< of a reading, by its acquisition
+  bool lockstep = false;  ///< see ExternalStationSettings
+};
+
 /// Lets a reading in from outside. It is valid where it says so itself, is sound and not older than `max_age`
 /// by its acquisition; a tick without a new one sees the last one again, as long as it is young enough.
 /// Of a broken one nothing is shown but that the reading is no longer valid, and of an older one than the
-/// last not even that.
+/// last not even that. In lockstep no reading is late or out of order, and only a broken one is kept out.
 template <class Reading>
 class ReadingGuard final : public System {
  public:
@@ -59,7 +65,8 @@ class ReadingGuard final : public System {
   State<Memory> memory_ = state<Memory>("memory");
 
  public:
-  ReadingGuard(JointCount robot, Time max_age) : robot_(robot), max_age_(max_age) {}
+  explicit ReadingGuard(const GuardSettings& settings)
+      : robot_(settings.robot), max_age_(settings.max_age), lockstep_(settings.lockstep) {}
 
   InputPort<Arrival<Reading>> arrival = System::input<Arrival<Reading>>("arrival");
 
@@ -86,12 +93,12 @@ class ReadingGuard final : public System {
     if (next.link.flow == Flow::restarted) next.last.reading = Reading();
     if (next.link.flow != Flow::out_of_order) count(came, memory, next);
     if (next.last.source != 0) next.link.age = now - next.last.reading.acquired;
-    expire(next);
+    if (!lockstep_) expire(next);
   }
 
-  static void count(const Arrival<Reading>& came, const Memory& memory, Memory& next) {
+  void count(const Arrival<Reading>& came, const Memory& memory, Memory& next) const {
     const std::uint32_t step = came.number - memory.last.number;
-    const bool same_source = came.source != 0 && came.source == memory.last.source;
+    const bool same_source = !lockstep_ && came.source != 0 && came.source == memory.last.source;
     if (same_source && step > 1) next.link.skipped += step - 1;
     next.last.source = came.source;
     next.last.number = came.number;
@@ -99,6 +106,8 @@ class ReadingGuard final : public System {
 
   Flow judge(const Arrival<Reading>& came, const Memory& memory, Time now) const {
     if (came.source == 0) return Flow::nothing;
+    const bool is_broken = came.reading.valid && !is_sound(came.reading, robot_);
+    if (lockstep_) return is_broken ? Flow::broken : Flow::fresh;
     if (came.source != memory.last.source && memory.last.source != 0) return Flow::restarted;
     const auto step = static_cast<std::int32_t>(came.number - memory.last.number);
     const bool first = memory.last.source == 0;
@@ -106,7 +115,7 @@ class ReadingGuard final : public System {
     if (!first && step < 0) return Flow::out_of_order;
     if (came.reading.acquired > now) return Flow::broken;
     if (!first && came.reading.acquired < memory.last.reading.acquired) return Flow::broken;
-    return came.reading.valid && !is_sound(came.reading, robot_) ? Flow::broken : Flow::fresh;
+    return is_broken ? Flow::broken : Flow::fresh;
   }
 
   static bool is_refusal(Flow flow) {
@@ -124,6 +133,7 @@ class ReadingGuard final : public System {
 
   JointCount robot_;
   Time max_age_;
+  bool lockstep_;
 };
 
 }  // namespace flinch

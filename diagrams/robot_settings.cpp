@@ -46,6 +46,12 @@ double unseen_torque(const ParallelRobot& robot, const DriveParameters& drives) 
   return std::max(0.06 * drives.max_torque, 4.0 * coulomb_friction(robot));
 }
 
+/// That tells a drive from one that friction holds, and turns round without a jump [Nm or N].
+double checking_torque(const ParallelRobot& robot, const DriveParameters& drives) {
+  const double moving = std::max(0.12 * drives.max_torque, 8.0 * coulomb_friction(robot));
+  return std::min({moving, 0.3 * drives.max_torque, 0.45 * drives.max_torque_jump});
+}
+
 PlausibilityLimits plausibility_for(const DriveParameters& drives, double inertia) {
   PlausibilityLimits limits;
   limits.drive_acceleration = drives.max_torque / inertia;
@@ -64,8 +70,30 @@ void know_drives(const DriveParameters& drives, DriveTorqueSettings& settings) {
   settings.delay = drives.torque_delay;
 }
 
+void know_period(Time period, ContactControlSettings& settings) {
+  const Sampling sampling = Sampling::each(period);
+  settings.control_period = period;
+  for (Sampling* const each :
+       {&settings.velocity_filter.sampling, &settings.forward_kinematics.sampling,
+        &settings.drive_torque.sampling, &settings.imu_ekf.sampling, &settings.extended_imu_ekf.sampling,
+        &settings.momentum_observer.sampling, &settings.momentum_kalman_filter.inputs.sampling,
+        &settings.sliding_mode_observer.inputs.sampling, &settings.disturbance_filter.sampling,
+        &settings.imu_residual.sampling, &settings.fused_detector.tracking.sampling,
+        &settings.limits_filter.sampling})
+    *each = sampling;
+  settings.sliding_mode_observer.substeps = periods_in(period, 100us);
+  settings.imu_residual.rest_in_a_row = periods_in(50ms, period);
+  settings.imu_residual.leaving_rest = periods_in(25ms, period);
+  settings.imu_residual.rest_samples = periods_in(50ms, period);
+  settings.contact_detector.period = period;
+  settings.faults.longest_gap = sampling.longest_hold;
+  settings.faults.max_age = longest_age(period);
+  settings.plausibility.period = period;
+  settings.drive_check.period = period;
+}
+
 ContactControlSettings settings_for(const ParallelRobot& robot, const DriveParameters& drives,
-                                    const WorkspaceLimits& limits) {
+                                    const WorkspaceLimits& limits, Time period) {
   const double inertia = least_inertia(robot);
   ContactControlSettings settings;
   know_drives(drives, settings.drive_torque);
@@ -76,10 +104,11 @@ ContactControlSettings settings_for(const ParallelRobot& robot, const DriveParam
   settings.faults.max_encoder_rate = drives.max_encoder_rate;
   settings.faults.max_control_error = drives.max_control_error;
   settings.faults.max_unseen_motion = drives.max_unseen_motion;
-  settings.faults.max_torque_jump = drives.max_torque_jump;
+  settings.faults.max_torque_jump = drives.max_torque_jump * std::max(1.0, to_seconds(period) / 1e-3);
   settings.faults.torque_range = drives.max_torque;
   settings.faults.max_unseen_current = unseen_torque(robot, drives) / drives.torque_constant.minCoeff();
   settings.plausibility = plausibility_for(drives, inertia);
+  settings.drive_check.torque = checking_torque(robot, drives);
   settings.torque_gate.max_torque = drives.max_torque;
   settings.torque_gate.max_torque_rate = drives.max_torque_rate;
   settings.fused_detector.tracking.resting_rate = settings.sequence.rest_speed;
@@ -98,6 +127,7 @@ ContactControlSettings settings_for(const ParallelRobot& robot, const DriveParam
   settings.limits.max_drive_speed = 0.95 * drives.max_speed;
   settings.yielding->damping = settings.controlled_stop.damping;
   settings.yielding->whole_from = drives.max_speed / 4.0;
+  know_period(period, settings);
   return settings;
 }
 

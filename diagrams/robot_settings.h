@@ -15,8 +15,14 @@ namespace flinch {
 ///   damping of the controlled stop: the least inertia that a drive feels at home, in 29 ms, [PAR]; after a
 ///   hard contact from a quarter of the largest speed on, less below;
 ///   gains of the velocity level: that inertia times 106 1/s, and times 1.76 1/s.
+/// `period`: from tick to tick, see know_period().
 ContactControlSettings settings_for(const ParallelRobot& robot, const DriveParameters& drives,
-                                    const WorkspaceLimits& limits);
+                                    const WorkspaceLimits& limits, Time period = 1ms);
+
+/// What follows from the time between two ticks of the control path. Samples may be missing, late and
+/// repeated as long at every rate, and for one tick at least; filters that make several steps in a tick make
+/// them as short as at 1 kHz.
+void know_period(Time period, ContactControlSettings& settings);
 
 /// What the drive torques follow from, as far as it is known of the drives.
 void know_drives(const DriveParameters& drives, DriveTorqueSettings& settings);

@@ -13,6 +13,7 @@
 namespace flinch {
 
 struct ContactControlSettings;
+struct SharedParts;
 
 /// An output of the stage called `name`.
 template <class Port>
@@ -27,6 +28,7 @@ struct StageSite {
   std::string name;         ///< of the stage, for its block; of further blocks: name + "_" + what they are
   std::shared_ptr<const ParallelRobot> robot;
   const ContactControlSettings& settings;
+  SharedParts& shared;  ///< of the control path
   /// Takes the loads of the drives that a detector of this site judges by, to be recorded; null: nobody does.
   std::vector<Named<OutputPort<DriveLoad>>>* loads = nullptr;
 };

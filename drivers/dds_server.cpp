@@ -11,20 +11,10 @@
 #include "drivers/sending_thread.h"
 #include "drivers/tick_clock.h"
 #include "drivers/wire_conversion.h"
-#include "systems/foundation/setup_error.h"
 #include "systems/framework/diagram.h"
 
 namespace flinch {
 namespace {
-
-bool asks_for_nothing(const flinch_TorqueSample& sample) {
-  return (sample.header.flags & flag_valid) == 0 || (sample.header.flags & flag_engage_brake) != 0;
-}
-
-const std::string& checked_name(const std::string& robot_name) {
-  throw_if_any(problems_of_robot_name(robot_name));
-  return robot_name;
-}
 
 constexpr std::uint8_t operation_enabled = 2;  // of flinch_DriveRequest::wanted
 
@@ -58,8 +48,9 @@ class DdsServer::Implementation {
                  const DdsServerSettings& settings, const PoweredStation* powered = nullptr)
       : settings_(settings),
         bus_(bus),
-        sender_{draw_session(), settings.robot, draw_robot_id(checked_name(settings.robot_name))},
+        sender_{draw_session(), settings.robot, draw_robot_id(checked_robot_name(settings.robot_name))},
         clock_(diagram.tick()),
+        period_ns_(static_cast<std::uint32_t>(diagram.tick().count())),
         torque_command_(diagram.slot(station.torque_command)),
         brake_(diagram.slot(station.brake)),
         station_status_(diagram.slot(station.status)),
@@ -106,6 +97,7 @@ class DdsServer::Implementation {
             .received = commands_.count(Admission::admitted),
             .refused = commands_.refused(),
             .for_others = commands_.count(Admission::other_robot),
+            .in_lockstep = commands_.count(Admission::other_pace),
             .silences = silences_,
             .age = age_};
   }
@@ -202,6 +194,7 @@ class DdsServer::Implementation {
     sample.drive_state = static_cast<std::uint8_t>(drives);
     const DdsCommander now = commander();
     sample.commander = now.session;
+    sample.period_ns = period_ns_;
     std::copy(settings_.robot_name.begin(), settings_.robot_name.end(), sample.robot_name);
     sample.commands_refused = now.refused;
     if (obeying_) {
@@ -225,6 +218,7 @@ class DdsServer::Implementation {
   const DdsBus& bus_;
   SenderIdentity sender_;
   TickClock clock_;
+  std::uint32_t period_ns_;
   Slot<TorqueCommand> torque_command_;
   Slot<BrakeCommand> brake_;
   Slot<StationStatus> station_status_;

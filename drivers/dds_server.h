@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -18,6 +19,8 @@ struct DdsServerSettings {
   /// Without a newer command: the brakes close, and who commanded must begin anew. With the bench's tick and
   /// the 10 ms in which the brakes must be commanded to close this leaves room for a busy machine.
   Time longest_silence = 6ms;
+  /// The same for ticks of `period`: of long ones, one command may be missing.
+  static constexpr Time longest_silence_at(Time period) { return std::max<Time>(6ms, 5 * period / 2); }
   /// Of a command from sending to arrival, as far as it varies; later ones are refused.
   Time longest_way = 5ms;
   /// That a user gives the robot, to choose it by among several on one bus; see problems_of_robot_name().
@@ -31,9 +34,10 @@ struct DdsCommander {
   std::uint32_t received = 0;
   /// Of another version, robot or session, not newer, too late, or not neutral at first.
   std::uint32_t refused = 0;
-  std::uint32_t for_others = 0;  ///< of these: meant for another robot
-  std::uint32_t silences = 0;    ///< how often a commander fell silent
-  Time age{};                    ///< of the last command, by its sending
+  std::uint32_t for_others = 0;   ///< of these: meant for another robot
+  std::uint32_t in_lockstep = 0;  ///< likewise: of controllers that wait for their robot
+  std::uint32_t silences = 0;     ///< how often a commander fell silent
+  Time age{};                     ///< of the last command, by its sending
 };
 
 /// Puts a station on the bus: sends its readings after each tick, and lets commands in before. It has an

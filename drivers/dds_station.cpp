@@ -9,6 +9,7 @@
 #include "drivers/sample_receiver.h"
 #include "drivers/sample_sender.h"
 #include "drivers/sending_thread.h"
+#include "drivers/step_sender.h"
 #include "drivers/tick_clock.h"
 #include "drivers/wire_conversion.h"
 #include "systems/framework/diagram.h"
@@ -29,6 +30,11 @@ class ReadingInlet {
     const bool newer = receiver_.take(last_);
     waiting_ = waiting_ || newer;
     return newer;
+  }
+
+  /// Whether the last that has come belongs to this tick of the simulation.
+  bool is_of(Time tick) const noexcept {
+    return last_.sample.header.session != 0 && Time(last_.sample.header.sent_ns) == tick;
   }
 
   /// Returns whether there was something new.
@@ -62,27 +68,40 @@ class DdsStation::Implementation {
                  const DdsStationSettings& settings)
       : bus_(bus),
         sender_{draw_session(), settings.robot},
+        period_(diagram.tick()),
         clock_(diagram.tick()),
         arriving_status_(diagram.slot(station.arriving_status)),
         torque_command_(diagram.slot(station.torque_command)),
         brake_(diagram.slot(station.brake)),
+        pace_(settings.pace),
         robots_(settings.chosen_robot),
-        admission_{.robot = settings.robot, .robots = &robots_, .longest_silence = settings.longest_silence},
+        admission_{.robot = settings.robot,
+                   .robots = &robots_,
+                   .longest_silence = settings.longest_silence,
+                   .pace = pace_},
         joints_(bus, joints_topic, admission_, diagram.slot(station.arriving_joints), &joints_arrived_),
-        drives_(bus, drives_topic, admission_, diagram.slot(station.arriving_drives)),
-        imu_(bus, imu_topic, admission_, diagram.slot(station.arriving_imu)),
-        status_(bus, status_topic, admission_, diagram.slot(station.arriving_status)),
-        commands_(bus, torque_command_topic, sender_),
+        drives_(bus, drives_topic, admission_, diagram.slot(station.arriving_drives), others_arrived()),
+        imu_(bus, imu_topic, admission_, diagram.slot(station.arriving_imu), others_arrived()),
+        status_(bus, status_topic, admission_, diagram.slot(station.arriving_status), others_arrived()),
         requests_(bus, drive_request_topic, sender_) {
     if (station.arriving_force_torque) {
-      force_torque_.emplace(bus, force_torque_topic, admission_,
-                            diagram.slot(*station.arriving_force_torque));
+      force_torque_.emplace(bus, force_torque_topic, admission_, diagram.slot(*station.arriving_force_torque),
+                            others_arrived());
     }
+    if (pace_ == Pace::lockstep) {
+      steps_.emplace(bus, torque_command_topic, sender_);
+      return;
+    }
+    commands_.emplace(bus, torque_command_topic, sender_);
     thread_.emplace([this] { send(); }, settings.realtime_priority);
   }
 
   void set_inputs(Context& context) noexcept {
-    clock_.start_tick(context.time());
+    if (pace_ == Pace::lockstep) {
+      clock_.stand_at(context.time());
+    } else {
+      clock_.start_tick(context.time());
+    }
     take_robot();
     if (joints_.set_inputs(context, clock_)) time_joints();
     drives_.set_inputs(context, clock_);
@@ -100,8 +119,54 @@ class DdsStation::Implementation {
     TorqueCommand command = context[torque_command_];
     command.computed = clock_.to_monotonic(command.computed);
     to_wire(command, context[brake_], sample);
-    commands_.leave(sample);
+    if (pace_ == Pace::lockstep) return send_step(sample, context.time());
+    commands_->leave(sample);
     thread_->wake();
+  }
+
+  void introduce() noexcept {
+    if (pace_ == Pace::lockstep) return ask_for_begin();
+    flinch_TorqueSample nothing{};
+    nothing.header.acquired_ns = MonotonicClock::now().count();
+    nothing.header.flags = flag_engage_brake;
+    commands_->leave(nothing);
+    thread_->wake();
+  }
+
+  void ask_for_begin() noexcept {
+    begun_ = false;
+    step_ = {};
+    step_.header.flags = flag_begin | flag_engage_brake;
+    step_time_ = before_first_tick;
+    awaited_ = Time::zero();
+    send_again();
+  }
+
+  Answer wait_for_tick(Time deadline) noexcept {
+    do {
+      look_for_newer();
+      const bool is_ours = obeys_us();
+      if (is_ours && all_are_of(awaited_)) {
+        begun_ = true;
+        return Answer::ready;
+      }
+      if (begun_ && !is_ours) return Answer::gone;
+    } while (joints_arrived_.wait_until(deadline));
+    return Answer::none;
+  }
+
+  void send_again() noexcept {
+    const std::uint64_t robot_id = take_robot();
+    if (robot_id == 0 || !steps_) return;
+    steps_->name_robot(robot_id);
+    steps_->send(step_, step_time_);
+  }
+
+  void ask_for_end() noexcept {
+    step_ = {};
+    step_.header.flags = flag_end | flag_engage_brake;
+    step_time_ = awaited_ = before_first_tick;
+    send_again();
   }
 
   bool wait_for_joints(Time deadline) noexcept {
@@ -113,6 +178,7 @@ class DdsStation::Implementation {
   }
 
   void request(const DriveWish& wish) noexcept {
+    if (pace_ == Pace::lockstep) return;
     flinch_DriveRequest request{};
     request.header.acquired_ns = MonotonicClock::now().count();
     request.header.flags = flag_valid;
@@ -133,16 +199,19 @@ class DdsStation::Implementation {
     add_refusals(status_.receiver(), link);
     link.robot_id = robots_.taken();
     link.robots = robots_.count();
+    link.period = Time(status_.last().sample.period_ns);
     link.lost = joints_.receiver().lost();
     link.deadlines_missed = joints_.receiver().broken_promises().deadlines;
     const ReceivedSample<flinch_StatusSample>& last = status_.last();
     link.enabled = (last.sample.header.flags & flag_valid) != 0 && last.sample.enabled != 0;
     link.drive_state = static_cast<DriveState>(last.sample.drive_state);
     link.commands_obeyed = obeys_us();
-    if (link.commands_obeyed) link.round_trip = round_trip(last);
+    if (link.commands_obeyed && pace_ == Pace::real_time) link.round_trip = round_trip(last);
     return link;
   }
 
+  Time period() const noexcept { return period_; }
+  Pace pace() const noexcept { return pace_; }
   int peers() const noexcept { return joints_.receiver().writers(); }
   int unreadable_robots() const { return std::max(0, writers_on(bus_, joints_topic) - peers()); }
   const DdsLinkTimes& times() const noexcept { return times_; }
@@ -152,23 +221,52 @@ class DdsStation::Implementation {
   }
   std::uint32_t session() const noexcept { return sender_.session; }
   std::vector<SeenRobot> robots() const { return robots_.robots(); }
-  std::uint64_t take_robot() noexcept { return robots_.take(MonotonicClock::now()); }
+  std::uint64_t take_robot() noexcept {
+    status_.look_for_newer();  // which tells the period before the first tick
+    return robots_.take(MonotonicClock::now());
+  }
   bool is_undecided() const noexcept { return robots_.is_undecided(MonotonicClock::now()); }
 
  private:
+  static constexpr Time before_first_tick = Time(-1);
+
+  /// In lockstep a tick waits for all of them.
+  SampleSignal* others_arrived() noexcept { return pace_ == Pace::lockstep ? &joints_arrived_ : nullptr; }
+
+  void send_step(flinch_TorqueSample& sample, Time tick) noexcept {
+    step_ = sample;
+    step_time_ = tick;
+    awaited_ = tick + period_;
+    send_again();
+  }
+
+  void look_for_newer() noexcept {
+    joints_.look_for_newer();
+    drives_.look_for_newer();
+    imu_.look_for_newer();
+    status_.look_for_newer();
+    if (force_torque_) force_torque_->look_for_newer();
+  }
+
+  bool all_are_of(Time tick) const noexcept {
+    return joints_.is_of(tick) && drives_.is_of(tick) && imu_.is_of(tick) && status_.is_of(tick) &&
+           (!force_torque_ || force_torque_->is_of(tick));
+  }
+
   /// A request waits until there is a robot to name.
   void send() noexcept {
     const std::uint64_t robot_id = robots_.taken();
     if (robot_id == 0) return;
-    commands_.name_robot(robot_id);
+    commands_->name_robot(robot_id);
     requests_.name_robot(robot_id);
-    commands_.send();
+    commands_->send();
     requests_.send();
   }
 
   bool obeys_us() const noexcept { return status_.last().sample.commander == sender_.session; }
 
   void time_joints() noexcept {
+    if (pace_ == Pace::lockstep) return;
     const ReceivedSample<flinch_JointSample>& joints = joints_.last();
     times_.age.add(MonotonicClock::now() - joints.acquired);
     if (last_joints_ != Time::zero()) times_.interval.add(joints.arrived - last_joints_);
@@ -178,7 +276,7 @@ class DdsStation::Implementation {
   /// Of each command once: an echo stands until the next command comes.
   void time_echo() noexcept {
     const flinch_StatusSample& status = status_.last().sample;
-    if (!obeys_us() || status.command_number == last_echo_) return;
+    if (pace_ == Pace::lockstep || !obeys_us() || status.command_number == last_echo_) return;
     if (!is_clock_time(status.command_sent_ns) || !is_clock_time(status.command_received_ns)) return;
     last_echo_ = status.command_number;
     times_.round_trip.add(round_trip(status_.last()));
@@ -190,6 +288,7 @@ class DdsStation::Implementation {
     link.refused += receiver.refused() - of_others;
     link.other_version += receiver.count(Admission::other_version);
     link.other_description += receiver.count(Admission::other_description);
+    link.other_pace += receiver.count(Admission::other_pace);
     link.other_robot += of_others;
   }
 
@@ -202,10 +301,12 @@ class DdsStation::Implementation {
 
   const DdsBus& bus_;
   SenderIdentity sender_;
+  Time period_;
   TickClock clock_;
   Slot<Arrival<StationStatus>> arriving_status_;
   Slot<TorqueCommand> torque_command_;
   Slot<BrakeCommand> brake_;
+  Pace pace_;
   RobotSelection robots_;
   AdmissionSettings admission_;
   DdsLinkTimes times_;
@@ -219,7 +320,14 @@ class DdsStation::Implementation {
   ReadingInlet<flinch_StatusSample, StationStatus> status_;
   std::optional<ReadingInlet<flinch_ForceTorqueSample, ForceTorqueReading>> force_torque_;
 
-  SampleSender<flinch_TorqueSample> commands_;
+  // In lockstep: what was sent last, for which tick, and whose readings are waited for.
+  flinch_TorqueSample step_{};
+  Time step_time_ = before_first_tick;
+  Time awaited_{};
+  bool begun_ = false;  ///< the robot has answered a begin
+  std::optional<StepSender<flinch_TorqueSample>> steps_;
+
+  std::optional<SampleSender<flinch_TorqueSample>> commands_;  ///< in real time
   SampleSender<flinch_DriveRequest> requests_;
   std::optional<SendingThread> thread_;  // last: ends before what it sends with
 };
@@ -235,8 +343,17 @@ void DdsStation::take_outputs(const Context& context) { implementation_->take_ou
 bool DdsStation::wait_for_joints(Time deadline) noexcept {
   return implementation_->wait_for_joints(deadline);
 }
+Pace DdsStation::pace() const noexcept { return implementation_->pace(); }
+void DdsStation::introduce() noexcept { implementation_->introduce(); }
+void DdsStation::ask_for_begin() noexcept { implementation_->ask_for_begin(); }
+DdsStation::Answer DdsStation::wait_for_tick(Time deadline) noexcept {
+  return implementation_->wait_for_tick(deadline);
+}
+void DdsStation::send_again() noexcept { implementation_->send_again(); }
+void DdsStation::ask_for_end() noexcept { implementation_->ask_for_end(); }
 void DdsStation::request(const DriveWish& wish) noexcept { implementation_->request(wish); }
 DdsLink DdsStation::link() const noexcept { return implementation_->link(); }
+Time DdsStation::period() const noexcept { return implementation_->period(); }
 int DdsStation::peers() const noexcept { return implementation_->peers(); }
 int DdsStation::unreadable_robots() const { return implementation_->unreadable_robots(); }
 std::vector<SeenRobot> DdsStation::robots() const { return implementation_->robots(); }

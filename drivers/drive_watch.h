@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "drivers/drive_state_machine.h"
 #include "systems/framework/system.h"
 #include "systems/signals/joint_reading.h"
@@ -9,7 +11,7 @@ namespace flinch {
 
 /// What the state machine of a drive must know of it: it has started as soon as its station says anything,
 /// has a fault where the station reports one, and stands still while no active angle moves by more than
-/// `resting_step` from tick to tick.
+/// `resting_step` from tick to tick, of long ticks in each millisecond.
 class DriveWatch final : public System {
   State<JointReading> last_ = state<JointReading>("last");
 
@@ -26,7 +28,9 @@ class DriveWatch final : public System {
   DriveCondition watch(const JointReading& last, const StationStatus& station,
                        const JointReading& now) const {
     const bool known = last.valid && now.valid && last.active.size() == now.active.size();
-    const bool rests = known && (now.active - last.active).cwiseAbs().maxCoeff() <= resting_step;
+    const double milliseconds = std::max(1.0, 1e3 * to_seconds(now.acquired - last.acquired));
+    const bool rests =
+        known && (now.active - last.active).cwiseAbs().maxCoeff() <= milliseconds * resting_step;
     return {.started = station.valid, .fault = station.valid && station.fault, .standstill = rests};
   }
 };

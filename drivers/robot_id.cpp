@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "drivers/wire_header.h"
+#include "systems/foundation/setup_error.h"
 
 namespace flinch {
 namespace {
@@ -60,6 +61,11 @@ std::vector<std::string> problems_of_robot_name(std::string_view name) {
   }
   if (is_robot_id(name)) found.push_back(what + "looks like an identity, sixteen hexadecimal digits");
   return found;
+}
+
+const std::string& checked_robot_name(const std::string& name) {
+  throw_if_any(problems_of_robot_name(name));
+  return name;
 }
 
 std::string text_of(const SeenRobot& robot) {

@@ -33,6 +33,8 @@ std::string robot_id_text(std::uint64_t id);
 /// What is wrong with the name of a robot, one sentence each: letters, digits, '_', '-' and '.' make one, but
 /// not sixteen hexadecimal digits.
 std::vector<std::string> problems_of_robot_name(std::string_view name);
+/// `name`, where nothing is wrong with it. Throws SetupError.
+const std::string& checked_robot_name(const std::string& name);
 
 /// A robot that was seen on the bus.
 struct SeenRobot {

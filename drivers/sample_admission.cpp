@@ -14,6 +14,10 @@ bool is_after(std::uint32_t number, std::uint32_t last) {
 
 }  // namespace
 
+Pace pace_of(const flinch_Header& header) noexcept {
+  return (header.flags & flag_lockstep) != 0 ? Pace::lockstep : Pace::real_time;
+}
+
 void SampleAdmission::give_up_the_silent(Time now) noexcept {
   if (session_ != 0 && now - last_ > settings_.longest_silence) session_ = 0;
 }
@@ -41,6 +45,7 @@ Admission SampleAdmission::judge(const flinch_Header& header, Time now, bool neu
   if (header.robot != settings_.robot) return Admission::other_description;
   if (!is_clock_time(header.sent_ns) || !is_clock_time(header.acquired_ns)) return Admission::no_time;
   if (!is_of_robot(header.robot_id, now)) return Admission::other_robot;
+  if (settings_.pace && *settings_.pace != pace_of(header)) return Admission::other_pace;
   give_up_the_silent(now);
   if (header.session == 0 || (session_ != 0 && header.session != session_)) return Admission::other_session;
   if (is_over(header.session)) return Admission::other_session;
@@ -48,9 +53,9 @@ Admission SampleAdmission::judge(const flinch_Header& header, Time now, bool neu
   const bool known = header.session == last_session_;
   if (known && !is_after(header.number, last_number_)) return Admission::not_newer;
   ClockMap clock = known ? clock_ : ClockMap();
-  clock.observe(Time(header.sent_ns), now);
+  const bool in_time = settings_.pace != Pace::real_time || is_in_time(header, now, clock);
   if (known) clock_ = clock;
-  if (now - clock.to_here(Time(header.sent_ns)) > settings_.longest_way) return Admission::too_late;
+  if (!in_time) return Admission::too_late;
   if (session_ == 0 && settings_.begins_neutral && !neutral) return Admission::not_neutral;
 
   if (known) missed_ += header.number - last_number_ - 1;
@@ -58,7 +63,14 @@ Admission SampleAdmission::judge(const flinch_Header& header, Time now, bool neu
   listen_to(header.session);
   last_number_ = header.number;
   last_ = now;
+  if (settings_.pace == Pace::lockstep && (header.flags & flag_end) != 0) session_ = 0;
   return Admission::admitted;
+}
+
+/// Notes in `clock` when it came.
+bool SampleAdmission::is_in_time(const flinch_Header& header, Time now, ClockMap& clock) const noexcept {
+  clock.observe(Time(header.sent_ns), now);
+  return now - clock.to_here(Time(header.sent_ns)) <= settings_.longest_way;
 }
 
 }  // namespace flinch

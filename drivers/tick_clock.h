@@ -33,6 +33,14 @@ class TickClock {
     tick_ = tick;
   }
 
+  /// To be called instead where a tick waits for its readings, in lockstep: times are those of ticks at both
+  /// ends, and nothing is translated.
+  void stand_at(Time tick) noexcept {
+    map_ = ClockMap();
+    behind_ = Time::zero();
+    tick_ = tick;
+  }
+
   /// A monotonic time in that of the ticks; at latest that of this tick: a loop that is late does not see
   /// the future.
   Time to_tick_time(Time monotonic) const noexcept { return std::min(map_.to_there(monotonic), tick_); }

@@ -20,9 +20,17 @@ bool has(const flinch_Header& header, std::uint8_t flag) { return (header.flags 
 
 bool has_joints(const flinch_Header& header) { return header.count >= 1 && header.count <= max_dof; }
 
+JointVector first_of(const double (&entries)[max_dof], int count) {
+  return Eigen::Map<const Eigen::Matrix<double, max_dof, 1>>(entries).head(count);
+}
 JointVector first_of(const double (&entries)[max_dof], const flinch_Header& header) {
-  if (!has_joints(header)) return {};
-  return Eigen::Map<const Eigen::Matrix<double, max_dof, 1>>(entries).head(header.count);
+  return first_of(entries, has_joints(header) ? header.count : 0);
+}
+
+/// How many passive angles a joint sample has; none where it says that there are more than can be.
+int passive_count(const flinch_Header& header) {
+  const int count = (header.flags >> passive_count_bit) & 7;
+  return count <= max_dof ? count : 0;
 }
 
 void copy(const JointVector& vector, double (&entries)[max_dof], Eigen::Index count) {
@@ -34,9 +42,10 @@ void copy(const JointVector& vector, double (&entries)[max_dof], Eigen::Index co
 void to_wire(const JointReading& reading, flinch_JointSample& sample) noexcept {
   const Eigen::Index count = reading.active.size();
   begin(sample, reading.acquired, reading.valid, count);
-  if (reading.passive_valid && reading.passive.size() == count) sample.header.flags |= flag_passive_valid;
+  if (reading.passive_valid) sample.header.flags |= flag_passive_valid;
+  sample.header.flags |= static_cast<std::uint8_t>(reading.passive.size() << passive_count_bit);
   copy(reading.active, sample.active, count);
-  copy(reading.passive, sample.passive, count);
+  copy(reading.passive, sample.passive, reading.passive.size());
 }
 
 void from_wire(const flinch_JointSample& sample, JointReading& reading) noexcept {
@@ -44,7 +53,7 @@ void from_wire(const flinch_JointSample& sample, JointReading& reading) noexcept
   reading.valid = has(sample.header, flag_valid) && has_joints(sample.header);
   reading.passive_valid = has(sample.header, flag_passive_valid) && has_joints(sample.header);
   reading.active = first_of(sample.active, sample.header);
-  reading.passive = first_of(sample.passive, sample.header);
+  reading.passive = first_of(sample.passive, passive_count(sample.header));
 }
 
 void to_wire(const DriveReading& reading, flinch_DriveSample& sample) noexcept {
@@ -122,6 +131,10 @@ void from_wire(const flinch_TorqueSample& sample, TorqueCommand& command) noexce
 
 void from_wire(const flinch_TorqueSample& sample, BrakeCommand& brake) noexcept {
   brake.engage = has(sample.header, flag_engage_brake);
+}
+
+bool asks_for_nothing(const flinch_TorqueSample& sample) noexcept {
+  return !has(sample.header, flag_valid) || has(sample.header, flag_engage_brake);
 }
 
 }  // namespace flinch

@@ -41,4 +41,7 @@ void from_wire(const flinch_StatusSample& sample, StationStatus& status) noexcep
 void from_wire(const flinch_TorqueSample& sample, TorqueCommand& command) noexcept;
 void from_wire(const flinch_TorqueSample& sample, BrakeCommand& brake) noexcept;
 
+/// Whether a command is one of no torque, or with closed brakes: with such a one a session begins.
+bool asks_for_nothing(const flinch_TorqueSample& sample) noexcept;
+
 }  // namespace flinch

@@ -8,14 +8,18 @@ struct flinch_Header;  // drivers/idl/flinch.idl
 namespace flinch {
 
 /// Which wire format and meaning this version of flinch speaks. Samples of any other are refused.
-inline constexpr std::uint16_t protocol_version = 4;
+inline constexpr std::uint16_t protocol_version = 5;
 
 /// Bits of flinch_Header::flags.
 inline constexpr std::uint8_t flag_valid = 1;
 inline constexpr std::uint8_t flag_passive_valid = 2;  ///< of a joint sample
+inline constexpr int passive_count_bit = 2;            ///< lowest of three bits of a joint sample
+inline constexpr std::uint8_t flag_begin = 4;          ///< of a torque sample in lockstep
 inline constexpr std::uint8_t flag_engage_brake = 2;   ///< of a torque sample
 inline constexpr std::uint8_t flag_timing_known = 2;   ///< of diagnostics
 inline constexpr std::uint8_t flag_links_known = 4;    ///< of diagnostics
+inline constexpr std::uint8_t flag_end = 64;           ///< of every sample in lockstep
+inline constexpr std::uint8_t flag_lockstep = 128;     ///< of every sample
 
 /// Whether a stamp can be the time of a clock; sums and differences of such stamps do not overflow.
 constexpr bool is_clock_time(std::int64_t ns) noexcept {

@@ -13,6 +13,8 @@
 #include "identification/dynamic_parameters.h"
 #include "identification/dynamics_fit.h"
 #include "identification/dynamics_rows.h"
+#include "identification/encoder_doubts.h"
+#include "identification/motion_doubts.h"
 #include "identification/motor_parameters.h"
 #include "identification/physical_parameters.h"
 #include "systems/config/robot_file.h"
@@ -339,6 +341,12 @@ CalibrationResult calibrate_dynamics(const DynamicsBelief& belief,
   const auto of_robot = DynamicParameters::of(*belief.robot);
   DynamicsRows rows = rows_of(belief, *of_robot, recordings, result.warnings);
   check(belief, rows, result.residual_unit.c_str(), result.warnings);
+  result.doubts = doubts_about_motion(rows, belief.robot->drives());
+  add_encoder_doubts(recordings, *belief.robot, result.doubts);
+  for (const MotionRecording& recording : recordings) {
+    for (const std::string& warning : warnings_about_turns(*recording.recording, *belief.robot))
+      result.warnings.push_back(recording.source.file + ": " + warning);
+  }
 
   const int drives = belief.robot->drives();
   const double usual_error = 0.01 * belief.drives.max_torque;
@@ -356,6 +364,8 @@ CalibrationResult calibrate_dynamics(const DynamicsBelief& belief,
   add_residuals(rows, without_cogging(rows, belief.drives.cogging), after, solution.fit.linear, drives,
                 result);
   doubt(rows, solution, after, result);
+  if (result.doubts.empty())
+    result.doubts = doubts_about_values(parameters, solution.fit.values, solution.held);
   for (const int drive : parameters.stilled()) {
     result.warnings.push_back(fmt::format(
         "drive {} was believed to cog, and this motion does not show it, so it is taken back; where "

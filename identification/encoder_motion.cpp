@@ -3,12 +3,21 @@
 #include "identification/zero_phase.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recorded_values.h"
+#include "systems/robot/kinematic_causes.h"
 #include "systems/robot/rotation.h"
 #include "systems/signals/joint_reading.h"
 #include "systems/signals/reaction_state.h"
 
 namespace flinch {
 namespace {
+
+std::string cause_of_no_pose(const RecordedValues<JointReading>& joints, const ParallelRobot& robot,
+                             const ValidStretch& stretch) {
+  std::vector<JointVector> active;
+  for (std::size_t k = 0; k < stretch.count; ++k) active.push_back(joints[stretch.first + k].active);
+  return told_kinematic_causes(robot, active,
+                               "the robot file is of another robot, or the encoders of its legs are swapped");
+}
 
 /// Rows are the coordinates of each pose in the chart around the first one.
 Eigen::MatrixXd chart_coordinates(const Recording& recording, const ParallelRobot& robot,
@@ -27,7 +36,7 @@ Eigen::MatrixXd chart_coordinates(const Recording& recording, const ParallelRobo
     if (!solution.converged) {
       throw SetupError("the encoders fit no pose of the robot at " +
                        std::to_string(1e-9 * static_cast<double>(recording.time_ns[stretch.first + k])) +
-                       " s; the robot file is of another robot, or the encoders of its legs are swapped");
+                       " s; " + cause_of_no_pose(joints, robot, stretch));
     }
     pose = solution.pose;
     if (k == 0) origin = pose;

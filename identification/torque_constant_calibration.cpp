@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 
+#include "identification/encoder_doubts.h"
+#include "identification/pull_doubts.h"
 #include "identification/pull_windows.h"
 #include "identification/robust_mean.h"
 #include "identification/torque_constant_fit.h"
@@ -194,8 +196,12 @@ void add_parameters(const TorqueConstantFit& fit, const FitUncertainty& sure,
   const char* const effort = turns ? "Nm" : "N";
   std::vector<Eigen::Index> order;
   const auto add = [&](CalibratedParameter parameter, Eigen::Index column) {
-    parameter.deviation = sure.deviation[column];
     parameter.identifiable = sure.identifiable[static_cast<std::size_t>(column)];
+    if (parameter.identifiable) {
+      parameter.deviation = sure.deviation[column];
+    } else if (parameter.before) {
+      parameter.value = *parameter.before;
+    }
     result.parameters.push_back(std::move(parameter));
     order.push_back(column);
   };
@@ -236,7 +242,8 @@ void add_parameters(const TorqueConstantFit& fit, const FitUncertainty& sure,
   for (Eigen::Index a = 0; a < fit.constant.size(); ++a) {
     for (Eigen::Index b = 0; b < fit.constant.size(); ++b)
       result.covariance(a, b) += instrument_scale * instrument_scale * fit.constant[a] * fit.constant[b];
-    result.parameters[static_cast<std::size_t>(a)].deviation = std::sqrt(result.covariance(a, a));
+    CalibratedParameter& constant = result.parameters[static_cast<std::size_t>(a)];
+    if (constant.identifiable) constant.deviation = std::sqrt(result.covariance(a, a));
   }
 }
 
@@ -333,6 +340,8 @@ CalibrationResult calibrate_torque_constants(const TorqueConstantBelief& belief,
   const Pulls pulls = pulls_of(belief, recordings);
   check(pulls, belief, result.residual_unit.c_str());
   result.warnings = pulls.warnings;
+  result.doubts = doubts_about_pulls(pulls.windows, belief.constant);
+  add_encoder_doubts(recordings, *belief.robot, result.doubts);
 
   const TorqueConstantModel model = model_for(pulls, belief);
   const TorqueConstantFit fit = fit_torque_constants(pulls.windows, pulls.mountings, belief.constant, model);

@@ -156,9 +156,10 @@ DataSet read(const std::filesystem::path& file) {
   return data;
 }
 
-/// Whether it says when the robot is stopped, which no feature of a contact depends on.
-bool is_limit(const std::string& key) {
-  return key.starts_with("workspace_limits.") || key.starts_with("drives.max_");
+/// Whether it says when the robot is stopped or how often it is controlled, on which no feature of a contact
+/// depends.
+bool is_of_control(const std::string& key) {
+  return key.starts_with("workspace_limits.") || key.starts_with("drives.max_") || key == "control_period";
 }
 
 }  // namespace
@@ -168,7 +169,7 @@ ContactClasses classes_of(const ParallelRobot& robot) { return {robot.body_count
 std::string fingerprint(const std::string& robot_text, const std::string& robot_file) {
   std::uint64_t hash = fnv1a("");
   for (const ReadValue& value : parse_robot_file(robot_text, robot_file).values) {
-    if (is_limit(value.key)) continue;
+    if (is_of_control(value.key)) continue;
     hash = fnv1a(value.key + "=" + value.value + "\n", hash);
   }
   return fmt::format("{:016x}", hash);

@@ -50,8 +50,8 @@ struct DataSet {
 
 ContactClasses classes_of(const ParallelRobot& robot);
 
-/// A short text that two robot files share if they describe the same robot, whatever their comments and the
-/// limits at which it is stopped.
+/// A short text that two robot files share if they describe the same robot, whatever their comments, the
+/// limits at which it is stopped, and its control period.
 std::string fingerprint(const std::string& robot_text, const std::string& robot_file);
 
 /// Samples and runs for each class and configuration, as a table for people; of more than ten configurations

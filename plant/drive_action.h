@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
+
 #include "systems/framework/time.h"
+#include "systems/robot/drive_parameters.h"
 #include "systems/robot/vectors.h"
 
 namespace flinch {
@@ -14,6 +17,13 @@ struct DriveAction {
   Time since = -24h;     ///< When they were; or told to open.
   /// Share of its friction that the brake of each drive puts on it; empty: all where braked, else nothing.
   JointVector hold{};
+
+  /// Of the motors in a tick, without the delay of their torques.
+  struct TickCurrent {
+    JointVector mean;     ///< [A]
+    JointVector current;  ///< at its end [A]
+  };
+  std::array<TickCurrent, most_delayed + 1> currents{};  ///< of late, the latest first; empty: none
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {

@@ -44,6 +44,11 @@ GeneralBench::GeneralBench(const BenchSettings& settings)
   for (const BodyPair& pair : robot_->description().self_collision_pairs) {
     if (!bodies_[index(pair.a)].empty() && !bodies_[index(pair.b)].empty()) self_pairs_.push_back(pair);
   }
+  beside_platform_.resize(bodies_.size());
+  for (const BesidePlatform& link : robot_->description().beside_platform) {
+    beside_platform_[index(link.body)].emplace_back(link.shape);
+    self_pairs_.push_back({BodyId::platform().index(), link.body});
+  }
 }
 
 // ---------------------------------------------------------------- motion
@@ -176,7 +181,8 @@ SurfaceGap GeneralBench::gap(const Pair& pair, const Placements& bodies,
           nearest(shape, at, obstacles_[index(pair.other)], flinch::placement(obstacles[index(pair.other)])));
       continue;
     }
-    for (const Solid& other : bodies_[index(pair.other)]) {
+    const bool of_platform = pair.body == BodyId::platform().index();
+    for (const Solid& other : (of_platform ? beside_platform_ : bodies_)[index(pair.other)]) {
       take(nearest(shape, at, other, bodies[index(pair.other)]));
     }
   }

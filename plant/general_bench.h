@@ -86,6 +86,7 @@ class GeneralBench {
   std::shared_ptr<const Mechanism> robot_;
   int directions_;
   std::vector<std::vector<Solid>> bodies_;
+  std::vector<std::vector<Solid>> beside_platform_;  ///< Of each body, what may touch the platform.
   std::vector<Solid> obstacles_;
   std::vector<UnevenTorque> uneven_torque_;
   std::vector<BodyPair> self_pairs_;  ///< None, where the robot's bodies pass through one another.

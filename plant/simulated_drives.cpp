@@ -1,5 +1,6 @@
 #include "plant/simulated_drives.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "systems/foundation/findings.h"
@@ -76,13 +77,28 @@ DriveAction SimulatedDrives::act(Time now, const DriveAction& before, const Torq
     mean[i] += step * ticks * (1.0 - left);
     action.current[i] += step * left;
   }
-  if (settings_.torque_delay.size() > 0)
-    mean -= settings_.torque_delay.cwiseProduct(action.current - before.current) / to_seconds(tick_);
+  if (settings_.torque_delay.size() > 0) delay(before, action, mean);
   action.torque = settings_.torque_constant.cwiseProduct(mean);
   action.enabled = true;
   action.braked = false;
   spoil(now, before, action);
   return action;
+}
+
+/// Each torque is that of the mean current of a tick that ended so much earlier, as if the current changed
+/// evenly from tick to tick.
+void SimulatedDrives::delay(const DriveAction& before, DriveAction& action, JointVector& mean) const {
+  action.currents.front() = {mean, action.current};
+  std::copy(before.currents.begin(), before.currents.end() - 1, action.currents.begin() + 1);
+  const double T = to_seconds(tick_);
+  for (Eigen::Index i = 0; i < mean.size(); ++i) {
+    const auto [whole, rest] = in_intervals(settings_.torque_delay[i], T);
+    const DriveAction::TickCurrent &then = action.currents[whole], &from = action.currents[whole + 1];
+    const double of_then = then.mean.size() > 0 ? then.mean[i] : 0.0;
+    const double end = then.current.size() > 0 ? then.current[i] : 0.0;
+    const double begin = from.current.size() > 0 ? from.current[i] : 0.0;
+    mean[i] = of_then - rest * (end - begin) / T;
+  }
 }
 
 /// What is commanded and what is measured of a current is not touched.

@@ -68,6 +68,7 @@ class SimulatedDrives final : public System {
   void read(const DriveAction& now, DriveAction& out) const { out = now; }
   StationStatus report(Time now, const DriveAction& action, const PlantTruth& robot) const;
   DriveAction at_rest() const;
+  void delay(const DriveAction& before, DriveAction& action, JointVector& mean) const;
   void spoil(Time now, const DriveAction& before, DriveAction& action) const;
 };
 

@@ -50,7 +50,7 @@ std::vector<std::string> problems(const SimulatedImuSettings& settings);
 
 /// What an IMU has measured since the tick before, the latest last.
 struct ImuSamples {
-  static constexpr int most = 5;  ///< in a tick of four periods, some early, some late
+  static constexpr int most = 17;  ///< in a tick of 16 periods, some early, some late
   struct Sample {
     Time acquired{};  ///< When it was measured, whatever the reading says of it.
     ImuReading reading;

@@ -5,6 +5,7 @@
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/random.h"
 #include "systems/robot/parallel_robot.h"
+#include "systems/signals/sampling.h"
 
 namespace flinch {
 namespace {
@@ -81,6 +82,12 @@ std::optional<OutputPort<ForceTorqueReading>> add_force_torque_sensor(
 }
 
 }  // namespace
+
+void know_period(Time period, SimulatedStationSettings& settings) {
+  settings.tick = period;
+  settings.drives.longest_silence = longest_age(period);
+  if (settings.force_torque) settings.force_torque->period = whole_periods(1ms, period);
+}
 
 SimulatedStationSettings with_ideal_sensors(SimulatedStationSettings settings) {
   settings.encoders.ideal = true;

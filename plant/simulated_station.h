@@ -50,6 +50,10 @@ struct SimulatedStationSettings {
   }
 };
 
+/// What follows from the time between two ticks of the control path: sensors that measure with the ticks do
+/// so at 1 kHz or as often as there are ticks.
+void know_period(Time period, SimulatedStationSettings& settings);
+
 /// The same with sensors that tell the truth, at once.
 SimulatedStationSettings with_ideal_sensors(SimulatedStationSettings settings);
 

@@ -16,6 +16,8 @@ struct BusOptions {
   std::string robot;                ///< name of the served one, or which one to command
   bool anyone_may_command = false;  ///< see BusSettings
   int priority = 80;                ///< SCHED_FIFO of loop and bus, where permitted; 0: not wanted
+  bool lockstep = false;            ///< the simulated robot waits for its controller
+  bool real_time = false;           ///< it does not; neither of both: whatever fits
 };
 
 }  // namespace flinch

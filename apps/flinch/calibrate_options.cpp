@@ -1,4 +1,5 @@
 // The command line of flinch calibrate and flinch excite.
+#include "apps/flinch/help_layout.h"
 #include "apps/flinch/verbs.h"
 
 namespace flinch {
@@ -8,15 +9,19 @@ constexpr const char* by_component =
     "A threshold for each component of force and moment, which share the alarms; otherwise one for all "
     "of the force and one for all of the moment";
 
+constexpr const char* accept =
+    "Take what is found though readings and belief contradict each other; otherwise that is an error";
+
 /// Adds a calibration from recordings, with what all of them understand.
 CLI::App& add_calibration(CLI::App& calibrate, Verbs& verbs, const char* kind, const char* help,
                           const char* example, const char* recordings, CalibrateOptions& options,
                           ExitStatus (*verb)(const CalibrateOptions&)) {
   CLI::App& sub = verbs.add(calibrate, kind, help, example, options, verb);
   sub.add_option("recordings", options.recordings, recordings)->required()->type_name("RUN.h5...");
-  sub.add_option("--out", options.out,
+  sub.add_option("-o,--out", options.out,
                  "Write a parameter file, for 'calibrations' of scenarios, and a page beside it")
       ->type_name("FILE.yaml");
+  sub.add_flag("--accept", options.accept, accept);
   return sub;
 }
 
@@ -55,11 +60,12 @@ void add_fits(CLI::App& calibrate, Verbs& verbs) {
                   "Folder with recordings of the calibration scenarios anywhere below it")
       ->required()
       ->type_name("DIR");
-  verb.add_option("--out", all.out, "Folder for the parameter files [DIR/calibration]")->type_name("DIR");
+  verb.add_option("-o,--out", all.out, "Folder for the parameter files [DIR/calibration]")->type_name("DIR");
   verb.add_option("--rate", all.rate, "False alarms an hour, of each estimator, for thresholds [0.5]")
       ->check(within(1e-6, 1e6))
       ->type_name("N");
   verb.add_flag("--by-component", all.by_component, by_component);
+  verb.add_flag("--accept", all.accept, accept);
 }
 
 void add_thresholds(CLI::App& calibrate, Verbs& verbs) {
@@ -74,6 +80,14 @@ void add_thresholds(CLI::App& calibrate, Verbs& verbs) {
                   "Recordings (HDF5) of motion without contact, of one robot or several")
       ->required()
       ->type_name("RUN.h5...");
+  verb.add_option("--scenario", options.scenario,
+                  "Of imported logs: the scenario whose estimators run over them [that of the log]")
+      ->transform(shipped("scenarios"))
+      ->type_name("SCENARIO.yaml");
+  verb.add_option("--free", options.free,
+                  "Of imported logs: a stretch without contact, in s; any number of them [all of each log]")
+      ->allow_extra_args(false)
+      ->type_name("A..B");
   verb.add_option("--rate", options.rate, "False alarms an hour, of each estimator [0.5]")
       ->check(within(1e-6, 1e6))
       ->type_name("N");
@@ -90,7 +104,7 @@ void add_thresholds(CLI::App& calibrate, Verbs& verbs) {
       "--one-robot", options.one_robot,
       "All recordings are of the robot that the thresholds shall serve; otherwise each counts as one of "
       "many, and others may differ as these do");
-  verb.add_option("--out", options.out,
+  verb.add_option("-o,--out", options.out,
                   "Write the thresholds as a parameter file, for 'calibrations' of scenarios")
       ->type_name("FILE.yaml");
 }
@@ -100,7 +114,7 @@ void add_thresholds(CLI::App& calibrate, Verbs& verbs) {
 void add_calibrate_verb(CLI::App& app, Verbs& verbs) {
   CLI::App& calibrate = *app.add_subcommand("calibrate", "Find parameters from recordings");
   calibrate.require_subcommand(1);
-  calibrate.formatter(std::make_shared<CLI::Formatter>());  // not the one that it shares with the program
+  calibrate.formatter(std::make_shared<HelpLayout>());  // not the one that it shares with the program
   calibrate.get_formatter()->label("SUBCOMMAND", "WHAT");
   add_thresholds(calibrate, verbs);
   add_fits(calibrate, verbs);
@@ -115,7 +129,7 @@ void add_excite_verb(CLI::App& app, Verbs& verbs) {
   verb.add_option("robot", options.robot, "Robot file (YAML), with its limits")
       ->required()
       ->type_name("ROBOT.yaml");
-  verb.add_option("--out", options.out, "The scenario that is written")
+  verb.add_option("-o,--out", options.out, "The scenario that is written")
       ->required()
       ->type_name("SCENARIO.yaml");
   verb.add_option("--duration", options.duration, "Seconds of motion [20]")
@@ -142,12 +156,42 @@ void add_excite_verb(CLI::App& app, Verbs& verbs) {
 void add_import_verb(CLI::App& app, Verbs& verbs) {
   ImportOptions& options = verbs.import_log;
   CLI::App& verb =
-      verbs.add(app, "import", "Make readings for calibrate out of a CSV or HDF5 log of another tool",
-                "flinch import mapping.yaml --out out/log/run.h5", options, &import_log);
-  verb.add_option("mapping", options.mapping, "What the columns are (YAML); docs/files.md has the keys")
+      verbs.add(app, "import", "Make a recording of readings out of a log of another tool",
+                "flinch import log.csv --guess --robot apps/robots/planar_3rrr.yaml --out out/log/run.h5",
+                options, &import_log);
+  verb.add_option(
+          "mapping", options.mapping,
+          "What the columns are (YAML; docs/files.md has the keys); with --guess the log: CSV or other text, "
+          "HDF5, MATLAB 7.3")
       ->required()
-      ->type_name("MAPPING.yaml");
-  verb.add_option("--out", options.out, "The recording that is written")->required()->type_name("RUN.h5");
+      ->type_name("MAPPING.yaml|LOG");
+  verb.add_flag(
+      "--guess", options.guess,
+      "Propose a mapping from names, units and ranges of the columns, and from how the robot can stand");
+  verb.add_option("--robot", options.robot, "The robot of which the log is")->type_name("ROBOT.yaml");
+  verb.add_option("-o,--out", options.out, "The recording that is written")->type_name("RUN.h5");
+}
+
+void add_judge_verb(CLI::App& app, Verbs& verbs) {
+  JudgeOptions& options = verbs.judge;
+  CLI::App& verb = verbs.add(
+      app, "judge", "Tell what the estimators and detectors of a scenario would have noticed in a log",
+      "flinch judge out/log/run.h5 --scenario apps/scenarios/square.yaml --free 0..1.3 --contact 1.337",
+      options, &judge);
+  verb.add_option("log", options.log, "A recording, imported or of a run")->required()->type_name("LOG.h5");
+  verb.add_option("--scenario", options.scenario,
+                  "Whose control path runs over it; without it that of the log")
+      ->transform(shipped("scenarios"))
+      ->type_name("S.yaml");
+  verb.add_option("--free", options.free,
+                  "A stretch in which nothing touches the robot: what is noticed there is a false alarm [s]")
+      ->type_name("A..B")
+      ->allow_extra_args(false);
+  verb.add_option("-o,--out", options.out, "Page with what estimators made of it [none]")
+      ->type_name("PAGE.html");
+  verb.add_option("--contact", options.contacts, "When a contact begins [s]")
+      ->type_name("T")
+      ->allow_extra_args(false);
 }
 
 }  // namespace flinch

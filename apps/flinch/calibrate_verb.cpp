@@ -1,6 +1,7 @@
 // flinch calibrate: parameters from recordings.
 #include "apps/flinch/command_line.h"
 #include "apps/flinch/conclusion.h"
+#include "apps/flinch/log_stretch.h"
 #include "apps/flinch/output_place.h"
 #include "apps/flinch/printing.h"
 #include "apps/flinch/progress.h"
@@ -26,6 +27,7 @@ struct FreeMotions {
   std::vector<std::filesystem::path> files{};
   std::vector<Recording> recordings{};
   std::vector<Scenario> scenarios{};
+  std::vector<bool> is_log{};  ///< readings of another controller, over which estimators have yet to run
   std::vector<std::string> problems{};  ///< of the others
 };
 
@@ -40,11 +42,12 @@ FreeMotions open_motions(const CalibrateThresholdsOptions& options) {
       require_no_kind(file, "a recording");
       Recording recording = open_recording(file);
       tell_if_partial(recording, options.common);
-      Scenario scenario = scenario_of(recording, file);
-      require_run(recording, file);
+      opened.is_log.push_back(holds_readings_alone(recording));
+      opened.scenarios.push_back(opened.is_log.back() && !options.scenario.empty()
+                                     ? read_scenario(options.scenario)
+                                     : scenario_of(recording, file));
       opened.files.push_back(file);
       opened.recordings.push_back(std::move(recording));
-      opened.scenarios.push_back(std::move(scenario));
     } catch (const SetupError& error) {
       append(error, opened.problems);
     }
@@ -52,17 +55,31 @@ FreeMotions open_motions(const CalibrateThresholdsOptions& options) {
   return opened;
 }
 
+/// Of a log, by running the estimators over it.
+std::vector<EstimatorPeaks> peaks_of_log(const Recording& log, const Scenario& scenario,
+                                         const std::vector<LogTruth::Stretch>& free, Time stretch) {
+  const Recording estimates = estimates_of_log(scenario, std::make_shared<const Recording>(log));
+  std::vector<bool> counts(estimates.samples(), free.empty());
+  for (std::size_t k = 0; k < counts.size(); ++k) {
+    const double now = to_seconds(Time(estimates.time_ns[k]));
+    for (const LogTruth::Stretch& each : free) counts[k] = counts[k] || (now >= each.from && now < each.to);
+  }
+  return contact_free_peaks(estimates, counts, scenario.robot.robot->space(), stretch);
+}
+
 /// Of all estimators. Throws SetupError with all that is wrong with all recordings, also those that could not
 /// be opened: told together, be it late.
-std::vector<EstimatorPeaks> peaks_of(const FreeMotions& motions, const ThresholdGoal& goal, bool quiet) {
+std::vector<EstimatorPeaks> peaks_of(const FreeMotions& motions, const std::vector<LogTruth::Stretch>& free,
+                                     const ThresholdGoal& goal, bool quiet) {
   std::vector<std::vector<EstimatorPeaks>> peaks;
   std::vector<std::string> problems = motions.problems;
   Progress progress("reading recordings", quiet);
   for (std::size_t i = 0; i < motions.files.size(); ++i) {
     try {
       peaks.push_back(out_of(motions.files[i], [&] {
-        return contact_free_peaks(motions.recordings[i], motions.scenarios[i].robot.robot->space(),
-                                  goal.stretch);
+        const Scenario& scenario = motions.scenarios[i];
+        if (motions.is_log[i]) return peaks_of_log(motions.recordings[i], scenario, free, goal.stretch);
+        return contact_free_peaks(motions.recordings[i], scenario.robot.robot->space(), goal.stretch);
       }));
       progress.show(static_cast<double>(i + 1) / static_cast<double>(motions.files.size()));
     } catch (const SetupError& error) {
@@ -79,6 +96,7 @@ std::vector<CalibratedResidual> residuals_of(const FreeMotions& motions, const T
   const std::vector<std::string> judged{"disturbance_filter", "imu_residual"};
   std::vector<ResidualRecording> recordings;
   for (std::size_t i = 0; i < motions.recordings.size(); ++i) {
+    if (motions.is_log[i]) return {};  // whose loads of the drives nobody has recorded
     const Scenario& scenario = motions.scenarios[i];
     ResidualRecording recording{&motions.recordings[i], scenario.robot.robot->space(), {}};
     for (const std::string& name : judged) recording.tracking[name] = tracking_of(name, scenario.control);
@@ -101,13 +119,14 @@ ExitStatus calibrate_thresholds(const CalibrateThresholdsOptions& options) {
   found.goal.by_component = options.by_component;
   found.goal.one_robot = options.one_robot;
   const bool quiet = options.common.quiet || options.common.json;
+  const std::vector<LogTruth::Stretch> free = stretches_of(options.free);
   const FreeMotions motions = open_motions(options);
   if (motions.problems.empty()) {  // told before hours of recordings are read
     for (const std::filesystem::path& file : motions.files) found.recordings.push_back(source_of(file));
     require_different(found.recordings);
     note_settings(motions.scenarios, found);
   }
-  found.estimators = calibrate_thresholds(peaks_of(motions, found.goal, quiet), found.goal);
+  found.estimators = calibrate_thresholds(peaks_of(motions, free, found.goal, quiet), found.goal);
   found.residuals = residuals_of(motions, found.goal, quiet);
   found.tracking = motions.scenarios.front().control.fused_detector.tracking;
   note_robot(motions.scenarios, found);

@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "apps/flinch/commit.h"
+#include "apps/flinch/help_layout.h"
 #include "apps/flinch/printing.h"
 #include "apps/flinch/shell_word.h"
 #include "apps/flinch/verbs.h"
@@ -61,6 +63,11 @@ void add_bus(CLI::App& verb, BusOptions& bus, const char* robot) {
       ->group("Bus");
 }
 
+void add_pace(CLI::App& verb, BusOptions& bus, const char* lockstep, const char* real_time) {
+  CLI::Option* const waits = verb.add_flag("--lockstep", bus.lockstep, lockstep)->group("Bus");
+  verb.add_flag("--real-time", bus.real_time, real_time)->group("Bus")->excludes(waits);
+}
+
 void add_fault(CLI::App& verb, std::vector<std::string>& faults) {
   verb.add_option(
           "--fault", faults,
@@ -108,13 +115,21 @@ std::string number_of_station(std::string& text) {
   return "";
 }
 
-void add_run_verb(CLI::App& app, Verbs& verbs) {
-  CLI::App& run_verb =
-      verbs.add(app, "run", "Run one experiment: verdict, recording, report",
-                "flinch run apps/scenarios/platform_collision.yaml --out out/demo", verbs.run, &run);
+void add_demo_verb(CLI::App& app, Verbs& verbs) {
+  verbs
+      .add(app, "demo", "Simulate one collision, at its best and as the papers have it",
+           "flinch demo && xdg-open out/demo/report.html", verbs.demo, &demo)
+      .add_option("-o,--out", verbs.demo.out, "Folder for run.h5 and report.html [out/demo]")
+      ->type_name("DIR");
+}
+
+/// What of the scenario is run, and into which folder.
+void add_what_is_run(CLI::App& run_verb, Verbs& verbs) {
   run_verb
-      .add_option("input", verbs.run.input,
-                  "Scenario file (YAML); with --station recorded, a recording (HDF5)")
+      .add_option(
+          "input", verbs.run.input,
+          "Scenario file (YAML), or the name of one that comes with flinch; with --station recorded, a "
+          "recording (HDF5)")
       ->required()
       ->type_name("FILE");
   run_verb
@@ -134,18 +149,23 @@ void add_run_verb(CLI::App& app, Verbs& verbs) {
           "each with an option of its own [as the scenario says]")
       ->allow_extra_args(false)
       ->type_name("MODEL.onnx");
-  run_verb.add_option("--out", verbs.run.out, "Folder for run.h5 and report.html [out/NAME]")
+  run_verb.add_option("-o,--out", verbs.run.out, "Folder for run.h5 and report.html [out/NAME]")
       ->type_name("DIR");
   run_verb.add_option("--seed", verbs.run.seed, "Seed of all noise, instead of the scenario's")
       ->check(problem_with_seed)
       ->type_name("N");
   run_verb
       .add_option("--set", verbs.run.set,
-                  "Value of a key of the scenario, instead of the file's; any number of times")
+                  "Value of a key of the scenario, instead of the file's; any number of times. Several "
+                  "values, 1,2,5 or FIRST..LAST:STEP or FIRST..LAST:*FACTOR, make a sweep: a run for each, a "
+                  "row for each run, and a page of curves; several such keys make a grid. A number for a "
+                  "list of numbers stands for each of them; a key without its unit is in SI")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
-  add_fault(run_verb, verbs.run.faults);
-  add_bus(run_verb, verbs.run.bus, which_robot);
+}
+
+/// How long a run on the bus waits, and for whom.
+void add_patience(CLI::App& run_verb, Verbs& verbs) {
   run_verb
       .add_option(
           "--patience", verbs.run.patience,
@@ -163,36 +183,44 @@ void add_run_verb(CLI::App& app, Verbs& verbs) {
           "An operator sees the robot: follow the orders that he types (stop, reset, start, go, step, end; "
           "help tells more), and run until he ends it")
       ->group("Bus");
+}
+
+void add_run_verb(CLI::App& app, Verbs& verbs) {
+  CLI::App& run_verb = verbs.add(app, "run", "Run one experiment: verdict, recording, report",
+                                 "flinch run apps/scenarios/platform_collision.yaml --out out/demo\n"
+                                 "  flinch run apps/scenarios/platform_collision.yaml --set "
+                                 "control.momentum_observer.gain=20..400:20",
+                                 verbs.run, &run);
+  add_what_is_run(run_verb, verbs);
+  add_threads(run_verb, verbs.run.threads, "Of a sweep: runs at once [one a processor]");
+  add_fault(run_verb, verbs.run.faults);
+  add_live(run_verb, verbs.run.live);
+  add_bus(run_verb, verbs.run.bus, which_robot);
+  add_pace(run_verb, verbs.run.bus,
+           "Go in lockstep with a simulated robot: both wait for one another, so that the run is, bit for "
+           "bit, the one in simulation [as the robot does]",
+           "Go by the clock, as with every real robot [as the robot does]");
+  add_patience(run_verb, verbs);
   const auto is_of_bus = [](const CLI::Option* option) { return option->get_group() == "Bus"; };
   for (CLI::Option* const option : run_verb.get_options(is_of_bus))
     option->each([&verbs](const std::string&) { verbs.run.names_a_bus = true; });
 }
 
-void add_file_verbs(CLI::App& app, Verbs& verbs) {
-  CLI::App& report_verb = verbs.add(app, "report", "Make the report page of a recording",
-                                    "flinch report out/demo/run.h5", verbs.report, &report);
-  report_verb.add_option("recording", verbs.report.recording, "Recording (HDF5) of flinch run")
-      ->required()
-      ->type_name("RUN.h5");
-  report_verb.add_option("--out", verbs.report.out, "The page [report.html beside the recording]")
-      ->type_name("PAGE.html");
-
-  CLI::App& graph_verb =
-      verbs.add(app, "graph", "Draw the diagram of a scenario's closed loop",
-                "flinch graph apps/scenarios/platform_collision.yaml --out loop.svg", verbs.graph, &graph);
-  graph_verb.add_option("scenario", verbs.graph.scenario, "Scenario file (YAML)")
-      ->required()
-      ->type_name("SCENARIO.yaml");
-  graph_verb.add_option("--out", verbs.graph.out, "A .svg or .dot file [DOT on stdout]")->type_name("FILE");
-
-  CLI::App& check_verb = verbs.add(app, "check", "Say all that is wrong with a file that flinch reads",
-                                   "flinch check apps/robots/planar_3rrr.yaml", verbs.check, &check);
-  check_verb
-      .add_option(
-          "file", verbs.check.file,
-          "Any file in YAML, HDF5 or ONNX: scenario, robot, campaign, recording, data set, classifier, ...")
-      ->required()
-      ->type_name("FILE");
+void add_reproduce_verb(CLI::App& app, Verbs& verbs) {
+  ReproduceOptions& options = verbs.reproduce;
+  CLI::App& verb = verbs.add(
+      app, "reproduce", "Run what the papers show: each of their figures beside ours, in one table and page",
+      "flinch reproduce --only table4", options, &reproduce);
+  verb.add_option("figures", options.file, "File of figures (YAML) [those of the papers]")
+      ->type_name("FIGURES.yaml");
+  verb.add_option("--only", options.only,
+                  "Only figures with this id, or this word of one: 'table4', 'safepr', 'fig22.slowest'; any "
+                  "number of times")
+      ->allow_extra_args(false)
+      ->type_name("ID");
+  verb.add_option("-o,--out", options.out, "Folder for papers.html and the campaigns [out/papers]")
+      ->type_name("DIR");
+  add_threads(verb, options.threads, "Runs at once [one a processor]");
 }
 
 void add_campaign_verb(CLI::App& app, Verbs& verbs) {
@@ -202,7 +230,10 @@ void add_campaign_verb(CLI::App& app, Verbs& verbs) {
                 "flinch campaign apps/campaigns/random_contacts.yaml --set "
                 "'control.momentum_observer.gain_per_s=[20,20,20],[100,100,100]'",
                 options, &campaign);
-  verb.add_option("campaign", options.file, "Campaign file (YAML)")->required()->type_name("CAMPAIGN.yaml");
+  verb.add_option("campaign", options.file, "Campaign file (YAML), or the name of one that comes with flinch")
+      ->required()
+      ->transform(shipped("campaigns"))
+      ->type_name("CAMPAIGN.yaml");
   verb.add_option("--set", options.set,
                   "Values of a key of the scenario, one axis of the grid; any number of times")
       ->allow_extra_args(false)
@@ -225,17 +256,21 @@ void add_campaign_verb(CLI::App& app, Verbs& verbs) {
   verb.add_option("--false-alarms", options.false_alarms,
                   "Results of another campaign with the same grid whose false alarms the report shows")
       ->type_name("RESULTS.csv");
-  verb.add_option("--out", options.out, "Folder for results.csv and results.h5 [out/NAME]")->type_name("DIR");
+  verb.add_option("-o,--out", options.out, "Folder for results.csv and results.h5 [out/NAME]")
+      ->type_name("DIR");
   add_threads(verb, options.threads, "Runs at once [one a processor]");
   verb.add_flag("--fresh", options.fresh, "Begin anew, whatever the folder holds already");
 }
 
 void add_bus_verbs(CLI::App& app, Verbs& verbs) {
-  CLI::App& serve_verb = verbs.add(
-      app, "serve", "Put the simulated robot of a scenario on the bus, in real time, as if it were there",
-      "flinch serve apps/scenarios/platform_collision.yaml --duration 60", verbs.serve, &serve);
-  serve_verb.add_option("scenario", verbs.serve.scenario, "Scenario file (YAML)")
+  CLI::App& serve_verb =
+      verbs.add(app, "serve", "Put the simulated robot of a scenario on the bus, as if it were there",
+                "flinch serve apps/scenarios/platform_collision.yaml --duration 60", verbs.serve, &serve);
+  serve_verb
+      .add_option("scenario", verbs.serve.scenario,
+                  "Scenario file (YAML), or the name of one that comes with flinch")
       ->required()
+      ->transform(shipped("scenarios"))
       ->type_name("SCENARIO.yaml");
   serve_verb.add_option("--seed", verbs.serve.seed, "Seed of all noise, instead of the scenario's")
       ->check(problem_with_seed)
@@ -243,8 +278,17 @@ void add_bus_verbs(CLI::App& app, Verbs& verbs) {
   serve_verb.add_option("--duration", verbs.serve.duration, "Seconds to serve [until Ctrl-C]")
       ->check(problem_with_seconds)
       ->type_name("S");
+  serve_verb
+      .add_option("--patience", verbs.serve.patience,
+                  "Seconds to wait, in lockstep, for a controller that sends nothing [10]")
+      ->check(problem_with_seconds)
+      ->type_name("S")
+      ->group("Bus");
   add_fault(serve_verb, verbs.serve.faults);
   add_bus(serve_verb, verbs.serve.bus, "Name of this robot, to choose it by among several [none]");
+  add_pace(serve_verb, verbs.serve.bus,
+           "Wait for the controller at each tick, however late it is [without real-time rights]",
+           "Go by the clock, as a real robot does [with real-time rights]");
 
   CLI::App& link_verb =
       verbs.add(app, "link", "Measure how fast and how surely a robot on the bus answers, without moving it",
@@ -342,7 +386,7 @@ std::string problem_with_seed(const std::string& text) {
 
 void add_common(CLI::App& verb, CommonOptions& common) {
   verb.add_flag("--json", common.json, "Print one JSON object on stdout; messages go to stderr");
-  verb.add_flag("--quiet", common.quiet, "Print nothing but results and errors");
+  verb.add_flag("-q,--quiet", common.quiet, "Print nothing but results and errors");
 }
 
 void add_threads(CLI::App& verb, std::optional<std::size_t>& threads, const char* help) {
@@ -352,23 +396,32 @@ void add_threads(CLI::App& verb, std::optional<std::size_t>& threads, const char
 int run_command_line(int argc, const char* const* argv) {
   CLI::App app("flinch: contact detection and reaction for parallel robots. Not a certified safety function.",
                "flinch");
-  app.set_version_flag("--version", std::string("flinch ") + FLINCH_VERSION);
+  const std::string version =
+      fmt::format("flinch {}{}", FLINCH_VERSION, commit.empty() ? "" : fmt::format(" ({})", commit));
+  app.set_version_flag("--version", version);
   app.require_subcommand(1);
+  app.formatter(std::make_shared<HelpLayout>());
   app.get_formatter()->label("SUBCOMMAND", "VERB");
   app.footer(
-      "Exit status: 0 done, 1 the verdict is bad, or the link, 2 bad input or usage, 3 a fault stopped the "
-      "run.\n"
+      "Exit status: 0 done, 1 the verdict is bad, or the link, 2 bad input or usage,\n"
+      "3 a fault stopped the run.\n"
       "'flinch VERB --help' shows the options of a verb.");
   Verbs verbs;
+  add_demo_verb(app, verbs);
   add_run_verb(app, verbs);
   add_file_verbs(app, verbs);
   add_campaign_verb(app, verbs);
+  add_speed_limit_verb(app, verbs);
+  add_reproduce_verb(app, verbs);
   add_calibrate_verb(app, verbs);
   add_learning_verbs(app, verbs);
   add_excite_verb(app, verbs);
   add_import_verb(app, verbs);
+  add_convert_verb(app, verbs);
+  add_judge_verb(app, verbs);
   add_bus_verbs(app, verbs);
   add_keys_verb(app, verbs);
+  add_program_verbs(app, verbs, version);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -38,8 +38,7 @@ bool is_short(const Recording& recording) { return recording.samples() < 60'000;
 void require_run(const Recording& recording, const std::filesystem::path& file) {
   if (!holds_readings_alone(recording)) return;
   throw SetupError(file.string() +
-                   ": holds readings and no run; 'flinch calibrate torque-constant', 'dynamics' and "
-                   "'imu-pose' can use it");
+                   ": holds readings and no run; 'flinch judge' and 'flinch calibrate' can use it");
 }
 
 ExitStatus conclude(const Scenario& scenario, double wall, const std::filesystem::path& folder,

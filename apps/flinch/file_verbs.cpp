@@ -10,10 +10,10 @@
 #include "apps/flinch/progress.h"
 #include "apps/flinch/shell_word.h"
 #include "apps/flinch/simulated/simulated_parts.h"
-#include "calibration/csv_recording.h"
 #include "experiments/report/experiment_report.h"
 #include "experiments/report/report_page.h"
 #include "experiments/scenario/scenario_calibrations.h"
+#include "import/imported_recording.h"
 #include "systems/config/config_file.h"
 #include "systems/config/file_kind.h"
 #include "systems/config/parameter_file.h"
@@ -64,21 +64,21 @@ struct Checked {
 };
 
 /// Checks a file of HDF5, and says of which kind it is.
-std::string check_results(const CheckOptions& options) {
-  const std::string format = hdf5_format(options.file);
+std::string check_results(const std::filesystem::path& file, const CommonOptions& common) {
+  const std::string format = hdf5_format(file);
   if (format == "flinch campaign") return "campaign results";
   if (format.starts_with("flinch contacts")) {
-    check_data_set(options.file);
+    check_data_set(file);
     return "data set";
   }
-  const Recording recording = open_recording(options.file);
+  const Recording recording = open_recording(file);
   const bool readings = holds_readings_alone(recording);
   if (readings) {
-    scenario_of(recording, options.file);
+    scenario_of(recording, file);
   } else {
-    recorded_report(options.file, options.common);
+    recorded_report(file, common);
   }
-  out_of(options.file, [&] { read_every_row(recording); });  // a page and a verdict read some only
+  out_of(file, [&] { read_every_row(recording); });  // a page and a verdict read some only
   return readings ? "readings" : "recording";
 }
 
@@ -89,7 +89,7 @@ Checked check_text(const std::filesystem::path& file) {
       check_thresholds(read_parameter_file(file));
       return {"calibration"};
     case FileKind::mapping:
-      read_csv_recording(file);
+      import_log(file);
       return {"import mapping"};
     case FileKind::campaign:
       return {"campaign", check_campaign(file)};
@@ -105,6 +105,35 @@ Checked check_text(const std::filesystem::path& file) {
       break;
   }
   return {"scenario", check_scenario(file)};
+}
+
+Checked check_file(const std::filesystem::path& file, const CommonOptions& common) {
+  if (file.extension() == ".onnx") {
+    check_classifier(file);
+    return {"classifier"};
+  }
+  if (file.extension() == ".h5" || is_journal(file)) return {check_results(file, common)};
+  return check_text(file);
+}
+
+std::vector<std::string> warnings_of(const Checked& checked) {
+  std::vector<std::string> warnings;
+  for (const CalibrationDoubt& doubt : checked.doubts) warnings.push_back(doubt.sentence);
+  return warnings;
+}
+
+Json checked_json(const std::filesystem::path& file, const Checked& checked) {
+  return {
+      {"file", file.string()}, {"kind", checked.what}, {"good", true}, {"warnings", warnings_of(checked)}};
+}
+
+void tell(const std::filesystem::path& file, const Checked& checked, const CommonOptions& common) {
+  const char* more = "";
+  if (checked.what == "readings") more = ", for flinch calibrate";
+  if (checked.what == "campaign results") more = ", by what it says it is; its columns were not read";
+  if (!common.quiet && !common.json)
+    print_result("{}: a good {} file{}\n", file.string(), checked.what, more);
+  for (const std::string& warning : warnings_of(checked)) print_message("warning: {}\n", warning);
 }
 
 }  // namespace
@@ -149,30 +178,20 @@ ExitStatus graph(const GraphOptions& options) {
 }
 
 ExitStatus check(const CheckOptions& options) {
-  Checked checked;
-  if (options.file.extension() == ".onnx") {
-    check_classifier(options.file);
-    checked = {"classifier"};
-  } else if (options.file.extension() == ".h5" || is_journal(options.file)) {
-    checked = {check_results(options)};
-  } else {
-    checked = check_text(options.file);
+  std::vector<std::string> problems;
+  Json all = Json::array();
+  for (const std::filesystem::path& file : options.files) {
+    try {
+      const Checked checked = check_file(file, options.common);
+      all.push_back(checked_json(file, checked));
+      tell(file, checked, options.common);
+    } catch (const SetupError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
   }
-  const std::string& what = checked.what;
-  std::vector<std::string> warnings;
-  for (const CalibrationDoubt& doubt : checked.doubts) warnings.push_back(doubt.sentence);
-  if (options.common.json) {
-    print_result(
-        "{}\n",
-        json_text(
-            Json{{"file", options.file.string()}, {"kind", what}, {"good", true}, {"warnings", warnings}}));
-  } else if (!options.common.quiet) {
-    const char* more = "";
-    if (what == "readings") more = ", for flinch calibrate";
-    if (what == "campaign results") more = ", by what it says it is; its columns were not read";
-    print_result("{}: a good {} file{}\n", options.file.string(), what, more);
-  }
-  for (const std::string& warning : warnings) print_message("warning: {}\n", warning);
+  throw_if_any(problems);
+  if (options.common.json)
+    print_result("{}\n", json_text(all.size() == 1 ? all.front() : Json{{"files", all}}));
   return ExitStatus::done;
 }
 

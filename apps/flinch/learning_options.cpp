@@ -20,7 +20,7 @@ void add_dataset_verb(CLI::App& app, Verbs& verbs) {
   verb.add_option("--seed", options.seed, "Seed of all that is drawn [the file's]")
       ->check(problem_with_seed)
       ->type_name("N");
-  verb.add_option("--out", options.out, "The data set [out/NAME.h5]")->type_name("DATA.h5");
+  verb.add_option("-o,--out", options.out, "The data set [out/NAME.h5]")->type_name("DATA.h5");
   add_threads(verb, options.threads, "Runs at once [one a processor]");
   verb.add_flag("--fresh", options.fresh, "Begin anew, whatever an earlier call has left");
 }
@@ -97,7 +97,8 @@ void add_evaluate_verb(CLI::App& app, Verbs& verbs) {
       ->allow_extra_args(false)
       ->check(between(0, std::numeric_limits<int>::max()))
       ->type_name("N,N");
-  verb.add_option("--out", options.out, "The page [DATA_MODEL.html beside the data]")->type_name("PAGE.html");
+  verb.add_option("-o,--out", options.out, "The page [DATA_MODEL.html beside the data]")
+      ->type_name("PAGE.html");
   add_threads(verb, options.threads, "At once [one a processor]");
 }
 

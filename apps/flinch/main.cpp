@@ -1,7 +1,3 @@
-#include "apps/flinch/command_line.h"
-#include "apps/flinch/program_start.h"
+#include "apps/flinch/flinch_main.h"
 
-int main(int argc, char** argv) {
-  flinch::start_program();
-  return flinch::run_command_line(argc, argv);
-}
+int main(int argc, char** argv) { return flinch::flinch_main(argc, argv); }

@@ -55,6 +55,10 @@ bool is_scenario(const fs::path& file) {
   return head_of(file).starts_with("# A motion from which `flinch calibrate dynamics`");
 }
 
+bool is_robot(const fs::path& file) { return head_of(file).starts_with("# Converted by flinch convert"); }
+
+bool is_model(const fs::path& file) { return has(head_of(file), "<!-- Written by flinch export"); }
+
 bool is_recording(const fs::path& file) {
   try {
     open_recording(file);
@@ -84,6 +88,10 @@ Form form_of(OutputKind kind) {
       return {"parameter file of flinch calibrate", {".yaml", ".yml"}, &is_parameters};
     case OutputKind::scenario:
       return {"scenario of flinch excite", {".yaml", ".yml"}, &is_scenario};
+    case OutputKind::robot:
+      return {"robot file of flinch convert", {".yaml", ".yml"}, &is_robot};
+    case OutputKind::model:
+      return {"model of flinch export", {".xml"}, &is_model};
     case OutputKind::recording:
       return {"recording", {".h5"}, &is_recording};
     case OutputKind::data_set:

@@ -6,7 +6,18 @@
 namespace flinch {
 
 /// Kinds of files that verbs write under a name that somebody gave.
-enum class OutputKind { page, picture, graph, parameters, scenario, recording, data_set, classifier };
+enum class OutputKind {
+  page,
+  picture,
+  graph,
+  parameters,
+  scenario,
+  recording,
+  data_set,
+  classifier,
+  robot,
+  model
+};
 
 /// As require_place(). Throws SetupError as well where the name does not end as those of this kind do, or
 /// where it is that of a file of another kind, which would be lost. Links are replaced, devices have no kind.

@@ -6,6 +6,7 @@
 #include "apps/flinch/learning_verbs.h"
 #include "apps/flinch/printing.h"
 #include "apps/flinch/progress.h"
+#include "apps/flinch/shipped_files.h"
 #include "apps/flinch/simulated/simulated_parts.h"
 #include "apps/flinch/stop_watch.h"
 #include "experiments/recorded/replay.h"
@@ -98,18 +99,29 @@ void check(const RunOptions& options) {
   if (options.names_a_bus && options.station != StationKind::dds) {
     problems.push_back("the options of the bus mean something only with --station dds");
   }
+  if (options.live.asked() && options.station == StationKind::recorded) {
+    problems.push_back("--live: a recording is over; 'flinch report' shows it");
+  }
+  if (options.live.waits && !options.live.asked()) {
+    problems.push_back("--live-wait: means something only with --live");
+  }
+  if (options.live.sets_speed && (!options.live.asked() || options.station != StationKind::simulated)) {
+    problems.push_back("--live-speed: means something only with --live and a simulated station");
+  }
   throw_if_any(std::move(problems));
 }
 
 }  // namespace
 
-ExitStatus run(const RunOptions& options) {
-  check(options);
+ExitStatus run(const RunOptions& given) {
+  check(given);
+  if (given.station == StationKind::recorded) return run_recorded(given);
+  RunOptions options = given;
+  options.input = or_shipped(given.input, "scenarios");
   switch (options.station) {
-    case StationKind::recorded:
-      return run_recorded(options);
     case StationKind::dds:
       return run_on_bus(options);
+    case StationKind::recorded:
     case StationKind::simulated:
       break;
   }

@@ -9,6 +9,7 @@
 #include "apps/flinch/bus/bus_verbs.h"
 #include "apps/flinch/command_line.h"
 #include "apps/flinch/learning_verbs.h"
+#include "apps/flinch/shipped_files.h"
 
 namespace flinch {
 
@@ -29,6 +30,16 @@ inline CLI::Validator between(int low, int high) { return from_to(low, high, "wh
 /// No NaN is within any.
 inline CLI::Validator within(double low, double high) { return from_to(low, high, "number"); }
 
+/// Names of files that come with flinch, in the folder `kind`, are as good as their paths.
+inline CLI::Validator shipped(const char* kind) {
+  return CLI::Validator(
+      [kind](std::string& text) {
+        text = or_shipped(text, kind).string();
+        return std::string();
+      },
+      "");
+}
+
 /// What is wrong with `text` as a seed; "" if nothing is.
 std::string problem_with_seed(const std::string& text);
 
@@ -38,10 +49,16 @@ void add_common(CLI::App& verb, CommonOptions& common);
 /// How much is done at once.
 void add_threads(CLI::App& verb, std::optional<std::size_t>& threads, const char* help);
 
+/// The options by which a run is watched in a browser.
+void add_live(CLI::App& run_verb, LiveOptions& live);
+
 /// The verbs and their options.
 struct Verbs {
   RunOptions run;
+  DemoOptions demo;
+  ReproduceOptions reproduce;
   CampaignOptions campaign;
+  SpeedLimitOptions speed_limit;
   CalibrateThresholdsOptions thresholds;
   DatasetOptions dataset;
   TrainOptions train;
@@ -52,12 +69,18 @@ struct Verbs {
   CalibrateAllOptions calibrate_all;
   ExciteOptions excite;
   ImportOptions import_log;
+  ConvertOptions convert;
+  JudgeOptions judge;
   ServeOptions serve;
   LinkOptions link;
   KeysOptions keys;
   ReportOptions report;
+  CompareOptions compare;
+  ExportOptions export_recording;
   GraphOptions graph;
   CheckOptions check;
+  std::string shell;                   ///< that is to complete
+  std::vector<std::string> explained;  ///< verb that help is asked for, and what of it
   std::function<ExitStatus()> chosen;
   CommonOptions* common = nullptr;
 
@@ -75,12 +98,22 @@ struct Verbs {
   }
 };
 
+/// The verb that finds how fast a robot may move.
+void add_speed_limit_verb(CLI::App& app, Verbs& verbs);
 /// The verbs that find parameters: `calibrate` with all its kinds, and `excite`.
 void add_calibrate_verb(CLI::App& app, Verbs& verbs);
 void add_excite_verb(CLI::App& app, Verbs& verbs);
 /// The verbs that make data sets and classifiers.
 void add_learning_verbs(CLI::App& app, Verbs& verbs);
+/// The verbs that only look at files.
+void add_file_verbs(CLI::App& app, Verbs& verbs);
 /// The verb that makes a recording out of a log of another tool.
 void add_import_verb(CLI::App& app, Verbs& verbs);
+/// The verb that makes a robot file out of a model of another tool.
+void add_convert_verb(CLI::App& app, Verbs& verbs);
+/// The verbs that tell shells and `man` of the program. `version`: as --version tells it.
+void add_program_verbs(CLI::App& app, Verbs& verbs, const std::string& version);
+/// The verb that runs estimators and detectors over a log.
+void add_judge_verb(CLI::App& app, Verbs& verbs);
 
 }  // namespace flinch

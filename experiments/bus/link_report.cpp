@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "diagrams/external_station.h"
 #include "systems/foundation/json_text.h"
+#include "systems/signals/sampling.h"
 
 namespace flinch {
 namespace {
@@ -55,9 +55,9 @@ std::vector<std::string> LinkReport::objections() const {
   }
   const auto round_trip = times.round_trip.summary();
   const auto age = times.age.summary();
-  const Time max_age = ExternalStationSettings().max_age;
+  const Time max_age = longest_age(period);
   if (!round_trip) found.push_back("the robot has obeyed none of our commands: another program commands it");
-  if (round_trip && round_trip->p99 > 1ms) {
+  if (round_trip && round_trip->p99 > period) {
     found.push_back(fmt::format("one command in a hundred takes more than {:.0f} us, longer than a tick",
                                 microseconds(round_trip->p99)));
   }
@@ -91,7 +91,8 @@ std::string LinkReport::table() const {
                   link.robot_id == 0 ? "; none was measured" : "; measured: " + robot_id_text(link.robot_id));
   if (link.robot_id != 0) text += pose.text() + "\n";
   const std::vector<std::string> against = objections();
-  text += against.empty() ? "link: good for control at 1 kHz\n" : "link: not good for control at 1 kHz\n";
+  text += fmt::format("link: {} for control at {:g} kHz\n", against.empty() ? "good" : "not good",
+                      1e-3 / to_seconds(period));
   for (const std::string& objection : against) text += "  - " + objection + "\n";
   return text;
 }

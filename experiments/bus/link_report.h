@@ -17,6 +17,7 @@ struct LinkReport {
   SeenPose pose;                       ///< at the end
   std::vector<SeenRobot> robots = {};  ///< that were seen
   bool is_chosen = false;              ///< the user has said which is meant
+  Time period = 1ms;                   ///< from tick to tick
 
   /// What speaks against moving a robot over this link, one sentence each: several robots of which nobody has
   /// chosen one, commands that take longer than a tick, readings older than the station lets in, more than

@@ -7,6 +7,8 @@
 #include "drivers/wire_header.h"
 #include "experiments/bus/await_robot.h"
 #include "experiments/bus/names.h"
+#include "experiments/bus/opening_watch.h"
+#include "experiments/live/spectator.h"
 #include "experiments/recorded/recorded_signals.h"
 #include "experiments/scenario/scenario.h"
 #include "experiments/verdict/check_words.h"
@@ -14,6 +16,7 @@
 #include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/quantity_units.h"
+#include "systems/signals/sampling.h"
 
 namespace flinch {
 namespace {
@@ -29,6 +32,20 @@ std::string attribute(const DurationHistogram& histogram) {
   const auto us = [](Time time) { return 1e6 * to_seconds(time); };
   return fmt::format("p50 {:.0f}, p99 {:.0f}, p99.9 {:.0f}, max {:.0f} us", us(summary->p50),
                      us(summary->p99), us(summary->p99_9), us(summary->max));
+}
+
+RobotOutside outside(const LiveRunSettings& settings) {
+  return settings.pace == Pace::lockstep ? RobotOutside::lockstep : RobotOutside::real;
+}
+
+std::string sent_nothing(Time patience) {
+  return fmt::format("the robot has sent nothing for {:g} s", to_seconds(patience));
+}
+
+/// Nobody measures it in lockstep.
+std::string round_trip_words(const DdsLink& link) {
+  if (link.round_trip == Time::zero()) return "in lockstep";
+  return fmt::format("round trip {:.0f} us", 1e6 * to_seconds(link.round_trip));
 }
 
 std::vector<std::string> names_of_drives(int legs) {
@@ -59,23 +76,29 @@ EventSources told_of(const LiveExperiment& experiment) {
 LiveRun::LiveRun(const Scenario& scenario, const DdsBus& bus, LiveRunSettings settings)
     : scenario_(scenario),
       settings_(std::move(settings)),
-      experiment_(out_of(scenario.file, [&] { return build_live_experiment(scenario); })),
+      experiment_(out_of(scenario.file, [&] { return build_live_experiment(scenario, outside(settings_)); })),
       station_(bus, *experiment_.diagram, experiment_.station,
                {.robot = robot_hash(scenario.robot_text),
                 .chosen_robot = settings_.chosen_robot,
-                .realtime_priority = settings_.bus_priority}),
+                .realtime_priority = settings_.bus_priority,
+                .pace = settings_.pace}),
       panel_(experiment_, scenario.control, station_, settings_.interrupts),
       ros2_(bus, *experiment_.diagram, shown_to_ros2(experiment_),
             {.joint_names = names_of_drives(scenario.robot.robot->drives()),
              .space = scenario.robot.robot->space(),
-             .ticks_between_messages = 10}),
+             .ticks_between_messages = periods_in(10ms, scenario.control_period)}),
       events_(bus, *experiment_.diagram, told_of(experiment_),
               {.robot = robot_hash(scenario.robot_text), .session = station_.session()}),
       exchange_({station_, panel_, ros2_, events_}),
+      steps_(station_, settings_.patience, [this] { return settings_.interrupts() > 1; }),
       unrecorded_(*experiment_.diagram, ticks_, exchange_),
       context_(experiment_.diagram->make_context()) {
   unrecorded_.follow_clock();
   unrecorded_.feed_timing(experiment_.tick_timing);
+}
+
+LiveRun::~LiveRun() {
+  if (in_lockstep()) station_.ask_for_end();  // whatever has kept end() from being called
 }
 
 void LiveRun::tick_until(Time longest, const std::function<bool()>& done) {
@@ -84,6 +107,7 @@ void LiveRun::tick_until(Time longest, const std::function<bool()>& done) {
 
 void LiveRun::connect() {
   if (!await_robot(station_, settings_.patience, settings_.interrupts)) throw_if_undecided(station_);
+  if (in_lockstep()) return begin_in_lockstep();
   fall_into_step(station_, ticks_);
   const auto sees_the_platform = [this] { return context_.get(experiment_.control.platform_motion).valid(); };
   tick_until(settings_.patience, [&] { return sees_the_platform() || is_interrupted(); });
@@ -93,20 +117,35 @@ void LiveRun::connect() {
   end_ = scenario_.duration + approach_from(platform.pose, scenario_);
 }
 
+/// As in simulation, where a run begins at the start of its motion.
+void LiveRun::begin_in_lockstep() {
+  if (!steps_.begin()) {
+    throw_if_interrupted(settings_.interrupts);
+    throw SetupError("the robot obeys another program, or our commands do not arrive; nothing has moved");
+  }
+  const Time tick = experiment_.diagram->tick();
+  end_ = scenario_.duration / tick * tick;
+}
+
 void LiveRun::prepare(const std::filesystem::path& file,
                       const std::map<std::string, std::string>& provenance) {
   const Diagram& diagram = *experiment_.diagram;
-  recorder_ = std::make_unique<Recorder>(diagram, recorded_paths(diagram), RecordingStream::ring,
-                                         quantity_units(*scenario_.robot.robot));
+  const UnitTable units = quantity_units(*scenario_.robot.robot);
+  const auto attributes = recorded_attributes(scenario_, provenance);
+  recorder_ = std::make_unique<Recorder>(diagram, recorded_paths(diagram), RecordingStream::ring, units);
   // Before the loop asks the machine for more than an ordinary thread gets, which writing need not have.
-  stream_ = std::make_unique<RecordingStream>(*recorder_, file, recorded_attributes(scenario_, provenance));
+  stream_ = std::make_unique<RecordingStream>(*recorder_, file, attributes);
   profile_ = std::make_unique<BlockProfile>(diagram);
-  recorded_ = std::make_unique<RealtimeRunner>(diagram, ticks_, exchange_);
+  TickSource* const source = in_lockstep() ? static_cast<TickSource*>(&steps_) : &ticks_;
+  recorded_ = std::make_unique<RealtimeRunner>(diagram, *source, exchange_);
   recorded_->record(*recorder_);
+  if (settings_.spectator != nullptr)
+    recorded_->record(settings_.spectator->begin(diagram, units, attributes));
   recorded_->profile(*profile_);
+  start_ = std::make_unique<Context>(diagram.make_context());
+  if (in_lockstep()) return;
   recorded_->follow_clock();
   recorded_->feed_timing(experiment_.tick_timing);
-  start_ = std::make_unique<Context>(diagram.make_context());
   thread_ = std::make_unique<RealtimeThread>(settings_.loop);
   granted_ = thread_->report();
 }
@@ -126,6 +165,7 @@ std::string LiveRun::why_not_enabled() const {
 }
 
 void LiveRun::enable() {
+  if (in_lockstep()) return;
   wish_ = {.state = DriveWish::State::operation_enabled, .engage_brake = false};
   const auto faulty = [this] {
     const DdsLink link = station_.link();
@@ -160,13 +200,13 @@ Tidings LiveRun::watch() {
   std::string noted;
   if (!checks_told_ && now.gate.passes()) {
     checks_told_ = true;
-    for (const std::string& check : checks_off(now.askable)) noted += "check off: " + check + "\n";
+    for (const std::string& check : checks_off(now.askable, now.checks_drives))
+      noted += "check off: " + check + "\n";
   }
   return {fmt::format("{}; gate {}{}; drives: {}", name(now.mode), phases[static_cast<int>(now.gate.phase)],
                       fault.empty() ? "" : ": " + fault, name(now.link.drive_state)),
-          fmt::format("at {:.1f}{} s, force {:.0f} N, round trip {:.0f} us, lost {}, refused {}",
-                      to_seconds(now.time), end, now.force, 1e6 * to_seconds(now.link.round_trip),
-                      now.link.lost, now.link.refused),
+          fmt::format("at {:.1f}{} s, force {:.0f} N, {}, lost {}, refused {}", to_seconds(now.time), end,
+                      now.force, round_trip_words(now.link), now.link.lost, now.link.refused),
           {},
           said,
           noted};
@@ -187,14 +227,47 @@ void LiveRun::switch_drives_on() noexcept {
   station_.request(wish_);
 }
 
-void LiveRun::run() {
+void LiveRun::run() { in_lockstep() ? run_in_lockstep() : run_in_real_time(); }
+
+void LiveRun::run_in_lockstep() {
+  const std::function<bool()> over = [this] {
+    stream_->wait_for_room();
+    return panel_.orders().end_is_ordered() || settings_.interrupts() > 1 ||
+           (is_interrupted() && is_stopped());
+  };
+  panel_.release_stop();
+  context_ = *start_;
+  recorded_->run(context_, end_, over);
+  if (steps_.end() == LockstepTicks::End::silent) ended_by_ = sent_nothing(settings_.patience);
+  if (steps_.end() == LockstepTicks::End::gone)
+    ended_by_ = "the robot no longer waits for this program: it has given it up, or begun anew";
+}
+
+/// While the gate waits: has drives switched on again that have gone off, as where the robot has not heard us
+/// for some milliseconds. Whether to end the run, since the gate will not open and nobody is there to help.
+bool LiveRun::keeps_closed(OpeningWatch& opening) {
+  const Time now = context_.time();
+  const bool is_given_up = opening.sees_it_closed(context_.get(experiment_.control.gate), now);
+  if (settings_.attended || opening.has_opened() || is_interrupted()) return false;
+  if (!stands_ready() && now - asked_again_ >= 100ms) {
+    asked_again_ = now;
+    station_.request(wish_);
+  }
+  if (is_given_up) ended_by_ = opening.sentence();
+  return is_given_up;
+}
+
+void LiveRun::run_in_real_time() {
   std::uint32_t received = 0;
   Time heard{};
+  OpeningWatch opening;
   const std::function<bool()> over = [&, this] {
     if (std::exchange(received, station_.link().received) != received) heard = context_.time();
-    was_left_ = context_.time() - heard > settings_.patience;
+    const bool was_left = context_.time() - heard > settings_.patience;
+    if (was_left) ended_by_ = sent_nothing(settings_.patience);
+    const bool never_opens = keeps_closed(opening);
     if (panel_.orders().resets() && !stands_ready()) switch_drives_on();
-    return was_left_ || panel_.orders().end_is_ordered() || settings_.interrupts() > 1 ||
+    return was_left || never_opens || panel_.orders().end_is_ordered() || settings_.interrupts() > 1 ||
            (is_interrupted() && is_stopped());
   };
   fall_into_step(station_, ticks_);
@@ -206,6 +279,7 @@ void LiveRun::run() {
 }
 
 void LiveRun::end() {
+  if (in_lockstep()) return steps_.let_go();
   panel_.press_stop();
   tick_until(3s, [this] { return is_stopped() || settings_.interrupts() > 1; });
   station_.request({.state = DriveWish::State::switched_on});
@@ -217,24 +291,11 @@ void LiveRun::end() {
 
 void LiveRun::finish_recording() {
   std::map<std::string, std::string> attributes;
-  const TickStatistics& loop = recorded_->statistics();
-  const DdsLink link = station_.link();
-  const DdsLinkTimes& times = station_.times();
-  attributes["loop.granted"] = granted().text();
-  attributes["loop.late_starts"] = std::to_string(loop.late_starts);
-  attributes["loop.overruns"] = std::to_string(loop.overruns);
-  attributes["loop.lost_periods"] = std::to_string(loop.lost_periods);
-  attributes["loop.lateness"] = attribute(loop.lateness);
-  attributes["loop.tick"] = attribute(loop.whole);
-  if (was_left_) {
-    attributes["run.ended"] =
-        fmt::format("the robot has sent nothing for {:g} s", to_seconds(settings_.patience));
-  }
+  attributes["loop.pace"] = in_lockstep() ? "lockstep" : "real time";
+  if (!in_lockstep()) note_timing(attributes);
+  if (!ended_by_.empty()) attributes["run.ended"] = attributes["run.failure"] = ended_by_;
   if (panel_.orders().end_is_ordered()) attributes["run.ended"] = "by the operator, or the end of his input";
-  attributes["link.lost"] = std::to_string(link.lost);
-  attributes["link.refused"] = std::to_string(link.refused);
-  attributes["link.round_trip"] = attribute(times.round_trip);
-  attributes["link.age"] = attribute(times.age);
+  attributes["link.refused"] = std::to_string(station_.link().refused);
   std::string blocks;
   for (const BlockProfile::Row& row : profile_->rows()) {
     blocks += fmt::format("{}: worst {:.1f} us, mean {:.2f} us\n", row.path, 1e6 * to_seconds(row.worst),
@@ -242,6 +303,23 @@ void LiveRun::finish_recording() {
   }
   attributes["loop.blocks"] = blocks;
   stream_->finish(attributes);
+}
+
+/// How late loop and link were.
+void LiveRun::note_timing(std::map<std::string, std::string>& attributes) const {
+  const TickStatistics& loop = recorded_->statistics();
+  const DdsLinkTimes& times = station_.times();
+  attributes["loop.granted"] = granted().text();
+  attributes["loop.late_starts"] = std::to_string(loop.late_starts);
+  attributes["loop.overruns"] = std::to_string(loop.overruns);
+  attributes["loop.lost_periods"] = std::to_string(loop.lost_periods);
+  attributes["loop.lateness"] = attribute(loop.lateness);
+  if (const auto lateness = loop.lateness.summary())
+    attributes["loop.lateness_p99_ns"] = std::to_string(lateness->p99.count());
+  attributes["loop.tick"] = attribute(loop.whole);
+  attributes["link.lost"] = std::to_string(station_.link().lost);
+  attributes["link.round_trip"] = attribute(times.round_trip);
+  attributes["link.age"] = attribute(times.age);
 }
 
 Recording run_live_experiment(const Scenario& scenario, const DdsBus& bus, const std::filesystem::path& file,

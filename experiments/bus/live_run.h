@@ -8,6 +8,7 @@
 #include "drivers/bus_settings.h"
 #include "drivers/dds_station.h"
 #include "drivers/event_publisher.h"
+#include "drivers/lockstep_ticks.h"
 #include "drivers/ros2_publisher.h"
 #include "experiments/bus/interrupt_count.h"
 #include "experiments/bus/operator_panel.h"
@@ -22,9 +23,12 @@
 
 namespace flinch {
 
+class OpeningWatch;
+class Spectator;
 struct Scenario;
 
 struct LiveRunSettings {
+  Pace pace = Pace::real_time;    ///< that the robot must have, too
   Time patience = 10s;            ///< with a robot that does not answer, is not enabled, or falls silent
   std::string chosen_robot = {};  ///< among several; see DdsStationSettings
   bool reset_faults = false;      ///< of the drives, before the run
@@ -32,18 +36,23 @@ struct LiveRunSettings {
   int bus_priority = 0;           ///< SCHED_FIFO of the thread that receives, where permitted; 0: ordinary
   RealtimeSettings loop = {};     ///< what the loop's thread asks the machine for
   InterruptCount interrupts = no_interrupts;
+  Spectator* spectator = nullptr;  ///< who sees the run and does not say how fast it is; null: nobody
 };
 
-/// A scenario against a robot on the bus. To be called in this order, on one thread: connect(),
-/// prepare(), enable(), run(), end(). The first three throw SetupError where the robot does not answer, or
-/// not as it should, within the patience, or where somebody interrupts; end() may follow any of them.
-/// What happens is told on the bus: events and diagnostics, and topics for tools of ROS 2.
+/// A scenario against a robot on the bus. In lockstep with a simulated one it is, bit for bit, what it is in
+/// one program with that: the run begins with the robot at its start.
+///
+/// To be called in this order, on one thread: connect(), prepare(), enable(), run(), end(). The first three
+/// throw SetupError where the robot does not answer, or not as it should, within the patience, or where
+/// somebody interrupts; end() may follow any of them. What happens is told on the bus: events and
+/// diagnostics, and topics for tools of ROS 2.
 class LiveRun {
  public:
   /// `scenario` and `bus` must outlive this. Throws SetupError for settings that do not fit together.
   LiveRun(const Scenario& scenario, const DdsBus& bus, LiveRunSettings settings);
   LiveRun(const LiveRun&) = delete;
   LiveRun& operator=(const LiveRun&) = delete;
+  ~LiveRun();
 
   /// Waits for readings that this program understands, and finds out where the platform is. Commands no
   /// torque and closed brakes, by which it takes the robot: nobody else can command it from then on.
@@ -59,8 +68,9 @@ class LiveRun {
   /// is down until run().
   void enable();
 
-  /// Whether the run ended because the robot had been silent for longer than the patience.
-  bool was_left() const { return was_left_; }
+  /// Why the run ended before its time: the robot had been silent for longer than the patience, no longer
+  /// waited for this program, or the torque gate did not open; "" where it did not.
+  const std::string& ended_by() const { return ended_by_; }
 
   /// The scenario from its start, recorded; ends when it is over or, after an interrupt has stopped the
   /// robot, when that rests; at the second interrupt at once.
@@ -86,6 +96,12 @@ class LiveRun {
 
  private:
   void tick_until(Time longest, const std::function<bool()>& done);
+  void begin_in_lockstep();
+  void run_in_lockstep();
+  void note_timing(std::map<std::string, std::string>& attributes) const;
+  void run_in_real_time();
+  bool keeps_closed(OpeningWatch& opening);
+  bool in_lockstep() const { return settings_.pace == Pace::lockstep; }
   bool is_interrupted() const { return settings_.interrupts() > 0; }
   bool stands_ready() const;
   void switch_drives_on() noexcept;
@@ -101,6 +117,7 @@ class LiveRun {
   EventPublisher events_;
   ExchangeList exchange_;
   ClockTicks ticks_;
+  LockstepTicks steps_;
   RealtimeRunner unrecorded_;
   Context context_;
   std::unique_ptr<Recorder> recorder_;
@@ -109,7 +126,8 @@ class LiveRun {
   std::unique_ptr<RealtimeRunner> recorded_;
   std::unique_ptr<Context> start_;
   DriveWish wish_;
-  bool was_left_ = false;
+  std::string ended_by_;
+  Time asked_again_{};  ///< for the drives, in the time of the run
   std::uint32_t refusals_told_ = 0;
   bool checks_told_ = false;
   std::unique_ptr<RealtimeThread> thread_;

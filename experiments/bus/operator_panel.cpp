@@ -14,6 +14,7 @@ OperatorPanel::OperatorPanel(const LiveExperiment& experiment, const ContactCont
       wrench_(experiment.diagram->slot(experiment.control.wrench_estimate)),
       plausibility_(experiment.diagram->slot(experiment.control.plausibility)),
       translations_(experiment.translations),
+      checks_drives_(!experiment.control.others.drive_checks.empty()),
       orders_(experiment, control) {}
 
 void OperatorPanel::set_inputs(Context& context) {
@@ -32,6 +33,7 @@ void OperatorPanel::take_outputs(const Context& context) {
   now.gate = context[gate_];
   if (wrench.valid) now.force = wrench.wrench_in_base.head(translations_).norm();
   now.askable = askable_;
+  now.checks_drives = checks_drives_;
   now.link = station_.link();
   now.refusals = orders_.refusals();
   states_.publish(now);

@@ -15,8 +15,9 @@ struct LiveState {
   Time time{};
   ReactionMode mode = ReactionMode::stopped;
   GateStatus gate;
-  double force = 0.0;     ///< of the estimate, a norm [N]
-  CheckMask askable = 0;  ///< of sensors and drives at any tick since the stop button was released
+  double force = 0.0;          ///< of the estimate, a norm [N]
+  CheckMask askable = 0;       ///< of sensors and drives at any tick since the stop button was released
+  bool checks_drives = false;  ///< before the first motion
   DdsLink link;
   Refusals refusals;  ///< of an operator's orders
 };
@@ -55,6 +56,7 @@ class OperatorPanel final : public Exchange {
   Slot<WrenchEstimate> wrench_;
   Slot<Plausibility> plausibility_;
   int translations_;
+  bool checks_drives_;
   bool stop_ = true;
   CheckMask askable_ = 0;
   OrderDesk orders_;

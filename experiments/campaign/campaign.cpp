@@ -238,6 +238,10 @@ void check_size(const Campaign& campaign) {
 
 }  // namespace
 
+std::string CampaignAxis::name_of(std::size_t value) const {
+  return names.empty() ? yaml_line(*values[value]) : names[value];
+}
+
 std::string Campaign::identity() const {
   std::string text = "flinch " FLINCH_VERSION "\nseed " + std::to_string(seed) + "\ndraws " +
                      std::to_string(draws) + "\nmissed after " + exact_text(missed_after) + "\n";
@@ -255,6 +259,8 @@ std::string Campaign::identity() const {
     text += "\n";
   }
   if (addition) text += addition->identity + "\n";
+  if (task) text += task->identity + "\n";
+  if (of_single_runs) text += "single runs\n";
   for (const std::string& scenario : scenario_texts) text += scenario;
   for (const std::string& robot : robot_texts) text += robot;
   return text;

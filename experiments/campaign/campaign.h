@@ -13,12 +13,16 @@ namespace flinch {
 
 class RobotFiles;
 struct ConfigNode;
-struct Scenario;
+struct RunResult;
+struct SimulatedScenario;
 
 /// The values that a key of the scenario takes in turn: one axis of the grid.
 struct CampaignAxis {
   std::string key;  ///< "control.momentum_observer.gain_per_s"
   std::vector<std::shared_ptr<const ConfigNode>> values;
+  std::vector<std::string> names = {};  ///< what people call each value; empty: as it stands there
+
+  std::string name_of(std::size_t value) const;
 };
 
 /// A key of the scenario that is drawn anew for each run.
@@ -54,8 +58,16 @@ struct CampaignContact {
 
 /// What a program adds to the scenario of every run, for which there is no key.
 struct CampaignAddition {
-  std::string identity;                ///< results of one do not go on with those of another
-  std::function<void(Scenario&)> add;  ///< called by several threads at once
+  std::string identity;                         ///< results of one do not go on with those of another
+  std::function<void(SimulatedScenario&)> add;  ///< called by several threads at once
+};
+
+/// What is done for each number of a campaign, in place of simulating one run: a search, say, that simulates
+/// many. Its result stands in the table as that of a run.
+struct CampaignTask {
+  std::string identity;   ///< results of one do not go on with those of another
+  std::size_t count = 0;  ///< numbers of the campaign
+  std::function<RunResult(std::size_t number)> result_of;  ///< called by several threads at once
 };
 
 /// Many runs of scenarios that differ in some of their keys. docs/files.md has the keys of the file.
@@ -80,13 +92,17 @@ struct Campaign {
   std::vector<CampaignDraw> drawn;
   std::optional<CampaignContact> contact;
   std::optional<CampaignAddition> addition;
+  std::optional<CampaignTask> task;  ///< none: each number is a run
+  /// Each run is what 'flinch run' makes of its scenario: with the seed that stands there, and all figures of
+  /// its verdict in its result.
+  bool of_single_runs = false;
   std::shared_ptr<RobotFiles> robots;  ///< of all runs
 
   /// Everything that decides about the results, in words: two campaigns with one identity have one table.
   std::string identity() const;
 
   std::size_t grid_points() const;
-  std::size_t runs() const { return grid_points() * draws; }
+  std::size_t runs() const { return task ? task->count : grid_points() * draws; }
 };
 
 /// What the command line says in place of the file.

@@ -101,7 +101,11 @@ void require_no_other_results(const std::filesystem::path& folder, const Campaig
 }
 
 CampaignJournal::CampaignJournal(const std::filesystem::path& folder, const Campaign& campaign)
-    : file_(folder / journal_name), first_line_(first_line(campaign)), is_done_(campaign.runs()) {
+    : file_(folder / journal_name),
+      way_out_(campaign.of_single_runs ? "choose another folder with --out, or remove that file"
+                                       : "choose another folder with --out, or begin anew with --fresh"),
+      first_line_(first_line(campaign)),
+      is_done_(campaign.runs()) {
   std::ifstream before = rows();
   // Written anew, so that what follows does not stand behind half a row.
   begin_journal(file_, stream_, [&] {
@@ -110,9 +114,7 @@ CampaignJournal::CampaignJournal(const std::filesystem::path& folder, const Camp
   });
 }
 
-std::ifstream CampaignJournal::rows() const {
-  return rows_of(file_, first_line_, "choose another folder with --out, or begin anew with --fresh");
-}
+std::ifstream CampaignJournal::rows() const { return rows_of(file_, first_line_, way_out_); }
 
 void CampaignJournal::read(std::ifstream rows, const TakeRow& take) const {
   std::vector<std::string> names;

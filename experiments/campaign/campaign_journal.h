@@ -48,6 +48,7 @@ class CampaignJournal {
   std::string lines_of(const RunResult& result);
 
   std::filesystem::path file_;
+  std::string way_out_;  ///< where the file is that of another campaign
   std::ofstream stream_;
   std::string first_line_;
   std::string header_;  ///< of the last row in the file

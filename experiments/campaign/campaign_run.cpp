@@ -194,9 +194,9 @@ Draft undrawn(const Campaign& campaign, std::size_t& digits, CampaignRun& run) {
     run.values.emplace_back("scenario", campaign.scenarios[base].stem().string());
   }
   for (const CampaignAxis& axis : campaign.grid) {
-    const Node& value = axis.values[next_digit(digits, axis.values.size())];
-    draft.set(axis.key, value);
-    run.values.emplace_back(axis.key, yaml_line(*value));
+    const std::size_t value = next_digit(digits, axis.values.size());
+    draft.set(axis.key, axis.values[value]);
+    run.values.emplace_back(axis.key, axis.name_of(value));
   }
   return draft;
 }
@@ -231,7 +231,7 @@ bool draw_once(const Campaign& campaign, RandomGenerator& random, CampaignRun& r
   std::size_t digits = run.point;
   Draft draft = undrawn(campaign, digits, run);
   draw_values(campaign, random, draft, run);
-  draft.set("seed", scalar_node(std::to_string(run.seed)));
+  if (!campaign.of_single_runs) draft.set("seed", scalar_node(std::to_string(run.seed)));
   if (campaign.contact) {
     const auto& bodies = campaign.contact->bodies;
     const std::string& kind = bodies[next_digit(digits, bodies.size())];
@@ -242,6 +242,7 @@ bool draw_once(const Campaign& campaign, RandomGenerator& random, CampaignRun& r
     if (!is_placed) return false;
   }
   run.scenario = parse_simulated_scenario(draft.root(), draft.file(), *campaign.robots);
+  run.seed = run.scenario.seed;
   return true;
 }
 
@@ -306,6 +307,7 @@ CampaignRun draw_run(const Campaign& campaign, std::size_t number, int most_atte
   run.draw = number % campaign.draws;
   const std::uint64_t of_draw = derive_seed(campaign.seed, "draw " + std::to_string(run.draw));
   run.seed = derive_seed(of_draw, "noise");
+  run.tells_figures = campaign.of_single_runs;
   RandomGenerator random(derive_seed(of_draw, "values"));
   std::optional<std::vector<std::string>> undrawn_wrong;  // which no draw mends
   const bool draws_again = !campaign.drawn.empty() || campaign.contact;

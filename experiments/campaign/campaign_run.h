@@ -14,11 +14,12 @@ struct Campaign;
 
 /// One run of a campaign: where it stands in the grid, and what was drawn for it.
 struct CampaignRun {
-  std::size_t number = 0;  ///< from 0; what is drawn follows from it alone
-  std::size_t point = 0;   ///< of the grid
-  std::size_t draw = 0;    ///< the same draws are made at every point
-  int attempts = 1;        ///< until what was drawn was possible
-  std::uint64_t seed = 0;  ///< of the noise
+  std::size_t number = 0;      ///< from 0; what is drawn follows from it alone
+  std::size_t point = 0;       ///< of the grid
+  std::size_t draw = 0;        ///< the same draws are made at every point
+  int attempts = 1;            ///< until what was drawn was possible
+  std::uint64_t seed = 0;      ///< of the noise
+  bool tells_figures = false;  ///< its result has all figures of the verdict
   /// Key and value: of the grid's axes, then of what was drawn. The same keys in all runs of a campaign.
   std::vector<std::pair<std::string, std::string>> values;
   SimulatedScenario scenario;  ///< its text is a whole scenario file

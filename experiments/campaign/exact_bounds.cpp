@@ -50,4 +50,21 @@ double upper_share(std::size_t events, std::size_t trials, double confidence) {
   return bisect(likelier, 0.0, 1.0);
 }
 
+double confidence_below(std::size_t events, std::size_t trials, double share) {
+  return events >= trials ? 0.0 : 1.0 - binomial_at_most(events, trials, share);
+}
+
+std::optional<std::size_t> tolerated_events(std::size_t trials, double share, double confidence) {
+  std::optional<std::size_t> tolerated;
+  for (std::size_t events = 0; confidence_below(events, trials, share) >= confidence; ++events)
+    tolerated = events;
+  return tolerated;
+}
+
+std::size_t trials_without_event(double share, double confidence) {
+  std::size_t trials = 1;
+  while (!tolerated_events(trials, share, confidence)) ++trials;
+  return trials;
+}
+
 }  // namespace flinch

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 namespace flinch {
 
@@ -16,5 +17,16 @@ double lower_rate(std::size_t events, double exposure, double confidence = 0.95)
 /// Largest probability under which at most `events` of `trials` are seen with a probability of
 /// 1 - `confidence`: the one-sided upper bound of Clopper and Pearson (1934). 1 without trials.
 double upper_share(std::size_t events, std::size_t trials, double confidence = 0.95);
+
+/// Confidence with which a probability is below `share` where `events` of `trials` were seen: one minus the
+/// probability of at most so many events at that share. The inverse of upper_share(); 0 without trials.
+double confidence_below(std::size_t events, std::size_t trials, double share);
+
+/// The most events of `trials` that still show, with `confidence`, a probability below `share`; none where
+/// even no event does. [Wilks 1941]: so many of the worst of a sample lie beyond the tolerance limit.
+std::optional<std::size_t> tolerated_events(std::size_t trials, double share, double confidence = 0.95);
+
+/// The fewest trials that show so without an event. `share` and `confidence` between 0 and 1.
+std::size_t trials_without_event(double share, double confidence = 0.95);
 
 }  // namespace flinch

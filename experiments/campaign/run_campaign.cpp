@@ -81,7 +81,7 @@ class WorkList {
 
 void work(const Campaign& campaign, WorkList& list) {
   try {
-    while (const auto number = list.next()) list.add(simulate_run(draw_run(campaign, *number)));
+    while (const auto number = list.next()) list.add(do_run(campaign, *number));
   } catch (...) {
     list.end(std::current_exception());
   }
@@ -93,16 +93,29 @@ void require_same_outcome(const Campaign& campaign, const CampaignJournal& journ
                           const std::filesystem::path& folder) {
   if (journal.done() == 0 || journal.done() == campaign.runs()) return;
   const RunResult before = journal.results()[0];
-  if (csv_row(simulate_run(draw_run(campaign, before.run))) == csv_row(before)) return;
+  if (csv_row(do_run(campaign, before.run)) == csv_row(before)) return;
   throw SetupError(fmt::format(
       "{}: run {} comes out otherwise now: another build of the program or another machine has made it; "
       "go on with that one, choose another folder with --out, or begin anew with --fresh",
       folder.string(), before.run));
 }
 
+/// The results as tables have them.
+CampaignResults without_figures(const CampaignResults& results) {
+  return {results.size(), [results](std::size_t place) {
+            RunResult result = results[place];
+            result.figures.clear();
+            return result;
+          }};
+}
+
 }  // namespace
 
 RunResult simulate_run(const CampaignRun& run) { return result_of(run, judge_experiment(run.scenario)); }
+
+RunResult do_run(const Campaign& campaign, std::size_t number) {
+  return campaign.task ? campaign.task->result_of(number) : simulate_run(draw_run(campaign, number));
+}
 
 CampaignResults run_campaign(const Campaign& campaign, const std::filesystem::path& folder,
                              std::size_t threads, const CampaignProgress& progress,
@@ -126,7 +139,7 @@ CampaignResults run_campaign(const Campaign& campaign, const std::filesystem::pa
   }
   list.rethrow_problem();
   CampaignResults results = journal.results();
-  if (results.size() == campaign.runs()) write_results(results, folder);
+  if (results.size() == campaign.runs()) write_results(without_figures(results), folder);
   return results;
 }
 

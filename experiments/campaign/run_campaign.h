@@ -20,6 +20,9 @@ using CampaignProgress = std::function<bool(std::size_t done, std::size_t done_b
 /// Simulates a run and judges it.
 RunResult simulate_run(const CampaignRun& run);
 
+/// Does what the campaign asks for at a number: simulates and judges that run, or what its task says.
+RunResult do_run(const Campaign& campaign, std::size_t number);
+
 /// Does all runs that `folder` does not hold yet, on `threads` threads (0: one a processor), and returns the
 /// results of all in the order of their numbers, the same for any number of threads. Whole tables,
 /// results.csv and results.h5, are written once all are done; until then `folder` holds results.part, from

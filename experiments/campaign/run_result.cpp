@@ -7,6 +7,8 @@
 #include "diagrams/contact_control_settings.h"
 #include "experiments/campaign/campaign_run.h"
 #include "experiments/verdict/verdict.h"
+#include "experiments/verdict/verdict_output.h"
+#include "plant/specimen.h"
 #include "systems/config/parsed.h"
 #include "systems/laws/limit_keeper.h"
 #include "systems/motion/constraint_settings.h"
@@ -100,6 +102,7 @@ void estimator_columns(Result& result, Visit&& visit) {
 
 constexpr std::size_t columns_an_estimator = 3;
 const std::string last_of_estimator = ".contact_free_s";
+const std::string name_of_figures = "figures";  // the last column, where there is one
 
 /// Visits all columns but those of estimators, in their order; `values` is visited between.
 template <class Result, class Visit, class VisitValues>
@@ -174,6 +177,11 @@ RunResult result_of(const CampaignRun& run, const Verdict& verdict) {
   result.seed = run.seed;
   result.attempts = run.attempts;
   result.values = run.values;
+  if (run.tells_figures) {
+    const SimulatedScenario& made = run.scenario;
+    result.figures =
+        verdict_json(verdict, {.seed = run.seed, .robot = specimen_values(made.specimen, *made.robot.robot)});
+  }
   result.good = verdict.good();
   result.fault = verdict.fault;
   result.simulated = verdict.simulated;
@@ -223,6 +231,7 @@ std::string csv_header(const RunResult& result) {
   for (const EstimatorResult& estimator : result.estimators) {
     estimator_columns(estimator, [&](const char* name, const auto&) { add(estimator.name + "." + name); });
   }
+  if (!result.figures.empty()) add(name_of_figures);
   return line;
 }
 
@@ -241,6 +250,7 @@ std::string csv_row(const RunResult& result) {
   for (const EstimatorResult& estimator : result.estimators) {
     estimator_columns(estimator, [&](const char*, const auto& value) { add(text_of(value)); });
   }
+  if (!result.figures.empty()) add(result.figures);
   return line;
 }
 
@@ -274,6 +284,7 @@ std::optional<RunResult> parse_csv_row(const std::vector<std::string>& names, co
   if (cells.size() != names.size()) return std::nullopt;
   RunResult result;
   std::size_t end = names.size();  // of all but the estimators
+  if (end > others && names.back() == name_of_figures) result.figures = cells[--end];
   for (; end >= columns_an_estimator && names[end - 1].ends_with(last_of_estimator);
        end -= columns_an_estimator) {
     std::string name = names[end - 1].substr(0, names[end - 1].size() - last_of_estimator.size());

@@ -66,6 +66,8 @@ struct RunResult {
   double simulated = 0.0;                ///< [s]
 
   std::vector<EstimatorResult> estimators;  ///< first the one that the robot followed
+  /// Of a campaign of single runs: the verdict as verdict_json() has it; "" otherwise.
+  std::string figures;
 };
 
 RunResult result_of(const CampaignRun& run, const Verdict& verdict);

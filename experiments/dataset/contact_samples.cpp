@@ -7,6 +7,7 @@
 #include "systems/framework/recorded_values.h"
 #include "systems/signals/contact_detection.h"
 #include "systems/signals/platform_motion.h"
+#include "systems/signals/sampling.h"
 
 namespace flinch {
 namespace {
@@ -156,6 +157,14 @@ std::optional<CourseMoments> course_at(std::size_t tick, Time period,
     const PlatformMotion motion = motions[tick - age];
     if (!estimate.valid || !motion.valid()) return std::nullopt;
     course[i] = {estimate.wrench_in_base, motion.velocity};
+    const Time later = static_cast<Time::rep>(age) * period - course_ages[i];
+    if (period <= 1ms || later == Time::zero()) continue;  // as CourseMemory: between two long ticks
+    const RecordedEstimate next = estimates[tick - age + 1];
+    const PlatformMotion moved = motions[tick - age + 1];
+    if (!next.valid || !moved.valid()) return std::nullopt;
+    const double share = to_seconds(later) / to_seconds(period);
+    course[i].wrench_in_base += share * (next.wrench_in_base - course[i].wrench_in_base);
+    course[i].velocity += share * (moved.velocity - course[i].velocity);
   }
   return course;
 }
@@ -190,7 +199,8 @@ ContactSamples contact_samples(const Recording& recording, const ParallelRobot& 
     if (!estimate.valid) continue;
     progress.estimated = true;
     const int moment = moments.at(tick);
-    const bool is_due = (tick - *moments.early) % static_cast<std::size_t>(choice.every) == 0;
+    const auto every = static_cast<std::size_t>(periods_in(choice.every * 1ms, recording.period));
+    const bool is_due = (tick - *moments.early) % every == 0;
     const double force = estimate.wrench_in_base.head(robot.space().translations()).norm();
     const bool is_chosen = choice.from_force ? force >= *choice.from_force && is_due
                                              : tick <= moments.end && (moment != 0 || is_due);

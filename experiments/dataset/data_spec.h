@@ -17,7 +17,7 @@ struct SampleChoice {
   std::string wrench = "isolation";
   /// Whose detector tells the early tick: the name of an estimator that is not followed; "": none does.
   std::string early_by;
-  int every = 5;  ///< of the ticks between the first moment and the last, one in so many; moments always
+  int every = 5;  ///< of the ticks between the first moment and the last, one in so many ms; moments always
   /// Instead of those: all ticks of a contact at which a force is estimated that reaches this [N].
   std::optional<double> from_force;
 };

@@ -1,5 +1,6 @@
 #include "experiments/live/live_experiment.h"
 
+#include "diagrams/operator_ports.h"
 #include "experiments/recorded/recorded_signals.h"
 #include "experiments/scenario/scenario.h"
 #include "systems/foundation/setup_error.h"
@@ -8,21 +9,26 @@
 
 namespace flinch {
 
-LiveExperiment build_live_experiment(const Scenario& scenario) {
-  if (!scenario.operator_script.events.empty()) {
+LiveExperiment build_live_experiment(const Scenario& scenario, RobotOutside robot) {
+  const bool lockstep = robot == RobotOutside::lockstep;
+  if (!scenario.operator_script.events.empty() && !lockstep) {
     throw SetupError(
         "'operator' resets and starts the robot though nobody sees what is near it; a real robot is reset by "
         "hand, as 'flinch run --attended' lets you. Leave it out, or run the scenario with the simulated "
         "station");
   }
-  DiagramBuilder builder("experiment");
+  DiagramBuilder builder("experiment", scenario.control_period);
   LiveExperiment experiment;
   const bool has_instrument = !scenario.obstacles.empty() || !scenario.mountings.empty();
-  experiment.station = add_external_station(builder, scenario.robot.robot, {.force_torque = has_instrument});
+  experiment.station = add_external_station(builder, scenario.robot.robot,
+                                            {.max_age = longest_age(scenario.control_period),
+                                             .force_torque = has_instrument,
+                                             .lockstep = lockstep});
   experiment.control = add_contact_control(builder, scenario.robot.robot, scenario.control);
   connect(builder, experiment.station, experiment.control);
-  experiment.operator_command = builder.export_input("operator", experiment.control.operator_command);
-  experiment.target = builder.export_input("target", experiment.control.target);
+  const OperatorPorts panel = add_operator(builder, experiment.control, scenario.operator_script);
+  experiment.operator_command = panel.buttons;
+  experiment.target = panel.target;
   if (scenario.control.contact_is_told) {
     experiment.told_classification =
         builder.export_input("told_classification", experiment.control.told_classification);

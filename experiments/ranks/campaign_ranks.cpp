@@ -6,7 +6,6 @@
 #include <functional>
 
 #include "experiments/campaign/campaign.h"
-#include "experiments/campaign/campaign_run.h"
 #include "experiments/campaign/run_campaign.h"
 #include "systems/foundation/setup_error.h"
 
@@ -95,7 +94,7 @@ void CampaignRanks::work(const Campaign& campaign) {
       continue;
     }
     try {
-      const RunResult result = simulate_run(draw_run(campaign, static_cast<std::size_t>(number)));
+      const RunResult result = do_run(campaign, static_cast<std::size_t>(number));
       send(csv_header(result) + "\n" + csv_row(result), 0, table_row);
     } catch (const SetupError& error) {
       send(joined(error.problems()), 0, complaint);

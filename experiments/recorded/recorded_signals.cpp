@@ -66,6 +66,7 @@ void export_control(DiagramBuilder& builder, const ContactControl& control) {
   show(control.others.energies);
   show(control.others.tasks);
   show(control.others.loads);
+  show(control.others.drive_checks);
 }
 
 std::vector<std::string> recorded_paths(const Diagram& diagram) {

@@ -1,5 +1,7 @@
 #include "experiments/recorded/replay.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cstring>
 #include <memory>
@@ -9,6 +11,7 @@
 #include "experiments/recorded/recorded_signals.h"
 #include "experiments/recorded/robot_as_drawn.h"
 #include "experiments/scenario/scenario.h"
+#include "systems/foundation/setup_error.h"
 #include "systems/framework/constant.h"
 #include "systems/framework/diagram_builder.h"
 #include "systems/framework/player.h"
@@ -55,8 +58,28 @@ void replay_if_recorded(DiagramBuilder& builder, const Recording& recorded, cons
   builder.export_output(path, player.played);
 }
 
+bool is_same(const Signal& a, const Signal& b) {
+  return a.rows.size() == b.rows.size() &&
+         std::memcmp(a.rows.data(), b.rows.data(), a.rows.size() * sizeof(a.rows[0])) == 0;
+}
+
+/// Signals of `from` that `recording` has not: the truth, instruments of others, links.
+void take_over_the_rest(const Recording& from, Recording& recording) {
+  for (const Signal& signal : from.signals) {
+    if (find(recording, signal.path) == nullptr) recording.signals.push_back(signal);
+  }
+}
+
+}  // namespace
+
 std::unique_ptr<Diagram> build_replay(const Scenario& scenario, const Recording& recorded,
                                       const std::vector<RequestedFault>& faults) {
+  if (recorded.period != scenario.control_period)
+    throw SetupError(fmt::format(
+        "{}: its control period is {:g} us, and the recording has one of {:g} us; give the scenario "
+        "'control_period_us: {:g}', or replay a recording of its own period",
+        scenario.file.string(), 1e6 * to_seconds(scenario.control_period), 1e6 * to_seconds(recorded.period),
+        1e6 * to_seconds(recorded.period)));
   DiagramBuilder builder("replay", recorded.period);
   const Station station = add_recorded_station(
       builder, recorded, "", {.all = faults, .tick = recorded.period, .seed = scenario.seed});
@@ -74,20 +97,6 @@ std::unique_ptr<Diagram> build_replay(const Scenario& scenario, const Recording&
   export_control(builder, control);
   return builder.build();
 }
-
-bool is_same(const Signal& a, const Signal& b) {
-  return a.rows.size() == b.rows.size() &&
-         std::memcmp(a.rows.data(), b.rows.data(), a.rows.size() * sizeof(a.rows[0])) == 0;
-}
-
-/// Signals of `from` that `recording` has not: the truth, instruments of others, links.
-void take_over_the_rest(const Recording& from, Recording& recording) {
-  for (const Signal& signal : from.signals) {
-    if (find(recording, signal.path) == nullptr) recording.signals.push_back(signal);
-  }
-}
-
-}  // namespace
 
 Replay replay(const Scenario& scenario, const Recording& recorded,
               const std::map<std::string, std::string>& provenance,

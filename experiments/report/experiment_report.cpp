@@ -250,12 +250,24 @@ std::vector<ReportParameter> provenance(const Recording& recording) {
 
 }  // namespace
 
-Report experiment_report(const Scenario& scenario, const Recording& recording, const Verdict& verdict,
-                         const std::function<void(double share)>& progress) {
+Report planned_report(const Scenario& scenario) {
   Report report;
-  report.kind = verdict.witness == Witness::truth ? "simulated experiment" : "experiment on a robot";
   report.title = scenario.title;
   report.subtitle = scenario.description;
+  const ParallelRobot& robot = *scenario.robot.robot;
+  report.robot = drawn_robot(robot);
+  report.drive_unit = robot.drive_kind(0) == DriveKind::revolute ? "Nm" : "N";
+  for (const ScenarioObstacle& obstacle : scenario.obstacles) {
+    report.obstacles.push_back(drawn_obstacle(obstacle.name, obstacle.shape, obstacle.position_in_base));
+  }
+  report.bounds = bounds_of(scenario, Verdict{}, report);
+  return report;
+}
+
+Report experiment_report(const Scenario& scenario, const Recording& recording, const Verdict& verdict,
+                         const std::function<void(double share)>& progress) {
+  Report report = planned_report(scenario);
+  report.kind = verdict.witness == Witness::truth ? "simulated experiment" : "experiment on a robot";
   report.note = caveat(verdict.witness) + thinning(recording);
   report.good = verdict.good();
   report.reasons = verdict.failures;
@@ -266,13 +278,7 @@ Report experiment_report(const Scenario& scenario, const Recording& recording, c
   for (const ContactVerdict& contact : verdict.contacts)
     report.contacts.push_back(report_contact(contact, verdict.limits, scenario.obstacles));
   report.measures = measures(verdict, scenario.expected);
-  const ParallelRobot& robot = *scenario.robot.robot;
-  report.robot = drawn_robot(robot);
-  report.drive_unit = robot.drive_kind(0) == DriveKind::revolute ? "Nm" : "N";
-  for (const ScenarioObstacle& obstacle : scenario.obstacles) {
-    report.obstacles.push_back(drawn_obstacle(obstacle.name, obstacle.shape, obstacle.position_in_base));
-  }
-  add_samples(robot, recording, report, progress);
+  add_samples(*scenario.robot.robot, recording, report, samples_in_one(recording.samples()), progress);
   report.bounds = bounds_of(scenario, verdict, report);
   report.parameters = scenario_parameters(scenario);
   for (ReportParameter& row : parameters("robot", scenario.robot.values))

@@ -11,6 +11,9 @@ namespace flinch {
 struct Recording;
 struct Scenario;
 
+/// What of that is known before the run: title, robot, obstacles, thresholds.
+Report planned_report(const Scenario& scenario);
+
 /// What the report page shows of a run: its recording, judged.
 Report experiment_report(const Scenario& scenario, const Recording& recording, const Verdict& verdict,
                          const std::function<void(double share)>& progress = {});

@@ -112,13 +112,22 @@ json encode_all(const std::vector<Value>& values) {
   return list(values, [](const Value& value) { return encode(value); });
 }
 
-}  // namespace
-
-std::string report_json(const Report& report) {
+json columns_of(const Report& report) {
   json columns = json::object();
   for (const auto& [name, values] : report.columns) {
     columns[name] = list(values, [](double value) { return rounded(value); });
   }
+  return columns;
+}
+
+}  // namespace
+
+std::string samples_json(const Report& report) {
+  return "\"columns\": " + json_text(columns_of(report)) +
+         ", \"lanes\": " + json_text(encode_all(report.lanes));
+}
+
+std::string report_json(const Report& report) {
   const json data = {{"title", report.title},
                      {"kind", report.kind},
                      {"subtitle", report.subtitle},
@@ -137,7 +146,7 @@ std::string report_json(const Report& report) {
                      {"start", report.start},
                      {"period", report.period},
                      {"count", report.sample_count()},
-                     {"columns", columns},
+                     {"columns", columns_of(report)},
                      {"estimators", report.estimators},
                      {"lanes", encode_all(report.lanes)},
                      {"bounds", encode_all(report.bounds)},

@@ -11,4 +11,8 @@ namespace flinch {
 /// The report must have passed `check_report()`.
 std::string report_json(const Report& report);
 
+/// The columns and lanes of such an object alone, without braces about them: `"columns": {...}, "lanes":
+/// [...]`.
+std::string samples_json(const Report& report);
+
 }  // namespace flinch

@@ -376,11 +376,10 @@ class Isolation {
 
 }  // namespace
 
-void add_samples(const ParallelRobot& robot, const Recording& recording, Report& report,
+void add_samples(const ParallelRobot& robot, const Recording& recording, Report& report, std::size_t together,
                  const std::function<void(double share)>& progress) {
   const RecordedRun run(recording, robot.space());
   const bool simulated = run.witness() == Witness::truth;
-  const std::size_t together = samples_in_one(recording.samples());
   report.period = run.period() * static_cast<double>(together);
   if (!recording.time_ns.empty()) report.start = 1e-9 * static_cast<double>(recording.time_ns.front());
   PageSamples page(together);

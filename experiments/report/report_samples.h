@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 
 #include "experiments/report/report.h"
@@ -10,9 +11,9 @@ class ParallelRobot;
 struct Recording;
 
 /// Adds to a page what was recorded of this robot: times, columns and lanes, in one pass over the samples.
-/// Where a page shows several samples as one, the robot is drawn at the hardest contact, and every chart has
-/// its own peak.
-void add_samples(const ParallelRobot& robot, const Recording& recording, Report& report,
+/// The page shows `together` samples as one: the robot is drawn at the hardest contact of them, and every
+/// chart has its own peak.
+void add_samples(const ParallelRobot& robot, const Recording& recording, Report& report, std::size_t together,
                  const std::function<void(double share)>& progress = {});
 
 }  // namespace flinch

@@ -13,6 +13,7 @@
 namespace flinch {
 namespace {
 
+constexpr const char* control_period_key = "control_period";
 constexpr double telling_change = 0.01;  // of a torque constant: more than its calibration is off
 
 void append(std::vector<CalibrationDoubt>& all, const std::vector<std::string>& sentences) {
@@ -117,11 +118,25 @@ std::vector<std::string> set_otherwise(const ParameterFile& file, const std::str
   for (const ReadValue& noted : file.settings) {
     const auto used = std::find_if(settings.begin(), settings.end(),
                                    [&](const ReadValue& setting) { return setting.key == noted.key; });
-    if (used == settings.end() || used->value == noted.value) continue;
+    if (used == settings.end() || used->value == noted.value || noted.key == control_period_key) continue;
     const std::string unit = noted.unit.empty() ? "" : " " + noted.unit;
     sentences.push_back(rests_on(file, name, noted.key, noted.value + unit, used->value + unit));
   }
   return sentences;
+}
+
+/// The noise of estimates goes with the rate, so thresholds are those of one; without a note, of the usual.
+std::vector<std::string> at_another_rate(const ParameterFile& file, const std::string& name,
+                                         const Scenario& scenario) {
+  if (thresholds_of(file).empty()) return {};
+  const auto period_in = [](const std::vector<ReadValue>& values) {
+    const auto found = std::find_if(values.begin(), values.end(),
+                                    [](const ReadValue& value) { return value.key == control_period_key; });
+    return found == values.end() ? std::string("0.001") : found->value;
+  };
+  const std::string noted = period_in(file.settings), used = period_in(scenario.values);
+  if (noted == used) return {};
+  return {rests_on(file, name, control_period_key, noted + " s", used + " s")};
 }
 
 /// Whether the scenario itself says `key`, a path without its unit.
@@ -173,6 +188,7 @@ std::vector<CalibrationDoubt> doubts_about_calibrations(const Scenario& scenario
     }
     append(doubts, assumed_otherwise(files[i], names.of(i), scenario));
     append(doubts, set_otherwise(files[i], names.of(i), settings));
+    append(doubts, at_another_rate(files[i], names.of(i), scenario));
   }
   append(doubts, replaced(files));
   add_without_effect(doubts, scenario, "reaction_force", &OwnThreshold::force);

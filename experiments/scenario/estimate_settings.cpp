@@ -10,26 +10,31 @@
 namespace flinch {
 namespace {
 
-/// Sections that estimators read besides the one of their own name: of the filter that each makes for itself
-/// where it does not run, and of the observer to which it falls back.
+/// Sections that accelerations and estimators read besides the one of their own name: of the filter that each
+/// makes for itself where it does not run, of the observer to which it falls back, of the motion without lag,
+/// and of what the IMU is believed by. tests/experiments/simulated/estimate_settings_test.cpp finds them by
+/// running.
 const std::map<std::string, std::vector<std::string>> other_sections = {
+    {"imu_ekf", {"imu_mount", "plausibility"}},
+    {"extended_imu_ekf", {"imu_mount", "plausibility"}},
     {"direct_method", {"momentum_observer"}},
-    {"direct_imu_ekf", {"imu_ekf", "momentum_observer"}},
-    {"direct_extended_imu_ekf", {"extended_imu_ekf", "momentum_observer"}},
-    {"imu_residual", {"momentum_observer"}}};
+    {"direct_imu_ekf", {"imu_ekf", "imu_mount", "plausibility", "momentum_observer"}},
+    {"direct_extended_imu_ekf",
+     {"extended_imu_ekf", "imu_mount", "plausibility", "disturbance_filter", "momentum_observer"}},
+    {"imu_residual", {"imu_mount", "plausibility", "disturbance_filter", "momentum_observer"}}};
 
 /// Of the keys that count: sections, each with a dot, and single keys.
 std::set<std::string> beginnings(const ControlStages& stages) {
   std::set<std::string> all{"control.drive_torque.aligned_with_velocity", "control.follow.velocity",
                             "control.follow.acceleration"};
-  const std::vector<std::string> estimators = names_of(stages.estimators);
-  for (const auto& names : {names_of(stages.velocities), names_of(stages.accelerations), estimators}) {
-    for (const std::string& name : names) all.insert("control." + name + ".");
-  }
-  for (const std::string& name : estimators) {
-    const auto others = other_sections.find(name);
-    if (others == other_sections.end()) continue;
-    for (const std::string& section : others->second) all.insert("control." + section + ".");
+  for (const auto& names :
+       {names_of(stages.velocities), names_of(stages.accelerations), names_of(stages.estimators)}) {
+    for (const std::string& name : names) {
+      all.insert("control." + name + ".");
+      const auto others = other_sections.find(name);
+      if (others == other_sections.end()) continue;
+      for (const std::string& section : others->second) all.insert("control." + section + ".");
+    }
   }
   return all;
 }
@@ -38,11 +43,13 @@ std::set<std::string> beginnings(const ControlStages& stages) {
 
 std::vector<ReadValue> estimate_settings(const Scenario& scenario) {
   const std::set<std::string> begin = beginnings(scenario.control.stages);
+  const bool is_usual_rate = scenario.control_period == default_control_period;
   std::vector<ReadValue> settings;
   for (const ReadValue& value : scenario.values) {
     const bool counts = std::any_of(begin.begin(), begin.end(),
                                     [&](const std::string& of) { return value.key.starts_with(of); });
-    if (counts) settings.push_back(value);
+    const bool is_other_rate = value.key == "control_period" && !is_usual_rate;
+    if (counts || is_other_rate) settings.push_back(value);
   }
   return settings;
 }

@@ -10,8 +10,9 @@ struct Scenario;
 
 /// The settings of a scenario's control path on which the errors of its estimates rest, as they took effect:
 /// of the velocity and acceleration stages and the estimators that run, with those on which these rest, which
-/// velocity and acceleration are followed, and whether the torque is aligned with the velocity. Not among
-/// them is what is calibrated for each robot: torque constants, and where the IMU sits.
+/// velocity and acceleration are followed, where the IMU is believed to sit, whether the torque is aligned
+/// with the velocity, and a control period that is not the usual one. Not among them are the torque
+/// constants, of which a calibration says itself on which it rests.
 std::vector<ReadValue> estimate_settings(const Scenario& scenario);
 
 }  // namespace flinch

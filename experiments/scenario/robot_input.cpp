@@ -9,7 +9,9 @@ namespace flinch {
 RobotInput read_robot_input(const std::filesystem::path& file) {
   if (kind_of(file) == FileKind::robot) return {read_robot_file(file), read_config_file(file)};
   const Scenario scenario = read_scenario(file);
-  return {scenario.robot, scenario.robot_text};
+  RobotInput input{scenario.robot, scenario.robot_text};
+  input.robot.control_period = scenario.control_period;
+  return input;
 }
 
 }  // namespace flinch

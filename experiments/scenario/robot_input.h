@@ -13,7 +13,8 @@ struct RobotInput {
   std::string text;
 };
 
-/// Reads a robot file, or the one that a scenario names. Throws SetupError with all that is wrong.
+/// Reads a robot file, or the one that a scenario names, with the control period of the scenario.
+/// Throws SetupError with all that is wrong.
 RobotInput read_robot_input(const std::filesystem::path& file);
 
 }  // namespace flinch

@@ -104,7 +104,10 @@ void read_rest(ConfigReader& reader, std::optional<std::uint64_t> seed, const Se
   reader.seed("seed", scenario.seed);
   if (seed) scenario.seed = *seed;
   ControlStages stages = std::move(scenario.control.stages);
-  scenario.control = settings_for(robot, scenario.robot.drives, scenario.robot.limits);
+  scenario.control_period = scenario.robot.control_period;
+  read_control_period(reader, scenario.control_period);
+  scenario.control =
+      settings_for(robot, scenario.robot.drives, scenario.robot.limits, scenario.control_period);
   scenario.control.stages = std::move(stages);
   try {
     calibrate_control(scenario.calibrations, robot, scenario.control);
@@ -187,7 +190,10 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
                        const ControlStages& known) {
   if (set.empty()) return read_scenario(file, seed, others, known);
   RobotFiles robots;
-  return parse_scenario(scenario_with(file, set), file, robots, seed, others, known);
+  const auto values_of = [&](const std::shared_ptr<const ConfigNode>& root) {
+    return parse_scenario(root, file, robots, seed, others, known).values;
+  };
+  return parse_scenario(scenario_with(file, set, values_of), file, robots, seed, others, known);
 }
 
 Scenario parse_scenario(std::string text, const std::filesystem::path& file,

@@ -34,6 +34,7 @@ struct Scenario {
   std::string description;
   std::uint64_t seed = 1;
   Time duration = 1s;
+  Time control_period = default_control_period;  ///< that of the robot file where the scenario says nothing
 
   std::filesystem::path robot_file;
   RobotFile robot;           ///< what the controller believes
@@ -53,7 +54,7 @@ struct Scenario {
 };
 
 /// Reads sections of a scenario file that a Scenario has no place for. `so_far` has robot, motion, control,
-/// obstacles and seed; where the robot file is no good, a stand-in for the robot.
+/// obstacles and seed; where the robot file is no good, a stand-in for the robot. Each call begins anew.
 using SectionReader = std::function<void(ConfigReader& file, const Scenario& so_far)>;
 
 /// The sections that only a simulation reads are left unread: whatever they say, nothing is wrong with them.

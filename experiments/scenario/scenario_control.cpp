@@ -5,6 +5,7 @@
 #include <span>
 
 #include "diagrams/contact_control_settings.h"
+#include "diagrams/control_rate.h"
 #include "diagrams/task_stages.h"
 #include "experiments/scenario/scenario_estimators.h"
 #include "experiments/scenario/scenario_isolation.h"
@@ -50,6 +51,7 @@ void read_sensing(ConfigReader& control, const ParallelRobot& robot, ContactCont
   drives.numbers(turn ? "torque_constant" : "force_constant", turn ? unit::Nm_per_A : unit::N_per_A,
                  entries(settings.drive_torque.torque_constant), positive);
   drives.flag("aligned_with_velocity", settings.aligned_with_velocity);
+  control.flag("drive_check", settings.checks_drives);
 }
 
 void read_laws(ConfigReader& control, const ParallelRobot& robot, ContactControlSettings& settings) {
@@ -188,6 +190,8 @@ void read_control(ConfigReader control, const ParallelRobot& robot, ContactContr
   read_tasks(control, robot, settings.tasks);
   read_laws(control, robot, settings);
   read_recovery(control.section("recovery"), settings);
+  for (const TooFast& filter : too_fast_for_rate(settings))
+    control.section(filter.section).problem(filter.key, filter.complaint);
 }
 
 void read_motion(ConfigReader motion, const RobotFile& file, std::uint64_t seed,

@@ -16,6 +16,16 @@ struct ServedBench {
   PoweredStation station;
 };
 
+/// The simulated bench of a scenario as the simulated experiment has it, its drives on, to wait for its
+/// controller on the bus. The inputs of `station` are those of the diagram.
+struct WaitingBench {
+  std::unique_ptr<Diagram> diagram;
+  Station station;
+};
+
+/// Throws SetupError.
+WaitingBench build_waiting_bench(const SimulatedScenario& scenario);
+
 /// `longest_silence`: after which the drives brake without a command. Throws SetupError.
 ServedBench build_served_bench(const SimulatedScenario& scenario, Time longest_silence);
 

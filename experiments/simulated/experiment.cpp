@@ -4,6 +4,7 @@
 
 #include "diagrams/operator_ports.h"
 #include "diagrams/requested_fault.h"
+#include "experiments/live/spectator.h"
 #include "experiments/recorded/recorded_signals.h"
 #include "experiments/recorded/robot_as_drawn.h"
 #include "experiments/simulated/closed_loop.h"
@@ -40,7 +41,7 @@ ContactControlSettings judged_control(ContactControlSettings settings) {
 
 Experiment build(const SimulatedScenario& scenario, const ContactControlSettings& settings) {
   require_possible(scenario.station.faults, {.end = scenario.duration});
-  DiagramBuilder builder("experiment", 1ms);
+  DiagramBuilder builder("experiment", scenario.control_period);
   const auto [station, control] = add_closed_loop(builder, scenario, settings);
   const OperatorPorts panel = add_operator(builder, control, scenario.operator_script);
   builder.export_output("truth", station.plant_truth);
@@ -78,10 +79,11 @@ std::map<std::string, std::string> attributes_of(const SimulatedScenario& scenar
 
 /// Runs the whole scenario; `before_tick` is called between ticks. What is known of the run only then.
 std::map<std::string, std::string> simulate(const SimulatedScenario& scenario, const Diagram& diagram,
-                                            Recorder& recorder, const std::function<void()>& before_tick,
+                                            const std::vector<Recorder*>& recorders,
+                                            const std::function<void()>& before_tick,
                                             const std::function<void(double share)>& progress) {
   Simulator simulator(diagram, std::make_unique<SundialsIntegrator>());
-  simulator.record(recorder);
+  for (Recorder* const recorder : recorders) simulator.record(*recorder);
   Context context = diagram.make_context();
   const std::size_t ticks = ticks_of(scenario, diagram);
   for (std::size_t tick = 0; tick < ticks; ++tick) {
@@ -103,7 +105,7 @@ Recording run_experiment(const SimulatedScenario& scenario,
   const Diagram& diagram = *experiment.diagram;
   Recorder recorder(diagram, recorded_paths(diagram), ticks_of(scenario, diagram),
                     quantity_units(*scenario.robot.robot));
-  auto attributes = simulate(scenario, diagram, recorder, {}, progress);
+  auto attributes = simulate(scenario, diagram, {&recorder}, {}, progress);
   attributes.merge(attributes_of(scenario, provenance));
   return recorder.recording(std::move(attributes));
 }
@@ -127,7 +129,7 @@ Verdict judge_experiment(const SimulatedScenario& scenario) {
   const auto look_when_full = [&] {
     if (recorder.samples() == samples_at_once) look();
   };
-  simulate(scenario, diagram, recorder, look_when_full, {});
+  simulate(scenario, diagram, {&recorder}, look_when_full, {});
   look();
   return judge(watch, scenario.expected);
 }
@@ -140,20 +142,28 @@ Recording run_for_signals(const SimulatedScenario& scenario, const std::vector<s
     return std::find(names.begin(), names.end(), path) == names.end();
   });
   Recorder recorder(diagram, paths, ticks_of(scenario, diagram), quantity_units(*scenario.robot.robot));
-  simulate(scenario, diagram, recorder, {}, {});
+  simulate(scenario, diagram, {&recorder}, {}, {});
   return recorder.recording();
 }
 
 Recording record_experiment(const SimulatedScenario& scenario, const std::filesystem::path& file,
                             const std::map<std::string, std::string>& provenance,
-                            const std::function<void(double share)>& progress) {
+                            const std::function<void(double share)>& progress, Spectator* spectator) {
   const Experiment experiment = build_experiment(scenario);
   const Diagram& diagram = *experiment.diagram;
-  Recorder recorder(diagram, recorded_paths(diagram), RecordingStream::ring,
-                    quantity_units(*scenario.robot.robot));
-  RecordingStream stream(recorder, file, attributes_of(scenario, provenance));
-  stream.finish(simulate(
-      scenario, diagram, recorder, [&stream] { stream.wait_for_room(); }, progress));
+  const UnitTable units = quantity_units(*scenario.robot.robot);
+  Recorder recorder(diagram, recorded_paths(diagram), RecordingStream::ring, units);
+  const auto attributes = attributes_of(scenario, provenance);
+  RecordingStream stream(recorder, file, attributes);
+  std::vector<Recorder*> recorders{&recorder};
+  if (spectator != nullptr) recorders.push_back(&spectator->begin(diagram, units, attributes));
+  Time now{};
+  const auto before_tick = [&] {
+    stream.wait_for_room();
+    if (spectator != nullptr) spectator->before_tick(now);
+    now += diagram.tick();
+  };
+  stream.finish(simulate(scenario, diagram, recorders, before_tick, progress));
   return open_recording(file);
 }
 

@@ -14,6 +14,7 @@
 
 namespace flinch {
 
+class Spectator;
 struct SimulatedScenario;
 struct Verdict;
 
@@ -44,9 +45,11 @@ Verdict judge_experiment(const SimulatedScenario& scenario);
 Recording run_for_signals(const SimulatedScenario& scenario, const std::vector<std::string>& names);
 
 /// The same, recorded into `file` while it runs, so that its length takes no memory; what it returns reads
-/// from there. Throws SetupError also where the file cannot be written.
+/// from there. A `spectator` sees the run while it goes on, and says how fast that is; he changes nothing
+/// that is recorded. Throws SetupError also where the file cannot be written.
 Recording record_experiment(const SimulatedScenario& scenario, const std::filesystem::path& file,
                             const std::map<std::string, std::string>& provenance = {},
-                            const std::function<void(double share)>& progress = {});
+                            const std::function<void(double share)>& progress = {},
+                            Spectator* spectator = nullptr);
 
 }  // namespace flinch

@@ -234,6 +234,7 @@ std::string key_of_obstacle(const ConfigReader& file, std::size_t obstacle) {
 void read_station(ConfigReader& file, const Scenario& scenario, SimulatedStationSettings& station,
                   Specimen& specimen) {
   station.seed = scenario.seed;
+  know_period(scenario.control_period, station);
   const std::optional<PlatformPath>& path = scenario.control.trajectory.path;
   if (path) station.bench.initial_pose = path->start();
   station.bench.obstacles = read_simulated_obstacles(file, scenario.obstacles);

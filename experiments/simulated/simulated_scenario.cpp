@@ -13,6 +13,8 @@ SimulatedScenario with_station(const Read& read) {
   SimulatedStationSettings station;
   Specimen specimen;
   Scenario scenario = read([&](ConfigReader& file, const Scenario& read_so_far) {
+    station = {};
+    specimen = {};
     read_station(file, read_so_far, station, specimen);
   });
   return {std::move(scenario), std::move(station), std::move(specimen)};

@@ -53,12 +53,16 @@ static_assert(checks_of_rows() == all_checks, "each check has a row");
 
 }  // namespace
 
-std::vector<std::string> checks_off(CheckMask askable) {
+std::vector<std::string> checks_off(CheckMask askable, bool drives_checked) {
   std::vector<std::string> off;
   for (const Row& row : rows) {
     if ((row.checks & ~askable) == 0) continue;
     off.push_back(fmt::format("{} (fault {}): needs {}", row.what, static_cast<int>(row.fault), row.needs));
   }
+  if (!drives_checked)
+    off.push_back(
+        fmt::format("drives before the first motion (fault {}): needs 'control.drive_check: true', {}",
+                    static_cast<int>(GateFault::torque_contradicted), reaching));
   return off;
 }
 

@@ -148,7 +148,7 @@ bool is_judged(const std::string& path) {
   static constexpr std::array judged = {"detection",      "reaction",       "wrench",       "reference",
                                         "gate",           "truth",          "contact",      "location",
                                         "classification", "true_measures",  "plausibility", "braking",
-                                        "reaction_task",  "torque_command", "operator"};
+                                        "reaction_task",  "torque_command", "operator",     "drive_check"};
   return path.starts_with(detection_of) || std::find(judged.begin(), judged.end(), path) != judged.end();
 }
 
@@ -186,6 +186,7 @@ struct RecordedRun::Signals {
     if (records(recording, "contact", "self_body")) self_bodies.emplace(recording, "contact");
     if (records(recording, "plausibility", "imu_doubt")) doubts.emplace(recording, "plausibility");
     if (records(recording, "plausibility", "askable")) askable.emplace(recording, "plausibility");
+    if (recording.find("drive_check") != nullptr) drive_check.emplace(recording, "drive_check");
     if (recording.find("tick_timing") != nullptr) timing.emplace(recording, "tick_timing");
     if (recording.find("joints_link") != nullptr) joints_link.emplace(recording, "joints_link");
     if (witness == Witness::truth) {
@@ -205,6 +206,7 @@ struct RecordedRun::Signals {
   RecordedValues<GateStatus> gate;
   std::optional<RecordedValues<RecordedDoubts>> doubts;
   std::optional<RecordedValues<RecordedAskable>> askable;
+  std::optional<RecordedValues<DriveCheckStatus>> drive_check;
   std::vector<std::string> class_names;  // of what can be touched
   std::optional<RecordedValues<RecordedClassification>> classification;
   std::optional<RecordedValues<RecordedResidual>> residual;
@@ -299,6 +301,7 @@ RunSample RecordedRun::operator[](std::size_t sample) const {
   if (signals.braking && is_noticed) now.braking = (*signals.braking)[sample];
   if (signals.doubts) now.doubts = (*signals.doubts)[sample];
   if (signals.askable) now.askable = (*signals.askable)[sample].askable;
+  if (signals.drive_check) now.drive_check = (*signals.drive_check)[sample];
   if (signals.timing) now.lost_ticks = static_cast<int>((*signals.timing)[sample].lost_periods);
   if (signals.joints_link) now.unread_readings = static_cast<int>((*signals.joints_link)[sample].skipped);
   signals.add_classification(sample, now);

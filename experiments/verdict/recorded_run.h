@@ -82,9 +82,10 @@ struct RunSample {
   GateStatus gate;
   BrakingStatus braking;
   RecordedDoubts doubts;
-  std::optional<CheckMask> askable;  ///< none: the recording does not tell
-  int lost_ticks = 0;                ///< periods without a tick before this one
-  int unread_readings = 0;           ///< of the joints, that no tick has seen, since the start of the link
+  std::optional<CheckMask> askable;             ///< none: the recording does not tell
+  std::optional<DriveCheckStatus> drive_check;  ///< none: the drives were not checked
+  int lost_ticks = 0;                           ///< periods without a tick before this one
+  int unread_readings = 0;  ///< of the joints, that no tick has seen, since the start of the link
 
   /// Of the hardest touch or push; not a number where nobody measured it, as the next.
   double force() const { return loads.front().force(); }

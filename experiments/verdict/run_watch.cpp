@@ -146,6 +146,7 @@ struct RunWatch::Parts {
   FaultWatch faults;
   ReturnWatch returns;
   std::optional<CheckMask> askable;  ///< at any sample
+  bool drives_checked = false;
   bool was_touched = false, gate_opens = false;
   GateStatus gate;
   std::optional<double> first;  ///< sample [s]
@@ -181,6 +182,10 @@ void RunWatch::see(const RunSample& now) {
     verdict.imu_doubted = now.time;
   }
   if (now.askable) so_far.askable = so_far.askable.value_or(0) | *now.askable;
+  if (now.drive_check) {
+    so_far.drives_checked = true;
+    verdict.drive_check = *now.drive_check;
+  }
   if (!verdict.passive_lost && now.doubts.passive_lost) verdict.passive_lost = now.time;
   if (!so_far.first) so_far.first = now.time;
   so_far.last = now.time;
@@ -190,7 +195,7 @@ Verdict RunWatch::seen() const {
   Verdict verdict = parts_->verdict;
   verdict.contacts = parts_->contacts.contacts();
   verdict.returned = parts_->returns.seen();
-  if (parts_->askable) verdict.checks_off = checks_off(*parts_->askable);
+  if (parts_->askable) verdict.checks_off = checks_off(*parts_->askable, parts_->drives_checked);
   if (!parts_->first) return verdict;
   verdict.simulated = parts_->last - *parts_->first + parts_->period;
   if (!parts_->gate_opens) {

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <charconv>
 #include <utility>
 
 #include "experiments/verdict/recorded_run.h"
@@ -134,6 +135,32 @@ void expect_at_most(const char* what, double value, std::optional<double> bound,
                                  scale * *bound, unit));
 }
 
+std::optional<ComputerLateness> computer_of(const Recording& recording) {
+  const auto number = [&recording](const char* name) -> std::optional<std::int64_t> {
+    const auto found = recording.attributes.find(name);
+    if (found == recording.attributes.end()) return std::nullopt;
+    std::int64_t value = 0;
+    const char* const end = found->second.data() + found->second.size();
+    return std::from_chars(found->second.data(), end, value).ptr == end ? std::optional(value) : std::nullopt;
+  };
+  const auto lost = number("loop.lost_periods");
+  if (!lost || *lost < 0) return std::nullopt;
+  const auto p99 = number("loop.lateness_p99_ns");
+  return ComputerLateness{*lost, p99 ? std::optional(1e-9 * static_cast<double>(*p99)) : std::nullopt};
+}
+
+/// What came in the way of the run from outside, before all that followed from it.
+void judge_circumstances(const Recording& recording, Verdict& verdict) {
+  const auto failure = recording.attributes.find("run.failure");
+  if (failure != recording.attributes.end())
+    verdict.failures.insert(verdict.failures.begin(), failure->second);
+  verdict.computer = computer_of(recording);
+  const std::string late = lateness_sentence(verdict);
+  if (late.empty()) return;
+  std::vector<std::string>& sentences = verdict.good() ? verdict.remarks : verdict.failures;
+  sentences.insert(sentences.begin(), late);
+}
+
 }  // namespace
 
 Verdict judge(const RunWatch& watch, const Expectations& expected) {
@@ -171,7 +198,14 @@ Verdict judge(const Recording& recording, const ConfigurationSpace& space, const
   Verdict verdict = judge(watch, expected);
   const auto partial = recording.attributes.find("recording.partial");
   if (partial != recording.attributes.end()) verdict.remarks.push_back(partial->second);
+  judge_circumstances(recording, verdict);
   return verdict;
+}
+
+std::string lateness_sentence(const Verdict& verdict) {
+  if (!verdict.computer || verdict.computer->ticks_lost == 0) return "";
+  const std::int64_t lost = verdict.computer->ticks_lost;
+  return fmt::format("this computer lost {} {}; 'flinch link' tells why", lost, lost == 1 ? "tick" : "ticks");
 }
 
 }  // namespace flinch

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "systems/signals/drive_check_status.h"
 #include "systems/signals/followed_task.h"
 #include "systems/signals/imu_doubt.h"
 
@@ -139,6 +141,12 @@ enum class Witness {
   none,          ///< nothing: contacts are not judged, and errors only until the first detection
 };
 
+/// How late the computer of a controller was in a run in real time.
+struct ComputerLateness {
+  std::int64_t ticks_lost = 0;
+  std::optional<double> p99;  ///< of the starts of ticks, 99 of 100 were less late [s]; none: not known
+};
+
 /// What a run shows, judged.
 struct Verdict {
   static constexpr double contact_force = 1.0;  ///< below it there is no contact, as in the papers [N]
@@ -166,9 +174,11 @@ struct Verdict {
   /// The first doubt about the IMU, and when it came up [s]; none: it was believed.
   ImuDoubt imu_doubt = ImuDoubt::none;
   double imu_doubted = 0.0;
-  std::optional<Return> returned;      ///< none: no operator has reset an interrupted robot
-  std::optional<double> passive_lost;  ///< when the passive encoders were lost [s]; none: they were not
-  double simulated = 0.0;              ///< [s]
+  std::optional<Return> returned;            ///< none: no operator has reset an interrupted robot
+  std::optional<double> passive_lost;        ///< when the passive encoders were lost [s]; none: they were not
+  double simulated = 0.0;                    ///< [s]
+  std::optional<ComputerLateness> computer;  ///< none: no clock took part, or the recording does not tell
+  DriveCheckStatus drive_check;              ///< of the drives before the first motion, as it ended
   /// What could not be asked of sensors and drives at any time, one sentence each; empty: everything could,
   /// or the recording does not tell.
   std::vector<std::string> checks_off;
@@ -183,6 +193,9 @@ struct Verdict {
 /// are missing.
 Verdict judge(const Recording& recording, const ConfigurationSpace& space, const Expectations& expected,
               const ForceLimits& limits, const std::function<void(double share)>& progress = {});
+
+/// What a computer that lost ticks says first of all; "" where it lost none.
+std::string lateness_sentence(const Verdict& verdict);
 
 /// The same for a run that was watched, up to the sample seen last.
 Verdict judge(const RunWatch& watch, const Expectations& expected);

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "experiments/verdict/body_regions.h"
@@ -189,6 +191,22 @@ std::string checks_off_lines(const Verdict& verdict) {
   return lines.empty() ? "" : lines + "\n";
 }
 
+/// How the drives answered before the first motion; none where nobody has asked them.
+std::vector<double> drive_gains(const DriveCheckStatus& check) {
+  const double* const begin = check.gain.data();
+  const double* const end = begin + check.gain.size();
+  return {begin, std::find_if_not(begin, end, [](double gain) { return std::isfinite(gain); })};
+}
+
+std::string drive_check_line(const DriveCheckStatus& check) {
+  if (check.phase == DriveCheckStatus::Phase::unwanted) return "";
+  const std::vector<double> gains = drive_gains(check);
+  std::string text =
+      gains.empty() ? "none: the robot was not held at rest for so long" : "before the first motion, gains";
+  for (const double gain : gains) text += fmt::format(" {:.2f}", gain);
+  return fmt::format("drives checked     {}\n", text);
+}
+
 Json robot_json(const RunFacts& facts) {
   if (facts.robot.empty()) return nullptr;
   Json robot = Json::object();
@@ -199,6 +217,13 @@ Json robot_json(const RunFacts& facts) {
 Json imu_doubt_json(const Verdict& verdict) {
   if (verdict.imu_doubt == ImuDoubt::none) return nullptr;
   return {{"kind", name(verdict.imu_doubt)}, {"since_s", verdict.imu_doubted}};
+}
+
+Json computer_json(const Verdict& verdict) {
+  if (!verdict.computer) return nullptr;
+  const ComputerLateness& computer = *verdict.computer;
+  return {{"ticks_lost", computer.ticks_lost},
+          {"late_ms_p99", computer.p99 ? Json(1e3 * *computer.p99) : Json(nullptr)}};
 }
 
 Json return_json(const std::optional<Return>& seen) {
@@ -229,7 +254,8 @@ const char* name(Witness witness) {
 }  // namespace
 
 std::string verdict_table(const Verdict& verdict, const RunFacts& facts) {
-  std::string text = checks_off_lines(verdict);
+  const std::string late = lateness_sentence(verdict);
+  std::string text = (late.empty() ? "" : late + "\n\n") + checks_off_lines(verdict);
   text +=
       fmt::format("{:<15} {:>8} {:>6} {:>10} {:>10} {:>8} {:>8}  {:<12} {:>8}  {}\n", "contact with", "at s",
                   "m/s", "noticed ms", "removed ms", "peak N", "limit N", "kind", "above ms", "within");
@@ -244,6 +270,7 @@ std::string verdict_table(const Verdict& verdict, const RunFacts& facts) {
       verdict.witness == Witness::none ? "not judged" : std::to_string(verdict.false_detections),
       verdict.max_observer_error_force, verdict.max_observer_error_moment, 1e3 * verdict.max_tracking_error,
       verdict.max_orientation_error * 57.29577951308232);
+  text += drive_check_line(verdict.drive_check);
   if (verdict.loop_closure) text += fmt::format("loop closure       {:.1e} m\n", *verdict.loop_closure);
   text += fmt::format("{:<18} {:.3f} s in {:.2f} s, seed {}\n\n",
                       verdict.witness == Witness::truth ? "simulated" : "ran", verdict.simulated, facts.wall,
@@ -279,7 +306,9 @@ std::string verdict_json(const Verdict& verdict, const RunFacts& facts) {
       {"imu_doubt", imu_doubt_json(verdict)},
       {"passive_encoders_lost_s", verdict.passive_lost ? Json(*verdict.passive_lost) : Json(nullptr)},
       {"returned", return_json(verdict.returned)},
+      {"computer", computer_json(verdict)},
       {"fault", verdict.fault},
+      {"drive_gains", drive_gains(verdict.drive_check)},
       {"checks_off", verdict.checks_off},
       {"failures", verdict.failures},
       {"remarks", verdict.remarks}};

@@ -176,7 +176,7 @@ std::string calibrated_robot_hash(std::string_view robot_text) {
     const std::size_t text = line.find_first_not_of(" \t\r\n");
     if (text == std::string_view::npos || line[text] == '#') continue;
     const bool is_key = text == 0 && line.front() != '-' && line.front() != ']';
-    if (is_key) inside = line.starts_with("calibrations:");
+    if (is_key) inside = line.starts_with("calibrations:") || line.starts_with("control_period_");
     if (!inside) kept += line;
   }
   return sha256(kept);

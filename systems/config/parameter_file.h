@@ -64,8 +64,9 @@ std::vector<ParameterFile> read_calibrations(
 /// Those of the robot file `robot_text`, which lies at `file`. Throws SetupError with all that is wrong.
 std::vector<ParameterFile> robot_calibrations(std::string_view robot_text, const std::string& file);
 
-/// The hash by which a parameter file knows its robot: of the robot file without `calibrations` and lines of
-/// comment, so that one that takes results over is still the same.
+/// The hash by which a parameter file knows its robot: of the robot file without `calibrations`, lines of
+/// comment and the control period, on which a result says itself whether it rests. So a robot file that takes
+/// results over is still the same.
 std::string calibrated_robot_hash(std::string_view robot_text);
 
 /// As text of YAML that reads back to the same numbers, bit for bit; all but `control`.

@@ -8,6 +8,7 @@
 #include "systems/config/file_kind.h"
 #include "systems/config/robot_keys.h"
 #include "systems/config/robot_kind.h"
+#include "systems/foundation/nearest_name.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/parallel_robot.h"
 
@@ -30,10 +31,11 @@ constexpr DriveKeys keys_of_sliding{
     "min_active_length", "max_active_length", unit::N_per_A,    unit::N,
     unit::N_per_s,       unit::m_per_s,       unit::m};
 
-DriveKind drive_kind(const RobotKind& kind) { return kind.preset->drive_kind(0); }
+// Of all drives: they move alike.
+DriveKind drive_kind(const ParallelRobot& like) { return like.drive_kind(0); }
 
-const DriveKeys& keys_of(const RobotKind& kind) {
-  return drive_kind(kind) == DriveKind::revolute ? keys_of_turning : keys_of_sliding;
+const DriveKeys& keys_of(const ParallelRobot& like) {
+  return drive_kind(like) == DriveKind::revolute ? keys_of_turning : keys_of_sliding;
 }
 
 std::span<double> entries(auto& v) { return {v.data(), static_cast<std::size_t>(v.size())}; }
@@ -44,31 +46,31 @@ bool says_any(const ConfigReader& file, std::string_view prefix) {
 }
 
 /// Of all drives, or nothing where the file says nothing of it.
-Cogging read_cogging(ConfigReader& file, const RobotKind& kind) {
+Cogging read_cogging(ConfigReader& file, const ParallelRobot& like) {
   if (!says_any(file, "cogging_")) return {};
-  const JointVector none = JointVector::Zero(kind.preset->drives());
+  const JointVector none = JointVector::Zero(like.drives());
   Cogging cogging{none, none, none};
   ConfigReader all = file.required();
-  all.numbers("cogging_wavelength", keys_of(kind).position, entries(cogging.wavelength), positive);
-  all.numbers("cogging_sine", keys_of(kind).torque, entries(cogging.sine));
-  all.numbers("cogging_cosine", keys_of(kind).torque, entries(cogging.cosine));
+  all.numbers("cogging_wavelength", keys_of(like).position, entries(cogging.wavelength), positive);
+  all.numbers("cogging_sine", keys_of(like).torque, entries(cogging.sine));
+  all.numbers("cogging_cosine", keys_of(like).torque, entries(cogging.cosine));
   return cogging;
 }
 
 /// Of all drives, or nothing where the file says nothing of it.
-JointVector read_torque_delay(ConfigReader& file, const RobotKind& kind) {
+JointVector read_torque_delay(ConfigReader& file, const ParallelRobot& like) {
   if (!says_any(file, "torque_delay")) return {};
-  JointVector delay = JointVector::Zero(kind.preset->drives());
+  JointVector delay = JointVector::Zero(like.drives());
   file.numbers("torque_delay", unit::s, entries(delay), between(-longest_torque_delay, longest_torque_delay));
   return delay;
 }
 
-DriveParameters read_drives(ConfigReader file, const RobotKind& kind) {
-  const DriveKeys& keys = keys_of(kind);
-  DriveParameters drives = default_drives(drive_kind(kind), kind.preset->drives());
+DriveParameters read_drives(ConfigReader file, const ParallelRobot& like) {
+  const DriveKeys& keys = keys_of(like);
+  DriveParameters drives = default_drives(drive_kind(like), like.drives());
   file.numbers(keys.torque_constant, keys.per_ampere, entries(drives.torque_constant), positive);
-  drives.cogging = read_cogging(file, kind);
-  drives.torque_delay = read_torque_delay(file, kind);
+  drives.cogging = read_cogging(file, like);
+  drives.torque_delay = read_torque_delay(file, like);
   file.number(keys.max_torque, keys.torque, drives.max_torque, positive);
   file.number(keys.max_torque_rate, keys.torque_rate, drives.max_torque_rate, positive);
   file.number(keys.max_torque_jump, keys.torque, drives.max_torque_jump, positive);
@@ -79,19 +81,29 @@ DriveParameters read_drives(ConfigReader file, const RobotKind& kind) {
   return drives;
 }
 
-WorkspaceLimits read_limits(ConfigReader& file, const RobotKind& kind) {
-  const DriveKeys& keys = keys_of(kind);
+WorkspaceLimits read_limits(ConfigReader& file, const ParallelRobot& like) {
+  const DriveKeys& keys = keys_of(like);
   WorkspaceLimits limits;
-  limits.centre.setZero(kind.preset->space_dimension());
+  limits.centre.setZero(like.space_dimension());
   file.numbers("centre", unit::m, entries(limits.centre));
   file.number("max_distance", unit::m, limits.max_distance);
   file.number("max_rotation", unit::rad, limits.max_rotation);
   file.number("min_abs_det_A", unit::none, limits.min_abs_det_A);
   file.number("min_abs_det_B", unit::none, limits.min_abs_det_B);
   file.number("min_self_collision_distance", unit::m, limits.min_self_collision_distance);
+  if (!like.description().beside_platform.empty())
+    file.number("min_platform_gap", unit::m, limits.min_platform_gap);
   file.number(keys.min_active, keys.position, limits.min_active);
   file.number(keys.max_active, keys.position, limits.max_active);
   return limits;
+}
+
+/// The way out for whose robot is of none of the kinds `names`.
+std::string help_with_kind(const std::string& name, const std::vector<std::string>& names) {
+  if (!nearest_name(name, names).empty()) return did_you_mean(name, names);
+  return known_names(names) +
+         ". Any robot of legs is a file of kind 'legs' (docs/files.md); what is none is a kind of a program "
+         "of yours (docs/your_robot.md, section 9)";
 }
 
 /// Null where the file names none.
@@ -99,10 +111,15 @@ const RobotKind* read_kind(ConfigReader& file) {
   std::vector<std::string> names;
   for (const RobotKind& kind : robot_kinds()) names.push_back(kind.name);
   std::string name;
-  file.required().word("kind", name, names);
+  if (!file.has("kind")) {
+    file.required().word("kind", name, names);  // says that it is missing
+    return nullptr;
+  }
+  file.text("kind", name);
   for (const RobotKind& kind : robot_kinds()) {
     if (kind.name == name) return &kind;
   }
+  if (!name.empty() || file.good()) file.problem("kind", "is '" + name + "'" + help_with_kind(name, names));
   return nullptr;
 }
 
@@ -110,8 +127,9 @@ const RobotKind* read_kind(ConfigReader& file) {
 void require_robot(const RobotKind& kind, const ParallelRobot* robot, const ConfigReader& file) {
   if (robot == nullptr && file.good())
     throw SetupError("robot kind '" + kind.name + "': its reader has made no robot and noted no problem");
-  const bool fits = robot == nullptr || (robot->description().drives == kind.preset->description().drives &&
-                                         robot->space() == kind.preset->space());
+  const bool fits = robot == nullptr || kind.preset == nullptr ||
+                    (robot->description().drives == kind.preset->description().drives &&
+                     robot->space() == kind.preset->space());
   if (!fits)
     throw SetupError("robot kind '" + kind.name + "': its reader has made a robot unlike its preset");
 }
@@ -128,9 +146,17 @@ RobotFile read_any(ConfigReader file) {
   for (ConfigReader& calibration : file.sections("calibrations")) calibration.leave_rest_unread();
   result.robot = kind->read(file);
   require_robot(*kind, result.robot.get(), file);
-  result.drives = read_drives(file.section("drives"), *kind);
+  const auto& like = result.robot ? result.robot : kind->preset;
+  if (like == nullptr) {  // Of these nothing can be said without the robot.
+    read_control_period(file, result.control_period);
+    for (const char* const section : {"drives", "workspace_limits"}) file.leave_unread(section);
+    file.finish();  // throws
+    return result;
+  }
+  read_control_period(file, result.control_period);
+  result.drives = read_drives(file.section("drives"), *like);
   ConfigReader limits = file.section("workspace_limits");
-  result.limits = read_limits(limits, *kind);
+  result.limits = read_limits(limits, *like);
   if (file.good()) {
     note_problems(limits, problems(result.limits, *result.robot),
                   [](const std::string& field) { return field; });
@@ -151,10 +177,10 @@ std::optional<RobotFile> preset_of_kind(const std::filesystem::path& file) {
   try {
     ConfigReader reader = ConfigReader::open(file);
     const RobotKind* const kind = read_kind(reader);
-    if (kind == nullptr) return std::nullopt;
+    if (kind == nullptr || kind->preset == nullptr) return std::nullopt;
     RobotFile preset;
     preset.robot = kind->preset;
-    preset.drives = default_drives(drive_kind(*kind), kind->preset->drives());
+    preset.drives = default_drives(drive_kind(*kind->preset), kind->preset->drives());
     return preset;
   } catch (const SetupError&) {
     return std::nullopt;

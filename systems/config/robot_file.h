@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -7,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "systems/config/control_period.h"
 #include "systems/config/read_value.h"
 #include "systems/robot/drive_parameters.h"
 #include "systems/robot/workspace_limits.h"
@@ -20,6 +22,8 @@ struct RobotFile {
   std::shared_ptr<const ParallelRobot> robot;
   DriveParameters drives;
   WorkspaceLimits limits;
+  /// From tick to tick of its control, unless a scenario says otherwise.
+  std::chrono::nanoseconds control_period = default_control_period;
   std::vector<ReadValue> values;  ///< Every parameter, defaults included.
 };
 

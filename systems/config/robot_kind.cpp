@@ -5,6 +5,7 @@
 
 #include "systems/config/five_bar_file.h"
 #include "systems/config/hexapod_file.h"
+#include "systems/config/legs_file.h"
 #include "systems/config/planar_rrr_file.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/five_bar.h"
@@ -22,7 +23,8 @@ std::vector<RobotKind>& kinds() {
       {"planar_3rrr", read_planar_rrr,
        std::make_shared<const PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::none))},
       {"five_bar", read_five_bar, std::make_shared<const FiveBar>(five_bar_robot())},
-      {"hexapod_6ups", read_hexapod, std::make_shared<const Hexapod>(hexapod_robot())}};
+      {"hexapod_6ups", read_hexapod, std::make_shared<const Hexapod>(hexapod_robot())},
+      {"legs", read_legs, nullptr}};
   return all;
 }
 

@@ -18,7 +18,8 @@ struct RobotKind {
   /// where something is wrong with the file.
   std::function<std::shared_ptr<const ParallelRobot>(ConfigReader& file)> read;
   /// A sound robot of this kind. It tells how many drives there are and how they move, and stands in for a
-  /// robot whose file is no good while the rest of a scenario is looked through.
+  /// robot whose file is no good while the rest of a scenario is looked through. Null where robots of the
+  /// kind differ in drives and coordinates, so that only a file that is good tells.
   std::shared_ptr<const ParallelRobot> preset;
 };
 

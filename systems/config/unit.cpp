@@ -78,6 +78,13 @@ const KeyUnit* find_key_unit(std::string_view key) {
   return found == known_units.end() ? nullptr : &*found;
 }
 
+const KeyUnit* find_key_unit_of(std::string_view symbol) {
+  const auto found = std::find_if(known_units.begin(), known_units.end(), [symbol](const KeyUnit& candidate) {
+    return candidate.si.symbol == symbol;
+  });
+  return found == known_units.end() ? nullptr : &*found;
+}
+
 std::string key_with_unit(std::string_view name, std::string_view unit_key) {
   std::string key(name);
   if (!unit_key.empty()) key.append("_").append(unit_key);

@@ -69,6 +69,9 @@ std::span<const KeyUnit> key_units(const Unit& si);
 /// The unit that a key may end in, or null if there is none called so.
 const KeyUnit* find_key_unit(std::string_view key);
 
+/// The SI unit that people write as `symbol`, or null if there is none.
+const KeyUnit* find_key_unit_of(std::string_view symbol);
+
 /// The key of a value: its name with its unit, such as link1_length_mm.
 std::string key_with_unit(std::string_view name, std::string_view unit_key);
 

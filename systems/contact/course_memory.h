@@ -11,21 +11,22 @@ namespace flinch {
 
 /// Remembers an estimate and the motion, and tells their course at every tick of the first `window` of a
 /// contact; at others the last one stands. A moment is the newest that is less than half a millisecond
-/// younger than its age, for stamps jitter. The course is not valid where that one is 1.5 ms older than its
-/// age, or where something was not known since. For ticks of 1 or 2 ms. (Derived.)
+/// younger than its age, for stamps jitter; where ticks are longer than a millisecond, it lies between those
+/// of the ticks around it. The course is not valid where that one is 1.5 ms older than its age, or half a
+/// tick more than one, or where something was not known since. (Derived.)
 class CourseMemory final : public System {
  public:
   struct Remembered {
     Time acquired{};
     CourseMoment moment;
   };
-  using Past = History<Remembered, 48>;
+  using Past = History<Remembered, 192>;  // 48 ms at least
 
  private:
   State<Past> past_ = state<Past>("past");
 
  public:
-  explicit CourseMemory(Time window) : window_(window) {}
+  explicit CourseMemory(Time window, Time period = 1ms) : window_(window), period_(period) {}
 
   InputPort<ContactPhase> phase = input<ContactPhase>("phase");
   InputPort<WrenchEstimate> wrench = input<WrenchEstimate>("wrench");
@@ -52,6 +53,7 @@ class CourseMemory final : public System {
   void remember(const WrenchEstimate& estimate, const PlatformMotion& motion, Past& past) const;
 
   Time window_;
+  Time period_;  ///< from tick to tick
 };
 
 /// What of the estimate has come since the first moment of a course.

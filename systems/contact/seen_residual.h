@@ -33,7 +33,7 @@ struct SeenResidual {
   DriveResidual smoothed;  ///< behind a low pass, likewise: its noise is gone
 };
 
-using LoadHistory = History<DriveLoad, 32>;
+using LoadHistory = History<DriveLoad, late_samples>;
 
 /// How an estimator answers an effort: through first-order filters in a row. What is wrong with the torque of
 /// the drives shows in its residual through the same filters.

@@ -39,12 +39,12 @@ DirectSample DirectMethod::sample(const PlatformMotion& motion, const Kinematics
   return now;
 }
 
-void DirectMethod::remember(const DirectSample& fresh, History<DirectSample, 32>& past) const {
+void DirectMethod::remember(const DirectSample& fresh, History<DirectSample, late_samples>& past) const {
   if (fresh.valid) past.push(fresh);
 }
 
 void DirectMethod::estimate(const PlatformAcceleration& measured, const Kinematics& at,
-                            const DirectSample& fresh, const History<DirectSample, 32>& past,
+                            const DirectSample& fresh, const History<DirectSample, late_samples>& past,
                             WrenchEstimate& result) const {
   result = WrenchEstimate();
   result.acquired = measured.acquired;
@@ -53,7 +53,7 @@ void DirectMethod::estimate(const PlatformAcceleration& measured, const Kinemati
   result.health = measured.health;
   if (!measured.valid || !fresh.valid || !measured.acceleration.allFinite()) return;
   const std::optional<DirectSample> then =
-      sample_at(measured.acquired, past, &fresh, Sampling(), interpolated);
+      sample_at(measured.acquired, past, &fresh, sampling_, interpolated);
   if (!then) return;
   if (measured.acceleration.size() != robot_->dof()) return;
 

@@ -8,6 +8,7 @@
 #include "systems/signals/history.h"
 #include "systems/signals/platform_acceleration.h"
 #include "systems/signals/platform_motion.h"
+#include "systems/signals/sampling.h"
 #include "systems/signals/wrench_estimate.h"
 
 namespace flinch {
@@ -31,10 +32,11 @@ struct DirectSample {
 /// Valid where acceleration, motion, model and torque are at this tick. Zero while brakes are closed: what
 /// they hold cannot be told from what acts from outside.
 class DirectMethod final : public System {
-  State<History<DirectSample, 32>> past_ = state<History<DirectSample, 32>>("past");
+  State<History<DirectSample, late_samples>> past_ = state<History<DirectSample, late_samples>>("past");
 
  public:
-  explicit DirectMethod(std::shared_ptr<const ParallelRobot> robot) : robot_(std::move(robot)) {}
+  explicit DirectMethod(std::shared_ptr<const ParallelRobot> robot, const Sampling& sampling = {})
+      : robot_(std::move(robot)), sampling_(sampling) {}
 
   InputPort<PlatformMotion> platform = input<PlatformMotion>("platform");
   InputPort<Kinematics> kinematics = input<Kinematics>("kinematics");
@@ -55,11 +57,12 @@ class DirectMethod final : public System {
 
   DirectSample sample(const PlatformMotion& motion, const Kinematics& at, const Dynamics& model,
                       const DriveTorque& drives) const;
-  void remember(const DirectSample& fresh, History<DirectSample, 32>& past) const;
+  void remember(const DirectSample& fresh, History<DirectSample, late_samples>& past) const;
   void estimate(const PlatformAcceleration& measured, const Kinematics& at, const DirectSample& fresh,
-                const History<DirectSample, 32>& past, WrenchEstimate& result) const;
+                const History<DirectSample, late_samples>& past, WrenchEstimate& result) const;
 
   std::shared_ptr<const ParallelRobot> robot_;
+  Sampling sampling_;
 };
 
 }  // namespace flinch

@@ -16,6 +16,8 @@ struct DisturbanceFilterSettings {
   double pole = 300.0;              ///< threefold [1/s]
   double encoder_deviation = 7e-6;  ///< of a sample [rad, or m of drives that slide]
   Sampling sampling;
+
+  friend bool operator==(const DisturbanceFilterSettings&, const DisturbanceFilterSettings&) = default;
 };
 
 /// What the disturbance filter remembers, one entry a drive.

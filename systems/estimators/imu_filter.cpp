@@ -69,8 +69,8 @@ ImuFilterSettings extended_imu_filter() {
 }
 
 ImuFilter::ImuFilter(std::shared_ptr<const ParallelRobot> robot, const ImuFilterSettings& settings)
-    : robot_(std::move(robot)),
-      settings_(settings),
+    : settings_(settings),
+      robot_(std::move(robot)),
       imu_(settings.mount),
       n_(robot_->dof()),
       states_(3 * n_ + (settings.estimates_biases ? 6 : 0)) {
@@ -79,8 +79,8 @@ ImuFilter::ImuFilter(std::shared_ptr<const ParallelRobot> robot, const ImuFilter
 }
 
 void ImuFilter::advance(const PlatformMotion& motion, const ImuReading& reading,
-                        const History<PoseSample, 32>& poses, const ImuFilterMemory& memory, Time now,
-                        ImuFilterMemory& next) const {
+                        const History<PoseSample, late_samples>& poses, const ImuFilterMemory& memory,
+                        Time now, ImuFilterMemory& next) const {
   const bool sees_imu = is_usable(reading);
   const PoseSample pose =
       sees_imu && reading.acquired > memory.measured ? pose_for(reading, motion, poses) : PoseSample();
@@ -122,7 +122,7 @@ bool ImuFilter::is_usable(const ImuReading& reading) const {
 /// Aligned, that of the time at which the IMU measured, between two samples; else the newest. Empty where
 /// there is none.
 PoseSample ImuFilter::pose_for(const ImuReading& reading, const PlatformMotion& motion,
-                               const History<PoseSample, 32>& poses) const {
+                               const History<PoseSample, late_samples>& poses) const {
   const PoseSample newest{motion.acquired, motion.pose};
   if (!motion.valid()) return {};
   if (!settings_.aligned || reading.acquired == motion.acquired) return newest;
@@ -137,7 +137,7 @@ PoseSample ImuFilter::pose_for(const ImuReading& reading, const PlatformMotion& 
   return {reading.acquired, robot_->space().plus(before->pose, share * way)};
 }
 
-void ImuFilter::remember(const PlatformMotion& motion, History<PoseSample, 32>& poses) const {
+void ImuFilter::remember(const PlatformMotion& motion, History<PoseSample, late_samples>& poses) const {
   if (motion.valid()) poses.push({motion.acquired, motion.pose});
 }
 
@@ -173,7 +173,7 @@ void ImuFilter::predict(double T, ImuFilterMemory& next) const {
   P.leftCols(n_) += T * P.middleCols(n_, n_) + half * P.middleCols(2 * n_, n_);
   P.middleCols(n_, n_) += T * P.middleCols(2 * n_, n_);
 
-  const double periods = T / to_seconds(settings_.sampling.period);
+  const double periods = T / 1e-3;  // for which the noise is given
   const ImuFilterNoise& Q = settings_.noise;
   for (int i = 0; i < n_; ++i) {
     P(i, i) += periods * of(Q.pose, i);

@@ -23,7 +23,7 @@ struct TwoKinds {
 };
 
 /// Variances that a filter of IMU and encoders believes in; those of sensors are for each sample, those of
-/// motions and biases are added in each sampling period.
+/// motions and biases are added in each millisecond.
 struct ImuFilterNoise {
   TwoKinds encoder_pose;      ///< [m^2, rad^2]
   double gyroscope;           ///< [rad^2/s^2]
@@ -92,8 +92,9 @@ struct PoseSample {
 /// where the innovations are larger than they should be. A reading that is repeated is held for the longest
 /// hold; after that, and after an interruption, the filter begins anew.
 class ImuFilter final : public System {
+  ImuFilterSettings settings_;
   State<ImuFilterMemory> memory_ = state<ImuFilterMemory>("memory");
-  State<History<PoseSample, 32>> poses_ = state<History<PoseSample, 32>>("poses");
+  State<History<PoseSample, late_samples>> poses_ = state<History<PoseSample, late_samples>>("poses");
 
  public:
   /// Throws SetupError for noise that is not positive.
@@ -108,7 +109,8 @@ class ImuFilter final : public System {
 
  public:
   /// Reciprocal condition number of the observability matrix, ten times a second.
-  OutputPort<double> observability = output<&ImuFilter::observe>(Every{100ms}, "observability", next_);
+  OutputPort<double> observability = output<&ImuFilter::observe>(
+      Every{whole_periods(100ms, settings_.sampling.period)}, "observability", next_);
   OutputPort<ImuBias> bias = output<&ImuFilter::tell_bias>("bias", next_);
   OutputPort<PlatformAcceleration> acceleration =
       output<&ImuFilter::read>("acceleration", next_, observability, clock);
@@ -119,9 +121,10 @@ class ImuFilter final : public System {
   using Errors = ErrorCovariance<ImuFilterMemory::states>;
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_dof + 6, ImuFilterMemory::states>;
 
-  void advance(const PlatformMotion& motion, const ImuReading& reading, const History<PoseSample, 32>& poses,
-               const ImuFilterMemory& memory, Time now, ImuFilterMemory& next) const;
-  void remember(const PlatformMotion& motion, History<PoseSample, 32>& poses) const;
+  void advance(const PlatformMotion& motion, const ImuReading& reading,
+               const History<PoseSample, late_samples>& poses, const ImuFilterMemory& memory, Time now,
+               ImuFilterMemory& next) const;
+  void remember(const PlatformMotion& motion, History<PoseSample, late_samples>& poses) const;
   double observe(const ImuFilterMemory& next) const;
   ImuBias tell_bias(const ImuFilterMemory& next) const { return next.bias; }
   void read(const ImuFilterMemory& next, double observable, Time now, PlatformAcceleration& result) const;
@@ -129,7 +132,7 @@ class ImuFilter final : public System {
   bool is_usable(const ImuReading& reading) const;
   ImuFilterMemory waiting(const ImuFilterMemory& memory, Time now) const;
   PoseSample pose_for(const ImuReading& reading, const PlatformMotion& motion,
-                      const History<PoseSample, 32>& poses) const;
+                      const History<PoseSample, late_samples>& poses) const;
   void begin(const PoseSample& pose, const PlatformMotion& motion, Time now, ImuFilterMemory& next) const;
   void predict(double T, ImuFilterMemory& next) const;
   void correct(const PoseSample& pose, const ImuReading& reading, double T, ImuFilterMemory& next) const;
@@ -140,7 +143,6 @@ class ImuFilter final : public System {
   }
 
   std::shared_ptr<const ParallelRobot> robot_;
-  ImuFilterSettings settings_;
   MountedImu imu_;
   int n_, states_;
 };

@@ -67,7 +67,8 @@ Eigen::Vector3d turned_since_tick(const Around<ExpectedMotion>& around, Time tim
 }
 
 /// Whether both are ticks, one after the other.
-bool is_whole_hold(Time from, Time to, const History<ExpectedMotion, 32>& past, const ExpectedMotion* fresh) {
+bool is_whole_hold(Time from, Time to, const History<ExpectedMotion, late_samples>& past,
+                   const ExpectedMotion* fresh) {
   const Around<ExpectedMotion> around = past.around(to, fresh);
   const ExpectedMotion* const before = past.last_before(to);
   return around.before == around.after && before != nullptr && before->acquired == from;
@@ -75,7 +76,8 @@ bool is_whole_hold(Time from, Time to, const History<ExpectedMotion, 32>& past, 
 
 /// The mean of dw/dt from one instant to a later one, which is what a gyroscope shows between two samples;
 /// none where not all of it is known.
-std::optional<Eigen::Vector3d> mean_rotation(Time from, Time to, const History<ExpectedMotion, 32>& past,
+std::optional<Eigen::Vector3d> mean_rotation(Time from, Time to,
+                                             const History<ExpectedMotion, late_samples>& past,
                                              const ExpectedMotion* fresh) {
   Eigen::Vector3d turned = Eigen::Vector3d::Zero();
   for (Time until = to; until > from;) {
@@ -122,7 +124,7 @@ void ImuResidual::expect(const PlatformMotion& motion, const Kinematics& at, con
   result.valid = result.force.allFinite() && result.M_x.allFinite();
 }
 
-void ImuResidual::remember(const ExpectedMotion& fresh, History<ExpectedMotion, 32>& past) const {
+void ImuResidual::remember(const ExpectedMotion& fresh, History<ExpectedMotion, late_samples>& past) const {
   if (fresh.valid) past.push(fresh);
 }
 
@@ -131,8 +133,8 @@ bool ImuResidual::is_usable(const ImuReading& reading) const {
 }
 
 void ImuResidual::advance(const ImuReading& reading, const ExpectedMotion& fresh,
-                          const History<ExpectedMotion, 32>& past, const ImuResidualMemory& memory, Time now,
-                          ImuResidualMemory& next) const {
+                          const History<ExpectedMotion, late_samples>& past, const ImuResidualMemory& memory,
+                          Time now, ImuResidualMemory& next) const {
   const Sampling& sampling = settings_.sampling;
   const bool sees_imu = is_usable(reading);
   const bool is_new = sees_imu && reading.acquired > memory.acquired;

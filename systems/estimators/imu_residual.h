@@ -88,7 +88,7 @@ struct ImuResidualMemory {
 /// while brakes are closed. `torque` must not be filtered.
 class ImuResidual final : public System {
   State<ImuResidualMemory> memory_ = state<ImuResidualMemory>("memory");
-  State<History<ExpectedMotion, 32>> past_ = state<History<ExpectedMotion, 32>>("past");
+  State<History<ExpectedMotion, late_samples>> past_ = state<History<ExpectedMotion, late_samples>>("past");
 
  public:
   /// Throws SetupError for settings that are not positive.
@@ -114,9 +114,9 @@ class ImuResidual final : public System {
 
   void expect(const PlatformMotion& motion, const Kinematics& at, const Dynamics& model,
               const DriveTorque& drives, ExpectedMotion& result) const;
-  void remember(const ExpectedMotion& fresh, History<ExpectedMotion, 32>& past) const;
+  void remember(const ExpectedMotion& fresh, History<ExpectedMotion, late_samples>& past) const;
   void advance(const ImuReading& reading, const ExpectedMotion& fresh,
-               const History<ExpectedMotion, 32>& past, const ImuResidualMemory& memory, Time now,
+               const History<ExpectedMotion, late_samples>& past, const ImuResidualMemory& memory, Time now,
                ImuResidualMemory& next) const;
   void read(const ImuResidualMemory& next, const ExpectedMotion& fresh, const Kinematics& at,
             WrenchEstimate& result) const;

@@ -16,7 +16,7 @@ struct MomentumObserverSettings {
   MomentumDeviation deviation{};
 };
 
-/// Generalised-momentum observer of the external wrench, [SafePR] (13):
+/// Generalised-momentum observer of the external wrench, [SafePR] (11) and (13):
 ///   F = K_o (p(t) - p(0) - integral of (F_a - beta + F)),   hence   dF/dt = K_o (F_ext - F).
 /// Between samples T apart it is solved exactly for constant F_ext, with a = exp(-k_o T) in each component:
 ///   F_k = a F_{k-1} + (1 - a) ((p_k - p_{k-1}) / T - s_mean),   F_0 = 0,

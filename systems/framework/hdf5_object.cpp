@@ -337,28 +337,6 @@ Table open_table(Hdf5Object::Id parent, const std::string& name, Field::Kind kin
   return {std::move(table), size[0]};
 }
 
-ForeignTable read_foreign_table(Hdf5Object::Id parent, const std::string& name) {
-  silence_hdf5();
-  const Hdf5Object set = open_data_set(parent, name);
-  const Hdf5Object type(H5Dget_type(set), H5Tclose, "reading the type of '" + name + "'");
-  const H5T_class_t kind = H5Tget_class(type);
-  if ((kind != H5T_FLOAT && kind != H5T_INTEGER) || H5Tget_size(type) > sizeof(Number))
-    refuse(name, "has no numbers of at most 64 bits");
-  const Hdf5Object space(H5Dget_space(set), H5Sclose, "reading the size of '" + name + "'");
-  const int rank = H5Sget_simple_extent_ndims(space);
-  if (rank != 1 && rank != 2)
-    refuse(name, "has " + std::to_string(rank) + " dimensions; it must have 1 or 2");
-  hsize_t size[2] = {0, 1};
-  check(H5Sget_simple_extent_dims(space, size, nullptr), "reading the size of '" + name + "'");
-  check_layout(set, name);
-  check_storage(set, name, size[0], size[1]);
-  check_chunks(set, 0, size[0], size[1]);
-  ForeignTable table{size[0], size[1], std::vector<double>(size[0] * size[1])};
-  check(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, table.numbers.data()),
-        "reading the data set '" + name + "'");
-  return table;
-}
-
 void append_rows(Hdf5Object::Id table, Field::Kind kind, std::size_t at, std::size_t rows,
                  std::size_t columns, const Number* numbers) {
   const hsize_t size[2] = {at + rows, columns};

@@ -87,14 +87,6 @@ struct Table {
 /// Trusts nothing that the file says of the table: numbers of `kind` in so many columns, in this file, no
 /// more of them than its bytes can hold.
 Table open_table(Hdf5Object::Id parent, const std::string& name, Field::Kind kind, std::size_t columns);
-/// What another tool has written: rows of numbers of whatever type, in one column or several. Trusts as
-/// little.
-struct ForeignTable {
-  std::size_t rows = 0;
-  std::size_t columns = 0;
-  std::vector<double> numbers;  ///< row by row
-};
-ForeignTable read_foreign_table(Hdf5Object::Id parent, const std::string& name);
 /// Appends `rows` rows after the first `at`.
 void append_rows(Hdf5Object::Id table, Field::Kind kind, std::size_t at, std::size_t rows,
                  std::size_t columns, const Number* numbers);

@@ -34,7 +34,7 @@ TickTiming RealtimeRunner::time_start(Time due, const TickDurations& previous) {
   timing.valid = true;
   timing.started = ticks_.now();
   timing.lateness = std::max(Time::zero(), timing.started - due);
-  timing.late = timing.lateness > late_start;
+  timing.late = timing.lateness > std::min<Time>(late_start, diagram_.tick() / 2);
   timing.lost_periods = timing.lateness / diagram_.tick();
   timing.previous = previous;
   return timing;
@@ -63,7 +63,7 @@ void RealtimeRunner::run(Context& context, Time end, const std::function<bool()>
   Time due = ticks_.first_due(ticks_.now(), period);
   while (context.time() < end && !stop_requested()) {
     ticks_.wait(due);
-    if (stop_requested()) return;
+    if (stop_requested() || ticks_.is_over()) return;
     const TickTiming timing = time_start(due, durations);
     statistics_.count_start(timing);
     if (follows_clock_) context.set_time(context.time() + timing.lost_periods * period);

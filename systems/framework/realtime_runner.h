@@ -18,7 +18,7 @@ class Exchange;
 /// with the same inputs it computes the same bits. With the tick period T:
 ///
 ///   t := the context's time,  d := when the first tick is due (TickSource::first_due)
-///   while t < end and nobody asked to stop
+///   while t < end and nobody asked to stop, nor is the TickSource over
 ///     wait until d
 ///     s := now,  n := floor((s - d) / T)
 ///     u := the timing of this tick, where an input was named for it, and what exchange.set_inputs() sets
@@ -51,7 +51,8 @@ class Exchange;
 ///   runner.run(context, 10s);
 class RealtimeRunner {
  public:
-  static constexpr Time late_start = 500us;  ///< a tick that starts later than this after it was due is late
+  /// A tick that starts later than this after it was due, or than half a period, is late.
+  static constexpr Time late_start = 500us;
 
   /// All references must outlive the runner. The default integrator is that of Simulator.
   RealtimeRunner(const Diagram& diagram, TickSource& ticks, Exchange& exchange,

@@ -134,6 +134,14 @@ class System {
     return Intermediate<Value>{add_output<function, typename Reads::Value...>({}, name, {reads.id...}, true)};
   }
 
+  /// The same, but computed only at the first tick and when due.
+  template <auto function, class... Reads>
+  auto intermediate(Every every, std::string_view name, Reads... reads) {
+    using Value = typename internal::Signature<function>::Result;
+    return Intermediate<Value>{
+        add_output<function, typename Reads::Value...>({every, std::nullopt}, name, {reads.id...}, true)};
+  }
+
   /// The same, but computed only at the first tick and when a condition is true.
   template <auto function, class... Reads>
   auto intermediate(When when, std::string_view name, Reads... reads) {

@@ -21,6 +21,9 @@ class TickSource {
 
   /// Blocks until the tick that is due at `due`, which may have passed, shall start.
   virtual void wait(Time due) = 0;
+
+  /// Whether there will be no more ticks: the one that was waited for last does not run, nor any after it.
+  virtual bool is_over() const { return false; }
 };
 
 /// Ticks by the clock: each starts when it is due. Runs that follow each other keep their step.

@@ -7,7 +7,7 @@
 #include "systems/robot/kinematics.h"
 #include "systems/signals/task_list.h"
 
-/// Tasks by priority on the three levels of [SafePR] IV-C to IV-E. On each a law has two halves: the tasks
+/// Tasks by priority on the three levels of [SafePR] IV-D and IV-E. On each a law has two halves: the tasks
 /// give a reference, which is what is blended where tasks change, and the reference gives torques.
 namespace flinch {
 

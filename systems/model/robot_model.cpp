@@ -9,6 +9,7 @@ WorkspaceMeasures workspace_measures(const Mechanism& robot, const Kinematics& n
   return {.valid = true,
           .sigma_kappa = now.sigma_kappa,
           .sigma_sc = self_collision_distance(robot, now),
+          .platform_gap = robot.platform_gap(now),
           .det_A = now.det_A,
           .det_B = now.det_B,
           .largest_passive_angle = now.joints.passive.lpNorm<Eigen::Infinity>()};

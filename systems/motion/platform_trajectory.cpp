@@ -14,6 +14,10 @@ Time arrival(const PlatformTrajectory::Course& course) {
   return course.begin + from_seconds(course.to_start.duration());
 }
 
+bool must_wait(const StartCommand& command, const DriveCheckStatus& checked) {
+  return command.start && checked.holds_motion();
+}
+
 }  // namespace
 
 PlatformTrajectory::PlatformTrajectory(std::shared_ptr<const ParallelRobot> robot,
@@ -27,10 +31,12 @@ PlatformTrajectory::PlatformTrajectory(std::shared_ptr<const ParallelRobot> robo
 }
 
 bool PlatformTrajectory::turns(Time now, const Course& last, const ReactionState& state,
-                               const StartCommand& command, const TargetCommand& wanted) const {
+                               const StartCommand& command, const TargetCommand& wanted,
+                               const DriveCheckStatus& checked) const {
   return state.entered(ReactionMode::nominal, now) || state.entered(ReactionMode::recover, now) ||
          has_arrived(now, last) || wanted.number != last.target ||
-         (state.mode == ReactionMode::nominal && starts(now, last, command));
+         (state.mode == ReactionMode::nominal &&
+          (starts(now, last, command, checked) || must_wait(command, checked)));
 }
 
 bool PlatformTrajectory::has_arrived(Time now, const Course& course) const {
@@ -39,7 +45,8 @@ bool PlatformTrajectory::has_arrived(Time now, const Course& course) const {
 
 void PlatformTrajectory::advance(Time now, const Course& last, const ReactionState& state,
                                  const PlatformMotion& motion, const StartCommand& command,
-                                 const TargetCommand& wanted, Course& course) const {
+                                 const TargetCommand& wanted, const DriveCheckStatus& checked,
+                                 Course& course) const {
   course = last;
   course.target = wanted.number;
   const bool recovered = state.previous == ReactionMode::recover;
@@ -61,7 +68,8 @@ void PlatformTrajectory::advance(Time now, const Course& last, const ReactionSta
           .phase = Phase::hold, .begin = now, .to_start = way, .automatic = false, .target = wanted.number};
     }
   }
-  if (state.mode == ReactionMode::nominal && starts(now, course, command)) {
+  if (state.mode == ReactionMode::nominal && must_wait(command, checked)) course.waits = true;
+  if (state.mode == ReactionMode::nominal && starts(now, course, command, checked)) {
     course = {.phase = Phase::approach,
               .begin = now,
               .to_start = way_to_path(now, course),
@@ -80,9 +88,11 @@ PoseMotion PlatformTrajectory::rest_at(const PlatformMotion& motion) const {
                           settings_.approach);
 }
 
-bool PlatformTrajectory::starts(Time now, const Course& course, const StartCommand& command) const {
+bool PlatformTrajectory::starts(Time now, const Course& course, const StartCommand& command,
+                                const DriveCheckStatus& checked) const {
   const bool by_itself = course.automatic && settings_.start && now >= *settings_.start;
-  if (!settings_.path || !(command.start || by_itself)) return false;
+  const bool wanted = command.start || course.waits || by_itself;
+  if (!settings_.path || checked.holds_motion() || !wanted) return false;
   PlatformReference present;
   evaluate(now, course, present);
   return present.valid && present.finished;

@@ -5,6 +5,7 @@
 
 #include "systems/framework/system.h"
 #include "systems/motion/platform_path.h"
+#include "systems/signals/drive_check_status.h"
 #include "systems/signals/platform_motion.h"
 #include "systems/signals/reaction_state.h"
 #include "systems/signals/start_command.h"
@@ -28,7 +29,8 @@ struct PlatformTrajectorySettings {
 /// fault, the platform is brought to rest where it is and held there. From rest it starts, moving slowly to
 /// the start of the path and then along it,
 ///   by itself at the given time or as soon as the nominal mode has begun, but only before the first
-///   interruption; on a start command, as often as wanted, whenever it is at rest.
+///   interruption; on a start command, as often as wanted, whenever it is at rest;
+///   neither before the drives have been checked, where that is wanted: then it waits for that.
 /// It goes where the operator's target says from wherever it is, in the modes `nominal` and, more slowly,
 /// `recover`; a target that is not finite, that the legs do not reach, or that comes while it shall be faster
 /// than such a way is ignored. What began in a recovery goes on when the nominal mode follows it.
@@ -43,6 +45,7 @@ class PlatformTrajectory final : public System {
     Time begin{};
     PoseMotion to_start;       ///< while holding, to rest or a target; while approaching, to the path
     bool automatic = true;     ///< may still start by itself
+    bool waits = false;        ///< shall start once the drives have been checked
     std::uint32_t target = 0;  ///< number of the last one seen
   };
 
@@ -57,12 +60,13 @@ class PlatformTrajectory final : public System {
   InputPort<PlatformMotion> platform = input<PlatformMotion>("platform");
   InputPort<StartCommand> start = input<StartCommand>("start");
   InputPort<TargetCommand> target = input<TargetCommand>("target");
+  InputPort<DriveCheckStatus> drive_check = input<DriveCheckStatus>("drive_check");
 
  private:
   Intermediate<bool> turns_ =
-      intermediate<&PlatformTrajectory::turns>("turns", clock, last_, reaction, start, target);
+      intermediate<&PlatformTrajectory::turns>("turns", clock, last_, reaction, start, target, drive_check);
   Intermediate<Course> course_ = intermediate<&PlatformTrajectory::advance>(
-      When(turns_), "course", clock, last_, reaction, platform, start, target);
+      When(turns_), "course", clock, last_, reaction, platform, start, target, drive_check);
 
  public:
   OutputPort<PlatformReference> reference =
@@ -73,14 +77,16 @@ class PlatformTrajectory final : public System {
 
   /// Whether another course begins at this tick.
   bool turns(Time now, const Course& last, const ReactionState& state, const StartCommand& command,
-             const TargetCommand& wanted) const;
+             const TargetCommand& wanted, const DriveCheckStatus& checked) const;
   void advance(Time now, const Course& last, const ReactionState& state, const PlatformMotion& motion,
-               const StartCommand& command, const TargetCommand& wanted, Course& course) const;
+               const StartCommand& command, const TargetCommand& wanted, const DriveCheckStatus& checked,
+               Course& course) const;
   void evaluate(Time now, const Course& course, PlatformReference& result) const;
 
   PoseMotion rest_at(const PlatformMotion& motion) const;
   bool has_arrived(Time now, const Course& course) const;
-  bool starts(Time now, const Course& course, const StartCommand& command) const;
+  bool starts(Time now, const Course& course, const StartCommand& command,
+              const DriveCheckStatus& checked) const;
   PoseMotion way_to_path(Time now, const Course& course) const;
   PoseMotion way_to(const TargetCommand& wanted, const PlatformReference& present,
                     const PoseLimits& limits) const;

@@ -33,6 +33,7 @@ WorkspaceLimits spared(WorkspaceLimits limits) {
   limits.min_abs_det_A *= 1.0 + spare;
   limits.min_abs_det_B *= 1.0 + spare;
   limits.min_self_collision_distance *= 1.0 + spare;
+  limits.min_platform_gap *= 1.0 + spare;
   limits.max_distance *= 1.0 - spare;
   limits.max_rotation *= 1.0 - spare;
   if (std::isinf(room)) return limits;  // where one end is open, nothing says how much that is

@@ -59,7 +59,7 @@ inline constexpr bool never_allocates<ReactionPlan> =
 /// Gives way to a contact as its class asks for: at the tick at which the reaction begins class, place,
 /// direction of the force and leg are frozen, and a jerk-limited motion of the task of that class is planned
 /// from how it moves now. An opening that has arrived goes on by `opening_step` where a force is still felt
-/// that does not oppose it, up to the largest opening; once released, it is over. [SafePR] IV-B, Alg. 5
+/// that does not oppose it, up to the largest opening; once released, it is over. [SafePR] IV-C, Alg. 5
 ///
 /// When that is over and the robot rests, or does not within `longest_braking`, its goal is given up, for a
 /// limit or a contact may have kept the robot from it: its place is held, position before orientation. A

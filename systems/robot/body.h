@@ -49,6 +49,12 @@ struct BodyPair {
   int b = 0;
 };
 
+/// A link that may run into the platform, with that part of its outline which may.
+struct BesidePlatform {
+  int body = 0;  ///< Its index.
+  Shape shape;   ///< In the frame of the link.
+};
+
 /// All pairs of bodies that belong to different legs.
 std::vector<BodyPair> pairs_of_different_legs(const std::vector<Body>& bodies);
 

@@ -94,12 +94,21 @@ struct Nearest {
   CartesianJacobian J;
 };
 
+// Of a link's own axis, which ends with `axis` but begins elsewhere where the link slides in the one before.
+double own_fraction(const Mechanism& mechanism, BodyId link, const Segment& axis, double fraction) {
+  const double own = (mechanism.axis_point(link, 1.0) - mechanism.axis_point(link, 0.0)).norm();
+  const double length = (axis.end - axis.begin).norm();
+  const bool same = !(own > 0.0) || std::abs(length - own) < 1e-9 * own;
+  return same ? fraction : 1.0 - (1.0 - fraction) * length / own;
+}
+
 Nearest nearest_of(const Mechanism& mechanism, const Kinematics& kinematics, int index, double fraction) {
   const BodyId body = BodyId::from_index(index);
   const Segment axis = link_segment(kinematics, body);
   Nearest nearest;
   nearest.point = axis.begin + fraction * (axis.end - axis.begin);
-  nearest.J = mechanism.contact_jacobian(kinematics, body, mechanism.axis_point(body, fraction)).translation;
+  const double own = own_fraction(mechanism, body, axis, fraction);
+  nearest.J = mechanism.contact_jacobian(kinematics, body, mechanism.axis_point(body, own)).translation;
   return nearest;
 }
 

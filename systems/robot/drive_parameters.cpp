@@ -1,5 +1,8 @@
 #include "systems/robot/drive_parameters.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "systems/robot/mechanism.h"
 
 namespace flinch {
@@ -15,6 +18,11 @@ DriveParameters default_drives(DriveKind kind, int drives) {
           .max_speed = 2.0,
           .max_encoder_rate = 3.0,
           .max_control_error = 0.05};
+}
+
+WholeAndRest in_intervals(double delay, double interval) noexcept {
+  const double whole = std::clamp(std::ceil(delay / interval - 1e-9) - 1.0, 0.0, most_delayed - 1.0);
+  return {static_cast<std::size_t>(whole), delay - whole * interval};
 }
 
 }  // namespace flinch

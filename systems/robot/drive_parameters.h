@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <numbers>
 
 #include "systems/robot/cogging.h"
@@ -9,8 +10,17 @@ namespace flinch {
 
 enum class DriveKind;
 
-/// A torque that is further behind its current than this, a tick, or as far ahead has another fault [s].
+/// A torque that is further behind its current than this, or as far ahead, has another fault [s].
 inline constexpr double longest_torque_delay = 1e-3;
+
+/// A delay in intervals of a signal: so many whole ones, and the rest, which is one at most.
+struct WholeAndRest {
+  std::size_t whole = 0;
+  double rest = 0.0;  ///< [s]
+};
+WholeAndRest in_intervals(double delay, double interval) noexcept;
+/// How many whole intervals there are at most, in a loop of 4 kHz.
+inline constexpr std::size_t most_delayed = 4;
 
 /// What a robot's drives are given and may do. Units of a turning drive, of a sliding one in brackets.
 struct DriveParameters {
@@ -22,7 +32,7 @@ struct DriveParameters {
   double max_torque = 100.0;  ///< Of every drive [Nm] ([N]).
   /// Largest change of a drive's torque [Nm/s] ([N/s]).
   double max_torque_rate = 20e3;
-  /// Largest change of its measured torque from tick to tick [Nm] ([N]).
+  /// Largest change of a commanded torque in 1 ms, or from tick to tick where that is shorter [Nm] ([N]).
   double max_torque_jump = 40.0;
   double max_speed = 8.0;  ///< Of every drive [rad/s] ([m/s]).
   /// Largest speed between two readings that an encoder is believed [rad/s] ([m/s]).

@@ -215,6 +215,13 @@ void FiveBar::dynamics(const Kinematics& kinematics, Dynamics& out) const noexce
   sum.write(out);
 }
 
+std::shared_ptr<const ParallelRobot> FiveBar::assembled_as(const WorkingMode& mode) const {
+  if (!is_working_mode(mode)) return nullptr;
+  FiveBarParameters robot = parameters_;
+  for (int i = 0; i < 2; ++i) robot.legs[static_cast<std::size_t>(i)].elbow_sign = mode[i] == 0 ? 1 : -1;
+  return std::make_shared<const FiveBar>(robot);
+}
+
 std::shared_ptr<const Mechanism> FiveBar::deviating(const RobotDeviation& deviation) const {
   FiveBarParameters robot = parameters_;
   for (std::size_t i = 0; i < 2; ++i) robot.legs[i] = deviating_leg(robot.legs[i], deviation, i);

@@ -26,6 +26,7 @@ class FiveBar final : public ParallelRobot {
   int passive_joints() const noexcept override { return 2; }
   WorkingMode home_working_mode() const noexcept override;
   WorkingMode working_mode(const JointVector& passive) const noexcept override;
+  std::shared_ptr<const ParallelRobot> assembled_as(const WorkingMode& mode) const override;
   InverseSolution inverse_kinematics(const Configuration& pose,
                                      const WorkingMode& mode) const noexcept override;
   /// In closed form, on the side of the elbows on which `start` lies, which must be in reach.

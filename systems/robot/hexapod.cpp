@@ -7,8 +7,10 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <variant>
 
 #include "systems/foundation/setup_error.h"
+#include "systems/robot/hexapod_outline.h"
 #include "systems/robot/robot_deviation.h"
 #include "systems/robot/rotation.h"
 
@@ -51,6 +53,20 @@ std::vector<Body> bodies(const HexapodParameters& p) {
   return bodies;
 }
 
+/// Cylinders, and rods beyond what belongs to their joints.
+std::vector<BesidePlatform> beside_platform(const HexapodParameters& p, const std::vector<Body>& bodies) {
+  const std::array<double, 6> held = held_stretches(p);
+  std::vector<BesidePlatform> beside;
+  for (int leg = 0; leg < 6; ++leg) {
+    const int cylinder = BodyId::link1(leg).index(), rod = BodyId::link2(leg).index();
+    Capsule apart = std::get<Capsule>(bodies[static_cast<std::size_t>(rod)].shapes.front());
+    apart.end = -held[static_cast<std::size_t>(leg)] * Eigen::Vector3d::UnitZ();
+    beside.push_back({cylinder, bodies[static_cast<std::size_t>(cylinder)].shapes.front()});
+    beside.push_back({rod, apart});
+  }
+  return beside;
+}
+
 Configuration home_pose(const HexapodParameters& parameters) {
   Configuration pose(7);
   pose << parameters.home_position, quaternion_exp(parameters.home_rotation);
@@ -64,10 +80,12 @@ MechanismDescription describe(const HexapodParameters& parameters) {
                                    .drives = std::vector<DriveKind>(6, DriveKind::prismatic),
                                    .bodies = bodies(parameters),
                                    .self_collision_pairs = {},
+                                   .beside_platform = {},
                                    .gravity = parameters.gravity,
                                    .home_pose = home_pose(parameters),
                                    .characteristic_length = parameters.characteristic_length};
   description.self_collision_pairs = pairs_of_different_legs(description.bodies);
+  description.beside_platform = beside_platform(parameters, description.bodies);
   return description;
 }
 
@@ -85,7 +103,9 @@ double condition_number(const Matrix6& A) {
 }  // namespace
 
 Hexapod::Hexapod(const HexapodParameters& parameters)
-    : ParallelRobot(describe(parameters)), parameters_(parameters) {
+    : ParallelRobot(describe(parameters)),
+      parameters_(parameters),
+      held_stretches_(held_stretches(parameters)) {
   loaded_platform_ =
       parameters.payload ? together(parameters.platform, *parameters.payload) : parameters.platform;
   platform_inertia_ = about_origin(loaded_platform_);
@@ -261,6 +281,10 @@ double Hexapod::chain_closure_error(const JointVector& active, const JointVector
                                     const Configuration& pose) const noexcept {
   const bool all_usable = usable(active, 6) && passive.size() == 0 && space().contains(pose);
   return all_usable ? 0.0 : std::numeric_limits<double>::infinity();
+}
+
+double Hexapod::platform_gap(const Kinematics& kinematics) const noexcept {
+  return kinematics.reachable ? leg_platform_gap(parameters_, held_stretches_, kinematics) : 0.0;
 }
 
 // ---------------------------------------------------------------- differential kinematics

@@ -39,6 +39,8 @@ class Hexapod final : public ParallelRobot {
   double chain_closure_error(const JointVector& active, const JointVector& passive,
                              const Configuration& pose) const noexcept override;
 
+  double platform_gap(const Kinematics& kinematics) const noexcept override;
+
   using ParallelRobot::kinematics;
   void kinematics(const Configuration& pose, const PlatformVector& velocity, const WorkingMode& mode,
                   Kinematics& out) const noexcept override;
@@ -116,6 +118,7 @@ class Hexapod final : public ParallelRobot {
   bool serves(const Kinematics& kinematics, BodyId body, const CartesianVector& point) const noexcept;
 
   HexapodParameters parameters_;
+  std::array<double, 6> held_stretches_;  ///< Of the rods, see hexapod_outline.h [m].
   RigidBodyInertia loaded_platform_;
   std::array<RigidBodyInertia, 6> cylinders_;
   std::array<RigidBodyInertia, 6> rods_;

@@ -47,6 +47,9 @@ struct ForwardSolution {
   bool other_branch = false;
 };
 
+/// Largest number of entries of Kinematics::searched: eight coordinates a leg, and six of the platform.
+inline constexpr int max_searched = 8 * max_dof + 6;
+
 /// Everything about the robot's motion at one instant, evaluated once a tick and handed on by reference.
 /// Jacobian J_b_a maps rates of a to rates of b; dJ_b_a is its time derivative. Source: [SafePR] (1), (2).
 struct Kinematics {
@@ -60,6 +63,10 @@ struct Kinematics {
   PlatformMatrix J_qp_x, dJ_qp_x;  ///< Passive joint rates from platform velocity.
   PlatformMatrix J_qc_x, dJ_qc_x;  ///< Coupling joint rates from platform velocity.
   PlatformMatrix J_x_qa, dJ_x_qa;  ///< Platform velocity from active joint rates: left inverse of J_qa_x.
+
+  /// All independent joint coordinates, leg by leg, and what of the platform's pose follows from x, of
+  /// mechanisms that search for them: dynamics and points then need no search. Empty for others.
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_searched, 1> searched;
 
   /// Of the constraints by pose; 0 at a type-II singularity. Scaled as the mechanism says.
   double det_A = 0.0;

@@ -1,5 +1,7 @@
 #include "systems/robot/mechanism.h"
 
+#include <limits>
+
 #include "systems/robot/angles.h"
 #include "systems/robot/forward_dynamics.h"
 #include "systems/robot/motion_equations.h"
@@ -54,6 +56,10 @@ std::optional<DeterminantGradients> Mechanism::determinant_gradients(const Kinem
 }
 
 SelfCollisionTasks Mechanism::self_collision_tasks(const Kinematics&, double) const noexcept { return {}; }
+
+double Mechanism::platform_gap(const Kinematics&) const noexcept {
+  return std::numeric_limits<double>::infinity();
+}
 
 CartesianVector Mechanism::axis_point(BodyId body, double fraction) const noexcept {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();

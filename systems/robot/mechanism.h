@@ -33,8 +33,9 @@ struct MechanismDescription {
   std::vector<Body> bodies;       ///< By `BodyId::index()`: the platform first.
   /// Bodies whose distance is watched; neighbours, which always touch, are not among them.
   std::vector<BodyPair> self_collision_pairs;
-  Eigen::Vector3d gravity{0.0, 0.0, -9.81};  ///< In the base frame [m/s^2].
-  Configuration home_pose;                   ///< In the middle of the workspace.
+  std::vector<BesidePlatform> beside_platform = {};  ///< Links that may run into the platform.
+  Eigen::Vector3d gravity{0.0, 0.0, -9.81};          ///< In the base frame [m/s^2].
+  Configuration home_pose;                           ///< In the middle of the workspace.
   /// Stated with the condition number: length that makes an angle comparable to a distance [m].
   double characteristic_length = 1.0;
 };
@@ -113,6 +114,10 @@ class Mechanism {
   /// What keeps links `distance` [m] apart; none where there is no such form, or it is not exact.
   virtual SelfCollisionTasks self_collision_tasks(const Kinematics& kinematics,
                                                   double distance) const noexcept;
+
+  /// Least gap between the surfaces of the platform and of what is `beside_platform` [m]; 0 where they
+  /// overlap, infinite where nothing is. Of reachable kinematics.
+  virtual double platform_gap(const Kinematics& kinematics) const noexcept;
 
   /// Body coordinates of the point at `fraction` of the axis of a body's first capsule; the origin for a body
   /// that is none.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "systems/robot/mechanism.h"
@@ -19,6 +20,11 @@ class ParallelRobot : public Mechanism {
   virtual WorkingMode home_working_mode() const noexcept = 0;
   /// The working mode that passive angles show. [ICRA23] II-A3 That at home where they show none.
   virtual WorkingMode working_mode(const JointVector& passive) const noexcept = 0;
+
+  /// The same robot assembled at home as in `mode`; null where it has no other way.
+  virtual std::shared_ptr<const ParallelRobot> assembled_as(const WorkingMode& /*mode*/) const {
+    return nullptr;
+  }
 
   /// Joint positions that hold the platform at `pose`, assembled as in `mode`.
   virtual InverseSolution inverse_kinematics(const Configuration& pose,

@@ -338,6 +338,14 @@ SelfCollisionTasks PlanarRrr::self_collision_tasks(const Kinematics& kinematics,
   return coupling_angles(*this, kinematics, distance);
 }
 
+std::shared_ptr<const ParallelRobot> PlanarRrr::assembled_as(const WorkingMode& mode) const {
+  const auto signs = elbow_signs(mode);
+  if (!signs) return nullptr;
+  PlanarRrrParameters robot = parameters_;
+  for (std::size_t i = 0; i < 3; ++i) robot.legs[i].elbow_sign = (*signs)[i] > 0.0 ? 1 : -1;
+  return std::make_shared<const PlanarRrr>(robot);
+}
+
 std::shared_ptr<const Mechanism> PlanarRrr::deviating(const RobotDeviation& deviation) const {
   PlanarRrrParameters robot = parameters_;
   for (std::size_t i = 0; i < 3; ++i) robot.legs[i] = deviating_leg(robot.legs[i], deviation, i);

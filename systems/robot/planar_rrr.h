@@ -25,6 +25,7 @@ class PlanarRrr final : public ParallelRobot {
   int passive_joints() const noexcept override { return 3; }
   WorkingMode home_working_mode() const noexcept override;
   WorkingMode working_mode(const JointVector& passive) const noexcept override;
+  std::shared_ptr<const ParallelRobot> assembled_as(const WorkingMode& mode) const override;
   InverseSolution inverse_kinematics(const Configuration& pose,
                                      const WorkingMode& mode) const noexcept override;
   ForwardSolution forward_kinematics(const JointVector& active, const Configuration& start,

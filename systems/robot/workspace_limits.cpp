@@ -48,7 +48,8 @@ bool is_within(const WorkspaceLimits& limits, const Mechanism& mechanism,
          distance_from_centre(limits, mechanism, kinematics.pose) <= limits.max_distance &&
          mechanism.space().rotation_angle(kinematics.pose) <= limits.max_rotation &&
          drives.minCoeff() >= limits.min_active && drives.maxCoeff() <= limits.max_active &&
-         self_collision_distance(mechanism, kinematics) >= limits.min_self_collision_distance;
+         self_collision_distance(mechanism, kinematics) >= limits.min_self_collision_distance &&
+         mechanism.platform_gap(kinematics) >= limits.min_platform_gap;
 }
 
 std::vector<std::string> problems(const WorkspaceLimits& limits, const ParallelRobot& robot) {
@@ -63,6 +64,7 @@ std::vector<std::string> problems(const WorkspaceLimits& limits, const ParallelR
   findings.least("min_abs_det_B", limits.min_abs_det_B, std::abs(home.det_B), "");
   findings.least("min_self_collision_distance", limits.min_self_collision_distance,
                  self_collision_distance(robot, home), "m");
+  findings.least("min_platform_gap", limits.min_platform_gap, robot.platform_gap(home), "m");
   const bool turns = robot.drive_kind(0) == DriveKind::revolute;
   const char* const unit = turns ? "rad" : "m";
   findings.least(turns ? "min_active_angle" : "min_active_length", limits.min_active,

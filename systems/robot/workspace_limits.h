@@ -23,6 +23,7 @@ struct WorkspaceLimits {
   double min_abs_det_A = 0.0;                ///< Room to type-II singularities: least |Kinematics::det_A|.
   double min_abs_det_B = 0.0;                ///< Room to type-I singularities: least |Kinematics::det_B|.
   double min_self_collision_distance = 0.0;  ///< Least sigma_sc between link axes [m].
+  double min_platform_gap = 0.0;             ///< Least Mechanism::platform_gap() [m].
 
   double min_active = -std::numeric_limits<double>::infinity();  ///< Of every drive [rad or m].
   double max_active = std::numeric_limits<double>::infinity();   ///< Of every drive [rad or m].

@@ -7,8 +7,6 @@
 namespace flinch {
 namespace {
 
-constexpr double period = 1e-3;  // of readings [s]
-
 template <class Ring, class Value>
 void push(Ring& ring, const Value& value) {
   std::move(ring.begin() + 1, ring.end(), ring.begin());
@@ -34,7 +32,7 @@ JointVector drive_acceleration(const PlausibilityTick& tick, const JointVector& 
 void judge_change(AngleWatch& watch, const PlausibilityTick& tick, Plausibility& found) {
   using enum PlausibilityCheck;
   const PlausibilityLimits& limits = tick.limits;
-  const double in_a_tick = limits.drive_acceleration * period;
+  const double in_a_tick = limits.drive_acceleration * tick.T();
   const auto& [before, at, after] = watch.residual;
   for (Eigen::Index i = 0; i < after.size(); ++i) {
     const int drive = static_cast<int>(i);
@@ -55,21 +53,22 @@ void judge_change(AngleWatch& watch, const PlausibilityTick& tick, Plausibility&
 /// Third differences of an angle whose noise is gone. Where there never was much there is nothing to miss.
 void judge_quiet(AngleWatch& watch, const PlausibilityTick& tick, Plausibility& found) {
   const auto& [a, b, c, d] = watch.angle;
+  const QuietRow row = quiet_row(tick.limits, tick.period);
   for (Eigen::Index i = 0; i < d.size(); ++i) {
     int& ticks = watch.quiet[static_cast<std::size_t>(i)];
     const double noise = watch.change.deviation(i, 0.0);
-    const double third = std::abs(d[i] - 3.0 * c[i] + 3.0 * b[i] - a[i]) / period;
-    const bool is_quiet = watch.is_noisy(i, tick.limits) && third < tick.limits.quiet * noise;
+    const double third = std::abs(d[i] - 3.0 * c[i] + 3.0 * b[i] - a[i]) / tick.T();
+    const bool is_quiet = watch.is_noisy(i, tick) && third < row.share * noise;
     ticks = is_quiet ? ticks + 1 : 0;
-    note(found, PlausibilityCheck::quiet_angle, ticks / (tick.limits.quiet_ticks - 0.5),
-         GateFault::encoder_frozen, static_cast<int>(i));
+    note(found, PlausibilityCheck::quiet_angle, ticks / (row.looks - 0.5), GateFault::encoder_frozen,
+         static_cast<int>(i));
   }
 }
 
 /// Takes a reading in; returns how the rates have changed [rad/s], empty where that is not known.
 JointVector take(AngleWatch& watch, const PlausibilityTick& tick) {
   const double interval = to_seconds(tick.joints.acquired - watch.acquired);
-  const bool goes_on = watch.readings > 0 && interval < 1.5 * period;
+  const bool goes_on = watch.readings > 0 && interval < 1.5 * tick.T();
   if (!goes_on) watch.readings = watch.residuals = 0;
   const JointVector& last = watch.angle.back();
   JointVector angle = tick.joints.active;
@@ -85,12 +84,12 @@ JointVector take(AngleWatch& watch, const PlausibilityTick& tick) {
 
 }  // namespace
 
-double AngleWatch::angle_noise(Eigen::Index drive, const PlausibilityLimits& limits) const noexcept {
-  return change.deviation(drive, 0.1 * limits.drive_acceleration * period) * period / std::sqrt(6.0);
+double AngleWatch::angle_noise(Eigen::Index drive, const PlausibilityTick& tick) const noexcept {
+  return change.deviation(drive, 0.1 * tick.limits.drive_acceleration * tick.T()) * tick.T() / std::sqrt(6.0);
 }
 
-bool AngleWatch::is_noisy(Eigen::Index drive, const PlausibilityLimits& limits) const noexcept {
-  return change.deviation(drive, 0.0) > 0.5 * 0.1 * limits.drive_acceleration * period;
+bool AngleWatch::is_noisy(Eigen::Index drive, const PlausibilityTick& tick) const noexcept {
+  return change.deviation(drive, 0.0) > 0.5 * 0.1 * tick.limits.drive_acceleration * tick.T();
 }
 
 JointVector AngleWatch::rates() const noexcept {

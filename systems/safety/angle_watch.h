@@ -19,9 +19,9 @@ struct AngleWatch {
   std::array<int, max_dof> quiet{};       ///< ticks without noise
 
   /// Standard deviation of an angle [rad].
-  double angle_noise(Eigen::Index drive, const PlausibilityLimits& limits) const noexcept;
+  double angle_noise(Eigen::Index drive, const PlausibilityTick& tick) const noexcept;
   /// Whether an angle has so much noise that it would be missed.
-  bool is_noisy(Eigen::Index drive, const PlausibilityLimits& limits) const noexcept;
+  bool is_noisy(Eigen::Index drive, const PlausibilityTick& tick) const noexcept;
   /// Rates over the last two intervals [rad/s]; empty without them.
   JointVector rates() const noexcept;
   /// How the rates have changed at the last reading beyond what the drives do [rad/s]; empty: not known.

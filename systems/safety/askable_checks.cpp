@@ -9,7 +9,7 @@ namespace {
 template <class Watch>
 bool all_noisy(const Watch& watch, const PlausibilityTick& tick) {
   for (Eigen::Index i = 0; i < tick.robot.drives(); ++i) {
-    if (!watch.is_noisy(i, tick.limits)) return false;
+    if (!watch.is_noisy(i, tick)) return false;
   }
   return true;
 }

@@ -19,7 +19,7 @@ struct CurrentWatch {
   std::array<int, max_dof> quiet{};
 
   /// Whether a current has so much noise that it would be missed.
-  bool is_noisy(Eigen::Index drive, const PlausibilityLimits& limits) const noexcept;
+  bool is_noisy(Eigen::Index drive, const PlausibilityTick& tick) const noexcept;
 };
 
 void advance(CurrentWatch& watch, const PlausibilityTick& tick, Plausibility& found) noexcept;

@@ -50,7 +50,7 @@ FaultReport FaultMonitor::judge(Time now, const FaultMonitorMemory& memory, cons
                                 const PlatformMotion& pose, const WorkspaceMeasures& workspace,
                                 const ContactDetection& contact, const PlatformReference& followed,
                                 const OperatorCommand& pressed, const ReactionState& state,
-                                const Plausibility& plausible) const {
+                                const Plausibility& plausible, const DriveCheckStatus& checked) const {
   const WorkspaceMeasures from_home = seen_from_home(workspace);
   const Evidence evidence{.robot = *robot_,
                           .limits = limits_,
@@ -73,6 +73,7 @@ FaultReport FaultMonitor::judge(Time now, const FaultMonitorMemory& memory, cons
                           .buttons = pressed,
                           .reaction = state,
                           .plausibility = plausible,
+                          .drive_check = checked,
                           .has_motion = is_usable(rates, *robot_),
                           .has_pose = is_usable(pose, *robot_),
                           .has_command = is_usable(memory.command, *robot_)};

@@ -43,6 +43,7 @@ class FaultMonitor final : public System {
   InputPort<OperatorCommand> buttons = input<OperatorCommand>("buttons");
   InputPort<ReactionState> reaction = input<ReactionState>("reaction");
   InputPort<Plausibility> plausibility = input<Plausibility>("plausibility");  ///< of these readings
+  InputPort<DriveCheckStatus> drive_check = input<DriveCheckStatus>("drive_check");
 
  private:
   Intermediate<FaultMonitorMemory> now_ =
@@ -50,9 +51,9 @@ class FaultMonitor final : public System {
                                            kinematics, measures, command, reaction);
 
  public:
-  OutputPort<FaultReport> faults =
-      output<&FaultMonitor::judge>("faults", clock, now_, timing, station, joints, drives, motion, platform,
-                                   measures, detection, reference, buttons, reaction, plausibility);
+  OutputPort<FaultReport> faults = output<&FaultMonitor::judge>(
+      "faults", clock, now_, timing, station, joints, drives, motion, platform, measures, detection,
+      reference, buttons, reaction, plausibility, drive_check);
 
  private:
   Update remember_ = keep(last_, now_);
@@ -65,8 +66,8 @@ class FaultMonitor final : public System {
                     const StationStatus& status, const JointReading& angles, const DriveReading& currents,
                     const JointMotion& rates, const PlatformMotion& pose, const WorkspaceMeasures& workspace,
                     const ContactDetection& contact, const PlatformReference& followed,
-                    const OperatorCommand& pressed, const ReactionState& state,
-                    const Plausibility& plausible) const;
+                    const OperatorCommand& pressed, const ReactionState& state, const Plausibility& plausible,
+                    const DriveCheckStatus& checked) const;
 
   /// det A positive on the side of its singularity on which the home pose lies.
   WorkspaceMeasures seen_from_home(WorkspaceMeasures seen) const;

@@ -118,8 +118,9 @@ bool joint_speed(const Evidence& e) {
 }
 
 bool self_collision(const Evidence& e) {
-  return e.has_pose &&
-         !(e.measures.valid && e.measures.sigma_sc >= e.limits.workspace.min_self_collision_distance);
+  const WorkspaceLimits& limits = e.limits.workspace;
+  return e.has_pose && !(e.measures.valid && e.measures.sigma_sc >= limits.min_self_collision_distance &&
+                         e.measures.platform_gap >= limits.min_platform_gap);
 }
 
 // ---------------------------------------------------------------- observers and laws
@@ -158,6 +159,12 @@ bool touched_in_recovery(const Evidence& e) {
   return recovers(e) && e.detection.valid && e.detection.present_level != ContactLevel::none;
 }
 
+/// In motion or, before the first one, when they were checked.
+bool torque_contradicted(const Evidence& e) {
+  return contradicted(e, GateFault::torque_contradicted) ||
+         e.drive_check.phase == DriveCheckStatus::Phase::failed;
+}
+
 // ---------------------------------------------------------------- the table
 
 template <GateFault fault>
@@ -193,7 +200,7 @@ constexpr std::array rows{
     FaultRow{GateFault::joint_range, Doubt::nothing, 0, joint_range, "a drive is outside its range"},
     FaultRow{GateFault::joint_speed, Doubt::nothing, 0, joint_speed, "a drive is too fast"},
     FaultRow{GateFault::self_collision, Doubt::nothing, 0, self_collision,
-             "links of different legs are too close"},
+             "links are too close to one another or to the platform"},
     FaultRow{GateFault::contact_unmonitored, Doubt::nothing, 0, contact_unmonitored,
              "contacts would not be noticed"},
     FaultRow{GateFault::control_error, Doubt::nothing, 0, control_error,
@@ -220,8 +227,7 @@ constexpr std::array rows{
     FaultRow{GateFault::status_contradicted, Doubt::drives, 0,
              found_contradicted<GateFault::status_contradicted>,
              "the station says that the brakes are closed, which should be open"},
-    FaultRow{GateFault::torque_contradicted, Doubt::drives, 0,
-             found_contradicted<GateFault::torque_contradicted>,
+    FaultRow{GateFault::torque_contradicted, Doubt::drives, 0, torque_contradicted,
              "a drive's torque has the wrong sign or is missing"},
 };
 

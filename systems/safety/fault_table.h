@@ -11,6 +11,7 @@
 #include "systems/robot/workspace_limits.h"
 #include "systems/safety/encoder_watch.h"
 #include "systems/signals/contact_detection.h"
+#include "systems/signals/drive_check_status.h"
 #include "systems/signals/drive_reading.h"
 #include "systems/signals/gate_fault.h"
 #include "systems/signals/joint_motion.h"
@@ -93,6 +94,7 @@ struct Evidence {
   const OperatorCommand& buttons;
   const ReactionState& reaction;
   const Plausibility& plausibility;  ///< not valid where nobody asks
+  const DriveCheckStatus& drive_check;
 
   bool has_motion, has_pose, has_command;  ///< whether these are usable
 };

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "systems/signals/sampling.h"
+
 namespace flinch {
 namespace {
 
@@ -165,9 +167,10 @@ const double far = 4.0 * std::sqrt(6.0);
 
 }  // namespace
 
-int ImuErrors::contradicted() const noexcept {
+int ImuErrors::contradicted(int latest) const noexcept {
   int sum = 0;
-  for (std::size_t age = 0; age < std::min(held(), judged); ++age) sum += back(age).contradicted ? 1 : 0;
+  const auto asked = static_cast<std::size_t>(std::min(latest, judged));
+  for (std::size_t age = 0; age < std::min(held(), asked); ++age) sum += back(age).contradicted ? 1 : 0;
   return sum;
 }
 
@@ -216,9 +219,11 @@ Lateness lateness(const ImuErrors& errors, std::size_t samples, const EncoderSpr
                    encoders.angle.array().square() + turned * turned);
 }
 
-bool is_late(const ImuErrors& errors, const EncoderSpread& encoders, const ImuSpread& unit) noexcept {
+bool is_late(const ImuErrors& errors, const EncoderSpread& encoders, const ImuSpread& unit,
+             Time spacing) noexcept {
   constexpr double least = 0.7e-3, most = 10e-3;  // [s]
-  for (const std::size_t samples : {std::size_t{10}, ImuErrors::most}) {
+  for (const Time window : {10ms, 20ms}) {
+    const auto samples = static_cast<std::size_t>(periods_in(window, spacing, 5));
     const Lateness found = lateness(errors, samples, encoders, unit);
     if (found.deviation > 0.0 && found.time > least + 5.0 * found.deviation && found.time < most &&
         found.explained > 0.7)
@@ -232,7 +237,7 @@ ImuDoubt explanation(const ImuErrors& errors, const ImuSpread& spread) noexcept 
   Fit<1> delay;
   RotationFit rotation;
   int samples = 0;
-  for (std::size_t age = 0; age < std::min(errors.held(), ImuErrors::judged); ++age) {
+  for (std::size_t age = 0; age < std::min<std::size_t>(errors.held(), ImuErrors::judged); ++age) {
     const ImuError& each = errors.back(age);
     if (!each.contradicted) continue;
     ++samples;

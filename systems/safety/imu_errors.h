@@ -27,10 +27,11 @@ struct ImuError {
 
 /// The latest samples in a row.
 struct ImuErrors : Series<ImuError, 20> {
-  static constexpr std::size_t most = 20, judged = 16;
+  static constexpr std::size_t most = 20;
+  static constexpr int judged = 16;
   using Series::Series;
 
-  int contradicted() const noexcept;  ///< of the last `judged`
+  int contradicted(int latest = judged) const noexcept;  ///< of the latest, at most `judged`
 };
 
 /// Standard deviations that errors of an honest unit have.
@@ -67,9 +68,10 @@ struct Lateness {
 Lateness lateness(const ImuErrors& errors, std::size_t samples, const EncoderSpread& encoders,
                   const ImuSpread& unit) noexcept;
 
-/// Whether the last 10 or 20 samples are surely late: by more than 0.7 ms and five deviations, which
-/// explains seven tenths of all squares.
-bool is_late(const ImuErrors& errors, const EncoderSpread& encoders, const ImuSpread& unit) noexcept;
+/// Whether the last 10 or 20 ms, of five samples at least, are surely late: by more than 0.7 ms and five
+/// deviations, which explains seven tenths of all squares.
+bool is_late(const ImuErrors& errors, const EncoderSpread& encoders, const ImuSpread& unit,
+             Time spacing = 1ms) noexcept;
 
 /// What explains the contradicted ones best: a constant, a time by which the unit is late, or axes that are
 /// turned; each fitted by least squares, and judged by its squares left plus ln(n) for each parameter (the

@@ -6,26 +6,22 @@
 
 #include "systems/robot/forward_dynamics.h"
 #include "systems/robot/imu_output.h"
+#include "systems/safety/tick_motions.h"
 #include "systems/signals/driven_share.h"
 
 namespace flinch {
 namespace {
 
-using Motions = Series<TickMotion, ImuWatch::kept>;
-
-constexpr Time period = 1ms;
-constexpr double T = 1e-3;
-constexpr int dropped_after = 5;     // ticks without a reading
-constexpr int back_after = 20;       // ticks with one
+constexpr Time dropped_after = 5ms;  // without a reading
+constexpr Time back_after = 20ms;    // with one
 constexpr int frozen_after = 2;      // repetitions of all axes of a part, of both parts together
 constexpr int saturated_after = 5;   // repetitions of one axis
-constexpr int named_after = 8;       // contradicted samples of the last 16
-constexpr int quarantine = 10;       // ticks after two that were contradicted
+constexpr Time judged = 16ms;        // of the samples of so long, half must be contradicted
+constexpr Time quarantine = 10ms;    // after two that were contradicted
 constexpr double jitter = 3e-4;      // of stamps [s]
 constexpr double scale = 0.01;       // share of a rate that may be missing
 constexpr double believed = 2.0;     // times what the encoders show
 constexpr double significant = 3.0;  // deviations
-constexpr std::size_t vote = 6;      // ticks over which encoders and unit are compared with the model
 
 /// Takes in what encoders and model say of this tick.
 void take_motion(ImuWatch& watch, const PlausibilityTick& tick) {
@@ -39,7 +35,8 @@ void take_motion(ImuWatch& watch, const PlausibilityTick& tick) {
       known ? forward_dynamics(kinematics, tick.dynamics, tick.torque.torque, PlatformVector::Zero(n))
             : std::nullopt;
   const bool goes_on = watch.motion.count > 0 &&
-                       tick.platform.acquired - watch.motion.newest.time < 3 * period / 2 && acceleration;
+                       tick.platform.acquired - watch.motion.newest.time < 3 * tick.period / 2 &&
+                       acceleration;
   if (!goes_on) watch.motion.clear();
   if (!acceleration) return;
   TickMotion motion{tick.platform.acquired, padded(tick.platform.pose), padded(tick.platform.velocity),
@@ -56,7 +53,7 @@ Padded<max_dof> pose_deviation(const AngleWatch& angles, const PlausibilityTick&
   const PlatformMatrix& J = tick.kinematics.J_x_qa;
   PlatformVector squares = PlatformVector::Zero(J.rows());
   for (Eigen::Index i = 0; i < J.cols(); ++i) {
-    const double noise = angles.angle_noise(i, tick.limits);
+    const double noise = angles.angle_noise(i, tick);
     squares += noise * noise * J.col(i).cwiseAbs2();
   }
   return padded<max_dof>(squares.cwiseSqrt());
@@ -81,7 +78,7 @@ struct Accelerations {
 
   Padded<max_dof> unexplained() const { return shown - model; }
 };
-Accelerations accelerations(const Motions& motions, int age, int h) {
+Accelerations accelerations(const TickMotions& motions, int age, int h) {
   const auto& weights = parabola_weights[static_cast<std::size_t>(h)];
   Padded<max_dof> steps = Padded<max_dof>::Zero(), model = steps;
   for (int i = 1 - h; i < h; ++i) {
@@ -91,20 +88,20 @@ Accelerations accelerations(const Motions& motions, int age, int h) {
     steps += weight * (after.step - at.step);
     model += weight * at.acceleration;
   }
-  return {steps / (T * T), model};
+  return {steps / (motions.T * motions.T), model};
 }
-Padded<max_dof> unexplained(const Motions& motions, int age, int h) {
+Padded<max_dof> unexplained(const TickMotions& motions, int age, int h) {
   return accelerations(motions, age, h).unexplained();
 }
 
 /// Deviation of that for a pose of deviation 1, of parabolas: sqrt(720 / (N (N^2 - 1)(N^2 - 4))) / T^2.
-double parabola_deviation(int h) {
+double parabola_deviation(int h, double T) {
   const double N = 2.0 * h + 1.0;
   return std::sqrt(720.0 / (N * (N * N - 1.0) * (N * N - 4.0))) / (T * T);
 }
 
 /// Velocity at the motion of `age`: slope of the line through 2 h + 1 poses.
-Padded<max_dof> line_velocity(const Motions& motions, int age, int h) {
+Padded<max_dof> line_velocity(const TickMotions& motions, int age, int h) {
   Padded<max_dof> apart = Padded<max_dof>::Zero(), sum = apart;
   double squares = 0.0;
   for (int i = 1; i <= h; ++i) {  // x_{+i} - x_{-i}
@@ -113,9 +110,11 @@ Padded<max_dof> line_velocity(const Motions& motions, int age, int h) {
     sum += i * apart;
     squares += 2.0 * i * i;
   }
-  return sum / (squares * T);
+  return sum / (squares * motions.T);
 }
-double line_deviation(int h) { return 1.0 / (std::sqrt(h * (h + 1.0) * (2.0 * h + 1.0) / 3.0) * T); }
+double line_deviation(int h, double T) {
+  return 1.0 / (std::sqrt(h * (h + 1.0) * (2.0 * h + 1.0) / 3.0) * T);
+}
 
 /// The motion at an instant, and by how much its acceleration is in doubt, see `driven_doubt`.
 struct MotionThen {
@@ -124,7 +123,7 @@ struct MotionThen {
 };
 
 /// At `time`, between those of `age` and of the tick before or after it.
-MotionThen motion_at(const Motions& motions, int age, Time time, const ConfigurationSpace& space) {
+MotionThen motion_at(const TickMotions& motions, int age, Time time, const ConfigurationSpace& space) {
   const auto nearest = static_cast<std::size_t>(age);
   const Time later = time - motions.back(nearest).time;
   if (later == Time::zero()) return {motions.back(nearest)};
@@ -139,40 +138,6 @@ MotionThen motion_at(const Motions& motions, int age, Time time, const Configura
   then.motion.velocity += share * (after.velocity - before.velocity);
   then.motion.acceleration += driven_share(time - before.time) * step;
   return then;
-}
-
-/// Where in the motions a time lies: `age` is that of the last before it, from which it is `share` of a tick.
-struct TickPlace {
-  std::size_t age = 1;
-  double share = 0.0;
-};
-TickPlace place_of(const Motions& motions, Time time) {
-  TickPlace place;
-  while (place.age + 1 < motions.held() && motions.back(place.age).time > time) ++place.age;
-  const Time before = motions.back(place.age).time;
-  if (before < time && place.age >= 2) place.share = to_seconds(time - before) / T;
-  return place;
-}
-
-/// The step in the tick that begins at a place, which is one at least before the latest.
-Padded<max_dof> step_from(const Motions& motions, const TickPlace& place) {
-  const Padded<max_dof>& step = motions.back(place.age - 1).step;
-  if (place.share == 0.0) return step;
-  return step + place.share * (motions.back(place.age - 2).step - step);
-}
-
-/// By how much the step from `later` is larger than that from `earlier`, beyond what the drives make of it:
-/// in the tick before a motion they give its acceleration, so the steps around one differ by the mean of two.
-Padded<max_dof> unexplained_change(const Motions& motions, const TickPlace& earlier, const TickPlace& later) {
-  const auto bend = [&motions](std::size_t age) -> Padded<max_dof> {  // of the steps that meet in age + 1
-    const TickMotion &after = motions.back(age), &before = motions.back(age + 1);
-    return after.step - before.step - 0.5 * T * T * (after.acceleration + before.acceleration);
-  };
-  Padded<max_dof> change = Padded<max_dof>::Zero();
-  for (std::size_t age = later.age - 1; age + 1 < earlier.age; ++age) change += bend(age);
-  if (later.share > 0.0) change += later.share * bend(later.age - 2);
-  if (earlier.share > 0.0) change -= earlier.share * bend(earlier.age - 2);
-  return change;
 }
 
 /// A range that grows by what is significant.
@@ -190,7 +155,7 @@ using Rows = Eigen::Matrix<double, 3, max_dof>;
 
 /// What a sample can be compared with.
 struct Comparison {
-  const Motions& motions;
+  const TickMotions& motions;
   int age;                      ///< of the motion nearest to its instant
   int ahead;                    ///< motions after it that count
   double later;                 ///< than that motion [s]
@@ -225,15 +190,16 @@ struct Claim {
 
 /// Whether a sensor claims what the encoders, who show `around` beyond the model, do not confirm.
 bool contradicted(const Comparison& at, const Padded<max_dof>& around, const Claim& claim) {
-  constexpr int wide = widest, narrow = 3;
+  const int wide = at.motions.wide, narrow = at.motions.narrow;
   const double unsure = jitter * claim.slope.norm() + claim.rising.norm();
   if (is_own_noise(claim.beyond, claim.noise, at.limit, unsure)) return false;
   const Eigen::Vector3d ahead = claim.rows * around;
   const Eigen::Vector3d long_since = claim.rows * unexplained(at.motions, at.age - at.ahead + wide, wide);
   const Eigen::Vector3d lately = claim.rows * unexplained(at.motions, at.age - at.ahead + narrow, narrow);
   const Eigen::Vector3d sigma = deviations(claim.rows, at.deviation);
-  const double of_ahead = parabola_deviation(at.ahead), of_wide = parabola_deviation(wide);
-  const double of_narrow = parabola_deviation(narrow);
+  const double T = at.motions.T;
+  const double of_ahead = parabola_deviation(at.ahead, T), of_wide = parabola_deviation(wide, T);
+  const double of_narrow = parabola_deviation(narrow, T);
   for (int axis = 0; axis < 3; ++axis) {
     Range range;
     range.include(ahead[axis], of_ahead * sigma[axis]);
@@ -272,13 +238,15 @@ bool turning_contradicted(const Comparison& at, const ImuError& error) {
   const double unsure = scale * smooth.norm() + jitter * error.turning_slope.norm();
   if (is_own_noise(error.turning, at.noise.turning, at.limit, unsure)) return false;
   const Eigen::Vector3d short_line = at.turning * line_velocity(at.motions, at.age, 1);
-  const Eigen::Vector3d longer_line = at.turning * line_velocity(at.motions, at.age, 2);
+  const int longer = std::min(at.age, 2);
+  const Eigen::Vector3d longer_line = at.turning * line_velocity(at.motions, at.age, longer);
   const Eigen::Vector3d sigma = deviations(at.turning, at.deviation);
-  const double of_rate = std::hypot(line_deviation(at.ahead), at.later * parabola_deviation(at.ahead));
+  const double T = at.motions.T;
+  const double of_rate = std::hypot(line_deviation(at.ahead, T), at.later * parabola_deviation(at.ahead, T));
   for (int axis = 0; axis < 3; ++axis) {
     Range range;
-    range.include(short_line[axis] - smooth[axis], line_deviation(1) * sigma[axis]);
-    range.include(longer_line[axis] - smooth[axis], line_deviation(2) * sigma[axis]);
+    range.include(short_line[axis] - smooth[axis], line_deviation(1, T) * sigma[axis]);
+    range.include(longer_line[axis] - smooth[axis], line_deviation(longer, T) * sigma[axis]);
     const double limit =
         at.limit * std::hypot(of_rate * sigma[axis], at.noise.turning) + at.limit / 5.0 * unsure;
     if (range.outside(error.turning[axis]) > limit) return true;
@@ -288,32 +256,35 @@ bool turning_contradicted(const Comparison& at, const ImuError& error) {
 
 /// Whether it is the unit whose rate has left the model of late, not the encoders, whose line has no jumps.
 bool unit_left_model(const Comparison& at, const ImuErrors& errors) {
+  const auto vote = static_cast<std::size_t>(at.motions.vote);
+  const int h = at.motions.most_ahead;
   if (errors.held() <= vote) return false;
   const Eigen::Vector3d error = errors.back(0).turning;
   if ((error - errors.back(1).turning).norm() > 0.85 * error.norm()) return true;
   const int before = at.age + static_cast<int>(vote);  // with what was wrong with the model until then
-  Padded<max_dof> model = static_cast<double>(vote) * unexplained(at.motions, before + 4, 4);
+  Padded<max_dof> model = static_cast<double>(vote) * unexplained(at.motions, before + h, h);
   for (std::size_t k = 0; k < vote; ++k)
     model += at.motions.back(static_cast<std::size_t>(at.age) + k).acceleration;
   const Padded<max_dof> change = at.velocity - line_velocity(at.motions, before, at.ahead);
-  const Eigen::Vector3d encoders = at.turning * (change - T * model);
+  const Eigen::Vector3d encoders = at.turning * (change - at.motions.T * model);
   const Eigen::Vector3d unit = encoders + errors.back(0).turning - errors.back(vote).turning;
   return unit.norm() > believed * encoders.norm();
 }
 
 /// Age of the motion nearest to `time`; none where there is not enough after and before it.
-std::optional<int> nearest_age(const Motions& motions, Time time) {
-  constexpr int youngest = 2, oldest = 9;
+std::optional<int> nearest_age(const TickMotions& motions, Time time) {
+  const int youngest = periods_in(2ms, motions.period), oldest = periods_in(9ms, motions.period);
+  const auto needed = static_cast<std::size_t>(periods_in(24ms, motions.period));
   int age = 0;
   while (age <= oldest && age < static_cast<int>(motions.held()) &&
-         motions.back(static_cast<std::size_t>(age)).time - time > period / 2)
+         motions.back(static_cast<std::size_t>(age)).time - time > motions.period / 2)
     ++age;
-  if (age < youngest || age > oldest || motions.held() < ImuWatch::kept) return std::nullopt;
+  if (age < youngest || age > oldest || motions.held() < needed) return std::nullopt;
   return age;
 }
 
 /// Compares the sample with the motion of its instant, where that is known; whether it is contradicted.
-void judge(ImuWatch& watch, const Motions& motions, const ImuErrors& errors, const InertialWatch& learned,
+void judge(ImuWatch& watch, const TickMotions& motions, const ImuErrors& errors, const InertialWatch& learned,
            const AngleWatch& angles, const PlausibilityTick& tick, const ImuReading& reading,
            const ImuSpread& rest) {
   const std::optional<int> nearest = nearest_age(motions, reading.acquired);
@@ -325,9 +296,9 @@ void judge(ImuWatch& watch, const Motions& motions, const ImuErrors& errors, con
   const int age = *nearest;
   const ConfigurationSpace space = tick.robot.space();
   const auto [then, rising] = motion_at(motions, age, reading.acquired, space);
-  const int ahead = std::min(age, 4);
+  const int ahead = std::min(age, motions.most_ahead);
   const int n = space.dimension();
-  const Time spacing = errors.held() > 0 ? reading.acquired - watch.before.acquired : period;
+  const Time spacing = errors.held() > 0 ? reading.acquired - watch.before.acquired : tick.period;
   const ImuOutput output =
       imu_output(space, tick.mounted, tick.robot.gravity(), then.pose.head(space.stored()),
                  then.velocity.head(n), then.acceleration.head(n));
@@ -355,11 +326,13 @@ void judge(ImuWatch& watch, const Motions& motions, const ImuErrors& errors, con
   error.rising = at.force * rising;
   const TickPlace now = place_of(motions, then.time);
   const TickPlace before = place_of(motions, then.time - spacing);
-  error.force_unseen = error.force - at.force * unexplained_change(motions, before, now) / (T * at.spacing);
+  error.force_unseen =
+      error.force - at.force * unexplained_change(motions, before, now) / (tick.T() * at.spacing);
   error.turning_unseen =
       error.turning + error.expected_turning -
-      at.turning * (step_from(motions, now) + step_from(motions, place_of(motions, then.time - period))) /
-          (2.0 * T);
+      at.turning *
+          (step_from(motions, now) + step_from(motions, place_of(motions, then.time - tick.period))) /
+          (2.0 * tick.T());
   watch.errors.push(error);
   watch.errors.newest.jumps = jumped(errors, 0, rest);
   const bool is_rest = at.noise.force == rest.force && at.noise.turning == rest.turning;
@@ -369,8 +342,8 @@ void judge(ImuWatch& watch, const Motions& motions, const ImuErrors& errors, con
   const Padded<max_dof> unexplained = around.unexplained();
   watch.errors.newest.contradicted = contradicted(at, unexplained, force_claim(at, errors)) ||
                                      contradicted(at, unexplained, turning_claim(at, errors)) || watch.blamed;
-  watch.late =
-      is_late(errors, {deviations(at.force, at.deviation), deviations(at.turning, at.deviation)}, at.noise);
+  watch.late = is_late(errors, {deviations(at.force, at.deviation), deviations(at.turning, at.deviation)},
+                       at.noise, tick.period);
 }
 
 /// How often each axis has said the same, and whether that is more than chance makes.
@@ -393,13 +366,14 @@ ImuDoubt repetition(ImuWatch& watch, const InertialWatch& learned, const ImuRead
   return ends ? ImuDoubt::saturated : ImuDoubt::none;
 }
 
-void count_missing(ImuWatch& watch, bool valid) {
-  if (valid) watch.seen = std::min(watch.seen + 1, back_after);
-  watch.missing = valid ? 0 : std::min(watch.missing + 1, dropped_after);
-  const bool dropped = watch.seen >= back_after && watch.missing >= dropped_after;
+void count_missing(ImuWatch& watch, const PlausibilityTick& tick, bool valid) {
+  const int back = tick.looks(back_after, 5), gone = tick.looks(dropped_after, 2);
+  if (valid) watch.seen = std::min(watch.seen + 1, back);
+  watch.missing = valid ? 0 : std::min(watch.missing + 1, gone);
+  const bool dropped = watch.seen >= back && watch.missing >= gone;
   if (dropped && watch.doubt == ImuDoubt::none) watch.doubt = ImuDoubt::dropped_out;
   if (dropped) watch.seen = 0;
-  if (watch.doubt == ImuDoubt::dropped_out && watch.seen >= back_after) watch.doubt = ImuDoubt::none;
+  if (watch.doubt == ImuDoubt::dropped_out && watch.seen >= back) watch.doubt = ImuDoubt::none;
 }
 
 int lately_contradicted(const ImuErrors& errors) {
@@ -410,9 +384,9 @@ int lately_contradicted(const ImuErrors& errors) {
 }
 
 /// Leaves out what has just been contradicted, and what follows soon after two of them.
-void mask(ImuWatch& watch, const ImuErrors& errors) {
+void mask(ImuWatch& watch, const PlausibilityTick& tick, const ImuErrors& errors) {
   if (errors.held() == 0 || !errors.back(0).contradicted) return;
-  watch.masked = std::max(watch.masked, lately_contradicted(errors) > 1 ? quarantine : 1);
+  watch.masked = std::max(watch.masked, lately_contradicted(errors) > 1 ? tick.looks(quarantine, 2) : 1);
 }
 
 }  // namespace
@@ -420,21 +394,21 @@ void mask(ImuWatch& watch, const ImuErrors& errors) {
 void advance(ImuWatch& watch, const ImuWatch::Past& past, const InertialWatch& learned,
              const AngleWatch& angles, const PlausibilityTick& tick, Plausibility& found) noexcept {
   take_motion(watch, tick);
-  const Motions motions(watch.motion, past.motion);
+  const TickMotions motions(watch.motion, past.motion, tick);
   const ImuErrors errors(watch.errors, past.errors);
   const ImuReading& reading = tick.imu;
   const bool usable_now =
       reading.valid && usable(reading.angular_velocity, 3) && usable(reading.specific_force, 3);
-  count_missing(watch, usable_now);
+  count_missing(watch, tick, usable_now);
   watch.masked = std::max(watch.masked - 1, 0);
   if (usable_now && reading.acquired > watch.before.acquired && learned.gyroscope.known()) {
     ImuDoubt doubt = repetition(watch, learned, reading);
-    if (reading.acquired - watch.before.acquired > 3 * period / 2) watch.errors.clear();
+    if (reading.acquired - watch.before.acquired > 3 * tick.period / 2) watch.errors.clear();
     const ImuSpread rest{learned.accelerometer.deviation, learned.gyroscope.deviation};
     judge(watch, motions, errors, learned, angles, tick, reading, rest);
-    mask(watch, errors);
+    mask(watch, tick, errors);
     if (doubt == ImuDoubt::none && jumps(errors)) doubt = ImuDoubt::noisy;
-    if (doubt == ImuDoubt::none && errors.contradicted() >= named_after)
+    if (doubt == ImuDoubt::none && errors.contradicted(tick.looks(judged)) >= tick.looks(judged / 2, 2))
       doubt = watch.late ? ImuDoubt::late
                          : explanation(errors, {std::max(rest.force, 0.2), std::max(rest.turning, 5e-3)});
     if (doubt == ImuDoubt::none && watch.late && lately_contradicted(errors) < 2) doubt = ImuDoubt::late;

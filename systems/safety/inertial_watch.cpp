@@ -11,14 +11,19 @@
 namespace flinch {
 namespace {
 
-constexpr Time period = 1ms;
-
 using Motions = Series<SensorPointMotion, 32>;
 
-const SensorPointMotion* motion_at(const Motions& motions, Time time) {
+/// The motions that the encoders tell, one for each look.
+struct Told {
+  const Motions& motions;
+  Time period;
+};
+
+const SensorPointMotion* motion_at(const Told& told, Time time) {
+  const Motions& motions = told.motions;
   for (std::size_t age = 0; age < motions.held(); ++age) {
     const SensorPointMotion& motion = motions.back(age);
-    if (std::chrono::abs(motion.time - time) <= period / 2) return motion.known ? &motion : nullptr;
+    if (std::chrono::abs(motion.time - time) <= told.period / 2) return motion.known ? &motion : nullptr;
   }
   return nullptr;
 }
@@ -51,7 +56,7 @@ Spread spread_of(const AngleWatch& angles, const PlausibilityTick& tick) {
   const Eigen::Index translations = tick.robot.space().translations();
   const PlatformMatrix& J = tick.kinematics.J_x_qa;
   for (Eigen::Index i = 0; i < J.cols(); ++i) {
-    const double rate = angles.angle_noise(i, tick.limits) / (std::sqrt(2.0) * to_seconds(period));
+    const double rate = angles.angle_noise(i, tick) / (std::sqrt(2.0) * tick.T());
     spread.velocity += rate * rate * J.col(i).head(translations).squaredNorm();
     spread.turning += rate * rate * J.col(i).tail(J.rows() - translations).squaredNorm();
   }
@@ -59,10 +64,10 @@ Spread spread_of(const AngleWatch& angles, const PlausibilityTick& tick) {
 }
 
 /// How far `value` lies outside of what the encoders said within a tick of `time`, axis by axis; zero within.
-Eigen::Vector3d outside_of_tube(const Motions& motions, Time time, const Eigen::Vector3d& value) {
+Eigen::Vector3d outside_of_tube(const Told& told, Time time, const Eigen::Vector3d& value) {
   Eigen::Vector3d low = Eigen::Vector3d::Constant(HUGE_VAL), high = -low;
-  for (const Time apart : {-period, Time::zero(), period}) {
-    const SensorPointMotion* const motion = motion_at(motions, time + apart);
+  for (const Time apart : {-told.period, Time::zero(), told.period}) {
+    const SensorPointMotion* const motion = motion_at(told, time + apart);
     if (motion == nullptr) return Eigen::Vector3d::Zero();
     low = low.cwiseMin(motion->turning);
     high = high.cwiseMax(motion->turning);
@@ -70,22 +75,24 @@ Eigen::Vector3d outside_of_tube(const Motions& motions, Time time, const Eigen::
   return (value - high).cwiseMax(0.0) + (value - low).cwiseMin(0.0);
 }
 
-void judge_turning(InertialWatch& watch, const Motions& motions, const PlausibilityTick& tick,
+void judge_turning(InertialWatch& watch, const Told& told, const PlausibilityTick& tick,
                    const ImuReading& imu, const Spread& spread, Plausibility& found) {
   const Eigen::Vector3d turning = imu.angular_velocity - watch.gyroscope.mean;
-  watch.turning[watch.turnings++ % watch.turning.size()] = outside_of_tube(motions, imu.acquired, turning);
+  const auto count = static_cast<std::size_t>(tick.looks(4ms, 2));
+  watch.turning[watch.turnings++ % count] = outside_of_tube(told, imu.acquired, turning);
   if (!tick.free) watch.turnings = 0;
-  if (watch.turnings < watch.turning.size()) return;
+  if (watch.turnings < count) return;
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& each : watch.turning) mean += each / static_cast<double>(watch.turning.size());
-  const double noise = std::hypot(spread.turning, std::max(watch.gyroscope.deviation, 1e-3)) / 2.0;
+  for (std::size_t k = 0; k < count; ++k) mean += watch.turning[k] / static_cast<double>(count);
+  const double noise =
+      std::hypot(spread.turning, std::max(watch.gyroscope.deviation, 1e-3)) / std::sqrt(count);
   const double limit = tick.limits.inertial * noise + tick.limits.gyroscope_scale * turning.norm();
   note(found, PlausibilityCheck::gyroscope, mean.lpNorm<Eigen::Infinity>() / limit,
        GateFault::motion_contradicted);
 }
 
-void take_acceleration(InertialWatch& watch, const Eigen::Vector3d& acceleration, Time measured) {
-  constexpr std::size_t window = InertialWatch::window;
+void take_acceleration(InertialWatch& watch, std::size_t window, const Eigen::Vector3d& acceleration,
+                       Time measured) {
   const Eigen::Vector3d& before = watch.acceleration[(watch.accelerations + window - 1) % window];
   const std::size_t place = watch.accelerations++ % window;
   watch.change[place] = (acceleration - before).norm();
@@ -94,13 +101,13 @@ void take_acceleration(InertialWatch& watch, const Eigen::Vector3d& acceleration
 }
 
 /// Velocity at `time`, between those of the ticks around it; none where they are not known.
-std::optional<Eigen::Vector3d> velocity_at(const Motions& motions, Time time) {
-  const SensorPointMotion* const nearest = motion_at(motions, time);
+std::optional<Eigen::Vector3d> velocity_at(const Told& told, Time time) {
+  const SensorPointMotion* const nearest = motion_at(told, time);
   if (nearest == nullptr || nearest->time == time)
     return nearest ? std::optional(nearest->velocity) : std::nullopt;
   const Time later = time - nearest->time;
   const SensorPointMotion* const other =
-      motion_at(motions, nearest->time + (later > Time::zero() ? period : -period));
+      motion_at(told, nearest->time + (later > Time::zero() ? told.period : -told.period));
   if (other == nullptr) return std::nullopt;
   const double share = to_seconds(later) / to_seconds(other->time - nearest->time);
   return nearest->velocity + share * (other->velocity - nearest->velocity);
@@ -112,9 +119,8 @@ struct SummedUp {
   Eigen::Vector3d velocity{0.0, 0.0, 0.0};  ///< by trapezoids [m/s]
   double variation = 0.0;                   ///< in total, from zero and back [m/s^2]
 };
-SummedUp summed_up(const InertialWatch& watch) {
-  constexpr std::size_t window = InertialWatch::window;
-  const auto place = [&watch](std::size_t k) { return (watch.accelerations + k) % window; };
+SummedUp summed_up(const InertialWatch& watch, std::size_t window) {
+  const auto place = [&](std::size_t k) { return (watch.accelerations + k) % window; };
   const auto time = [&](std::size_t k) { return watch.measured[place(std::min(k, window - 1))]; };
   SummedUp sum{.from = time(0)};
   for (std::size_t k = 0; k < window; ++k) {
@@ -128,19 +134,22 @@ SummedUp summed_up(const InertialWatch& watch) {
 
 /// The change of velocity over a window, as the encoders tell it and as the accelerometer sums it up. Where
 /// the acceleration changes, a sample is a value at an instant, not a mean: hence its total variation.
-void judge_velocity(InertialWatch& watch, const Motions& motions, const PlausibilityTick& tick,
+void judge_velocity(InertialWatch& watch, const Told& told, const PlausibilityTick& tick,
                     const ImuReading& imu, const Spread& spread, const SensorPointMotion& now,
                     Plausibility& found) {
-  take_acceleration(watch, now.axes * (imu.specific_force - watch.accelerometer.mean) + tick.robot.gravity(),
+  const auto window = static_cast<std::size_t>(tick.looks(16ms, 4));
+  take_acceleration(watch, window,
+                    now.axes * (imu.specific_force - watch.accelerometer.mean) + tick.robot.gravity(),
                     imu.acquired);
   if (!tick.free) watch.accelerations = 0;
   double ratio = 0.0;
-  const SummedUp sum = summed_up(watch);
-  const auto before = velocity_at(motions, sum.from), after = velocity_at(motions, imu.acquired);
-  if (watch.accelerations >= InertialWatch::window && before && after) {
+  const SummedUp sum = summed_up(watch, window);
+  const auto before = velocity_at(told, sum.from), after = velocity_at(told, imu.acquired);
+  if (watch.accelerations >= window && before && after) {
     const double noise =
-        std::sqrt(2.0) * spread.velocity + to_seconds(period) * 4.0 * watch.accelerometer.deviation;
-    const double limit = tick.limits.inertial * noise + tick.limits.acceleration_time * sum.variation;
+        std::sqrt(2.0) * spread.velocity + tick.T() * std::sqrt(window) * watch.accelerometer.deviation;
+    const double apart_by = std::max(tick.limits.acceleration_time, 2.0 * tick.T());
+    const double limit = tick.limits.inertial * noise + apart_by * sum.variation;
     const Eigen::Vector3d apart = *after - *before - sum.velocity;
     ratio = apart.head(tick.robot.space().translations()).norm() / limit;
   }
@@ -156,7 +165,7 @@ void learn(InertialWatch& watch, const ImuReading& imu, const Eigen::Vector3d& g
 }
 
 /// The first sample that waits and of whose instant, and the tick after it, the encoders have told.
-const ImuReading* next_sample(const InertialWatch& watch, const AngleWatch& angles) {
+const ImuReading* next_sample(const InertialWatch& watch, const AngleWatch& angles, Time period) {
   for (const ImuReading& sample : watch.waiting) {
     const bool known = sample.acquired + period / 2 < angles.rates_at();
     if (sample.valid && known && sample.acquired > watch.acquired) return &sample;
@@ -188,12 +197,13 @@ void advance(InertialWatch& watch, const InertialWatch::Motions::Past& past, con
              const PlausibilityTick& tick, Plausibility& found) noexcept {
   watch.motion.push(told_by_encoders(angles, tick));
   const Motions motions(watch.motion, past);
+  const Told told{motions, tick.period};
   keep_waiting(watch, tick.imu);
-  const ImuReading* const imu = next_sample(watch, angles);
+  const ImuReading* const imu = next_sample(watch, angles, tick.period);
   if (imu == nullptr) return;
-  if (imu->acquired - watch.acquired > 3 * period / 2) watch.accelerations = watch.turnings = 0;
+  if (imu->acquired - watch.acquired > 3 * tick.period / 2) watch.accelerations = watch.turnings = 0;
   watch.acquired = imu->acquired;
-  const SensorPointMotion* const now = motion_at(motions, imu->acquired);
+  const SensorPointMotion* const now = motion_at(told, imu->acquired);
   if (now == nullptr) {
     watch.accelerations = watch.turnings = 0;
     return;
@@ -201,8 +211,8 @@ void advance(InertialWatch& watch, const InertialWatch::Motions::Past& past, con
   if (tick.held) learn(watch, *imu, tick.robot.gravity(), *now);
   if (!watch.gyroscope.known()) return;
   const Spread spread = spread_of(angles, tick);
-  judge_turning(watch, motions, tick, *imu, spread, found);
-  judge_velocity(watch, motions, tick, *imu, spread, *now, found);
+  if (found.imu_doubt == ImuDoubt::none) judge_turning(watch, told, tick, *imu, spread, found);
+  judge_velocity(watch, told, tick, *imu, spread, *now, found);
 }
 
 }  // namespace flinch

@@ -32,7 +32,7 @@ struct LearnedBias {
 /// Encoders against the inertial measurement unit: both see the same motion, whatever caused it. The unit's
 /// samples are late; each is compared with what the encoders said of its instant, give or take a tick.
 struct InertialWatch {
-  static constexpr std::size_t window = 16;  ///< samples over which velocities are compared
+  static constexpr std::size_t window = 16;  ///< samples over which velocities are compared, at most
   using Motions = Ring<SensorPointMotion, 32>;
 
   Motions motion;

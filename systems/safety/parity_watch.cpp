@@ -15,11 +15,11 @@ void advance(ParityWatch& watch, const PlausibilityTick& tick, Plausibility& fou
   }
   if (!watch.knows_offset()) return;
   const JointVector left = ParallelRobot::passive_difference(mismatch, watch.offset);
-  watch.mismatch[watch.count++ % watch.mismatch.size()] = padded(left);
+  const auto window = static_cast<std::size_t>(tick.looks(16ms));
+  watch.mismatch[watch.count++ % window] = padded(left);
   Padded<max_dof> mean = Padded<max_dof>::Zero();
-  const std::size_t held = std::min(watch.count, watch.mismatch.size());
-  for (std::size_t k = 0; k < held; ++k)
-    mean += watch.mismatch[k] / static_cast<double>(watch.mismatch.size());
+  const std::size_t held = std::min(watch.count, window);
+  for (std::size_t k = 0; k < held; ++k) mean += watch.mismatch[k] / static_cast<double>(window);
   const double now = left.lpNorm<Eigen::Infinity>() / (2.0 * tick.limits.parity);
   const double lasting = mean.lpNorm<Eigen::Infinity>() / (1.4 * tick.limits.parity);
   note(found, PlausibilityCheck::parity, std::max(now, lasting), GateFault::encoders_implausible);

@@ -1,6 +1,10 @@
 #include "systems/safety/plausibility_limits.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "systems/foundation/findings.h"
+#include "systems/signals/sampling.h"
 
 namespace flinch {
 
@@ -21,6 +25,13 @@ std::vector<std::string> problems(const PlausibilityLimits& limits, int drives) 
   found.require(limits.torque_constant.size() == 0 || limits.torque_constant.size() == drives,
                 "torque_constant must have one entry for each drive");
   return found.take();
+}
+
+QuietRow quiet_row(const PlausibilityLimits& limits, Time look) noexcept {
+  constexpr int fewest = 4;
+  const int most = limits.quiet_ticks;
+  const int looks = std::min(most, periods_in(most * 1ms, look, fewest));
+  return {looks, looks == most ? limits.quiet : std::pow(limits.quiet, static_cast<double>(most) / looks)};
 }
 
 }  // namespace flinch

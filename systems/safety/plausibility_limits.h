@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "systems/framework/time.h"
 #include "systems/robot/imu_mount.h"
 #include "systems/robot/vectors.h"
 
@@ -12,6 +13,7 @@ namespace flinch {
 /// Where a reading begins to contradict others. The defaults are those of the bench. Noise is learned while
 /// the brakes hold the robot before it moves for the first time.
 struct PlausibilityLimits {
+  Time period = 1ms;  ///< from tick to tick of the control path
   /// What the largest torque gives the drive with the least inertia [rad/s^2]. A tenth of what it does in a
   /// tick counts as noise of a change of rate where less is measured.
   double drive_acceleration = 172.0;
@@ -20,7 +22,7 @@ struct PlausibilityLimits {
   double neighbours = 0.3;  ///< share of it that those before and after may have
   double pair = 8.0;        ///< of two changes there and back, in standard deviations
   double quiet = 0.03;      ///< share of its noise that is left of a signal which stands still
-  int quiet_ticks = 8;
+  int quiet_ticks = 8;      ///< such looks in a row, 1 ms apart; see `quiet_row`
 
   ImuMount imu_mount;
   double inertial = 10.0;         ///< difference to the IMU, in standard deviations
@@ -37,6 +39,14 @@ struct PlausibilityLimits {
   double resting_rate = 0.1;      ///< of a drive that counts as held; by half of it, as at rest [rad/s]
   bool commands_act = true;       ///< what is commanded reaches the drives whose readings are seen
 };
+
+/// Looks in a row at which a signal is quiet, and the share of its noise that may be left: where looks are
+/// rare a smaller share makes up for a shorter row, so that chance makes it as seldom. (Derived.)
+struct QuietRow {
+  int looks;
+  double share;
+};
+QuietRow quiet_row(const PlausibilityLimits& limits, Time look) noexcept;
 
 /// All that is wrong with `limits`, one sentence each.
 std::vector<std::string> problems(const PlausibilityLimits& limits, int drives);

@@ -9,9 +9,9 @@
 namespace flinch {
 namespace {
 
-constexpr int settling = 8;      // ticks after the brakes have opened that belong to no check
-constexpr int lost_after = 20;   // ticks without a reading
-constexpr int there_after = 20;  // ticks with one
+constexpr Time settling = 8ms;      // after the brakes have opened, that belongs to no check
+constexpr Time lost_after = 20ms;   // without a reading
+constexpr Time there_after = 20ms;  // with one
 
 /// What the two commands before have done over the last two intervals: each half of them. None where one of
 /// them was no torque.
@@ -23,23 +23,32 @@ JointVector acting_torque(const PlausibilityMemory& memory) {
 /// Takes in what the gate did at the end of the tick before.
 void note(PlausibilityMemory& memory, const GateAction& done, const PlausibilityLimits& limits, Time now) {
   memory.torque_before = memory.torque;
-  memory.torque = done.torque.valid ? done.torque.torque : JointVector();
+  memory.torque = done.mean_torque;
   command(memory.currents, limits, done.torque);
   remember(memory.rest, now, done.status, done.brake.engage, done.torque);
 }
 
-void count(bool there, int& seen, int& missing) {
-  if (there) seen = std::min(seen + 1, there_after);
-  missing = there ? 0 : std::min(missing + 1, lost_after);
+/// Counts the looks with and without readings of something; whether it is lost.
+bool is_lost(const PlausibilityTick& tick, bool there, int& seen, int& missing) {
+  const int enough = tick.looks(there_after, 5), too_many = tick.looks(lost_after, 5);
+  if (there) seen = std::min(seen + 1, enough);
+  missing = there ? 0 : std::min(missing + 1, too_many);
+  return seen >= enough && missing >= too_many;
 }
 
-bool is_lost(int seen, int missing) { return seen >= there_after && missing >= lost_after; }
+/// Whether a unit with this doubt still measures what happens to it.
+bool tells_motion(ImuDoubt doubt) {
+  return doubt != ImuDoubt::dropped_out && doubt != ImuDoubt::frozen && doubt != ImuDoubt::saturated;
+}
 
 }  // namespace
 
 PlausibilityMonitor::PlausibilityMonitor(std::shared_ptr<const ParallelRobot> robot,
                                          const PlausibilityLimits& limits)
-    : robot_(std::move(robot)), limits_(limits), mounted_(limits.imu_mount) {
+    : look_(whole_periods(shortest_look, limits.period)),
+      robot_(std::move(robot)),
+      limits_(limits),
+      mounted_(limits.imu_mount) {
   throw_if_any(problems(limits, robot_->drives()));
 }
 
@@ -51,17 +60,20 @@ void PlausibilityMonitor::advance(Time now, const PlausibilityMemory& last, cons
                                   const Kinematics& kinematic, const Dynamics& dynamic,
                                   PlausibilityMemory& next) const {
   next = last;
+  next.looked = now;
   note(next, done, limits_, now);
   next.found = {};
   next.found.valid = true;
+  const int settled = periods_in(settling, look_, 4);
   const bool open = status.valid && !status.braked && status.enabled && !next.rest.engage;
-  next.free = open ? std::min(last.free + 1, settling) : (status.valid || next.rest.engage ? 0 : last.free);
+  next.free = open ? std::min(last.free + 1, settled) : (status.valid || next.rest.engage ? 0 : last.free);
   next.moved = last.moved || open;
   ImuReading believed = inertial;
   const PlausibilityTick tick{.robot = *robot_,
                               .limits = limits_,
                               .mounted = mounted_,
                               .now = now,
+                              .period = look_,
                               .joints = angles,
                               .drives = currents,
                               .torque = acting,
@@ -70,7 +82,7 @@ void PlausibilityMonitor::advance(Time now, const PlausibilityMemory& last, cons
                               .kinematics = kinematic,
                               .dynamics = dynamic,
                               .held = !next.moved && status.valid && status.braked,
-                              .free = next.free == settling};
+                              .free = next.free == settled};
   const JointVector acts = limits_.commands_act ? acting_torque(next) : JointVector();
   flinch::advance(next.status, status, next.rest.engage, next.angles, tick, next.found);
   flinch::advance(next.angles, tick, acts, next.found);
@@ -78,17 +90,38 @@ void PlausibilityMonitor::advance(Time now, const PlausibilityMemory& last, cons
     flinch::advance(next.response, next.angles.unexplained(), next.angles.mean_interval(), acts,
                     next.angles.rates(), tick, next.found);
   flinch::advance(next.currents, tick, next.found);
-  if (command.reset) next.imu = ImuWatch();
+  if (command.reset || done.reset) next.imu = ImuWatch();
   flinch::advance(next.imu, past.imu, next.inertial, next.angles, tick, next.found);
-  believed.valid = inertial.valid && !next.found.imu_left_out;
+  // Without passive encoders nothing else tells the motion: then it may be the encoders that lie.
+  const bool is_alone = next.passive_seen == 0 || last.found.passive_lost;
+  const bool is_asked = !next.found.imu_left_out || (is_alone && tells_motion(next.found.imu_doubt));
+  believed.valid = inertial.valid && is_asked;
   flinch::advance(next.inertial, past.points, next.angles, tick, next.found);
   flinch::advance(next.parity, tick, next.found);
   flinch::advance(next.rest, past.driven, next.angles, tick, next.found);
-  count(angles.passive_valid, next.passive_seen, next.passive_missing);
-  count(inertial.valid, next.imu_seen, next.imu_missing);
-  next.found.passive_lost = is_lost(next.passive_seen, next.passive_missing);
-  next.found.imu_lost = is_lost(next.imu_seen, next.imu_missing);
+  next.found.passive_lost = is_lost(tick, angles.passive_valid, next.passive_seen, next.passive_missing);
+  next.found.imu_lost = is_lost(tick, inertial.valid, next.imu_seen, next.imu_missing);
   next.found.askable = askable_checks(next, tick);
+}
+
+void PlausibilityMonitor::note_action(Time now, const PlausibilityMemory& memory, const TorqueCommand& torque,
+                                      const BrakeCommand& brakes, const GateStatus& status,
+                                      const ResetCommand& command, GateAction& done) const {
+  const bool anew = memory.looked == now;  // what was before has been seen at this tick
+  const int before = anew ? 0 : done.ticks;
+  const JointVector wanted = torque.valid ? torque.torque : JointVector();
+  if (before == 0) {
+    done.mean_torque = wanted;
+  } else if (wanted.size() == done.mean_torque.size()) {
+    done.mean_torque += (wanted - done.mean_torque) / (before + 1);
+  } else {
+    done.mean_torque = JointVector();
+  }
+  done.ticks = before + 1;
+  done.reset = !anew && (done.reset || command.reset);
+  done.torque = torque;
+  done.brake = brakes;
+  done.status = status;
 }
 
 }  // namespace flinch

@@ -26,6 +26,7 @@ struct PlausibilityMemory {
   RestWatch rest;
   StatusWatch status;
   ResponseWatch response;
+  Time looked{};                             ///< the last tick at which anybody looked
   JointVector torque, torque_before;         ///< commanded in the two ticks before [Nm]; empty: none
   int free = 0;                              ///< ticks since the brakes have opened
   bool moved = false;                        ///< they have been open before: nothing is learned any more
@@ -43,6 +44,9 @@ struct PlausibilityPast {
 
 /// What the gate has done at the tick before.
 struct GateAction {
+  JointVector mean_torque;  ///< of all ticks since the monitor looked [Nm]; empty: one of them had none
+  int ticks = 0;            ///< of these
+  bool reset = false;       ///< the operator has reset at one of them but the first
   TorqueCommand torque;
   BrakeCommand brake;
   GateStatus status;
@@ -55,9 +59,15 @@ struct GateAction {
 /// An inertial measurement unit that cannot be believed stops no robot: it is left out. `believed_imu`
 /// passes on what can be believed of it.
 ///
+/// It looks every millisecond, or every tick where ticks are longer: what contradicts itself shows in second
+/// differences of angles, whose noise grows with the square of the rate. Meanwhile what it has found stands,
+/// and the unit's samples wait: none is believed that was not looked at.
+///
 /// Noise, biases and offsets are learned while the brakes hold the robot before its first motion; what needs
 /// them stays silent without.
 class PlausibilityMonitor final : public System {
+  static constexpr Time shortest_look = 1ms;
+  Time look_;  ///< from look to look
   State<PlausibilityMemory> last_ = state<PlausibilityMemory>("last");
   State<PlausibilityPast> past_ = state<PlausibilityPast>("past");
   State<GateAction> done_ = state<GateAction>("done");
@@ -81,18 +91,19 @@ class PlausibilityMonitor final : public System {
   InputPort<GateStatus> gate = input<GateStatus>("gate");
 
  private:
-  Intermediate<PlausibilityMemory> now_ =
-      intermediate<&PlausibilityMonitor::advance>("memory", clock, last_, past_, done_, joints, drives, imu,
-                                                  torque, reset, station, platform, kinematics, dynamics);
+  Intermediate<PlausibilityMemory> now_ = intermediate<&PlausibilityMonitor::advance>(
+      Every{look_}, "memory", clock, last_, past_, done_, joints, drives, imu, torque, reset, station,
+      platform, kinematics, dynamics);
 
  public:
   OutputPort<Plausibility> plausibility = output<&PlausibilityMonitor::read>("plausibility", now_);
-  OutputPort<ImuReading> believed_imu = output<&PlausibilityMonitor::pass_on>("believed_imu", now_, imu);
+  OutputPort<ImuReading> believed_imu =
+      output<&PlausibilityMonitor::pass_on>(Every{look_}, "believed_imu", now_, imu);
 
  private:
-  Update remember_ = keep(last_, now_);
-  Update keep_ = update<&PlausibilityMonitor::keep_newest>(past_, now_);
-  Update note_ = update<&PlausibilityMonitor::note_action>(done_, commanded, brake, gate);
+  Update remember_ = keep(Every{look_}, last_, now_);
+  Update keep_ = update<&PlausibilityMonitor::keep_newest>(Every{look_}, past_, now_);
+  Update note_ = update<&PlausibilityMonitor::note_action>(done_, clock, now_, commanded, brake, gate, reset);
 
   void advance(Time now, const PlausibilityMemory& last, const PlausibilityPast& past, const GateAction& done,
                const JointReading& angles, const DriveReading& currents, const ImuReading& inertial,
@@ -110,10 +121,9 @@ class PlausibilityMonitor final : public System {
     memory.imu.errors.keep_in(past.imu.errors);
     memory.rest.driven.keep_in(past.driven);
   }
-  void note_action(const TorqueCommand& command, const BrakeCommand& brakes, const GateStatus& status,
-                   GateAction& done) const {
-    done = {command, brakes, status};
-  }
+  void note_action(Time now, const PlausibilityMemory& memory, const TorqueCommand& torque,
+                   const BrakeCommand& brakes, const GateStatus& status, const ResetCommand& command,
+                   GateAction& done) const;
 
   std::shared_ptr<const ParallelRobot> robot_;
   PlausibilityLimits limits_;

@@ -13,6 +13,7 @@
 #include "systems/signals/joint_reading.h"
 #include "systems/signals/platform_motion.h"
 #include "systems/signals/plausibility.h"
+#include "systems/signals/sampling.h"
 
 namespace flinch {
 
@@ -22,6 +23,7 @@ struct PlausibilityTick {
   const PlausibilityLimits& limits;
   const MountedImu& mounted;  ///< by the limits' mount
   Time now;
+  Time period;  ///< since the tick before at which anybody looked
   const JointReading& joints;
   const DriveReading& drives;
   const DriveTorque& torque;
@@ -31,6 +33,11 @@ struct PlausibilityTick {
   const Dynamics& dynamics;
   bool held;  ///< the brakes are closed
   bool free;  ///< they have been open for some ticks, and the drives obey
+
+  // NOLINTNEXTLINE(readability-identifier-naming): as in the equations
+  double T() const noexcept { return to_seconds(period); }
+  /// How many looks there are in `time`, at least `least`.
+  int looks(Time time, int least = 1) const noexcept { return periods_in(time, period, least); }
 };
 
 /// A vector with zeros below what it has: many of one size are copied at once.

@@ -30,6 +30,8 @@ PlaceExcess place_excess(const PlaceTick& tick) noexcept {
   type_1 = 1.0 - std::abs(tick.measures.det_B) / limits.min_abs_det_B;
   if (tick.measures.det_A > 0.0) type_2 = 1.0 - tick.measures.det_A / limits.min_abs_det_A;
   self_collision = 1.0 - tick.measures.sigma_sc / limits.min_self_collision_distance;
+  if (limits.min_platform_gap > 0.0)
+    self_collision = std::max(self_collision, 1.0 - tick.measures.platform_gap / limits.min_platform_gap);
   return excess;
 }
 

@@ -11,7 +11,7 @@ namespace flinch {
 /// torque, at every instant alike, and nothing at the others. What is pressed against its link may look like
 /// that, but gives back less energy than it took, and like a drive of the wrong sign (k = -1) never for long.
 struct ResponseWatch {
-  static constexpr std::size_t window = 20;  ///< [ticks]
+  static constexpr std::size_t parts = 5, window = 20;  ///< of the looks that it takes in; the most of them
 
   /// One entry per drive.
   struct Tick {

@@ -9,19 +9,15 @@ namespace flinch {
 namespace {
 
 using Driven = Series<DrivenTick, 32>;
-constexpr std::size_t window = 32;  // [ticks]
-
 constexpr Time brakes_close = 60ms;  // brakes of 30 ms, and as long again until the robot rests
 constexpr Time torque_turns = 15ms;  // from one end of the range to the other, behind the velocity filter
-constexpr double period = 1e-3;      // of readings [s]
-constexpr std::size_t arm = 6;       // of a second difference [ticks]
 constexpr double idle_share =
-    0.75;                          // of a change of torque; lags and friction leave half of it without effect
-constexpr double surely = 5.0;     // standard deviations
-constexpr Time drift_lasts = 1s;   // longer than any stop takes
-constexpr int rest_lasts = 100;    // ticks; a drift that turns seems to rest for less
-constexpr double led_share = 0.3;  // of the power of gravity, were each drive to move with it
-constexpr double guided = 0.25;    // speed at which a hand may lead a stopped robot [m/s], ISO 10218-1
+    0.75;                         // of a change of torque; lags and friction leave half of it without effect
+constexpr double surely = 5.0;    // standard deviations
+constexpr Time drift_lasts = 1s;  // longer than any stop takes
+constexpr Time rest_lasts = 100ms;  // a drift that turns seems to rest for less
+constexpr double led_share = 0.3;   // of the power of gravity, were each drive to move with it
+constexpr double guided = 0.25;     // speed at which a hand may lead a stopped robot [m/s], ISO 10218-1
 constexpr Time longest_blind = 10ms;
 constexpr double energy_left = 0.9;  // share of what it was 6 ms before; damping leaves two thirds
 
@@ -40,7 +36,7 @@ void judge_drift(RestWatch& watch, const PlausibilityTick& tick, Plausibility& f
   const double moves = tick.kinematics.rates.active.lpNorm<Eigen::Infinity>() / resting;
   const bool led = moves > 1.0 && power > led_share * resting * g_qa.lpNorm<1>();
   watch.unled = led ? 0 : watch.unled + 1;
-  if (watch.unled >= rest_lasts) watch.unled_at = tick.now;
+  if (watch.unled >= tick.looks(rest_lasts)) watch.unled_at = tick.now;
   if (led && tick.now - std::max(watch.gate.since, watch.unled_at) > drift_lasts)
     note(found, PlausibilityCheck::stop, moves, GateFault::stop_ineffective);
 }
@@ -68,7 +64,7 @@ void judge_stop(RestWatch& watch, const PlausibilityTick& tick, const JointVecto
   }
   judge_drift(watch, tick, found);
   const double energy = kinetic_energy(tick, rates);
-  const std::size_t ring = watch.energy.size();
+  const auto ring = static_cast<std::size_t>(tick.looks(6ms, 2));
   const double before = watch.energy[watch.energies % ring];
   const bool asked = watch.energies >= ring && tick.now - watch.gate.since > torque_turns;
   watch.energy[watch.energies++ % ring] = energy;
@@ -87,16 +83,36 @@ void judge_brakes(RestWatch& watch, const PlausibilityTick& tick, const JointVec
        static_cast<int>(drive));
 }
 
-/// What is `age` ticks younger than the oldest of a full ring.
-const DrivenTick& aged(const Driven& driven, std::size_t age) { return driven.back(window - 1 - age); }
+/// The looks of the last 32 ms.
+class StillWindow {
+ public:
+  StillWindow(const Driven& driven, const PlausibilityTick& tick)
+      : driven_(driven),
+        size(static_cast<std::size_t>(tick.looks(32ms))),
+        arm(static_cast<std::size_t>(tick.looks(6ms))),
+        T(tick.T()) {}
 
-bool drives_have_stood(const Driven& driven, const AngleWatch& angles, const PlausibilityTick& tick) {
+  bool is_full() const { return driven_.held() >= size; }
+  /// What is `age` looks younger than the oldest.
+  const DrivenTick& aged(std::size_t age) const { return driven_.back(size - 1 - age); }
+
+ private:
+  const Driven& driven_;
+
+ public:
+  const std::size_t size;
+  const std::size_t arm;  ///< of a second difference
+  const double T;         ///< from look to look [s]
+};
+
+bool drives_have_stood(const StillWindow& driven, const AngleWatch& angles, const PlausibilityTick& tick) {
   for (Eigen::Index i = 0; i < tick.robot.drives(); ++i) {
-    const double still = std::max(0.1 * tick.limits.resting_rate * period * static_cast<double>(window),
-                                  10.0 * angles.angle_noise(i, tick.limits));
+    const double still =
+        std::max(0.1 * tick.limits.resting_rate * driven.T * static_cast<double>(driven.size),
+                 10.0 * angles.angle_noise(i, tick));
     double low = HUGE_VAL, high = -HUGE_VAL;
-    for (std::size_t age = 0; age < window; ++age) {
-      const double angle = driven.back(age).angle[i];
+    for (std::size_t age = driven.size; age-- > 0;) {
+      const double angle = driven.aged(age).angle[i];
       low = std::min(low, angle);
       high = std::max(high, angle);
       if (high - low > still) return false;
@@ -106,11 +122,11 @@ bool drives_have_stood(const Driven& driven, const AngleWatch& angles, const Pla
 }
 
 /// By how much each torque has been another one for half the window than when it began [Nm].
-Padded<max_dof> change_of_torque(const Driven& driven) {
-  const Padded<max_dof>& oldest = aged(driven, 0).torque;
+Padded<max_dof> change_of_torque(const StillWindow& driven) {
+  const Padded<max_dof>& oldest = driven.aged(0).torque;
   Padded<max_dof> least = Padded<max_dof>::Constant(HUGE_VAL);
-  for (std::size_t age = window / 2; age < window; ++age)
-    least = least.cwiseMin((aged(driven, age).torque - oldest).cwiseAbs());
+  for (std::size_t age = driven.size / 2; age < driven.size; ++age)
+    least = least.cwiseMin((driven.aged(age).torque - oldest).cwiseAbs());
   return least;
 }
 
@@ -120,16 +136,18 @@ struct DrivenMotion {
   Padded<max_dof> acceleration, torque;
 };
 
-DrivenMotion driven_motion(const Driven& driven, std::size_t age) {
-  const auto angle = [&](std::size_t at) -> const Padded<max_dof>& { return aged(driven, at).angle; };
-  constexpr double area = arm * arm;
+DrivenMotion driven_motion(const StillWindow& driven, std::size_t age) {
+  const std::size_t arm = driven.arm;
+  const auto angle = [&](std::size_t at) -> const Padded<max_dof>& { return driven.aged(at).angle; };
+  const auto area = static_cast<double>(arm * arm);
   DrivenMotion motion;
-  motion.acceleration = (angle(age + arm) - 2.0 * angle(age) + angle(age - arm)) / (area * period * period);
+  motion.acceleration =
+      (angle(age + arm) - 2.0 * angle(age) + angle(age - arm)) / (area * driven.T * driven.T);
   motion.torque.setZero();
   for (std::size_t away = 0; away < arm; ++away) {
     const double weight = static_cast<double>(arm - away) / area;
-    motion.torque += weight * aged(driven, age + away).torque;
-    if (away > 0) motion.torque += weight * aged(driven, age - away).torque;
+    motion.torque += weight * driven.aged(age + away).torque;
+    if (away > 0) motion.torque += weight * driven.aged(age - away).torque;
   }
   return motion;
 }
@@ -137,17 +155,18 @@ DrivenMotion driven_motion(const Driven& driven, std::size_t age) {
 /// How surely the change of each torque, from the begin of the window to its end, has moved nothing: what
 /// M_qa ddq leaves of it, over what honest drives leave; above 1 for those that do not move the robot.
 /// Gravity, bias and all that lasts is in both ends.
-JointVector idleness(const Driven& driven, const AngleWatch& angles, const PlausibilityTick& tick) {
-  const DrivenMotion first = driven_motion(driven, arm);
-  const DrivenMotion last = driven_motion(driven, window - 1 - arm);
+JointVector idleness(const StillWindow& driven, const AngleWatch& angles, const PlausibilityTick& tick) {
+  const DrivenMotion first = driven_motion(driven, driven.arm);
+  const DrivenMotion last = driven_motion(driven, driven.size - 1 - driven.arm);
   const PlatformMatrix& J = tick.kinematics.J_x_qa;
   const PlatformMatrix M_qa = J.transpose() * tick.dynamics.M_x * J;
   const Eigen::Index drives = M_qa.rows();
   const JointVector change = (last.torque - first.torque).head(drives);
   const JointVector idle = change - M_qa * (last.acceleration - first.acceleration).head(drives);
   JointVector noise(idle.size());  // of that difference of accelerations
+  const auto area = static_cast<double>(driven.arm * driven.arm);
   for (Eigen::Index i = 0; i < noise.size(); ++i)
-    noise[i] = std::sqrt(12.0) * angles.angle_noise(i, tick.limits) / (arm * arm * period * period);
+    noise[i] = std::sqrt(12.0) * angles.angle_noise(i, tick) / (area * driven.T * driven.T);
   const JointVector unsure = surely * (M_qa.cwiseAbs() * noise);
   return idle.cwiseAbs().cwiseQuotient((idle_share * change.cwiseAbs()).cwiseMax(unsure));
 }
@@ -163,8 +182,9 @@ void judge_still(RestWatch& watch, const RestWatch::Driven::Past& past, const An
     return;
   }
   watch.driven.push({padded(angles.angle.back()), padded(watch.torque)});
-  const Driven driven(watch.driven, past);
-  const bool known = driven.held() == window && tick.kinematics.valid && tick.dynamics.valid;
+  const Driven ring(watch.driven, past);
+  const StillWindow driven(ring, tick);
+  const bool known = driven.is_full() && tick.kinematics.valid && tick.dynamics.valid;
   if (!known || !drives_have_stood(driven, angles, tick)) return;
   const JointVector changed = change_of_torque(driven).head(tick.robot.drives()) / tick.limits.still_torque;
   note(found, PlausibilityCheck::still, changed.cwiseMin(idleness(driven, angles, tick)).maxCoeff(),

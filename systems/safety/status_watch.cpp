@@ -6,7 +6,7 @@
 namespace flinch {
 namespace {
 
-constexpr double moving_ticks = 3.5;  // in a row; brakes that close on their own stop no robot sooner
+constexpr Time moving = 4ms;     // brakes that close on their own stop no robot sooner
 constexpr double play = 50e-3;   // of closed brakes: what a drive at its resting rate moves meanwhile [s]
 constexpr Time opening = 500ms;  // of slow brakes, and the way of the word that they are open
 constexpr Time flutter = 20ms;   // of brakes that close for want of commands, and open with the next one
@@ -44,9 +44,10 @@ void advance(StatusWatch& watch, const StationStatus& status, bool engaged, cons
   const JointVector rates = tick.joints.valid ? angles.rates() : JointVector();
   const bool moves = rates.size() > 0 && rates.lpNorm<Eigen::Infinity>() > tick.limits.resting_rate;
   watch.moving = moves ? watch.moving + 1 : 0;
+  const double most_looks = tick.looks(moving, 2) - 0.5;
   const double late = to_seconds(tick.now - watch.since) / to_seconds(watch.opened ? flutter : opening);
   const double shift = moved(watch, tick) / (play * tick.limits.resting_rate);
-  note(found, PlausibilityCheck::status, std::max({watch.moving / moving_ticks, shift, late}),
+  note(found, PlausibilityCheck::status, std::max({watch.moving / most_looks, shift, late}),
        GateFault::status_contradicted);
 }
 

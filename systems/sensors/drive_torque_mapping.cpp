@@ -1,5 +1,6 @@
 #include "systems/sensors/drive_torque_mapping.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -22,9 +23,8 @@ std::vector<std::string> problems(const DriveTorqueSettings& settings, const Joi
   found.require(settings.delay.size() == 0 || settings.delay.size() == drives,
                 "delay has " + std::to_string(settings.delay.size()) + " entries; the robot has " +
                     std::to_string(drives) + " drives");
-  const double period = to_seconds(settings.sampling.period);
-  found.require(settings.delay.allFinite() && (settings.delay.array().abs() <= period).all(),
-                "delay has an entry of more than a period, or one that is not finite [s]");
+  found.require(settings.delay.allFinite() && (settings.delay.array().abs() <= longest_torque_delay).all(),
+                "delay has an entry of more than 1 ms, or one that is not finite [s]");
   if (low_pass) found.add_all(problems(*low_pass));
   return found.take();
 }
@@ -54,11 +54,19 @@ DelayedCurrent DriveTorqueMapping::delayed(const DriveReading& reading, const De
   const bool has_last = last.measured.size() > 0;
   if (delay_.size() == 0 || !is_usable(reading) || (has_last && reading.acquired == last.acquired))
     return last;
-  DelayedCurrent now{reading.acquired, reading.current, reading.current};
+  DelayedCurrent now{reading.acquired, reading.current, reading.current, {}};
   if (has_last && reading.acquired > last.acquired &&
       !sampling_.interrupted(last.acquired, reading.acquired)) {
     const double interval = to_seconds(reading.acquired - last.acquired);
-    now.acting -= delay_.cwiseProduct(now.measured - last.measured) / interval;
+    now.earlier.front() = last.measured;
+    std::copy(last.earlier.begin(), last.earlier.end() - 1, now.earlier.begin() + 1);
+    for (Eigen::Index i = 0; i < delay_.size(); ++i) {
+      const auto [whole, rest] = in_intervals(delay_[i], interval);
+      const JointVector& from = now.earlier[whole];
+      if (from.size() == 0) continue;
+      const double then = whole == 0 ? now.measured[i] : now.earlier[whole - 1][i];
+      now.acting[i] = then - rest * (then - from[i]) / interval;
+    }
   }
   return now;
 }

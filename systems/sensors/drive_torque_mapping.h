@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 
 #include "systems/framework/system.h"
 #include "systems/robot/cogging.h"
+#include "systems/robot/drive_parameters.h"
 #include "systems/robot/parallel_robot.h"
 #include "systems/sensors/first_order_low_pass.h"
 #include "systems/signals/drive_reading.h"
@@ -34,6 +36,7 @@ struct DelayedCurrent {
   Time acquired{};
   JointVector measured;
   JointVector acting;
+  std::array<JointVector, most_delayed> earlier;  ///< measured before, the latest first; empty: none
 };
 
 /// What the mapping remembers: its last sample.
@@ -56,7 +59,8 @@ struct DriveTorqueMemory {
 ///
 /// Where the torque of a drive is known to be behind its current, by lambda, the current that acts is
 ///   i_k - lambda (i_k - i_{k-1}) / T,
-/// as if it changed evenly. After a gap it is that which is read.
+/// as if it changed evenly. Where lambda is longer than T, it lies between two before. After a gap it is that
+/// which is read.
 ///
 /// Cogging follows from where the drive is: its mean over the interval is that of its two ends. (Derived.)
 /// While the encoders say nothing it stays as it was.

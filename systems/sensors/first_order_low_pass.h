@@ -17,6 +17,8 @@ enum class LowPassForm : std::uint8_t {
 struct LowPassSettings {
   double cutoff_frequency = 30.0;  ///< w / (2 pi) [Hz]. [ICRA23] III-A
   LowPassForm form = LowPassForm::tustin;
+
+  friend bool operator==(const LowPassSettings&, const LowPassSettings&) = default;
 };
 
 /// All that is wrong with `settings`, one sentence each.

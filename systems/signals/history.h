@@ -21,6 +21,9 @@ struct Around {
   }
 };
 
+/// As many ticks of 0.25 ms as a sensor on the platform may be late: 16 ms.
+inline constexpr std::size_t late_samples = 64;
+
 /// The last samples of a signal, at most `size`, in the order of their acquisition.
 template <class Sample, std::size_t size>
 struct History {

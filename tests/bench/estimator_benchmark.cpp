@@ -11,6 +11,7 @@
 #include "diagrams/acceleration_stages.h"
 #include "diagrams/contact_control_settings.h"
 #include "diagrams/estimator_stages.h"
+#include "diagrams/shared_parts.h"
 #include "systems/framework/constant.h"
 #include "systems/robot/imu_output.h"
 #include "systems/robot/planar_rrr.h"
@@ -124,17 +125,18 @@ class EstimatorBench {
     given.dynamics = builder_.add<Constant<Dynamics>>("dynamics", dynamics).value;
     for (const AccelerationSource& source : acceleration_stages()) {
       if (name != "direct_method" || source.name != "extended_imu_ekf") continue;
-      given.acceleration = source.add({builder_, source.name, bench(), settings_}, given);
+      given.acceleration = source.add({builder_, source.name, bench(), settings_, shared_}, given);
       given.accelerations.push_back({source.name, given.acceleration});
     }
     for (const WrenchEstimator& estimator : estimator_stages()) {
-      if (estimator.name == name) estimator.add({builder_, name, bench(), settings_}, given);
+      if (estimator.name == name) estimator.add({builder_, name, bench(), settings_, shared_}, given);
     }
     return builder_;
   }
 
   DiagramBuilder builder_{"bench", 1ms};
   ContactControlSettings settings_;
+  SharedParts shared_;
   InputPort<JointReading> joints_ = builder_.input<JointReading>("joints");
   InputPort<DriveReading> drives_ = builder_.input<DriveReading>("drives");
   test::Ticking ticking_;

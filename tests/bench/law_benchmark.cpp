@@ -15,6 +15,7 @@
 
 #include "diagrams/contact_control_settings.h"
 #include "diagrams/limit_keeping.h"
+#include "diagrams/shared_parts.h"
 #include "systems/framework/constant.h"
 #include "systems/laws/limit_keeper.h"
 #include "systems/robot/forward_dynamics.h"
@@ -156,11 +157,11 @@ class LawBench {
     given.nominal = always("nominal", PlatformReference());
     for (const ControlLaw& law : known_stages().reaction_laws.all) {
       if (law.name != name) continue;
-      const LawPorts added = law.add({builder_, name, bench(), settings_}, given);
+      const LawPorts added = law.add({builder_, name, bench(), settings_, shared_}, given);
       if (limits == Limits::not_kept) continue;
       settings_.limits = strict_limits();
       const KeptTorques kept =
-          add_limit_keeper({builder_, "limits", bench(), settings_}, given, added.torque);
+          add_limit_keeper({builder_, "limits", bench(), settings_, shared_}, given, added.torque);
       builder_.connect(kept.torque, *kept.commanded);
       kept_ = kept.status;
     }
@@ -170,6 +171,7 @@ class LawBench {
   const Path& path_;
   DiagramBuilder builder_{"bench", 1ms};
   ContactControlSettings settings_;
+  SharedParts shared_;
   std::optional<OutputPort<LimitStatus>> kept_;
   InputPort<JointReading> joints_ = builder_.input<JointReading>("joints");
   InputPort<DriveReading> drives_ = builder_.input<DriveReading>("drives");

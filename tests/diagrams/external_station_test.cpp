@@ -31,9 +31,9 @@ Arrival<JointReading> joints(std::uint32_t number, Time acquired, std::uint32_t 
 /// A station whose joint readings the test brings in, tick by tick.
 class Outside {
  public:
-  Outside() {
+  explicit Outside(const ExternalStationSettings& settings = {}) {
     DiagramBuilder builder("outside");
-    station_ = add_external_station(builder, bench());
+    station_ = add_external_station(builder, bench(), settings);
     builder.connect(builder.add<Constant<TorqueCommand>>("torque", TorqueCommand()).value,
                     station_.torque_command);
     builder.connect(builder.add<Constant<BrakeCommand>>("brake", BrakeCommand()).value, station_.brake);
@@ -200,6 +200,29 @@ TEST(ExternalStation, NeverAllocates) {
 TEST(ExternalStation, RefusesAgesThatLetNothingIn) {
   DiagramBuilder builder;
   EXPECT_THROW(add_external_station(builder, bench(), {.max_age = 0ms}), SetupError);
+}
+
+TEST(ExternalStation, ShowsAllButBrokenReadingsAsTheyAreInLockstep) {
+  Outside outside({.lockstep = true});
+  EXPECT_EQ(outside.tick(joints(1, 1s)), Flow::fresh);
+  EXPECT_EQ(outside.tick(joints(2, 900ms)), Flow::fresh) << "a sensor that is late, or stands";
+  EXPECT_TRUE(outside.reading().valid);
+  EXPECT_EQ(outside.reading().acquired, 900ms);
+  EXPECT_EQ(outside.reading().active, JointVector::Constant(3, 2.0));
+  EXPECT_EQ(outside.tick(joints(40, 900ms)), Flow::fresh);
+  EXPECT_EQ(outside.link().skipped, 0U) << "the numbers count what was sent again";
+
+  Arrival<JointReading> none = joints(41, 1003ms);
+  none.reading.valid = false;
+  EXPECT_EQ(outside.tick(none), Flow::fresh);
+  EXPECT_FALSE(outside.reading().valid);
+  EXPECT_EQ(outside.reading().active, JointVector::Constant(3, 41.0));
+
+  Arrival<JointReading> of_another_robot = joints(42, 1004ms);
+  of_another_robot.reading.active = JointVector::Zero(2);
+  EXPECT_EQ(outside.tick(of_another_robot), Flow::broken);
+  EXPECT_FALSE(outside.reading().valid);
+  EXPECT_EQ(outside.reading().active.size(), 3);
 }
 
 }  // namespace

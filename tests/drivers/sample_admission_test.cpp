@@ -160,5 +160,48 @@ TEST(SampleAdmission, ListensAgainWhereSessionsMayComeBack) {
   EXPECT_EQ(gate.judge(7, 2, 2s), admitted);
 }
 
+TEST(SampleAdmission, HearsSendersOfItsOwnPaceOnly) {
+  flinch_Header by_the_clock = header(7, 1, 1s), in_lockstep = header(7, 2, 1s);
+  in_lockstep.flags = flag_lockstep;
+  SampleAdmission clock({.robot = robot}), lockstep({.robot = robot, .pace = Pace::lockstep});
+  EXPECT_EQ(clock.judge(in_lockstep, 1s), other_pace);
+  EXPECT_EQ(clock.session(), 0U) << "it is not listened to";
+  EXPECT_EQ(clock.judge(by_the_clock, 1s), admitted);
+  EXPECT_EQ(lockstep.judge(by_the_clock, 1s), other_pace);
+  EXPECT_EQ(lockstep.judge(in_lockstep, 1s), admitted);
+  SampleAdmission either({.robot = robot, .pace = std::nullopt});
+  EXPECT_EQ(either.judge(by_the_clock, 1s), admitted);
+  EXPECT_EQ(either.judge(in_lockstep, 2s), admitted);
+}
+
+TEST(SampleAdmission, TranslatesNoTimesInLockstepAndFindsNoneTooLate) {
+  SampleAdmission admission({.robot = robot, .longest_silence = 10s, .pace = Pace::lockstep});
+  for (std::uint32_t tick = 0; tick < 100; ++tick) {
+    flinch_Header sample = header(7, tick + 1, tick * 1ms);
+    sample.flags = flag_lockstep;
+    EXPECT_EQ(admission.judge(sample, 5s + tick * 700ms), admitted) << "seven hundred times slower than real";
+    EXPECT_EQ(admission.to_own_clock(tick * 1ms), tick * 1ms);
+  }
+}
+
+TEST(SampleAdmission, HearsTheNextAtOnceWhereASessionSaysThatItEnds) {
+  SampleAdmission admission(
+      {.robot = robot, .longest_silence = 10s, .begins_neutral = true, .once = true, .pace = Pace::lockstep});
+  const auto judge = [&admission](std::uint32_t session, std::uint32_t number, std::uint8_t flags) {
+    flinch_Header sample = header(session, number, 0s);
+    sample.flags = static_cast<std::uint8_t>(flag_lockstep | flags);
+    return admission.judge(sample, 1s, (flags & flag_valid) == 0);
+  };
+  EXPECT_EQ(judge(7, 1, 0), admitted);
+  EXPECT_EQ(judge(8, 1, 0), other_session);
+  EXPECT_EQ(judge(8, 2, flag_end), other_session) << "nobody ends the session of another";
+  EXPECT_EQ(judge(7, 2, flag_end), admitted);
+  EXPECT_EQ(judge(8, 3, flag_valid), not_neutral);
+  EXPECT_EQ(judge(8, 4, 0), admitted);
+  EXPECT_EQ(judge(7, 3, 0), other_session);
+  EXPECT_EQ(judge(8, 5, flag_end), admitted);
+  EXPECT_EQ(judge(7, 4, 0), other_session) << "another has followed it";
+}
+
 }  // namespace
 }  // namespace flinch

@@ -47,6 +47,30 @@ TEST(WireConversion, BringsReadingsOfAnyRobotBackBitForBit) {
   }
 }
 
+TEST(WireConversion, BringsAsManyPassiveAnglesBackAsThereAre) {
+  RandomGenerator random(2);
+  for (int drives = 1; drives <= max_dof; ++drives) {
+    for (int passive = 0; passive <= max_dof; ++passive) {
+      const JointReading joints{.acquired = 17ns,
+                                .valid = true,
+                                .passive_valid = passive % 2 == 1,
+                                .active = random_vector(random, drives),
+                                .passive = random_vector(random, passive)};
+      flinch_JointSample sample;
+      JointReading back;
+      to_wire(joints, sample);
+      from_wire(sample, back);
+      EXPECT_EQ(back.passive_valid, joints.passive_valid);
+      EXPECT_EQ(back.active, joints.active);
+      ASSERT_EQ(back.passive.size(), passive);
+      EXPECT_EQ(back.passive, joints.passive);
+      sample.header.flags |= 7 << passive_count_bit;
+      from_wire(sample, back);
+      EXPECT_EQ(back.passive.size(), 0) << "seven are too many";
+    }
+  }
+}
+
 TEST(WireConversion, BringsTheOtherReadingsBack) {
   const ImuReading imu{.acquired = 1ms,
                        .valid = true,

@@ -14,7 +14,8 @@ namespace flinch::test {
 /// The closed loop of a scenario, to be looked at tick by tick without a recording.
 struct ScenarioLoop {
   explicit ScenarioLoop(const SimulatedScenario& scenario)
-      : parts(add_closed_loop(builder, scenario, scenario.control)),
+      : builder("experiment", scenario.control_period),
+        parts(add_closed_loop(builder, scenario, scenario.control)),
         station(parts.station),
         control(parts.control),
         diagram(closed()),
@@ -26,7 +27,7 @@ struct ScenarioLoop {
 
   void tick() { simulator.step(context); }
 
-  DiagramBuilder builder{"experiment", 1ms};
+  DiagramBuilder builder;
   StationAndControl parts;
   const SimulatedStation& station;
   const ContactControl& control;

@@ -1,5 +1,5 @@
 // Logs of other tools: a mapping, a line "---", and the CSV file that it names.
-#include "calibration/csv_recording.h"
+#include "import/imported_recording.h"
 #include "tests/fuzz/fuzz_files.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/read_recording.h"
@@ -12,7 +12,7 @@ const std::string between = "\n---\n";
 void read(std::string_view bytes) {
   const std::size_t end = bytes.find(between);
   fuzz_file("log.csv", end == std::string_view::npos ? "" : bytes.substr(end + between.size()));
-  read_all_of(read_csv_recording(fuzz_file("mapping.yaml", bytes.substr(0, end))));
+  read_all_of(import_log(fuzz_file("mapping.yaml", bytes.substr(0, end))));
 }
 
 std::vector<std::string> seeds() {

@@ -26,8 +26,10 @@ inline void PrintTo(const FuzzTarget* target, std::ostream* stream) { *stream <<
 extern const FuzzTarget campaign_target;
 extern const FuzzTarget campaign_journal_target;
 extern const FuzzTarget csv_target;
+extern const FuzzTarget log_target;
 extern const FuzzTarget data_journal_target;
 extern const FuzzTarget data_set_target;
+extern const FuzzTarget model_target;
 extern const FuzzTarget onnx_target;
 extern const FuzzTarget parameters_target;
 extern const FuzzTarget recording_target;

@@ -68,8 +68,8 @@ long peak_kB() {
 class Readers : public testing::TestWithParam<const FuzzTarget*> {};
 
 INSTANTIATE_TEST_SUITE_P(Fuzz, Readers,
-                         testing::Values(&campaign_target, &campaign_journal_target, &csv_target,
-                                         &data_journal_target, &data_set_target, &onnx_target,
+                         testing::Values(&campaign_target, &campaign_journal_target, &csv_target, &log_target,
+                                         &data_journal_target, &data_set_target, &model_target, &onnx_target,
                                          &parameters_target, &recording_target, &recording_journal_target,
                                          &robot_target, &samples_target, &scenario_target, &words_target),
                          [](const auto& each) { return each.param->name; });

@@ -12,6 +12,8 @@ MAY_NAME = {
     "experiments/scenario/scenario.cpp": "a stand-in where the robot file is no good",
     "systems/robot/configuration_space.h": "says which spaces there are",
     "systems/robot/configuration_space.cpp": "and how each is moved along",
+    "systems/robot/legs/platform_moves.h": "which of them the platform of legs moves in",
+    "systems/robot/legs/platform_moves.cpp": "by the words of robot files",
 }
 NAMES = (re.compile(r"\b(PlanarRrr|FiveBar|Hexapod)\w*|/(planar_rrr|five_bar|hexapod)\w*\.h\"|"
                     r"\b(planar_pose|spatial_pose|Kind::plane|Kind::space)\b"),

@@ -6,7 +6,7 @@ tested well is for people to see.
 import re
 import tree
 
-LIBRARIES = ("systems", "diagrams", "plant", "learning", "identification", "experiments")
+LIBRARIES = ("systems", "diagrams", "plant", "learning", "identification", "experiments", "export", "import", "convert")
 INCLUDE = re.compile(r'^#include "([^"]+)"')
 
 sources = tree.sources()

@@ -20,7 +20,8 @@ SimulatedDrivesSettings bench_constants() { return {.torque_constant = constants
 /// Drives whose commands the test sets; what they do after a tick is seen at the next one.
 class Drives {
  public:
-  explicit Drives(const SimulatedDrivesSettings& settings = bench_constants()) : ticking_(wire(settings)) {
+  explicit Drives(const SimulatedDrivesSettings& settings = bench_constants(), Time tick = 1ms)
+      : builder_("test", tick), ticking_(wire(settings, tick)) {
     ticking_.set(truth_, test::truth_at_rest());
     ticking_.set(brake_, {.engage = false});
   }
@@ -49,8 +50,8 @@ class Drives {
   const StationStatus& status() const { return ticking_.get(status_); }
 
  private:
-  DiagramBuilder& wire(const SimulatedDrivesSettings& settings) {
-    auto& drives = builder_.add<SimulatedDrives>("drives", settings, *test::individual_bench());
+  DiagramBuilder& wire(const SimulatedDrivesSettings& settings, Time tick) {
+    auto& drives = builder_.add<SimulatedDrives>("drives", settings, *test::individual_bench(), tick);
     command_ = builder_.export_input("command", drives.torque_command);
     brake_ = builder_.export_input("brake", drives.brake);
     truth_ = builder_.export_input("truth", drives.truth);
@@ -59,7 +60,7 @@ class Drives {
     return builder_;
   }
 
-  DiagramBuilder builder_{"test", 1ms};
+  DiagramBuilder builder_;
   InputPort<TorqueCommand> command_;
   InputPort<BrakeCommand> brake_;
   InputPort<PlantTruth> truth_;
@@ -271,6 +272,20 @@ TEST(SimulatedDrives, RefuseConstantsAndLimitsThatAreNotPositive) {
   EXPECT_EQ(problems(settings, *robot).size(), 2U);
   EXPECT_THROW(SimulatedDrives(settings, *robot), SetupError);
   EXPECT_EQ(problems({.torque_constant = JointVector::Ones(2)}, *robot).size(), 1U);
+}
+
+/// Of a command that rises evenly: the mean over a tick of what the current was a delay ago.
+TEST(SimulatedDrives, DelayTheirTorquesByMoreThanATickWhereTicksAreShort) {
+  constexpr double T = 0.25e-3;
+  const Eigen::Vector3d delay(0.6e-3, 1e-3, 0.1e-3);
+  Drives drives({.torque_constant = constants, .torque_delay = delay}, 250us);
+  for (int k = 1; k <= 12; ++k) {
+    const Eigen::Vector3d torque = static_cast<double>(k) * constants;
+    const DriveAction action = drives.then(drives.fresh(torque[0], torque[1], torque[2]));
+    if (k <= 5) continue;
+    for (int i = 0; i < 3; ++i)
+      EXPECT_NEAR(action.torque[i] / constants[i], k - 1 - delay[i] / T, 1e-9) << k << ", drive " << i;
+  }
 }
 
 }  // namespace

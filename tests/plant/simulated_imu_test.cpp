@@ -289,7 +289,7 @@ TEST(SimulatedImu, RefusesADelayLongerThanItsMemory) {
   settings.clock.period = Time::zero();
   EXPECT_EQ(problems(settings).size(), 2U);
   settings = SimulatedImuSettings();
-  settings.clock.period = 249us;
+  settings.clock.period = 62us;
   EXPECT_THROW(SimulatedImu(settings, *test::individual_bench(), 1), SetupError) << "too many in a tick";
 }
 

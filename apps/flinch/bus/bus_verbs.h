@@ -14,6 +14,7 @@ struct ServeOptions {
   std::optional<std::uint64_t> seed;
   BusOptions bus;
   std::optional<double> duration;   ///< none: until interrupted [s]
+  std::optional<double> patience;   ///< in lockstep, with a controller that sends nothing [s]; none: 10
   std::vector<std::string> faults;  ///< on request, SIGNAL:KIND@TIME[:SIZE]
 };
 

@@ -16,6 +16,7 @@
 #include "systems/framework/constant.h"
 #include "systems/framework/exchange_list.h"
 #include "systems/framework/realtime_runner.h"
+#include "systems/signals/sampling.h"
 
 namespace flinch {
 namespace {
@@ -28,10 +29,11 @@ struct Listener {
   std::unique_ptr<Diagram> diagram;
 };
 
-Listener build_listener(const std::shared_ptr<const ParallelRobot>& robot) {
-  DiagramBuilder builder("listener");
+Listener build_listener(const RobotFile& robot) {
+  DiagramBuilder builder("listener", robot.control_period);
   Listener listener;
-  listener.station = add_external_station(builder, robot);
+  listener.station =
+      add_external_station(builder, robot.robot, {.max_age = longest_age(robot.control_period)});
   builder.connect(builder.add<Constant<TorqueCommand>>("no_torque", TorqueCommand()).value,
                   listener.station.torque_command);
   builder.connect(builder.add<Constant<BrakeCommand>>("brakes_closed", BrakeCommand()).value,
@@ -69,7 +71,7 @@ ExitStatus tell(const LinkReport& report, const LinkOptions& options) {
 ExitStatus link(const LinkOptions& options) {
   const bool silent = options.common.quiet || options.common.json;
   const RobotInput input = read_robot_input(options.robot);
-  const Listener listener = build_listener(input.robot.robot);
+  const Listener listener = build_listener(input.robot);
   const Interrupts interrupts;
   const BusSettings settings = bus_settings(options.bus, silent);
   const DdsBus bus(settings);
@@ -116,7 +118,8 @@ ExitStatus link(const LinkOptions& options) {
                           runner.statistics(),
                           see_pose(*input.robot.robot, context.get(listener.station.joints)),
                           station.robots(),
-                          !options.bus.robot.empty()};
+                          !options.bus.robot.empty(),
+                          listener.diagram->tick()};
   return tell(report, options);
 }
 

@@ -6,12 +6,16 @@
 #include "apps/flinch/bus/status_line.h"
 #include "apps/flinch/conclusion.h"
 #include "apps/flinch/learning_verbs.h"
+#include "apps/flinch/live/shown_run.h"
 #include "apps/flinch/printing.h"
 #include "apps/flinch/stop_watch.h"
+#include "drivers/robot_pace.h"
+#include "drivers/wire_header.h"
 #include "experiments/bus/live_run.h"
 #include "experiments/report/run_folder.h"
 #include "experiments/scenario/scenario.h"
 #include "systems/foundation/problems_of_place.h"
+#include "systems/foundation/setup_error.h"
 
 namespace flinch {
 namespace {
@@ -32,6 +36,30 @@ void tell_of_loop_and_link(const LiveRun& run) {
                 1e6 * to_seconds(round_trip->max), link.lost, link.refused);
 }
 
+constexpr RealtimeSettings no_rights{
+    .scheduling = Insistence::none, .locked_memory = Insistence::none, .realtime_kernel = Insistence::none};
+
+/// What was asked for, else what the robot goes by; none: nobody says so.
+std::optional<Pace> pace_of_run(const Scenario& scenario, const DdsBus& bus, const RunOptions& options) {
+  if (options.bus.lockstep) return Pace::lockstep;
+  if (options.bus.real_time) return Pace::real_time;
+  return find_pace(bus, robot_hash(scenario.robot_text), options.bus.robot, from_seconds(options.patience),
+                   [] { return Interrupts::count() > 0; });
+}
+
+void require_operators_time(const RunOptions& options, Pace pace) {
+  if (pace == Pace::real_time || !options.attended) return;
+  throw SetupError(
+      "--attended: a robot in lockstep goes faster or slower than the time of its operator; start 'flinch "
+      "serve' with --real-time");
+}
+
+const char* sentence(Pace pace) {
+  return pace == Pace::lockstep
+             ? "in lockstep: robot and controller wait for one another, and no clock takes part"
+             : "in real time: who is late loses ticks";
+}
+
 }  // namespace
 
 ExitStatus run_on_bus(const RunOptions& options) {
@@ -42,16 +70,25 @@ ExitStatus run_on_bus(const RunOptions& options) {
   const Interrupts interrupts;
   const BusSettings settings = bus_settings(options.bus, silent);
   const DdsBus bus(settings);
+  if (!silent) print_message("waiting for the robot, {}\n", name_of(options.bus));
+  const std::optional<Pace> found = pace_of_run(scenario, bus, options);
+  const Pace pace = found.value_or(Pace::real_time);
+  const bool lockstep = pace == Pace::lockstep;
+  const Time patience = from_seconds(options.patience);
+  require_operators_time(options, pace);
+  const std::unique_ptr<ShownRun> shown = show_live(options, scenario, ShownPace::own);
   LiveRun run(scenario, bus,
-              {.patience = from_seconds(options.patience),
+              {.pace = pace,
+               .patience = found ? patience : std::min<Time>(patience, 1s),  // it has been waited for
                .chosen_robot = options.bus.robot,
                .reset_faults = options.reset_faults,
                .attended = options.attended,
                .bus_priority = settings.realtime_priority,
-               .loop = loop_settings(options.bus),
-               .interrupts = Interrupts::count});
-  if (!silent) print_message("waiting for the robot, {}\n", name_of(options.bus));
+               .loop = lockstep ? no_rights : loop_settings(options.bus),
+               .interrupts = Interrupts::count,
+               .spectator = shown ? &shown->spectator() : nullptr});
   out_of(name_of(options.bus), [&] { run.connect(); });
+  if (!silent) print_message("{}\n", sentence(pace));
   const RunFolder folder = folder_of(options, scenario.name);
   run.prepare(recording_in(folder),
               {{"command_line", options.common.command_line}, {"station", "dds, " + name_of(options.bus)}});
@@ -74,11 +111,11 @@ ExitStatus run_on_bus(const RunOptions& options) {
   }
 
   run.finish_recording();
-  if (run.was_left() && !silent) {
-    print_message("ended:     the robot has sent nothing for {:.0f} s\n", options.patience);
-  }
-  if (!silent) tell_of_loop_and_link(run);
-  return conclude(scenario, wall, folder, options.common);
+  if (!run.ended_by().empty() && !silent) print_message("ended:     {}\n", run.ended_by());
+  if (!silent && !lockstep) tell_of_loop_and_link(run);
+  const ExitStatus status = conclude(scenario, wall, folder, options.common);
+  if (shown) shown->finish(folder.path / "report.html");
+  return status;
 }
 
 }  // namespace flinch

@@ -201,6 +201,7 @@ class All {
 
  private:
   void keep(CalibrationResult result, const Scenario& scenario) {
+    require_belief(result, options_.accept);
     const ParameterFile file = write_calibration(result, scenario, out_);
     calibrations_.push_back(file);
     results_.push_back(std::move(result));

@@ -31,6 +31,18 @@ void note_robot(const Scenario& scenario, CalibrationResult& result) {
 
 }  // namespace
 
+void require_belief(CalibrationResult& result, bool accept) {
+  if (result.doubts.empty()) return;
+  if (accept) {
+    result.warnings.insert(result.warnings.begin(), result.doubts.begin(), result.doubts.end());
+    return;
+  }
+  std::vector<std::string> problems = result.doubts;
+  problems.push_back(
+      "nothing was written; mend the recording or the belief, or take it as it is by --accept");
+  throw SetupError(problems);
+}
+
 std::vector<OpenedRecording> open_recordings(const std::vector<std::filesystem::path>& files,
                                              const CommonOptions& common) {
   std::vector<OpenedRecording> opened;
@@ -135,6 +147,7 @@ ParameterFile write_calibration(CalibrationResult& result, const Scenario& scena
 
 ExitStatus conclude_calibration(CalibrationResult& result, const Scenario& scenario,
                                 const CalibrateOptions& options) {
+  require_belief(result, options.accept);
   note_robot(scenario, result);
   for (const std::filesystem::path& file : options.with) result.with.push_back(source_of(file));
   print_result("{}", options.common.json ? calibration_json(result) + "\n" : calibration_table(result));

@@ -10,6 +10,9 @@
 
 namespace flinch {
 
+/// Throws SetupError with the doubts of a calibration, unless they are accepted: then they are warnings.
+void require_belief(CalibrationResult& result, bool accept);
+
 /// A recording with the scenario that it was made from.
 struct OpenedRecording {
   CalibrationSource source;

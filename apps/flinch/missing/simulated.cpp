@@ -30,6 +30,18 @@ ExitStatus campaign(const CampaignOptions& options) {
   return ExitStatus::done;
 }
 
+ExitStatus speed_limit(const SpeedLimitOptions& options) {
+  throw SetupError(options.scenario.string() +
+                   ": its contacts are simulated, and this flinch was built without the simulation "
+                   "(FLINCH_BUILD_PLANT=OFF)");
+}
+
+ExitStatus reproduce(const ReproduceOptions& /*options*/) {
+  throw SetupError(
+      "the papers' figures are simulated, and this flinch was built without the simulation "
+      "(FLINCH_BUILD_PLANT=OFF)");
+}
+
 std::unique_ptr<Diagram> closed_loop(const std::filesystem::path& scenario) {
   return built(read_scenario(scenario)).diagram;
 }

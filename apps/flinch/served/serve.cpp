@@ -1,9 +1,7 @@
-// flinch serve: the simulated bench on the bus, in real time, as a driver program for real drives would be.
+// flinch serve: the simulated bench on the bus; in real time as a driver program for real drives would be.
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "apps/flinch/bus/bus_start.h"
 #include "apps/flinch/bus/bus_verbs.h"
@@ -11,7 +9,8 @@
 #include "apps/flinch/bus/status_line.h"
 #include "apps/flinch/fault_options.h"
 #include "apps/flinch/printing.h"
-#include "drivers/dds_reader.h"
+#include "apps/flinch/served/bus_warnings.h"
+#include "apps/flinch/served/serve_in_lockstep.h"
 #include "drivers/dds_server.h"
 #include "drivers/robot_id.h"
 #include "drivers/wire_header.h"
@@ -21,8 +20,8 @@
 #include "plant/sundials_integrator.h"
 #include "systems/foundation/json_text.h"
 #include "systems/foundation/problems_of_place.h"
+#include "systems/foundation/setup_error.h"
 #include "systems/framework/exchange_list.h"
-#include "systems/framework/monotonic_clock.h"
 #include "systems/framework/realtime_runner.h"
 #include "systems/framework/triple_buffer.h"
 
@@ -52,6 +51,9 @@ class ServedWatch final : public Exchange {
                      .commander = server_.commander()});
   }
 
+  /// Commands of controllers in lockstep. For the same thread as last().
+  std::uint32_t in_lockstep() const noexcept { return last_.commander.in_lockstep; }
+
   /// For one thread.
   const ServedState& last() {
     states_.take(last_);
@@ -75,45 +77,6 @@ Tidings tidings(const ServedState& now) {
                       now.commander.received, now.commander.refused, now.commander.silences)};
 }
 
-/// What a user should know of the others on the bus, each once.
-class BusWarnings {
- public:
-  BusWarnings(const DdsBus& bus, const DdsServer& server) : bus_(bus), server_(server) {}
-
-  /// Looks once a second.
-  std::string news() {
-    const Time now = MonotonicClock::now();
-    if (now < next_look_) return "";
-    next_look_ = now + 1s;
-    return news_of_robots() + news_of_commanders();
-  }
-
- private:
-  std::string news_of_robots() {
-    const int robots = writers_on(bus_, status_topic);
-    if (robots <= std::exchange(robots_, robots)) return "";
-    return fmt::format(
-        "warning: {} robots are on this bus; who commands one must choose it with --robot; this is {}\n",
-        robots, robot_id_text(server_.robot_id()));
-  }
-
-  /// A program that has just joined is not understood for an instant.
-  std::string news_of_commanders() {
-    const int last = std::exchange(unreadable_, server_.unreadable_commanders());
-    const int lasting = std::min(last, unreadable_);
-    if (lasting <= std::exchange(told_unreadable_, lasting)) return "";
-    return "warning: a program commands in another version of the protocol, and is not obeyed; build both "
-           "ends from the same flinch\n";
-  }
-
-  const DdsBus& bus_;
-  const DdsServer& server_;
-  Time next_look_ = MonotonicClock::now() + 500ms;
-  int robots_ = 1;
-  int unreadable_ = 0;
-  int told_unreadable_ = 0;
-};
-
 nlohmann::ordered_json json_of(const DurationHistogram& histogram) {
   const auto summary = histogram.summary();
   if (!summary) return nullptr;
@@ -124,12 +87,16 @@ nlohmann::ordered_json json_of(const DurationHistogram& histogram) {
 
 void tell_the_end(const DdsCommander& commander, const TickStatistics& ticks, const CommonOptions& common) {
   if (common.json) {
-    const nlohmann::ordered_json json = {
-        {"ticks", ticks.ticks},          {"late_starts", ticks.late_starts},
-        {"overruns", ticks.overruns},    {"lost_periods", ticks.lost_periods},
-        {"tick", json_of(ticks.whole)},  {"commands", commander.received},
-        {"refused", commander.refused},  {"for_other_robots", commander.for_others},
-        {"silences", commander.silences}};
+    const nlohmann::ordered_json json = {{"pace", "real time"},
+                                         {"ticks", ticks.ticks},
+                                         {"late_starts", ticks.late_starts},
+                                         {"overruns", ticks.overruns},
+                                         {"lost_periods", ticks.lost_periods},
+                                         {"tick", json_of(ticks.whole)},
+                                         {"commands", commander.received},
+                                         {"refused", commander.refused},
+                                         {"for_other_robots", commander.for_others},
+                                         {"silences", commander.silences}};
     print_result("{}\n", json_text(json));
   } else if (!common.quiet) {
     print_result(
@@ -141,13 +108,18 @@ void tell_the_end(const DdsCommander& commander, const TickStatistics& ticks, co
   }
 }
 
-}  // namespace
+/// A computer that grants no real-time rights cannot promise to be in time.
+bool is_in_lockstep(const BusOptions& bus) {
+  const bool is_urgent = bus.priority > 0 && permits_realtime(bus.priority);
+  return bus.lockstep || (!bus.real_time && !is_urgent);
+}
 
-ExitStatus serve(const ServeOptions& options) {
+ExitStatus serve_in_real_time(const SimulatedScenario& scenario, const ServeOptions& options) {
   const bool silent = options.common.quiet || options.common.json;
-  SimulatedScenario scenario = read_simulated_scenario(options.scenario, options.seed);
-  add_faults(options.faults, *scenario.robot.robot, scenario.station.faults);
-  DdsServerSettings settings{.robot = robot_hash(scenario.robot_text), .robot_name = options.bus.robot};
+  DdsServerSettings settings{
+      .robot = robot_hash(scenario.robot_text),
+      .longest_silence = DdsServerSettings::longest_silence_at(scenario.control_period),
+      .robot_name = options.bus.robot};
   const ServedBench bench =
       out_of(scenario.file, [&] { return build_served_bench(scenario, settings.longest_silence); });
   Context context = bench.diagram->make_context();
@@ -162,11 +134,15 @@ ExitStatus serve(const ServeOptions& options) {
   ClockTicks ticks;
   RealtimeRunner runner(*bench.diagram, ticks, exchange, std::make_unique<SundialsIntegrator>());
   if (!silent) {
-    print_message("serving {} on {} as robot {}; Ctrl-C ends it\n", scenario.name, name_of(options.bus),
-                  text_of(SeenRobot{server.robot_id(), options.bus.robot}));
+    print_message(
+        "serving {} on {} as robot {} in real time (--lockstep: it waits for its controller); Ctrl-C ends "
+        "it\n",
+        scenario.name, name_of(options.bus), text_of(SeenRobot{server.robot_id(), options.bus.robot}));
   }
   {
-    BusWarnings beside(bus, server);
+    BusWarnings beside(bus, server.robot_id(), Pace::real_time, [&] {
+      return BusWarnings::Commanders{server.unreadable_commanders(), watch.in_lockstep()};
+    });
     const auto ask = [&] {
       Tidings now = tidings(watch.last());
       if (!silent) now.said = beside.news();
@@ -180,6 +156,18 @@ ExitStatus serve(const ServeOptions& options) {
   }
   tell_the_end(server.commander(), runner.statistics(), options.common);
   return ExitStatus::done;
+}
+
+}  // namespace
+
+ExitStatus serve(const ServeOptions& options) {
+  SimulatedScenario scenario = read_simulated_scenario(options.scenario, options.seed);
+  add_faults(options.faults, *scenario.robot.robot, scenario.station.faults);
+  if (is_in_lockstep(options.bus)) return serve_in_lockstep(scenario, options);
+  if (options.patience) {
+    throw SetupError("--patience: a robot that goes by the clock waits for nobody; with --lockstep it does");
+  }
+  return serve_in_real_time(scenario, options);
 }
 
 }  // namespace flinch

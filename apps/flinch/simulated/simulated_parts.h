@@ -14,6 +14,9 @@ class Diagram;
 /// flinch run --station simulated. Throws SetupError for bad input.
 ExitStatus run_simulated(const RunOptions& options);
 
+/// The same with several values of keys: a run for each, a row for each run.
+ExitStatus run_sweep(const RunOptions& options);
+
 /// The closed loop of a scenario: its control path with the simulated station, or, where this program was
 /// built without the simulation, with a robot outside. Throws SetupError for all that is wrong with the file.
 std::unique_ptr<Diagram> closed_loop(const std::filesystem::path& scenario);

@@ -2,16 +2,28 @@
 // The report's data and what follows from it.
 
 const report = JSON.parse(byId("data").textContent);
-const lastSample = Math.max(0, report.count - 1);
-const wholeRun = [report.start, report.start + lastSample * report.period];
+// A page that shows a run while it goes on moves these on, and has `times`, one a sample.
+let lastSample = Math.max(0, report.count - 1);
+let wholeRun = [report.start, report.start + lastSample * report.period];
 
 function timeOf(sample) {
-  return report.start + sample * report.period;
+  return report.times ? report.times[Math.min(lastSample, Math.round(sample))] : report.start + sample * report.period;
 }
 
 /** Sample nearest to a time, within the run. */
 function sampleAt(time) {
+  if (report.times) return nearestSample(time);
   return Math.min(lastSample, Math.max(0, Math.round((time - report.start) / report.period)));
+}
+
+function nearestSample(time) {
+  let [low, high] = [0, lastSample];
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (report.times[middle] <= time) low = middle;
+    else high = middle;
+  }
+  return time - report.times[low] <= report.times[high] - time ? low : high;
 }
 
 function has(...names) {

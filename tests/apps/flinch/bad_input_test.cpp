@@ -6,8 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "systems/foundation/html_page.h"
 #include "systems/framework/recording.h"
+#include "tests/apps/flinch/bad_input.h"
 #include "tests/apps/flinch/program.h"
 #include "tests/support/workplace.h"
 
@@ -20,39 +20,9 @@ using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
 using ::testing::StartsWith;
 
-constexpr const char* collision = "scenarios/platform_collision.yaml";
+using test::BadInput;
+
 constexpr const char* robot = "robots/planar_3rrr.yaml";
-
-class BadInput : public ::testing::Test {
- protected:
-  void SetUp() override {
-    place.write("out/run.h5", "an older recording");
-    place.write("out/report.html", page_head("an older report", ""));
-  }
-
-  /// Runs the program, which must leave every file as it is, and print nothing but one line on stderr.
-  std::string complaint(const std::vector<std::string>& arguments) {
-    const auto before = place.contents();
-    const Outcome outcome = flinch(arguments);
-    EXPECT_EQ(outcome.status, 2);
-    EXPECT_EQ(outcome.out, "");
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-    EXPECT_TRUE(place.contents() == before) << "files were written";
-    return outcome.err;
-  }
-
-  /// The same for 'flinch run' with the older results in the way.
-  std::string complaint_of_run(const std::string& scenario = collision) {
-    return complaint({"run", place.at(scenario), "--out", place.at("out")});
-  }
-
-  /// "error: FILE:LINE: ", where LINE is the one with `text`.
-  std::string at_line_of(const std::string& name, const std::string& text) const {
-    return "error: " + place.at(name) + ":" + std::to_string(place.line_of(name, text)) + ": ";
-  }
-
-  test::Workplace place;
-};
 
 // ---------------------------------------------------------------- scenario files
 
@@ -168,10 +138,10 @@ TEST_F(BadInput, EveryProblemIsToldAtOnce) {
 // ---------------------------------------------------------------- robot files
 
 TEST_F(BadInput, RobotThatIsNotThere) {
-  place.replace(collision, "planar_3rrr.yaml", "planar_3rr.yaml");
+  place.replace(collision, "planar_3rrr.yaml", "planar_3rrrr.yaml");
   const std::string said = complaint_of_run();
-  EXPECT_THAT(said,
-              StartsWith(at_line_of(collision, "planar_3rr.yaml") + "robot: is '../robots/planar_3rr.yaml'"));
+  EXPECT_THAT(said, StartsWith(at_line_of(collision, "planar_3rrrr.yaml") +
+                               "robot: is '../robots/planar_3rrrr.yaml'"));
   EXPECT_THAT(said, HasSubstr("no such file; did you mean 'planar_3rrr.yaml'?"));
 }
 
@@ -238,7 +208,8 @@ TEST_F(BadInput, PipeThatNobodyWritesTo) {
       {"run", pipes.at("pipe.h5"), "--station", "recorded"},
       {"run", place.at(collision), "--classifier", pipes.at("pipe.onnx")},
       {"evaluate", pipes.at("pipe.onnx"), pipes.at("pipe.h5")},
-      {"import", pipes.at("pipe.yaml"), "--out", place.at("out/imported.h5")}};
+      {"import", pipes.at("pipe.yaml"), "--out", place.at("out/imported.h5")},
+      {"convert", pipes.at("pipe.yaml"), "--platform", "p", "--out", place.at("out/robot.yaml")}};
   for (const std::vector<std::string>& call : calls)
     EXPECT_THAT(complaint(call), HasSubstr("is no regular file; it must be one"))
         << call[0] << " " << call[1];
@@ -350,7 +321,9 @@ TEST_F(BadInput, GraphThatIsNeitherSvgNorDot) {
 TEST_F(BadInput, VerbThatNobodyKnows) {
   EXPECT_EQ(complaint({"reprot", place.at(collision)}),
             "error: 'reprot' is no verb; did you mean 'report'?\n");
-  EXPECT_THAT(complaint({}), StartsWith("error: there is no verb; known are: run, report, graph, check"));
+  EXPECT_THAT(
+      complaint({}),
+      StartsWith("error: there is no verb; known are: demo, run, report, export, compare, graph, check"));
 }
 
 TEST_F(BadInput, ArgumentThatIsMissingOrTooMuch) {
@@ -387,6 +360,25 @@ TEST_F(BadInput, OptionOfABusThatIsNotAskedFor) {
     EXPECT_EQ(complaint(call), "error: the options of the bus mean something only with --station dds\n")
         << option[0];
   }
+}
+
+TEST_F(BadInput, OptionOfALiveViewThatMeansNothing) {
+  const std::string scenario = place.at(collision);
+  EXPECT_THAT(complaint({"run", scenario, "--live=http"}),
+              HasSubstr("--live: is 'http'; it must be a port from 1 "));
+  EXPECT_THAT(complaint({"run", scenario, "--live=65536"}), HasSubstr("it must be a port from 1 to 65535"));
+  EXPECT_THAT(complaint({"run", scenario, "--live", "--live-speed", "0"}),
+              HasSubstr("a number from 0.001 to 100"));
+  EXPECT_THAT(complaint({"run", scenario, "--live", "--live-wait", "nan"}),
+              HasSubstr("a number from 0 to 86400"));
+  EXPECT_THAT(complaint({"run", scenario, "--live-speed", "2"}),
+              HasSubstr("--live-speed: means something only with"));
+  EXPECT_THAT(complaint({"run", scenario, "--live-wait", "2"}),
+              HasSubstr("--live-wait: means something only with"));
+  EXPECT_THAT(complaint({"run", scenario, "--live", "--set", "duration_s=1,2"}),
+              HasSubstr("--live: shows one run"));
+  EXPECT_THAT(complaint({"run", place.at("run.h5"), "--station", "recorded", "--live"}),
+              HasSubstr("--live: a recording is over"));
 }
 
 TEST_F(BadInput, SeedThatIsNoWholeNumber) {

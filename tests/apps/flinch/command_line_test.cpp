@@ -99,8 +99,7 @@ TEST_F(CommandLine, SaysOfEachValueThatIsSetWhatIsWrongWithIt) {
   const Outcome outcome =
       run(collision, {"--set", "duration_s=1,2", "--set", "pylon", "--set", "robot.x=3", "--set", "a= "});
   EXPECT_EQ(outcome.status, 2);
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("--set duration_s=1,2: gives several values, and a run takes one"),
-                                 HasSubstr("--set pylon: is not of the form KEY=VALUE"),
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("--set pylon: is not of the form KEY=VALUE"),
                                  HasSubstr("--set robot.x=3: "), HasSubstr("--set a= : gives no value")));
   const Outcome unknown = run(collision, {"--set", "pylon.radios_mm=30"});
   EXPECT_EQ(unknown.status, 2);
@@ -218,9 +217,8 @@ TEST_F(CommandLine, PrintsOneJsonObjectForEveryVerb) {
 TEST_F(CommandLine, HelpsWithAnExampleOfEveryVerb) {
   const Outcome help = flinch({"--help"});
   EXPECT_EQ(help.status, 0);
-  EXPECT_THAT(
-      help.out,
-      HasSubstr("Exit status: 0 done, 1 the verdict is bad, or the link, 2 bad input or usage, 3 a fault"));
+  EXPECT_THAT(help.out, HasSubstr("Exit status: 0 done, 1 the verdict is bad, or the link, 2 bad input or "
+                                  "usage,\n3 a fault"));
   for (const std::string& verb : verbs) {
     EXPECT_THAT(help.out, HasSubstr("  " + verb + " "));
     const Outcome of_verb = flinch({verb, "--help"});
@@ -233,10 +231,28 @@ TEST_F(CommandLine, HelpsWithAnExampleOfEveryVerb) {
   }
 }
 
+TEST_F(CommandLine, HelpsWithinEightyColumnsButForExamples) {
+  for (const std::string& verb : verbs) {
+    const std::string help = flinch({verb, "--help"}).out;
+    std::istringstream lines(help.substr(0, help.find("Example:\n")));
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80U) << verb << ": " << line;
+  }
+}
+
+TEST_F(CommandLine, HelpsAlsoByAVerb) {
+  EXPECT_EQ(flinch({"help", "run"}).out, flinch({"run", "--help"}).out);
+  EXPECT_EQ(flinch({"help", "calibrate", "dynamics"}).out, flinch({"calibrate", "dynamics", "--help"}).out);
+  EXPECT_EQ(flinch({"help"}).out, flinch({"--help"}).out);
+  const Outcome wrong = flinch({"help", "rnu"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_EQ(wrong.err, "error: 'rnu' is no verb; did you mean 'run'?\n");
+}
+
 TEST_F(CommandLine, TellsItsVersion) {
   const Outcome outcome = flinch({"--version"});
   EXPECT_EQ(outcome.status, 0);
-  EXPECT_THAT(outcome.out, ::testing::MatchesRegex("flinch [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+  const std::string number = "[0-9]+\\.[0-9]+\\.[0-9]+", of_commit = "( \\([0-9a-f]+(-dirty)?\\))?";
+  EXPECT_THAT(outcome.out, ::testing::MatchesRegex("flinch " + number + of_commit + "\n"));
 }
 
 // ---------------------------------------------------------------- what it writes
@@ -284,7 +300,7 @@ TEST_F(CommandLine, SaysInTheRecordingWhatMadeIt) {
   EXPECT_EQ(recording.attributes.at("scenario.file"), "platform_collision.yaml");
   EXPECT_EQ(recording.attributes.at("scenario.text"), bytes_of(collision));
   EXPECT_EQ(recording.attributes.at("robot.text"), bytes_of("robots/planar_3rrr.yaml"));
-  EXPECT_EQ("flinch " + recording.attributes.at("flinch.version") + "\n", flinch({"--version"}).out);
+  EXPECT_THAT(flinch({"--version"}).out, StartsWith("flinch " + recording.attributes.at("flinch.version")));
 }
 
 TEST_F(CommandLine, MakesTheSamePageFromARecordingAsTheRun) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,23 @@ class FileVerbs : public ::testing::Test {
   test::Workplace place;
 };
 
+TEST_F(FileVerbs, CheckManyFilesAndTellAllThatIsWrongWithThem) {
+  const std::string good = place.at("scenarios/square.yaml"), robot = place.at("robots/five_bar.yaml");
+  const Outcome fine = flinch({"check", good, robot});
+  EXPECT_EQ(fine.status, 0) << fine.err;
+  EXPECT_EQ(fine.out, good + ": a good scenario file\n" + robot + ": a good robot file\n");
+  const auto json = nlohmann::json::parse(flinch({"check", good, robot, "--json"}).out);
+  ASSERT_EQ(json.at("files").size(), 2U);
+  EXPECT_EQ(json["files"][1]["kind"], "robot");
+  EXPECT_THAT(test::undocumented_keys(json, "JSON"), ::testing::IsEmpty());
+  place.write("one.yaml", "robt: x\n");
+  place.write("two.yaml", "kind: delta\n");
+  const Outcome wrong = flinch({"check", place.at("one.yaml"), good, place.at("two.yaml")});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.err, AllOf(HasSubstr("one.yaml"), HasSubstr("two.yaml")));
+  EXPECT_EQ(wrong.out, good + ": a good scenario file\n");
+}
+
 TEST_F(FileVerbs, CheckAMappingAndWhatIsImportedByIt) {
   EXPECT_EQ(said_of(mapping()), ": a good import mapping file\n");
   const std::string imported = place.at("imported.h5");
@@ -54,10 +72,13 @@ TEST_F(FileVerbs, CheckAMappingAndWhatIsImportedByIt) {
   EXPECT_EQ(said_of(imported), ": a good readings file, for flinch calibrate\n");
   for (const std::vector<std::string>& call :
        {std::vector<std::string>{"report", imported, "--out", place.at("page.html")},
-        {"run", imported, "--station", "recorded", "--out", place.at("again")},
-        {"calibrate", "thresholds", imported}})
-    EXPECT_THAT(flinch(call).err, HasSubstr("imported.h5: holds readings and no run; 'flinch calibrate"))
+        {"run", imported, "--station", "recorded", "--out", place.at("again")}})
+    EXPECT_THAT(flinch(call).err, HasSubstr("imported.h5: holds readings and no run; 'flinch judge'"))
         << call[0];
+  EXPECT_THAT(flinch({"calibrate", "thresholds", imported}).err,
+              HasSubstr("of motion with valid estimates are recorded"));
+  EXPECT_THAT(flinch({"calibrate", "thresholds", imported, "--free", "a..b"}).err,
+              HasSubstr("--free: is 'a..b'; it must be two times in s"));
   place.replace("mapping.yaml", "unit: deg", "unit: A");
   EXPECT_THAT(said_of(place.at("mapping.yaml")), HasSubstr("unit"));
 }

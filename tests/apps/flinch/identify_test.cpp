@@ -49,6 +49,21 @@ TEST_F(Identify, TorqueConstantsAreToldAsAnObject) {
   EXPECT_TRUE(json["warnings"].empty()) << json["warnings"];
 }
 
+TEST_F(Identify, ReadingsThatCannotBeRightAreRefusedUnlessTheyAreAccepted) {
+  flinch({"run", place.at("scenarios/calibration_rectangle.yaml"), "--fault", "accelerometer:scaled@0:-1",
+          "--out", place.at("wrong"), "--quiet"});
+  const std::string recording = place.at("wrong/run.h5"), file = place.at("imu.yaml");
+  const Outcome refused = flinch({"calibrate", "imu-pose", recording, "--out", file});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("the accelerometer has the other sign"));
+  EXPECT_THAT(refused.err, HasSubstr("--accept"));
+  EXPECT_FALSE(std::filesystem::exists(file));
+  const Outcome accepted = flinch({"calibrate", "imu-pose", recording, "--out", file, "--accept"});
+  EXPECT_EQ(accepted.status, 0) << accepted.err;
+  EXPECT_THAT(accepted.err, HasSubstr("warning: the accelerometer has the other sign"));
+  EXPECT_TRUE(std::filesystem::exists(file));
+}
+
 TEST_F(Identify, AParameterFileIsTakenOverByAScenario) {
   const std::string recording = recorded("calibration_rectangle");
   const std::string file = place.at("scenarios/imu.yaml");

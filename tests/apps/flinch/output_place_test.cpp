@@ -102,6 +102,7 @@ TEST_F(OutputPlace, IsAskedForByEveryVerbBeforeAnythingIsWritten) {
            {"report", run, "--out", out},
            {"graph", place.at("scenarios/platform_collision.yaml"), "--out", out},
            {"import", place.at("mapping.yaml"), "--out", out},
+           {"convert", place.at("model.urdf"), "--platform", "effector", "--out", out},
            {"excite", place.at("robots/planar_3rrr.yaml"), "--out", out},
            {"calibrate", "thresholds", run, "--out", out},
            {"calibrate", "dynamics", run, "--out", out},
@@ -112,6 +113,7 @@ TEST_F(OutputPlace, IsAskedForByEveryVerbBeforeAnythingIsWritten) {
            {"evaluate", place.at("made.onnx"), run, "--out", out},
            {"run", place.at("scenarios/platform_collision.yaml"), "--out", out},
            {"campaign", FLINCH_SOURCE_DIR "/apps/campaigns/random_contacts.yaml", "--out", out},
+           {"speed-limit", place.at("scenarios/platform_collision.yaml"), "--out", out},
            {"keys", out}}) {
     const test::Outcome outcome = flinch(call);
     EXPECT_EQ(outcome.status, 2) << call.front();

@@ -64,8 +64,8 @@ class StandardStreams : public ::testing::Test {
         {{"--version"}, 0},
         {{"no_verb"}, 2},
     };
-    for (const char* const verb : {"run", "report", "graph", "check", "campaign", "import", "excite", "serve",
-                                   "link", "keys", "train", "evaluate"}) {
+    for (const char* const verb : {"run", "report", "graph", "check", "campaign", "speed-limit", "import",
+                                   "convert", "excite", "serve", "link", "keys", "train", "evaluate"}) {
       all.push_back({{verb, "--help"}, 0});
       all.push_back({{verb, place.at("none"), "--nonsense"}, 2});
     }

@@ -148,7 +148,7 @@ DetectionStage judging_by(const std::vector<FusedResidual>& residuals) {
   return {of_others, [residuals](const StageSite& site, const EstimatePorts& given) {
             ContactControlSettings settings = site.settings;
             settings.fused_detector.residuals = residuals;
-            return add_fused_detector({site.builder, site.name, site.robot, settings}, given);
+            return add_fused_detector({site.builder, site.name, site.robot, settings, site.shared}, given);
           }};
 }
 

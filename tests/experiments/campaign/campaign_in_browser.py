@@ -7,11 +7,10 @@ Exit status 0: nothing wrong; 1: what is wrong is printed; 77: there is no chrom
 """
 
 import pathlib
-import shutil
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "report"))
-from browser import Browser
+from browser import try_page
 
 # Of each panel of forces over speeds: its fit, the ends of its line in speed and force, and those of the axes.
 LINES = """return (() => {
@@ -45,21 +44,7 @@ def problems_of(browser):
     for name, begin in names:
         if begin < 0:
             yield f"the name '{name}' is cut off"
-    for message in browser.console_errors():
-        yield f"the console says: {message}"
-
-
-def main():
-    if not shutil.which("chromedriver"):
-        print("there is no chromedriver (Debian: chromium-driver)")
-        return 77
-    with Browser() as browser:
-        browser.open(pathlib.Path(sys.argv[1]).resolve().as_uri())
-        problems = list(problems_of(browser))
-    for problem in problems:
-        print(f"{sys.argv[1]}: {problem}")
-    return 1 if problems else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(try_page(sys.argv[1], problems_of))

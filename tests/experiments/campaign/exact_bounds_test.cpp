@@ -47,6 +47,26 @@ TEST(UpperShare, IsOneWhereAllOrNothingHappened) {
   EXPECT_EQ(upper_share(0, 0), 1.0);
 }
 
+TEST(ConfidenceBelow, IsTheInverseOfTheUpperShare) {
+  for (const std::size_t events : {0U, 3U, 40U}) {
+    for (const double confidence : {0.6, 0.95, 0.999})
+      EXPECT_NEAR(confidence_below(events, 60, upper_share(events, 60, confidence)), confidence, 1e-9);
+  }
+  EXPECT_EQ(confidence_below(7, 7, 0.9), 0.0);
+}
+
+// Sizes of samples without an event and with one, of tables of tolerance limits: 29 and 46 for 90 %, 59 and
+// 93 for 95 %, at a confidence of 95 %.
+TEST(ToleratedEvents, AreThoseOfToleranceLimits) {
+  EXPECT_EQ(trials_without_event(0.1), 29U);
+  EXPECT_EQ(trials_without_event(0.05), 59U);
+  EXPECT_EQ(tolerated_events(28, 0.1), std::nullopt);
+  EXPECT_EQ(tolerated_events(45, 0.1), 0U);
+  EXPECT_EQ(tolerated_events(46, 0.1), 1U);
+  EXPECT_EQ(tolerated_events(92, 0.05), 0U);
+  EXPECT_EQ(tolerated_events(93, 0.05), 1U);
+}
+
 TEST(UpperShare, HoldsForManyTrials) {  // no sum under- or overflows
   EXPECT_NEAR(upper_share(0, 1'000'000), -std::log(0.05) / 1e6, 1e-11);
   EXPECT_GT(upper_share(5000, 10'000), 0.5);

@@ -126,6 +126,22 @@ TEST(ACampaignOverEstimators, GivesWhateverIsFollowedTheBitsOfARun) {
   EXPECT_EQ(errors.size(), campaign.runs()) << "each has an error of its own";
 }
 
+/// What a task says of its numbers stands in the table as if they were runs.
+TEST_F(ACampaign, DoesATaskInThePlaceOfRuns) {
+  const RunResult row = whole[1];
+  campaign.task = CampaignTask{"task", 5, [row](std::size_t number) {
+                                 RunResult result = row;
+                                 result.run = number;
+                                 result.peak_force = 100.0 + static_cast<double>(number);
+                                 return result;
+                               }};
+  const CampaignResults results = run_campaign(campaign, place / "other", 3);
+  ASSERT_EQ(results.size(), 5U);
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(results[i].peak_force, 100.0 + static_cast<double>(i));
+  campaign.task->identity = "another task";
+  EXPECT_FALSE(test::problems_of([&] { run_campaign(campaign, place / "other", 1); }).empty());
+}
+
 TEST_F(ACampaign, RunsBodiesIntoThePylon) {
   std::size_t as_drawn = 0;
   for (const RunResult& result : whole) {

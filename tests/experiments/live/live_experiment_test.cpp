@@ -36,6 +36,13 @@ TEST(LiveExperiment, IsResetByNoList) {
   EXPECT_EQ(problems.front().find("'operator' resets and starts the robot though nobody sees"), 0U);
 }
 
+TEST(LiveExperiment, FollowsItsOperatorsListWhereTheRobotIsSimulatedAndWaits) {
+  const Scenario scenario = read_scenario(FLINCH_SOURCE_DIR "/apps/scenarios/brought_back.yaml");
+  const LiveExperiment experiment = build_live_experiment(scenario, RobotOutside::lockstep);
+  EXPECT_TRUE(is_recorded(*experiment.diagram, "operator"));
+  EXPECT_TRUE(is_recorded(*experiment.diagram, "panel")) << "beside which somebody may press buttons";
+}
+
 TEST(LiveExperiment, CanBeToldWhatTouchesTheRobotAndRecordsIt) {
   Scenario scenario = shipped_scenario();
   scenario.control.contact_is_told = true;

@@ -2,6 +2,7 @@
 
 import base64
 import json
+import pathlib
 import re
 import shutil
 import subprocess
@@ -116,3 +117,18 @@ class Browser:
                 return json.load(answer)["value"]
         except urllib.error.HTTPError as error:
             raise RuntimeError(json.load(error)["value"]["message"]) from None
+
+
+def try_page(file, problems_of):
+    """Opens a page and prints what problems_of(browser) yields, and what its console says; the exit status: 0, 1 with a
+    problem, 77 where there is no chromedriver."""
+    if not shutil.which("chromedriver"):
+        print("there is no chromedriver (Debian: chromium-driver)")
+        return 77
+    with Browser() as browser:
+        browser.open(pathlib.Path(file).resolve().as_uri())
+        problems = list(problems_of(browser))
+        problems += [f"the console says: {message}" for message in browser.console_errors()]
+    for problem in problems:
+        print(f"{file}: {problem}")
+    return 1 if problems else 0

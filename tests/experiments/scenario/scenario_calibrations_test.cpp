@@ -136,15 +136,17 @@ TEST_F(Calibrations, RestOnWhatAnEstimatorBringsThatRunsNowhereElse) {
     }
     return sections;
   };
-  const std::set<std::string> always{"drive_torque", "follow", "velocity_filter", "imu_ekf"};
+  const std::set<std::string> always{"drive_torque", "follow",    "velocity_filter",
+                                     "imu_ekf",      "imu_mount", "plausibility"};
   const auto with = [&](std::set<std::string> more) {
     more.insert(always.begin(), always.end());
     return more;
   };
   EXPECT_EQ(keys("momentum_observer"), with({"momentum_observer"}));
   EXPECT_EQ(keys("direct_method"), with({"momentum_observer"}));
-  EXPECT_EQ(keys("direct_extended_imu_ekf"), with({"extended_imu_ekf", "momentum_observer"}));
-  EXPECT_EQ(keys("imu_residual"), with({"imu_residual", "momentum_observer"}));
+  EXPECT_EQ(keys("direct_extended_imu_ekf"),
+            with({"extended_imu_ekf", "disturbance_filter", "momentum_observer"}));
+  EXPECT_EQ(keys("imu_residual"), with({"imu_residual", "disturbance_filter", "momentum_observer"}));
 }
 
 TEST_F(Calibrations, ThatRestOnOtherTorqueConstantsAreDoubted) {

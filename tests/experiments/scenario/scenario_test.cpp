@@ -63,7 +63,7 @@ TEST(Scenario, MayNotAskAnEstimatorForMoreThanALoopCanDo) {
   for (const auto& key : rates) {
     for (const char* const value : {"1e300", "1.1e4", "1e-4"})
       EXPECT_THAT(problems_of_value(key, value), ElementsAre(HasSubstr(key.second))) << key.second << value;
-    EXPECT_THAT(problems_of_value(key, "1e4"), IsEmpty()) << key.second;
+    EXPECT_THAT(problems_of_value(key, "3e3"), IsEmpty()) << key.second;
   }
   for (const auto& key : sizes) {
     for (const char* const value : {"1e300", "1e13", "1e-13"})

@@ -13,11 +13,12 @@
 namespace flinch {
 namespace {
 
-/// Cogging of screws, of which the model does not know, shakes the platform faster than the IMU can tell: it
-/// is called noisy, and so it is.
+/// Cogging of drives that slide, of which the model does not know, shakes the platform faster than the IMU
+/// can tell: it is called noisy, and so it is.
 bool is_shaken(const std::filesystem::path& scenario) {
   const std::string name = scenario.stem().string();
-  return name.starts_with("hexapod_calibration_") || name == "hexapod_collision_realistic";
+  return name.starts_with("hexapod_calibration_") || name == "hexapod_collision_realistic" ||
+         name == "linapod_collision_realistic";
 }
 
 TEST(AnHonestImu, IsBelievedInEveryScenario) {

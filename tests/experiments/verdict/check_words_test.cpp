@@ -23,14 +23,15 @@ using ::testing::StartsWith;
 constexpr CheckMask no_imu =
     all_checks & ~check_bit(PlausibilityCheck::gyroscope) & ~check_bit(PlausibilityCheck::accelerometer);
 
-TEST(ChecksOff, AreNoneWhereAllCanBeAsked) { EXPECT_THAT(checks_off(all_checks), IsEmpty()); }
+TEST(ChecksOff, AreNoneWhereAllCanBeAsked) { EXPECT_THAT(checks_off(all_checks, true), IsEmpty()); }
 
 TEST(ChecksOff, NameWhatIsMissingAndTheFaultThatCannotFollow) {
-  EXPECT_THAT(checks_off(no_imu), ElementsAre(AllOf(StartsWith("encoders against the IMU (fault 29): needs"),
-                                                    HasSubstr("an IMU"))));
-  EXPECT_THAT(checks_off(all_checks & ~check_bit(PlausibilityCheck::parity)),
+  EXPECT_THAT(
+      checks_off(no_imu, true),
+      ElementsAre(AllOf(StartsWith("encoders against the IMU (fault 29): needs"), HasSubstr("an IMU"))));
+  EXPECT_THAT(checks_off(all_checks & ~check_bit(PlausibilityCheck::parity), true),
               ElementsAre(HasSubstr("(fault 13): needs passive")));
-  EXPECT_THAT(checks_off(0), AllOf(SizeIs(11), Each(HasSubstr(": needs "))));
+  EXPECT_THAT(checks_off(0, false), AllOf(SizeIs(12), Each(HasSubstr(": needs "))));
 }
 
 TEST(ChecksOff, AreThoseThatCouldBeAskedAtNoTime) {
@@ -38,10 +39,11 @@ TEST(ChecksOff, AreThoseThatCouldBeAskedAtNoTime) {
   test::SyntheticRun run(100);
   for (int k = 0; k < 100; ++k)
     run.at(k).plausibility.askable = k < 60 ? no_imu : all_checks & ~check_bit(PlausibilityCheck::parity);
-  EXPECT_THAT(judge(run.recording(), planar, {}, {}).checks_off, IsEmpty());
+  EXPECT_THAT(judge(run.recording(), planar, {}, {}).checks_off,
+              ElementsAre(HasSubstr("control.drive_check")));
   for (int k = 0; k < 100; ++k) run.at(k).plausibility.askable = k < 60 ? no_imu : 0;
   const Verdict verdict = judge(run.recording(), planar, {}, {});
-  EXPECT_EQ(verdict.checks_off, checks_off(no_imu));
+  EXPECT_EQ(verdict.checks_off, checks_off(no_imu, false));
   EXPECT_TRUE(verdict.good());
   EXPECT_THAT(verdict.remarks, IsEmpty());
 }

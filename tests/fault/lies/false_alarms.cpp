@@ -10,6 +10,7 @@
 #include "experiments/campaign/campaign.h"
 #include "experiments/campaign/campaign_run.h"
 #include "experiments/simulated/simulated_scenario.h"
+#include "systems/config/config_node.h"
 #include "systems/safety/fault_table.h"
 #include "systems/signals/gate_status.h"
 #include "tests/fault/scenario_loop.h"
@@ -74,14 +75,22 @@ Margins margins_of(SimulatedScenario scenario, const MountedSensors& sensors) {
       break;
     }
     if (context.get(control.gate).phase == GatePhase::closed) break;
-    if (context.get(control.gate).phase == GatePhase::open) margins.seconds += 1e-3;
+    if (context.get(control.gate).phase == GatePhase::open)
+      margins.seconds += to_seconds(scenario.control_period);
   }
   margins.touched = margins.peak_force > 0.0 ? 1 : 0;
   return margins;
 }
 
-Margins margins_of_campaign(const std::string& file, std::size_t runs, const MountedSensors& sensors) {
-  const Campaign campaign = read_campaign(file);
+Margins margins_of_campaign(const std::string& file, std::size_t runs, const MountedSensors& sensors,
+                            Time period) {
+  Campaign campaign = read_campaign(file);
+  if (period != 1ms) {
+    const auto node = std::make_shared<ConfigNode>();
+    node->kind = ConfigNode::Kind::scalar;
+    node->scalar = std::to_string(period / 1us);
+    campaign.grid.push_back({"control_period_us", {node}});
+  }
   std::atomic<std::size_t> next = 0;
   std::mutex mutex;
   Margins all;

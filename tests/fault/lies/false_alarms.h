@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include "systems/framework/time.h"
 #include "systems/signals/plausibility.h"
 
 namespace flinch {
@@ -36,7 +37,9 @@ struct Margins {
 /// Runs until the end of the scenario and looks at every tick until a fault closes the gate.
 Margins margins_of(SimulatedScenario scenario, const MountedSensors& sensors);
 
-/// The first runs of a campaign file, on two threads. Contacts of more than 800 N are left out.
-Margins margins_of_campaign(const std::string& file, std::size_t runs, const MountedSensors& sensors);
+/// The first runs of a campaign file, on two threads, with another control period where one is given.
+/// Contacts of more than 800 N are left out.
+Margins margins_of_campaign(const std::string& file, std::size_t runs, const MountedSensors& sensors,
+                            Time period = 1ms);
 
 }  // namespace flinch::test

@@ -19,11 +19,10 @@ namespace {
 
 constexpr Time quick = 5ms, slow = 30ms;  // brakes
 
-using Key = std::tuple<std::string, double, double, bool, bool, Time, bool, unsigned, LieMoment>;
+using Key = std::tuple<std::string, double, double, bool, bool, Time, bool, unsigned, LieMoment, Time>;
 Key key(const LieScene& scene) {
-  return {scene.robot, scene.speed,  scene.direction_deg,   scene.passive_encoders,
-          scene.imu,   scene.brakes, scene.from_standstill, scene.seed,
-          scene.moment};
+  return {scene.robot,  scene.speed,           scene.direction_deg, scene.passive_encoders, scene.imu,
+          scene.brakes, scene.from_standstill, scene.seed,          scene.moment,           scene.period};
 }
 
 void add(std::vector<LieCase>& cases, const LieScene& scene, const std::vector<std::string>& lies) {

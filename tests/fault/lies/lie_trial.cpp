@@ -72,7 +72,8 @@ std::string text_of(const LieScene& scene, const std::string& faults) {
   std::ostringstream text;
   const LieStage& stage = lie_stage(scene.robot);
   text << "robot: " << stage.file << "\nseed: " << scene.seed
-       << "\nduration_s: " << to_seconds(lie_at(scene) + watched) << "\n";
+       << "\nduration_s: " << to_seconds(lie_at(scene) + watched)
+       << "\ncontrol_period_us: " << 1e6 * to_seconds(scene.period) << "\n";
   if (scene.speed > 0.0) {
     text << "motion: {kind: passage, start_s: " << to_seconds(start) << ", " << direction_key(scene)
          << ", speed_m_per_s: " << scene.speed << ", cruise_m: " << stage.cruise
@@ -163,28 +164,31 @@ bool names(GateFault fault) {
 
 Time lie_at(const LieScene& scene) {
   if (scene.speed <= 0.0) return 500ms;
-  return start + from_seconds(passing(scene).time) / 1ms * 1ms;
+  const Time grid = std::max<Time>(1ms, scene.period);
+  return start / grid * grid + from_seconds(passing(scene).time) / grid * grid;
 }
 
 LieRun honest_run(const LieScene& scene) { return run(scene, ""); }
 
 LieOutcome try_lie(const LieScene& scene, const std::string& lie, const LieRun& honest) {
   const LieRun lied = run(scene, lie);
+  const auto time_of = [&scene](std::size_t ticks) { return scene.period * static_cast<Time::rep>(ticks); };
   LieOutcome outcome{.lie = lie, .scene = scene, .alarm = {}, .rest = {}};
-  const auto begin = static_cast<std::size_t>((scene.from_standstill ? 280ms : lie_at(scene)) / 1ms);
+  const auto begin = static_cast<std::size_t>((scene.from_standstill ? 280ms : lie_at(scene)) / scene.period);
   const std::size_t end = lied.speed.size();
   outcome.began =
       scene.moment == LieMoment::stop || lied.phase[begin - 1] == static_cast<double>(GatePhase::open);
   std::size_t alarm = begin;
   while (alarm < end && !has_answered(scene, lied, alarm)) ++alarm;
   if (alarm < end) {
-    outcome.alarm = Time(1ms) * static_cast<Time::rep>(alarm - begin);
+    outcome.alarm = time_of(alarm - begin);
     outcome.fault = static_cast<GateFault>(lied.fault[alarm]);
     outcome.named = names(outcome.fault) || scene.moment == LieMoment::stop;
   }
   const std::size_t last = std::min({end, honest.speed.size()});
   const double percent = 100.0 / lie_stage(scene.robot).robot.drives.max_torque;
-  for (std::size_t k = begin; k < std::min({last, alarm + 1, begin + 51}); ++k) {
+  for (std::size_t k = begin;
+       k < std::min({last, alarm + 1, begin + static_cast<std::size_t>(50ms / scene.period) + 1}); ++k) {
     for (std::size_t i = 0; i < lied.torque.size(); ++i) {
       const double beyond = std::abs(lied.torque[i][k] - honest.torque[i][k]);
       outcome.torque = std::max(outcome.torque, percent * beyond);
@@ -198,15 +202,15 @@ LieOutcome try_lie(const LieScene& scene, const std::string& lie, const LieRun& 
   }
   std::size_t rest = end;
   while (rest > alarm && lied.speed[rest - 1] < resting) --rest;
-  outcome.watched = Time(1ms) * static_cast<Time::rep>(end - alarm);
-  if (rest < end) outcome.rest = Time(1ms) * static_cast<Time::rep>(rest - alarm);
+  outcome.watched = time_of(end - alarm);
+  if (rest < end) outcome.rest = time_of(rest - alarm);
   std::size_t most = alarm;
   for (std::size_t k = alarm; k < last; ++k) {
     outcome.excess = std::max(outcome.excess, lied.speed[k] - honest.speed[k]);
     if (lied.energy[k] > lied.energy[most]) most = k;
     if (k > alarm && k <= rest) outcome.travel += distance(lied.position[k], lied.position[k - 1]);
   }
-  outcome.growth = Time(1ms) * static_cast<Time::rep>(most - alarm);
+  outcome.growth = time_of(most - alarm);
   return outcome;
 }
 

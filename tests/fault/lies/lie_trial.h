@@ -31,6 +31,7 @@ struct LieScene {
   bool from_standstill = false;  ///< the lie begins before the motion
   std::string realism = "bench";
   LieMoment moment = LieMoment::motion;
+  Time period = 1ms;  ///< from tick to tick of the control
 };
 
 /// A run as the trial looks at it, by ticks.

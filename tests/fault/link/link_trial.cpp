@@ -83,7 +83,8 @@ void LinkTrial::start_robot() {
     robot_ = std::make_unique<OtherProgram>([this] { own_robot_(domain_); });
     return;
   }
-  std::vector<std::string> arguments = {"serve", shipped_file("scenarios/square.yaml"), "--robot", "bench"};
+  std::vector<std::string> arguments = {"serve", shipped_file("scenarios/square.yaml"), "--robot", "bench",
+                                        "--real-time"};
   for (const std::string& argument : bus_arguments()) arguments.push_back(argument);
   robot_ = start(arguments, networks_ != nullptr ? networks_->first() : "");
 }

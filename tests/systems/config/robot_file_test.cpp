@@ -102,7 +102,7 @@ TEST(ShippedRobots, CanAllBeLoaded) {
     EXPECT_GE(load_robot(entry.path())->dof(), 2) << entry.path();
     ++count;
   }
-  EXPECT_EQ(count, 4);
+  EXPECT_EQ(count, 9);
 }
 
 TEST(ShippedRobots, SayWhatTheirDrivesAreGivenAndMayDo) {
@@ -178,7 +178,7 @@ TEST(DocumentOfFiles, NamesEveryKeyOfEveryKindOfRobot) {
   std::string document((std::istreambuf_iterator<char>(file)), {});
   document = document.substr(document.find("## Robot file"));
   int names = 0;
-  for (const char* const robot : {"planar_3rrr.yaml", "five_bar.yaml", "hexapod_6ups.yaml"}) {
+  for (const char* const robot : {"planar_3rrr.yaml", "five_bar.yaml", "hexapod_6ups.yaml", "delta.yaml"}) {
     for (const ReadValue& value : read_robot_file(robots / robot).values) {
       std::istringstream key(value.key);
       for (std::string name; std::getline(key, name, '.'); ++names) {
@@ -273,12 +273,15 @@ TEST_F(ChangedRobotFile, IsOfAKindThatIsKnown) {
   EXPECT_THAT(problems(), ElementsAre(line(1) + "kind: is 'planar_3rr'; did you mean 'planar_3rrr'?"));
   replace("kind: planar_3rr\n", "kind: hexapod\n");
   EXPECT_THAT(problems(),
-              ElementsAre(line(1) + "kind: is 'hexapod'; known are: planar_3rrr, five_bar, hexapod_6ups"))
+              ElementsAre(line(1) +
+                          "kind: is 'hexapod'; known are: planar_3rrr, five_bar, hexapod_6ups, legs. Any "
+                          "robot of legs is a file of kind 'legs' (docs/files.md); what is none is a kind of "
+                          "a program of yours (docs/your_robot.md, section 9)"))
       << "the keys of another robot are not judged";
   replace("kind: hexapod\n", "");
   EXPECT_THAT(
       problems(),
-      ElementsAre(line(1) + "kind: is missing; it must be one of planar_3rrr, five_bar, hexapod_6ups"));
+      ElementsAre(line(1) + "kind: is missing; it must be one of planar_3rrr, five_bar, hexapod_6ups, legs"));
 }
 
 TEST_F(ChangedRobotFile, HasASoundRobotOfItsKindThoughItIsNoGood) {

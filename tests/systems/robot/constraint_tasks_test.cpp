@@ -75,7 +75,9 @@ TEST_P(ConstraintTaskLaws, GradientOfTheConditionNumberAgreesWithDifferences) {
     ASSERT_TRUE(task.valid);
     EXPECT_EQ(task.sigma[0], k.sigma_kappa);
     // Near a tie of singular values the gradient turns within the step.
-    const Eigen::JacobiSVD<PlatformMatrix> svd(k.J_qa_x);
+    PlatformMatrix scaled = k.J_qa_x;
+    scaled.rightCols(space.rotations()) /= robot.description().characteristic_length;
+    const Eigen::JacobiSVD<PlatformMatrix> svd(scaled);
     const PlatformVector s = svd.singularValues();
     bool tie = false;
     for (int i = 0; i + 1 < n; ++i) tie = tie || s[i] - s[i + 1] < 0.02 * s[i];

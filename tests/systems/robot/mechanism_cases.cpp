@@ -7,6 +7,7 @@
 #include "systems/robot/hexapod.h"
 #include "systems/robot/hexapod_presets.h"
 #include "tests/systems/robot/constrained_bodies.h"
+#include "tests/systems/robot/legs_cases.h"
 #include "tests/systems/robot/planar_cases.h"
 
 namespace flinch::test {
@@ -129,19 +130,26 @@ HexapodParameters uneven_hexapod() {
   return p;
 }
 
+std::vector<MechanismCase> own_cases() {
+  return {planar_rrr_case("PlanarRrrIndividual", BenchGeometry::individual),
+          planar_rrr_case("PlanarRrrNominal", BenchGeometry::nominal),
+          five_bar_case("FiveBarElbowsOutward", FiveBarElbows::outward),
+          five_bar_case("FiveBarElbowsInward", FiveBarElbows::inward),
+          point_on_three_legs_case("PointOnThreeLegs"),
+          hexapod_case("Hexapod", hexapod_robot()),
+          hexapod_case("HexapodWithPayload",
+                       hexapod_robot(HexapodPayload::eccentric, HexapodFriction::ball_screws)),
+          hexapod_case("HexapodUneven", uneven_hexapod())};
+}
+
 }  // namespace
 
 const std::vector<MechanismCase>& mechanism_cases() {
-  static const std::vector<MechanismCase> cases = {
-      planar_rrr_case("PlanarRrrIndividual", BenchGeometry::individual),
-      planar_rrr_case("PlanarRrrNominal", BenchGeometry::nominal),
-      five_bar_case("FiveBarElbowsOutward", FiveBarElbows::outward),
-      five_bar_case("FiveBarElbowsInward", FiveBarElbows::inward),
-      point_on_three_legs_case("PointOnThreeLegs"),
-      hexapod_case("Hexapod", hexapod_robot()),
-      hexapod_case("HexapodWithPayload",
-                   hexapod_robot(HexapodPayload::eccentric, HexapodFriction::ball_screws)),
-      hexapod_case("HexapodUneven", uneven_hexapod())};
+  static const std::vector<MechanismCase> cases = [] {
+    std::vector<MechanismCase> all = own_cases();
+    for (MechanismCase& one : legs_cases()) all.push_back(std::move(one));
+    return all;
+  }();
   return cases;
 }
 

@@ -54,7 +54,12 @@ struct MechanismCase {
   PlatformVector velocity;  ///< Largest velocities drawn.
   double least_det_A = 0.0;
   std::vector<RigidBodyInertia> bodies;  ///< By index; planar ones in the plane z = 0.
-  double armature = 0.0;                 ///< Of every drive, where it is none of the bodies' inertia.
+  /// How many of 2000 random starts at least lead to another branch; 0 where there is none.
+  int least_jumps = 21;
+  /// By how much drives may disagree at a pose that is taken for theirs [rad or m]; more drives than
+  /// coordinates never agree quite.
+  double largest_disagreement = 1e-9;
+  double armature = 0.0;  ///< Of every drive, where it is none of the bodies' inertia.
   /// Acceleration of the platform from maximal coordinates.
   std::function<PlatformVector(const MotionState&, const Loads&)> reference;
   Tolerances tolerances;

@@ -75,15 +75,15 @@ TEST_P(KinematicLaws, ForwardKinematicsTellsAJumpToAnotherBranch) {
     if (!solution.converged && !solution.other_branch) continue;
     const Kinematics found = kinematics_at(solution.pose, rest);
     const JointVector error = robot.drive_difference(found.joints.active, active);
-    const bool same_mode = error.lpNorm<Eigen::Infinity>() < 1e-9;
+    const bool same_mode = error.lpNorm<Eigen::Infinity>() < GetParam().largest_disagreement;
     const bool same_assembly = found.det_A * kinematics_at(start, rest).det_A > 0.0;
     EXPECT_EQ(solution.converged, same_mode && same_assembly);
     jumps += solution.other_branch;
   }
-  if (robot.drives() == n) {
-    EXPECT_GT(jumps, 20);
+  if (robot.drives() == n && GetParam().least_jumps > 0) {
+    EXPECT_GE(jumps, GetParam().least_jumps);
   } else {
-    EXPECT_EQ(jumps, 0) << "more drives leave one pose";
+    EXPECT_EQ(jumps, 0) << "nothing leaves another pose";
   }
 }
 

@@ -76,6 +76,18 @@ TEST(FaultMonitor, JudgesJumpsWithinTheTorqueRange) {
   EXPECT_EQ(ask(-500.0), fault_bit(GateFault::torque_jump));
 }
 
+TEST(FaultMonitor, FindsLegsThatComeTooNearThePlatform) {
+  FaultLimits limits;
+  limits.workspace.min_platform_gap = 0.005;
+  for (const double gap : {0.0, 0.0049, 0.0051, std::numeric_limits<double>::infinity()}) {
+    test::Safety safety{test::planar_bench(), limits};
+    test::Inputs inputs(*safety.robot, safety.ticking.now());
+    inputs.posture.measures.platform_gap = gap;
+    safety.tick(inputs);
+    EXPECT_EQ((safety.present() & fault_bit(GateFault::self_collision)) != 0, gap < 0.005) << gap;
+  }
+}
+
 TEST(FaultMonitor, SaysThatTheRobotRestsOnlyWhereTheRatesSaySo) {
   const double rest_speed = FaultLimits().rest_speed;
   Safety safety;

@@ -37,6 +37,7 @@ struct Inputs {
   OperatorCommand buttons;
   ReactionState reaction{.mode = ReactionMode::nominal, .previous = ReactionMode::stopped, .since = {}};
   Plausibility plausibility{.valid = true};
+  DriveCheckStatus drive_check;
   Time last_seen = 10ms;  ///< for what hangs: the last tick of open()
 };
 
@@ -56,6 +57,7 @@ struct Safety {
     ticking.set(buttons, inputs.buttons);
     ticking.set(reaction, inputs.reaction);
     ticking.set(plausibility, inputs.plausibility);
+    ticking.set(drive_check, inputs.drive_check);
     ticking.set(stop, {.computed = ticking.now(), .valid = true, .torque = Eigen::Vector3d(7.0, 8.0, 9.0)});
     ticking.set(reset, {.reset = reset_now});
     ticking.tick();
@@ -65,8 +67,9 @@ struct Safety {
   const GateStatus& status() const { return ticking.get(gate.status); }
 
   std::shared_ptr<const PlanarRrr> robot = planar_bench();
-  DiagramBuilder builder;
-  FaultMonitor& monitor = builder.add<FaultMonitor>("monitor", robot, FaultLimits());
+  FaultLimits limits = {};
+  DiagramBuilder builder{};
+  FaultMonitor& monitor = builder.add<FaultMonitor>("monitor", robot, limits);
   TorqueGate& gate =
       builder.add<TorqueGate>("gate", TorqueGateSettings{.max_torque = 100.0, .max_torque_rate = 1e9});
   InputPort<TorqueCommand> command = connect();
@@ -83,6 +86,7 @@ struct Safety {
   InputPort<OperatorCommand> buttons = builder.export_input("buttons", monitor.buttons);
   InputPort<ReactionState> reaction = builder.export_input("reaction", monitor.reaction);
   InputPort<Plausibility> plausibility = builder.export_input("plausibility", monitor.plausibility);
+  InputPort<DriveCheckStatus> drive_check = builder.export_input("drive_check", monitor.drive_check);
   InputPort<TorqueCommand> stop = builder.export_input("stop", gate.stop);
   InputPort<ResetCommand> reset = builder.export_input("reset", gate.reset);
   Ticking ticking{builder};

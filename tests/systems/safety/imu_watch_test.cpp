@@ -356,6 +356,7 @@ TEST(ImuWatch, DoesNotJudgeAReadingOfLongAgo) {
              .limits = limits,
              .mounted = mounted,
              .now = now,
+             .period = 1ms,
              .joints = posture.joints,
              .drives = drives,
              .torque = torque,

@@ -46,6 +46,20 @@ TEST(PlaceExcess, IsPositiveJustWhereTheFaultIsPresent) {
   EXPECT_NEAR(near[5], 0.2, 1e-12);
 }
 
+TEST(PlaceExcess, IsThatOfTheWorseOfLegsThatAreTooNearOneAnotherOrThePlatform) {
+  FaultLimits with_gap;
+  with_gap.workspace.min_platform_gap = 0.005;
+  const Place place(0.0);
+  test::Posture posture = place.posture;
+  const PlaceTick tick{*place.robot, with_gap.workspace, posture.motion, posture.platform, posture.measures};
+  posture.measures.platform_gap = 0.004;
+  EXPECT_NEAR(place_excess(tick)[5], 0.2, 1e-12);
+  posture.measures.sigma_sc = 0.03;
+  EXPECT_NEAR(place_excess(tick)[5], 0.4, 1e-12);
+  posture.measures.platform_gap = std::numeric_limits<double>::infinity();
+  EXPECT_NEAR(place_excess(tick)[5], 0.4, 1e-12);
+}
+
 TEST(PlaceExcess, IsNotKnownWithoutAPose) {
   Place place(0.4);
   place.posture.platform.status = PlatformMotion::Status::implausible;

@@ -27,16 +27,19 @@ std::shared_ptr<const PlanarRrr> bench() {
 /// Aligned with a velocity of this form, or not.
 DriveTorqueMapping& add_mapping(DiagramBuilder& builder, std::optional<LowPassForm> form,
                                 const JointVector& torque_constant = JointVector::Ones(3),
-                                const Cogging& cogging = {}, const JointVector& delay = {}) {
+                                const Cogging& cogging = {}, const JointVector& delay = {},
+                                Time period = 1ms) {
   const auto aligned_with = form ? std::optional(LowPassSettings{30.0, *form}) : std::nullopt;
   return builder.add<DriveTorqueMapping>(
-      "mapping", bench(), DriveTorqueSettings{torque_constant, {}, cogging, delay}, aligned_with);
+      "mapping", bench(), DriveTorqueSettings{torque_constant, Sampling::each(period), cogging, delay},
+      aligned_with);
 }
 
 struct Mapping {
   explicit Mapping(std::optional<LowPassForm> form, const JointVector& torque_constant = JointVector::Ones(3),
-                   const Cogging& cogging = {}, const JointVector& delay = {})
-      : block(add_mapping(builder, form, torque_constant, cogging, delay)),
+                   const Cogging& cogging = {}, const JointVector& delay = {}, Time period = 1ms)
+      : builder("mapping", period),
+        block(add_mapping(builder, form, torque_constant, cogging, delay, period)),
         joints(builder.export_input("joints", block.joints)),
         drives(builder.export_input("drives", block.drives)),
         status(builder.export_input("status", block.status)),
@@ -94,6 +97,18 @@ TEST(DriveTorqueMapping, IsBehindTheCurrentWhereThatIsKnown) {
     const DriveTorque& torque = mapping.see(current(T * k));
     for (int i = 0; i < 3; ++i)
       EXPECT_NEAR(torque.torque[i], constant[i] * current(T * k - delay[i])[i], 1e-12) << k << ", " << i;
+  }
+}
+
+TEST(DriveTorqueMapping, IsBehindTheCurrentByMoreThanATickWhereTicksAreShort) {
+  const JointVector delay{{0.6e-3, 1e-3, 0.1e-3}}, slope{{100.0, -40.0, 7.0}};
+  Mapping mapping(std::nullopt, JointVector::Ones(3), {}, delay, 250us);
+  const auto current = [&](double time) -> JointVector { return JointVector::Ones(3) + slope * time; };
+  for (int k = 0; k < 20; ++k) {
+    const double now = 0.25e-3 * k;
+    const DriveTorque& torque = mapping.see(current(now));
+    if (k < 5) continue;
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(torque.torque[i], current(now - delay[i])[i], 1e-12) << k;
   }
 }
 

@@ -14,10 +14,9 @@ namespace flinch::test {
 
 /// A scenario's bench, served by another program on a bus of its own, with a place for results.
 struct BenchOnTheBus {
-  explicit BenchOnTheBus(const std::string& scenario = "platform_collision")
-      : scenario_file(place.at("scenarios/" + scenario + ".yaml")),
-        server(flinch_program({"serve", scenario_file, "--robot", "bench", "--domain", domain, "--json",
-                               "--duration", "120"})) {}
+  explicit BenchOnTheBus(const std::string& scenario = "platform_collision",
+                         const std::vector<std::string>& how = {"--real-time", "--json"})
+      : scenario_file(place.at("scenarios/" + scenario + ".yaml")), server(serving(how)) {}
 
   /// The arguments of a verb on this bus.
   std::vector<std::string> on_bus(std::vector<std::string> arguments) const {
@@ -37,6 +36,13 @@ struct BenchOnTheBus {
       outcome = flinch(arguments);
     }
     return outcome;
+  }
+
+  OtherProgram::Start serving(const std::vector<std::string>& how) const {
+    std::vector<std::string> arguments = {"serve",    scenario_file, "--robot",    "bench",
+                                          "--domain", domain,        "--duration", "120"};
+    arguments.insert(arguments.end(), how.begin(), how.end());
+    return flinch_program(arguments);
   }
 
   Workplace place;

@@ -37,7 +37,8 @@ struct Laboratory {
     return arguments;
   }
   test::OtherProgram::Start serving(const std::string& name) const {
-    return test::flinch_program(on_bus({"serve", scenario_file, "--robot", name, "--duration", "120"}));
+    return test::flinch_program(
+        on_bus({"serve", scenario_file, "--robot", name, "--duration", "120", "--real-time"}));
   }
 
   test::Workplace place;

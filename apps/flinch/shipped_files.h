@@ -1,0 +1,15 @@
+#pragma once
+
+#include <filesystem>
+
+namespace flinch {
+
+/// The folder with the robots, scenarios and campaigns that come with flinch: share/flinch or apps/ in one
+/// above the program, as it was installed or built. Empty: there is none.
+std::filesystem::path shipped_folder();
+
+/// `file` where it is there or is more than a name; otherwise the shipped file of this name, with or without
+/// ".yaml", in the folder `kind`, "scenarios". `file` where that is not there either.
+std::filesystem::path or_shipped(const std::filesystem::path& file, const char* kind);
+
+}  // namespace flinch

@@ -1,0 +1,70 @@
+"use strict";
+// Figures of papers: a table for each source, with the ratio of ours to theirs drawn beside the numbers.
+
+const reproduction = JSON.parse(byId("data").textContent);
+const axis = { width: 240, height: 24, most: Math.log(4) };
+
+function valueText(value) {
+  return value === null ? "–" : number(value, 4);
+}
+
+/** Where a value stands beside the paper's, 0 to the width; null where there is no ratio. */
+function place(value, paper) {
+  if (value === null || !(value / paper > 0)) return null;
+  const ratio = Math.max(-axis.most, Math.min(axis.most, Math.log(value / paper)));
+  return (axis.width * (ratio + axis.most)) / (2 * axis.most);
+}
+
+function bar(svg, value, paper, y, name) {
+  const end = place(value, paper);
+  if (end === null) return;
+  const middle = axis.width / 2;
+  shape(svg, "rect", { class: name, x: Math.min(middle, end), y, width: Math.max(2, Math.abs(end - middle)), height: 7 });
+}
+
+function ratioOf(entry) {
+  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  const spoken = `as printed ${valueText(entry.as_printed)}, ours ${valueText(entry.ours)}, paper ${valueText(entry.paper)} ${entry.unit}`;
+  set(svg, { viewBox: `0 0 ${axis.width} ${axis.height}`, preserveAspectRatio: "none", role: "img", "aria-label": spoken });
+  const band = (axis.width * Math.log(entry.within)) / (2 * axis.most);
+  const middle = axis.width / 2;
+  shape(svg, "rect", { class: "band", x: middle - band, y: 0, width: 2 * band, height: axis.height });
+  bar(svg, entry.as_printed, entry.paper, 4, "printed");
+  bar(svg, entry.ours, entry.paper, 13, "ours");
+  shape(svg, "line", { class: "paper-line", x1: middle, x2: middle, y1: 0, y2: axis.height });
+  return svg;
+}
+
+function titleOf(entry) {
+  const cell = element("td", {}, entry.title);
+  if (entry.verdict === "not reached" && entry.reason) cell.append(element("span", { class: "why" }, entry.reason));
+  if (entry.set_up) cell.append(element("span", { class: "setup" }, entry.set_up));
+  if (entry.set_up_ours) cell.append(element("span", { class: "setup" }, `ours: ${entry.set_up_ours}`));
+  return cell;
+}
+
+function rowOf(entry) {
+  const colour = entry.verdict === "not reached" ? "bad" : "good";
+  return element("tr", { id: entry.id }, titleOf(entry),
+    element("td", { class: "value" }, chosen(entry.paper)),
+    element("td", { class: "value" }, valueText(entry.as_printed)),
+    element("td", { class: "value" }, valueText(entry.ours)),
+    element("td", {}, entry.unit),
+    element("td", { class: "ratio" }, ratioOf(entry)),
+    element("td", { class: `verdict ${colour}` }, entry.verdict));
+}
+
+function sectionOf(source, entries) {
+  const head = element("tr", {}, ...["figure", "paper", "as printed", "ours", "unit", "ratio to the paper", "verdict"].map(
+    (name) => element("th", { scope: "col" }, name)));
+  const table = element("table", {}, element("thead", {}, head), element("tbody", {}, ...entries.map(rowOf)));
+  return element("section", { "aria-label": source }, element("h2", {}, source), element("div", { class: "scroll" }, table));
+}
+
+const sources = Map.groupBy
+  ? Map.groupBy(reproduction.entries, (entry) => entry.source)
+  : reproduction.entries.reduce((all, entry) => all.set(entry.source, [...(all.get(entry.source) ?? []), entry]), new Map());
+byId("summary").textContent = `${reproduction.summary}.`;
+byId("sources").replaceChildren(...[...sources].map(([source, entries]) => sectionOf(source, entries)));
+byId("provenance").replaceChildren(
+  element("dt", {}, "command"), element("dd", {}, reproduction.call), element("dt", {}, "version"), element("dd", {}, reproduction.version));

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <memory>
+
+#include "systems/config/config_reader.h"
+
+namespace flinch {
+
+class ParallelRobot;
+struct LegsParameters;
+
+/// The robot of kind `legs` that the keys in `file` describe. All that is wrong with them is noted, also
+/// physically; nothing where something is wrong with the file.
+std::shared_ptr<const ParallelRobot> read_legs(ConfigReader& file);
+
+/// Its parameters as they stand there, without a look at what they mean.
+LegsParameters read_legs_parameters(ConfigReader& file);
+
+}  // namespace flinch

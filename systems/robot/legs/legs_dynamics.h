@@ -1,0 +1,21 @@
+#pragma once
+
+#include "systems/robot/legs/legs_motion.h"
+
+namespace flinch {
+
+/// M dv + C v + g + F_fr of a robot of legs in platform coordinates, as in Dynamics.
+struct LegsDynamics {
+  PlatformMatrix M;
+  PlatformMatrix C;
+  PlatformVector g;
+  PlatformVector F_fr;
+
+  void set(const LegsModel& model, const LegsMotion& motion) noexcept;
+
+ private:
+  void add_platform(const LegsModel& model, const PlatformTwist& platform) noexcept;
+  void add_leg(const LegsModel& model, const ModelLeg& leg, const LegMotion& motion) noexcept;
+};
+
+}  // namespace flinch

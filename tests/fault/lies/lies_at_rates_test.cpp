@@ -1,0 +1,63 @@
+// A slice of the campaign of lies at every rate: what is named at 1 kHz is named, up to 1 ms a tick as soon,
+// and honest robots are not doubted. FLINCH_RATES_SHARE says how much of it: 1 is some minutes of one
+// processor a rate.
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include "tests/fault/lies/false_alarms.h"
+#include "tests/fault/lies/lie_cases.h"
+#include "tests/support/wanted.h"
+
+namespace flinch::test {
+namespace {
+
+class Rate : public testing::TestWithParam<int> {
+ protected:
+  Time period() const { return std::chrono::microseconds(GetParam()); }
+};
+
+INSTANTIATE_TEST_SUITE_P(Lies, Rate, testing::Values(250, 500, 2000, 4000),
+                         [](const auto& period) { return std::to_string(period.param) + "us"; });
+
+std::vector<LieCase> cases_at(Time period) {
+  std::vector<LieCase> cases;
+  for (const char* const lie :
+       {"encoder2:wrong:-0.02", "encoder2:drifting:-5", "encoder2:reversed", "encoder2:noise:1e-3",
+        "current2:wrong:-2", "current2:reversed", "current2:scaled:0", "drive2:off", "drive2:stuck:50",
+        "drive2:reversed", "drive2:scaled:-1", "encoders:reversed", "currents:stuck", "brakes:off",
+        "passive_encoder2:wrong:0.0175"})
+    cases.push_back({{.speed = 0.6, .brakes = 5ms, .period = period}, lie});
+  return cases;
+}
+
+/// Questions with rows of up to four readings take these, however long ticks are.
+TEST_P(Rate, NamesLiesAsSoonAsAKilohertzDoes) {
+  const int readings = period() > 1ms ? 4 : 1;
+
+  const std::vector<LieOutcome> usual = try_all(cases_at(1ms)), here = try_all(cases_at(period()));
+  fmt::print("{}", table_head());
+  for (std::size_t i = 0; i < usual.size(); ++i) {
+    fmt::print("{}{}", line_of(usual[i]), line_of(here[i]));
+    EXPECT_EQ(problem_with(here[i]), "") << line_of(here[i]);
+    if (!usual[i].alarm || !usual[i].named) continue;
+    ASSERT_TRUE(here[i].alarm.has_value()) << line_of(here[i]);
+    EXPECT_TRUE(here[i].named) << line_of(here[i]);
+    EXPECT_LE(*here[i].alarm, *usual[i].alarm + *usual[i].alarm / 10 + readings * period())
+        << line_of(here[i]);
+  }
+}
+
+TEST_P(Rate, DoesNotDoubtTheHonest) {
+  const double share = test::wanted("FLINCH_RATES_SHARE", 0.02);
+  const std::string folder = FLINCH_SOURCE_DIR "/tests/campaign/lies/";
+  for (const auto& [file, runs] : {std::pair("motion.yaml", 8.0), std::pair("contacts.yaml", 400.0)}) {
+    const auto count = static_cast<std::size_t>(std::max(1.0, share * runs));
+    const Margins margins = margins_of_campaign(folder + file, count, {}, period());
+    fmt::print("{} at {} us: {}", file, GetParam(), margins.table());
+    EXPECT_TRUE(margins.alarms.empty()) << file << ": " << margins.table();
+    EXPECT_GT(margins.seconds, 1.0) << "the robots move";
+  }
+}
+
+}  // namespace
+}  // namespace flinch::test
