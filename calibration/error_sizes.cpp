@@ -58,7 +58,8 @@ ResidualErrors fit_error_sizes(std::span<const ErrorSample> samples) {
           .friction = std::sqrt(sizes[4]),
           .lag = std::sqrt(sizes[5]),
           .rest = std::sqrt(sizes[6]),
-          .acceleration = std::sqrt(sizes[7])};
+          .acceleration = std::sqrt(sizes[7]),
+          .turning = std::sqrt(sizes[8])};
 }
 
 }  // namespace flinch

@@ -100,18 +100,18 @@ std::string residuals_table(const ThresholdFindings& found) {
   std::string text = fmt::format(
       "\nfused detector, all of it together; deviations of the errors by cause, noise and rest in {}, lag in "
       "ms, acceleration in {}\n{:<22} {:<8} {:>9} {:>9} {:>9} {:>9} {:>7} {:>7} {:>7} {:>7} {:>8} {:>7} "
-      "{:>7} {:>7}\n",
+      "{:>7} {:>7} {:>7}\n",
       found.drives_turn ? "Nm" : "N", found.drives_turn ? "rad/s^2" : "m/s^2", "residual", "of", "threshold",
       "guess", "largest", "variation", "noise", "speed", "load", "torque", "friction", "lag", "rest",
-      "accel.");
+      "accel.", "turning");
   for (const CalibratedResidual& residual : found.residuals) {
     for (const auto& [part, of] : parts(residual)) {
       text += fmt::format(
           "{:<22} {:<8} {:>9.3g} {:>9.3g} {:>9.3g} {:>9.3f} {:>7.3f} {:>7.3f} {:>7.3f} {:>7.3f} {:>8.3f} "
-          "{:>7.3f} {:>7.3f} {:>7.3f}\n",
+          "{:>7.3f} {:>7.3f} {:>7.3f} {:>7.3f}\n",
           residual.estimator, part, of.threshold.value, of.threshold.best_guess, of.threshold.largest,
           of.variation, of.errors.noise, of.errors.speed, of.errors.load, of.errors.torque,
-          of.errors.friction, 1e3 * of.errors.lag, of.errors.rest, of.errors.acceleration);
+          of.errors.friction, 1e3 * of.errors.lag, of.errors.rest, of.errors.acceleration, of.errors.turning);
     }
   }
   return text;
@@ -155,10 +155,11 @@ std::string residuals_yaml(const ThresholdFindings& found) {
                           found.drives_turn ? "Nms_per_rad" : "Ns_per_m", computable(of.errors.speed));
       text += fmt::format(
           ", load: {:.4g}, torque: {:.4g}, friction: {:.4g}, lag_ms: {:.4g}, rest_{}: {:.4g}, "
-          "acceleration_{}: {:.4g}}}\n",
+          "acceleration_{}: {:.4g}, turning: {:.4g}}}\n",
           computable(of.errors.load), computable(of.errors.torque), computable(of.errors.friction),
           1e3 * computable(of.errors.lag), found.drives_turn ? "Nm" : "N", computable(of.errors.rest),
-          found.drives_turn ? "rad_per_s2" : "m_per_s2", computable(of.errors.acceleration));
+          found.drives_turn ? "rad_per_s2" : "m_per_s2", computable(of.errors.acceleration),
+          computable(of.errors.turning));
     }
     if (!residual.onset) continue;
     const CalibratedOnset& onset = *residual.onset;
@@ -224,19 +225,13 @@ std::string provenance(const ThresholdFindings& found) {
 }
 
 Json json_of(const CalibratedSurprise& of) {
-  return {{"value", of.threshold.value},
-          {"best_guess", of.threshold.best_guess},
-          {"largest", of.threshold.largest},
-          {"noise", of.errors.noise},
-          {"speed", of.errors.speed},
-          {"load", of.errors.load},
-          {"torque", of.errors.torque},
-          {"friction", of.errors.friction},
-          {"lag_s", of.errors.lag},
-          {"rest", of.errors.rest},
-          {"variation", of.variation},
-          {"acceleration", of.errors.acceleration},
-          {"between_robots", of.between_robots}};
+  return {{"value", of.threshold.value},     {"best_guess", of.threshold.best_guess},
+          {"largest", of.threshold.largest}, {"noise", of.errors.noise},
+          {"speed", of.errors.speed},        {"load", of.errors.load},
+          {"torque", of.errors.torque},      {"friction", of.errors.friction},
+          {"lag_s", of.errors.lag},          {"rest", of.errors.rest},
+          {"variation", of.variation},       {"acceleration", of.errors.acceleration},
+          {"turning", of.errors.turning},    {"between_robots", of.between_robots}};
 }
 
 Json json_of(const CalibratedOnset& of) {

@@ -54,6 +54,9 @@ struct ContactControlSettings {
   bool aligned_with_velocity = true;
 
   ImuMount imu_mount;  ///< pose 1 of [RAL25] V-B; for all that reads the IMU
+  /// Width of the range in which the stamps of an IMU err whose delay varies; for all that compares it with
+  /// a model. 0: they are as exact as those of the bench.
+  Time imu_stamp_spread{};
   ImuFilterSettings imu_ekf = published_imu_filter();
   ImuFilterSettings extended_imu_ekf = extended_imu_filter();
 

@@ -122,6 +122,7 @@ OutputPort<WrenchEstimate> add_imu_residual(const StageSite& site, const Acceler
   DiagramBuilder& builder = site.builder;
   ImuResidualSettings settings = site.settings.imu_residual;
   settings.mount = site.settings.imu_mount;
+  settings.stamp_spread = site.settings.imu_stamp_spread;
   auto& residual = builder.add<ImuResidual>(site.name + "_method", site.robot, settings);
   builder.connect(present.platform, residual.platform);
   builder.connect(present.kinematics, residual.kinematics);

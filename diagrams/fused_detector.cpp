@@ -1,6 +1,7 @@
 #include "diagrams/fused_detector.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -12,13 +13,14 @@
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/constant.h"
 #include "systems/model/drive_loads.h"
+#include "systems/signals/stamp_spread.h"
 
 namespace flinch {
 namespace {
 
 OutputPort<DriveLoad> add_loads(const StageSite& site, const AcceleratedPorts& given,
                                 const LaglessPorts& present) {
-  auto& loads = site.builder.add<DriveLoads>(site.name + "_loads");
+  auto& loads = site.builder.add<DriveLoads>(site.name + "_loads", site.robot);
   site.builder.connect(present.platform, loads.platform);
   site.builder.connect(present.kinematics, loads.kinematics);
   site.builder.connect(present.dynamics, loads.dynamics);
@@ -44,6 +46,18 @@ OutputPort<WrenchEstimate> estimate_of(const std::string& name, const StageSite&
   throw SetupError(site.name + ": there is no estimator '" + name + "'" + did_you_mean(name, known));
 }
 
+/// With what stamps that err make of the residual of the IMU, where more is stated than was calibrated: of two in a
+/// row, behind an observer of the gyroscope; and of how late torques are.
+SurpriseThreshold with_stamps(SurpriseThreshold limit, const ContactControlSettings& settings) {
+  const double deviation = uniform_deviation(settings.imu_stamp_spread);
+  const double T = to_seconds(settings.control_period);
+  const double a = std::exp(-settings.imu_residual.gyroscope_gain * T);
+  limit.errors.turning =
+      std::max(limit.errors.turning, deviation * (1.0 - a) * std::sqrt(2.0 / (1.0 + a)) / T);
+  limit.errors.lag = std::max(limit.errors.lag, deviation);
+  return limit;
+}
+
 OutputPort<ContactDetection> add_residual(const StageSite& site, const FusedResidual& residual,
                                           const EstimatePorts& given, const LaglessPorts& present,
                                           OutputPort<DriveLoad> load) {
@@ -52,6 +66,11 @@ OutputPort<ContactDetection> add_residual(const StageSite& site, const FusedResi
                                     .smoothed = residual.smoothed,
                                     .tracking = tracking_of(residual.estimator, site.settings),
                                     .hard = site.settings.contact_detector.hard};
+  if (residual.estimator == "imu_residual") {
+    settings.level = with_stamps(settings.level, site.settings);
+    settings.change = with_stamps(settings.change, site.settings);
+    if (settings.smoothed) settings.smoothed = with_stamps(*settings.smoothed, site.settings);
+  }
   const std::string name = site.name + "_by_" + residual.estimator;
   if (site.settings.fused_detector.rule == ChangeRule::likelihood_ratio) {
     if (!residual.onset)

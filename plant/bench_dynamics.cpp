@@ -18,6 +18,17 @@ const BenchSettings& checked(const BenchSettings& settings) {
   return settings;
 }
 
+/// Dry friction that holds: `way` from where it bears nothing, over its give, counts up to `most` either way.
+struct Held {
+  double way;
+  double most;
+
+  double share() const { return std::clamp(way, -most, most); }
+  bool slides() const { return std::abs(way) > most; }
+  /// `rate` over the rate that counts as much as its give.
+  double effort(double most_effort, double rate) const { return -most_effort * std::tanh(rate + share()); }
+};
+
 bool all_round(const Obstacles& obstacles) {
   return std::all_of(obstacles.begin(), obstacles.end(), [](const auto& obstacle) {
     return std::holds_alternative<Sphere>(obstacle->form().shape);
@@ -42,6 +53,7 @@ BenchDynamics::BenchDynamics(const BenchSettings& settings)
     timed = timed || obstacle.follows_time();
   }
   if (timed) time_at_ = size_++;
+  for (int i = 0; i < robot().drives(); ++i) friction_.push_back(robot().dry_friction(i));
 }
 
 BenchState BenchDynamics::initial_state() const {
@@ -92,28 +104,45 @@ void BenchDynamics::add_obstacle_rates(const BenchState& state, const ContactFor
   if (time_at_ >= 0) rates[time_at_] = 1.0;
 }
 
-double BenchDynamics::brake_way(int drive, double position, double braked_at) const noexcept {
-  if (robot().drive_kind(drive) == DriveKind::prismatic)
-    return (position - braked_at) / settings_.brake.sliding_give;
-  return std::remainder(position - braked_at, 2.0 * std::numbers::pi) / settings_.brake.give;
+double BenchDynamics::way(int drive, double from, double to) const noexcept {
+  const bool slides = robot().drive_kind(drive) == DriveKind::prismatic;
+  return slides ? to - from : std::remainder(to - from, 2.0 * std::numbers::pi);
 }
 
 double BenchDynamics::brake_effort(int drive, double rate, double position, double braked_at) const noexcept {
   const BrakeFriction& brake = settings_.brake;
   const bool slides = robot().drive_kind(drive) == DriveKind::prismatic;
-  const double way =
-      std::clamp(brake_way(drive, position, braked_at), -BrakeFriction::most_give, BrakeFriction::most_give);
-  return -(slides ? brake.force : brake.torque) *
-         std::tanh(rate / (slides ? brake.sliding_velocity : brake.velocity) + way);
+  const Held held{way(drive, braked_at, position) / (slides ? brake.sliding_give : brake.give),
+                  BrakeFriction::most_give};
+  return held.effort(slides ? brake.force : brake.torque,
+                     rate / (slides ? brake.sliding_velocity : brake.velocity));
 }
 
 double BenchDynamics::brake_slides_to(int drive, double position, double braked_at) const noexcept {
   const bool slides = robot().drive_kind(drive) == DriveKind::prismatic;
-  const double most =
-      BrakeFriction::most_give * (slides ? settings_.brake.sliding_give : settings_.brake.give);
-  const double way = brake_way(drive, position, braked_at) / BrakeFriction::most_give;
-  if (std::abs(way) <= 1.0) return braked_at;
-  return position - std::copysign(most, way);
+  const double give = slides ? settings_.brake.sliding_give : settings_.brake.give;
+  const Held held{way(drive, braked_at, position) / give, BrakeFriction::most_give};
+  return held.slides() ? position - give * held.share() : braked_at;
+}
+
+double BenchDynamics::sticking_effort(int drive, double rate, double position,
+                                      double stuck_at) const noexcept {
+  const auto index = static_cast<std::size_t>(drive);
+  const DryFriction& friction = friction_[index];
+  if (!(friction.effort > 0.0)) return 0.0;
+  const StickingFriction& sticking = settings_.sticking;
+  const bool slides = robot().drive_kind(drive) == DriveKind::prismatic;
+  const Held held{way(drive, stuck_at, position) * sticking.stiffness[drive] / friction.effort,
+                  StickingFriction::most_give};
+  return friction.at(rate) +
+         held.effort(friction.effort, rate / (slides ? sticking.sliding_velocity : sticking.velocity));
+}
+
+double BenchDynamics::friction_slides_to(int drive, double position, double stuck_at) const noexcept {
+  const double give = friction_[static_cast<std::size_t>(drive)].effort / settings_.sticking.stiffness[drive];
+  if (!(give > 0.0)) return stuck_at;
+  const Held held{way(drive, stuck_at, position) / give, StickingFriction::most_give};
+  return held.slides() ? position - give * held.share() : stuck_at;
 }
 
 }  // namespace flinch

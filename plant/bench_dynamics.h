@@ -38,6 +38,8 @@ struct BenchStep {
   std::array<HeldPoint, max_obstacles> held;
   /// Positions of the drives at which their closed brakes bear nothing [rad or m]; empty: where they are.
   JointVector braked_at;
+  /// Where their friction that sticks bears nothing, likewise.
+  JointVector stuck_at;
   /// Its brakes hold the robot, and nothing moves it: it stays at rest while both hold.
   bool at_rest = false;
 };
@@ -53,6 +55,7 @@ struct BenchSnapshot {
   double kinetic_energy = 0.0;      ///< [J]
   JointVector drive_torque;         ///< That acts, without the brakes' [Nm or N].
   JointVector braked_at;            ///< As in BenchStep, from now on.
+  JointVector stuck_at;             ///< Likewise.
   bool at_rest = false;             ///< Likewise.
   PlatformVector acceleration;
   PlatformVector applied_wrench;
@@ -111,12 +114,19 @@ class BenchDynamics {
   double brake_effort(int drive, double rate, double position, double braked_at) const noexcept;
   /// Where a closed brake bears nothing from now on: it has slid if that is too far away.
   double brake_slides_to(int drive, double position, double braked_at) const noexcept;
+  /// Whether the friction of drives sticks.
+  bool sticks() const noexcept { return settings_.sticking.stiffness.size() > 0; }
+  /// What friction that sticks, and bears nothing at `stuck_at`, does to its drive beyond that of the robot.
+  double sticking_effort(int drive, double rate, double position, double stuck_at) const noexcept;
+  /// Where it bears nothing from now on.
+  double friction_slides_to(int drive, double position, double stuck_at) const noexcept;
 
  private:
-  /// From where a closed brake bears nothing, over its give.
-  double brake_way(int drive, double position, double braked_at) const noexcept;
+  /// From one position of a drive to another; angles by the shorter way.
+  double way(int drive, double from, double to) const noexcept;
 
   BenchSettings settings_;
+  std::vector<DryFriction> friction_;  ///< of each drive
   int dof_;
   std::array<int, max_obstacles> obstacle_at_{};  ///< -1: it does not move freely
   int time_at_ = -1;

@@ -49,6 +49,7 @@ class BenchOf final : public BenchDynamics {
   JointVector drive_torque(const Instant& now, const DriveAction& drives) const noexcept;
   JointVector braked_at(const JointVector& active, const DriveAction& drives,
                         const BenchStep& step) const noexcept;
+  JointVector stuck_at(const JointVector& active, const BenchStep& step) const noexcept;
   PlatformVector acceleration(const Instant& now, JointVector torque, const DriveAction& drives,
                               const BenchStep& step, const PlatformVector& wrench) const noexcept;
 
@@ -176,6 +177,11 @@ PlatformVector BenchOf<Robot>::acceleration(const Instant& now, JointVector torq
                                             const BenchStep& step,
                                             const PlatformVector& wrench) const noexcept {
   for (int i = 0; i < robot().drives(); ++i) {
+    if (sticks()) {
+      const double position = robot_.drive_position(now, i);
+      const double stuck_at = step.stuck_at.size() > 0 ? step.stuck_at[i] : position;
+      torque[i] += sticking_effort(i, robot_.drive_rate(now, i), position, stuck_at);
+    }
     const double share = internal::held_share(drives, i);
     if (!(share > 0.0)) continue;
     const double position = robot_.drive_position(now, i);
@@ -193,6 +199,14 @@ JointVector BenchOf<Robot>::braked_at(const JointVector& active, const DriveActi
   for (int i = 0; i < robot().drives(); ++i) {
     if (internal::held_share(drives, i) > 0.0) next[i] = brake_slides_to(i, next[i], step.braked_at[i]);
   }
+  return next;
+}
+
+template <class Robot>
+JointVector BenchOf<Robot>::stuck_at(const JointVector& active, const BenchStep& step) const noexcept {
+  JointVector next = active;
+  if (!sticks() || step.stuck_at.size() == 0) return next;
+  for (int i = 0; i < robot().drives(); ++i) next[i] = friction_slides_to(i, next[i], step.stuck_at[i]);
   return next;
 }
 
@@ -252,6 +266,7 @@ void BenchOf<Robot>::snapshot(const BenchState& state, const DriveAction& drives
   find_forces(now, out.obstacles, step, out.search.candidates, out.contacts);
   out.drive_torque = drive_torque(now, drives);
   out.braked_at = braked_at(out.joints.active, drives, step);
+  out.stuck_at = stuck_at(out.joints.active, step);
   out.acceleration =
       acceleration(now, out.drive_torque, drives, step,
                    out.applied_wrench + out.contacts.obstacle_wrench + out.contacts.self_wrench);
@@ -276,6 +291,7 @@ void BenchOf<Robot>::next_step(const BenchState& state, double t, const BenchSna
   out.chart.xi = state.head(dof());
   out.search = snapshot.search;
   out.braked_at = snapshot.braked_at;
+  out.stuck_at = snapshot.stuck_at;
   out.at_rest = snapshot.at_rest;
   for (std::size_t i = 0; i < settings().obstacles.size(); ++i) {
     out.held[i] = next_held(i, state, t, snapshot, before);

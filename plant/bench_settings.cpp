@@ -48,6 +48,12 @@ std::vector<std::string> problems(const BenchSettings& settings) {
   found.not_negative("brake.force", settings.brake.force, "N");
   found.positive("brake.sliding_velocity", settings.brake.sliding_velocity, "m/s");
   found.positive("brake.sliding_give", settings.brake.sliding_give, "m");
+  const StickingFriction& sticking = settings.sticking;
+  const bool all = sticking.stiffness.size() == 0 || usable(sticking.stiffness, settings.robot->drives());
+  found.require(all && (sticking.stiffness.array() > 0.0).all(),
+                "sticking.stiffness needs a positive number for each drive [Nm/rad or N/m], or none at all");
+  found.positive("sticking.velocity", sticking.velocity, "rad/s");
+  found.positive("sticking.sliding_velocity", sticking.sliding_velocity, "m/s");
   check_start(settings, found);
   return found.take();
 }

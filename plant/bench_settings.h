@@ -9,6 +9,7 @@
 #include "plant/rope_pull.h"
 #include "plant/uneven_torque.h"
 #include "systems/robot/mechanism.h"
+#include "systems/robot/vectors.h"
 
 namespace flinch {
 
@@ -26,6 +27,17 @@ struct BrakeFriction {
   double sliding_give = 5e-5;      ///< [m]
 };
 
+/// Dry friction that sticks, of a drive: -effort tanh(rate / velocity + stiffness way / effort), where `way` is that
+/// from where it has stuck or last slid to, at most `most_give` times effort / stiffness. The effort is that of
+/// the robot, whose friction it is in the place of; so a drive at rest holds a torque up to that without creeping.
+struct StickingFriction {
+  static constexpr double most_give = 3.0;
+
+  JointVector stiffness;           ///< Of each drive [Nm/rad or N/m]; empty: friction is as the robot has it.
+  double velocity = 1e-3;          ///< Of drives that turn [rad/s].
+  double sliding_velocity = 1e-3;  ///< Of drives that slide [m/s].
+};
+
 /// The simulated bench as a mechanism. Its robot need not be the one that a controller believes in.
 struct BenchSettings {
   std::shared_ptr<const Mechanism> robot;
@@ -35,6 +47,7 @@ struct BenchSettings {
   /// How the robot's own bodies touch; nothing: they pass through one another.
   std::optional<ContactMaterial> link_material = ContactMaterial{.stiffness = 5e4};
   BrakeFriction brake;
+  StickingFriction sticking;
   std::vector<UnevenTorque> uneven_torque;  ///< Of each drive; empty: all are even.
   std::vector<RopePull> pulls;              ///< By ropes, besides all contacts.
 };

@@ -1,5 +1,7 @@
 #include "plant/imu_clock.h"
 
+#include <algorithm>
+
 #include "systems/foundation/findings.h"
 #include "systems/framework/random.h"
 
@@ -18,6 +20,9 @@ std::vector<std::string> problems(const ImuClockSettings& settings) {
   found.not_negative("before_tick", to_seconds(settings.before_tick), "s");
   found.not_negative("jitter", to_seconds(settings.jitter), "s");
   found.not_negative("stamp_jitter", to_seconds(settings.stamp_jitter), "s");
+  found.not_negative("delay_jitter", to_seconds(settings.delay_jitter), "s");
+  found.require(settings.delay_jitter <= ImuClock::most_periods / 2 * settings.period,
+                "delay_jitter must be at most " + std::to_string(ImuClock::most_periods / 2) + " periods");
   found.require(settings.before_tick <= Time::zero() || settings.before_tick < settings.period,
                 "before_tick must be shorter than the period");
   const Time most = settings.jitter + settings.stamp_jitter;
@@ -30,12 +35,26 @@ std::int64_t ImuClock::number_at(Time time) const {
   return (time + settings_.before_tick - settings_.jitter) / settings_.period - 1;
 }
 
-ImuClock::Sample ImuClock::sample(std::int64_t number) const {
+/// Whatever the samples before it do.
+ImuClock::Sample ImuClock::alone(std::int64_t number) const {
   RandomGenerator mixed(seed_ + static_cast<std::uint64_t>(number));
   RandomGenerator generator(mixed());
-  const Time measured =
-      number * settings_.period - settings_.before_tick + drawn(settings_.jitter, generator);
-  return {measured, measured + drawn(settings_.stamp_jitter, generator)};
+  Sample sample;
+  sample.measured = number * settings_.period - settings_.before_tick + drawn(settings_.jitter, generator);
+  sample.stamp = sample.measured + drawn(settings_.stamp_jitter, generator);
+  sample.late = drawn(settings_.delay_jitter, generator);
+  return sample;
+}
+
+ImuClock::Sample ImuClock::sample(std::int64_t number) const {
+  Sample sample = alone(number);
+  if (settings_.delay_jitter == Time::zero()) return sample;
+  for (std::int64_t before = number - most_periods; before < number; ++before) {
+    const Sample earlier = alone(before);
+    sample.late = std::max(sample.late, earlier.measured + earlier.late - sample.measured);
+  }
+  sample.stamp += sample.late;
+  return sample;
 }
 
 }  // namespace flinch

@@ -7,6 +7,12 @@
 namespace flinch {
 
 Realism bench_realism(DriveKind drives) {
+  Realism realism = kind_realism(drives);
+  realism.friction_stiffness = drives == DriveKind::revolute ? 1e4 : 5e6;
+  return realism;
+}
+
+Realism kind_realism(DriveKind drives) {
   constexpr double degree = std::numbers::pi / 180.0;
   return {.friction = 0.2,
           .leg_inertia = 0.03,

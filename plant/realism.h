@@ -8,7 +8,9 @@ namespace flinch {
 /// drawn, see `draw_specimen`. Zero: it is as the model says.
 struct Realism {
   // ---- mechanics
-  double friction = 0.0;          ///< Of each drive and passive joint, a share either way.
+  double friction = 0.0;  ///< Of each drive and passive joint, a share either way.
+  /// Of the dry friction of each drive, which then sticks: from a twentieth of this up [Nm/rad or N/m].
+  double friction_stiffness = 0.0;
   double leg_inertia = 0.0;       ///< Of each leg's masses and moments of inertia, a share either way.
   double platform_inertia = 0.0;  ///< Likewise, of the platform.
   double payload = 0.0;           ///< Point mass at the platform's origin that nobody knows of [kg].
@@ -30,5 +32,8 @@ struct Realism {
 
 /// Sizes as of a bench that was built and calibrated with care; docs/theory.md has their sources.
 Realism bench_realism(DriveKind drives);
+
+/// The same with friction as models have it, which creeps.
+Realism kind_realism(DriveKind drives);
 
 }  // namespace flinch

@@ -24,9 +24,12 @@ std::vector<std::string> problems(const SimulatedImuSettings& settings) {
   std::vector<std::string> all = problems(settings.clock);
   Findings found("imu.");
   found.not_negative("delay", to_seconds(settings.delay), "s");
-  found.require(DelayLine<ImuSamples::Sample>::can_delay(settings.delay, settings.clock.period),
-                "delay must be shorter than " + std::to_string(DelayLine<ImuReading>::longest_delay) +
-                    " times the period");
+  found.require(settings.clock.delay_jitter <= settings.delay,
+                "delay_jitter must not be longer than the delay");
+  found.require(DelayLine<ImuSamples::Sample>::can_delay(settings.delay + settings.clock.delay_jitter,
+                                                         settings.clock.period),
+                "delay, with its jitter, must be shorter than " +
+                    std::to_string(DelayLine<ImuReading>::longest_delay) + " times the period");
   for (std::string& problem : found.take()) all.push_back(std::move(problem));
   return all;
 }
@@ -85,7 +88,7 @@ void SimulatedImu::measure(const PlantTruth& now, const NormalNumbers<6>& noise,
     if (instant.measured <= now.acquired - tick_) continue;
     if (measured.count > 0) numbers.draw();
     ImuSamples::Sample& sample = measured.samples[static_cast<std::size_t>(measured.count++)];
-    sample = {.acquired = instant.measured, .reading = {}};
+    sample = {.acquired = instant.measured + instant.late, .reading = {}};
     sample.reading.acquired = instant.stamp;
     read(now, now.acquired - instant.measured, numbers, sample.reading);
   }

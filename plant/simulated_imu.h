@@ -52,7 +52,7 @@ std::vector<std::string> problems(const SimulatedImuSettings& settings);
 struct ImuSamples {
   static constexpr int most = 17;  ///< in a tick of 16 periods, some early, some late
   struct Sample {
-    Time acquired{};  ///< When it was measured, whatever the reading says of it.
+    Time acquired{};  ///< When it was measured, or would have been to come now with the usual delay.
     ImuReading reading;
   };
 

@@ -1,6 +1,7 @@
 #include "plant/specimen.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <string_view>
 #include <utility>
@@ -22,6 +23,11 @@ class Draw {
     JointVector drawn(count);
     for (int i = 0; i < count; ++i) drawn[i] = generator.uniform(low, high);
     return drawn;
+  }
+  /// From a twentieth of `size` to it, as likely in each octave.
+  JointVector within_twenty(std::string_view quantity, double size, int count) const {
+    if (!(size > 0.0)) return {};
+    return size * between(quantity, -std::log(20.0), 0.0, count).array().exp();
   }
   JointVector either_way(std::string_view quantity, double size, int count) const {
     return size > 0.0 ? between(quantity, -size, size, count) : JointVector();
@@ -117,6 +123,7 @@ Specimen draw_specimen(const Realism& realism, const ParallelRobot& robot, doubl
   const double rate = robot.drive_kind(0) == DriveKind::revolute ? 1.0 : turn / realism.screw_lead;
   Specimen drawn;
   drawn.mechanics = draw_mechanics(realism, robot, draw);
+  drawn.friction_stiffness = draw.within_twenty("friction stiffness", realism.friction_stiffness, drives);
   drawn.torque_constant_scale = draw.scale("torque constant", realism.torque_constant, drives);
   drawn.current_lag = draw.up_to("current lag", realism.current_lag, drives);
   drawn.uneven_torque = draw_torque(realism, largest_torque, rate, drives, draw);
@@ -131,6 +138,7 @@ Specimen draw_specimen(const Realism& realism, const ParallelRobot& robot, doubl
 SimulatedStationSettings with_specimen(SimulatedStationSettings model, const Specimen& specimen) {
   SimulatedDrivesSettings& drives = model.drives;
   model.bench.robot = true_robot(model.bench.robot, specimen.mechanics);
+  model.bench.sticking.stiffness = specimen.friction_stiffness;
   const std::vector<UnevenTorque> known = std::exchange(model.bench.uneven_torque, specimen.uneven_torque);
   model.bench.uneven_torque.resize(std::max(known.size(), specimen.uneven_torque.size()));
   for (std::size_t i = 0; i < known.size(); ++i) model.bench.uneven_torque[i].cogging = known[i].cogging;
@@ -153,6 +161,8 @@ Values specimen_values(const Specimen& specimen, const Mechanism& robot) {
   const RobotDeviation& mechanics = specimen.mechanics;
   Told told;
   told.add("drive_friction_scale", list(mechanics.drive_friction_scale));
+  told.add(turns ? "friction_stiffness_Nm_per_rad" : "friction_stiffness_N_per_m",
+           list(specimen.friction_stiffness));
   told.add("passive_friction_scale", list(mechanics.passive_friction_scale));
   told.add("leg_inertia_scale", list(mechanics.leg_inertia_scale));
   if (mechanics.platform_inertia_scale != 1.0)

@@ -18,6 +18,7 @@ namespace flinch {
 /// model says.
 struct Specimen {
   RobotDeviation mechanics;
+  JointVector friction_stiffness;           ///< Of each drive, whose dry friction sticks [Nm/rad or N/m].
   JointVector torque_constant_scale;        ///< Of each motor.
   JointVector current_lag;                  ///< Of each drive, time constant [s].
   std::vector<UnevenTorque> uneven_torque;  ///< Of each drive.

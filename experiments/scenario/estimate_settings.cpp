@@ -15,13 +15,14 @@ namespace {
 /// and of what the IMU is believed by. tests/experiments/simulated/estimate_settings_test.cpp finds them by
 /// running.
 const std::map<std::string, std::vector<std::string>> other_sections = {
-    {"imu_ekf", {"imu_mount", "plausibility"}},
-    {"extended_imu_ekf", {"imu_mount", "plausibility"}},
+    {"imu_ekf", {"imu_mount", "imu_stamps", "plausibility"}},
+    {"extended_imu_ekf", {"imu_mount", "imu_stamps", "plausibility"}},
     {"direct_method", {"momentum_observer"}},
-    {"direct_imu_ekf", {"imu_ekf", "imu_mount", "plausibility", "momentum_observer"}},
+    {"direct_imu_ekf", {"imu_ekf", "imu_mount", "imu_stamps", "plausibility", "momentum_observer"}},
     {"direct_extended_imu_ekf",
-     {"extended_imu_ekf", "imu_mount", "plausibility", "disturbance_filter", "momentum_observer"}},
-    {"imu_residual", {"imu_mount", "plausibility", "disturbance_filter", "momentum_observer"}}};
+     {"extended_imu_ekf", "imu_mount", "imu_stamps", "plausibility", "disturbance_filter",
+      "momentum_observer"}},
+    {"imu_residual", {"imu_mount", "imu_stamps", "plausibility", "disturbance_filter", "momentum_observer"}}};
 
 /// Of the keys that count: sections, each with a dot, and single keys.
 std::set<std::string> beginnings(const ControlStages& stages) {

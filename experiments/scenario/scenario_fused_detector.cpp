@@ -22,6 +22,7 @@ void read(ConfigReader reader, bool drives_turn, SurpriseThreshold& limit) {
   reader.number("rest", drives_turn ? unit::Nm : unit::N, limit.errors.rest, not_negative);
   reader.number("acceleration", drives_turn ? unit::rad_per_s2 : unit::m_per_s2, limit.errors.acceleration,
                 not_negative);
+  reader.number("turning", unit::none, limit.errors.turning, not_negative);
 }
 
 void read(ConfigReader reader, OnsetThreshold& onset) {

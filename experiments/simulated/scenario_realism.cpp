@@ -6,12 +6,13 @@
 namespace flinch {
 namespace {
 
-enum class Like { none, bench };
+enum class Like { none, kind, bench };
 
 Realism read_like(ConfigReader& reader, std::string_view key, DriveKind drives) {
   Like like = Like::none;
-  reader.choice(key, like, {{"none", Like::none}, {"bench", Like::bench}});
-  return like == Like::bench ? bench_realism(drives) : Realism();
+  reader.choice(key, like, {{"none", Like::none}, {"kind", Like::kind}, {"bench", Like::bench}});
+  if (like == Like::none) return {};
+  return like == Like::kind ? kind_realism(drives) : bench_realism(drives);
 }
 
 void read_drives(ConfigReader& reader, bool turn, Realism& realism) {
@@ -43,11 +44,13 @@ Realism read_realism(ConfigReader& plant, const ParallelRobot& robot) {
   Realism realism = read_like(reader, "like", drives);
   // Nothing that must be positive may be scaled by zero.
   constexpr Range share{.low = 0.0, .high = 0.9};
+  const bool turn = drives == DriveKind::revolute;
   reader.number("friction", unit::none, realism.friction, fraction);
+  reader.number("friction_stiffness", turn ? unit::Nm_per_rad : unit::N_per_m, realism.friction_stiffness,
+                not_negative);
   reader.number("leg_inertia", unit::none, realism.leg_inertia, share);
   reader.number("platform_inertia", unit::none, realism.platform_inertia, share);
   reader.number("payload", unit::kg, realism.payload, not_negative);
-  const bool turn = drives == DriveKind::revolute;
   read_drives(reader, turn, realism);
   read_encoders(reader, turn, robot.passive_joints() > 0, realism);
   return realism;

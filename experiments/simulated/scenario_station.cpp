@@ -125,6 +125,7 @@ void read_clock(ConfigReader& reader, ImuClockSettings& clock) {
   clock.period = from_seconds(1.0 / rate);
   reader.duration("before_tick", clock.before_tick, shorter_than(clock.period));
   reader.duration("jitter", clock.jitter, shorter_than(clock.period / 2));
+  reader.duration("delay_jitter", clock.delay_jitter, between(0.0, 4e-3));
   reader.duration("stamp_jitter", clock.stamp_jitter, shorter_than(clock.period / 2 - clock.jitter));
 }
 

@@ -13,7 +13,7 @@ constexpr double square(double value) { return value * value; }
 double ResidualErrors::variance(const ErrorFeatures& features) const {
   return square(noise) * features[0] + square(speed) * features[1] + square(load) * features[2] +
          square(torque) * features[3] + square(friction) * features[4] + square(lag) * features[5] +
-         square(rest) * features[6] + square(acceleration) * features[7];
+         square(rest) * features[6] + square(acceleration) * features[7] + square(turning) * features[8];
 }
 
 ErrorFeatures error_features(const DriveLoad& load, const DriveResidual& seen, int drive) {
@@ -24,7 +24,8 @@ ErrorFeatures error_features(const DriveLoad& load, const DriveResidual& seen, i
           square(seen.friction[drive]),
           square(seen.slope[drive]),
           square(seen.rest[drive]),
-          square(load.inertia[drive])};
+          square(load.inertia[drive]),
+          square(load.turning[drive])};
 }
 
 double rising_variance(const DriveResidual& seen) {

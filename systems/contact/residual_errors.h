@@ -7,7 +7,7 @@
 namespace flinch {
 
 /// What the squared error of a drive's residual grows with: 1, and the squares of what `ResidualErrors` has.
-using ErrorFeatures = std::array<double, 8>;
+using ErrorFeatures = std::array<double, 9>;
 
 /// How large the errors of a residual are: deviations of independent parts, each in proportion to something.
 struct ResidualErrors {
@@ -19,6 +19,7 @@ struct ResidualErrors {
   double lag = 0.0;           ///< with the slope of the torque, likewise: how late currents are [s]
   double rest = 0.0;          ///< with how far the drive stands still, likewise [Nm or N]
   double acceleration = 0.0;  ///< with the inertia at the drive: how encoders err [rad/s^2 or m/s^2]
+  double turning = 0.0;       ///< with what turns the platform: how stamps of a gyroscope err
 
   double variance(const ErrorFeatures& features) const;
 };

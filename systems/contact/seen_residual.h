@@ -14,7 +14,7 @@ namespace flinch {
 /// What an estimator holds for the effort of the surroundings at the drives, beside what its errors grow
 /// with, as late as it shows them; one entry a drive [Nm or N].
 struct DriveResidual {
-  JointVector effort;    ///< tau_a,ext as estimated
+  JointVector effort;    ///< tau_a,ext as estimated, less what dry friction near rest can make of it
   JointVector torque;    ///< of the drives
   JointVector friction;  ///< that the model expects
   JointVector slope;     ///< of the torque [Nm/s or N/s]
@@ -55,11 +55,12 @@ struct ResidualTracking {
   Time smoothing_time() const { return from_seconds(3.0 / smoothing); }
 };
 
-/// Torque and friction of the drives behind a filter [Nm or N], and how far they stand still; one entry a
-/// drive.
+/// Torque and friction of the drives behind a filter [Nm or N], what dry friction near rest may do beyond the
+/// model, and how far they stand still; one entry a drive.
 struct AnsweredLoad {
   JointVector torque;
   JointVector friction;
+  JointVector friction_low, friction_high;
   JointVector rest;
 };
 
@@ -78,7 +79,9 @@ struct ResidualMemory {
 /// The estimate of a tick, whose residual is set beside the load of the time that it tells of, a fresh load
 /// or one of `past`, as the estimator answers it. An estimate that is not valid, not finite, or has fallen
 /// back to another estimator is none; after the longest hold without one, and after a gap, everything begins
-/// anew. `next`: another object than `memory`, whatever it holds.
+/// anew. Of the effort counts what lies outside of the bounds of dry friction near rest, which pass the filters of
+/// the answer too: these never give a negative answer, so that bounds stay bounds.
+/// `next`: another object than `memory`, whatever it holds.
 void follow_residual(const WrenchEstimate& estimate, const DriveLoad& fresh, const LoadHistory& past,
                      Time now, const ResidualTracking& tracking, const ResidualMemory& memory,
                      ResidualMemory& next);

@@ -20,6 +20,7 @@ void find_problems(const std::string& owner, const SurpriseThreshold& settings, 
   findings.not_negative(owner + ".lag", settings.errors.lag, "s");
   findings.not_negative(owner + ".rest", settings.errors.rest, "Nm or N");
   findings.not_negative(owner + ".acceleration", settings.errors.acceleration, "rad/s^2 or m/s^2");
+  findings.not_negative(owner + ".turning", settings.errors.turning);
 }
 
 void find_problems(const OnsetThreshold& settings, Findings& findings) {

@@ -1,6 +1,7 @@
 #include "systems/estimators/imu_residual.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 #include "systems/robot/forward_dynamics.h"
 #include "systems/signals/driven_share.h"
 #include "systems/signals/sample_at.h"
+#include "systems/signals/stamp_spread.h"
 
 namespace flinch {
 namespace {
@@ -22,6 +24,7 @@ std::vector<std::string> problems(const ImuResidualSettings& settings) {
   found.positive("gyroscope_deviation", settings.gyroscope_deviation, "rad/s");
   found.positive("accelerometer_deviation", settings.accelerometer_deviation, "m/s^2");
   found.not_negative("jitter", to_seconds(settings.jitter), "s");
+  found.not_negative("stamp_spread", to_seconds(settings.stamp_spread), "s");
   found.positive("rest_speed", settings.rest_speed, "m/s");
   found.positive("rest_rate", settings.rest_rate, "rad/s");
   found.positive("rest_in_a_row", settings.rest_in_a_row);
@@ -204,9 +207,13 @@ void ImuResidual::estimate(const ImuReading& reading, const ExpectedMotion& then
   residual << next.rotation_residual, reading.specific_force - next.bias.value - then.force;
   // The change of white noise through the observer has the variance 2 (1 - a)^2 / (1 + a) of it, over T^2.
   const double a = std::exp(-settings_.gyroscope_gain * T);
-  const double turning = settings_.gyroscope_deviation * (1.0 - a) * std::sqrt(2.0 / (1.0 + a)) / T;
+  // So does that of what stamps that err make of a rotation, dw/dt times their deviation.
+  const double stamps = uniform_deviation(settings_.stamp_spread);
+  const double turned = std::hypot(settings_.gyroscope_deviation, stamps * then.rotation.norm());
+  const double turning = turned * (1.0 - a) * std::sqrt(2.0 / (1.0 + a)) / T;
   const double slope = (then.force - next.expected_force).norm() / T;
-  const double pushing = std::hypot(settings_.accelerometer_deviation, to_seconds(settings_.jitter) * slope);
+  const double late = std::max(to_seconds(settings_.jitter), stamps);
+  const double pushing = std::hypot(settings_.accelerometer_deviation, late * slope);
   weight << Eigen::Vector3d::Constant(1.0 / turning), Eigen::Vector3d::Constant(1.0 / pushing);
 
   const ImuOutput::Jacobian weighted = weight.asDiagonal() * then.by_acceleration;

@@ -21,6 +21,7 @@ struct ImuResidualSettings {
   double gyroscope_deviation = 2.74e-3;     ///< of a sample [rad/s]
   double accelerometer_deviation = 0.0395;  ///< of a sample [m/s^2]
   Time jitter = 300us;                      ///< deviation of the times at which the IMU says that it measured
+  Time stamp_spread{};                      ///< width of the range in which they err, evenly; 0: not stated
   double rest_speed = 0.01;                 ///< below which the platform rests [m/s]
   double rest_rate = 0.05;                  ///< likewise [rad/s]
   /// As slow in so many samples in a row, it rests: a platform that turns back is slow for fewer.

@@ -222,6 +222,11 @@ std::shared_ptr<const ParallelRobot> FiveBar::assembled_as(const WorkingMode& mo
   return std::make_shared<const FiveBar>(robot);
 }
 
+DryFriction FiveBar::dry_friction(int drive) const noexcept {
+  const double coulomb = parameters_.legs[static_cast<std::size_t>(drive)].active_friction.coulomb;
+  return {.effort = coulomb, .velocity = parameters_.friction_velocity};
+}
+
 std::shared_ptr<const Mechanism> FiveBar::deviating(const RobotDeviation& deviation) const {
   FiveBarParameters robot = parameters_;
   for (std::size_t i = 0; i < 2; ++i) robot.legs[i] = deviating_leg(robot.legs[i], deviation, i);

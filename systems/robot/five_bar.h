@@ -40,6 +40,7 @@ class FiveBar final : public ParallelRobot {
   void kinematics(const Configuration& pose, const PlatformVector& velocity, const WorkingMode& mode,
                   Kinematics& out) const noexcept override;
   void dynamics(const Kinematics& kinematics, Dynamics& out) const noexcept override;
+  DryFriction dry_friction(int drive) const noexcept override;
   std::shared_ptr<const Mechanism> deviating(const RobotDeviation& deviation) const override;
   CartesianVector point_on_body(const Kinematics& kinematics, BodyId body,
                                 const CartesianVector& point_in_body) const noexcept override;

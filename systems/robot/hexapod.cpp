@@ -342,6 +342,11 @@ void Hexapod::kinematics(const Configuration& pose, const PlatformVector& veloci
   if (!all_finite(out)) set_unreachable(space(), joints, out);
 }
 
+DryFriction Hexapod::dry_friction(int drive) const noexcept {
+  const double coulomb = parameters_.legs[static_cast<std::size_t>(drive)].drive_friction.coulomb;
+  return {.effort = coulomb, .velocity = parameters_.drive_friction_velocity};
+}
+
 std::shared_ptr<const Mechanism> Hexapod::deviating(const RobotDeviation& deviation) const {
   HexapodParameters robot = parameters_;
   for (std::size_t i = 0; i < 6; ++i) {

@@ -47,6 +47,7 @@ class Hexapod final : public ParallelRobot {
   void dynamics(const Kinematics& kinematics, Dynamics& out) const noexcept override;
   void equations_of_motion(const Configuration& pose, const PlatformVector& velocity, Kinematics& kinematics,
                            MotionEquations& equations) const noexcept override;
+  DryFriction dry_friction(int drive) const noexcept override;
   std::shared_ptr<const Mechanism> deviating(const RobotDeviation& deviation) const override;
   CartesianVector point_on_body(const Kinematics& kinematics, BodyId body,
                                 const CartesianVector& point_in_body) const noexcept override;

@@ -20,6 +20,14 @@ inline double friction_effort(const JointFriction& friction, double rate, double
   return friction.coulomb == 0.0 ? viscous : viscous + friction.coulomb * std::tanh(rate / friction_velocity);
 }
 
+/// Dry friction of a drive as a model has it: effort * tanh(rate / velocity).
+struct DryFriction {
+  double effort = 0.0;    ///< Largest [Nm] or [N].
+  double velocity = 0.0;  ///< Over which its step is rounded [rad/s] or [m/s]; not used without an effort.
+
+  double at(double rate) const noexcept { return effort == 0.0 ? 0.0 : effort * std::tanh(rate / velocity); }
+};
+
 /// That friction `factor` times.
 JointFriction scaled(const JointFriction& friction, double factor);
 

@@ -41,6 +41,8 @@ std::optional<JointVector> Mechanism::drive_acceleration(const Configuration& po
   return now.J_qa_x * *dv + now.dJ_qa_x * velocity;
 }
 
+DryFriction Mechanism::dry_friction(int) const noexcept { return {}; }
+
 std::shared_ptr<const Mechanism> Mechanism::deviating(const RobotDeviation& /*deviation*/) const {
   return nullptr;
 }

@@ -12,6 +12,7 @@
 #include "systems/robot/contact_jacobian.h"
 #include "systems/robot/determinant_gradients.h"
 #include "systems/robot/dynamics.h"
+#include "systems/robot/joint_friction.h"
 #include "systems/robot/kinematics.h"
 #include "systems/robot/place_kinematics.h"
 #include "systems/robot/self_collision_tasks.h"
@@ -102,6 +103,9 @@ class Mechanism {
   /// Velocity map of that point. [SafePR] (3), [ICRA23] (4)-(6)
   virtual ContactJacobian contact_jacobian(const Kinematics& kinematics, BodyId body,
                                            const CartesianVector& point_in_body) const noexcept = 0;
+
+  /// Dry friction in the joint of a drive; none, unless a mechanism says so.
+  virtual DryFriction dry_friction(int drive) const noexcept;
 
   /// The same robot with these differences; null where a mechanism cannot be made to differ.
   virtual std::shared_ptr<const Mechanism> deviating(const RobotDeviation& deviation) const;

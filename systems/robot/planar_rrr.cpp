@@ -346,6 +346,11 @@ std::shared_ptr<const ParallelRobot> PlanarRrr::assembled_as(const WorkingMode& 
   return std::make_shared<const PlanarRrr>(robot);
 }
 
+DryFriction PlanarRrr::dry_friction(int drive) const noexcept {
+  const double coulomb = parameters_.legs[static_cast<std::size_t>(drive)].active_friction.coulomb;
+  return {.effort = coulomb, .velocity = parameters_.friction_velocity};
+}
+
 std::shared_ptr<const Mechanism> PlanarRrr::deviating(const RobotDeviation& deviation) const {
   PlanarRrrParameters robot = parameters_;
   for (std::size_t i = 0; i < 3; ++i) robot.legs[i] = deviating_leg(robot.legs[i], deviation, i);

@@ -42,6 +42,7 @@ class PlanarRrr final : public ParallelRobot {
   void dynamics(const Kinematics& kinematics, Dynamics& out) const noexcept override;
   std::optional<JointVector> drive_acceleration(const Configuration& pose, const PlatformVector& velocity,
                                                 const JointVector& drive_torques) const noexcept override;
+  DryFriction dry_friction(int drive) const noexcept override;
   std::shared_ptr<const Mechanism> deviating(const RobotDeviation& deviation) const override;
   CartesianVector point_on_body(const Kinematics& kinematics, BodyId body,
                                 const CartesianVector& point_in_body) const noexcept override;

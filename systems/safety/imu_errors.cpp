@@ -157,9 +157,13 @@ Six driven(const ImuErrors& errors, std::size_t age, const ImuSpread& rest) {
   const auto [a, b, c, of_a, of_c] = Bend(errors, age);
   const Eigen::Vector3d rising =
       of_a * a.rising.cwiseAbs() + 2.0 * b.rising.cwiseAbs() + of_c * c.rising.cwiseAbs();
+  const double stamps =
+      (of_a * a.stamp_spread + of_c * c.stamp_spread);  // at most, all four halves of one sign
   const Eigen::Vector3d bent = of_a * a.expected_force - 2.0 * b.expected_force + of_c * c.expected_force;
-  return weighed(bent.cwiseAbs() + rising,
-                 (of_a * to_seconds(a.spacing) * (a.turning_slope - b.turning_slope)).cwiseAbs(), rest);
+  return weighed(bent.cwiseAbs() + rising + stamps * b.force_slope.cwiseAbs(),
+                 (of_a * to_seconds(a.spacing) * (a.turning_slope - b.turning_slope)).cwiseAbs() +
+                     stamps * b.turning_slope.cwiseAbs(),
+                 rest);
 }
 
 /// A second difference of white noise has six times its variance, where samples are equally far apart.

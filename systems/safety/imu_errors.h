@@ -19,6 +19,7 @@ struct ImuError {
   Eigen::Vector3d force_slope{0.0, 0.0, 0.0};       ///< d/dt of what is expected [m/s^3]
   Eigen::Vector3d turning_slope{0.0, 0.0, 0.0};     ///< likewise [rad/s^2]
   Eigen::Vector3d rising{0.0, 0.0, 0.0};            ///< doubt about what the drives make of force [m/s^2]
+  double stamp_spread = 0.0;                        ///< width of the range in which its stamp errs [s]
   Eigen::Vector3d force_unseen{0.0, 0.0, 0.0};      ///< what steps of the encoders do not show [m/s^2]
   Eigen::Vector3d turning_unseen{0.0, 0.0, 0.0};    ///< likewise [rad/s]
   bool contradicted = false;                        ///< nothing of the robot explains it

@@ -18,8 +18,10 @@ constexpr int frozen_after = 2;      // repetitions of all axes of a part, of bo
 constexpr int saturated_after = 5;   // repetitions of one axis
 constexpr Time judged = 16ms;        // of the samples of so long, half must be contradicted
 constexpr Time quarantine = 10ms;    // after two that were contradicted
-constexpr double jitter = 3e-4;      // of stamps [s]
+constexpr double jitter = 3e-4;      // of stamps, where they are exact [s]
 constexpr double scale = 0.01;       // share of a rate that may be missing
+constexpr Time forgiven_after = 1s;  // of motion in which nothing is wrong with it
+constexpr double telling = 1.0;      // acceleration of the platform in which it would show [m/s^2]
 constexpr double believed = 2.0;     // times what the encoders show
 constexpr double significant = 3.0;  // deviations
 
@@ -163,6 +165,8 @@ struct Comparison {
   Padded<max_dof> deviation;    ///< of the pose
   Padded<max_dof> velocity;     ///< line_velocity(motions, age, ahead)
   ImuSpread noise;              ///< of the unit at rest
+  double spread;                ///< of the stamps' errors [s]
+  double wrong;                 ///< time by which a stamp may err [s]
   double limit;                 ///< in deviations
   Rows turning = Rows::Zero();  ///< how what is expected of the unit changes with velocity
   Rows force = Rows::Zero();    ///< likewise with acceleration
@@ -185,13 +189,14 @@ struct Claim {
   Eigen::Vector3d beyond;  ///< what the model expects
   Eigen::Vector3d slope;   ///< d/dt of what it expects
   Eigen::Vector3d rising;  ///< doubt about what the drives make of it
+  double apart;            ///< what two stamps that err otherwise make of it at most
   double noise;            ///< deviation of a sample
 };
 
 /// Whether a sensor claims what the encoders, who show `around` beyond the model, do not confirm.
 bool contradicted(const Comparison& at, const Padded<max_dof>& around, const Claim& claim) {
   const int wide = at.motions.wide, narrow = at.motions.narrow;
-  const double unsure = jitter * claim.slope.norm() + claim.rising.norm();
+  const double unsure = at.wrong * claim.slope.norm() + claim.rising.norm() + 5.0 / at.limit * claim.apart;
   if (is_own_noise(claim.beyond, claim.noise, at.limit, unsure)) return false;
   const Eigen::Vector3d ahead = claim.rows * around;
   const Eigen::Vector3d long_since = claim.rows * unexplained(at.motions, at.age - at.ahead + wide, wide);
@@ -216,26 +221,27 @@ bool contradicted(const Comparison& at, const Padded<max_dof>& around, const Cla
 /// What the accelerometer claims in the latest sample.
 Claim force_claim(const Comparison& at, const ImuErrors& errors) {
   const ImuError& now = errors.back(0);
-  return {at.force, now.force, now.force_slope, now.rising, at.noise.force};
+  return {at.force, now.force, now.force_slope, now.rising, at.noise.force, 0.0};
 }
 
 /// What the gyroscope claims by its change from the sample before; nothing in a first sample.
 Claim turning_claim(const Comparison& at, const ImuErrors& errors) {
   const Eigen::Vector3d none = Eigen::Vector3d::Zero();
-  Claim claim{at.turning, none, none, none, std::sqrt(2.0) * at.noise.turning / at.spacing};
+  Claim claim{at.turning, none, none, none, std::sqrt(2.0) * at.noise.turning / at.spacing, 0.0};
   if (errors.held() < 2) return claim;
   const ImuError &now = errors.back(0), &before = errors.back(1);
   const Eigen::Vector3d change =
       now.turning + now.expected_turning - before.turning - before.expected_turning;
   claim.beyond = change / at.spacing - now.turning_slope;
   claim.slope = (now.turning_slope - before.turning_slope) / at.spacing;
+  claim.apart = at.spread * now.turning_slope.norm() / at.spacing;
   return claim;
 }
 
 /// Whether the gyroscope does.
 bool turning_contradicted(const Comparison& at, const ImuError& error) {
   const Eigen::Vector3d smooth = at.turning * at.velocity;
-  const double unsure = scale * smooth.norm() + jitter * error.turning_slope.norm();
+  const double unsure = scale * smooth.norm() + at.wrong * error.turning_slope.norm();
   if (is_own_noise(error.turning, at.noise.turning, at.limit, unsure)) return false;
   const Eigen::Vector3d short_line = at.turning * line_velocity(at.motions, at.age, 1);
   const int longer = std::min(at.age, 2);
@@ -310,6 +316,8 @@ void judge(ImuWatch& watch, const TickMotions& motions, const ImuErrors& errors,
                 .deviation = pose_deviation(angles, tick),
                 .velocity = line_velocity(motions, age, ahead),
                 .noise = {std::max(rest.force, 1e-3), std::max(rest.turning, 1e-4)},
+                .spread = to_seconds(tick.limits.stamp_spread),
+                .wrong = std::max(jitter, 0.5 * to_seconds(tick.limits.stamp_spread)),
                 .limit = 0.5 * tick.limits.inertial};
   at.turning.leftCols(n) = output.by_velocity.topRows<3>();
   at.force.leftCols(n) = output.by_acceleration.bottomRows<3>();
@@ -324,6 +332,7 @@ void judge(ImuWatch& watch, const TickMotions& motions, const ImuErrors& errors,
     error.force_slope = (error.expected_force - errors.back(0).expected_force) / at.spacing;
   error.turning_slope = at.turning * then.acceleration;
   error.rising = at.force * rising;
+  error.stamp_spread = at.spread;
   const TickPlace now = place_of(motions, then.time);
   const TickPlace before = place_of(motions, then.time - spacing);
   error.force_unseen =
@@ -383,6 +392,21 @@ int lately_contradicted(const ImuErrors& errors) {
   return lately;
 }
 
+/// Believes a unit again that has said what is expected of it for long enough, while the platform was
+/// accelerated; `wrong`: what is wrong with it now.
+void forgive(ImuWatch& watch, const PlausibilityTick& tick, const ImuErrors& errors, ImuDoubt wrong) {
+  const bool lasts = watch.doubt != ImuDoubt::none && watch.doubt != ImuDoubt::dropped_out;
+  if (!lasts || wrong != ImuDoubt::none || watch.late || lately_contradicted(errors) > 0) {
+    watch.honest = 0;
+    return;
+  }
+  const double acceleration = watch.motion.newest.acceleration.head(tick.robot.space_dimension()).norm();
+  if (errors.held() > 0 && acceleration > telling) ++watch.honest;
+  if (watch.honest < tick.looks(forgiven_after)) return;
+  watch.doubt = ImuDoubt::none;
+  watch.honest = 0;
+}
+
 /// Leaves out what has just been contradicted, and what follows soon after two of them.
 void mask(ImuWatch& watch, const PlausibilityTick& tick, const ImuErrors& errors) {
   if (errors.held() == 0 || !errors.back(0).contradicted) return;
@@ -403,7 +427,8 @@ void advance(ImuWatch& watch, const ImuWatch::Past& past, const InertialWatch& l
   watch.masked = std::max(watch.masked - 1, 0);
   if (usable_now && reading.acquired > watch.before.acquired && learned.gyroscope.known()) {
     ImuDoubt doubt = repetition(watch, learned, reading);
-    if (reading.acquired - watch.before.acquired > 3 * tick.period / 2) watch.errors.clear();
+    if (reading.acquired - watch.before.acquired > 3 * tick.period / 2 + tick.limits.stamp_spread)
+      watch.errors.clear();
     const ImuSpread rest{learned.accelerometer.deviation, learned.gyroscope.deviation};
     judge(watch, motions, errors, learned, angles, tick, reading, rest);
     mask(watch, tick, errors);
@@ -412,6 +437,7 @@ void advance(ImuWatch& watch, const ImuWatch::Past& past, const InertialWatch& l
       doubt = watch.late ? ImuDoubt::late
                          : explanation(errors, {std::max(rest.force, 0.2), std::max(rest.turning, 5e-3)});
     if (doubt == ImuDoubt::none && watch.late && lately_contradicted(errors) < 2) doubt = ImuDoubt::late;
+    forgive(watch, tick, errors, doubt);
     if (watch.doubt == ImuDoubt::none) watch.doubt = doubt;
   }
   if (usable_now) watch.before = reading;

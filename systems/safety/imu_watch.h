@@ -26,7 +26,8 @@ struct TickMotion {
 /// unless it is they that jumped against the model. (Derived.)
 ///
 /// A contradicted sample counts as none. Where half of the last samples are contradicted, or the unit repeats
-/// itself, stands at its end or jumps, it is in doubt by name, and stays so until the operator resets.
+/// itself, stands at its end or jumps, it is in doubt by name. It stays so until the operator resets, or until it
+/// has told the truth for a second of motion, in which what was wrong with it would have shown.
 struct ImuWatch {
   static constexpr std::size_t kept = 24;
   using Motions = Ring<TickMotion, kept>;
@@ -45,6 +46,7 @@ struct ImuWatch {
   bool blamed = false;  ///< for a rate that is not that of the encoders
   bool late = false;    ///< by its last samples
   int masked = 0;       ///< ticks that the unit is left out
+  int honest = 0;       ///< samples in a row, in motion, since it is in doubt, that were as expected
   ImuDoubt doubt = ImuDoubt::none;
 };
 

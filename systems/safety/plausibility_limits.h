@@ -25,6 +25,7 @@ struct PlausibilityLimits {
   int quiet_ticks = 8;      ///< such looks in a row, 1 ms apart; see `quiet_row`
 
   ImuMount imu_mount;
+  Time stamp_spread{};            ///< width of the range in which stamps of the IMU err
   double inertial = 10.0;         ///< difference to the IMU, in standard deviations
   double gyroscope_scale = 0.03;  ///< share of the rate that may be missing
   /// By which encoders and IMU may be apart where the acceleration changes [s].

@@ -13,9 +13,13 @@ struct DriveLoad {
   JointVector rate;      ///< [rad/s or m/s]
   JointVector torque;    ///< tau_a, not filtered [Nm or N]
   JointVector friction;  ///< of all joints, as the drives feel it: J_x_qa^T F_fr_x [Nm or N]
+  /// Bounds of what dry friction near rest may do to the drive beyond the model [Nm or N]; zero while it slides.
+  JointVector friction_low, friction_high;
   /// Length of the drive's row of J_x_qa^T M_x J_x_qa: drives whose accelerations err independently, by a
   /// deviation of 1, err by so much in their torques [kg m^2 or kg]
   JointVector inertia;
+  /// What the angular acceleration of the platform, as the drives make it, takes of the drive [Nm or N]
+  JointVector turning;
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
@@ -24,7 +28,10 @@ struct DriveLoad {
     visit("rate", "<drive velocity>", self.rate);
     visit("torque", "<drive force>", self.torque);
     visit("friction", "<drive force>", self.friction);
+    visit("friction_low", "<drive force>", self.friction_low);
+    visit("friction_high", "<drive force>", self.friction_high);
     visit("inertia", "<drive inertia>", self.inertia);
+    visit("turning", "<drive force>", self.turning);
   }
 };
 

@@ -14,6 +14,7 @@
 #include "systems/framework/runge_kutta.h"
 #include "tests/plant/bench_scene.h"
 #include "tests/plant/integrate_bench.h"
+#include "tests/plant/moving_bench.h"
 
 namespace flinch {
 namespace {
@@ -233,6 +234,59 @@ TEST(Brakes, StopTheRobotAndHoldIt) {
   bench.equation.applied_wrench << 40.0, 0.0, 0.0;
   for (int k = 0; k < 100; ++k) ASSERT_TRUE(bench.tick());
   EXPECT_LT((bench.pose() - before).head<2>().norm(), 1e-3) << "it creeps by less than 1 cm/s under 40 N";
+}
+
+// ---------------------------------------------------------------- friction that sticks
+
+BenchSettings sticking(BenchSettings settings, double stiffness) {
+  settings.sticking.stiffness = JointVector::Constant(3, stiffness);
+  return settings;
+}
+
+JointVector dry_friction(const Mechanism& robot) {
+  JointVector efforts(robot.drives());
+  for (int i = 0; i < robot.drives(); ++i) efforts[i] = robot.dry_friction(i).effort;
+  return efforts;
+}
+
+/// How far the drives have gone in so many ticks under a share of their dry friction.
+double gone(const BenchSettings& settings, double share, int ticks) {
+  test::MovingBench bench(settings);
+  const JointVector start = bench.now.joints.active;
+  bench.equation.drives.torque = share * dry_friction(*settings.robot);
+  for (int k = 0; k < ticks; ++k) bench.tick();
+  return settings.robot->drive_difference(bench.now.joints.active, start).lpNorm<Eigen::Infinity>();
+}
+
+TEST(StickingFriction, HoldsATorqueBelowItsLargestWithoutCreeping) {
+  for (const double stiffness : {500.0, 10'000.0}) {
+    const BenchSettings settings = sticking(bench(BenchFriction::test_bench), stiffness);
+    const double give = dry_friction(*settings.robot).maxCoeff() / stiffness;
+    const double soon = gone(settings, 0.8, 2000), late = gone(settings, 0.8, 6000);
+    EXPECT_LT(soon, 3.0 * give);
+    EXPECT_LT(late - soon, 1e-3 * give) << "no creep";
+  }
+  const BenchSettings rounded = bench(BenchFriction::test_bench);
+  EXPECT_GT(gone(rounded, 0.8, 2000), 0.005) << "which friction that is rounded does";
+}
+
+TEST(StickingFriction, LetsGoAboveItsLargest) {
+  const BenchSettings settings = sticking(bench(BenchFriction::test_bench), 5000.0);
+  EXPECT_GT(gone(settings, 1.2, 300), 100.0 * gone(settings, 0.8, 300));
+}
+
+TEST(StickingFriction, BrakesAMovingRobotAsTheModelsDoes) {
+  const BenchSettings rounded = moving_bench(BenchFriction::test_bench);
+  test::MovingBench with(sticking(rounded, 2000.0)), without(rounded);
+  double before = with.now.kinetic_energy;
+  const double start = before;
+  for (int k = 0; k < 100; ++k) {
+    with.tick(), without.tick();
+    if (k < 5) continue;  // friction of both drives has built up
+    EXPECT_LE(with.now.kinetic_energy, before) << k;
+    before = with.now.kinetic_energy;
+  }
+  EXPECT_NEAR(with.now.kinetic_energy, without.now.kinetic_energy, 0.01 * start);
 }
 
 TEST(BenchDynamics, StandsStillWhereALegWouldHaveToStretchBeyondItsReach) {

@@ -42,6 +42,27 @@ TEST(ImuClock, IsOffByItsJitterAtMostAndInTheMeanNotAtAll) {
   EXPECT_NEAR(std::sqrt(of_stamps / samples), 150e-6 / std::sqrt(3.0), 1.5e-6);
 }
 
+TEST(ImuClock, LetsNoSampleOvertakeAnotherAndBelievesInTheUsualDelay) {
+  constexpr Time period = 625us, most = 500us;
+  const ImuClock clock({.period = period, .delay_jitter = most}, 7);
+  constexpr int samples = 20000;
+  double sum = 0.0, squares = 0.0;
+  int as_drawn = 0;
+  for (int i = 0; i < samples; ++i) {
+    const ImuClock::Sample sample = clock.sample(i), next = clock.sample(i + 1);
+    EXPECT_EQ(sample.measured, i * period);
+    EXPECT_EQ(sample.stamp, sample.measured + sample.late) << "when it came, less the usual delay";
+    EXPECT_LE(abs(sample.late), most);
+    EXPECT_LE(sample.measured + sample.late, next.measured + next.late);
+    const double late = to_seconds(sample.late);
+    sum += late, squares += late * late;
+    as_drawn += next.measured + next.late > sample.measured + sample.late ? 1 : 0;
+  }
+  EXPECT_GT(as_drawn, samples * 9 / 10) << "few wait for the one before";
+  EXPECT_NEAR(sum / samples, 0.0, 4e-5) << "these a little longer";
+  EXPECT_NEAR(std::sqrt(squares / samples), 500e-6 / std::sqrt(3.0), 3e-5);
+}
+
 TEST(ImuClock, IsTheSameForTheSameSeedOnly) {
   const ImuClockSettings settings{.jitter = 100us};
   const ImuClock a(settings, 5), b(settings, 5), c(settings, 6);

@@ -3,9 +3,6 @@
 namespace flinch {
 namespace {
 
-// Below this rate Coulomb friction passes smoothly through zero [rad/s or m/s].
-constexpr double friction_velocity = 0.01;
-
 using Square =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_leg_coordinates, max_leg_coordinates>;
 
@@ -57,7 +54,7 @@ void add_joint(const ChainJoint& joint, const LegCoordinates& s_rate, OfLeg& sum
   const int i = joint.coordinate;
   sum.M(i, i) += joint.ratio * joint.ratio * joint.armature;
   const double rate = joint.ratio * s_rate[i];
-  sum.friction[i] += joint.ratio * friction_effort(joint.friction, rate, friction_velocity);
+  sum.friction[i] += joint.ratio * friction_effort(joint.friction, rate, legs_friction_velocity);
 }
 
 }  // namespace

@@ -4,6 +4,9 @@
 
 namespace flinch {
 
+/// Rate over which the step of Coulomb friction is rounded [rad/s or m/s].
+constexpr double legs_friction_velocity = 0.01;
+
 /// M dv + C v + g + F_fr of a robot of legs in platform coordinates, as in Dynamics.
 struct LegsDynamics {
   PlatformMatrix M;

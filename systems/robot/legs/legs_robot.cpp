@@ -118,6 +118,15 @@ void LegsRobot::find_ends() {
   }
 }
 
+/// Of a drive of one joint; drives of several feel the friction of each only together.
+DryFriction LegsRobot::dry_friction(int drive) const noexcept {
+  const std::vector<ModelDrive::Term>& terms = model_.drives[static_cast<std::size_t>(drive)].terms;
+  if (terms.size() != 1 || terms[0].weight == 0.0) return {};
+  const ChainJoint& joint = model_.legs[terms[0].leg].chain.joints[terms[0].joint];
+  const double weight = std::abs(terms[0].weight);
+  return {.effort = joint.friction.coulomb / weight, .velocity = legs_friction_velocity * weight};
+}
+
 std::shared_ptr<const Mechanism> LegsRobot::deviating(const RobotDeviation& deviation) const {
   LegsModel robot = model_;
   for (std::size_t i = 0; i < robot.legs.size(); ++i) {

@@ -25,14 +25,20 @@ const ResidualErrors unit{.noise = 1.0};
 
 SeenResidual seen(const JointVector& change) {
   const JointVector none = JointVector::Zero(change.size());
-  return {
-      .is_new = true,
-      .settled = true,
-      .load =
-          {.acquired = {}, .valid = true, .rate = none, .torque = none, .friction = none, .inertia = none},
-      .level = {},
-      .change = {change, none, none, none, none, none},
-      .smoothed = {}};
+  return {.is_new = true,
+          .settled = true,
+          .load = {.acquired = {},
+                   .valid = true,
+                   .rate = none,
+                   .torque = none,
+                   .friction = none,
+                   .friction_low = none,
+                   .friction_high = none,
+                   .inertia = none,
+                   .turning = none},
+          .level = {},
+          .change = {change, none, none, none, none, none},
+          .smoothed = {}};
 }
 
 ResidualTracking behind(int filters) {

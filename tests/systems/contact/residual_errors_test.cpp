@@ -14,7 +14,10 @@ const DriveLoad load{.acquired = {},
                      .rate = Eigen::Vector3d(2.0, -1.0, 0.0),
                      .torque = Eigen::Vector3d(10.0, -20.0, 5.0),
                      .friction = Eigen::Vector3d(0.6, -0.6, 0.0),
-                     .inertia = Eigen::Vector3d(0.5, 0.4, 0.25)};
+                     .friction_low = Eigen::Vector3d::Zero(),
+                     .friction_high = Eigen::Vector3d::Zero(),
+                     .inertia = Eigen::Vector3d(0.5, 0.4, 0.25),
+                     .turning = Eigen::Vector3d(0.0, 3.0, 1.0)};
 
 TEST(ErrorVariance, IsTheSumOfIndependentParts) {
   const DriveResidual seen{.effort = Eigen::Vector3d::Zero(),
@@ -30,12 +33,14 @@ TEST(ErrorVariance, IsTheSumOfIndependentParts) {
                               .friction = 0.4,
                               .lag = 2e-4,
                               .rest = 0.6,
-                              .acceleration = 2.0};
+                              .acceleration = 2.0,
+                              .turning = 0.1};
   // 0.1^2 + (0.2 2)^2 + (0.01 10)^2 + (0.5 1)^2 + (0.4 0.5)^2; of the last also (0.6 0.5)^2;
-  // of each (2 inertia)^2
+  // of each (2 inertia)^2 and (0.1 turning)^2
   EXPECT_NEAR(errors.variance(error_features(load, seen, 0)), 0.01 + 0.16 + 0.01 + 0.25 + 0.04 + 1.0, 1e-15);
-  EXPECT_NEAR(errors.variance(error_features(load, seen, 1)), 0.01 + 0.04 + 0.04 + 2.25 + 0.64, 1e-15);
-  EXPECT_NEAR(errors.variance(error_features(load, seen, 2)), 0.01 + 0.0025 + 0.01 + 0.09 + 0.25, 1e-15);
+  EXPECT_NEAR(errors.variance(error_features(load, seen, 1)), 0.01 + 0.04 + 0.04 + 2.25 + 0.64 + 0.09, 1e-15);
+  EXPECT_NEAR(errors.variance(error_features(load, seen, 2)), 0.01 + 0.0025 + 0.01 + 0.09 + 0.25 + 0.01,
+              1e-15);
 }
 
 TEST(Surprise, HasASquareThatIsChiSquareForErrorsAsAssumed) {

@@ -16,7 +16,10 @@ const DriveLoad at_rest{.acquired = {},
                         .rate = Eigen::Vector3d::Zero(),
                         .torque = Eigen::Vector3d::Zero(),
                         .friction = Eigen::Vector3d::Zero(),
-                        .inertia = Eigen::Vector3d::Zero()};
+                        .friction_low = Eigen::Vector3d::Zero(),
+                        .friction_high = Eigen::Vector3d::Zero(),
+                        .inertia = Eigen::Vector3d::Zero(),
+                        .turning = Eigen::Vector3d::Zero()};
 
 WrenchEstimate estimate_of(const JointVector& effort) {
   WrenchEstimate estimate;
@@ -65,6 +68,39 @@ TEST(SeenResidual, HasTheLoadBehindTheFiltersOfItsEstimator) {
     EXPECT_GE(seen.level.slope[0], 1e3 * later) << k;
     EXPECT_LE(seen.level.slope[0], 1e3 * sooner) << k;
     EXPECT_EQ(seen.load.torque, load.torque) << "the load itself has no lag";
+  }
+}
+
+/// The answers of both filters of three poles to friction that is unknown from some tick on.
+TEST(SeenResidual, LosesWhatDryFrictionCanMakeOfItAndNothingElse) {
+  Follower follower(three_poles);
+  DriveLoad load = at_rest;
+  double friction = 0.0, low = 0.0, high = 0.0;  // behind the same filters, one after the other
+  std::array<double, 3> of_friction{}, of_low{}, of_high{};
+  const auto through = [](std::array<double, 3>& filters, double value) {
+    for (double& each : filters) value = each += (1.0 - std::exp(-0.3)) * (value - each);
+    return value;
+  };
+  follower.see(estimate_of(Eigen::Vector3d::Zero()), load);
+  for (int k = 0; k < 60; ++k) {
+    if (k == 10) load.friction_low[0] = -0.75, load.friction_high[0] = 0.5;
+    if (k == 30) load.friction_low[0] = load.friction_high[0] = 0.0;
+    const double applied = k < 10 || k >= 30 ? 0.0 : (k % 2 == 0 ? 0.5 : -0.75);  // whatever lies within
+    friction = through(of_friction, applied);
+    low = through(of_low, load.friction_low[0]);
+    high = through(of_high, load.friction_high[0]);
+    EXPECT_NEAR(follower.see(estimate_of(Eigen::Vector3d(friction, 0.0, 0.0)), load).level.effort[0], 0.0,
+                1e-15)
+        << k;
+  }
+  load.friction_low[0] = -0.75, load.friction_high[0] = 0.5;
+  for (int k = 0; k < 60; ++k) {
+    low = through(of_low, load.friction_low[0]);
+    high = through(of_high, load.friction_high[0]);
+    const double effort = k % 2 == 0 ? 3.0 : -3.0;
+    const SeenResidual& seen = follower.see(estimate_of(Eigen::Vector3d(effort, 0.1, 0.0)), load);
+    EXPECT_NEAR(seen.level.effort[0], effort - (effort > 0.0 ? high : low), 1e-15) << k;
+    EXPECT_EQ(seen.level.effort[1], 0.1) << "another drive";
   }
 }
 

@@ -58,7 +58,10 @@ class WhitenedDetectorTest : public testing::Test {
                   .rate = Eigen::Vector3d::Zero(),
                   .torque = Eigen::Vector3d::Zero(),
                   .friction = Eigen::Vector3d::Zero(),
-                  .inertia = Eigen::Vector3d::Zero()};
+                  .friction_low = Eigen::Vector3d::Zero(),
+                  .friction_high = Eigen::Vector3d::Zero(),
+                  .inertia = Eigen::Vector3d::Zero(),
+                  .turning = Eigen::Vector3d::Zero()};
   WrenchEstimate estimate_{
       .acquired = {}, .valid = true, .wrench_in_base = Eigen::Vector3d(5.0, 0.0, 0.0), .drive_torque = {}};
   ResetCommand reset_now_{};

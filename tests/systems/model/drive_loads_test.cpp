@@ -11,6 +11,9 @@ namespace {
 const PlatformVector pose{{0.05, -0.02, 0.1}}, velocity{{0.4, 0.3, -1.0}};
 
 struct Loads {
+  explicit Loads(const std::shared_ptr<const Mechanism>& robot)
+      : block(builder.add<DriveLoads>("loads", robot)) {}
+
   DriveLoad of(const test::Posture& at, const DriveTorque& drives) {
     ticking.set(platform, at.platform);
     ticking.set(kinematics, at.kinematics);
@@ -21,7 +24,7 @@ struct Loads {
   }
 
   DiagramBuilder builder;
-  DriveLoads& block = builder.add<DriveLoads>("loads");
+  DriveLoads& block;
   InputPort<PlatformMotion> platform = builder.export_input("platform", block.platform);
   InputPort<Kinematics> kinematics = builder.export_input("kinematics", block.kinematics);
   InputPort<Dynamics> dynamics = builder.export_input("dynamics", block.dynamics);
@@ -34,7 +37,7 @@ const JointVector torque{{1.0, -2.0, 3.0}};
 TEST(DriveLoads, HaveThePowerOfAllFriction) {
   const auto robot = test::planar_bench(BenchFriction::test_bench);
   const test::Posture at(*robot, pose, velocity, 7ms);
-  const DriveLoad load = Loads().of(at, {7ms, true, torque});
+  const DriveLoad load = Loads(robot).of(at, {7ms, true, torque});
   ASSERT_TRUE(load.valid);
   EXPECT_EQ(load.acquired, 7ms);
   EXPECT_EQ(load.torque, torque);
@@ -61,12 +64,38 @@ TEST(DriveLoads, HaveTheInertiaThatMakesTorquesOfAccelerations) {
   for (int i = 0; i < 3; ++i)
     by_torque.col(i) = acceleration(torque + Eigen::Vector3d::Unit(i)) - acceleration(torque);
   const Eigen::Vector3d length = by_torque.inverse().rowwise().norm();
-  EXPECT_LT((Loads().of(at, {{}, true, torque}).inertia - length).norm(), 1e-9 * length.norm());
+  EXPECT_LT((Loads(robot).of(at, {{}, true, torque}).inertia - length).norm(), 1e-9 * length.norm());
+}
+
+TEST(DriveLoads, HaveTheTorqueThatTurnsThePlatform) {
+  const auto robot = test::planar_bench();
+  const test::Posture at(*robot, pose, velocity);
+  const auto turned =
+      robot->acceleration(pose.head<3>(), velocity.head<3>(), torque.head<3>(), Eigen::Vector3d::Zero());
+  const Eigen::Vector3d wrench = at.dynamics.M_x.col(2) * turned.value()[2];  // of that acceleration alone
+  const JointVector efforts = Loads(robot).of(at, {{}, true, torque}).turning;
+  for (int drive = 0; drive < 3; ++drive) {  // each has the power of the wrench at its rate
+    const Eigen::Vector3d moved = at.kinematics.J_x_qa.col(drive);
+    EXPECT_NEAR(efforts[drive], wrench.dot(moved), 1e-9) << drive;
+  }
+}
+
+TEST(DriveLoads, DoNotKnowDryFrictionOfADriveThatStandsStill) {
+  const auto robot = test::planar_bench(BenchFriction::test_bench);
+  const double most = robot->dry_friction(0).effort;
+  ASSERT_GT(most, 0.0);
+  Loads loads(robot);
+  const DriveLoad still = loads.of(test::Posture(*robot, pose, PlatformVector::Zero(3)), {{}, true, torque});
+  for (int drive = 0; drive < 3; ++drive) {
+    EXPECT_NEAR(still.friction_low[drive], -1.25 * robot->dry_friction(drive).effort, 1e-12);
+    EXPECT_NEAR(still.friction_high[drive], 1.25 * robot->dry_friction(drive).effort, 1e-12);
+  }
 }
 
 TEST(DriveLoads, AreNotValidWhereSomethingIsMissing) {
-  const test::Posture at(*test::planar_bench(), pose, velocity);
-  Loads loads;
+  const auto robot = test::planar_bench();
+  const test::Posture at(*robot, pose, velocity);
+  Loads loads(robot);
   EXPECT_TRUE(loads.of(at, {{}, true, torque}).valid);
   EXPECT_FALSE(loads.of(at, {{}, false, torque}).valid);
   EXPECT_FALSE(loads.of(at, {{}, true, JointVector::Zero(2)}).valid);
