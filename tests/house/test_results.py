@@ -47,7 +47,7 @@ def main():
             failed[f"{preset}: {name}"] = is_failed(test)
     print()
     for name in repeated:
-        print(f"FAILED while the machine stalled, and was repeated: {name}")
+        print(f"FAILED beside others, and was repeated alone: {name}")
     for name in filter(failed.get, failed):
         print(f"FAILED: {name}")
 
