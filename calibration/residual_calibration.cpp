@@ -17,6 +17,7 @@ namespace flinch {
 namespace {
 
 constexpr std::size_t most_samples = 60'000;  // of a drive, to which sizes are fitted
+constexpr double slides = 0.01;               // share of friction near rest that is left behind filters
 constexpr double least_surprise = 1e-6;       // that a threshold may have
 
 /// The signal of the loads of the drives; "" where there is none.
@@ -75,7 +76,7 @@ constexpr Statistic change_statistic{&SeenResidual::change, &SeenResidual::settl
 constexpr Statistic smoothed_statistic{&SeenResidual::smoothed, &SeenResidual::smooth, true};
 constexpr std::array statistics{level_statistic, change_statistic, smoothed_statistic};
 
-/// Every `stride`-th error of a statistic.
+/// Every `stride`-th error of a statistic, of drives that slide: near rest dry friction hides errors.
 class ErrorSamples {
  public:
   ErrorSamples(const Statistic& statistic, std::size_t stride) : statistic_(statistic), stride_(stride) {}
@@ -83,7 +84,10 @@ class ErrorSamples {
   void add(bool nominal, const SeenResidual& all) {
     const DriveResidual* const seen = statistic_.of(nominal, all);
     if (seen == nullptr || ticks_++ % stride_ != 0) return;
+    if (widest_.size() != all.hidden.size()) widest_.setZero(all.hidden.size());
+    widest_ = widest_.cwiseMax(all.hidden);
     for (int i = 0; i < seen->effort.size(); ++i) {
+      if (all.hidden[i] > slides * widest_[i]) continue;
       ErrorSample& sample = samples_.emplace_back();
       sample.squared = seen->effort[i] * seen->effort[i];
       sample.features = error_features(all.load, *seen, i);
@@ -97,6 +101,7 @@ class ErrorSamples {
   Statistic statistic_;
   std::size_t stride_;
   std::size_t ticks_ = 0;
+  JointVector widest_;  ///< in which each drive's friction has hidden anything
   std::vector<ErrorSample> samples_;
 };
 
@@ -114,7 +119,7 @@ std::vector<ResidualErrors> fit(const std::vector<Motion>& motions, const std::s
   }
   std::vector<ResidualErrors> errors;
   for (const ErrorSamples& of : samples) {
-    if (of.all().empty()) throw SetupError(estimator + ": no valid estimate is recorded");
+    if (of.all().empty()) throw SetupError(estimator + ": no valid estimate is recorded of drives that move");
     errors.push_back(fit_error_sizes(of.all()));
   }
   return errors;

@@ -8,6 +8,7 @@ namespace {
 OutputPort<PlatformAcceleration> add(const StageSite& site, const MotionPorts& given,
                                      ImuFilterSettings settings) {
   settings.mount = site.settings.imu_mount;
+  settings.stamp_spread = site.settings.imu_stamp_spread;
   auto& filter = site.builder.add<ImuFilter>(site.name, site.robot, settings);
   site.builder.connect(given.platform, filter.platform);
   site.builder.connect(given.imu, filter.imu);

@@ -124,6 +124,7 @@ void follow_residual(const WrenchEstimate& estimate, const DriveLoad& fresh, con
   FrictionRange range{then->friction_low, then->friction_high};
   answer(tracking.answer, !continued, T, memory, next, range);
   level.effort = range.outside(level.effort);
+  next.seen.hidden = range.high - range.low;
   if (continued && tracking.answer.filters > 0) level.slope = (level.torque - memory.seen.level.torque) / T;
   if (continued && tracking.answer.filters == 0) see_hold(*then, fresh, past, tracking.sampling, level);
   if (continued) {

@@ -28,6 +28,7 @@ struct SeenResidual {
   bool settled = false;  ///< the change means something
   bool smooth = false;   ///< and what is smoothed
   DriveLoad load;
+  JointVector hidden;  ///< Width of the range in which dry friction near rest hides an effort [Nm or N].
   DriveResidual level;
   DriveResidual change;    ///< beside its mean of late, every part of it by the same filter
   DriveResidual smoothed;  ///< behind a low pass, likewise: its noise is gone

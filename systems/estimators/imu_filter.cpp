@@ -9,6 +9,7 @@
 #include "systems/estimators/innovation_mean.h"
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/signals/stamp_spread.h"
 
 namespace flinch {
 namespace {
@@ -32,6 +33,7 @@ std::vector<std::string> problems(const ImuFilterSettings& settings) {
 
 ImuFilterSettings published_imu_filter() {
   return {.mount = {},
+          .stamp_spread = {},
           .noise = {.encoder_pose = {1.2e-1, 1.2e-1},
                     .gyroscope = 1.6e-3,
                     .accelerometer = 7e-2,
@@ -48,6 +50,7 @@ ImuFilterSettings published_imu_filter() {
 
 ImuFilterSettings extended_imu_filter() {
   return {.mount = {},
+          .stamp_spread = {},
           .noise = {.encoder_pose = {1e-9, 1e-8},
                     .gyroscope = 7.5e-6,
                     .accelerometer = 1.56e-3,
@@ -99,6 +102,7 @@ void ImuFilter::advance(const PlatformMotion& motion, const ImuReading& reading,
     correct(pose, reading, T, next);
   }
   next.measured = reading.acquired;
+  next.force = reading.specific_force;
   next.time = pose.acquired;
   next.arrived = now;
   next.sees_imu = true;
@@ -185,6 +189,15 @@ void ImuFilter::predict(double T, ImuFilterMemory& next) const {
   P.diagonal().segment(3 * n_ + 3, 3).array() += periods * Q.accelerometer_bias;
 }
 
+/// Variances of specific force and rate that stamps make which err: by the slopes of both.
+TwoKinds ImuFilter::by_stamps(const ImuOutput& expected, const ImuReading& reading, double T,
+                              const ImuFilterMemory& states) const {
+  const double late = uniform_deviation(settings_.stamp_spread);
+  const double force = late / T * (reading.specific_force - states.force).norm();
+  const double rate = late * (expected.by_velocity.topRows<3>() * states.acceleration).norm();
+  return {force * force, rate * rate};
+}
+
 void ImuFilter::correct(const PoseSample& pose, const ImuReading& reading, double T,
                         ImuFilterMemory& next) const {
   const ImuOutput expected = output_at(next);
@@ -195,13 +208,15 @@ void ImuFilter::correct(const PoseSample& pose, const ImuReading& reading, doubl
   imu_error -= expected.value;
   const PlatformVector pose_error = robot_->difference(pose.pose, next.pose);
 
+  const TwoKinds stamps = by_stamps(expected, reading, T, next);
   next.errors.correction.setZero(states_);
   double squares = 0.0;
   const int outputs = n_ + 6;
   for (int i = 0; i < outputs; ++i) {
     const bool is_gyroscope = i < n_ + 3;
     const double R = i < n_ ? of(settings_.noise.encoder_pose, i)
-                            : (is_gyroscope ? settings_.noise.gyroscope : settings_.noise.accelerometer);
+                            : (is_gyroscope ? settings_.noise.gyroscope + stamps.rotation
+                                            : settings_.noise.accelerometer + stamps.translation);
     const double innovation = i < n_ ? pose_error[i] : imu_error[i - n_];
     squares += next.errors.measure(C.row(i).transpose(), R, innovation);
   }

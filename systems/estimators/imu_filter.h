@@ -37,6 +37,7 @@ struct ImuFilterNoise {
 
 struct ImuFilterSettings {
   ImuMount mount;
+  Time stamp_spread{};  ///< Width of the range in which stamps of the IMU err, evenly; 0: not stated.
   ImuFilterNoise noise;
   /// Variances at the beginning, in the units of `ImuFilterNoise`.
   TwoKinds initial_pose, initial_velocity, initial_acceleration;
@@ -62,11 +63,12 @@ struct ImuFilterMemory {
   static constexpr int states = 3 * max_dof + 6;  ///< most: pose, velocity, acceleration, biases
 
   bool started = false;
-  bool sees_imu = false;        ///< in the last tick
-  Time measured = Time::min();  ///< when the IMU acquired its last reading
-  Time time{};                  ///< of the states
-  Time arrived{};               ///< tick at which the last sample was read
-  Time since{};                 ///< tick of the first one
+  bool sees_imu = false;                 ///< in the last tick
+  Time measured = Time::min();           ///< when the IMU acquired its last reading
+  Eigen::Vector3d force{0.0, 0.0, 0.0};  ///< which that was [m/s^2]
+  Time time{};                           ///< of the states
+  Time arrived{};                        ///< tick at which the last sample was read
+  Time since{};                          ///< tick of the first one
   Configuration pose;
   PlatformVector velocity;
   PlatformVector acceleration;
@@ -136,6 +138,8 @@ class ImuFilter final : public System {
   void begin(const PoseSample& pose, const PlatformMotion& motion, Time now, ImuFilterMemory& next) const;
   void predict(double T, ImuFilterMemory& next) const;
   void correct(const PoseSample& pose, const ImuReading& reading, double T, ImuFilterMemory& next) const;
+  TwoKinds by_stamps(const ImuOutput& expected, const ImuReading& reading, double T,
+                     const ImuFilterMemory& states) const;
   ImuOutput output_at(const ImuFilterMemory& states) const;
   Rows output_matrix(const ImuOutput& sensed) const;
   double of(const TwoKinds& kinds, int coordinate) const {

@@ -25,11 +25,14 @@ std::size_t false_contacts(const std::vector<ImuOutcome>& outcomes) {
 
 class ImuFailures : public testing::TestWithParam<ImuFailure> {};
 
-INSTANTIATE_TEST_SUITE_P(Every, ImuFailures, testing::ValuesIn(imu_failures()), [](const auto& failure) {
-  std::string word = failure.param.kind;
+std::string word_of(const ImuFailure& failure) {
+  std::string word = failure.kind;
   std::replace(word.begin(), word.end(), ' ', '_');
   return word;
-});
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, ImuFailures, testing::ValuesIn(imu_failures()),
+                         [](const auto& failure) { return word_of(failure.param); });
 
 /// Nothing stops and no contact is missed. A unit that is late or turned is known by motion alone: until
 /// there is enough of it, a few are taken for a contact.
@@ -58,6 +61,36 @@ TEST_P(ImuFailures, AreNamedStopNothingAndHideNoContact) {
   EXPECT_LE(static_cast<std::size_t>(late), needs_motion ? count / 2 : count / 20);
   const std::size_t allowed = GetParam().right == ImuDoubt::late ? count / 5 : count / 20;
   EXPECT_LE(false_contacts(moving) + false_contacts(touched), allowed);
+}
+
+class ImuFailuresWithJitter : public ImuFailures {};
+
+INSTANTIATE_TEST_SUITE_P(Every, ImuFailuresWithJitter, testing::ValuesIn(imu_failures()),
+                         [](const auto& failure) { return word_of(failure.param); });
+
+/// Delays between 3 and 4 ms, and stamps that take them for 3.5.
+TEST_P(ImuFailuresWithJitter, AreNamedAndStopNothing) {
+  const auto count = test::wanted<std::size_t>("FLINCH_IMU_FAILURES", 10);
+  const auto moving = try_failures(GetParam(), count, fail_in_motion, 1ms);
+  const auto touched = try_failures(GetParam(), count, fail_before_contact, 1ms);
+  fmt::print("{}{}", table_of_failures_head(), line_of(GetParam(), moving, touched));
+  for (const auto* outcomes : {&moving, &touched}) {
+    for (const ImuOutcome& each : *outcomes) EXPECT_FALSE(each.stopped) << each.told;
+  }
+  const auto late = std::count_if(moving.begin(), moving.end(),
+                                  [](const ImuOutcome& each) { return !each.named || *each.named > 20ms; });
+  const bool needs_motion = GetParam().right == ImuDoubt::late || GetParam().right == ImuDoubt::turned;
+  EXPECT_LE(static_cast<std::size_t>(late), needs_motion ? count / 2 : count / 10);
+  fmt::print("  {} of {} with a false contact\n", false_contacts(moving) + false_contacts(touched),
+             2 * count);
+}
+
+TEST(HonestUnits, AreNotDoubtedForTheirJitter) {
+  const auto count = test::wanted<std::size_t>("FLINCH_IMU_FAILURES", 20);
+  int doubted = 0;
+  for (std::size_t i = 0; i < count; ++i) doubted += doubt_of_honest_unit(i, 1ms) == ImuDoubt::none ? 0 : 1;
+  fmt::print("doubted {} of {} in 2.5 s of motion each\n", doubted, count);
+  EXPECT_EQ(doubted, 0);
 }
 
 }  // namespace

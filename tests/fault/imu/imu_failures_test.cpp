@@ -25,5 +25,20 @@ TEST(ImuFailures, OfThreeKindsAreNamedInMotionAndBeforeAContact) {
   }
 }
 
+TEST(ImuStamps, ThatErrByHalfAMillisecondMakeNoHonestUnitDoubted) {
+  for (std::size_t number = 0; number < 6; ++number)
+    EXPECT_STREQ(name(doubt_of_honest_unit(number, 1ms)), name(ImuDoubt::none)) << number;
+}
+
+TEST(ImuStamps, ThatErrHideNoFailure) {
+  for (const ImuFailure& failure : imu_failures()) {
+    if (failure.kind != "accelerometer off" && failure.kind != "frozen") continue;
+    const ImuOutcome moving = fail_in_motion(failure, 2, 1ms);
+    ASSERT_TRUE(moving.named.has_value()) << moving.told;
+    EXPECT_LE(*moving.named, 20ms) << moving.told;
+    EXPECT_STREQ(name(moving.doubt), name(failure.right)) << moving.told;
+  }
+}
+
 }  // namespace
 }  // namespace flinch::test

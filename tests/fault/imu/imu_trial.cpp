@@ -73,6 +73,26 @@ ImuRun run(SimulatedScenario scenario, const std::vector<std::string>& faults, T
 
 double degrees(double angle) { return angle * std::numbers::pi / 180.0; }
 
+Campaign campaign(const std::string& name) {
+  CampaignOverrides overrides;
+  overrides.seed = wanted<std::uint64_t>("FLINCH_IMU_SEED",
+                                         271828);  // other robots than those by which the rule was chosen
+  overrides.draws = 1000;
+  return read_campaign(std::string(FLINCH_SOURCE_DIR "/apps/campaigns/") + name + ".yaml", overrides);
+}
+
+/// The scenario with a unit whose stamps err within a range that is known.
+SimulatedScenario with_stamps(SimulatedScenario scenario, Time spread) {
+  scenario.station.imu.clock.delay_jitter = spread / 2;
+  scenario.control.imu_stamp_spread = spread;
+  return scenario;
+}
+
+const Campaign& free_motion() {
+  static const Campaign motions = campaign("false_alarms");
+  return motions;
+}
+
 /// The failure as faults on request; sizes are drawn.
 std::vector<std::string> faults_of(const std::string& kind, double at, RandomGenerator& random) {
   const auto one_of_three = [&random] { return 1 + static_cast<int>(random.uniform(0.0, 2.999)); };
@@ -90,14 +110,6 @@ std::vector<std::string> faults_of(const std::string& kind, double at, RandomGen
   if (kind == "turned")
     return {fmt::format("imu{}:turned@{}:{:.3f}", axis, at, sign * degrees(random.uniform(5.0, 30.0)))};
   return {fmt::format("gyroscope:noise@{}:0.0274", at), fmt::format("accelerometer:noise@{}:0.395", at)};
-}
-
-Campaign campaign(const std::string& name) {
-  CampaignOverrides overrides;
-  overrides.seed = wanted<std::uint64_t>("FLINCH_IMU_SEED",
-                                         271828);  // other robots than those by which the rule was chosen
-  overrides.draws = 1000;
-  return read_campaign(std::string(FLINCH_SOURCE_DIR "/apps/campaigns/") + name + ".yaml", overrides);
 }
 
 /// The first tick from `begin` on of which the unit tells with a failure that shows.
@@ -151,9 +163,12 @@ std::vector<ImuFailure> imu_failures() {
           {"tenfold noise", ImuDoubt::noisy}};
 }
 
-ImuOutcome fail_in_motion(const ImuFailure& failure, std::size_t number) {
-  static const Campaign motions = campaign("false_alarms");
-  const SimulatedScenario scenario = draw_run(motions, number).scenario;
+ImuDoubt doubt_of_honest_unit(std::size_t number, Time stamps) {
+  return run(with_stamps(draw_run(free_motion(), number).scenario, stamps), {}, 2500ms).doubt;
+}
+
+ImuOutcome fail_in_motion(const ImuFailure& failure, std::size_t number, Time stamps) {
+  const SimulatedScenario scenario = with_stamps(draw_run(free_motion(), number).scenario, stamps);
   RandomGenerator random(1000 + number);
   const auto wanted = static_cast<std::size_t>(random.uniform(700.0, 1700.0));
   const ImuRun honest = run(scenario, {}, 2500ms);
@@ -170,9 +185,9 @@ ImuOutcome fail_in_motion(const ImuFailure& failure, std::size_t number) {
   return outcome;
 }
 
-ImuOutcome fail_before_contact(const ImuFailure& failure, std::size_t number) {
+ImuOutcome fail_before_contact(const ImuFailure& failure, std::size_t number, Time stamps) {
   static const Campaign contacts = campaign("detection_roc");
-  const SimulatedScenario scenario = draw_run(contacts, number).scenario;
+  const SimulatedScenario scenario = with_stamps(draw_run(contacts, number).scenario, stamps);
   RandomGenerator random(2000 + number);
   const ImuRun honest = run(scenario, {}, scenario.duration);
   if (!honest.touched) return {.told = "no contact"};
@@ -197,11 +212,11 @@ ImuOutcome fail_before_contact(const ImuFailure& failure, std::size_t number) {
 }
 
 std::vector<ImuOutcome> try_failures(const ImuFailure& failure, std::size_t count,
-                                     ImuOutcome (*trial)(const ImuFailure&, std::size_t)) {
+                                     ImuOutcome (*trial)(const ImuFailure&, std::size_t, Time), Time stamps) {
   std::vector<ImuOutcome> outcomes(count);
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
-    for (std::size_t i = next++; i < count; i = next++) outcomes[i] = trial(failure, i);
+    for (std::size_t i = next++; i < count; i = next++) outcomes[i] = trial(failure, i, stamps);
   };
   auto other = std::async(std::launch::async, work);
   work();

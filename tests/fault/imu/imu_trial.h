@@ -31,13 +31,18 @@ struct ImuOutcome {
 };
 
 /// A failure in random motion without contact, faster than 0.3 m/s; `number` draws robot, motion and size.
-ImuOutcome fail_in_motion(const ImuFailure& failure, std::size_t number);
+/// `stamps`: the range in which stamps of the unit err, and in which the control path is told that they do.
+ImuOutcome fail_in_motion(const ImuFailure& failure, std::size_t number, Time stamps = {});
 /// A failure up to 50 ms before a contact.
-ImuOutcome fail_before_contact(const ImuFailure& failure, std::size_t number);
+ImuOutcome fail_before_contact(const ImuFailure& failure, std::size_t number, Time stamps = {});
 
 /// All outcomes of `count` failures of a kind.
 std::vector<ImuOutcome> try_failures(const ImuFailure& failure, std::size_t count,
-                                     ImuOutcome (*trial)(const ImuFailure&, std::size_t));
+                                     ImuOutcome (*trial)(const ImuFailure&, std::size_t, Time),
+                                     Time stamps = {});
+
+/// What an honest unit is called in random motion of 2.5 s; none: nothing.
+ImuDoubt doubt_of_honest_unit(std::size_t number, Time stamps);
 
 /// Of `outcomes` in motion, those that were not named within 20 ms of the first sample that errs by more
 /// than 0.3 m/s^2, 1 N of the platform's mass.
