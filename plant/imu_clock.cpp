@@ -21,7 +21,8 @@ std::vector<std::string> problems(const ImuClockSettings& settings) {
   found.not_negative("jitter", to_seconds(settings.jitter), "s");
   found.not_negative("stamp_jitter", to_seconds(settings.stamp_jitter), "s");
   found.not_negative("delay_jitter", to_seconds(settings.delay_jitter), "s");
-  found.require(settings.delay_jitter <= ImuClock::most_periods / 2 * settings.period,
+  found.require(settings.delay_jitter <= Time::zero() ||
+                    settings.delay_jitter <= ImuClock::most_periods / 2 * settings.period,
                 "delay_jitter must be at most " + std::to_string(ImuClock::most_periods / 2) + " periods");
   found.require(settings.before_tick <= Time::zero() || settings.before_tick < settings.period,
                 "before_tick must be shorter than the period");

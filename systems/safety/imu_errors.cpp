@@ -151,19 +151,30 @@ Six second_difference(const ImuErrors& errors, std::size_t age, const ImuSpread&
                  of_a * a.turning - 2.0 * b.turning + of_c * c.turning, rest);
 }
 
+/// Of what the unit says, whatever it comes from, over some samples from `age` back; without its sign.
+Six measured_slope(const ImuErrors& errors, std::size_t age, const ImuSpread& rest) {
+  const std::size_t oldest = std::min(age + 4, errors.held() - 1);
+  double time = 0.0;
+  for (std::size_t k = age; k < oldest; ++k) time += to_seconds(errors.back(k).spacing);
+  const ImuError &last = errors.back(age), &first = errors.back(oldest);
+  const Eigen::Vector3d force = last.force + last.expected_force - first.force - first.expected_force;
+  const Eigen::Vector3d turning =
+      last.turning + last.expected_turning - first.turning - first.expected_turning;
+  return weighed(force, turning, rest).cwiseAbs() / time;
+}
+
 /// What the drives' own noise makes of it, which the model follows up to a part of a sample, and up to how
 /// far they have gone at each.
 Six driven(const ImuErrors& errors, std::size_t age, const ImuSpread& rest) {
   const auto [a, b, c, of_a, of_c] = Bend(errors, age);
   const Eigen::Vector3d rising =
       of_a * a.rising.cwiseAbs() + 2.0 * b.rising.cwiseAbs() + of_c * c.rising.cwiseAbs();
-  const double stamps =
-      (of_a * a.stamp_spread + of_c * c.stamp_spread);  // at most, all four halves of one sign
   const Eigen::Vector3d bent = of_a * a.expected_force - 2.0 * b.expected_force + of_c * c.expected_force;
-  return weighed(bent.cwiseAbs() + rising + stamps * b.force_slope.cwiseAbs(),
-                 (of_a * to_seconds(a.spacing) * (a.turning_slope - b.turning_slope)).cwiseAbs() +
-                     stamps * b.turning_slope.cwiseAbs(),
-                 rest);
+  Six found = weighed(bent.cwiseAbs() + rising,
+                      (of_a * to_seconds(a.spacing) * (a.turning_slope - b.turning_slope)).cwiseAbs(), rest);
+  const double stamps = of_a * a.stamp_spread + of_c * c.stamp_spread;  // at most, all halves of one sign
+  if (stamps > 0.0) found += stamps * measured_slope(errors, age, rest);
+  return found;
 }
 
 /// A second difference of white noise has six times its variance, where samples are equally far apart.

@@ -189,8 +189,8 @@ struct Claim {
   Eigen::Vector3d beyond;  ///< what the model expects
   Eigen::Vector3d slope;   ///< d/dt of what it expects
   Eigen::Vector3d rising;  ///< doubt about what the drives make of it
-  double apart;            ///< what two stamps that err otherwise make of it at most
   double noise;            ///< deviation of a sample
+  double apart;            ///< what two stamps that err otherwise make of it at most
 };
 
 /// Whether a sensor claims what the encoders, who show `around` beyond the model, do not confirm.

@@ -16,7 +16,7 @@ std::vector<ErrorSample> samples_of(const ResidualErrors& truth, std::size_t cou
   std::vector<ErrorSample> samples(count);
   for (ErrorSample& sample : samples) {
     sample.features[0] = 1.0;
-    const double scales[] = {0.0, 3.0, 40.0, 5.0, 0.6, 2000.0, 1.0, 0.8};
+    const double scales[] = {0.0, 3.0, 40.0, 5.0, 0.6, 2000.0, 1.0, 0.8, 6.0};
     for (std::size_t j = 1; j < sample.features.size(); ++j)
       sample.features[j] = std::pow(random.uniform(0.0, scales[j]), 2);
     sample.squared = truth.variance(sample.features) * std::pow(random.normal(), 2);
@@ -32,7 +32,8 @@ TEST(ErrorSizes, AreFoundFromSquares) {
                              .friction = 0.4,
                              .lag = 2e-4,
                              .rest = 0.5,
-                             .acceleration = 0.3};
+                             .acceleration = 0.3,
+                             .turning = 0.05};
   const ResidualErrors found = fit_error_sizes(samples_of(truth, 400'000));
   // A variance found from n squares has a deviation of sqrt(2 / n) of all of it; parts of it some times that.
   EXPECT_NEAR(found.noise, truth.noise, 0.05 * truth.noise);
@@ -43,10 +44,11 @@ TEST(ErrorSizes, AreFoundFromSquares) {
   EXPECT_NEAR(found.lag, truth.lag, 0.05 * truth.lag);
   EXPECT_NEAR(found.rest, truth.rest, 0.05 * truth.rest);
   EXPECT_NEAR(found.acceleration, truth.acceleration, 0.05 * truth.acceleration);
+  EXPECT_NEAR(found.turning, truth.turning, 0.05 * truth.turning);
 }
 
 TEST(ErrorSizes, OfWhatExplainsNothingAreAlmostZero) {
-  const ResidualErrors found = fit_error_sizes(samples_of({.noise = 0.2, .friction = 0.5}, 50'000));
+  const ResidualErrors found = fit_error_sizes(samples_of({.noise = 0.2, .friction = 0.5}, 200'000));
   EXPECT_NEAR(found.noise, 0.2, 0.01);
   EXPECT_NEAR(found.friction, 0.5, 0.02);
   const double tenth = 0.1 * std::pow(0.2, 2);  // of the variance that is noise, even under the largest load
@@ -56,6 +58,7 @@ TEST(ErrorSizes, OfWhatExplainsNothingAreAlmostZero) {
   EXPECT_LT(std::pow(2000.0 * found.lag, 2), tenth);
   EXPECT_LT(std::pow(1.0 * found.rest, 2), tenth);
   EXPECT_LT(std::pow(0.8 * found.acceleration, 2), tenth);
+  EXPECT_LT(std::pow(6.0 * found.turning, 2), tenth);
 }
 
 TEST(ErrorSizes, HaveNoiseEvenWhereAllIsExplained) {

@@ -173,11 +173,12 @@ TEST(TheParameterFile, OfAFusedDetectorHasTheUnitsOfTheDrives) {
           "    residuals:\n"
           "      - estimator: filter\n"
           "        level: {threshold: 8, noise_Nm: 0.25, speed_Nms_per_rad: 0.5, load: 0, torque: "
-          "0.125, friction: 0.75, lag_ms: 500, rest_Nm: 0, acceleration_rad_per_s2: 0}\n"
+          "0.125, friction: 0.75, lag_ms: 500, rest_Nm: 0, acceleration_rad_per_s2: 0, turning: 0}\n"
           "        change: {threshold: 9.5, noise_Nm: 0.5, speed_Nms_per_rad: 0.25, load: 0.0625, "
-          "torque: 0.5, friction: 1, lag_ms: 250, rest_Nm: 0, acceleration_rad_per_s2: 0}\n"
+          "torque: 0.5, friction: 1, lag_ms: 250, rest_Nm: 0, acceleration_rad_per_s2: 0, turning: 0}\n"
           "        smoothed: {threshold: 7.5, noise_Nm: 0.0625, speed_Nms_per_rad: 0.5, load: 0, "
-          "torque: 0.25, friction: 0.5, lag_ms: 125, rest_Nm: 0.375, acceleration_rad_per_s2: 1.5}\n"
+          "torque: 0.25, friction: 0.5, lag_ms: 125, rest_Nm: 0.375, acceleration_rad_per_s2: 1.5, turning: "
+          "0}\n"
           "        onset: {threshold: 6.5, innovation: 0.375, prediction: [0.5, 0.25, 0.125, -0.0625]}\n"));
   EXPECT_THAT(
       thresholds_yaml(with_a_residual(false), "2026-11-22"),

@@ -259,10 +259,10 @@ double gone(const BenchSettings& settings, double share, int ticks) {
 }
 
 TEST(StickingFriction, HoldsATorqueBelowItsLargestWithoutCreeping) {
-  for (const double stiffness : {500.0, 10'000.0}) {
+  for (const double stiffness : {2000.0, 40'000.0}) {
     const BenchSettings settings = sticking(bench(BenchFriction::test_bench), stiffness);
     const double give = dry_friction(*settings.robot).maxCoeff() / stiffness;
-    const double soon = gone(settings, 0.8, 2000), late = gone(settings, 0.8, 6000);
+    const double soon = gone(settings, 0.8, 4000), late = gone(settings, 0.8, 8000);
     EXPECT_LT(soon, 3.0 * give);
     EXPECT_LT(late - soon, 1e-3 * give) << "no creep";
   }
@@ -272,7 +272,7 @@ TEST(StickingFriction, HoldsATorqueBelowItsLargestWithoutCreeping) {
 
 TEST(StickingFriction, LetsGoAboveItsLargest) {
   const BenchSettings settings = sticking(bench(BenchFriction::test_bench), 5000.0);
-  EXPECT_GT(gone(settings, 1.2, 300), 100.0 * gone(settings, 0.8, 300));
+  EXPECT_GT(gone(settings, 1.2, 300), 50.0 * gone(settings, 0.8, 300));
 }
 
 TEST(StickingFriction, BrakesAMovingRobotAsTheModelsDoes) {

@@ -36,6 +36,7 @@ SeenResidual seen(const JointVector& change) {
                    .friction_high = none,
                    .inertia = none,
                    .turning = none},
+          .hidden = none,
           .level = {},
           .change = {change, none, none, none, none, none},
           .smoothed = {}};

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "systems/robot/joint_space_dynamics.h"
+#include "systems/robot/robot_deviation.h"
 #include "tests/systems/robot/mechanism_laws.h"
 
 // What holds for the equations of motion of every mechanism.
@@ -221,6 +222,30 @@ TEST_P(DynamicLaws, FrictionTakesPower) {
     EXPECT_GE(friction_power(k, dynamics_of(k)), 0.0);
     const Kinematics at_rest = kinematics_at(pose, PlatformVector::Zero(n));
     EXPECT_EQ(friction_power(at_rest, dynamics_of(at_rest)), 0.0);
+  }
+}
+
+/// Viscous friction is gone from d(2 v) - 2 d(v), where d is what drives without friction would lack.
+TEST_P(DynamicLaws, DryFrictionOfDrivesIsTheirShareOfAllFriction) {
+  const auto without = robot.deviating({.drive_friction_scale = JointVector::Zero(robot.drives())});
+  if (without == nullptr) GTEST_SKIP() << "cannot differ from itself";
+  Residual residual("dry friction of drives", 1e-11);
+  const auto lacks = [&](const MotionState& state, double times) -> PlatformVector {
+    Kinematics k;
+    Dynamics other;
+    without->kinematics(state.pose, times * state.velocity, k);
+    without->dynamics(k, other);
+    return dynamics_at(state.pose, times * state.velocity).F_fr_x - other.F_fr_x;
+  };
+  for (const MotionState& state : std::span(states).first(100)) {
+    const Kinematics k = kinematics_at(state.pose, state.velocity);
+    JointVector efforts(robot.drives());
+    for (int i = 0; i < robot.drives(); ++i) {
+      const DryFriction friction = robot.dry_friction(i);
+      efforts[i] = friction.at(2.0 * k.rates.active[i]) - 2.0 * friction.at(k.rates.active[i]);
+    }
+    compare(residual, PlatformVector(lacks(state, 2.0) - 2.0 * lacks(state, 1.0)),
+            platform_wrench(k, efforts));
   }
 }
 
