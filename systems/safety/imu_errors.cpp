@@ -177,8 +177,10 @@ Six driven(const ImuErrors& errors, std::size_t age, const ImuSpread& rest) {
   return found;
 }
 
-/// A second difference of white noise has six times its variance, where samples are equally far apart.
-const double far = 4.0 * std::sqrt(6.0);
+constexpr double white = 6.0;            // square of the second difference of white noise, at equal distances
+constexpr double far = 4.0;              // deviations
+constexpr double usual_time = 0.25;      // time constant [s]
+constexpr double largest_counted = 9.0;  // times what is usual
 
 }  // namespace
 
@@ -189,12 +191,21 @@ int ImuErrors::contradicted(int latest) const noexcept {
   return sum;
 }
 
-bool jumped(const ImuErrors& errors, std::size_t age, const ImuSpread& rest) noexcept {
+void UsualBends::follow(const ImuErrors& errors, const ImuSpread& rest) noexcept {
+  if (errors.held() < 3 || !(rest.force > 0.0) || !(rest.turning > 0.0)) return;
+  const Six now = second_difference(errors, 0, rest).cwiseAbs2().cwiseMin(largest_counted * squares);
+  const double share = 1.0 - std::exp(-to_seconds(errors.back(0).spacing) / usual_time);
+  squares = (squares + share * (now - squares)).cwiseMax(white);
+}
+
+bool jumped(const ImuErrors& errors, std::size_t age, const ImuSpread& rest,
+            const UsualBends& usual) noexcept {
   if (errors.held() < age + 4 || !(rest.force > 0.0) || !(rest.turning > 0.0)) return false;
   const Six later = second_difference(errors, age, rest), earlier = second_difference(errors, age + 1, rest);
   const Six expected = driven(errors, age, rest).cwiseMax(driven(errors, age + 1, rest));
   const auto turns = later.array() * earlier.array() < 0.0;
-  const auto is_far = later.array().abs().min(earlier.array().abs()) > far + expected.array();
+  const auto is_far =
+      later.array().abs().min(earlier.array().abs()) > far * usual.squares.array().sqrt() + expected.array();
   return (turns && is_far).any();
 }
 

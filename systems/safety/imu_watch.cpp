@@ -343,7 +343,8 @@ void judge(ImuWatch& watch, const TickMotions& motions, const ImuErrors& errors,
           (step_from(motions, now) + step_from(motions, place_of(motions, then.time - tick.period))) /
           (2.0 * tick.T());
   watch.errors.push(error);
-  watch.errors.newest.jumps = jumped(errors, 0, rest);
+  watch.errors.newest.jumps = jumped(errors, 0, rest, watch.usual);
+  watch.usual.follow(errors, rest);
   const bool is_rest = at.noise.force == rest.force && at.noise.turning == rest.turning;
   if (is_rest ? watch.errors.newest.jumps : jumped(errors, 0, at.noise)) at.limit *= 0.5;
   const bool turning = turning_contradicted(at, error);

@@ -43,6 +43,7 @@ struct ImuWatch {
   int seen = 0, missing = 0;     ///< ticks with, and in a row without a valid reading
   std::array<int, 6> repeats{};  ///< of each axis, to the last bit
   Eigen::Matrix<double, 6, 1> largest = Eigen::Matrix<double, 6, 1>::Zero();  ///< of late, of each axis
+  UsualBends usual;     ///< of what it says beyond what is expected
   bool blamed = false;  ///< for a rate that is not that of the encoders
   bool late = false;    ///< by its last samples
   int masked = 0;       ///< ticks that the unit is left out

@@ -212,6 +212,10 @@ void PointOnThreeLegs::dynamics(const Kinematics& kinematics, Dynamics& out) con
   sum.write(out);
 }
 
+DryFriction PointOnThreeLegs::dry_friction(int drive) const noexcept {
+  return {.effort = parameters_.legs[index(drive)].active_friction.coulomb, .velocity = friction_velocity};
+}
+
 std::shared_ptr<const Mechanism> PointOnThreeLegs::deviating(const RobotDeviation& deviation) const {
   Parameters robot = parameters_;
   for (std::size_t i = 0; i < n; ++i) robot.legs[i] = deviating_leg(robot.legs[i], deviation, i);

@@ -51,6 +51,7 @@ class PointOnThreeLegs final : public flinch::ParallelRobot {
   void kinematics(const flinch::Configuration& pose, const flinch::PlatformVector& velocity,
                   const flinch::WorkingMode& mode, flinch::Kinematics& out) const noexcept override;
   void dynamics(const flinch::Kinematics& kinematics, flinch::Dynamics& out) const noexcept override;
+  flinch::DryFriction dry_friction(int drive) const noexcept override;
   std::shared_ptr<const flinch::Mechanism> deviating(const flinch::RobotDeviation& deviation) const override;
   flinch::CartesianVector point_on_body(const flinch::Kinematics& kinematics, flinch::BodyId body,
                                         const flinch::CartesianVector& point_in_body) const noexcept override;

@@ -95,6 +95,37 @@ TEST(ImuErrors, JumpWithTenfoldNoiseOnly) {
   EXPECT_FALSE(jumps(errors_of(contact))) << "half a sine of 10 ms, as of a hard contact";
 }
 
+/// A unit on a platform that motors shake by `ripple` to and fro, whose noise grows tenfold after 0.6 s where it
+/// `fails`. The first sample at which it is known to jump; none: 0.
+int first_jump(const std::function<double(double time)>& ripple, bool fails) {
+  RandomGenerator random(5);
+  Samples errors;
+  UsualBends usual;
+  for (int k = 0; k < 1000; ++k) {
+    const double t = 1e-3 * k;
+    ImuError error;
+    const double deviations = fails && k >= 600 ? 10.0 : 1.0;
+    error.force = noise(random, deviations * spread.force);
+    error.turning = noise(random, deviations * spread.turning);
+    error.force.y() += (k % 2 == 0 ? 1.0 : -1.0) * ripple(t);
+    errors.push(error);
+    errors.latest().jumps = jumped(errors, 0, spread, usual);
+    usual.follow(errors, spread);
+    if (jumps(errors)) return k;
+  }
+  return 0;
+}
+
+TEST(UsualBends, AreLearnedOfMotorsThatShakeThePlatformAndNotOfAUnitThatFails) {
+  const auto smooth = [](double) { return 0.0; };
+  const auto shaken = [](double time) { return 10.0 * spread.force * std::min(time / 0.4, 1.0); };
+  EXPECT_EQ(first_jump(smooth, false), 0);
+  EXPECT_EQ(first_jump(shaken, false), 0) << "as it gets up to speed";
+  const int found = first_jump(smooth, true);
+  EXPECT_GE(found, 600);
+  EXPECT_LE(found, 615);
+}
+
 constexpr double position_noise = 3e-6;  // of the encoders [m]
 constexpr double angle_noise = 1e-5;     // [rad]
 const EncoderSpread encoders{Eigen::Vector3d::Constant(position_noise),
