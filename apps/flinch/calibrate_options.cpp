@@ -192,6 +192,15 @@ void add_judge_verb(CLI::App& app, Verbs& verbs) {
   verb.add_option("--contact", options.contacts, "When a contact begins [s]")
       ->type_name("T")
       ->allow_extra_args(false);
+  verb.add_option("--truth", options.truth,
+                  "Who says what is contact and what is free: the force sensor of the log; --free then marks "
+                  "where its zero is taken from [what --contact and --free mark]")
+      ->check(CLI::IsMember({"force"}))
+      ->type_name("force");
+  verb.add_option("--contact-force", options.contact_force,
+                  "Force above which --truth force tells a contact, until it is below half of that for 0.1 s "
+                  "[2 N, or six deviations of the sensor's noise if that is more]")
+      ->type_name("NEWTON");
 }
 
 }  // namespace flinch

@@ -180,7 +180,9 @@ struct JudgeOptions {
   std::filesystem::path scenario;  ///< empty: that of the recording
   std::vector<std::string> free;   ///< stretches without a contact, A..B [s]
   std::vector<double> contacts;    ///< when contacts begin [s]
-  std::filesystem::path out;       ///< the page; empty: none
+  std::string truth;               ///< "force": contacts as the force sensor tells them; empty: as marked
+  std::optional<double> contact_force;  ///< Force above which that is a contact [N].
+  std::filesystem::path out;            ///< the page; empty: none
 };
 
 struct ReportOptions {

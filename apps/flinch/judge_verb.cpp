@@ -15,6 +15,7 @@
 #include "calibration/chi_square_quantile.h"
 #include "experiments/comparison/judged_page.h"
 #include "experiments/recorded/judged_log.h"
+#include "experiments/recorded/measured_contacts.h"
 #include "experiments/scenario/scenario.h"
 #include "systems/config/file_kind.h"
 #include "systems/foundation/json_text.h"
@@ -42,7 +43,7 @@ Json delay_json(const std::vector<std::optional<double>>& delays) {
   return all;
 }
 
-std::string judged_json(const JudgedLog& judged) {
+std::string judged_json(const JudgedLog& judged, const LogTruth& truth) {
   Json detections = Json::array(), alarms = Json::object(), at_most = Json::object(), delays = Json::object(),
        faults = Json::array();
   for (const JudgedLog::Detection& each : judged.detections)
@@ -57,6 +58,9 @@ std::string judged_json(const JudgedLog& judged) {
   }
   for (const JudgedLog::Fault& each : judged.faults)
     faults.push_back({{"fault", each.name}, {"at_s", each.at}});
+  Json contacts = Json::array();
+  for (const LogTruth::Stretch& each : truth.measured)
+    contacts.push_back({{"from_s", each.from}, {"to_s", each.to}});
   Json folds = Json::array();
   for (const JudgedLog::Fold& fold : judged.folds)
     folds.push_back({{"leg", fold.leg + 1}, {"at_s", fold.at}});
@@ -64,6 +68,7 @@ std::string judged_json(const JudgedLog& judged) {
                         {"free_seconds", judged.free_seconds},
                         {"pose_known", judged.pose_known},
                         {"folds", folds},
+                        {"measured_contacts", contacts},
                         {"detections", detections},
                         {"false_alarms", alarms},
                         {"false_alarms_at_most_per_h", at_most},
@@ -83,7 +88,7 @@ std::vector<std::string> events_of(const JudgedLog& judged) {
   return events;
 }
 
-void print_judged(const JudgedLog& judged) {
+void print_judged(const JudgedLog& judged, const LogTruth& truth) {
   print_result("log:       {:.2f} s, {:.2f} s of it free; the pose is known in {:.1f} %\n", judged.seconds,
                judged.free_seconds, 100.0 * judged.pose_known);
   print_result("{:<24} {:>10} {:>12} {:>18}  {}\n", "by", "detections", "false alarms",
@@ -98,6 +103,8 @@ void print_judged(const JudgedLog& judged) {
                  judged.free_seconds > 0.0 ? std::to_string(alarms) : "-",
                  std::isfinite(rate) ? fmt::format("{:.0f}", rate) : "-", delays);
   }
+  for (const LogTruth::Stretch& each : truth.measured)
+    print_result("contact from {:.3f} to {:.3f} s, {}\n", each.from, each.to, truth.source);
   for (const std::string& event : events_of(judged)) print_result("{}\n", event);
 }
 
@@ -116,6 +123,21 @@ void write_page(const JudgeOptions& options, const Scenario& scenario, const Jud
   write_result(options.out, page.html(judged, truth, facts));
 }
 
+LogTruth truth_of(const JudgeOptions& options, const Recording& readings) {
+  const std::vector<LogTruth::Stretch> free = stretches_of(options.free);
+  if (options.truth.empty()) {
+    if (options.contact_force) throw SetupError("--contact-force: is of --truth force, which is not given");
+    LogTruth truth;
+    truth.free = free;
+    truth.contacts = options.contacts;
+    return truth;
+  }
+  if (!options.contacts.empty())
+    throw SetupError(
+        "--contact: with --truth force the sensor says when contacts begin; leave one of both out");
+  return measured_contacts(readings, options.contact_force, free);
+}
+
 }  // namespace
 
 ExitStatus judge(const JudgeOptions& options) {
@@ -124,9 +146,7 @@ ExitStatus judge(const JudgeOptions& options) {
   const auto readings = std::make_shared<const Recording>(open_recording(options.log));
   const Scenario scenario =
       options.scenario.empty() ? recorded_scenario(*readings, options.log) : read_scenario(options.scenario);
-  LogTruth truth;
-  truth.free = stretches_of(options.free);
-  truth.contacts = options.contacts;
+  const LogTruth truth = truth_of(options, *readings);
   Progress progress("judging " + options.log.string(),
                     is_short(*readings) || options.common.quiet || options.common.json);
   std::optional<JudgedPage> page;
@@ -139,7 +159,7 @@ ExitStatus judge(const JudgeOptions& options) {
       judge_log(scenario, readings, truth, watch, [&progress](double share) { progress.show(share); });
   if (page) write_page(options, scenario, *page, judged, truth);
   if (options.common.json) {
-    print_result("{}\n", judged_json(judged));
+    print_result("{}\n", judged_json(judged, truth));
     return ExitStatus::done;
   }
   if (readings->period != scenario.control_period && !options.common.quiet)
@@ -147,7 +167,7 @@ ExitStatus judge(const JudgeOptions& options) {
         "warning: {}: has a period of {:.3f} ms; it was interpolated to {:g} ms, that of the control, so a "
         "contact may be detected up to a sample too early\n",
         options.log.string(), 1e3 * to_seconds(readings->period), 1e3 * to_seconds(scenario.control_period));
-  print_judged(judged);
+  print_judged(judged, truth);
   if (page && !options.common.quiet) print_message("page:      {}\n", options.out.string());
   return ExitStatus::done;
 }

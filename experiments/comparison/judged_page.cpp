@@ -59,6 +59,14 @@ JudgedJson detectors_json(const JudgedLog& judged, const JudgedFacts& facts) {
   return rows;
 }
 
+/// When a contact ends, or until when a marked one is drawn [s].
+double end_of(double begin, const LogTruth& truth) {
+  for (const LogTruth::Stretch& contact : truth.measured) {
+    if (contact.from == begin) return contact.to;
+  }
+  return begin + band;
+}
+
 JudgedJson contacts_json(const JudgedLog& judged, const LogTruth& truth) {
   std::vector<double> begins = truth.contacts;
   std::sort(begins.begin(), begins.end());
@@ -66,7 +74,7 @@ JudgedJson contacts_json(const JudgedLog& judged, const LogTruth& truth) {
   for (std::size_t i = 0; i < begins.size(); ++i) {
     const std::optional<double> delay = judged.delays.at(judged.by.front())[i];
     contacts.push_back({{"start", begins[i]},
-                        {"removed", begins[i] + band},
+                        {"removed", end_of(begins[i], truth)},
                         {"detected", delay ? JudgedJson(begins[i] + *delay) : JudgedJson(nullptr)}});
   }
   return contacts;
@@ -109,10 +117,12 @@ JudgedJson JudgedPage::lanes(const JudgedLog& judged, const LogTruth& truth) con
       if (stretch.from <= now && now < stretch.to) marked[k] = 1;
     }
     for (const double contact : truth.contacts) {
-      if (contact <= now && now < contact + band) marked[k] = 2;
+      if (contact <= now && now < end_of(contact, truth)) marked[k] = 2;
     }
   }
-  lanes.push_back(lane("marked by the user", {"not judged", "free", "contact begins"}, marked));
+  const bool has_ends = !truth.measured.empty();
+  lanes.push_back(
+      lane(truth.source, {"not judged", "free", has_ends ? "contact" : "contact begins"}, marked));
   for (std::size_t i = 0; i < judged.by.size(); ++i) {
     const auto drawing = drawings_.find(judged.signals[i]);
     if (drawing == drawings_.end()) continue;
@@ -140,6 +150,7 @@ std::string JudgedPage::html(const JudgedLog& judged, const LogTruth& truth, con
                            {"detectors", detectors_json(judged, facts)},
                            {"events", facts.events},
                            {"free_seconds", judged.free_seconds},
+                           {"truth", truth.source},
                            {"runs", runs},
                            {"start", axis_.start},
                            {"period", axis_.period},

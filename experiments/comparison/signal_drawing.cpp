@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "export/exported_signal.h"
+#include "systems/signals/platform_motion.h"
 
 namespace flinch {
 namespace {
@@ -40,6 +41,31 @@ constexpr std::array charted = {
 bool is_charted(const std::string& signal, const std::string& field) {
   return std::any_of(charted.begin(), charted.end(),
                      [&](const ChartedField& what) { return what.signal == signal && what.field == field; });
+}
+
+/// What tells whether a field of a signal is known.
+struct Validity {
+  const ExportedField* flag = nullptr;  ///< "valid" or alike; null: always known
+  bool is_status = false;               ///< The flag is a PlatformMotion::Status.
+  bool is_pose = false;                 ///< The field needs no velocity.
+
+  bool is_known(const Number* row) const {
+    if (flag == nullptr) return true;
+    const std::int64_t said = row[flag->first].integer;
+    if (!is_status) return said != 0;
+    const auto status = static_cast<PlatformMotion::Status>(said);
+    return status == PlatformMotion::Status::valid || (is_pose && status == PlatformMotion::Status::singular);
+  }
+};
+
+/// A detector that is not valid has detected nothing, which is drawn.
+Validity validity_of(const ExportedSignal& signal, const std::string& like, const std::string& field) {
+  if (like == "detection") return {};
+  const std::string name = like == "motion" ? "status" : field == "passive" ? "passive_valid" : "valid";
+  for (const ExportedField& flag : signal.fields) {
+    if (flag.name == name) return {&flag, like == "motion", field == "pose"};
+  }
+  return {};
 }
 
 }  // namespace
@@ -76,7 +102,9 @@ void SignalDrawing::see(const Recording& part) {
   std::vector<ExportedField> fields = signal.fields;
   std::erase_if(fields, [&](const ExportedField& field) { return !is_charted(like_, field.name); });
   std::vector<std::size_t> places;
+  std::vector<Validity> validities;
   for (const ExportedField& field : fields) {
+    validities.push_back(validity_of(signal, like_, field.name));
     for (std::size_t i = 0; i < field.width(); ++i)
       places.push_back(
           static_cast<std::size_t>(&seen(field.name, field.components[i], field.units[i]) - seen_.data()));
@@ -91,8 +119,9 @@ void SignalDrawing::see(const Recording& part) {
       if (at > axis_.count / stride()) continue;
       const Number* const row = rows + k * numbers;
       auto component = places.begin();
+      auto validity = validities.begin();
       for (const ExportedField& field : fields) {
-        const std::size_t there = field.numbers_in(row);
+        const std::size_t there = (validity++)->is_known(row) ? field.numbers_in(row) : 0;
         for (std::size_t i = 0; i < field.width(); ++i, ++component) {
           if (i >= there) continue;
           const Number& number = row[field.first + i];

@@ -31,7 +31,8 @@ struct ChartAxis {
 /// At most 4000 samples.
 ChartAxis chart_axis(double first, double last, double period);
 
-/// A component of a field on an axis; NaN where there is nothing.
+/// A component of a field on an axis; NaN where there is nothing, or where its signal says that it is not
+/// known.
 struct DrawnComponent {
   std::string field, name, unit;
   std::vector<double> values;

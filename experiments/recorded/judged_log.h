@@ -21,6 +21,9 @@ struct LogTruth {
   };
   std::vector<Stretch> free;     ///< nothing touches the robot
   std::vector<double> contacts;  ///< when one begins [s]
+  /// Contacts with their ends, where a force sensor tells them.
+  std::vector<Stretch> measured{};
+  std::string source = "marked by the user";  ///< Who says so, a phrase.
 };
 
 /// What detectors made of a log.

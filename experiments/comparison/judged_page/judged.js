@@ -23,10 +23,10 @@ function showDetectors() {
 }
 
 function truthSentence() {
-  const free = report.free_seconds > 0 ? `Free of contact by what its user says: ${fixed(report.free_seconds, 2)} s.`
-    : "No stretch was said to be free (--free A..B), so no false alarms are counted.";
-  const contacts = report.contacts.length > 0 ? `Contacts that the user has marked: ${report.contacts.length}.`
-    : "No contact was marked (--contact T), so none can be missed.";
+  const free = report.free_seconds > 0 ? `Free of contact, ${report.truth}: ${fixed(report.free_seconds, 2)} s.`
+    : "No stretch is known to be free (--free A..B), so no false alarms are counted.";
+  const contacts = report.contacts.length > 0 ? `Contacts, ${report.truth}: ${report.contacts.length}.`
+    : "No contact is known (--contact T, --truth force), so none can be missed.";
   return `${free} ${contacts}`;
 }
 

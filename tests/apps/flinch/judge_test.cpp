@@ -82,6 +82,28 @@ TEST_F(JudgeVerb, DrawsTheEstimatesThatARunOfTheSameControlHasRecorded) {
   EXPECT_EQ(compared, 3U);
 }
 
+TEST_F(JudgeVerb, TakesContactsFromTheForceSensorOfTheLog) {
+  const json shown = page({"--truth", "force"});
+  const json told = json::parse(flinch({"judge", place.at("run/run.h5"), "--truth", "force", "--json"}).out);
+  ASSERT_FALSE(told.at("measured_contacts").empty());
+  const double begin = told["measured_contacts"][0].at("from_s");
+  EXPECT_NEAR(begin, onset, 1e-3 + 1e-9);
+  EXPECT_EQ(shown.at("truth"), "measured by the force sensor");
+  EXPECT_EQ(shown.at("contacts")[0].at("start"), begin);
+  EXPECT_EQ(shown["contacts"][0].at("removed"), told["measured_contacts"][0].at("to_s"));
+  EXPECT_EQ(shown["lanes"][0].at("name"), "measured by the force sensor");
+  EXPECT_GT(told.at("free_seconds").get<double>(), 0.0);
+}
+
+TEST_F(JudgeVerb, RefusesTruthOfTwoKinds) {
+  const Outcome both = flinch({"judge", place.at("run/run.h5"), "--truth", "force", "--contact", "1"});
+  EXPECT_EQ(both.status, 2);
+  EXPECT_THAT(both.err, HasSubstr("--contact: with --truth force the sensor says when contacts begin"));
+  const Outcome alone = flinch({"judge", place.at("run/run.h5"), "--contact-force", "3"});
+  EXPECT_EQ(alone.status, 2);
+  EXPECT_THAT(alone.err, HasSubstr("--contact-force: is of --truth force, which is not given"));
+}
+
 TEST_F(JudgeVerb, RefusesAPageThatIsNone) {
   const Outcome outcome = flinch({"judge", place.at("run/run.h5"), "-o", place.at("judged.csv")});
   EXPECT_EQ(outcome.status, 2);

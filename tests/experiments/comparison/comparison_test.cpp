@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/comparison/comparison_page.h"
+#include "experiments/comparison/signal_drawing.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/signals/platform_motion.h"
 #include "tests/experiments/report/chromium.h"
 #include "tests/support/problems_of.h"
 #include "tests/support/temporary_folder.h"
@@ -184,6 +186,36 @@ TEST_F(TwoRecordings, AreDrawnWithTheirPeaks) {
     if (chart["id"] != "detection_level") continue;
     const auto& values = chart["series"][1]["values"];
     EXPECT_EQ(std::count(values.begin(), values.end(), json(7.0)), 1);
+  }
+}
+
+TEST(SignalDrawing, LeavesAGapWhereAPoseIsNotKnown) {
+  using Status = PlatformMotion::Status;
+  const std::vector<Status> statuses = {Status::valid,       Status::no_data,  Status::not_converged,
+                                        Status::implausible, Status::singular, Status::valid};
+  Recording recording;
+  recording.period = 1ms;
+  recording.signals = {{"motion", row_layout<PlatformMotion>(), {}}};
+  for (std::size_t k = 0; k < statuses.size(); ++k) {
+    recording.time_ns.push_back(static_cast<std::int64_t>(k) * 1'000'000);
+    PlatformMotion motion;
+    motion.status = statuses[k];
+    motion.pose = Configuration::Constant(3, 0.25);
+    motion.velocity = PlatformVector::Constant(3, 0.5);
+    append(motion, recording.signals[0]);
+  }
+  SignalDrawing drawing("motion", chart_axis(0.0, 0.005, 0.001));
+  drawing.see(recording);
+  ASSERT_EQ(drawing.components().size(), 6U);
+  for (const DrawnComponent& component : drawing.components()) {
+    const bool is_pose = component.field == "pose";
+    for (std::size_t k = 0; k < statuses.size(); ++k) {
+      if (statuses[k] == Status::valid || (is_pose && statuses[k] == Status::singular)) {
+        EXPECT_EQ(component.values[k], is_pose ? 0.25 : 0.5) << component.name << k;
+      } else {
+        EXPECT_TRUE(std::isnan(component.values[k])) << component.name << k;
+      }
+    }
   }
 }
 
