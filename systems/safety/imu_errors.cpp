@@ -247,7 +247,9 @@ Lateness lateness(const ImuErrors& errors, std::size_t samples, const EncoderSpr
 
 bool is_late(const ImuErrors& errors, const EncoderSpread& encoders, const ImuSpread& unit,
              Time spacing) noexcept {
-  constexpr double least = 0.7e-3, most = 10e-3;  // [s]
+  if (errors.held() == 0) return false;
+  const double least = 0.7e-3 + 0.5 * errors.back(0).stamp_spread;  // [s]
+  constexpr double most = 10e-3;
   for (const Time window : {10ms, 20ms}) {
     const auto samples = static_cast<std::size_t>(periods_in(window, spacing, 5));
     const Lateness found = lateness(errors, samples, encoders, unit);

@@ -81,8 +81,8 @@ struct Lateness {
 Lateness lateness(const ImuErrors& errors, std::size_t samples, const EncoderSpread& encoders,
                   const ImuSpread& unit) noexcept;
 
-/// Whether the last 10 or 20 ms, of five samples at least, are surely late: by more than 0.7 ms and five
-/// deviations, which explains seven tenths of all squares.
+/// Whether the last 10 or 20 ms, of five samples at least, are surely late: by more than 0.7 ms, what stamps may err
+/// and five deviations, which explains seven tenths of all squares.
 bool is_late(const ImuErrors& errors, const EncoderSpread& encoders, const ImuSpread& unit,
              Time spacing = 1ms) noexcept;
 
