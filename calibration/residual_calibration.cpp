@@ -17,7 +17,7 @@ namespace flinch {
 namespace {
 
 constexpr std::size_t most_samples = 60'000;  // of a drive, to which sizes are fitted
-constexpr double slides = 0.01;               // share of friction near rest that is left behind filters
+constexpr double still_hidden = 0.01;         // share of friction near rest that is left behind filters
 constexpr double least_surprise = 1e-6;       // that a threshold may have
 
 /// The signal of the loads of the drives; "" where there is none.
@@ -76,7 +76,23 @@ constexpr Statistic change_statistic{&SeenResidual::change, &SeenResidual::settl
 constexpr Statistic smoothed_statistic{&SeenResidual::smoothed, &SeenResidual::smooth, true};
 constexpr std::array statistics{level_statistic, change_statistic, smoothed_statistic};
 
-/// Every `stride`-th error of a statistic, of drives that slide: near rest dry friction hides errors.
+/// Which drives slide, so that no dry friction near rest hides their errors.
+class SlidingDrives {
+ public:
+  void see(const JointVector& hidden) {
+    if (widest_.size() != hidden.size()) widest_.setZero(hidden.size());
+    widest_ = widest_.cwiseMax(hidden);
+    hidden_ = hidden;
+  }
+  bool slides(int drive) const { return hidden_[drive] <= still_hidden * widest_[drive]; }
+  bool all() const { return (hidden_.array() <= still_hidden * widest_.array()).all(); }
+
+ private:
+  JointVector widest_,
+      hidden_;  ///< The range in which friction may hide an error, at most and now [Nm or N].
+};
+
+/// Every `stride`-th error of a statistic, of drives that slide.
 class ErrorSamples {
  public:
   ErrorSamples(const Statistic& statistic, std::size_t stride) : statistic_(statistic), stride_(stride) {}
@@ -84,10 +100,9 @@ class ErrorSamples {
   void add(bool nominal, const SeenResidual& all) {
     const DriveResidual* const seen = statistic_.of(nominal, all);
     if (seen == nullptr || ticks_++ % stride_ != 0) return;
-    if (widest_.size() != all.hidden.size()) widest_.setZero(all.hidden.size());
-    widest_ = widest_.cwiseMax(all.hidden);
+    drives_.see(all.hidden);
     for (int i = 0; i < seen->effort.size(); ++i) {
-      if (all.hidden[i] > slides * widest_[i]) continue;
+      if (!drives_.slides(i)) continue;
       ErrorSample& sample = samples_.emplace_back();
       sample.squared = seen->effort[i] * seen->effort[i];
       sample.features = error_features(all.load, *seen, i);
@@ -101,7 +116,7 @@ class ErrorSamples {
   Statistic statistic_;
   std::size_t stride_;
   std::size_t ticks_ = 0;
-  JointVector widest_;  ///< in which each drive's friction has hidden anything
+  SlidingDrives drives_;
   std::vector<ErrorSample> samples_;
 };
 
@@ -166,7 +181,8 @@ class Surprises {
     if (ticks_ == 0) largest_now_ = 0.0;
     if (seen) {
       largest_now_ = std::max(largest_now_, *seen);
-      tail_.add(*seen, static_cast<int>(memory.seen.load.torque.size()));
+      drives_.see(memory.seen.hidden);
+      if (drives_.all()) tail_.add(*seen, static_cast<int>(memory.seen.load.torque.size()));
     }
     if (++ticks_ < length_) return;
     largest_.push_back(largest_now_);
@@ -182,6 +198,7 @@ class Surprises {
   std::size_t length_ = 1;
   std::size_t ticks_ = 0;  // of the present stretch
   double largest_now_ = 0.0;
+  SlidingDrives drives_;
   std::vector<double> largest_;
   SurpriseTail tail_;
 };

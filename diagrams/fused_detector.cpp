@@ -46,8 +46,8 @@ OutputPort<WrenchEstimate> estimate_of(const std::string& name, const StageSite&
   throw SetupError(site.name + ": there is no estimator '" + name + "'" + did_you_mean(name, known));
 }
 
-/// With what stamps that err make of the residual of the IMU, where more is stated than was calibrated: of two in a
-/// row, behind an observer of the gyroscope; and of how late torques are.
+/// With what stamps that err make of the residual of the IMU, where more is stated than was calibrated: of
+/// two in a row, behind an observer of the gyroscope; and of how late torques are.
 SurpriseThreshold with_stamps(SurpriseThreshold limit, const ContactControlSettings& settings) {
   const double deviation = uniform_deviation(settings.imu_stamp_spread);
   const double T = to_seconds(settings.control_period);

@@ -27,9 +27,10 @@ struct BrakeFriction {
   double sliding_give = 5e-5;      ///< [m]
 };
 
-/// Dry friction that sticks, of a drive: -effort tanh(rate / velocity + stiffness way / effort), where `way` is that
-/// from where it has stuck or last slid to, at most `most_give` times effort / stiffness. The effort is that of
-/// the robot, whose friction it is in the place of; so a drive at rest holds a torque up to that without creeping.
+/// Dry friction that sticks, of a drive: -effort tanh(rate / velocity + stiffness way / effort), where `way`
+/// is that from where it has stuck or last slid to, at most `most_give` times effort / stiffness. The effort
+/// is that of the robot, whose friction it is in the place of; so a drive at rest holds a torque up to that
+/// without creeping.
 struct StickingFriction {
   static constexpr double most_give = 3.0;
 

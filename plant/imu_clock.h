@@ -14,8 +14,8 @@ struct ImuClockSettings {
   Time before_tick = 0us;   ///< How long before the tick at zero one is measured; shorter than the period.
   Time jitter = 0us;        ///< By how much the instants are off, at most, either way.
   Time stamp_jitter = 0us;  ///< By how much what is said of them is off besides.
-  /// By how much the delay of a sample is off, at most, either way. Who receives it takes the delay for constant, so
-  /// what is said of its instant is off as much; no sample overtakes another.
+  /// By how much the delay of a sample is off, at most, either way. Who receives it takes the delay for
+  /// constant, so what is said of its instant is off as much; no sample overtakes another.
   Time delay_jitter = 0us;
 };
 

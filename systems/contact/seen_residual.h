@@ -80,9 +80,9 @@ struct ResidualMemory {
 /// The estimate of a tick, whose residual is set beside the load of the time that it tells of, a fresh load
 /// or one of `past`, as the estimator answers it. An estimate that is not valid, not finite, or has fallen
 /// back to another estimator is none; after the longest hold without one, and after a gap, everything begins
-/// anew. Of the effort counts what lies outside of the bounds of dry friction near rest, which pass the filters of
-/// the answer too: these never give a negative answer, so that bounds stay bounds.
-/// `next`: another object than `memory`, whatever it holds.
+/// anew. Of the effort counts what lies outside of the bounds of dry friction near rest, which pass the
+/// filters of the answer too: these never give a negative answer, so that bounds stay bounds. `next`:
+/// another object than `memory`, whatever it holds.
 void follow_residual(const WrenchEstimate& estimate, const DriveLoad& fresh, const LoadHistory& past,
                      Time now, const ResidualTracking& tracking, const ResidualMemory& memory,
                      ResidualMemory& next);

@@ -32,11 +32,11 @@ struct FrictionInterval {
   JointVector low, high;
 };
 
-/// Near rest a drive's dry friction takes any value up to its largest: it balances whatever torque there is. So an
-/// estimator that believes in a law of friction sees an effort from outside that is none, by up to
-/// f - share F to f + share F, where f is the friction that the law gives and F its largest. The interval is open
-/// below some rate, closes in some milliseconds above it, and is open once more from where a drive has turned
-/// round until it has gone some way, over which friction builds up. (Derived.)
+/// Near rest a drive's dry friction takes any value up to its largest: it balances whatever torque there is.
+/// So an estimator that believes in a law of friction sees an effort from outside that is none, by up to f -
+/// share F to f + share F, where f is the friction that the law gives and F its largest. The interval is
+/// open below some rate, closes in some milliseconds above it, and is open once more from where a drive has
+/// turned round until it has gone some way, over which friction builds up. (Derived.)
 class FrictionBounds {
  public:
   FrictionBounds(const Mechanism& robot, const FrictionIntervalSettings& settings);

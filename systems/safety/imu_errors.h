@@ -41,10 +41,10 @@ struct ImuSpread {
   double turning = 0.0;  ///< [rad/s]
 };
 
-/// How much errors of late bend from sample to sample: means of squares of second differences, of force over turning,
-/// each in its deviations at rest. White noise has 6 of it. Motors whose torque ripples shake the platform faster than
-/// it is sampled, which no model tells; so what is usual is learned, slowly enough that a unit that fails does not
-/// become usual before it is found.
+/// How much errors of late bend from sample to sample: means of squares of second differences, of force over
+/// turning, each in its deviations at rest. White noise has 6 of it. Motors whose torque ripples shake the
+/// platform faster than it is sampled, which no model tells; so what is usual is learned, slowly enough that
+/// a unit that fails does not become usual before it is found.
 struct UsualBends {
   Eigen::Matrix<double, 6, 1> squares = Eigen::Matrix<double, 6, 1>::Constant(6.0);
 
@@ -52,9 +52,9 @@ struct UsualBends {
   void follow(const ImuErrors& errors, const ImuSpread& rest) noexcept;
 };
 
-/// Whether the error has jumped to and fro at the sample of `age`, like noise that is several times what is usual
-/// and that of `rest`: two second differences in a row of four deviations, beyond those of what is expected, change
-/// their sign. A contact bends the error, but one way.
+/// Whether the error has jumped to and fro at the sample of `age`, like noise that is several times what is
+/// usual and that of `rest`: two second differences in a row of four deviations, beyond those of what is
+/// expected, change their sign. A contact bends the error, but one way.
 bool jumped(const ImuErrors& errors, std::size_t age, const ImuSpread& rest,
             const UsualBends& usual = {}) noexcept;
 
@@ -81,8 +81,8 @@ struct Lateness {
 Lateness lateness(const ImuErrors& errors, std::size_t samples, const EncoderSpread& encoders,
                   const ImuSpread& unit) noexcept;
 
-/// Whether the last 10 or 20 ms, of five samples at least, are surely late: by more than 0.7 ms, what stamps may err
-/// and five deviations, which explains seven tenths of all squares.
+/// Whether the last 10 or 20 ms, of five samples at least, are surely late: by more than 0.7 ms, what stamps
+/// may err and five deviations, which explains seven tenths of all squares.
 bool is_late(const ImuErrors& errors, const EncoderSpread& encoders, const ImuSpread& unit,
              Time spacing = 1ms) noexcept;
 

@@ -25,9 +25,10 @@ struct TickMotion {
 /// twice of that, and more than noise makes, is contradicted; so is one whose rate the encoders do not show,
 /// unless it is they that jumped against the model. (Derived.)
 ///
-/// A contradicted sample counts as none. Where half of the last samples are contradicted, or the unit repeats
-/// itself, stands at its end or jumps, it is in doubt by name. It stays so until the operator resets, or until it
-/// has told the truth for a second of motion, in which what was wrong with it would have shown.
+/// A contradicted sample counts as none. Where half of the last samples are contradicted, or the unit
+/// repeats itself, stands at its end or jumps, it is in doubt by name. It stays so until the operator
+/// resets, or until it has told the truth for a second of motion, in which what was wrong with it would have
+/// shown.
 struct ImuWatch {
   static constexpr std::size_t kept = 24;
   using Motions = Ring<TickMotion, kept>;

@@ -13,7 +13,8 @@ struct DriveLoad {
   JointVector rate;      ///< [rad/s or m/s]
   JointVector torque;    ///< tau_a, not filtered [Nm or N]
   JointVector friction;  ///< of all joints, as the drives feel it: J_x_qa^T F_fr_x [Nm or N]
-  /// Bounds of what dry friction near rest may do to the drive beyond the model [Nm or N]; zero while it slides.
+  /// Bounds of what dry friction near rest may do to the drive beyond the model; zero while it slides [Nm or
+  /// N].
   JointVector friction_low, friction_high;
   /// Length of the drive's row of J_x_qa^T M_x J_x_qa: drives whose accelerations err independently, by a
   /// deviation of 1, err by so much in their torques [kg m^2 or kg]

@@ -46,8 +46,8 @@ TEST(FrictionBounds, AreAsWideAsDryFrictionAtRestAndNoneInMotion) {
   EXPECT_NEAR(bounds.high[1], 1.25 * drives.friction(1).effort, 1e-12) << "each drive for itself";
 }
 
-/// True friction is what it wants within its largest, +-15 %, and the law says f: what an estimator sees of that is f
-/// less the truth.
+/// True friction is what it wants within its largest, +-15 %, and the law says f: what an estimator sees of
+/// that is f less the truth.
 TEST(FrictionBounds, HoldWhateverDryFrictionDoesBelowTheRateAtWhichItMayStick) {
   Drives drives;
   for (double rate = -0.014; rate < 0.015; rate += 0.0005) {

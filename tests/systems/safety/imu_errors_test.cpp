@@ -95,8 +95,8 @@ TEST(ImuErrors, JumpWithTenfoldNoiseOnly) {
   EXPECT_FALSE(jumps(errors_of(contact))) << "half a sine of 10 ms, as of a hard contact";
 }
 
-/// A unit on a platform that motors shake by `ripple` to and fro, whose noise grows tenfold after 0.6 s where it
-/// `fails`. The first sample at which it is known to jump; none: 0.
+/// A unit on a platform that motors shake by `ripple` to and fro, whose noise grows tenfold after 0.6 s
+/// where it `fails`. The first sample at which it is known to jump; none: 0.
 int first_jump(const std::function<double(double time)>& ripple, bool fails) {
   RandomGenerator random(5);
   Samples errors;
