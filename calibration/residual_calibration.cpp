@@ -88,8 +88,8 @@ class SlidingDrives {
   bool all() const { return (hidden_.array() <= still_hidden * widest_.array()).all(); }
 
  private:
-  JointVector widest_,
-      hidden_;  ///< The range in which friction may hide an error, at most and now [Nm or N].
+  JointVector widest_;  ///< Range in which friction may hide an error, at most so far [Nm or N].
+  JointVector hidden_;  ///< The same, now.
 };
 
 /// Every `stride`-th error of a statistic, of drives that slide.

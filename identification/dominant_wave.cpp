@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "identification/robust_mean.h"
+#include "systems/foundation/median.h"
 
 namespace flinch {
 namespace {

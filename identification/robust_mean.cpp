@@ -4,20 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "systems/foundation/median.h"
+
 namespace flinch {
 namespace {
 
 constexpr double normal_over_median = 1.4826;
 
 }  // namespace
-
-double median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
 
 double robust_deviation(const std::vector<double>& residuals) {
   std::vector<double> distances;

@@ -15,9 +15,6 @@ struct RobustMean {
 /// distance from it; not a number where there are none.
 RobustMean robust_mean(const Eigen::VectorXd& samples);
 
-/// The middle of the values; not a number where there are none.
-double median(std::vector<double> values);
-
 /// Standard deviation of normal values whose median distance from zero is that of `residuals`.
 double robust_deviation(const std::vector<double>& residuals);
 

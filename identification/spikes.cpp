@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "identification/robust_mean.h"
+#include "systems/foundation/median.h"
 
 namespace flinch {
 namespace {

@@ -12,6 +12,7 @@
 #include "identification/robust_mean.h"
 #include "identification/torque_constant_fit.h"
 #include "systems/config/robot_file.h"
+#include "systems/foundation/median.h"
 #include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/setup_error.h"
 

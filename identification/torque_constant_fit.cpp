@@ -12,6 +12,7 @@
 #include "identification/ceres_fit.h"
 #include "identification/dominant_wave.h"
 #include "identification/robust_mean.h"
+#include "systems/foundation/median.h"
 #include "systems/robot/rotation.h"
 
 namespace flinch {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "import/log_file.h"
+#include "systems/foundation/median.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
@@ -62,12 +63,6 @@ std::vector<std::size_t> growing_rows(const std::vector<std::int64_t>& instants,
   return kept;
 }
 
-std::int64_t median(std::vector<std::int64_t> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// A period that people set, where `period` is as near to it as `tolerance`.
 std::int64_t usual_period(double period, double tolerance) {
   constexpr std::array usual = {100.0,  125.0,  200.0,  240.0,  250.0,  400.0,  500.0,  800.0,
@@ -115,10 +110,11 @@ ClockRate clock_rate(const std::vector<std::int64_t>& instants) {
   if (instants.size() < 2) return rate;
   // Over ten rows, jitter of the stamps hardly counts, nor that some of them are missing.
   const std::size_t span = std::clamp<std::size_t>(instants.size() / 10, 1, 10);
-  std::vector<std::int64_t> steps;
+  std::vector<double> steps;
   steps.reserve(instants.size());
-  for (std::size_t k = span; k < instants.size(); ++k) steps.push_back(instants[k] - instants[k - span]);
-  const double typical = static_cast<double>(median(std::move(steps))) / static_cast<double>(span);
+  for (std::size_t k = span; k < instants.size(); ++k)
+    steps.push_back(static_cast<double>(instants[k] - instants[k - span]));
+  const double typical = median(std::move(steps)) / static_cast<double>(span);
   double squares = 0.0;
   std::size_t whole = 0;
   for (std::size_t k = 1; k < instants.size(); ++k) {

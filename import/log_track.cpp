@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "import/clock_rows.h"
+#include "systems/foundation/median.h"
 
 namespace flinch {
 namespace {
@@ -12,20 +14,18 @@ constexpr std::int64_t bridged_periods = 3;
 
 /// Rows that have a number, from one to the next of them, in the middle of all.
 std::size_t usual_spacing(const std::vector<double>& values) {
-  std::vector<std::size_t> spacings;
+  std::vector<double> spacings;
   spacings.reserve(values.size());
   std::size_t last = 0;
   bool any = false;
   for (std::size_t k = 0; k < values.size(); ++k) {
     if (!std::isfinite(values[k])) continue;
-    if (any) spacings.push_back(k - last);
+    if (any) spacings.push_back(static_cast<double>(k - last));
     any = true;
     last = k;
   }
   if (spacings.empty()) return 1;
-  const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
-  std::nth_element(spacings.begin(), middle, spacings.end());
-  return *middle;
+  return static_cast<std::size_t>(std::lround(median(std::move(spacings))));
 }
 
 }  // namespace

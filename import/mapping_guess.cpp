@@ -11,6 +11,7 @@
 #include "import/log_candidate.h"
 #include "import/log_track.h"
 #include "import/motion_correlation.h"
+#include "systems/foundation/median.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/kinematic_check.h"
 #include "systems/robot/parallel_robot.h"
@@ -265,9 +266,7 @@ class Guess {
       misses.push_back(robot().chain_closure_error(active[k], angles[k], pose));
     }
     if (misses.empty()) return INFINITY;
-    const auto middle = misses.begin() + static_cast<std::ptrdiff_t>(misses.size() / 2);
-    std::nth_element(misses.begin(), middle, misses.end());
-    return *middle;
+    return median(std::move(misses));
   }
 
   // ---- drives
@@ -334,9 +333,7 @@ class Guess {
       norms.push_back(std::hypot(acc[0]->values[k], acc[1]->values[k], acc[2]->values[k]));
     std::erase_if(norms, [](double norm) { return !std::isfinite(norm); });
     if (norms.empty()) return;
-    std::nth_element(norms.begin(), norms.begin() + static_cast<std::ptrdiff_t>(norms.size() / 2),
-                     norms.end());
-    const double norm = norms[norms.size() / 2];
+    const double norm = median(std::move(norms));
     const std::string by_size = norm > 0.8 && norm < 1.25 ? "g" : norm > 800.0 ? "mg" : "m/s^2";
     const UnitWord acceleration =
         unit_of({acc.begin(), acc.end()}, UnitWord::Quantity::acceleration, {by_size}, INFINITY);

@@ -21,10 +21,9 @@ const BenchSettings& checked(const BenchSettings& settings) {
 /// Dry friction that holds: `way` from where it bears nothing, over its give, counts up to `most` either way.
 struct Held {
   double way;
-  double most;
 
-  double share() const { return std::clamp(way, -most, most); }
-  bool slides() const { return std::abs(way) > most; }
+  double share() const { return std::clamp(way, -most_give, most_give); }
+  bool slides() const { return std::abs(way) > most_give; }
   /// `rate` over the rate that counts as much as its give.
   double effort(double most_effort, double rate) const { return -most_effort * std::tanh(rate + share()); }
 };
@@ -112,17 +111,19 @@ double BenchDynamics::way(int drive, double from, double to) const noexcept {
 double BenchDynamics::brake_effort(int drive, double rate, double position, double braked_at) const noexcept {
   const BrakeFriction& brake = settings_.brake;
   const bool slides = robot().drive_kind(drive) == DriveKind::prismatic;
-  const Held held{way(drive, braked_at, position) / (slides ? brake.sliding_give : brake.give),
-                  BrakeFriction::most_give};
+  const Held held{way(drive, braked_at, position) / (slides ? brake.sliding_give : brake.give)};
   return held.effort(slides ? brake.force : brake.torque,
                      rate / (slides ? brake.sliding_velocity : brake.velocity));
 }
 
+double BenchDynamics::slides_to(int drive, double position, double held_at, double give) const noexcept {
+  const Held held{way(drive, held_at, position) / give};
+  return held.slides() ? position - give * held.share() : held_at;
+}
+
 double BenchDynamics::brake_slides_to(int drive, double position, double braked_at) const noexcept {
   const bool slides = robot().drive_kind(drive) == DriveKind::prismatic;
-  const double give = slides ? settings_.brake.sliding_give : settings_.brake.give;
-  const Held held{way(drive, braked_at, position) / give, BrakeFriction::most_give};
-  return held.slides() ? position - give * held.share() : braked_at;
+  return slides_to(drive, position, braked_at, slides ? settings_.brake.sliding_give : settings_.brake.give);
 }
 
 double BenchDynamics::sticking_effort(int drive, double rate, double position,
@@ -132,17 +133,14 @@ double BenchDynamics::sticking_effort(int drive, double rate, double position,
   if (!(friction.effort > 0.0)) return 0.0;
   const StickingFriction& sticking = settings_.sticking;
   const bool slides = robot().drive_kind(drive) == DriveKind::prismatic;
-  const Held held{way(drive, stuck_at, position) * sticking.stiffness[drive] / friction.effort,
-                  StickingFriction::most_give};
+  const Held held{way(drive, stuck_at, position) * sticking.stiffness[drive] / friction.effort};
   return friction.at(rate) +
          held.effort(friction.effort, rate / (slides ? sticking.sliding_velocity : sticking.velocity));
 }
 
 double BenchDynamics::friction_slides_to(int drive, double position, double stuck_at) const noexcept {
   const double give = friction_[static_cast<std::size_t>(drive)].effort / settings_.sticking.stiffness[drive];
-  if (!(give > 0.0)) return stuck_at;
-  const Held held{way(drive, stuck_at, position) / give, StickingFriction::most_give};
-  return held.slides() ? position - give * held.share() : stuck_at;
+  return give > 0.0 ? slides_to(drive, position, stuck_at, give) : stuck_at;
 }
 
 }  // namespace flinch

@@ -122,6 +122,8 @@ class BenchDynamics {
   double friction_slides_to(int drive, double position, double stuck_at) const noexcept;
 
  private:
+  /// Where friction bears nothing from now on: it has slid if `held_at` is too far away for this `give`.
+  double slides_to(int drive, double position, double held_at, double give) const noexcept;
   /// From one position of a drive to another; angles by the shorter way.
   double way(int drive, double from, double to) const noexcept;
 

@@ -13,12 +13,13 @@
 
 namespace flinch {
 
+/// As far as dry friction gives before it slides, of `effort / stiffness`.
+inline constexpr double most_give = 3.0;
+
 /// Dry friction that closed brakes put on the drives: -effort tanh(rate / velocity + way / give), where `way`
 /// is that from where the brake has closed or last slid to, at most `most_give` times `give`. So it holds a
 /// load without creeping, as a stiff spring does, and slides under more than its effort.
 struct BrakeFriction {
-  static constexpr double most_give = 3.0;
-
   double torque = 150.0;           ///< Of drives that turn [Nm].
   double velocity = 0.02;          ///< [rad/s]
   double give = 1e-4;              ///< [rad]
@@ -32,8 +33,6 @@ struct BrakeFriction {
 /// is that of the robot, whose friction it is in the place of; so a drive at rest holds a torque up to that
 /// without creeping.
 struct StickingFriction {
-  static constexpr double most_give = 3.0;
-
   JointVector stiffness;           ///< Of each drive [Nm/rad or N/m]; empty: friction is as the robot has it.
   double velocity = 1e-3;          ///< Of drives that turn [rad/s].
   double sliding_velocity = 1e-3;  ///< Of drives that slide [m/s].

@@ -62,7 +62,7 @@ std::vector<EstimatorPeaks> peaks_of_log(const Recording& log, const Scenario& s
   std::vector<bool> counts(estimates.samples(), free.empty());
   for (std::size_t k = 0; k < counts.size(); ++k) {
     const double now = to_seconds(Time(estimates.time_ns[k]));
-    for (const LogTruth::Stretch& each : free) counts[k] = counts[k] || (now >= each.from && now < each.to);
+    for (const LogTruth::Stretch& each : free) counts[k] = counts[k] || each.contains(now);
   }
   return contact_free_peaks(estimates, counts, scenario.robot.robot->space(), stretch);
 }

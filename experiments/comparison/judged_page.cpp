@@ -114,7 +114,7 @@ JudgedJson JudgedPage::lanes(const JudgedLog& judged, const LogTruth& truth) con
   for (std::size_t k = 0; k < axis_.count; ++k) {
     const double now = axis_.start + static_cast<double>(k) * axis_.period;
     for (const LogTruth::Stretch& stretch : truth.free) {
-      if (stretch.from <= now && now < stretch.to) marked[k] = 1;
+      if (stretch.contains(now)) marked[k] = 1;
     }
     for (const double contact : truth.contacts) {
       if (contact <= now && now < end_of(contact, truth)) marked[k] = 2;

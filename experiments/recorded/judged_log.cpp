@@ -174,7 +174,7 @@ void check(const LogTruth& truth, double first, double last) {
             "--free: " + std::to_string(stretch.from) + ".." + std::to_string(stretch.to) +
                 " is no stretch of it");
     for (const double contact : truth.contacts)
-      require(contact < stretch.from || contact >= stretch.to,
+      require(!stretch.contains(contact),
               "--contact: begins at " + std::to_string(contact) + " s, which --free says is free");
   }
   for (const double contact : truth.contacts)
@@ -194,9 +194,8 @@ void compare(const LogTruth& truth, double end, JudgedLog& judged) {
     delays.resize(contacts.size());
     for (const JudgedLog::Detection& detection : judged.detections) {
       if (detection.by != by) continue;
-      alarms += std::any_of(truth.free.begin(), truth.free.end(), [&](const LogTruth::Stretch& stretch) {
-        return detection.at >= stretch.from && detection.at < stretch.to;
-      });
+      alarms += std::any_of(truth.free.begin(), truth.free.end(),
+                            [&](const LogTruth::Stretch& stretch) { return stretch.contains(detection.at); });
       for (std::size_t i = contacts.size(); i-- > 0;) {
         if (detection.at < contacts[i]) continue;
         if (!delays[i]) delays[i] = detection.at - contacts[i];

@@ -18,6 +18,8 @@ struct LogTruth {
   struct Stretch {
     double from = 0.0;  ///< [s]
     double to = 0.0;
+
+    bool contains(double at) const { return from <= at && at < to; }
   };
   std::vector<Stretch> free;     ///< nothing touches the robot
   std::vector<double> contacts;  ///< when one begins [s]

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "systems/foundation/median.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recorded_values.h"
 #include "systems/signals/force_torque_reading.h"
@@ -43,15 +44,9 @@ std::vector<ForceSample> samples_of(const Recording& readings) {
   return samples;
 }
 
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 bool lies_in(double at, const std::vector<LogTruth::Stretch>& stretches) {
   return std::any_of(stretches.begin(), stretches.end(),
-                     [at](const LogTruth::Stretch& each) { return each.from <= at && at < each.to; });
+                     [at](const LogTruth::Stretch& each) { return each.contains(at); });
 }
 
 /// What the sensor shows while nothing touches.

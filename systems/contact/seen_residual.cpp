@@ -38,8 +38,7 @@ DriveLoad interpolated(const Around<DriveLoad>& around, Time time) {
   load.rate = before.rate + later * (after.rate - before.rate);
   load.torque = before.torque + later * (after.torque - before.torque);
   load.friction = before.friction + later * (after.friction - before.friction);
-  load.friction_low = before.friction_low + later * (after.friction_low - before.friction_low);
-  load.friction_high = before.friction_high + later * (after.friction_high - before.friction_high);
+  load.friction_bounds = interval_between(before.friction_bounds, after.friction_bounds, later);
   load.inertia = before.inertia + later * (after.inertia - before.inertia);
   load.turning = before.turning + later * (after.turning - before.turning);
   return load;
@@ -66,33 +65,22 @@ JointVector rest_of(const JointVector& rate, double resting_rate) {
   return (-(rate.array() / resting_rate).square()).exp();
 }
 
-/// Bounds of what dry friction near rest may do beyond the model; one entry a drive [Nm or N].
-struct FrictionRange {
-  JointVector low, high;
-
-  /// What of `effort` lies outside of them.
-  JointVector outside(const JointVector& effort) const {
-    return effort - effort.cwiseMax(low).cwiseMin(high);
-  }
-};
-
 /// Passes torque, friction and rest of a residual, and the bounds of its friction, through the filters of an
 /// answer, which have settled where they are the first; `T` is the time since the last ones [s].
 void answer(const EstimatorAnswer& by, bool is_first, double T, const ResidualMemory& memory,
-            ResidualMemory& next, FrictionRange& range) {
+            ResidualMemory& next, FrictionInterval& bounds) {
   DriveResidual& level = next.seen.level;
   const double share = is_first ? 1.0 : 1.0 - std::exp(-by.rate * T);
   for (std::size_t i = 0; i < static_cast<std::size_t>(by.filters); ++i) {
     AnsweredLoad& filter = next.answered[i];
     if (is_first) {
-      filter = {level.torque, level.friction, range.low, range.high, level.rest};
+      filter = {level.torque, level.friction, bounds, level.rest};
       continue;
     }
     const AnsweredLoad& last = memory.answered[i];
     level.torque = filter.torque = last.torque + share * (level.torque - last.torque);
     level.friction = filter.friction = last.friction + share * (level.friction - last.friction);
-    range.low = filter.friction_low = last.friction_low + share * (range.low - last.friction_low);
-    range.high = filter.friction_high = last.friction_high + share * (range.high - last.friction_high);
+    bounds = filter.friction_bounds = interval_between(last.friction_bounds, bounds, share);
     level.rest = filter.rest = last.rest + share * (level.rest - last.rest);
   }
 }
@@ -121,10 +109,10 @@ void follow_residual(const WrenchEstimate& estimate, const DriveLoad& fresh, con
   level.friction = then->friction;
   level.rest = rest_of(then->rate, tracking.resting_rate);
   level.slope = level.rising = JointVector::Zero(level.effort.size());
-  FrictionRange range{then->friction_low, then->friction_high};
-  answer(tracking.answer, !continued, T, memory, next, range);
-  level.effort = range.outside(level.effort);
-  next.seen.hidden = range.high - range.low;
+  FrictionInterval bounds = then->friction_bounds;
+  answer(tracking.answer, !continued, T, memory, next, bounds);
+  level.effort = bounds.outside(level.effort);
+  next.seen.hidden = bounds.width();
   if (continued && tracking.answer.filters > 0) level.slope = (level.torque - memory.seen.level.torque) / T;
   if (continued && tracking.answer.filters == 0) see_hold(*then, fresh, past, tracking.sampling, level);
   if (continued) {

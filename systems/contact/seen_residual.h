@@ -56,12 +56,12 @@ struct ResidualTracking {
   Time smoothing_time() const { return from_seconds(3.0 / smoothing); }
 };
 
-/// Torque and friction of the drives behind a filter [Nm or N], what dry friction near rest may do beyond the
-/// model, and how far they stand still; one entry a drive.
+/// Torque and friction of the drives behind a filter [Nm or N], the bounds of dry friction near rest, and how
+/// far they stand still; one entry a drive.
 struct AnsweredLoad {
   JointVector torque;
   JointVector friction;
-  JointVector friction_low, friction_high;
+  FrictionInterval friction_bounds;
   JointVector rest;
 };
 

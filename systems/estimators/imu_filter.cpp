@@ -192,6 +192,7 @@ void ImuFilter::predict(double T, ImuFilterMemory& next) const {
 /// Variances of specific force and rate that stamps make which err: by the slopes of both.
 TwoKinds ImuFilter::by_stamps(const ImuOutput& expected, const ImuReading& reading, double T,
                               const ImuFilterMemory& states) const {
+  if (settings_.stamp_spread == Time{}) return {};
   const double late = uniform_deviation(settings_.stamp_spread);
   const double force = late / T * (reading.specific_force - states.force).norm();
   const double rate = late * (expected.by_velocity.topRows<3>() * states.acceleration).norm();

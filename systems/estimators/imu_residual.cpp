@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "systems/estimators/differenced_noise.h"
 #include "systems/estimators/innovation_mean.h"
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
@@ -205,12 +206,11 @@ void ImuResidual::estimate(const ImuReading& reading, const ExpectedMotion& then
                            ImuResidualMemory& next) const {
   Eigen::Matrix<double, 6, 1> residual, weight;
   residual << next.rotation_residual, reading.specific_force - next.bias.value - then.force;
-  // The change of white noise through the observer has the variance 2 (1 - a)^2 / (1 + a) of it, over T^2.
   const double a = std::exp(-settings_.gyroscope_gain * T);
-  // So does that of what stamps that err make of a rotation, dw/dt times their deviation.
+  // Stamps that err make of a rotation dw/dt times their deviation.
   const double stamps = uniform_deviation(settings_.stamp_spread);
   const double turned = std::hypot(settings_.gyroscope_deviation, stamps * then.rotation.norm());
-  const double turning = turned * (1.0 - a) * std::sqrt(2.0 / (1.0 + a)) / T;
+  const double turning = turned * differenced_noise(a, T);
   const double slope = (then.force - next.expected_force).norm() / T;
   const double late = std::max(to_seconds(settings_.jitter), stamps);
   const double pushing = std::hypot(settings_.accelerometer_deviation, late * slope);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "systems/estimators/differenced_noise.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
@@ -35,7 +36,7 @@ FirstOrderMomentumMethod method_of(const ParallelRobot& robot, const MomentumObs
     const double a = std::exp(-T * gain[i]);
     const double of_momentum =
         i < translations ? settings.deviation.translation : settings.deviation.rotation;
-    deviation[i] = (1.0 - a) * std::sqrt(2.0 / (1.0 + a)) * of_momentum / T;
+    deviation[i] = differenced_noise(a, T) * of_momentum;
   }
   return FirstOrderMomentumMethod(gain, deviation);
 }

@@ -17,12 +17,11 @@ JointVector turning_effort(const Kinematics& at, const Dynamics& model, const Jo
 
 }  // namespace
 
-DriveLoads::DriveLoads(const std::shared_ptr<const Mechanism>& robot,
-                       const FrictionIntervalSettings& friction)
+DriveLoads::DriveLoads(const std::shared_ptr<const Mechanism>& robot, const FrictionBoundsSettings& friction)
     : friction_(*robot, friction), translations_(robot->space().translations()) {}
 
 void DriveLoads::follow(const PlatformMotion& motion, const Kinematics& at,
-                        const FrictionIntervalMemory& memory, FrictionIntervalMemory& next) const {
+                        const FrictionBoundsMemory& memory, FrictionBoundsMemory& next) const {
   const bool is_new = motion.valid() && at.valid && at.rates.active.allFinite() &&
                       (!memory.started || motion.acquired > memory.acquired);
   if (!is_new) {
@@ -33,7 +32,7 @@ void DriveLoads::follow(const PlatformMotion& motion, const Kinematics& at,
 }
 
 void DriveLoads::tell(const PlatformMotion& motion, const Kinematics& at, const Dynamics& model,
-                      const DriveTorque& drives, const FrictionIntervalMemory& friction,
+                      const DriveTorque& drives, const FrictionBoundsMemory& friction,
                       DriveLoad& result) const {
   result = DriveLoad();
   if (!motion.valid() || !at.valid || !model.valid || !drives.valid) return;
@@ -45,9 +44,7 @@ void DriveLoads::tell(const PlatformMotion& motion, const Kinematics& at, const 
   const PlatformMatrix M_qa = at.J_x_qa.transpose() * model.M_x * at.J_x_qa;  // [SafePR] (5)
   result.inertia = M_qa.rowwise().norm();
   result.turning = turning_effort(at, model, drives.torque, translations_);
-  const FrictionInterval bounds = friction_.interval(result.rate, friction);
-  result.friction_low = bounds.low;
-  result.friction_high = bounds.high;
+  result.friction_bounds = friction_.interval(result.rate, friction);
   result.valid = result.rate.allFinite() && result.torque.allFinite() && result.friction.allFinite() &&
                  result.inertia.allFinite() && result.turning.allFinite();
 }

@@ -2,6 +2,7 @@
 
 #include "systems/framework/time.h"
 #include "systems/robot/vectors.h"
+#include "systems/signals/friction_interval.h"
 
 namespace flinch {
 
@@ -10,12 +11,10 @@ namespace flinch {
 struct DriveLoad {
   Time acquired{};
   bool valid = false;
-  JointVector rate;      ///< [rad/s or m/s]
-  JointVector torque;    ///< tau_a, not filtered [Nm or N]
-  JointVector friction;  ///< of all joints, as the drives feel it: J_x_qa^T F_fr_x [Nm or N]
-  /// Bounds of what dry friction near rest may do to the drive beyond the model; zero while it slides [Nm or
-  /// N].
-  JointVector friction_low, friction_high;
+  JointVector rate;                  ///< [rad/s or m/s]
+  JointVector torque;                ///< tau_a, not filtered [Nm or N]
+  JointVector friction;              ///< of all joints, as the drives feel it: J_x_qa^T F_fr_x [Nm or N]
+  FrictionInterval friction_bounds;  ///< of what dry friction near rest may do; zero while a drive slides
   /// Length of the drive's row of J_x_qa^T M_x J_x_qa: drives whose accelerations err independently, by a
   /// deviation of 1, err by so much in their torques [kg m^2 or kg]
   JointVector inertia;
@@ -29,8 +28,8 @@ struct DriveLoad {
     visit("rate", "<drive velocity>", self.rate);
     visit("torque", "<drive force>", self.torque);
     visit("friction", "<drive force>", self.friction);
-    visit("friction_low", "<drive force>", self.friction_low);
-    visit("friction_high", "<drive force>", self.friction_high);
+    visit("friction_low", "<drive force>", self.friction_bounds.low);
+    visit("friction_high", "<drive force>", self.friction_bounds.high);
     visit("inertia", "<drive inertia>", self.inertia);
     visit("turning", "<drive force>", self.turning);
   }

@@ -30,12 +30,6 @@ TEST(RobustMean, DoesNotSeeAFifthOfOutliers) {
 
 TEST(RobustMean, OfNothingIsNotANumber) { EXPECT_TRUE(std::isnan(robust_mean(Eigen::VectorXd()).value)); }
 
-TEST(Median, IsTheMiddle) {
-  EXPECT_EQ(median({5.0, 1.0, 3.0}), 3.0);
-  EXPECT_EQ(median({5.0, 1.0, 3.0, 4.0}), 3.5);
-  EXPECT_TRUE(std::isnan(median({})));
-}
-
 TEST(RobustDeviation, OfNormalValuesIsTheirs) {
   const Eigen::VectorXd x = noise(10000, 0.0, 2.0, 3);
   EXPECT_NEAR(robust_deviation({x.begin(), x.end()}), 2.0, 0.06);

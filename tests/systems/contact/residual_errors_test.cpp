@@ -14,8 +14,7 @@ const DriveLoad load{.acquired = {},
                      .rate = Eigen::Vector3d(2.0, -1.0, 0.0),
                      .torque = Eigen::Vector3d(10.0, -20.0, 5.0),
                      .friction = Eigen::Vector3d(0.6, -0.6, 0.0),
-                     .friction_low = Eigen::Vector3d::Zero(),
-                     .friction_high = Eigen::Vector3d::Zero(),
+                     .friction_bounds = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()},
                      .inertia = Eigen::Vector3d(0.5, 0.4, 0.25),
                      .turning = Eigen::Vector3d(0.0, 3.0, 1.0)};
 

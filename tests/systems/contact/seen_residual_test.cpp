@@ -16,8 +16,7 @@ const DriveLoad at_rest{.acquired = {},
                         .rate = Eigen::Vector3d::Zero(),
                         .torque = Eigen::Vector3d::Zero(),
                         .friction = Eigen::Vector3d::Zero(),
-                        .friction_low = Eigen::Vector3d::Zero(),
-                        .friction_high = Eigen::Vector3d::Zero(),
+                        .friction_bounds = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()},
                         .inertia = Eigen::Vector3d::Zero(),
                         .turning = Eigen::Vector3d::Zero()};
 
@@ -83,20 +82,20 @@ TEST(SeenResidual, LosesWhatDryFrictionCanMakeOfItAndNothingElse) {
   };
   follower.see(estimate_of(Eigen::Vector3d::Zero()), load);
   for (int k = 0; k < 60; ++k) {
-    if (k == 10) load.friction_low[0] = -0.75, load.friction_high[0] = 0.5;
-    if (k == 30) load.friction_low[0] = load.friction_high[0] = 0.0;
+    if (k == 10) load.friction_bounds.low[0] = -0.75, load.friction_bounds.high[0] = 0.5;
+    if (k == 30) load.friction_bounds.low[0] = load.friction_bounds.high[0] = 0.0;
     const double applied = k < 10 || k >= 30 ? 0.0 : (k % 2 == 0 ? 0.5 : -0.75);  // whatever lies within
     friction = through(of_friction, applied);
-    low = through(of_low, load.friction_low[0]);
-    high = through(of_high, load.friction_high[0]);
+    low = through(of_low, load.friction_bounds.low[0]);
+    high = through(of_high, load.friction_bounds.high[0]);
     EXPECT_NEAR(follower.see(estimate_of(Eigen::Vector3d(friction, 0.0, 0.0)), load).level.effort[0], 0.0,
                 1e-15)
         << k;
   }
-  load.friction_low[0] = -0.75, load.friction_high[0] = 0.5;
+  load.friction_bounds.low[0] = -0.75, load.friction_bounds.high[0] = 0.5;
   for (int k = 0; k < 60; ++k) {
-    low = through(of_low, load.friction_low[0]);
-    high = through(of_high, load.friction_high[0]);
+    low = through(of_low, load.friction_bounds.low[0]);
+    high = through(of_high, load.friction_bounds.high[0]);
     const double effort = k % 2 == 0 ? 3.0 : -3.0;
     const SeenResidual& seen = follower.see(estimate_of(Eigen::Vector3d(effort, 0.1, 0.0)), load);
     EXPECT_NEAR(seen.level.effort[0], effort - (effort > 0.0 ? high : low), 1e-15) << k;

@@ -58,8 +58,7 @@ class WhitenedDetectorTest : public testing::Test {
                   .rate = Eigen::Vector3d::Zero(),
                   .torque = Eigen::Vector3d::Zero(),
                   .friction = Eigen::Vector3d::Zero(),
-                  .friction_low = Eigen::Vector3d::Zero(),
-                  .friction_high = Eigen::Vector3d::Zero(),
+                  .friction_bounds = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()},
                   .inertia = Eigen::Vector3d::Zero(),
                   .turning = Eigen::Vector3d::Zero()};
   WrenchEstimate estimate_{

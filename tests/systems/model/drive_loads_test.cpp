@@ -87,8 +87,8 @@ TEST(DriveLoads, DoNotKnowDryFrictionOfADriveThatStandsStill) {
   Loads loads(robot);
   const DriveLoad still = loads.of(test::Posture(*robot, pose, PlatformVector::Zero(3)), {{}, true, torque});
   for (int drive = 0; drive < 3; ++drive) {
-    EXPECT_NEAR(still.friction_low[drive], -1.25 * robot->dry_friction(drive).effort, 1e-12);
-    EXPECT_NEAR(still.friction_high[drive], 1.25 * robot->dry_friction(drive).effort, 1e-12);
+    EXPECT_NEAR(still.friction_bounds.low[drive], -1.5 * robot->dry_friction(drive).effort, 1e-12);
+    EXPECT_NEAR(still.friction_bounds.high[drive], 1.5 * robot->dry_friction(drive).effort, 1e-12);
   }
 }
 

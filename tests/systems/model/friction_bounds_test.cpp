@@ -1,4 +1,4 @@
-#include "systems/model/friction_interval.h"
+#include "systems/model/friction_bounds.h"
 
 #include <gtest/gtest.h>
 
@@ -14,10 +14,10 @@ namespace {
 class Drives {
  public:
   Drives()
-      : robot_(test::planar_bench(BenchFriction::test_bench)), bounds_(*robot_, FrictionIntervalSettings()) {}
+      : robot_(test::planar_bench(BenchFriction::test_bench)), bounds_(*robot_, FrictionBoundsSettings()) {}
 
   FrictionInterval at(const JointVector& rate) {
-    FrictionIntervalMemory next;
+    FrictionBoundsMemory next;
     bounds_.follow(now_, rate, memory_, next);
     now_ += 1ms;
     memory_ = next;
@@ -29,7 +29,7 @@ class Drives {
  private:
   std::shared_ptr<const PlanarRrr> robot_;
   FrictionBounds bounds_;
-  FrictionIntervalMemory memory_;
+  FrictionBoundsMemory memory_;
   Time now_{};
 };
 
@@ -93,7 +93,7 @@ TEST(FrictionBounds, AreAsOfRestAfterAGap) {
 TEST(FrictionBounds, AreNoneWhereTheModelHasNoDryFriction) {
   const auto robot = test::planar_bench();
   FrictionBounds bounds(*robot, {});
-  FrictionIntervalMemory next;
+  FrictionBoundsMemory next;
   bounds.follow(1ms, rates(0.0), {}, next);
   EXPECT_EQ(bounds.interval(rates(0.0), next).high, JointVector::Zero(3));
 }

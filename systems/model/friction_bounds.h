@@ -5,12 +5,13 @@
 #include "systems/framework/time.h"
 #include "systems/robot/mechanism.h"
 #include "systems/robot/vectors.h"
+#include "systems/signals/friction_interval.h"
 
 namespace flinch {
 
 /// When the dry friction of a drive is not known but for its bounds, and how wide these are.
-struct FrictionIntervalSettings {
-  double share = 1.25;       ///< Of the model's dry friction, that a drive may have at most.
+struct FrictionBoundsSettings {
+  double share = 1.5;        ///< Of the model's dry friction, that a drive may have at most.
   double slow = 3.0;         ///< Below this many rates over which the model rounds friction, it may stick.
   double turns = 0.6;        ///< Above this many it has a direction, which it may turn round.
   double presliding = 4e-3;  ///< Way after turning round until friction is that of sliding [rad].
@@ -19,17 +20,12 @@ struct FrictionIntervalSettings {
 };
 
 /// What is remembered of how drives came to rest; one entry a drive.
-struct FrictionIntervalMemory {
+struct FrictionBoundsMemory {
   bool started = false;
   Time acquired{};
   JointVector open;       ///< How far the interval is, 0 to 1.
   JointVector direction;  ///< Of its last motion, 1 or -1; 0: none yet.
   JointVector gone;       ///< Since it turned round [rad or m].
-};
-
-/// What dry friction may do to the drives beyond what the model says: bounds, one entry a drive [Nm or N].
-struct FrictionInterval {
-  JointVector low, high;
 };
 
 /// Near rest a drive's dry friction takes any value up to its largest: it balances whatever torque there is.
@@ -39,12 +35,12 @@ struct FrictionInterval {
 /// turned round until it has gone some way, over which friction builds up. (Derived.)
 class FrictionBounds {
  public:
-  FrictionBounds(const Mechanism& robot, const FrictionIntervalSettings& settings);
+  FrictionBounds(const Mechanism& robot, const FrictionBoundsSettings& settings);
 
   /// Takes in the rates of the drives at a later time.
-  void follow(Time acquired, const JointVector& rate, const FrictionIntervalMemory& memory,
-              FrictionIntervalMemory& next) const;
-  FrictionInterval interval(const JointVector& rate, const FrictionIntervalMemory& memory) const;
+  void follow(Time acquired, const JointVector& rate, const FrictionBoundsMemory& memory,
+              FrictionBoundsMemory& next) const;
+  FrictionInterval interval(const JointVector& rate, const FrictionBoundsMemory& memory) const;
 
  private:
   struct Drive {
@@ -52,7 +48,7 @@ class FrictionBounds {
     double presliding;
   };
   std::vector<Drive> drives_;
-  FrictionIntervalSettings settings_;
+  FrictionBoundsSettings settings_;
 };
 
 }  // namespace flinch

@@ -1,4 +1,4 @@
-#include "systems/model/friction_interval.h"
+#include "systems/model/friction_bounds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@ constexpr Time forgotten = 50ms;  // longer gaps between samples begin anew
 
 }  // namespace
 
-FrictionBounds::FrictionBounds(const Mechanism& robot, const FrictionIntervalSettings& settings)
+FrictionBounds::FrictionBounds(const Mechanism& robot, const FrictionBoundsSettings& settings)
     : settings_(settings) {
   for (int i = 0; i < robot.drives(); ++i) {
     const bool turns = robot.drive_kind(i) == DriveKind::revolute;
@@ -19,8 +19,8 @@ FrictionBounds::FrictionBounds(const Mechanism& robot, const FrictionIntervalSet
   }
 }
 
-void FrictionBounds::follow(Time acquired, const JointVector& rate, const FrictionIntervalMemory& memory,
-                            FrictionIntervalMemory& next) const {
+void FrictionBounds::follow(Time acquired, const JointVector& rate, const FrictionBoundsMemory& memory,
+                            FrictionBoundsMemory& next) const {
   const bool continued =
       memory.started && acquired - memory.acquired < forgotten && memory.open.size() == rate.size();
   const double T = continued ? to_seconds(acquired - memory.acquired) : 0.0;
@@ -49,8 +49,7 @@ void FrictionBounds::follow(Time acquired, const JointVector& rate, const Fricti
   }
 }
 
-FrictionInterval FrictionBounds::interval(const JointVector& rate,
-                                          const FrictionIntervalMemory& memory) const {
+FrictionInterval FrictionBounds::interval(const JointVector& rate, const FrictionBoundsMemory& memory) const {
   FrictionInterval bounds;
   bounds.low.setZero(rate.size());
   bounds.high.setZero(rate.size());
