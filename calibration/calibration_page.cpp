@@ -34,24 +34,58 @@ fill:var(--soft)}.frame{fill:none;stroke:var(--line)}.grid{stroke:var(--grid)}.b
 stroke-linecap:round;stroke-width:2.4}.before{stroke:var(--before)}.after{stroke:var(--after)}
 .ellipse,.whisker{fill:none;stroke:var(--after);stroke-width:1.4}.box{fill:var(--grid);
 stroke:var(--after)}.median{stroke:var(--ink);stroke-width:1.6}code{font-size:.85em;
-overflow-wrap:anywhere})css";
+overflow-wrap:anywhere}@media(min-width:1001px){td:not(:last-child){white-space:nowrap}}
+@media(max-width:1000px){table,tbody{display:block}thead{display:none}tr{display:grid;
+grid-template-columns:repeat(3,auto);gap:.2rem 1rem;padding:.6rem .7rem;border-bottom:1px solid var(--line)}
+td{border:0;padding:0;text-align:left}td:first-child,td:last-child{grid-column:1/-1}td[data-name]::before{
+content:attr(data-name);display:block;color:var(--soft);font-size:.8rem}})css";
 
-std::string cell(const std::string& text) { return "<td>" + text + "</td>"; }
+/// On a phone the name of its column stands above it.
+std::string cell(const std::string& text, const std::string& name = "") {
+  return (name.empty() ? "<td>" : "<td data-name='" + name + "'>") + text + "</td>";
+}
+
+std::string head(const std::vector<std::string>& columns) {
+  std::string html = "<div class='scroll'><table><thead><tr>";
+  for (const std::string& column : columns) html += "<th scope='col'>" + column + "</th>";
+  return html + "</tr></thead><tbody>";
+}
+
+/// By how many of its deviations a parameter differs from what was believed; none: nobody can tell.
+std::optional<double> moved(const CalibratedParameter& parameter) {
+  if (!parameter.identifiable || !parameter.before || !parameter.deviation || !(*parameter.deviation > 0.0))
+    return {};
+  return (parameter.value - *parameter.before) / *parameter.deviation;
+}
+
+/// What differs most from what was believed comes first.
+std::vector<CalibratedParameter> by_change(const CalibrationResult& result) {
+  std::vector<CalibratedParameter> sorted = result.parameters;
+  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
+    return std::abs(moved(a).value_or(0.0)) > std::abs(moved(b).value_or(0.0));
+  });
+  return sorted;
+}
 
 std::string table(const CalibrationResult& result) {
+  constexpr const char* none = "–";
   std::string html =
-      "<div class='scroll'><table><tr><th>parameter</th><th>value</th><th>standard "
-      "deviation</th><th>before</th>"
-      "<th>unit</th><th></th></tr>";
-  for (const CalibratedParameter& parameter : result.parameters) {
-    html += "<tr>" + cell("<code>" + escaped(parameter.name) + "</code>") +
-            cell(fmt::format("{:.6g}", parameter.value));
-    html += cell(parameter.deviation ? fmt::format("{:.2g}", *parameter.deviation) : "–");
-    html += cell(parameter.before ? fmt::format("{:.6g}", *parameter.before) : "–") +
-            cell(escaped(parameter.unit));
+      head({"parameter", "before", "found", "standard deviation", "unit", "change", "in deviations", ""});
+  for (const CalibratedParameter& parameter : by_change(result)) {
+    const bool has_share = parameter.identifiable && parameter.before && *parameter.before != 0.0;
+    const std::optional<double> by = moved(parameter);
+    html += "<tr>" + cell("<code>" + escaped(parameter.name) + "</code>");
+    html += cell(parameter.before ? fmt::format("{:.6g}", *parameter.before) : none, "before");
+    html += cell(parameter.identifiable ? fmt::format("{:.6g}", parameter.value) : none, "found");
+    html += cell(parameter.deviation ? fmt::format("{:.2g}", *parameter.deviation) : none, "deviation");
+    html += cell(escaped(parameter.unit), "unit");
+    html +=
+        cell(has_share ? fmt::format("{:+.2g} %", 100.0 * (parameter.value / *parameter.before - 1.0)) : none,
+             "change");
+    html += cell(by ? fmt::format("{:+.1f}", *by) : none, "in deviations");
     html += cell(parameter.identifiable ? "" : "not identifiable: as believed before") + "</tr>";
   }
-  return html + "</table></div>";
+  return html + "</tbody></table></div>";
 }
 
 /// Of the pairs of parameters that the data tell, those with the strongest correlation.
@@ -88,22 +122,23 @@ std::string influence(const CalibrationResult& result) {
   if (result.influence.cols() < 2 || result.influence.size() == 0) return "";
   std::string html =
       "<h2>Influence of each recording</h2><p class='soft'>By how many standard deviations a parameter "
-      "changes where the recording is left out; by many, where no other tells it.</p><div "
-      "class='scroll'><table><tr><th>parameter</th>";
+      "changes where the recording is left out; by many, where no other tells it.</p>";
+  std::vector<std::string> columns = {"parameter"};
   for (Eigen::Index g = 0; g < result.influence.cols(); ++g)
-    html += fmt::format("<th>recording {}</th>", g + 1);
-  html += "</tr>";
+    columns.push_back(fmt::format("recording {}", g + 1));
+  html += head(columns);
   for (std::size_t i = 0; i < result.parameters.size(); ++i) {
     const CalibratedParameter& parameter = result.parameters[i];
     if (!parameter.deviation || *parameter.deviation == 0.0) continue;
     html += "<tr>" + cell("<code>" + escaped(parameter.name) + "</code>");
     for (Eigen::Index g = 0; g < result.influence.cols(); ++g) {
       const double change = result.influence(static_cast<Eigen::Index>(i), g) / *parameter.deviation;
-      html += cell(fmt::format("{:+.{}f}", change, std::abs(change) < 10.0 ? 2 : 0));
+      html += cell(fmt::format("{:+.{}f}", change, std::abs(change) < 10.0 ? 2 : 0),
+                   columns[static_cast<std::size_t>(g) + 1]);
     }
     html += "</tr>";
   }
-  return html + "</table></div>";
+  return html + "</tbody></table></div>";
 }
 
 std::string drawings(const std::string& title, const std::string& about, const std::string& svg) {

@@ -8,6 +8,7 @@
 #include "identification/encoder_doubts.h"
 #include "identification/imu_doubts.h"
 #include "identification/imu_pose_fit.h"
+#include "identification/stamp_spread_fit.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
@@ -124,16 +125,29 @@ class Told {
     columns_.push_back(column);
   }
 
+  /// Not of the fit, and independent of it.
+  void add(CalibratedParameter parameter) {
+    result_.parameters.push_back(std::move(parameter));
+    columns_.push_back(-1);
+  }
+
   void finish() {
     const auto n = static_cast<Eigen::Index>(columns_.size());
-    result_.covariance.resize(n, n);
+    result_.covariance.setZero(n, n);
     const Eigen::MatrixXd influence = map_ * sure_.influence;
-    result_.influence.resize(n, influence.cols());
+    result_.influence.setZero(n, influence.cols());
     for (Eigen::Index a = 0; a < n; ++a) {
+      if (columns_[static_cast<std::size_t>(a)] < 0) {
+        const double deviation = result_.parameters[static_cast<std::size_t>(a)].deviation.value_or(0.0);
+        result_.covariance(a, a) = deviation * deviation;
+        continue;
+      }
       result_.influence.row(a) = influence.row(columns_[static_cast<std::size_t>(a)]);
-      for (Eigen::Index b = 0; b < n; ++b)
+      for (Eigen::Index b = 0; b < n; ++b) {
+        if (columns_[static_cast<std::size_t>(b)] < 0) continue;
         result_.covariance(a, b) =
             covariance_(columns_[static_cast<std::size_t>(a)], columns_[static_cast<std::size_t>(b)]);
+      }
     }
   }
 
@@ -145,7 +159,8 @@ class Told {
 };
 
 void add_parameters(const ImuPoseFit& fit, const FitUncertainty& sure, const ImuMount& believed,
-                    double period, double stamped_age, CalibrationResult& result) {
+                    double period, double stamped_age, const std::optional<StampSpread>& spread,
+                    CalibrationResult& result) {
   Told told(fit, sure, result);
   const ImuPose& pose = fit.pose;
   const Eigen::Vector3d angles = mount_angles(pose.R_ES);
@@ -164,6 +179,12 @@ void add_parameters(const ImuPoseFit& fit, const FitUncertainty& sure, const Imu
   // A reading came at any time within the period before the tick that first saw it.
   told.add("delay", pose.delay - 0.5 * period, 12, "s", {}, "", period / std::sqrt(12.0));
   told.add("stamp_error", pose.delay - stamped_age, 12, "s", {}, "");
+  told.add({.name = "control.imu_stamps.spread",
+            .value = spread ? spread->width : 0.0,
+            .deviation = spread ? std::optional(spread->deviation) : std::nullopt,
+            .unit = "s",
+            .identifiable = spread.has_value(),
+            .belongs_to = "scenario"});
   told.finish();
 }
 
@@ -222,7 +243,8 @@ CalibrationResult calibrate_imu_pose(const ParallelRobot& robot, const ImuMount&
   double age = 0.0;
   for (const ImuStretch& stretch : stretches)
     age += stretch.stamped_age / static_cast<double>(stretches.size());
-  add_parameters(fit, sure, believed, stretches.front().period, age, result);
+  add_parameters(fit, sure, believed, stretches.front().period, age, fit_stamp_spread(stretches, fit.pose),
+                 result);
 
   ImuPose before;
   before.R_ES = Eigen::Quaterniond(Eigen::Matrix3d(platform_to_sensor(believed).transpose()));

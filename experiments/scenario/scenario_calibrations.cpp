@@ -1,10 +1,13 @@
 #include "experiments/scenario/scenario_calibrations.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <limits>
 
 #include "diagrams/robot_settings.h"
+#include "experiments/scenario/largest_stamp_spread.h"
 #include "experiments/scenario/scenario.h"
 #include "experiments/scenario/scenario_thresholds.h"
 #include "systems/config/config_reader.h"
@@ -42,6 +45,15 @@ void set_entry(const FileParameter& parameter, const std::string& vector, Eigen:
   for (int i = 0; i < 3; ++i) {
     if (parameter.name == vector + "[" + std::to_string(i) + "]") values[i] = parameter.value;
   }
+}
+
+Time stamp_spread(const ParameterFile& file, const FileParameter& parameter,
+                  std::vector<std::string>& problems) {
+  if (parameter.value >= 0.0 && parameter.value <= to_seconds(largest_stamp_spread))
+    return from_seconds(parameter.value);
+  problems.push_back(fmt::format("{}: {}: is {:g} s, and must be 0 to {:g} s", file.file, parameter.name,
+                                 parameter.value, to_seconds(largest_stamp_spread)));
+  return {};
 }
 
 }  // namespace
@@ -85,6 +97,8 @@ void calibrate_control(const std::vector<ParameterFile>& calibrations, const Par
       if (parameter.belongs_to != "scenario" || !parameter.identifiable) continue;
       set_entry(parameter, "control.imu_mount.position_m", control.imu_mount.position_in_platform);
       set_entry(parameter, "control.imu_mount.angles_rad", control.imu_mount.angles);
+      if (parameter.name == "control.imu_stamps.spread")
+        control.imu_stamp_spread = stamp_spread(file, parameter, problems);
     }
   }
   throw_if_any(std::move(problems));

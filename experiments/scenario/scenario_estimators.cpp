@@ -4,6 +4,7 @@
 #include <span>
 
 #include "diagrams/contact_control_settings.h"
+#include "experiments/scenario/largest_stamp_spread.h"
 #include "systems/config/config_reader.h"
 #include "systems/robot/parallel_robot.h"
 
@@ -81,7 +82,8 @@ void read_estimators(ConfigReader& control, const ParallelRobot& robot, ContactC
   read(control.section("sliding_mode_observer"), settings.sliding_mode_observer);
   read(control.section("disturbance_filter"), robot, settings.disturbance_filter);
   read(control.section("imu_mount"), settings.imu_mount);
-  control.section("imu_stamps").duration("spread", settings.imu_stamp_spread, between(0.0, 5e-3));
+  control.section("imu_stamps")
+      .duration("spread", settings.imu_stamp_spread, between(0.0, to_seconds(largest_stamp_spread)));
   read(control.section("imu_ekf"), settings.imu_ekf);
   read(control.section("extended_imu_ekf"), settings.extended_imu_ekf);
   read(control.section("imu_residual"), settings.imu_residual);

@@ -9,6 +9,8 @@
 #include "calibration/calibration_result.h"
 #include "calibration/page_drawing.h"
 #include "systems/config/parameter_file.h"
+#include "tests/experiments/report/chromium.h"
+#include "tests/support/temporary_folder.h"
 
 #include <nlohmann/json.hpp>
 
@@ -60,6 +62,14 @@ TEST(CalibrationPage, ShowsAllThatIsKnownAndNeedsNothingElse) {
   EXPECT_THAT(page, Not(HasSubstr("<script")));
   EXPECT_THAT(page, Not(HasSubstr("http:")));
   EXPECT_THAT(page, Not(HasSubstr("https:")));
+}
+
+TEST(CalibrationPage, IsReadableAtEveryWidthAndOnPaper) {
+  CalibrationResult result = sample();
+  result.residual_after = 0.1;
+  const test::TemporaryFolder folder;
+  expect_works_in_chromium(folder.write("page.html", calibration_page(result, "2026-11-22")),
+                           "report/still_page_in_browser.py");
 }
 
 TEST(Drawings, OfNothingAreNothing) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "identification/imu_pose_fit.h"
@@ -54,6 +55,7 @@ void expect_found(const Simulated& run) {
   }
   EXPECT_NEAR(value_of(got, "delay"), 3.5e-3, 0.3e-3);
   EXPECT_NEAR(value_of(got, "stamp_error"), 0.0, 0.3e-3);
+  EXPECT_EQ(value_of(got, "control.imu_stamps.spread"), 0.0);
   EXPECT_LT(got.residual_after, 0.2 * got.residual_before);
   EXPECT_THAT(got.notes, Contains(HasSubstr("NRMSE")));
   EXPECT_THAT(got.notes, Contains(HasSubstr("position_m[2] cannot be told from this motion")));
@@ -71,6 +73,29 @@ TEST(ImuPose, IsFoundAtTheSecondMounting) {
         "0}}\nsensors: {imu: {position_m: [0.075, 0.054, -0.097], "
         "angles_deg: [2.2, 3.1, 2.8]}}"}},
       7));
+}
+
+// Uniform by +-0.25 and +-0.5 ms.
+TEST(ImuStamps, ErrAsFarAsThePlantMakesThem) {
+  for (const int jitter_us : {250, 500}) {
+    for (const std::uint64_t seed : {7, 8}) {
+      const Simulated run = test::simulated(
+          "calibration_rectangle.yaml",
+          {{"plant: {realism: {like: bench, leg_inertia: 0.1, platform_inertia: 0.1, torque_constant: 0}}",
+            "plant: {realism: {like: bench, leg_inertia: 0.1, platform_inertia: 0.1, torque_constant: "
+            "0}}\nsensors: {imu: {delay_jitter_us: " +
+                std::to_string(jitter_us) + "}}"}},
+          seed);
+      const CalibrationResult got = calibrated(run);
+      const auto spread = std::find_if(got.parameters.begin(), got.parameters.end(), [](const auto& each) {
+        return each.name == "control.imu_stamps.spread";
+      });
+      ASSERT_NE(spread, got.parameters.end());
+      EXPECT_NEAR(spread->value, 2e-6 * jitter_us, 2.5 * *spread->deviation);
+      EXPECT_LT(*spread->deviation, 0.1 * spread->value);
+      EXPECT_EQ(spread->belongs_to, "scenario");
+    }
+  }
 }
 
 TEST(ImuPose, IsFoundHoweverTheSensorIsTurned) {

@@ -46,10 +46,10 @@ function titleOf(entry) {
 function rowOf(entry) {
   const colour = entry.verdict === "not reached" ? "bad" : "good";
   return element("tr", { id: entry.id }, titleOf(entry),
-    element("td", { class: "value" }, chosen(entry.paper)),
-    element("td", { class: "value" }, valueText(entry.as_printed)),
-    element("td", { class: "value" }, valueText(entry.ours)),
-    element("td", {}, entry.unit),
+    element("td", { class: "value", "data-name": "paper" }, chosen(entry.paper)),
+    element("td", { class: "value", "data-name": "as printed" }, valueText(entry.as_printed)),
+    element("td", { class: "value", "data-name": "ours" }, valueText(entry.ours)),
+    element("td", { "data-name": "unit" }, entry.unit),
     element("td", { class: "ratio" }, ratioOf(entry)),
     element("td", { class: `verdict ${colour}` }, entry.verdict));
 }

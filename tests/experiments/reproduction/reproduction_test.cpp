@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/experiments/report/chromium.h"
 #include "tests/support/problems_of.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/workplace.h"
@@ -45,6 +46,15 @@ TEST(Better, IsWhatIsAsGoodByEitherMethodAndNotReproduced) {
 
 TEST(NotReached, IsWhatNothingCameOutOf) {
   EXPECT_EQ(judged(figure_of(10.0), std::nullopt, std::nullopt).outcome, Outcome::not_reached);
+}
+
+TEST(ReproductionPage, IsReadableAtEveryWidthAndOnPaper) {
+  const std::vector<ReproducedFigure> figures = {judged(figure_of(10.0), 5.0, 4.0),
+                                                 judged(figure_of(0.127), std::nullopt, 1234.5)};
+  const test::TemporaryFolder folder;
+  expect_works_in_chromium(
+      folder.write("page.html", reproduction_page(figures, "flinch reproduce --only a.b")),
+      "report/still_page_in_browser.py");
 }
 
 TEST(Reproduction, RunsEachScenarioOnceAndTakesItsFiguresFromItsJson) {
