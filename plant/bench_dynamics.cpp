@@ -53,6 +53,29 @@ BenchDynamics::BenchDynamics(const BenchSettings& settings)
   }
   if (timed) time_at_ = size_++;
   for (int i = 0; i < robot().drives(); ++i) friction_.push_back(robot().dry_friction(i));
+  brakes_ = closed_brakes();
+}
+
+std::vector<BenchDynamics::ClosedBrake> BenchDynamics::closed_brakes() const {
+  constexpr double fastest = 2e5;  // of a drive on its brake [1/s]
+  Kinematics home;
+  MotionEquations equations;
+  robot().equations_of_motion(settings_.initial_pose.value_or(robot().home_pose()),
+                              PlatformVector::Zero(robot().dof()), home, equations);
+  const BrakeFriction& brake = settings_.brake;
+  std::vector<ClosedBrake> brakes;
+  for (int i = 0; i < robot().drives(); ++i) {
+    const bool slides = robot().drive_kind(i) == DriveKind::prismatic;
+    ClosedBrake& closed =
+        brakes.emplace_back(slides ? ClosedBrake{brake.force, brake.sliding_velocity, brake.sliding_give}
+                                   : ClosedBrake{brake.torque, brake.velocity, brake.give});
+    if (!equations.valid) continue;
+    const PlatformVector by_rate = home.J_qa_x.row(i).transpose();
+    const double mobility = by_rate.dot(equations.M_x.llt().solve(by_rate));  // 1 / what the drive moves
+    closed.velocity = std::max(closed.velocity, closed.effort * mobility / fastest);
+    closed.give = std::max(closed.give, closed.effort * mobility / (fastest * fastest));
+  }
+  return brakes;
 }
 
 BenchState BenchDynamics::initial_state() const {
@@ -109,11 +132,8 @@ double BenchDynamics::way(int drive, double from, double to) const noexcept {
 }
 
 double BenchDynamics::brake_effort(int drive, double rate, double position, double braked_at) const noexcept {
-  const BrakeFriction& brake = settings_.brake;
-  const bool slides = robot().drive_kind(drive) == DriveKind::prismatic;
-  const Held held{way(drive, braked_at, position) / (slides ? brake.sliding_give : brake.give)};
-  return held.effort(slides ? brake.force : brake.torque,
-                     rate / (slides ? brake.sliding_velocity : brake.velocity));
+  const ClosedBrake& brake = brakes_[static_cast<std::size_t>(drive)];
+  return Held{way(drive, braked_at, position) / brake.give}.effort(brake.effort, rate / brake.velocity);
 }
 
 double BenchDynamics::slides_to(int drive, double position, double held_at, double give) const noexcept {
@@ -122,8 +142,7 @@ double BenchDynamics::slides_to(int drive, double position, double held_at, doub
 }
 
 double BenchDynamics::brake_slides_to(int drive, double position, double braked_at) const noexcept {
-  const bool slides = robot().drive_kind(drive) == DriveKind::prismatic;
-  return slides_to(drive, position, braked_at, slides ? settings_.brake.sliding_give : settings_.brake.give);
+  return slides_to(drive, position, braked_at, brakes_[static_cast<std::size_t>(drive)].give);
 }
 
 double BenchDynamics::sticking_effort(int drive, double rate, double position,

@@ -127,7 +127,14 @@ class BenchDynamics {
   /// From one position of a drive to another; angles by the shorter way.
   double way(int drive, double from, double to) const noexcept;
 
+  /// Friction of a closed brake as the bench has it, of a drive.
+  struct ClosedBrake {
+    double effort, velocity, give;
+  };
+  std::vector<ClosedBrake> closed_brakes() const;
+
   BenchSettings settings_;
+  std::vector<ClosedBrake> brakes_;    ///< of each drive
   std::vector<DryFriction> friction_;  ///< of each drive
   int dof_;
   std::array<int, max_obstacles> obstacle_at_{};  ///< -1: it does not move freely

@@ -12,6 +12,7 @@
 
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/runge_kutta.h"
+#include "systems/robot/planar_rrr_presets.h"
 #include "tests/plant/integrate_bench.h"
 #include "tests/plant/random_bench.h"
 #include "tests/plant/servoed_station.h"
@@ -272,6 +273,19 @@ BrakedRun run_braked(const SimulatedStationSettings& settings, Time end) {
   return run;
 }
 
+/// The bench made of so little that its brakes would be as stiff as no integrator follows.
+std::shared_ptr<const Mechanism> bench_of_grams() {
+  PlanarRrrParameters robot = bench_robot(BenchGeometry::individual, BenchFriction::none);
+  constexpr double share = 1e-6;
+  for (PlanarRrrLeg& leg : robot.legs) {
+    for (double* const of_leg : {&leg.inertia.p1, &leg.inertia.p2, &leg.inertia.p3}) *of_leg *= share;
+    leg.rotor_inertia *= share;
+  }
+  robot.platform_mass *= share;
+  robot.platform_inertia *= share;
+  return std::make_shared<const PlanarRrr>(robot);
+}
+
 std::vector<double> ways_of_braked(const SimulatedStationSettings& settings, Time end) {
   return run_braked(settings, end).ways;
 }
@@ -318,6 +332,14 @@ TEST(ClosedBrakes, LetARobotRestWhereItWouldStayAnyway) {
   EXPECT_GT(resting.ways[600] - resting.ways[490], 1e-6);  // it yields to the push
   EXPECT_EQ(last_rest(resting), 100 * 6);                  // the stages of one step a tick
   EXPECT_GT(last_rest(followed), 100 * 20);
+}
+
+TEST(ClosedBrakes, HoldARobotOfGramsInStepsThatAnIntegratorTakes) {
+  SimulatedStationSettings settings = leaned_upon(20.0, 50ms);
+  settings.bench.robot = bench_of_grams();
+  const BrakedRun run = run_braked(settings, 300ms);
+  EXPECT_LT(run.evaluations.back(), 3'000'000) << "ten thousand a tick";
+  EXPECT_LT(run.ways.back(), 1e-2);
 }
 
 // ---------------------------------------------------------------- set-up
