@@ -61,15 +61,16 @@ CampaignAxis axis_of(const Campaign& campaign, const std::string& key) {
 
 bool refuted(const Alarms& alarms) { return lower_rate(alarms.count, alarms.hours) > asked; }
 
-// The test above could not tell otherwise.
-TEST(MismatchedRobots, NeedThresholdsOfTheirOwnForAllDetectorsButTwo) {
+// The test above could not tell otherwise. For the fused detector the next one shows it.
+TEST(MismatchedRobots, NeedThresholdsOfTheirOwnForAllPlainDetectorsButOne) {
   Campaign campaign = mismatched(24);
   const Campaign others = test::shipped("false_alarms", 24);
   for (CampaignAxis& axis : campaign.grid) {
     if (axis.key == "calibrations") axis = axis_of(others, axis.key);
   }
-  for (const auto& [name, alarms] : alarms_in(campaign))
-    EXPECT_EQ(refuted(alarms), name != "direct_extended_imu_ekf" && name != "fused_detector") << name;
+  for (const auto& [name, alarms] : alarms_in(campaign)) {
+    if (name != "fused_detector") EXPECT_EQ(refuted(alarms), name != "direct_extended_imu_ekf") << name;
+  }
 }
 
 TEST(MismatchedRobots, RefuteTheFusedDetectorAtThresholdsOfMoreFalseAlarms) {

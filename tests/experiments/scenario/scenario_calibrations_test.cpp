@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 
 #include "experiments/scenario/estimate_settings.h"
@@ -66,6 +67,17 @@ TEST_F(Calibrations, ChangeWhatIsBelievedAndNotWhatIsBuilt) {
 TEST_F(Calibrations, GiveWayToWhatTheScenarioSaysItself) {
   const Scenario scenario = read(made(), "{imu_mount: {position_m: [0, 0, 0]}}");
   EXPECT_EQ(scenario.control.imu_mount.position_in_platform, Eigen::Vector3d::Zero());
+}
+
+TEST_F(Calibrations, TellHowFarStampsOfTheImuErr) {
+  ParameterFile file = made();
+  file.parameters.push_back({.name = "control.imu_stamps.spread", .value = 1e-3, .belongs_to = "scenario"});
+  EXPECT_EQ(read(file).control.imu_stamp_spread, 1ms);
+  EXPECT_EQ(read(file, "{imu_stamps: {spread_us: 200}}").control.imu_stamp_spread, 200us);
+  for (const double wrong : {-1e-6, 6e-3, std::nan("")}) {
+    file.parameters.back().value = wrong;
+    EXPECT_FALSE(test::problems_of([&] { read(file); }).empty()) << wrong;
+  }
 }
 
 TEST_F(Calibrations, OfARobotFileThatHasChangedAreDoubted) {
@@ -136,8 +148,8 @@ TEST_F(Calibrations, RestOnWhatAnEstimatorBringsThatRunsNowhereElse) {
     }
     return sections;
   };
-  const std::set<std::string> always{"drive_torque", "follow",    "velocity_filter",
-                                     "imu_ekf",      "imu_mount", "plausibility"};
+  const std::set<std::string> always{"drive_torque", "follow",     "velocity_filter", "imu_ekf",
+                                     "imu_mount",    "imu_stamps", "plausibility"};
   const auto with = [&](std::set<std::string> more) {
     more.insert(always.begin(), always.end());
     return more;
