@@ -18,9 +18,9 @@ inline constexpr double most_give = 3.0;
 
 /// Dry friction that closed brakes put on the drives: -effort tanh(rate / velocity + way / give), where `way`
 /// is that from where the brake has closed or last slid to, at most `most_give` times `give`. So it holds a
-/// load without creeping, as a stiff spring does, and slides under more than its effort. Velocity and give are
-/// larger on drives that move so little mass that they would swing or be damped faster than any integrator
-/// follows.
+/// load without creeping, as a stiff spring does, and slides under more than its effort. Velocity and give
+/// are larger on drives that move so little mass that they would swing or be damped faster than any
+/// integrator follows.
 struct BrakeFriction {
   double torque = 150.0;           ///< Of drives that turn [Nm].
   double velocity = 0.02;          ///< [rad/s]

@@ -69,7 +69,8 @@ TEST(MismatchedRobots, NeedThresholdsOfTheirOwnForAllPlainDetectorsButOne) {
     if (axis.key == "calibrations") axis = axis_of(others, axis.key);
   }
   for (const auto& [name, alarms] : alarms_in(campaign)) {
-    if (name != "fused_detector") EXPECT_EQ(refuted(alarms), name != "direct_extended_imu_ekf") << name;
+    if (name == "fused_detector") continue;
+    EXPECT_EQ(refuted(alarms), name != "direct_extended_imu_ekf") << name;
   }
 }
 
