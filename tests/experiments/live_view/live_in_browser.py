@@ -14,7 +14,7 @@ from browser import Browser  # noqa: E402
 SEEN = """return {time: report.times.at(-1), samples: report.times.length, state: byId("live-state").textContent,
                   elbow: document.querySelector("#scene .elbow")?.getAttribute("cx"), lag: live.lag,
                   clock: byId("clock").textContent,
-                  charts: charts.all.map((chart) => [chart.id, chart.graph.xAxisRange()[1],
+                  charts: charts.all.map((chart) => [chart.id,
                                                      chart.plot.querySelector("canvas").toDataURL().length])}"""
 FRAME = 33  # milliseconds that pass before samples are taken from the loop
 
@@ -38,10 +38,7 @@ def problems_while_running(browser):
         yield f"the time stands still at {first['time']} s"
     if not until(browser, f"return document.querySelector('#scene .elbow').getAttribute('cx') != {first['elbow']!r}"):
         yield "the robot stands still"
-    ends = [end for _, end, _ in first["charts"]]
-    if not until(browser, f"return charts.all.every((chart, i) => chart.graph.xAxisRange()[1] > {ends}[i])"):
-        yield "a chart stands still"
-    drawn = [length for _, _, length in first["charts"]]
+    drawn = [length for _, length in first["charts"]]
     if not until(browser, "return charts.all.filter((chart, i) => chart.plot.querySelector('canvas').toDataURL().length"
                           f" !== {drawn}[i]).length > 2"):
         yield "the charts look the same"
@@ -65,6 +62,10 @@ def settled(browser, looks=60):
     return None
 
 
+def set_speed(browser, speed):
+    browser.run(f"byId('speed').value = '{speed}'; byId('speed').dispatchEvent(new Event('change'))")
+
+
 def problems_of_orders(browser):
     browser.click("#pause")
     if not until(browser, "return byId('live-state').textContent === 'paused'"):
@@ -79,11 +80,11 @@ def problems_of_orders(browser):
     after = browser.run(SEEN)
     if abs(after["time"] - before["time"] - 1e-3) > 1e-9:
         yield f"one tick took {after['time'] - before['time']} s"
-    browser.run("byId('speed').value = '0.5'; byId('speed').dispatchEvent(new Event('change'))")
+    set_speed(browser, "0.02")
     browser.click("#pause")
     if not until(browser, f"return report.times.at(-1) > {after['time'] + 0.05}"):
         yield "it does not go on"
-    if browser.run("return byId('speed').value") != "0.5":
+    if browser.run("return byId('speed').value") != "0.02":
         yield "the speed was not changed"
 
 
@@ -97,6 +98,7 @@ def problems_of_contact(browser, pictures):
     browser.click("#follow")
     if not until(browser, "return live.follows && clock.sample === lastSample"):
         yield "there is no way back"
+    set_speed(browser, "10")
     if pictures:
         time.sleep(0.5)
         browser.screenshot(pictures / "live.png")

@@ -163,7 +163,7 @@ TEST(LiveView, MovesRobotAndChartsInABrowser) {
   const SimulatedScenario scenario = read_simulated_scenario(collision);
   const TemporaryFolder folder;
   std::atomic<bool> interrupted = false;
-  LiveViewSettings settings = at_speed(0.02, milliseconds(300'000));
+  LiveViewSettings settings = at_speed(0.004, milliseconds(300'000));
   settings.interrupted = [&interrupted] { return interrupted.load(); };
   LiveView view(scenario, settings);
   std::thread run([&] {
