@@ -209,13 +209,22 @@ bool jumped(const ImuErrors& errors, std::size_t age, const ImuSpread& rest,
   return (turns && is_far).any();
 }
 
-bool jumps(const ImuErrors& errors) noexcept {
+namespace {
+
+/// How many of the last twelve samples do.
+int jumped_lately(const ImuErrors& errors) noexcept {
   constexpr std::size_t watched = 12;
-  constexpr int enough = 5;
   int found = 0;
   for (std::size_t age = 0; age < std::min(watched, errors.held()); ++age)
     found += errors.back(age).jumps ? 1 : 0;
-  return found >= enough;
+  return found;
+}
+
+}  // namespace
+
+bool jumps(const ImuErrors& errors) noexcept {
+  constexpr int enough = 5;
+  return jumped_lately(errors) >= enough;
 }
 
 Lateness lateness(const ImuErrors& errors, std::size_t samples, const EncoderSpread& encoders,
@@ -281,7 +290,9 @@ ImuDoubt explanation(const ImuErrors& errors, const ImuSpread& spread) noexcept 
                                    delay.left() + price};
   constexpr std::array doubts{ImuDoubt::biased, ImuDoubt::turned, ImuDoubt::late};
   const auto best = std::min_element(cost.begin(), cost.end());
-  if (*best > 0.5 * constant.squares + 6.0 * price) return ImuDoubt::contradicted;
+  constexpr int few = 2;  // jumps of a unit that is contradicted anyway
+  if (*best > 0.5 * constant.squares + 6.0 * price)
+    return jumped_lately(errors) >= few ? ImuDoubt::noisy : ImuDoubt::contradicted;
   return doubts[static_cast<std::size_t>(best - cost.begin())];
 }
 

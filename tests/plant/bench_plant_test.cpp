@@ -276,7 +276,7 @@ BrakedRun run_braked(const SimulatedStationSettings& settings, Time end) {
 /// The bench made of so little that its brakes would be as stiff as no integrator follows.
 std::shared_ptr<const Mechanism> bench_of_grams() {
   PlanarRrrParameters robot = bench_robot(BenchGeometry::individual, BenchFriction::none);
-  constexpr double share = 1e-6;
+  constexpr double share = 1e-3;
   for (PlanarRrrLeg& leg : robot.legs) {
     for (double* const of_leg : {&leg.inertia.p1, &leg.inertia.p2, &leg.inertia.p3}) *of_leg *= share;
     leg.rotor_inertia *= share;

@@ -33,17 +33,19 @@ class Drives {
   Time now_{};
 };
 
+const double share = FrictionBoundsSettings().share;
+
 JointVector rates(double first) { return Eigen::Vector3d(first, 0.0, 0.0); }
 
 TEST(FrictionBounds, AreAsWideAsDryFrictionAtRestAndNoneInMotion) {
   Drives drives;
   FrictionInterval bounds = drives.at(rates(0.0));
-  EXPECT_NEAR(bounds.high[0], 1.25 * drives.friction(0).effort, 1e-12);
-  EXPECT_NEAR(bounds.low[0], -1.25 * drives.friction(0).effort, 1e-12);
+  EXPECT_NEAR(bounds.high[0], share * drives.friction(0).effort, 1e-12);
+  EXPECT_NEAR(bounds.low[0], -share * drives.friction(0).effort, 1e-12);
   for (int k = 0; k < 100; ++k) bounds = drives.at(rates(0.5));
   EXPECT_EQ(bounds.high[0], 0.0);
   EXPECT_EQ(bounds.low[0], 0.0);
-  EXPECT_NEAR(bounds.high[1], 1.25 * drives.friction(1).effort, 1e-12) << "each drive for itself";
+  EXPECT_NEAR(bounds.high[1], share * drives.friction(1).effort, 1e-12) << "each drive for itself";
 }
 
 /// True friction is what it wants within its largest, +-15 %, and the law says f: what an estimator sees of
@@ -67,7 +69,7 @@ TEST(FrictionBounds, OpenAgainWhereADriveTurnsRoundUntilItHasGoneSomeWay) {
   for (int k = 0; k < 12; ++k) {
     const FrictionInterval bounds = drives.at(rates(-1.0));  // as by a blow, without a tick at rest
     gone += 1e-3;
-    EXPECT_EQ(bounds.high[0] > bounds.low[0] + 2.0 * drives.friction(0).effort, gone < 4e-3) << k;
+    EXPECT_EQ(bounds.high[0] > bounds.low[0] + 1.9 * share * drives.friction(0).effort, gone < 4e-3) << k;
   }
 }
 

@@ -70,9 +70,12 @@ TEST(ImuErrors, AreExplainedByWhatMadeThem) {
     error.turning += angle.cross(error.expected_turning);
   });
   EXPECT_EQ(explanation(turned, spread), ImuDoubt::turned);
-  const auto odd =
-      errors_of([](double time, ImuError& error) { error.force.x() += 5.0 * std::sin(3000.0 * time); });
-  EXPECT_EQ(explanation(odd, spread), ImuDoubt::contradicted);
+  const auto odd = [](double rate) {
+    return errors_of(
+        [rate](double time, ImuError& error) { error.force.x() += 5.0 * std::sin(rate * time); });
+  };
+  EXPECT_EQ(explanation(odd(600.0), spread), ImuDoubt::contradicted);
+  EXPECT_EQ(explanation(odd(3000.0), spread), ImuDoubt::noisy) << "it jumps to and fro";
 }
 
 TEST(ImuErrors, CountsThoseThatAreContradicted) {
