@@ -290,7 +290,7 @@ ImuDoubt explanation(const ImuErrors& errors, const ImuSpread& spread) noexcept 
                                    delay.left() + price};
   constexpr std::array doubts{ImuDoubt::biased, ImuDoubt::turned, ImuDoubt::late};
   const auto best = std::min_element(cost.begin(), cost.end());
-  constexpr int few = 2;  // jumps of a unit that is contradicted anyway
+  constexpr int few = 3;  // jumps of a unit that is contradicted anyway
   if (*best > 0.5 * constant.squares + 6.0 * price)
     return jumped_lately(errors) >= few ? ImuDoubt::noisy : ImuDoubt::contradicted;
   return doubts[static_cast<std::size_t>(best - cost.begin())];
