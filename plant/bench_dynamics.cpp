@@ -1,5 +1,6 @@
 #include "plant/bench_dynamics.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -302,8 +302,7 @@ void judge(ImuWatch& watch, const TickMotions& motions, const ImuErrors& errors,
   const int age = *nearest;
   const ConfigurationSpace space = tick.robot.space();
   const auto [then, rising] = motion_at(motions, age, reading.acquired, space);
-  const int ahead = std::min(age, motions.most_ahead);
-  const int n = space.dimension();
+  const int ahead = std::min(age, motions.most_ahead), n = space.dimension();
   const Time spacing = errors.held() > 0 ? reading.acquired - watch.before.acquired : tick.period;
   const ImuOutput output =
       imu_output(space, tick.mounted, tick.robot.gravity(), then.pose.head(space.stored()),
@@ -333,8 +332,7 @@ void judge(ImuWatch& watch, const TickMotions& motions, const ImuErrors& errors,
   error.turning_slope = at.turning * then.acceleration;
   error.rising = at.force * rising;
   error.stamp_spread = at.spread;
-  const TickPlace now = place_of(motions, then.time);
-  const TickPlace before = place_of(motions, then.time - spacing);
+  const TickPlace now = place_of(motions, then.time), before = place_of(motions, then.time - spacing);
   error.force_unseen =
       error.force - at.force * unexplained_change(motions, before, now) / (tick.T() * at.spacing);
   error.turning_unseen =

@@ -78,7 +78,7 @@ TEST(ImuPose, IsFoundAtTheSecondMounting) {
 // Uniform by +-0.25 and +-0.5 ms.
 TEST(ImuStamps, ErrAsFarAsThePlantMakesThem) {
   for (const int jitter_us : {250, 500}) {
-    for (const std::uint64_t seed : {7, 8}) {
+    for (const std::uint64_t seed : {7U, 8U}) {
       const Simulated run = test::simulated(
           "calibration_rectangle.yaml",
           {{"plant: {realism: {like: bench, leg_inertia: 0.1, platform_inertia: 0.1, torque_constant: 0}}",
