@@ -65,8 +65,8 @@ TEST(OneConfiguration, IsEnoughToTellDynamicContactsInOthers) {
   EXPECT_GE(all.clamping.value_or(0.0), is_whole ? 0.8 : 0.4);  // of the few contacts few are clampings
 }
 
-// Friction that sticks holds part of a push on a robot at rest: of few runs 87.0 % are told, and 91.6 % where it
-// slides at once (`realism: kind`).
+// Friction that sticks holds part of a push on a robot at rest: of few runs 87.0 % are told, and 91.6 % where
+// it slides at once (`realism: kind`).
 TEST(OneConfiguration, IsEnoughToTellStaticPushesInOthers) {
   const int runs = test::wanted("FLINCH_CLASSIFIED", 90);
   const DataSet data = data_of("papers_pushes.yaml", runs * 500 / all_runs);
