@@ -125,29 +125,16 @@ class Told {
     columns_.push_back(column);
   }
 
-  /// Not of the fit, and independent of it.
-  void add(CalibratedParameter parameter) {
-    result_.parameters.push_back(std::move(parameter));
-    columns_.push_back(-1);
-  }
-
   void finish() {
     const auto n = static_cast<Eigen::Index>(columns_.size());
-    result_.covariance.setZero(n, n);
+    result_.covariance.resize(n, n);
     const Eigen::MatrixXd influence = map_ * sure_.influence;
-    result_.influence.setZero(n, influence.cols());
+    result_.influence.resize(n, influence.cols());
     for (Eigen::Index a = 0; a < n; ++a) {
-      if (columns_[static_cast<std::size_t>(a)] < 0) {
-        const double deviation = result_.parameters[static_cast<std::size_t>(a)].deviation.value_or(0.0);
-        result_.covariance(a, a) = deviation * deviation;
-        continue;
-      }
       result_.influence.row(a) = influence.row(columns_[static_cast<std::size_t>(a)]);
-      for (Eigen::Index b = 0; b < n; ++b) {
-        if (columns_[static_cast<std::size_t>(b)] < 0) continue;
+      for (Eigen::Index b = 0; b < n; ++b)
         result_.covariance(a, b) =
             covariance_(columns_[static_cast<std::size_t>(a)], columns_[static_cast<std::size_t>(b)]);
-      }
     }
   }
 
@@ -159,8 +146,7 @@ class Told {
 };
 
 void add_parameters(const ImuPoseFit& fit, const FitUncertainty& sure, const ImuMount& believed,
-                    double period, double stamped_age, const std::optional<StampSpread>& spread,
-                    CalibrationResult& result) {
+                    double period, double stamped_age, CalibrationResult& result) {
   Told told(fit, sure, result);
   const ImuPose& pose = fit.pose;
   const Eigen::Vector3d angles = mount_angles(pose.R_ES);
@@ -179,13 +165,21 @@ void add_parameters(const ImuPoseFit& fit, const FitUncertainty& sure, const Imu
   // A reading came at any time within the period before the tick that first saw it.
   told.add("delay", pose.delay - 0.5 * period, 12, "s", {}, "", period / std::sqrt(12.0));
   told.add("stamp_error", pose.delay - stamped_age, 12, "s", {}, "");
-  told.add({.name = "control.imu_stamps.spread",
-            .value = spread ? spread->width : 0.0,
-            .deviation = spread ? std::optional(spread->deviation) : std::nullopt,
-            .unit = "s",
-            .identifiable = spread.has_value(),
-            .belongs_to = "scenario"});
   told.finish();
+}
+
+/// Not of the fit, and independent of it.
+void add_stamp_spread(const std::optional<StampSpread>& spread, CalibrationResult& result) {
+  result.parameters.push_back({.name = "control.imu_stamps.spread",
+                               .value = spread ? spread->width : 0.0,
+                               .deviation = spread ? std::optional(spread->deviation) : std::nullopt,
+                               .unit = "s",
+                               .identifiable = spread.has_value(),
+                               .belongs_to = "scenario"});
+  const Eigen::Index n = result.covariance.rows();
+  result.covariance.conservativeResizeLike(Eigen::MatrixXd::Zero(n + 1, n + 1));
+  result.influence.conservativeResizeLike(Eigen::MatrixXd::Zero(n + 1, result.influence.cols()));
+  if (spread) result.covariance(n, n) = spread->deviation * spread->deviation;
 }
 
 void add_plots(const ImuResiduals& before, const ImuResiduals& after, CalibrationResult& result) {
@@ -243,8 +237,8 @@ CalibrationResult calibrate_imu_pose(const ParallelRobot& robot, const ImuMount&
   double age = 0.0;
   for (const ImuStretch& stretch : stretches)
     age += stretch.stamped_age / static_cast<double>(stretches.size());
-  add_parameters(fit, sure, believed, stretches.front().period, age, fit_stamp_spread(stretches, fit.pose),
-                 result);
+  add_parameters(fit, sure, believed, stretches.front().period, age, result);
+  add_stamp_spread(fit_stamp_spread(stretches, fit.pose), result);
 
   ImuPose before;
   before.R_ES = Eigen::Quaterniond(Eigen::Matrix3d(platform_to_sensor(believed).transpose()));

@@ -16,7 +16,6 @@ namespace flinch {
 namespace {
 
 constexpr double fitted_period = 5e-3;   // neighbouring samples say the same after the filter [s]
-constexpr double edge = 0.05;            // where differences and filters have no past or future [s]
 constexpr double cluster_length = 0.25;  // [s]
 constexpr int starts = 8;
 
@@ -114,7 +113,7 @@ std::vector<Sample> samples_of(const std::vector<ImuStretch>& stretches,
   for (std::size_t s = 0; s < stretches.size(); ++s) {
     const ImuStretch& stretch = stretches[s];
     const auto step = std::max<Eigen::Index>(1, std::lround(fitted_period / stretch.period));
-    const auto margin = static_cast<Eigen::Index>(edge / stretch.period);
+    const auto margin = static_cast<Eigen::Index>(ImuStretch::edge / stretch.period);
     cluster += 1000;
     for (Eigen::Index k = margin; k + margin < stretch.gyroscope.rows(); k += step) {
       if (stretch.usable[static_cast<std::size_t>(k)] == 0) continue;

@@ -58,7 +58,7 @@ void add_readings(const Recording& recording, const ValidStretch& stretch, ImuSt
       out.usable[static_cast<std::size_t>(k)] = 1;
       out.gyroscope.row(k) = reading.angular_velocity.transpose();
       out.accelerometer.row(k) = reading.specific_force.transpose();
-      out.samples.push_back({to_seconds(reading.acquired), reading.angular_velocity, reading.specific_force});
+      out.rates.push_back({to_seconds(reading.acquired), reading.angular_velocity});
       ages += to_seconds(Time(recording.time_ns[sample]) - reading.acquired);
       fresh += 1.0;
       last = reading.acquired;

@@ -10,24 +10,26 @@ namespace flinch {
 
 struct Recording;
 
-/// A reading as it came.
-struct ImuSample {
-  double acquired = 0.0;          ///< By the stamp of the sensor [s].
-  Eigen::Vector3d gyroscope;      ///< in the sensor's axes [rad/s]
-  Eigen::Vector3d accelerometer;  ///< likewise [m/s^2]
+/// A reading of the gyroscope as it came.
+struct GyroscopeSample {
+  double acquired = 0.0;  ///< By the stamp of the sensor [s].
+  Eigen::Vector3d rate;   ///< In the sensor's axes [rad/s].
 };
 
 /// What an IMU on the platform said over one stretch of a recording, beside what the encoders say of the
 /// platform, both low-passed in the same way and without delay. One row a period.
 struct ImuStretch {
+  static constexpr double edge =
+      0.05;  ///< Of both ends, where differences and filters lack past or future [s].
+
   int recording = 0;
-  double start = 0.0;              ///< of the first row [s]
-  double period = 0.0;             ///< [s]
-  Eigen::MatrixXd gyroscope;       ///< by the tick at which it arrived, in the sensor's axes [rad/s]
-  Eigen::MatrixXd accelerometer;   ///< likewise [m/s^2]
-  std::vector<char> usable;        ///< of each row: the reading is there and within its range
-  std::vector<ImuSample> samples;  ///< of the usable readings, not filtered
-  double stamped_age = 0.0;        ///< by how much the sensor's own stamps are older than its arrival [s]
+  double start = 0.0;                  ///< of the first row [s]
+  double period = 0.0;                 ///< [s]
+  Eigen::MatrixXd gyroscope;           ///< by the tick at which it arrived, in the sensor's axes [rad/s]
+  Eigen::MatrixXd accelerometer;       ///< likewise [m/s^2]
+  std::vector<char> usable;            ///< of each row: the reading is there and within its range
+  std::vector<GyroscopeSample> rates;  ///< of the usable readings, not filtered
+  double stamped_age = 0.0;            ///< by how much the sensor's own stamps are older than its arrival [s]
 
   // Of the platform, in its own axes.
   Eigen::MatrixXd angular_velocity;      ///< [rad/s]

@@ -9,7 +9,6 @@
 namespace flinch {
 namespace {
 
-constexpr double edge = 0.05;           // where filters have no past or future [s]
 constexpr double longest_gap = 3.0;     // usual ones between samples of one bend
 constexpr double most_squared = 25.0;   // a bend that is more unlikely is another failure's
 constexpr double slope_lost = 0.03;     // share of a slope that the filter of the encoders may take
@@ -27,13 +26,13 @@ std::vector<Error> errors_of(const ImuStretch& stretch, const ImuPose& pose) {
   const Eigen::MatrixXd slope = stretch.angular_acceleration * pose.R_ES.toRotationMatrix();
   const double late = pose.delay - stretch.stamped_age, last = static_cast<double>(expected.rows()) - 2.0;
   std::vector<Error> errors;
-  for (const ImuSample& sample : stretch.samples) {
+  for (const GyroscopeSample& sample : stretch.rates) {
     const double at = (sample.acquired - late - stretch.start) / stretch.period;
-    if (at < edge / stretch.period || at > last - edge / stretch.period) continue;
+    if (at < ImuStretch::edge / stretch.period || at > last - ImuStretch::edge / stretch.period) continue;
     const auto k = static_cast<Eigen::Index>(at);
     const double share = at - static_cast<double>(k);
     const Eigen::Vector3d then = ((1.0 - share) * expected.row(k) + share * expected.row(k + 1)).transpose();
-    errors.push_back({sample.acquired, sample.gyroscope - then, slope.row(k).transpose()});
+    errors.push_back({sample.acquired, sample.rate - then, slope.row(k).transpose()});
   }
   return errors;
 }
@@ -103,12 +102,12 @@ std::optional<StampSpread> fit_stamp_spread(const std::vector<ImuStretch>& stret
   const Variances fitted = fit(bends);
   const double variance = 12.0 * fitted.value[1];  // of a width w: w^2 / 12
   const double deviation = 12.0 * std::sqrt(fitted.covariance(1, 1));
-  if (!(significant * deviation < least_telling * least_telling) && !(variance > significant * deviation))
-    return {};
-  const double width = std::sqrt(variance);
-  if (variance > significant * deviation)
+  if (variance > significant * deviation) {
+    const double width = std::sqrt(variance);
     return StampSpread{width, std::hypot(0.5 * deviation / width, slope_lost * width)};
-  return StampSpread{0.0, std::sqrt(deviation)};
+  }
+  if (significant * deviation < least_telling * least_telling) return StampSpread{0.0, std::sqrt(deviation)};
+  return {};
 }
 
 }  // namespace flinch

@@ -19,7 +19,7 @@ const BenchSettings& checked(const BenchSettings& settings) {
   return settings;
 }
 
-/// Dry friction that holds: `way` from where it bears nothing, over its give, counts up to `most` either way.
+/// Dry friction that holds: `way` from where it bears nothing, over its give, counts up to `most_give` either way.
 struct Held {
   double way;
 

@@ -95,6 +95,11 @@ class Browser:
     def devtools(self, command, **parameters):
         return self._post("/goog/cdp/execute", {"cmd": command, "params": parameters})
 
+    def look(self, width, height, scheme):
+        """As a reader sees it through a window of so many pixels, 'light' or 'dark'."""
+        self.devtools("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
+        self.devtools("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+
     def screenshot(self, path):
         with open(path, "wb") as file:
             file.write(base64.b64decode(self._call("GET", f"/session/{self.session}/screenshot")))

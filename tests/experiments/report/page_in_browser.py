@@ -238,8 +238,7 @@ def parameters_can_be_searched(page):
 
 def fits_every_window(page, pictures):
     for width, height, scheme in LOOKS:
-        page.browser.devtools("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
-        page.browser.devtools("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+        page.browser.look(width, height, scheme)
         page.open()
         over = page.value("document.documentElement.scrollWidth - innerWidth")
         page.expect(over <= 0, f"at a width of {width} the page is {over} pixels too wide")

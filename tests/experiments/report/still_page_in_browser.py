@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Opens a page that is only read, without script, at the widths of a desktop, a tablet and a phone, light and dark,
+"""Opens a page that is only read at the widths of a desktop, a tablet and a phone, light and dark,
 and prints it.
 
     tests/experiments/report/still_page_in_browser.py PAGE.html [--pictures FOLDER]
@@ -62,8 +62,7 @@ def problems_of(browser, pictures=None):
         yield f"{nameless} drawings have no name for those who cannot see them"
     for width, height, scheme in LOOKS:
         look = f"{width} pixels, {scheme}"
-        browser.devtools("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
-        browser.devtools("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+        browser.look(width, height, scheme)
         over = browser.run("return document.documentElement.scrollWidth - innerWidth")
         if over > 0:
             yield f"{look}: the page is {over} pixels too wide"
