@@ -19,8 +19,7 @@ struct GyroscopeSample {
 /// What an IMU on the platform said over one stretch of a recording, beside what the encoders say of the
 /// platform, both low-passed in the same way and without delay. One row a period.
 struct ImuStretch {
-  static constexpr double edge =
-      0.05;  ///< Of both ends, where differences and filters lack past or future [s].
+  static constexpr double edge = 0.05;  ///< Of both ends, where filters lack past or future [s].
 
   int recording = 0;
   double start = 0.0;                  ///< of the first row [s]

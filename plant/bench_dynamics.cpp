@@ -19,7 +19,8 @@ const BenchSettings& checked(const BenchSettings& settings) {
   return settings;
 }
 
-/// Dry friction that holds: `way` from where it bears nothing, over its give, counts up to `most_give` either way.
+/// Dry friction that holds: `way` from where it bears nothing, over its give, counts up to `most_give` either
+/// way.
 struct Held {
   double way;
 
