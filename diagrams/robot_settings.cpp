@@ -12,6 +12,9 @@ constexpr double stopping_time = 29e-3;  // time constant of the controlled stop
 // Nms/rad at the bench [1/s].
 constexpr double velocity_rate = 105.55;
 constexpr double feedforward_rate = velocity_rate / 60.0;
+// Natural frequencies of the nominal impedance [rad/s]. Encoders and currents are read too late for more; with
+// less a platform hangs in its own weight.
+constexpr double slowest_impedance = 10.0, fastest_impedance = 80.0;
 
 /// The least inertia that a drive feels at the home pose while the others stand still [kg m^2 or kg]. Of more
 /// drives than coordinates none can move alone: of the motion nearest to that.
@@ -21,6 +24,21 @@ double least_inertia(const ParallelRobot& robot) {
   robot.kinematics(robot.home_pose(), PlatformVector::Zero(robot.dof()), kinematics);
   robot.dynamics(kinematics, dynamics);
   return joint_space_dynamics(kinematics, dynamics).M_qa.diagonal().minCoeff();
+}
+
+/// That of [ICRA23] II-C, where the platform at home then swings no slower and no faster than above.
+ImpedanceSettings impedance_for(const ParallelRobot& robot) {
+  Kinematics kinematics;
+  Dynamics dynamics;
+  robot.kinematics(robot.home_pose(), PlatformVector::Zero(robot.dof()), kinematics);
+  robot.dynamics(kinematics, dynamics);
+  ImpedanceSettings settings = complete({}, robot.space());
+  for (Eigen::Index i = 0; i < settings.stiffness.size(); ++i) {
+    const double inertia = dynamics.M_x(i, i);
+    settings.stiffness[i] = std::clamp(settings.stiffness[i], slowest_impedance * slowest_impedance * inertia,
+                                       fastest_impedance * fastest_impedance * inertia);
+  }
+  return settings;
 }
 
 /// What the drives feel of friction at home while all of them move at `rate` [Nm or N].
@@ -97,6 +115,7 @@ ContactControlSettings settings_for(const ParallelRobot& robot, const DriveParam
   const double inertia = least_inertia(robot);
   ContactControlSettings settings;
   know_drives(drives, settings.drive_torque);
+  settings.impedance = impedance_for(robot);
   settings.sequence.rest_speed = drives.max_speed / 160.0;
   settings.faults.workspace = limits;
   settings.faults.max_joint_speed = drives.max_speed;

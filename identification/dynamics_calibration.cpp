@@ -7,6 +7,8 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <numbers>
+#include <string>
 #include <utility>
 
 #include "experiments/verdict/recorded_run.h"
@@ -26,6 +28,7 @@ namespace {
 
 constexpr double least_excitation = 0.01;  // of the largest torque: range of a drive's torque
 constexpr double poor = 0.2;               // of the torque's deviation: what is left of it after the fit
+constexpr double worth_telling = 0.1;      // of what is left of a drive's torque: what a wave of it explains
 
 double root_mean_square(const Eigen::VectorXd& x) {
   return x.size() == 0 ? 0.0 : std::sqrt(x.squaredNorm() / static_cast<double>(x.size()));
@@ -302,6 +305,18 @@ void validate(const DynamicsBelief& belief, const DynamicParameters& robot, cons
   }
 }
 
+/// What repeats along the way of a drive after the fit is neither cogging nor noise.
+void warn_of_waves(const std::vector<DriveWave>& waves, bool turns, CalibrationResult& result) {
+  for (const DriveWave& wave : waves) {
+    const std::string every = turns ? fmt::format("{:.1f} times a turn", wave.rate)
+                                    : fmt::format("every {:.3g} mm", 2e3 * std::numbers::pi / wave.rate);
+    result.warnings.push_back(
+        fmt::format("drive {}: a torque of {:.2g} {} that repeats {} is left; it depends on more than where "
+                    "the drive is, as torque ripple and errors of an encoder do",
+                    wave.drive + 1, std::hypot(wave.sine, wave.cosine), result.residual_unit, every));
+  }
+}
+
 void doubt(const DynamicsRows& rows, const Solution& solution, const Eigen::VectorXd& after,
            CalibrationResult& result) {
   const double left_out = static_cast<double>((solution.fit.linear.weight.array() < 0.05).count()) /
@@ -372,6 +387,7 @@ CalibrationResult calibrate_dynamics(const DynamicsBelief& belief,
         "the motor is still the same one, record a wider or slower motion",
         drive + 1));
   }
+  warn_of_waves(find_cogging(rows, after, drives, worth_telling), turns, result);
   validate(belief, *of_robot, parameters, solution.fit.values, unseen, result);
   for (int i = 0; i < drives; ++i) {
     result.assumed.push_back({.name = drive_constant_key(*belief.robot, i),

@@ -13,16 +13,15 @@
 namespace flinch {
 namespace {
 
-constexpr double fewest_waves = 2.0;      // over the way; what is slower may be friction or gravity
-constexpr double least_explained = 0.03;  // of the scatter, for a wave to be believed
-constexpr double usual_share = 0.01;      // of the largest torque
-constexpr double usual_delay = 0.3e-3;    // of a torque behind its current [s]
+constexpr double fewest_waves = 2.0;    // over the way; what is slower may be friction or gravity
+constexpr double usual_share = 0.01;    // of the largest torque
+constexpr double usual_delay = 0.3e-3;  // of a torque behind its current [s]
 constexpr double turn = 2.0 * std::numbers::pi;
 constexpr int iterations = 10;
 constexpr Eigen::Index of_wave = 3;  // s, c and r
 
 /// How the surplus depends on s, c and r: what motors add, their currents need not.
-Eigen::MatrixXd columns_of(const DynamicsRows& rows, const CoggingWave& wave) {
+Eigen::MatrixXd columns_of(const DynamicsRows& rows, const DriveWave& wave) {
   return along_the_way(rows, wave.drive, [&](double q) -> Eigen::RowVector3d {
     const double sine = std::sin(wave.rate * q), cosine = std::cos(wave.rate * q);
     return {-sine, -cosine, -q * (wave.sine * cosine - wave.cosine * sine)};
@@ -38,7 +37,8 @@ class LeftAtDrive {
     largest_ = 4.0 * robust_deviation({own.begin(), own.end()});
   }
 
-  Wave dominant() const {
+  /// As `dominant_wave`.
+  Wave dominant(double least) const {
     std::vector<WaveSample> samples;
     for (Eigen::Index row = 0; row < left_.size(); ++row) {
       if (!counts(row)) continue;
@@ -48,11 +48,11 @@ class LeftAtDrive {
                          .left = left_[row],
                          .blur = path.blur(rows_.sample[at], drive_)});
     }
-    return dominant_wave(samples, fewest_waves, least_explained);
+    return dominant_wave(samples, fewest_waves, least);
   }
 
   /// The wave that starts at a rate, after Gauss and Newton; an offset is found with it.
-  void refine(CoggingWave& wave) const {
+  void refine(DriveWave& wave) const {
     for (int iteration = 0; iteration < iterations; ++iteration) {
       const Eigen::MatrixXd columns = columns_of(rows_, wave);
       Eigen::Matrix4d H = Eigen::Matrix4d::Zero();
@@ -82,32 +82,67 @@ class LeftAtDrive {
   double largest_ = 0.0;
 };
 
+/// What a wave adds to the surplus of rows [Nm or N].
+Eigen::VectorXd surplus_of(const DynamicsRows& rows, const DriveWave& wave) {
+  return columns_of(rows, wave).leftCols(2) * Eigen::Vector2d(wave.sine, wave.cosine);
+}
+
+/// By rate. One that is as fast as another is what that one could not explain, and ends the search.
+std::vector<DriveWave> waves_of_drive(const DynamicsRows& rows, Eigen::VectorXd left, int drive,
+                                      double least) {
+  std::vector<DriveWave> waves;
+  while (waves.size() < static_cast<std::size_t>(most_cogging_waves)) {
+    const LeftAtDrive at(rows, left, drive);
+    const Wave found = at.dominant(least);
+    DriveWave wave{drive, found.rate, found.deviation, found.least};
+    const bool is_known = std::any_of(waves.begin(), waves.end(), [&](const DriveWave& known) {
+      return std::abs(known.rate - wave.rate) < wave.least;
+    });
+    if (found.rate == 0.0 || is_known) break;
+    at.refine(wave);
+    left -= surplus_of(rows, wave);
+    waves.push_back(wave);
+  }
+  std::sort(waves.begin(), waves.end(),
+            [](const DriveWave& a, const DriveWave& b) { return a.rate < b.rate; });
+  return waves;
+}
+
+/// By drive and rate, without those that have no size.
+std::vector<DriveWave> drive_waves(const Cogging& cogging) {
+  std::vector<DriveWave> waves;
+  for (const CoggingWave& wave : cogging.waves) {
+    for (int drive = 0; drive < static_cast<int>(wave.sine.size()); ++drive) {
+      const DriveWave one{.drive = drive,
+                          .rate = turn / wave.wavelength[drive],
+                          .sine = wave.sine[drive],
+                          .cosine = wave.cosine[drive]};
+      if (std::hypot(one.sine, one.cosine) > 0.0) waves.push_back(one);
+    }
+  }
+  return waves;
+}
+
 }  // namespace
 
-std::vector<CoggingWave> find_cogging(const DynamicsRows& rows, const Eigen::VectorXd& left, int drives) {
-  std::vector<CoggingWave> waves;
+std::vector<DriveWave> find_cogging(const DynamicsRows& rows, const Eigen::VectorXd& left, int drives,
+                                    double least) {
+  std::vector<DriveWave> waves;
   for (int drive = 0; drive < drives; ++drive) {
-    const LeftAtDrive at(rows, left, drive);
-    const Wave found = at.dominant();
-    if (found.rate == 0.0) continue;
-    waves.push_back({drive, found.rate, found.deviation, found.least});
-    at.refine(waves.back());
+    const std::vector<DriveWave> own = waves_of_drive(rows, left, drive, least);
+    waves.insert(waves.end(), own.begin(), own.end());
   }
   return waves;
 }
 
 Eigen::VectorXd without_cogging(const DynamicsRows& rows, const Cogging& believed) {
   Eigen::VectorXd surplus = rows.surplus;
-  for (int drive = 0; drive < static_cast<int>(believed.sine.size()); ++drive) {
-    const CoggingWave wave{.drive = drive, .rate = turn / believed.wavelength[drive]};
-    surplus -=
-        columns_of(rows, wave).leftCols(2) * Eigen::Vector2d(believed.sine[drive], believed.cosine[drive]);
-  }
+  for (const DriveWave& wave : drive_waves(believed)) surplus -= surplus_of(rows, wave);
   return surplus;
 }
 
-MotorParameters::MotorParameters(const DynamicParameters& robot, std::vector<CoggingWave> waves,
-                                 DriveKind kind, const DriveParameters& believed)
+MotorParameters::MotorParameters(const DynamicParameters& robot, std::vector<DriveWave> waves, DriveKind kind,
+                                 const DriveParameters& believed)
     : robot_(robot), waves_(std::move(waves)), kind_(kind), believed_(believed) {
   list_ = robot.list();
   for (Eigen::Index drive = 0; drive < believed.torque_constant.size(); ++drive) {
@@ -118,7 +153,7 @@ MotorParameters::MotorParameters(const DynamicParameters& robot, std::vector<Cog
                      .least = -20.0 * longest_torque_delay});  // what cannot be must be seen
   }
   const DynamicParameter part{.deviation = usual_share * believed.max_torque, .least = -believed.max_torque};
-  for (const CoggingWave& wave : waves_) {
+  for (const DriveWave& wave : waves_) {
     list_.insert(list_.end(), {part, part});
     list_.push_back({.believed = wave.rate, .deviation = wave.deviation, .least = wave.least});
   }
@@ -131,7 +166,7 @@ DynamicsRows MotorParameters::rows(DynamicsRows of_robot) const {
   for (Eigen::Index row = 0; row < of_robot.slope.size(); ++row)
     of_robot.regressor(row, first_delay() + of_robot.drive[static_cast<std::size_t>(row)]) =
         of_robot.slope[row];
-  for (const CoggingWave& wave : waves_) {
+  for (const DriveWave& wave : waves_) {
     of_robot.regressor.middleCols(column, of_wave) = columns_of(of_robot, wave);
     column += of_wave;
   }
@@ -152,16 +187,20 @@ std::vector<Eigen::MatrixXd> MotorParameters::must_be_definite(const Eigen::Vect
 
 // What was believed and is not found any more is taken back.
 Cogging MotorParameters::cogging(const Eigen::VectorXd& values) const {
-  if (waves_.empty() && believed_.cogging.is_none()) return {};
   const JointVector none = JointVector::Zero(believed_.torque_constant.size());
   const JointVector any = JointVector::Ones(none.size());
-  Cogging now{believed_.cogging.is_none() ? any : believed_.cogging.wavelength, none, none};
+  Cogging now = believed_.cogging;
+  for (CoggingWave& wave : now.waves) wave.sine = wave.cosine = none;
   Eigen::Index of = first_of_waves();
-  for (const CoggingWave& wave : waves_) {
-    now.sine[wave.drive] = values[of];
-    now.cosine[wave.drive] = values[of + 1];
-    now.wavelength[wave.drive] = turn / values[of + 2];
-    of += of_wave;
+  std::size_t of_drive = 0;
+  for (std::size_t w = 0; w < waves_.size(); ++w, of += of_wave) {
+    const int drive = waves_[w].drive;
+    of_drive = w > 0 && waves_[w - 1].drive == drive ? of_drive + 1 : 0;
+    if (now.waves.size() <= of_drive) now.waves.push_back({any, none, none});
+    CoggingWave& wave = now.waves[of_drive];
+    wave.sine[drive] = values[of];
+    wave.cosine[drive] = values[of + 1];
+    wave.wavelength[drive] = turn / values[of + 2];
   }
   return now;
 }
@@ -171,15 +210,18 @@ void MotorParameters::add(const Cogging& cogging, std::vector<FileValue>& in_fil
   const std::string length = turns ? "rad" : "m", effort = turns ? "Nm" : "N";
   const auto add_list = [&](const std::string& key, const std::string& unit, const JointVector& of_drives) {
     for (Eigen::Index i = 0; i < of_drives.size(); ++i) {
-      in_file.push_back({.name = "drives.cogging_" + key + "_" + unit + "[" + std::to_string(i) + "]",
+      in_file.push_back({.name = "drives." + key + "_" + unit + "[" + std::to_string(i) + "]",
                          .unit = unit,
                          .value = of_drives[i],
                          .mainly = {}});
     }
   };
-  add_list("wavelength", length, cogging.wavelength);
-  add_list("sine", effort, cogging.sine);
-  add_list("cosine", effort, cogging.cosine);
+  for (std::size_t w = 0; w < cogging.waves.size(); ++w) {
+    const std::string key = cogging_key(static_cast<int>(w));
+    add_list(key + "wavelength", length, cogging.waves[w].wavelength);
+    add_list(key + "sine", effort, cogging.waves[w].sine);
+    add_list(key + "cosine", effort, cogging.waves[w].cosine);
+  }
 }
 
 std::vector<FileValue> MotorParameters::but_for_cogging(const Eigen::VectorXd& values) const {
@@ -200,11 +242,12 @@ std::vector<FileValue> MotorParameters::in_file(const Eigen::VectorXd& values) c
 
 std::vector<int> MotorParameters::stilled() const {
   std::vector<int> drives;
-  const Cogging& before = believed_.cogging;
-  for (int drive = 0; drive < static_cast<int>(before.sine.size()); ++drive) {
-    const bool cogs = std::any_of(waves_.begin(), waves_.end(),
-                                  [&](const CoggingWave& wave) { return wave.drive == drive; });
-    if (!cogs && std::hypot(before.sine[drive], before.cosine[drive]) > 0.0) drives.push_back(drive);
+  for (const DriveWave& before : drive_waves(believed_.cogging)) {
+    const bool is_seen = std::any_of(waves_.begin(), waves_.end(), [&](const DriveWave& wave) {
+      return wave.drive == before.drive && std::abs(wave.rate - before.rate) < wave.least;
+    });
+    const bool is_told = std::find(drives.begin(), drives.end(), before.drive) != drives.end();
+    if (!is_seen && !is_told) drives.push_back(before.drive);
   }
   return drives;
 }

@@ -77,11 +77,12 @@ PlanarBench::PlanarBench(const BenchSettings& settings)
       uneven_torque_(settings.uneven_torque) {
   const bool all_repeat =
       std::all_of(uneven_torque_.begin(), uneven_torque_.end(), [](const UnevenTorque& torque) {
-        return repeats_each_turn(torque.cogging) && repeats_each_turn(torque.ripple);
+        return std::all_of(torque.cogging.begin(), torque.cogging.end(), repeats_each_turn) &&
+               repeats_each_turn(torque.ripple);
       });
   if (!all_repeat) return;
   for (const UnevenTorque& torque : uneven_torque_)
-    turning_torque_.push_back({TurningWave(torque.cogging), TurningWave(torque.ripple)});
+    turning_torque_.push_back({{torque.cogging.begin(), torque.cogging.end()}, TurningWave(torque.ripple)});
 }
 
 Disc PlanarBench::disc(int obstacle, const PlacedObstacle& placed) const noexcept {

@@ -16,10 +16,11 @@ struct Realism {
   double payload = 0.0;           ///< Point mass at the platform's origin that nobody knows of [kg].
 
   // ---- drives
-  double torque_constant = 0.0;    ///< Of each motor against the calibrated one, a share either way.
-  double cogging = 0.0;            ///< Amplitude, a share of the largest torque of the drives.
-  int cogging_periods = 24;        ///< Of a turn of the motor.
-  double torque_ripple = 0.0;      ///< Amplitude, a share of the torque.
+  double torque_constant = 0.0;  ///< Of each motor against the calibrated one, a share either way.
+  double cogging = 0.0;          ///< Amplitude, a share of the largest torque of the drives.
+  int cogging_periods = 24;      ///< Of a turn of the motor.
+  int cogging_harmonics = 1;     ///< Of these waves; the k-th has k times the periods and a k-th of the size.
+  double torque_ripple = 0.0;    ///< Amplitude, a share of the torque.
   int torque_ripple_periods = 66;  ///< Of a turn of the motor.
   double current_lag = 0.0;        ///< Time constant with which a current follows its command [s].
   double screw_lead = 5e-3;        ///< Way of a drive that slides in a turn of its motor [m].

@@ -68,13 +68,16 @@ RobotDeviation draw_mechanics(const Realism& realism, const ParallelRobot& robot
 
 std::vector<UnevenTorque> draw_torque(const Realism& realism, double largest_torque, double rate, int drives,
                                       const Draw& draw) {
-  const auto cogging =
-      draw.waves("cogging", realism.cogging * largest_torque, rate * realism.cogging_periods, drives);
   const auto ripple =
       draw.waves("torque ripple", realism.torque_ripple, rate * realism.torque_ripple_periods, drives);
-  if (cogging.empty() && ripple.empty()) return {};
+  if (!(realism.cogging > 0.0) && ripple.empty()) return {};
   std::vector<UnevenTorque> drawn(static_cast<std::size_t>(drives));
-  for (std::size_t i = 0; i < cogging.size(); ++i) drawn[i].cogging = cogging[i];
+  for (int k = 1; k <= realism.cogging_harmonics; ++k) {
+    const auto harmonic =
+        draw.waves(k == 1 ? "cogging" : "cogging " + std::to_string(k), realism.cogging * largest_torque / k,
+                   rate * k * realism.cogging_periods, drives);
+    for (std::size_t i = 0; i < harmonic.size(); ++i) drawn[i].cogging.push_back(harmonic[i]);
+  }
   for (std::size_t i = 0; i < ripple.size(); ++i) drawn[i].ripple = ripple[i];
   return drawn;
 }
@@ -107,10 +110,17 @@ class Told {
   Values values_;
 };
 
-std::vector<PositionWave> waves_of(const std::vector<UnevenTorque>& torques,
-                                   PositionWave UnevenTorque::*wave) {
+std::vector<PositionWave> ripple_of(const std::vector<UnevenTorque>& torques) {
   std::vector<PositionWave> waves;
-  for (const UnevenTorque& torque : torques) waves.push_back(torque.*wave);
+  for (const UnevenTorque& torque : torques) waves.push_back(torque.ripple);
+  return waves;
+}
+
+/// The k-th wave of each drive; empty: no drive has so many.
+std::vector<PositionWave> cogging_of(const std::vector<UnevenTorque>& torques, std::size_t k) {
+  std::vector<PositionWave> waves;
+  for (const UnevenTorque& torque : torques)
+    if (k < torque.cogging.size()) waves.push_back(torque.cogging[k]);
   return waves;
 }
 
@@ -169,8 +179,11 @@ Values specimen_values(const Specimen& specimen, const Mechanism& robot) {
     told.add("platform_inertia_scale", {mechanics.platform_inertia_scale});
   if (mechanics.payload > 0.0) told.add("payload_kg", {mechanics.payload});
   told.add(turns ? "torque_constant_scale" : "force_constant_scale", list(specimen.torque_constant_scale));
-  told.add("cogging", turns ? "_Nm" : "_N", waves_of(specimen.uneven_torque, &UnevenTorque::cogging));
-  told.add("torque_ripple", "", waves_of(specimen.uneven_torque, &UnevenTorque::ripple));
+  for (std::size_t k = 0; !cogging_of(specimen.uneven_torque, k).empty(); ++k) {
+    told.add(k == 0 ? "cogging" : "cogging" + std::to_string(k + 1), turns ? "_Nm" : "_N",
+             cogging_of(specimen.uneven_torque, k));
+  }
+  told.add("torque_ripple", "", ripple_of(specimen.uneven_torque));
   told.add("current_lag_s", list(specimen.current_lag));
   told.add("active_encoder_wave", turns ? "_rad" : "_m", specimen.active_encoder_wave);
   told.add("passive_encoder_wave", "_rad", specimen.passive_encoder_wave);

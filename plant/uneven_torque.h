@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "plant/position_wave.h"
 
 namespace flinch {
@@ -9,13 +11,15 @@ namespace flinch {
 /// the position is told.
 template <class Wave>
 struct UnevenTorqueBy {
-  Wave cogging;  ///< [Nm or N]
-  Wave ripple;   ///< A share of the torque.
+  std::vector<Wave> cogging{};  ///< Whose sum it is [Nm or N].
+  Wave ripple{};                ///< A share of the torque.
 
   /// What acts at `position` where an even motor would make `torque`.
   template <class Position>
   double at(const Position& position, double torque) const noexcept {
-    return torque * (1.0 + ripple.at(position)) + cogging.at(position);
+    double sum = torque * (1.0 + ripple.at(position));
+    for (const Wave& wave : cogging) sum += wave.at(position);
+    return sum;
   }
 };
 

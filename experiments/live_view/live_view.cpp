@@ -30,7 +30,8 @@ std::vector<double> times_of(const Recording& recording, std::size_t together) {
   return times;
 }
 
-LiveServer::Order orders_for(SimulationPace& pace) {
+LiveServer::Order orders_for(SimulationPace& pace, const LiveViewSettings& settings) {
+  if (!settings.speed) return settings.operator_order;
   return [&pace](std::string_view order) { return pace.follow(order); };
 }
 
@@ -46,7 +47,7 @@ LiveView::LiveView(const Scenario& scenario, LiveViewSettings settings)
       settings_(std::move(settings)),
       pace_(settings_.speed.value_or(1.0)),
       feed_(kept_messages, kept_bytes),
-      server_(feed_, settings_.speed ? orders_for(pace_) : LiveServer::Order(), settings_.server) {}
+      server_(feed_, orders_for(pace_, settings_), settings_.server) {}
 
 LiveView::~LiveView() {
   stop_thread();
@@ -104,8 +105,10 @@ void LiveView::show_samples() {
   Report report;
   report.obstacles = std::vector<ReportObstacle>(scenario_.obstacles.size());
   add_samples(*scenario_.robot.robot, latest_, report, together);
-  feed_.publish(fmt::format(R"({{"taken": {}, "times": [{}], {}}})",
+  const bool is_operated = !settings_.speed && settings_.operator_order;
+  feed_.publish(fmt::format(R"({{"taken": {}, {}"times": [{}], {}}})",
                             std::chrono::duration_cast<std::chrono::milliseconds>(taken).count(),
+                            is_operated ? R"("operated": true, )" : "",
                             fmt::join(times_of(latest_, together), ", "), samples_json(report)));
 }
 

@@ -26,6 +26,9 @@ struct LiveViewSettings {
   /// At which a simulation begins; see SimulationPace. None: the run goes as fast as it does, and takes no
   /// orders.
   std::optional<double> speed = 1.0;
+  /// Follows orders to the robot, where there is no speed; none: the page has no buttons for an operator.
+  /// Called by threads of the server.
+  LiveServer::Order operator_order{};
   /// How long a simulation waits for the first viewer, and how long the report stays for those who have not
   /// fetched it.
   std::chrono::milliseconds patience{60'000};

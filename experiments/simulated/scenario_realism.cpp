@@ -22,6 +22,7 @@ void read_drives(ConfigReader& reader, bool turn, Realism& realism) {
   reader.number(constant, unit::none, realism.torque_constant, {.low = 0.0, .high = 0.9});
   reader.number("cogging", unit::none, realism.cogging, fraction);
   reader.integer("cogging_periods", realism.cogging_periods, 1, 10000);
+  reader.integer("cogging_harmonics", realism.cogging_harmonics, 1, 20);
   reader.number(ripple, unit::none, realism.torque_ripple, fraction);
   reader.integer(ripple_periods, realism.torque_ripple_periods, 1, 10000);
   reader.number("current_lag", unit::s, realism.current_lag, between(0.0, 0.1));

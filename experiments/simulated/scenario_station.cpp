@@ -62,11 +62,14 @@ void read_scales(ConfigReader& plant, const char* name, int count, JointVector& 
 /// Of motors that cog as the robot file says.
 std::vector<UnevenTorque> uneven_torque(const Cogging& cogging) {
   std::vector<UnevenTorque> drives;
-  for (Eigen::Index i = 0; i < cogging.sine.size(); ++i) {
-    drives.push_back({.cogging = {.amplitude = std::hypot(cogging.sine[i], cogging.cosine[i]),
-                                  .rate = 2.0 * std::numbers::pi / cogging.wavelength[i],
-                                  .phase = std::atan2(cogging.cosine[i], cogging.sine[i])},
-                      .ripple = {}});
+  for (const CoggingWave& wave : cogging.waves) {
+    drives.resize(static_cast<std::size_t>(wave.sine.size()));
+    for (Eigen::Index i = 0; i < wave.sine.size(); ++i) {
+      drives[static_cast<std::size_t>(i)].cogging.push_back(
+          {.amplitude = std::hypot(wave.sine[i], wave.cosine[i]),
+           .rate = 2.0 * std::numbers::pi / wave.wavelength[i],
+           .phase = std::atan2(wave.cosine[i], wave.sine[i])});
+    }
   }
   return drives;
 }

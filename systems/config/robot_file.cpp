@@ -45,15 +45,19 @@ bool says_any(const ConfigReader& file, std::string_view prefix) {
   return std::any_of(keys.begin(), keys.end(), [&](auto key) { return key.starts_with(prefix); });
 }
 
-/// Of all drives, or nothing where the file says nothing of it.
+/// Of all drives, or nothing where the file says nothing of it. Keys of the second wave begin with `cogging2_`.
 Cogging read_cogging(ConfigReader& file, const ParallelRobot& like) {
-  if (!says_any(file, "cogging_")) return {};
-  const JointVector none = JointVector::Zero(like.drives());
-  Cogging cogging{none, none, none};
-  ConfigReader all = file.required();
-  all.numbers("cogging_wavelength", keys_of(like).position, entries(cogging.wavelength), positive);
-  all.numbers("cogging_sine", keys_of(like).torque, entries(cogging.sine));
-  all.numbers("cogging_cosine", keys_of(like).torque, entries(cogging.cosine));
+  Cogging cogging;
+  for (int wave = 0; wave < most_cogging_waves; ++wave) {
+    const std::string prefix = cogging_key(wave);
+    if (!says_any(file, prefix)) continue;
+    const JointVector none = JointVector::Zero(like.drives());
+    CoggingWave& read = cogging.waves.emplace_back(CoggingWave{none, none, none});
+    ConfigReader all = file.required();
+    all.numbers(prefix + "wavelength", keys_of(like).position, entries(read.wavelength), positive);
+    all.numbers(prefix + "sine", keys_of(like).torque, entries(read.sine));
+    all.numbers(prefix + "cosine", keys_of(like).torque, entries(read.cosine));
+  }
   return cogging;
 }
 

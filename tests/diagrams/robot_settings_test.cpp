@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <memory>
 #include <string>
 
 #include "diagrams/contact_control.h"
@@ -52,6 +54,34 @@ TEST(RobotSettings, AreForTheBenchThoseOfTheTables) {
   EXPECT_EQ(bench.torque_gate.max_torque, standard.torque_gate.max_torque);
   EXPECT_NEAR(bench.tasks.levels.velocity_gain, standard.tasks.levels.velocity_gain, 0.01);
   EXPECT_NEAR(bench.tasks.levels.velocity_feedforward, standard.tasks.levels.velocity_feedforward, 1e-3);
+}
+
+TEST(RobotSettings, AreAsStiffAsPublishedWhereThePlatformCanFollow) {
+  for (const char* const name : {"planar_3rrr", "five_bar", "hexapod_6ups", "delta", "linapod_6pus"}) {
+    const RobotFile file = shipped(name);
+    EXPECT_EQ(settings_of(file).impedance.stiffness, complete({}, file.robot->space()).stiffness) << name;
+  }
+}
+
+/// The mass matrix of the platform at home is `share` of that of the bench.
+void expect_natural_frequency(double share, double frequency) {
+  RobotFile file = shipped("planar_3rrr");
+  const JointVector legs = JointVector::Constant(3, share);
+  const auto other = std::dynamic_pointer_cast<const ParallelRobot>(
+      file.robot->deviating({.leg_inertia_scale = legs, .platform_inertia_scale = share}));
+  ASSERT_NE(other, nullptr);
+  Kinematics k;
+  Dynamics dynamics;
+  other->kinematics(other->home_pose(), PlatformVector::Zero(3), k);
+  other->dynamics(k, dynamics);
+  const PlatformVector K = settings_for(*other, file.drives, file.limits).impedance.stiffness;
+  for (Eigen::Index i = 0; i < 3; ++i)
+    EXPECT_NEAR(std::sqrt(K[i] / dynamics.M_x(i, i)), frequency, 1e-9 * frequency) << i;
+}
+
+TEST(RobotSettings, AreSofterForAPlatformOfGramsAndStifferForOneOfTons) {
+  expect_natural_frequency(1e-3, 80.0);
+  expect_natural_frequency(1e3, 10.0);
 }
 
 /// Behind a filter of 30 Hz, which lags by 5.3 ms, a rate that is damped faster would oscillate.

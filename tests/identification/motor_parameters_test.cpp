@@ -28,8 +28,10 @@ const PlanarRrr& bench() {
 DriveParameters drives() { return default_drives(DriveKind::revolute, 3); }
 
 /// Of drives that go to and fro: two of them cog.
-const std::vector<CoggingWave> truth = {{.drive = 0, .rate = 24.0, .sine = 0.1, .cosine = 0.17},
-                                        {.drive = 1, .rate = 22.0, .sine = -0.3, .cosine = 0.2}};
+const std::vector<DriveWave> truth = {{.drive = 0, .rate = 24.0, .sine = 0.1, .cosine = 0.17},
+                                      {.drive = 0, .rate = 48.0, .sine = 0.03, .cosine = -0.06},
+                                      {.drive = 0, .rate = 96.0, .sine = 0.04, .cosine = 0.02},
+                                      {.drive = 1, .rate = 22.0, .sine = -0.3, .cosine = 0.2}};
 
 constexpr double noise = 0.02;  // of a torque [Nm]
 
@@ -59,7 +61,7 @@ DynamicsRows cogging_rows(Eigen::Index parameters) {
   rows.surplus.setZero(n);
   rows.slope.setZero(n);
   rows.regressor.setZero(n, parameters);
-  for (const CoggingWave& wave : truth) {
+  for (const DriveWave& wave : truth) {
     rows.surplus -= along_the_way(rows, wave.drive, [&](double q) -> Eigen::RowVector3d {
                       const double w =
                           wave.sine * std::sin(wave.rate * q) + wave.cosine * std::cos(wave.rate * q);
@@ -73,7 +75,7 @@ DynamicsRows cogging_rows(Eigen::Index parameters) {
 
 TEST(MotorParameters, AreFoundOfTheDrivesThatCog) {
   const DynamicsRows rows = cogging_rows(0);
-  const std::vector<CoggingWave> waves = find_cogging(rows, rows.surplus, 3);
+  const std::vector<DriveWave> waves = find_cogging(rows, rows.surplus, 3);
   ASSERT_EQ(waves.size(), truth.size());
   for (std::size_t i = 0; i < truth.size(); ++i) {
     EXPECT_EQ(waves[i].drive, truth[i].drive);
@@ -87,10 +89,10 @@ TEST(MotorParameters, AreFoundOfTheDrivesThatCog) {
 TEST(MotorParameters, HaveTheColumnsOfTheirRows) {
   const auto robot = DynamicParameters::of(bench());
   const auto p = static_cast<Eigen::Index>(robot->list().size());
-  const CoggingWave wave{
+  const DriveWave wave{
       .drive = 1, .rate = 24.0, .deviation = 1.0, .least = 10.0, .sine = 0.3, .cosine = -0.2};
   const auto made_by = [&](double rate) {
-    CoggingWave other = wave;
+    DriveWave other = wave;
     other.rate = rate;
     const MotorParameters parameters(*robot, {other}, DriveKind::revolute, drives());
     const DynamicsRows rows = parameters.rows(cogging_rows(p));
@@ -135,7 +137,8 @@ TEST(MotorParameters, StandInTheFileForAllDrivesOrForNone) {
 TEST(MotorParameters, TakeBackWhatWasBelieved) {
   const auto robot = DynamicParameters::of(bench());
   DriveParameters believing = drives();
-  believing.cogging = {JointVector::Constant(3, 0.26), JointVector::Ones(3), JointVector{{0.0, 1.0, 2.0}}};
+  believing.cogging = {
+      {{JointVector::Constant(3, 0.26), JointVector::Ones(3), JointVector{{0.0, 1.0, 2.0}}}}};
   const MotorParameters none(*robot, {}, DriveKind::revolute, believing);
   const std::vector<FileValue> file = none.in_file(none.believed());
   ASSERT_EQ(file.size(), robot->list().size() + 12);
@@ -190,11 +193,11 @@ TEST(MotorParameters, HaveTheSlopeOfItsTorqueForTheDelayOfADrive) {
 // What was believed is what the waves make of the surplus.
 TEST(MotorParameters, LeaveNoSurplusWhereTheyAreTrue) {
   const DynamicsRows rows = cogging_rows(0);
-  Cogging known{JointVector::Ones(3), JointVector::Zero(3), JointVector::Zero(3)};
-  for (const CoggingWave& wave : truth) {
-    known.wavelength[wave.drive] = 2.0 * std::numbers::pi / wave.rate;
-    known.sine[wave.drive] = wave.sine;
-    known.cosine[wave.drive] = wave.cosine;
+  Cogging known;
+  for (const DriveWave& wave : truth) {
+    known.waves.push_back({JointVector::Constant(3, 2.0 * std::numbers::pi / wave.rate),
+                           wave.sine * JointVector::Unit(3, wave.drive),
+                           wave.cosine * JointVector::Unit(3, wave.drive)});
   }
   const Eigen::VectorXd left = without_cogging(rows, known);
   EXPECT_LT(std::sqrt(left.squaredNorm() / static_cast<double>(left.size())), 1.1 * noise);
@@ -206,25 +209,31 @@ double not_found(const SimulatedScenario& scenario, const CalibrationResult& got
   std::map<std::string, double> values;
   for (const CalibratedParameter& parameter : got.parameters) values[parameter.name] = parameter.value;
   const auto value = [&](const std::string& key) {
-    return JointVector::Constant(1, values.at("drives.cogging_" + key + "[" + std::to_string(drive) + "]"));
+    return JointVector::Constant(1, values.at("drives." + key + "[" + std::to_string(drive) + "]"));
   };
-  const Cogging found{value("wavelength_rad"), value("sine_Nm"), value("cosine_Nm")};
-  const PositionWave& motor = scenario.specimen.uneven_torque[static_cast<std::size_t>(drive)].cogging;
+  Cogging found;
+  for (int wave = 0; values.contains("drives." + cogging_key(wave) + "sine_Nm[0]"); ++wave) {
+    const std::string key = cogging_key(wave);
+    found.waves.push_back({value(key + "wavelength_rad"), value(key + "sine_Nm"), value(key + "cosine_Nm")});
+  }
+  const auto& harmonics = scenario.specimen.uneven_torque[static_cast<std::size_t>(drive)].cogging;
   const ParallelRobot& robot = *scenario.robot.robot;
   Kinematics home;
   robot.kinematics(robot.home_pose(), PlatformVector::Zero(robot.dof()), home);
   double left = 0.0, all = 0.0;
   for (double from_home = -0.4; from_home < 0.4; from_home += 0.01) {
     const double q = home.joints.active[drive] + from_home;
-    left += std::pow(found.at(JointVector::Constant(1, q))[0] - motor.at(q), 2);
-    all += std::pow(motor.at(q), 2);
+    double motor = 0.0;
+    for (const PositionWave& wave : harmonics) motor += wave.at(q);
+    left += std::pow(found.at(JointVector::Constant(1, q))[0] - motor, 2);
+    all += std::pow(motor, 2);
   }
-  std::printf("  drive %d cogs by %.3f Nm, %.1f %% of it not found\n", drive + 1, motor.amplitude,
+  std::printf("  drive %d cogs by %.3f Nm, %.1f %% of it not found\n", drive + 1, harmonics[0].amplitude,
               100.0 * std::sqrt(left / all));
   return std::sqrt(left / all);
 }
 
-// What one wave of each drive cannot be is left: torque ripple, and torque constants that are off.
+// What waves cannot be is left: torque ripple, and torque constants that are off.
 TEST(Dynamics, FindHowTheMotorsOfARobotCog) {
   test::CalibratedRobot robot(1);
   robot.torque_constants("calibration_pulls.yaml");

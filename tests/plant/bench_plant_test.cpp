@@ -315,7 +315,7 @@ SimulatedStationSettings pulled_at(double whisper) {
   settings.applied_wrench.push_back(
       {.peak_in_base = PlatformVector{{whisper, 0.0, 0.0}}, .start = 0s, .rise = 0s, .hold = 2s, .fall = 0s});
   settings.bench.uneven_torque.assign(
-      3, {.cogging = {.amplitude = 0.5, .rate = 24.0, .phase = 1.0}, .ripple = {}});
+      3, {.cogging = {{.amplitude = 0.5, .rate = 24.0, .phase = 1.0}}, .ripple = {}});
   return settings;
 }
 

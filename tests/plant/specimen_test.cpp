@@ -50,7 +50,8 @@ void expect_to_fill(const Spread& found, double low, double high) {
 TEST(Specimen, FillsTheSizesThatItIsDrawnFrom) {
   for (const auto& robot : robots()) {
     const Realism sizes = bench_realism(robot->drive_kind(0));
-    Spread friction, elbows, legs, platform, payload, constant, cogging, ripple, lag, encoder, phase, offset;
+    Spread friction, elbows, legs, platform, payload, constant, cogging, fourth, ripple, lag, encoder, phase,
+        offset;
     for (std::uint64_t seed = 0; seed < 400; ++seed) {
       const Specimen one = draw(*robot, seed);
       friction.add(one.mechanics.drive_friction_scale);
@@ -62,7 +63,10 @@ TEST(Specimen, FillsTheSizesThatItIsDrawnFrom) {
       lag.add(one.current_lag);
       offset.add(one.passive_encoder_offset);
       for (const UnevenTorque& torque : one.uneven_torque) {
-        cogging.add(torque.cogging.amplitude);
+        ASSERT_EQ(torque.cogging.size(), 4U);
+        cogging.add(torque.cogging[0].amplitude);
+        fourth.add(torque.cogging[3].amplitude);
+        EXPECT_DOUBLE_EQ(torque.cogging[3].rate, 4.0 * torque.cogging[0].rate);
         ripple.add(torque.ripple.amplitude);
       }
       for (const PositionWave& wave : one.active_encoder_wave) {
@@ -77,6 +81,7 @@ TEST(Specimen, FillsTheSizesThatItIsDrawnFrom) {
     expect_to_fill(payload, 0.0, 0.1);
     expect_to_fill(constant, 0.985, 1.015);
     expect_to_fill(cogging, 0.0, 0.5);
+    expect_to_fill(fourth, 0.0, 0.125);
     expect_to_fill(ripple, 0.0, 0.01);
     expect_to_fill(lag, 0.0, 0.3e-3);
     expect_to_fill(encoder, 0.0, sizes.active_encoder_wave);
@@ -106,8 +111,8 @@ TEST(Specimen, HasOneQuantityAloneJustAsWithAllOthers) {
   const Specimen all = draw(*robot, 3);
   const Specimen alone = draw_specimen({.friction = 0.2, .cogging = 0.005}, *robot, 100.0, 3);
   EXPECT_EQ(alone.mechanics.drive_friction_scale, all.mechanics.drive_friction_scale);
-  EXPECT_EQ(alone.uneven_torque[1].cogging.amplitude, all.uneven_torque[1].cogging.amplitude);
-  EXPECT_EQ(alone.uneven_torque[1].cogging.phase, all.uneven_torque[1].cogging.phase);
+  EXPECT_EQ(alone.uneven_torque[1].cogging[0].amplitude, all.uneven_torque[1].cogging[0].amplitude);
+  EXPECT_EQ(alone.uneven_torque[1].cogging[0].phase, all.uneven_torque[1].cogging[0].phase);
   EXPECT_EQ(alone.uneven_torque[1].ripple.amplitude, 0.0);
   std::vector<std::string> told;
   for (const auto& [key, values] : specimen_values(alone, *robot)) told.push_back(key);

@@ -18,7 +18,7 @@ namespace flinch {
 namespace {
 
 TEST(UnevenTorque, AddsCoggingAndAShareOfTheTorque) {
-  const UnevenTorque torque{.cogging = {.amplitude = 0.5, .rate = 24.0, .phase = 0.3},
+  const UnevenTorque torque{.cogging = {{.amplitude = 0.5, .rate = 24.0, .phase = 0.3}},
                             .ripple = {.amplitude = 0.01, .rate = 66.0, .phase = -1.0}};
   EXPECT_DOUBLE_EQ(torque.at(0.2, 0.0), 0.5 * std::sin(24.0 * 0.2 + 0.3));
   EXPECT_DOUBLE_EQ(torque.at(0.2, 20.0) - torque.at(0.2, 0.0),
@@ -49,7 +49,8 @@ TEST(UnevenTorque, ActsOnTheDrivesOfEveryMechanism) {
     const bool turns = robot->drive_kind(0) == DriveKind::revolute;
     for (int i = 0; i < robot->drives(); ++i) {
       settings.uneven_torque.push_back(
-          {.cogging = {.amplitude = 0.4 + 0.1 * i, .rate = turns ? 24.0 : 3e4, .phase = 0.5 * i},
+          {.cogging = {{.amplitude = 0.4 + 0.1 * i, .rate = turns ? 24.0 : 3e4, .phase = 0.5 * i},
+                       {.amplitude = 0.1, .rate = turns ? 48.0 : 6e4, .phase = 0.2}},
            .ripple = {.amplitude = 0.01, .rate = turns ? 66.0 : 8e4, .phase = 1.0}});
     }
     const auto bench = BenchDynamics::make(settings);

@@ -3,6 +3,7 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cerrno>
@@ -86,7 +87,12 @@ void OperatorConsole::say(const std::string& lines) {
 /// Who no longer can order shall not leave a robot that moves.
 void OperatorConsole::end_run() {
   say("ended:     the end of the input\n");
-  run_.give({.buttons = {}, .target = {}, .end = true});
+  give({.buttons = {}, .target = {}, .end = true});
+}
+
+bool OperatorConsole::give(const OperatorOrder& order) {
+  const std::lock_guard lock(orders_);
+  return run_.give(order);
 }
 
 void OperatorConsole::read_until(const std::stop_token& ending) {
@@ -130,7 +136,12 @@ void OperatorConsole::take(char letter) {
   if (letter == '\n' || letter == '\r') {
     const std::string line = std::exchange(line_, {}), problem = std::exchange(problem_, {});
     lock.unlock();
-    return problem.empty() ? follow(line) : say("error: " + problem + "\n");
+    if (problem.empty()) {
+      follow(line);
+    } else {
+      say("error: " + problem + "\n");
+    }
+    return;
   }
   if (letter == escape && terminal_) {
     escape_ = Escape::begun;
@@ -149,16 +160,26 @@ void OperatorConsole::take(char letter) {
   }
 }
 
-void OperatorConsole::follow(std::string_view line) {
+bool OperatorConsole::follow(std::string_view line) {
   const std::size_t begin = line.find_first_not_of(' ');
-  if (begin == std::string_view::npos) return;
+  if (begin == std::string_view::npos) return false;
   line = line.substr(begin, line.find_last_not_of(' ') + 1 - begin);
-  if (line == "help") return say(std::string(known_orders()));
+  if (!std::all_of(line.begin(), line.end(), is_printable)) {
+    say("error: an order has a letter that none has\n");
+    return false;
+  }
+  if (line == "help") {
+    say(std::string(known_orders()));
+    return true;
+  }
   try {
-    if (!run_.give(read_order(line, scenario_))) return say("error: too many orders wait\n");
-    if (!quiet_) say("ordered:   " + std::string(line) + "\n");
+    const bool is_given = give(read_order(line, scenario_));
+    if (!is_given) say("error: too many orders wait\n");
+    if (is_given && !quiet_) say("ordered:   " + std::string(line) + "\n");
+    return is_given;
   } catch (const SetupError& error) {
     for (const std::string& problem : error.problems()) say("error: " + problem + "\n");
+    return false;
   }
 }
 

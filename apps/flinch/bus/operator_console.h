@@ -15,9 +15,11 @@
 namespace flinch {
 
 class LiveRun;
+struct OperatorOrder;
 struct Scenario;
 
-/// Hands the lines that an operator types to a run, as orders; read from stdin on a thread of its own. The
+/// Hands the lines that an operator types to a run, as orders; read from stdin on a thread of its own. Others
+/// may hand it lines as well. The
 /// end of stdin ends the run. Where stdin and stderr are a terminal, what is typed is not shown by that but
 /// told by tell().
 class OperatorConsole {
@@ -28,6 +30,8 @@ class OperatorConsole {
   OperatorConsole& operator=(const OperatorConsole&) = delete;
   ~OperatorConsole();
 
+  /// Gives the order of a line, and says so. False: it is none, or too many wait. Of any thread.
+  bool follow(std::string_view line);
   /// Adds what is typed, and what is to be said since the last call.
   void tell(Tidings& now);
 
@@ -35,9 +39,9 @@ class OperatorConsole {
   void read_until(const std::stop_token& ending);
   bool escapes(char letter);
   void take(char letter);
-  void follow(std::string_view line);
   void say(const std::string& lines);
   void end_run();
+  bool give(const OperatorOrder& order);
 
   const Scenario& scenario_;
   LiveRun& run_;
@@ -49,6 +53,7 @@ class OperatorConsole {
   std::mutex mutex_;
   std::string line_;  ///< guarded by mutex_, as what follows
   std::string said_;
+  std::mutex orders_;    ///< one order at a time
   std::jthread thread_;  // last
 };
 

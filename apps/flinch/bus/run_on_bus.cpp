@@ -3,6 +3,7 @@
 #include "apps/flinch/bus/bus_verbs.h"
 #include "apps/flinch/bus/interrupts.h"
 #include "apps/flinch/bus/operator_console.h"
+#include "apps/flinch/bus/orders_from_page.h"
 #include "apps/flinch/bus/status_line.h"
 #include "apps/flinch/conclusion.h"
 #include "apps/flinch/learning_verbs.h"
@@ -76,7 +77,10 @@ ExitStatus run_on_bus(const RunOptions& options) {
   const bool lockstep = pace == Pace::lockstep;
   const Time patience = from_seconds(options.patience);
   require_operators_time(options, pace);
-  const std::unique_ptr<ShownRun> shown = show_live(options, scenario, ShownPace::own);
+  OrdersFromPage page;
+  OrderFromPage to_page;
+  if (options.attended) to_page = [&page](std::string_view order) { return page.follow(order); };
+  const std::unique_ptr<ShownRun> shown = show_live(options, scenario, ShownPace::own, to_page);
   LiveRun run(scenario, bus,
               {.pace = pace,
                .patience = found ? patience : std::min<Time>(patience, 1s),  // it has been waited for
@@ -98,7 +102,7 @@ ExitStatus run_on_bus(const RunOptions& options) {
   double wall = 0.0;
   {
     std::optional<OperatorConsole> console;
-    if (options.attended) console.emplace(scenario, run, silent);
+    if (options.attended) page.reach(&console.emplace(scenario, run, silent));
     const auto ask = [&run, &console] {
       Tidings now = run.watch();
       if (console) console->tell(now);
@@ -108,6 +112,7 @@ ExitStatus run_on_bus(const RunOptions& options) {
     run.run();
     wall = watch.seconds();
     run.end();
+    page.reach(nullptr);
   }
 
   run.finish_recording();

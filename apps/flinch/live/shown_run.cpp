@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <utility>
 
 #include "apps/flinch/printing.h"
 #include "experiments/live_view/live_view.h"
@@ -19,8 +20,9 @@ std::string text_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-LiveViewSettings settings_of(const RunOptions& options, ShownPace pace) {
+LiveViewSettings settings_of(const RunOptions& options, ShownPace pace, OrderFromPage operator_order) {
   LiveViewSettings settings;
+  settings.operator_order = std::move(operator_order);
   if (options.live.port != "true") settings.server.port = std::stoi(options.live.port);
   settings.speed = pace == ShownPace::ordered ? std::optional(options.live.speed) : std::nullopt;
   settings.patience = std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * options.live.wait));
@@ -30,8 +32,9 @@ LiveViewSettings settings_of(const RunOptions& options, ShownPace pace) {
 
 class RunInBrowser : public ShownRun {
  public:
-  RunInBrowser(const RunOptions& options, const Scenario& scenario, ShownPace pace)
-      : view_(scenario, settings_of(options, pace)) {
+  RunInBrowser(const RunOptions& options, const Scenario& scenario, ShownPace pace,
+               OrderFromPage operator_order)
+      : view_(scenario, settings_of(options, pace, std::move(operator_order))) {
     print_message("live: {}\n", view_.address());
     if (pace == ShownPace::ordered && options.live.wait > 0.0 && !options.common.quiet &&
         !options.common.json)
@@ -54,9 +57,10 @@ class RunInBrowser : public ShownRun {
 
 }  // namespace
 
-std::unique_ptr<ShownRun> show_live(const RunOptions& options, const Scenario& scenario, ShownPace pace) {
+std::unique_ptr<ShownRun> show_live(const RunOptions& options, const Scenario& scenario, ShownPace pace,
+                                    OrderFromPage operator_order) {
   if (!options.live.asked()) return nullptr;
-  return std::make_unique<RunInBrowser>(options, scenario, pace);
+  return std::make_unique<RunInBrowser>(options, scenario, pace, std::move(operator_order));
 }
 
 }  // namespace flinch

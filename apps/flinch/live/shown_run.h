@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <string_view>
 
 #include "apps/flinch/command_line.h"
 
@@ -30,8 +32,13 @@ enum class ShownPace {
   own,      ///< the robot
 };
 
-/// Prints the address on stderr; null where --live was not given. `scenario` must outlive it. Throws
-/// SetupError where the port cannot be had, and where this program was built without a server.
-std::unique_ptr<ShownRun> show_live(const RunOptions& options, const Scenario& scenario, ShownPace pace);
+/// Follows what somebody ordered on a page; false: it is no order.
+using OrderFromPage = std::function<bool(std::string_view order)>;
+
+/// Prints the address on stderr; null where --live was not given. `scenario` must outlive it, and so must
+/// what `operator_order` needs: called by other threads, of a run at its own pace; none: nobody orders there.
+/// Throws SetupError where the port cannot be had, and where this program was built without a server.
+std::unique_ptr<ShownRun> show_live(const RunOptions& options, const Scenario& scenario, ShownPace pace,
+                                    OrderFromPage operator_order = {});
 
 }  // namespace flinch

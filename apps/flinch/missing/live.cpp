@@ -5,7 +5,7 @@
 namespace flinch {
 
 std::unique_ptr<ShownRun> show_live(const RunOptions& options, const Scenario& /*scenario*/,
-                                    ShownPace /*pace*/) {
+                                    ShownPace /*pace*/, OrderFromPage /*operator_order*/) {
   if (!options.live.asked()) return nullptr;
   throw SetupError(
       "--live: this flinch was built without cpp-httplib; install it (Debian: libcpp-httplib-dev) and build "

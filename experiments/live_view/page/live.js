@@ -39,11 +39,15 @@ const live = {
     for (const seconds of [1, 3, 10]) {
       byId(`window-${seconds}`).addEventListener("click", () => { this.seconds = seconds; this.setFollowing(true); });
     }
+    for (const word of ["stop", "reset", "start", "go", "end"]) {
+      byId(`operator-${word}`).addEventListener("click", () => this.order(word));
+    }
+    byId("operator-line").addEventListener("keydown", (event) => this.type(event));
     document.addEventListener("keydown", (event) => this.key(event));
   },
 
   key(event) {
-    if (event.target.matches("button, select") || event.ctrlKey || event.altKey || event.metaKey || byId("orders").hidden) return;
+    if (event.target.matches("button, select, input") || event.ctrlKey || event.altKey || event.metaKey || byId("orders").hidden) return;
     if (event.key === " ") byId("pause").click();
     else if (event.key === "ArrowRight") byId("tick").click();
     else return;
@@ -51,7 +55,21 @@ const live = {
   },
 
   order(text) {
-    fetch("order", { method: "POST", body: text }).catch(() => this.say("connection lost"));
+    fetch("order", { method: "POST", body: text })
+      .then((answer) => this.refused(answer.ok ? "" : text))
+      .catch(() => this.say("connection lost"));
+  },
+
+  refused(text) {
+    byId("refused").hidden = text === "";
+    byId("refused").textContent = `Not ordered: ${text}. The terminal says why.`;
+  },
+
+  /** Enter gives the order that stands in the line. */
+  type(event) {
+    if (event.key !== "Enter" || event.target.value.trim() === "") return;
+    this.order(event.target.value.trim());
+    event.target.value = "";
   },
 
   take(message) {
@@ -62,6 +80,7 @@ const live = {
     }
     if (message.speed !== undefined) this.showPace(message);
     if (message.not_shown !== undefined) this.showLoss(message.not_shown);
+    if (message.operated) byId("operator").hidden = false;
     if (message.ended) this.end();
   },
 

@@ -64,7 +64,7 @@ TEST(ScenarioRealism, CanBeSetSizeBySize) {
       "realism: {friction: 0.3, current_lag_ms: 0.5, cogging: 0.01, cogging_periods: 12, payload_g: 300}");
   EXPECT_THAT(keys_of(scenario), ElementsAre("drive_friction_scale", "passive_friction_scale", "payload_kg",
                                              "cogging_Nm", "cogging_phase_rad", "current_lag_s"));
-  EXPECT_EQ(scenario.station.bench.uneven_torque[0].cogging.rate, 12.0);
+  EXPECT_EQ(scenario.station.bench.uneven_torque[0].cogging[0].rate, 12.0);
   EXPECT_EQ(scenario.station.drives.current_lag, scenario.specimen.current_lag);
 }
 
@@ -97,16 +97,21 @@ TEST(ScenarioRealism, LetsMotorsCogAsTheRobotFileSays) {
   test::Workplace place;
   place.replace("robots/planar_3rrr.yaml", "\ndrives:\n",
                 "\ndrives:\n  cogging_wavelength_rad: [0.25, 0.25, 0.5]\n  cogging_sine_Nm: [0.3, 0, 0]\n"
-                "  cogging_cosine_Nm: [0.4, 0, -0.2]\n");
+                "  cogging_cosine_Nm: [0.4, 0, -0.2]\n  cogging2_wavelength_rad: [0.125, 0.1, 0.2]\n"
+                "  cogging2_sine_Nm: [0, 0.1, 0]\n  cogging2_cosine_Nm: [0.2, 0, 0]\n");
   for (const char* const plant : {"friction: as_robot_file", "realism: bench"}) {
     const SimulatedScenario scenario = scenario_with(place, plant);
     const Cogging& known = scenario.control.drive_torque.cogging;
     const std::vector<UnevenTorque>& motors = scenario.station.bench.uneven_torque;
+    ASSERT_EQ(known.waves.size(), 2U);
     ASSERT_EQ(motors.size(), 3U);
     for (const double q : {-0.7, 0.0, 0.3}) {
       const JointVector expected = known.at(JointVector::Constant(3, q));
-      for (int i = 0; i < 3; ++i)
-        EXPECT_NEAR(motors[static_cast<std::size_t>(i)].cogging.at(q), expected[i], 1e-14) << plant;
+      for (int i = 0; i < 3; ++i) {
+        const auto& waves = motors[static_cast<std::size_t>(i)].cogging;
+        ASSERT_EQ(waves.size(), 2U);
+        EXPECT_NEAR(waves[0].at(q) + waves[1].at(q), expected[i], 1e-14) << plant;
+      }
     }
     EXPECT_EQ(motors[0].ripple.amplitude > 0.0, std::string_view(plant) == "realism: bench");
   }

@@ -304,7 +304,9 @@ TEST_F(ChangedRobotFile, SaysHowItsDrivesCog) {
   EXPECT_TRUE(read_robot_file(file()).drives.cogging.is_none());
   replace("platform:\n",
           std::string(drives_with_cogging) + "  cogging_cosine_Nm: [0.0, 0, 0.4]\nplatform:\n");
-  const Cogging cogging = read_robot_file(file()).drives.cogging;
+  const Cogging read = read_robot_file(file()).drives.cogging;
+  ASSERT_EQ(read.waves.size(), 1U);
+  const CoggingWave& cogging = read.waves[0];
   EXPECT_EQ(cogging.wavelength, (JointVector{{0.26, 0.26, 0.25}}));
   EXPECT_EQ(cogging.sine, (JointVector{{0.3, 0.0, -0.1}}));
   EXPECT_EQ(cogging.cosine, (JointVector{{0.0, 0.0, 0.4}}));

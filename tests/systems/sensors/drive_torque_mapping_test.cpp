@@ -267,24 +267,25 @@ TEST_P(AlignedTorque, DoesNotTakeTheSameReadingTwice) {
 // ---------------------------------------------------------------- cogging
 
 /// A quarter of a wave on, the sine is one and the cosine nothing.
-Cogging cogging() {
+CoggingWave wave() {
   return {JointVector::Constant(3, 0.4), JointVector{{0.3, 0.0, -0.1}}, JointVector{{0.0, 0.2, 0.5}}};
 }
+Cogging cogging() { return {{wave()}}; }
 
 TEST(DriveTorqueMapping, AddsTheMeanOfTheCoggingOnTheWay) {
   const JointVector current{{1.0, -2.0, 0.5}};
   Mapping mapping(std::nullopt, JointVector::Ones(3), cogging());
   const JointVector start = JointVector::Zero(3), quarter = JointVector::Constant(3, 0.1);
-  EXPECT_LT((mapping.see_at(start, current).torque - current - cogging().cosine).norm(), 1e-14);
-  const JointVector mean = 0.5 * (cogging().cosine + cogging().sine);
+  EXPECT_LT((mapping.see_at(start, current).torque - current - wave().cosine).norm(), 1e-14);
+  const JointVector mean = 0.5 * (wave().cosine + wave().sine);
   EXPECT_LT((mapping.see_at(quarter, current).torque - current - mean).norm(), 1e-14);
-  EXPECT_LT((mapping.see_at(quarter, current).torque - current - cogging().sine).norm(), 1e-14);
+  EXPECT_LT((mapping.see_at(quarter, current).torque - current - wave().sine).norm(), 1e-14);
 }
 
 // The integral over a millisecond at the largest speed of the bench, 24 waves a turn.
 TEST(DriveTorqueMapping, KnowsTheMeanOfTheCoggingOfFastDrives) {
-  const Cogging waves{JointVector::Constant(3, 2.0 * std::numbers::pi / 24.0), JointVector::Ones(3),
-                      JointVector::Zero(3)};
+  const Cogging waves{{{JointVector::Constant(3, 2.0 * std::numbers::pi / 24.0), JointVector::Ones(3),
+                        JointVector::Zero(3)}}};
   Mapping mapping(std::nullopt, JointVector::Ones(3), waves);
   for (double q = -1.0; q < 1.0; q += 8.0 * T) {
     mapping.see_at(JointVector::Constant(3, q), JointVector::Zero(3));
@@ -297,7 +298,7 @@ TEST(DriveTorqueMapping, KnowsTheMeanOfTheCoggingOfFastDrives) {
 TEST(DriveTorqueMapping, KeepsTheCoggingWhileTheEncodersSayNothing) {
   for (const bool starts_silent : {true, false}) {
     Mapping mapping(std::nullopt, JointVector::Ones(3), cogging());
-    const JointVector known = starts_silent ? JointVector::Zero(3) : cogging().cosine;
+    const JointVector known = starts_silent ? JointVector::Zero(3) : wave().cosine;
     if (!starts_silent) mapping.see_at(JointVector::Zero(3), JointVector::Ones(3));
     const JointReading unusable[] = {{0ms, false, false, JointVector::Constant(3, 0.1), {}},
                                      {0ms, true, false, JointVector::Constant(3, nan), {}},

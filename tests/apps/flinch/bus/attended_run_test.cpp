@@ -7,6 +7,9 @@
 #include "systems/framework/monotonic_clock.h"
 #include "systems/framework/recording.h"
 #include "tests/apps/flinch/bus/bench_on_the_bus.h"
+#if FLINCH_HAS_LIVE_VIEW
+#include "tests/experiments/live_view/loopback_connection.h"
+#endif
 
 namespace flinch {
 namespace {
@@ -14,9 +17,11 @@ namespace {
 using test::BenchOnTheBus;
 using Input = test::OtherProgram::Start::Input;
 
-test::OtherProgram::Start attended(const BenchOnTheBus& bench, Input input) {
+test::OtherProgram::Start attended(const BenchOnTheBus& bench, Input input,
+                                   const std::vector<std::string>& more) {
   std::vector<std::string> arguments = bench.run_arguments();
   arguments.insert(arguments.end(), {"--attended"});
+  arguments.insert(arguments.end(), more.begin(), more.end());
   test::OtherProgram::Start start = test::flinch_program(arguments);
   start.input = input;
   return start;
@@ -25,11 +30,12 @@ test::OtherProgram::Start attended(const BenchOnTheBus& bench, Input input) {
 /// Somebody who types and sees what follows.
 class AttendedRun : public testing::Test {
  protected:
-  void begin(const std::string& scenario, Input input = Input::pipe) {
+  void begin(const std::string& scenario, Input input = Input::pipe,
+             const std::vector<std::string>& more = {}) {
     run.reset();
     bench.emplace(scenario);
     seen_ = 0;
-    run.emplace(attended(*bench, input));
+    run.emplace(attended(*bench, input, more));
   }
   void type(const std::string& text) { run->type(text); }
   /// Whether `text` is told, behind all that was seen before.
@@ -167,6 +173,37 @@ TEST_F(AttendedRun, TakesWhatIsTypedOnATerminal) {
   EXPECT_TRUE(run->wait(20s)) << run->output();
   EXPECT_TRUE(run->echoes()) << "the terminal is left as it was";
 }
+
+#if FLINCH_HAS_LIVE_VIEW
+
+/// The first line of the answer to an order from a page.
+std::string answer_to_order(const LiveAddress& page, const std::string& order) {
+  LoopbackConnection connection(page.port);
+  connection.send("POST " + page.root + "order HTTP/1.1\r\nHost: " + page.host +
+                  "\r\nConnection: close\r\nContent-Length: " + std::to_string(order.size()) + "\r\n\r\n" +
+                  order);
+  return connection.read_until("\r\n");
+}
+
+TEST_F(AttendedRun, FollowsOrdersOfItsPage) {
+  begin("square", Input::pipe, {"--live", "--live-wait", "0"});
+  if (!sees("nominal; gate open")) return complain_of("it does not begin");
+  const std::string output = run->output();
+  const std::size_t at = output.find("http://127");
+  ASSERT_NE(at, std::string::npos) << output;
+  const LiveAddress page(output.substr(at, output.find('\n', at) - at));
+  EXPECT_THAT(answer_to_order(page, "hello"), testing::HasSubstr("400"));
+  EXPECT_TRUE(sees("error: 'hello' is no order")) << run->output();
+  EXPECT_THAT(answer_to_order(page, "\x1b[2J"), testing::HasSubstr("400"));
+  EXPECT_TRUE(sees("error: an order has a letter that none has")) << run->output();
+  EXPECT_THAT(answer_to_order(page, "stop"), testing::HasSubstr("204"));
+  EXPECT_TRUE(sees("ordered:   stop")) << run->output();
+  EXPECT_TRUE(sees("gate closed: ")) << run->output();
+  EXPECT_THAT(answer_to_order(page, "end"), testing::HasSubstr("204"));
+  EXPECT_TRUE(run->wait(20s)) << run->output();
+}
+
+#endif
 
 TEST_F(AttendedRun, EndsInOrderByCtrlC) {
   begin("square", Input::terminal);
