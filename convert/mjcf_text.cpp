@@ -1,5 +1,6 @@
 #include "convert/mjcf_text.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
 
@@ -64,6 +65,13 @@ Eigen::Isometry3d pose_at(const Eigen::Vector3d& origin, const Eigen::Matrix3d& 
   return pose;
 }
 
+/// MuJoCo refuses a rod without thickness, which has no inertia about its axis.
+Eigen::Matrix3d thick(const Eigen::Matrix3d& inertia) {
+  const double least = 1e-9 * inertia.trace();
+  if (inertia.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff() >= least) return inertia;
+  return inertia + least * Eigen::Matrix3d::Identity();
+}
+
 struct GeomText {
   std::string operator()(const Sphere& one) const {
     return Tag("geom").word("type", "sphere").numbers("pos", one.centre).number("size", one.radius).closed();
@@ -120,7 +128,7 @@ class MjcfWriter {
   void line(std::size_t depth, const std::string& text) { text_ += indented(depth, text); }
 
   void write_body(std::size_t depth, const RigidBodyInertia& body, const std::vector<Shape>& shapes) {
-    const Eigen::Matrix3d& I = body.inertia;
+    const Eigen::Matrix3d I = thick(body.inertia);
     Eigen::Matrix<double, 6, 1> full;
     full << I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2);
     line(depth, Tag("inertial")

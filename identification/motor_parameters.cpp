@@ -18,6 +18,7 @@ constexpr double usual_share = 0.01;    // of the largest torque
 constexpr double usual_delay = 0.3e-3;  // of a torque behind its current [s]
 constexpr double turn = 2.0 * std::numbers::pi;
 constexpr int iterations = 10;
+constexpr double converged = 1e-3;   // of the deviation of a rate: by which it still changes
 constexpr Eigen::Index of_wave = 3;  // s, c and r
 
 /// How the surplus depends on s, c and r: what motors add, their currents need not.
@@ -68,6 +69,7 @@ class LeftAtDrive {
       wave.sine = x[1];
       wave.cosine = x[2];
       wave.rate = std::max(wave.least, wave.rate + std::clamp(x[3], -wave.deviation, wave.deviation));
+      if (iteration > 0 && std::abs(x[3]) < converged * wave.deviation) break;
     }
   }
 

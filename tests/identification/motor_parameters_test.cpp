@@ -30,7 +30,7 @@ DriveParameters drives() { return default_drives(DriveKind::revolute, 3); }
 /// Of drives that go to and fro: two of them cog.
 const std::vector<DriveWave> truth = {{.drive = 0, .rate = 24.0, .sine = 0.1, .cosine = 0.17},
                                       {.drive = 0, .rate = 48.0, .sine = 0.03, .cosine = -0.06},
-                                      {.drive = 0, .rate = 96.0, .sine = 0.04, .cosine = 0.02},
+                                      {.drive = 0, .rate = 62.0, .sine = 0.04, .cosine = 0.02},
                                       {.drive = 1, .rate = 22.0, .sine = -0.3, .cosine = 0.2}};
 
 constexpr double noise = 0.02;  // of a torque [Nm]

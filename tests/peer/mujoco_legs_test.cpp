@@ -44,7 +44,7 @@ std::vector<double> differences(const LegsParameters& parameters) {
   MujocoLegs mujoco(parameters);
   const bool turns = robot.drive_kind(0) == DriveKind::revolute;
   PlatformVector scale = PlatformVector::Ones(robot.dof());
-  scale.tail(robot.space().rotations()).setConstant(robot.characteristic_length());
+  scale.tail(robot.space().rotations()).setConstant(parameters.characteristic_length);
   Draw draw;
   std::vector<double> found;
   for (int attempt = 0; found.size() < 300 && attempt < 1000; ++attempt) {

@@ -335,7 +335,7 @@ TEST(DriveTorqueMapping, DoesNotAllocate) {
 
 TEST(DriveTorqueMapping, SaysAllThatIsWrongWithItsSettings) {
   const DriveTorqueSettings settings{
-      JointVector{{6.1, 0.0}}, {}, {JointVector::Zero(3), JointVector::Zero(3), JointVector::Zero(3)}};
+      JointVector{{6.1, 0.0}}, {}, {{{JointVector::Zero(3), JointVector::Zero(3), JointVector::Zero(3)}}}};
   try {
     DriveTorqueMapping mapping(bench(), settings, LowPassSettings{0.0, LowPassForm::tustin});
     FAIL();
