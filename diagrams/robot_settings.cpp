@@ -12,8 +12,8 @@ constexpr double stopping_time = 29e-3;  // time constant of the controlled stop
 // Nms/rad at the bench [1/s].
 constexpr double velocity_rate = 105.55;
 constexpr double feedforward_rate = velocity_rate / 60.0;
-// Natural frequencies of the nominal impedance [rad/s]. Encoders and currents are read too late for more; with
-// less a platform hangs in its own weight.
+// Natural frequencies of the nominal impedance [rad/s]. Encoders and currents are read too late for more;
+// with less a platform hangs in its own weight.
 constexpr double slowest_impedance = 10.0, fastest_impedance = 80.0;
 
 /// The least inertia that a drive feels at the home pose while the others stand still [kg m^2 or kg]. Of more

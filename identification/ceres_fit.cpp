@@ -28,13 +28,13 @@ void add_belief(ceres::Problem& problem, double* values, const Eigen::VectorXd& 
   problem.AddResidualBlock(new ceres::NormalPrior(root, mean), nullptr, values);
 }
 
-void solve_problem(ceres::Problem& problem) {
+void solve_problem(ceres::Problem& problem, double tolerance) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = 100;
-  options.function_tolerance = 1e-14;
-  options.parameter_tolerance = 1e-12;
-  options.gradient_tolerance = 1e-14;
+  options.function_tolerance = tolerance;
+  options.parameter_tolerance = 100.0 * tolerance;
+  options.gradient_tolerance = tolerance;
   options.num_threads = 1;  // the same bits every time
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;

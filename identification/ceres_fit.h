@@ -19,8 +19,9 @@ ceres::LossFunction* loss_function(Loss loss);
 void add_belief(ceres::Problem& problem, double* values, const Eigen::VectorXd& mean,
                 const Eigen::VectorXd& deviation);
 
-/// Solves to the last digit, in one thread. Throws SetupError where there is no solution.
-void solve_problem(ceres::Problem& problem);
+/// Solves in one thread, until the cost changes by no more than a share `tolerance`: to the last digit where
+/// nothing else is said. Throws SetupError where there is no solution.
+void solve_problem(ceres::Problem& problem, double tolerance = 1e-14);
 
 /// The rows of `blocks` at the solution; the columns of `columns`, in their order and in the tangent spaces
 /// of their manifolds.

@@ -10,6 +10,8 @@
 namespace flinch {
 namespace {
 
+constexpr double on_the_way = 1e-7, in_the_end = 1e-14;  // relative changes that count as none
+
 /// One row: scaled parameters x = (p - p_believed) / sigma_believed, then the offset of the row's drive.
 class RowResidual final : public ceres::CostFunction {
  public:
@@ -48,7 +50,7 @@ class Fit {
     for (Eigen::Index j = 0; j < p; ++j) scale_[j] = of(j).deviation;
   }
 
-  void solve(Loss loss) {
+  void solve(Loss loss, double tolerance) {
     problem_ = std::make_unique<ceres::Problem>();
     blocks_.clear();
     for (Eigen::Index row = 0; row < rows_.surplus.size(); ++row) {
@@ -65,7 +67,7 @@ class Fit {
     for (double& offset : offset_) {
       add_belief(*problem_, &offset, Eigen::VectorXd::Zero(1), Eigen::VectorXd::Constant(1, usual_error_));
     }
-    solve_problem(*problem_);
+    solve_problem(*problem_, tolerance);
   }
 
   void rescale() {
@@ -127,10 +129,10 @@ DynamicsFit fit_dynamics(const DynamicsRows& rows, const std::vector<DynamicPara
                          int drives, double usual_error, const std::vector<bool>& held) {
   Fit fit(rows, parameters, drives, usual_error, held);
   for (const Loss loss : {Loss::huber, Loss::huber, Loss::tukey, Loss::tukey}) {
-    fit.solve(loss);
+    fit.solve(loss, on_the_way);
     fit.rescale();
   }
-  fit.solve(Loss::tukey);
+  fit.solve(Loss::tukey, in_the_end);
   return fit.take(Loss::tukey);
 }
 

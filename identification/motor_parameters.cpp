@@ -105,6 +105,14 @@ std::vector<DriveWave> waves_of_drive(const DynamicsRows& rows, Eigen::VectorXd 
     left -= surplus_of(rows, wave);
     waves.push_back(wave);
   }
+  // Each was found among those that came later.
+  for (int pass = 0; pass < 2 && waves.size() > 1; ++pass) {
+    for (DriveWave& wave : waves) {
+      left += surplus_of(rows, wave);
+      LeftAtDrive(rows, left, drive).refine(wave);
+      left -= surplus_of(rows, wave);
+    }
+  }
   std::sort(waves.begin(), waves.end(),
             [](const DriveWave& a, const DriveWave& b) { return a.rate < b.rate; });
   return waves;

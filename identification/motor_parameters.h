@@ -21,8 +21,8 @@ struct DriveWave {
   double cosine = 0.0;     ///< c [Nm or N]
 };
 
-/// The waves that explain some of what is `left` of the surplus of rows [Nm or N]: of each drive one after the
-/// other, each of what those before it have left, at most `most_cogging_waves`; by drive and rate.
+/// The waves that explain some of what is `left` of the surplus of rows [Nm or N]: of each drive one after
+/// the other, each of what those before it have left, at most `most_cogging_waves`; by drive and rate.
 /// Each explains at least the share `least` of the scatter that is left when it is found.
 std::vector<DriveWave> find_cogging(const DynamicsRows& rows, const Eigen::VectorXd& left, int drives,
                                     double least = 0.03);

@@ -256,8 +256,8 @@ void add_residuals(const std::vector<PullWindow>& windows, const TorqueConstantF
   before.constant = belief.constant;
   before.offset.setZero();
   before.coulomb.setZero();
-  before.cogging_parts.setZero();
-  before.ripple_parts.setZero();
+  for (PullWave& wave : before.cogging) wave.parts.setZero();
+  before.ripple.parts.setZero();
   before.surplus.resize(0);
   for (Eigen::Vector3d& turn : before.misalignment) turn.setZero();
   std::vector<double> old_residuals, residuals;
@@ -290,13 +290,14 @@ void add_residuals(const std::vector<PullWindow>& windows, const TorqueConstantF
 void tell_waves(const TorqueConstantFit& fit, const TorqueConstantBelief& belief, CalibrationResult& result) {
   const char* const per = belief.robot->drive_kind(0) == DriveKind::revolute ? "periods a turn" : "rad/m";
   for (int i = 0; i < fit.constant.size(); ++i) {
-    if (fit.cogging_rate[i] > 0.0) {
-      result.notes.push_back(fmt::format("drive {} cogs: {:.2g} {}, {:.0f} {}", i + 1, fit.cogging[i],
-                                         result.residual_unit, fit.cogging_rate[i], per));
+    for (const PullWave& wave : fit.cogging) {
+      if (!(wave.rate[i] > 0.0)) continue;
+      result.notes.push_back(fmt::format("drive {} cogs: {:.2g} {}, {:.0f} {}", i + 1,
+                                         wave.parts.col(i).norm(), result.residual_unit, wave.rate[i], per));
     }
-    if (fit.ripple_rate[i] > 0.0) {
+    if (fit.ripple.rate[i] > 0.0) {
       result.notes.push_back(fmt::format("drive {} has a ripple of {:.2g} % of its torque, {:.0f} {}", i + 1,
-                                         100.0 * fit.ripple_parts.col(i).norm(), fit.ripple_rate[i], per));
+                                         100.0 * fit.ripple.parts.col(i).norm(), fit.ripple.rate[i], per));
     }
   }
 }

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "identification/ceres_fit.h"
 #include "identification/dominant_wave.h"
@@ -18,8 +19,11 @@
 namespace flinch {
 namespace {
 
-constexpr int of_drive_count = 9;
-// k_t, o, c; sine and cosine of the cogging, of the ripple; the rates of both
+// k_t, o, c; sine and cosine of each wave of the cogging, then of the ripple; their rates
+constexpr int ripple_wave = most_pull_waves, all_waves = most_pull_waves + 1;
+constexpr int sine_of(int wave) { return 3 + 2 * wave; }
+constexpr int rate_of(int wave) { return 3 + 2 * all_waves + wave; }
+constexpr int of_drive_count = 3 + 3 * all_waves;
 using DriveUnknowns = std::array<double, of_drive_count>;
 using Turn = std::array<double, 3>;  // a rotation vector
 
@@ -53,10 +57,14 @@ struct PullResidual {
       pulled += w.force_map(drive, j) * true_force[at] + w.moment_map(drive, j) * true_moment[at];
     }
     using std::cos, std::sin, std::sqrt;
-    const T cogging_phase = of_drive[7] * w.position[drive];
-    const T ripple_phase = of_drive[8] * w.position[drive];
-    const T cogging = of_drive[3] * sin(cogging_phase) + of_drive[4] * cos(cogging_phase);
-    const T uneven = 1.0 + of_drive[5] * sin(ripple_phase) + of_drive[6] * cos(ripple_phase);
+    const auto wave = [&](int number) {
+      if (of_drive[rate_of(number)] == T(0.0)) return T(0.0);
+      const T phase = of_drive[rate_of(number)] * w.position[drive];
+      return of_drive[sine_of(number)] * sin(phase) + of_drive[sine_of(number) + 1] * cos(phase);
+    };
+    T cogging(0.0);
+    for (int number = 0; number < most_pull_waves; ++number) cogging += wave(number);
+    const T uneven = 1.0 + wave(ripple_wave);
     const T effort = of_drive[0] * w.current[drive] * uneven - w.model_effort[drive] - surplus[0] + pulled -
                      of_drive[1] - of_drive[2] * direction(w.rate[drive], slow) - cogging;
     const T of_current = of_drive[0] * w.current_deviation[drive];
@@ -134,8 +142,7 @@ class Fit {
       : windows_(windows),
         model_(model),
         sigma_(JointVector::Constant(believed.size(), model.usual_error)),
-        cogging_(static_cast<std::size_t>(believed.size())),
-        ripple_(cogging_) {
+        waves_(static_cast<std::size_t>(believed.size())) {
     for (const double k : believed) unknowns_.drives.push_back({k});
     unknowns_.turns.assign(static_cast<std::size_t>(mountings), Turn{});
     telling_ = parameters_that_tell(windows, model);
@@ -144,8 +151,8 @@ class Fit {
   }
 
   void solve() {
-    for (const Loss loss :
-         {Loss::huber, Loss::huber, Loss::huber, Loss::huber, Loss::tukey, Loss::tukey, Loss::tukey}) {
+    for (const Loss loss : {Loss::huber, Loss::huber, Loss::huber, Loss::huber, Loss::huber, Loss::tukey,
+                            Loss::tukey, Loss::tukey}) {
       solve_once(loss);
       if (model_.cogging && loss == Loss::huber) find_waves();
       rescale();
@@ -166,9 +173,9 @@ class Fit {
       fit.column_of_drive.push_back(of_drives);
       of_drives += of_drive_count - static_cast<Eigen::Index>(held_of(i).size());
       Eigen::Index rate = of_drives;
-      for (const Wave* const wave : {&ripple_[index(i)], &cogging_[index(i)]}) {
-        if (wave->rate > 0.0)
-          fit.linear.prior_information[--rate] = 1.0 / (wave->deviation * wave->deviation);
+      for (int number = all_waves - 1; number >= 0; --number) {
+        const Wave& wave = waves_[index(i)][index(number)];
+        if (wave.rate > 0.0) fit.linear.prior_information[--rate] = 1.0 / (wave.deviation * wave.deviation);
       }
     }
     const double believed = model_.misalignment_belief;
@@ -218,9 +225,24 @@ class Fit {
   std::vector<int> held_of(int drive) const {
     std::vector<int> held;
     if (!model_.coulomb) held.push_back(2);
-    if (cogging_[index(drive)].rate == 0.0) held.insert(held.end(), {3, 4, 7});
-    if (ripple_[index(drive)].rate == 0.0) held.insert(held.end(), {5, 6, 8});
+    for (int number = 0; number < all_waves; ++number) {
+      if (waves_[index(drive)][index(number)].rate > 0.0) continue;
+      held.insert(held.end(), {sine_of(number), sine_of(number) + 1, rate_of(number)});
+    }
     return held;
+  }
+
+  /// The first wave of the cogging of a drive that is not found yet; none: there may be no more.
+  std::optional<int> next_wave(int drive) const {
+    for (int number = 0; number < most_pull_waves; ++number)
+      if (waves_[index(drive)][index(number)].rate == 0.0) return number;
+    return std::nullopt;
+  }
+
+  /// Whether a wave of a drive's cogging is as fast: what it could not explain is no other one.
+  bool is_known(int drive, const Wave& wave) const {
+    return std::any_of(waves_[index(drive)].begin(), waves_[index(drive)].begin() + most_pull_waves,
+                       [&](const Wave& known) { return std::abs(known.rate - wave.rate) < wave.least; });
   }
 
   /// Looks in what is left for what repeats along the way, by itself or times the torque, and takes what
@@ -237,14 +259,16 @@ class Fit {
         ripple.push_back(
             {.position = window.position[i], .factor = fit.constant[i] * window.current[i], .left = left});
       }
-      const Wave cogs = cogging_[index(i)].rate > 0.0 ? Wave() : dominant_wave(cogging, 0.5, least_explained);
-      const Wave ripples =
-          ripple_[index(i)].rate > 0.0 ? Wave() : dominant_wave(ripple, 1.0, least_explained);
+      const std::optional<int> next = next_wave(i);
+      Wave cogs = next ? dominant_wave(cogging, 0.5, least_explained) : Wave();
+      if (is_known(i, cogs)) cogs = Wave();
+      Wave& found_ripple = waves_[index(i)][index(ripple_wave)];
+      const Wave ripples = found_ripple.rate > 0.0 ? Wave() : dominant_wave(ripple, 1.0, least_explained);
       DriveUnknowns& unknowns = unknowns_.drives[index(i)];
       if (cogs.explained > ripples.explained) {
-        cogging_[index(i)] = cogs, unknowns[7] = cogs.rate;
+        waves_[index(i)][index(*next)] = cogs, unknowns[index(rate_of(*next))] = cogs.rate;
       } else if (ripples.explained > 0.0) {
-        ripple_[index(i)] = ripples, unknowns[8] = ripples.rate;
+        found_ripple = ripples, unknowns[index(rate_of(ripple_wave))] = ripples.rate;
       }
     }
   }
@@ -255,15 +279,15 @@ class Fit {
       if (!problem_->HasParameterBlock(drive.data())) continue;
       columns_.push_back(drive.data());
       problem_->SetParameterLowerBound(drive.data(), 0, 1e-9);
-      for (const int part : {5, 6}) {
+      for (const int part : {sine_of(ripple_wave), sine_of(ripple_wave) + 1}) {
         problem_->SetParameterLowerBound(drive.data(), part, -largest_ripple);
         problem_->SetParameterUpperBound(drive.data(), part, largest_ripple);
       }
       const int i = static_cast<int>(&drive - unknowns_.drives.data());
       const std::vector<int> held = held_of(i);
       if (!held.empty()) problem_->SetManifold(drive.data(), new ceres::SubsetManifold(of_drive_count, held));
-      believe_rate(drive, 7, cogging_[index(i)]);
-      believe_rate(drive, 8, ripple_[index(i)]);
+      for (int number = 0; number < all_waves; ++number)
+        believe_rate(drive, rate_of(number), waves_[index(i)][index(number)]);
     }
     for (Turn& turn : unknowns_.turns) {
       if (!problem_->HasParameterBlock(turn.data())) continue;
@@ -311,32 +335,37 @@ class Fit {
     }
   }
 
+  PullWave wave_of(int number) const {
+    const auto n = static_cast<Eigen::Index>(unknowns_.drives.size());
+    PullWave wave{JointVector(n), {}};
+    wave.parts.resize(2, n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const DriveUnknowns& drive = unknowns_.drives[static_cast<std::size_t>(i)];
+      wave.rate[i] = drive[index(rate_of(number))];
+      wave.parts.col(i) << drive[index(sine_of(number))], drive[index(sine_of(number) + 1)];
+    }
+    return wave;
+  }
+
   TorqueConstantFit values() const {
     TorqueConstantFit fit;
     const auto n = static_cast<Eigen::Index>(unknowns_.drives.size());
     fit.constant.resize(n);
     fit.offset.resize(n);
     fit.coulomb.resize(n);
-    fit.cogging_parts.setZero(2, n);
-    fit.ripple_parts.setZero(2, n);
-    fit.cogging_rate.resize(n);
-    fit.ripple_rate.resize(n);
     for (Eigen::Index i = 0; i < n; ++i) {
       const DriveUnknowns& drive = unknowns_.drives[static_cast<std::size_t>(i)];
       fit.constant[i] = drive[0];
       fit.offset[i] = drive[1];
       fit.coulomb[i] = drive[2];
-      fit.cogging_parts.col(i) << drive[3], drive[4];
-      fit.ripple_parts.col(i) << drive[5], drive[6];
-      fit.cogging_rate[i] = drive[7];
-      fit.ripple_rate[i] = drive[8];
     }
+    for (int number = 0; number < most_pull_waves; ++number) fit.cogging[index(number)] = wave_of(number);
+    fit.ripple = wave_of(ripple_wave);
     for (const Turn& turn : unknowns_.turns) fit.misalignment.emplace_back(turn[0], turn[1], turn[2]);
     if (!telling_.empty()) fit.surplus.setZero(windows_.front().effort_slopes.cols());
     for (Eigen::Index k = 0; k < surplus_.size(); ++k)
       fit.surplus[telling_[static_cast<std::size_t>(k)]] = surplus_[k];
     fit.deviation = sigma_;
-    fit.cogging = fit.cogging_parts.colwise().norm().transpose();
     return fit;
   }
 
@@ -345,7 +374,7 @@ class Fit {
   const std::vector<PullWindow>& windows_;
   TorqueConstantModel model_;
   JointVector sigma_;
-  std::vector<Wave> cogging_, ripple_;  ///< by drive, as they were found; rate 0: none
+  std::vector<std::array<Wave, all_waves>> waves_;  ///< by drive, as they were found; rate 0: none
   bool planar_ = false;
   std::vector<Eigen::Index> telling_;  ///< dynamic parameters that are looked for
   Eigen::VectorXd surplus_;            ///< theirs
@@ -366,16 +395,19 @@ TorqueConstantFit fit_torque_constants(const std::vector<PullWindow>& windows, i
   return fit.take();
 }
 
+double PullWave::at(int drive, double position) const {
+  if (!(rate[drive] > 0.0)) return 0.0;
+  const double phase = rate[drive] * position;
+  return parts(0, drive) * std::sin(phase) + parts(1, drive) * std::cos(phase);
+}
+
 double torque_residual(const PullWindow& window, int drive, const TorqueConstantFit& fit, double slow) {
   const Eigen::Vector3d& turn = fit.misalignment[static_cast<std::size_t>(window.mounting)];
   const Eigen::Matrix3d R = rotation_matrix(quaternion_exp(turn));
-  const auto wave = [&](double rate, const auto& parts) {
-    if (!(rate > 0.0)) return 0.0;
-    const double phase = rate * window.position[drive];
-    return parts(0, drive) * std::sin(phase) + parts(1, drive) * std::cos(phase);
-  };
-  const double cogging = wave(fit.cogging_rate[drive], fit.cogging_parts);
-  const double uneven = 1.0 + wave(fit.ripple_rate[drive], fit.ripple_parts);
+  const double position = window.position.size() > drive ? window.position[drive] : 0.0;
+  double cogging = 0.0;
+  for (const PullWave& wave : fit.cogging) cogging += wave.at(drive, position);
+  const double uneven = 1.0 + fit.ripple.at(drive, position);
   const double pulled =
       window.force_map.row(drive).dot(R * window.force) + window.moment_map.row(drive).dot(R * window.moment);
   const double model = window.model_effort[drive] +

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "identification/fit_uncertainty.h"
@@ -14,9 +15,20 @@ struct TorqueConstantModel {
   bool misalignment = true;            ///< of the instrument, anew at each mounting
   double misalignment_belief = 0.035;  ///< Standard deviation of what is believed of it, 2 degrees [rad].
   double usual_error = 1.0;            ///< of a window before anything is known [Nm or N]. [ICRA23] III-B
-  bool cogging = true;                 ///< what repeats along the way, where it explains much
+  bool cogging = true;                 ///< and ripple: what repeats along the way, where it explains much
   double slow = 0.02;                  ///< Below it nobody knows where friction points to [rad/s or m/s].
 };
+
+/// What repeats along the ways of the drives: of the drive i at q_i parts_0i sin(rate_i q_i) + parts_1i
+/// cos(rate_i q_i); of rate 0: nothing.
+struct PullWave {
+  JointVector rate;                                               ///< [rad/rad or rad/m]
+  Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, max_dof> parts;  ///< of sine and cosine
+
+  double at(int drive, double position) const;
+};
+/// How many waves of cogging are looked for at a drive: the first harmonics.
+inline constexpr int most_pull_waves = 4;
 
 /// Torque constants of all drives, and what else explains the pulls.
 struct TorqueConstantFit {
@@ -24,11 +36,8 @@ struct TorqueConstantFit {
   JointVector offset;                         ///< o [Nm or N]
   JointVector coulomb;                        ///< beyond what the model of the robot has [Nm or N]
   std::vector<Eigen::Vector3d> misalignment;  ///< by mounting: rotation vector in the axes of its body [rad]
-  JointVector cogging;  ///< amplitude of what repeats along the way of each drive; 0: none is seen [Nm or N]
-  JointVector cogging_rate;                                               ///< of its phase [rad/rad or rad/m]
-  Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, max_dof> cogging_parts;  ///< of sine and cosine
-  JointVector ripple_rate;  ///< likewise of what repeats as a share of the torque
-  Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, max_dof> ripple_parts;
+  std::array<PullWave, most_pull_waves> cogging;  ///< as they were found [Nm or N]
+  PullWave ripple;                                ///< a share of the torque
   JointVector deviation;  ///< of the residuals of each drive, outliers apart [Nm or N]
   /// By how many deviations of what is believed of it each dynamic parameter is off; nothing: not looked for.
   Eigen::VectorXd surplus;

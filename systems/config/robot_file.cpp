@@ -45,7 +45,8 @@ bool says_any(const ConfigReader& file, std::string_view prefix) {
   return std::any_of(keys.begin(), keys.end(), [&](auto key) { return key.starts_with(prefix); });
 }
 
-/// Of all drives, or nothing where the file says nothing of it. Keys of the second wave begin with `cogging2_`.
+/// Of all drives, or nothing where the file says nothing of it. Keys of the second wave begin with
+/// `cogging2_`.
 Cogging read_cogging(ConfigReader& file, const ParallelRobot& like) {
   Cogging cogging;
   for (int wave = 0; wave < most_cogging_waves; ++wave) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,21 @@
 #include "tests/identification/recorded.h"
 
 namespace flinch::test {
+
+/// What a calibration has found of how a drive cogs.
+inline Cogging found_cogging(const CalibrationResult& result, int drive) {
+  std::map<std::string, double> values;
+  for (const CalibratedParameter& parameter : result.parameters) values[parameter.name] = parameter.value;
+  const auto value = [&](const std::string& key) {
+    return JointVector::Constant(1, values.at("drives." + key + "[" + std::to_string(drive) + "]"));
+  };
+  Cogging found;
+  for (int wave = 0; values.contains("drives." + cogging_key(wave) + "sine_Nm[0]"); ++wave) {
+    const std::string key = cogging_key(wave);
+    found.waves.push_back({value(key + "wavelength_rad"), value(key + "sine_Nm"), value(key + "cosine_Nm")});
+  }
+  return found;
+}
 
 /// A robot drawn from a seed, in shipped scenarios; what is calibrated of it is taken over by all that is
 /// read afterwards, as `calibrations` of the scenario. The texts `from` in scenarios are replaced by their

@@ -206,16 +206,7 @@ TEST(MotorParameters, LeaveNoSurplusWhereTheyAreTrue) {
 
 /// Of what the motors of a robot add about home, the share that a calibration does not find.
 double not_found(const SimulatedScenario& scenario, const CalibrationResult& got, int drive) {
-  std::map<std::string, double> values;
-  for (const CalibratedParameter& parameter : got.parameters) values[parameter.name] = parameter.value;
-  const auto value = [&](const std::string& key) {
-    return JointVector::Constant(1, values.at("drives." + key + "[" + std::to_string(drive) + "]"));
-  };
-  Cogging found;
-  for (int wave = 0; values.contains("drives." + cogging_key(wave) + "sine_Nm[0]"); ++wave) {
-    const std::string key = cogging_key(wave);
-    found.waves.push_back({value(key + "wavelength_rad"), value(key + "sine_Nm"), value(key + "cosine_Nm")});
-  }
+  const Cogging found = test::found_cogging(got, drive);
   const auto& harmonics = scenario.specimen.uneven_torque[static_cast<std::size_t>(drive)].cogging;
   const ParallelRobot& robot = *scenario.robot.robot;
   Kinematics home;

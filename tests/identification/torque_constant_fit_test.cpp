@@ -103,13 +103,20 @@ std::vector<Move> moves_of(const TorqueConstantFit& fit) {
     moves.push_back([i](TorqueConstantFit& at, double step) { at.constant[i] += step; });
     moves.push_back([i](TorqueConstantFit& at, double step) { at.offset[i] += step; });
     moves.push_back([i](TorqueConstantFit& at, double step) { at.coulomb[i] += step; });
-    const bool cogs = fit.cogging_rate[i] > 0.0, ripples = fit.ripple_rate[i] > 0.0;
-    for (int part = 0; part < 2 && cogs; ++part)
-      moves.push_back([=](TorqueConstantFit& at, double step) { at.cogging_parts(part, i) += step; });
-    for (int part = 0; part < 2 && ripples; ++part)
-      moves.push_back([=](TorqueConstantFit& at, double step) { at.ripple_parts(part, i) += step; });
-    if (cogs) moves.push_back([i](TorqueConstantFit& at, double step) { at.cogging_rate[i] += step; });
-    if (ripples) moves.push_back([i](TorqueConstantFit& at, double step) { at.ripple_rate[i] += step; });
+    const auto wave = [](TorqueConstantFit& of, std::size_t number) -> PullWave& {
+      return number < of.cogging.size() ? of.cogging[number] : of.ripple;
+    };
+    std::vector<std::size_t> found;
+    TorqueConstantFit here = fit;
+    for (std::size_t number = 0; number <= fit.cogging.size(); ++number)
+      if (wave(here, number).rate[i] > 0.0) found.push_back(number);
+    for (const std::size_t number : found) {
+      for (const int part : {0, 1}) {
+        moves.push_back([=](TorqueConstantFit& at, double step) { wave(at, number).parts(part, i) += step; });
+      }
+    }
+    for (const std::size_t number : found)
+      moves.push_back([=](TorqueConstantFit& at, double step) { wave(at, number).rate[i] += step; });
   }
   for (std::size_t m = 0; m < fit.misalignment.size(); ++m)
     moves.push_back([m](TorqueConstantFit& at, double step) { at.misalignment[m].z() += step; });
@@ -122,8 +129,8 @@ TEST(ResidualsOfPulls, HaveTheDerivativesThatDifferencesShow) {
   const std::vector<PullWindow> windows = pulls_of_everything();
   const TorqueConstantModel model;
   const TorqueConstantFit fit = fitted(windows, model);
-  EXPECT_NEAR(fit.cogging_rate[0], 24.0, 1.0);
-  EXPECT_NEAR(fit.ripple_rate[1], 30.0, 1.0);
+  EXPECT_NEAR(fit.cogging[0].rate[0], 24.0, 1.0);
+  EXPECT_NEAR(fit.ripple.rate[1], 30.0, 1.0);
   ASSERT_EQ(fit.surplus.size(), 2);
   const auto residual = [&](const TorqueConstantFit& at, std::size_t row) {
     const PullWindow& w = windows[fit.window_of_row[row]];
