@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "systems/config/legs_text.h"
@@ -65,9 +66,9 @@ Eigen::Isometry3d pose_at(const Eigen::Vector3d& origin, const Eigen::Matrix3d& 
   return pose;
 }
 
-/// MuJoCo refuses a rod without thickness, which has no inertia about its axis.
+/// MuJoCo refuses a rod without thickness and a point, which have no inertia about an axis.
 Eigen::Matrix3d thick(const Eigen::Matrix3d& inertia) {
-  const double least = 1e-9 * inertia.trace();
+  const double least = std::max(1e-9 * inertia.trace(), 1e-12);
   if (inertia.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff() >= least) return inertia;
   return inertia + least * Eigen::Matrix3d::Identity();
 }

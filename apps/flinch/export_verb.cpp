@@ -7,6 +7,7 @@
 #include "apps/flinch/conclusion.h"
 #include "apps/flinch/output_place.h"
 #include "apps/flinch/printing.h"
+#include "convert/legs_of_robot.h"
 #include "convert/mjcf_text.h"
 #include "export/csv_folder.h"
 #include "export/exported_signal.h"
@@ -64,22 +65,23 @@ std::vector<std::string> each_once(const std::vector<std::string>& names) {
   return once;
 }
 
-/// A robot as a model; of kind `legs`, whose file says all there is.
+/// What a robot file says as of kind `legs`.
+LegsParameters legs_in(const std::filesystem::path& file) {
+  const RobotFile robot = read_robot_file(file);
+  ConfigReader reader = ConfigReader::open(file);
+  std::string kind;
+  reader.text("kind", kind);
+  return kind == "legs" ? read_legs_parameters(reader) : as_legs(*robot.robot);
+}
+
+/// A robot as a model.
 ExitStatus export_robot(const ExportOptions& options) {
   std::filesystem::path place = options.out;
   if (place.empty()) place = std::filesystem::path(options.recording).replace_extension(".xml");
   if (!options.signals.empty()) throw SetupError("--signal: is for recordings, and mjcf is for robots");
   require_output(place, {options.recording}, OutputKind::model);
-  read_robot_file(options.recording);
-  ConfigReader reader = ConfigReader::open(options.recording);
-  std::string kind;
-  reader.text("kind", kind);
-  if (kind != "legs") {
-    throw SetupError(options.recording.string() + ": is of kind '" + kind +
-                     "'; models are made of robots of kind legs, in which others can be described too");
-  }
-  const std::string model =
-      out_of(options.recording, [&] { return mjcf_text(read_legs_parameters(reader)); });
+  const LegsParameters robot = out_of(options.recording, [&] { return legs_in(options.recording); });
+  const std::string model = out_of(options.recording, [&] { return mjcf_text(robot); });
   write_result(place, model);
   if (options.common.json) {
     print_result("{}\n", json_text(nlohmann::ordered_json{{"to", options.format}, {"out", place.string()}}));

@@ -8,9 +8,16 @@
 #include <string>
 #include <vector>
 
+#include "convert/legs_of_robot.h"
 #include "systems/config/config_reader.h"
 #include "systems/config/legs_file.h"
+#include "systems/robot/five_bar.h"
+#include "systems/robot/five_bar_presets.h"
 #include "systems/robot/forward_dynamics.h"
+#include "systems/robot/hexapod.h"
+#include "systems/robot/hexapod_presets.h"
+#include "systems/robot/planar_rrr.h"
+#include "systems/robot/planar_rrr_presets.h"
 
 namespace flinch::peer {
 namespace {
@@ -39,8 +46,7 @@ class Draw {
 
 /// Relative difference of the platform accelerations on 300 random states and efforts, ascending. Angular
 /// ones count at the characteristic length.
-std::vector<double> differences(const LegsParameters& parameters) {
-  const LegsRobot robot(parameters);
+std::vector<double> differences(const ParallelRobot& robot, const LegsParameters& parameters) {
   MujocoLegs mujoco(parameters);
   const bool turns = robot.drive_kind(0) == DriveKind::revolute;
   PlatformVector scale = PlatformVector::Ones(robot.dof());
@@ -72,15 +78,30 @@ INSTANTIATE_TEST_SUITE_P(Robots, MujocoLegsPeer,
                          testing::Values("delta", "planar_3rpr", "planar_4rrr", "hexa_6rus", "linapod_6pus"),
                          [](const auto& each) { return std::string(each.param); });
 
-TEST_P(MujocoLegsPeer, GivesTheSamePlatformAccelerations) {
-  const std::vector<double> found = differences(shipped(GetParam()));
+void expect_same(const ParallelRobot& robot, const LegsParameters& parameters) {
+  const std::vector<double> found = differences(robot, parameters);
   ASSERT_EQ(found.size(), 300U) << "states at which both close their loops";
   std::printf(
       "  relative difference to MuJoCo: median %.2e, 99th percentile %.2e, largest %.2e (asked: p99 <= "
       "1e-3)\n",
       found[150], found[297], found.back());
-  RecordProperty("p99", std::to_string(found[297]));
+  testing::Test::RecordProperty("p99", std::to_string(found[297]));
   EXPECT_LE(found[297], 1e-3);
+}
+
+TEST_P(MujocoLegsPeer, GivesTheSamePlatformAccelerations) {
+  const LegsParameters parameters = shipped(GetParam());
+  expect_same(LegsRobot(parameters), parameters);
+}
+
+// What the closed forms of a mechanism say, against its model.
+TEST(MujocoClosedFormsPeer, GiveTheSamePlatformAccelerations) {
+  const PlanarRrr planar(bench_robot(BenchGeometry::individual, BenchFriction::none));
+  const FiveBar five_bar(five_bar_robot(FiveBarElbows::outward, FiveBarFriction::none));
+  const Hexapod hexapod(hexapod_robot(HexapodPayload::eccentric));
+  for (const ParallelRobot* const robot :
+       std::initializer_list<const ParallelRobot*>{&planar, &five_bar, &hexapod})
+    expect_same(*robot, as_legs(*robot));
 }
 
 }  // namespace

@@ -191,7 +191,7 @@ bool all_valid(const Moment& moment) {
          moment.status.enabled;
 }
 
-/// None where the machine held both ends up.
+/// None where the machine held an end up.
 std::optional<StationRun> try_dds(const Script& script) {
   Link link;
   StationRun result = link.no_run();
@@ -201,6 +201,8 @@ std::optional<StationRun> try_dds(const Script& script) {
     result.before.push_back(link.tick(Damage(), Order()));
     if (result.before.size() > 10000) throw std::runtime_error("the two ends do not find each other");
   }
+  // While they found each other the robot may have obeyed us, and heard nothing for too long.
+  if (result.before.back().gate.phase == GatePhase::closed) return std::nullopt;
   for (Time now = Time::zero(); now < script.duration; now += 1ms) {
     if (script.robot_restarts == now) link.start_robot();
     if (script.controller_restarts == now) link.restart_controller();

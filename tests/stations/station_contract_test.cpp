@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
 #include <tuple>
 
 #include "tests/stations/contract_ends.h"
@@ -52,6 +53,11 @@ const Moment& at(const Trace& trace, Time time) { return trace.at(static_cast<st
 
 Trace part(const Trace& trace, Time begin, Time end) {
   return {trace.begin() + begin / 1ms, trace.begin() + end / 1ms};
+}
+
+/// For who reads why a test failed.
+std::string fault_of(const Moment& moment) {
+  return "the gate has closed by the fault " + std::to_string(static_cast<int>(moment.gate.fault));
 }
 
 bool nothing_valid(const Moment& moment) {
@@ -184,7 +190,7 @@ TEST_P(StationContract, TellsNothingBeforeItsFirstReading) {
     EXPECT_TRUE(nothing_valid(result.before.front()));
     EXPECT_EQ(result.before.front().gate.phase, GatePhase::waiting);
   }
-  EXPECT_EQ(result.trace.back().gate.phase, GatePhase::open);
+  EXPECT_EQ(result.trace.back().gate.phase, GatePhase::open) << fault_of(result.trace.back());
 }
 
 struct Case {
@@ -225,7 +231,7 @@ TEST_P(StationHarm, IsAFaultWhileItLastsAndNoLongerAndClosesTheGate) {
       continue;  // no numbers
     const Trace trace = run(each.source);
     EXPECT_EQ(at(trace, begin - 1ms).faults, FaultMask{0});
-    EXPECT_EQ(at(trace, begin - 1ms).gate.phase, GatePhase::open);
+    EXPECT_EQ(at(trace, begin - 1ms).gate.phase, GatePhase::open) << fault_of(at(trace, begin - 1ms));
     for (const Moment& moment : part(trace, begin + longest_age + 5ms, end)) {
       EXPECT_NE(moment.faults & each.found, FaultMask{0});
       EXPECT_EQ(moment.gate.phase, GatePhase::closed);
@@ -333,7 +339,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_P(RestartingStation, DoesNotMoveUntilARestartedRobotIsKnownAndTheGateReset) {
   const Trace trace = run({.duration = 800ms, .robot_restarts = 100ms}).trace;
-  EXPECT_EQ(at(trace, 99ms).gate.phase, GatePhase::open);
+  EXPECT_EQ(at(trace, 99ms).gate.phase, GatePhase::open) << fault_of(at(trace, 99ms));
   const Trace after = part(trace, 100ms, 800ms);
   EXPECT_TRUE(
       std::any_of(after.begin(), after.end(), [](const Moment& moment) { return !moment.joints.valid; }));
@@ -350,7 +356,7 @@ TEST_P(RestartingStation, IsCommandedByARestartedControllerFromWhereTheRobotStan
   EXPECT_TRUE(std::any_of(after.begin(), after.end(), [](const Moment& moment) {
     return moment.status.valid && moment.status.braked;
   })) << "while nobody commanded";
-  EXPECT_EQ(trace.back().gate.phase, GatePhase::open);
+  EXPECT_EQ(trace.back().gate.phase, GatePhase::open) << fault_of(trace.back());
   EXPECT_FALSE(trace.back().status.braked);
   for (const Moment& moment : after) {
     if (moment.joints.valid) {
