@@ -69,7 +69,9 @@ def settled(browser, looks=60):
 
 
 def set_speed(browser, speed):
-    browser.run(f"byId('speed').value = '{speed}'; byId('speed').dispatchEvent(new Event('change'))")
+    """Where the run has ended meanwhile, it has none."""
+    browser.run(f"if (typeof live !== 'undefined') {{ byId('speed').value = '{speed}'; "
+                "byId('speed').dispatchEvent(new Event('change')); }")
 
 
 def problems_of_orders(browser):

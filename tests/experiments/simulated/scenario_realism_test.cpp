@@ -54,7 +54,7 @@ TEST(ScenarioRealism, IsNoneUnlessItIsAskedFor) {
   const test::Workplace place;
   EXPECT_THAT(keys_of(scenario_with(place, "friction: as_robot_file")), ElementsAre());
   EXPECT_THAT(keys_of(scenario_with(place, "realism: none")), ElementsAre());
-  EXPECT_EQ(keys_of(scenario_with(place, "realism: bench")).size(), 17U);
+  EXPECT_EQ(keys_of(scenario_with(place, "realism: bench")).size(), 23U);
 }
 
 TEST(ScenarioRealism, CanBeSetSizeBySize) {
