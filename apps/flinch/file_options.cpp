@@ -47,7 +47,7 @@ void add_export_verb(CLI::App& app, Verbs& verbs) {
   export_verb
       .add_option("--to", verbs.export_recording.format,
                   "csv (a folder with a table of each signal), mat (MATLAB, Octave), mcap (PlotJuggler, "
-                  "Foxglove; JSON), npz (NumPy); of a robot file of kind legs mjcf (MuJoCo)")
+                  "Foxglove; JSON), npz (NumPy); of a robot file mjcf (MuJoCo)")
       ->required()
       ->check(CLI::Validator(problem_with_format, ""))
       ->type_name("FORMAT");

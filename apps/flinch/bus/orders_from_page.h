@@ -16,13 +16,24 @@ class OrdersFromPage {
     return console_ != nullptr && console_->follow(order);
   }
 
-  /// Who takes them from now on; null: nobody. It must outlive that.
+  /// While it lives, the console takes them. Both must outlive it; null: nobody takes them.
+  class Taken {
+   public:
+    Taken(OrdersFromPage& orders, OperatorConsole* console) : orders_(orders) { orders_.reach(console); }
+    Taken(const Taken&) = delete;
+    Taken& operator=(const Taken&) = delete;
+    ~Taken() { orders_.reach(nullptr); }
+
+   private:
+    OrdersFromPage& orders_;
+  };
+
+ private:
   void reach(OperatorConsole* console) {
     const std::lock_guard lock(mutex_);
     console_ = console;
   }
 
- private:
   std::mutex mutex_;
   OperatorConsole* console_ = nullptr;
 };

@@ -102,7 +102,8 @@ ExitStatus run_on_bus(const RunOptions& options) {
   double wall = 0.0;
   {
     std::optional<OperatorConsole> console;
-    if (options.attended) page.reach(&console.emplace(scenario, run, silent));
+    if (options.attended) console.emplace(scenario, run, silent);
+    const OrdersFromPage::Taken taken(page, console ? &*console : nullptr);
     const auto ask = [&run, &console] {
       Tidings now = run.watch();
       if (console) console->tell(now);
@@ -112,7 +113,6 @@ ExitStatus run_on_bus(const RunOptions& options) {
     run.run();
     wall = watch.seconds();
     run.end();
-    page.reach(nullptr);
   }
 
   run.finish_recording();

@@ -34,8 +34,8 @@ std::vector<LieCase> cases_at(Time period) {
   return cases;
 }
 
-/// Questions with rows of up to four readings take these, however long ticks are. The mean over lies and robots
-/// counts: single ones depend on what the robot does just then.
+/// Questions with rows of up to four readings take these, however long ticks are. The mean over lies and
+/// robots counts: single ones depend on what the robot does just then.
 TEST_P(Rate, NamesLiesAsSoonAsAKilohertzDoes) {
   const int readings = period() > 1ms ? 4 : 1;
 
