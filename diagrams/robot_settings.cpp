@@ -16,25 +16,27 @@ constexpr double feedforward_rate = velocity_rate / 60.0;
 // with less a platform hangs in its own weight.
 constexpr double slowest_impedance = 10.0, fastest_impedance = 80.0;
 
-/// The least inertia that a drive feels at the home pose while the others stand still [kg m^2 or kg]. Of more
-/// drives than coordinates none can move alone: of the motion nearest to that.
-double least_inertia(const ParallelRobot& robot) {
+/// A robot that rests at home.
+struct AtHome {
+  explicit AtHome(const ParallelRobot& robot) {
+    robot.kinematics(robot.home_pose(), PlatformVector::Zero(robot.dof()), kinematics);
+    robot.dynamics(kinematics, dynamics);
+  }
   Kinematics kinematics;
   Dynamics dynamics;
-  robot.kinematics(robot.home_pose(), PlatformVector::Zero(robot.dof()), kinematics);
-  robot.dynamics(kinematics, dynamics);
-  return joint_space_dynamics(kinematics, dynamics).M_qa.diagonal().minCoeff();
+};
+
+/// The least inertia that a drive feels at the home pose while the others stand still [kg m^2 or kg]. Of more
+/// drives than coordinates none can move alone: of the motion nearest to that.
+double least_inertia(const AtHome& home) {
+  return joint_space_dynamics(home.kinematics, home.dynamics).M_qa.diagonal().minCoeff();
 }
 
 /// That of [ICRA23] II-C, where the platform at home then swings no slower and no faster than above.
-ImpedanceSettings impedance_for(const ParallelRobot& robot) {
-  Kinematics kinematics;
-  Dynamics dynamics;
-  robot.kinematics(robot.home_pose(), PlatformVector::Zero(robot.dof()), kinematics);
-  robot.dynamics(kinematics, dynamics);
+ImpedanceSettings impedance_for(const ParallelRobot& robot, const AtHome& home) {
   ImpedanceSettings settings = complete({}, robot.space());
   for (Eigen::Index i = 0; i < settings.stiffness.size(); ++i) {
-    const double inertia = dynamics.M_x(i, i);
+    const double inertia = home.dynamics.M_x(i, i);
     settings.stiffness[i] = std::clamp(settings.stiffness[i], slowest_impedance * slowest_impedance * inertia,
                                        fastest_impedance * fastest_impedance * inertia);
   }
@@ -112,10 +114,11 @@ void know_period(Time period, ContactControlSettings& settings) {
 
 ContactControlSettings settings_for(const ParallelRobot& robot, const DriveParameters& drives,
                                     const WorkspaceLimits& limits, Time period) {
-  const double inertia = least_inertia(robot);
+  const AtHome home(robot);
+  const double inertia = least_inertia(home);
   ContactControlSettings settings;
   know_drives(drives, settings.drive_torque);
-  settings.impedance = impedance_for(robot);
+  settings.impedance = impedance_for(robot, home);
   settings.sequence.rest_speed = drives.max_speed / 160.0;
   settings.faults.workspace = limits;
   settings.faults.max_joint_speed = drives.max_speed;

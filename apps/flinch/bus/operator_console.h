@@ -19,9 +19,8 @@ struct OperatorOrder;
 struct Scenario;
 
 /// Hands the lines that an operator types to a run, as orders; read from stdin on a thread of its own. Others
-/// may hand it lines as well. The
-/// end of stdin ends the run. Where stdin and stderr are a terminal, what is typed is not shown by that but
-/// told by tell().
+/// may hand it lines as well. The end of stdin ends the run. Where stdin and stderr are a terminal, what is
+/// typed is not shown by that but told by tell().
 class OperatorConsole {
  public:
   /// Both must outlive this. `quiet`: only problems are said, and what the operator asks for.

@@ -34,29 +34,48 @@ std::vector<LieCase> cases_at(Time period) {
   return cases;
 }
 
-/// Questions with rows of up to four readings take these, however long ticks are. The mean over lies and
-/// robots counts: single ones depend on what the robot does just then.
+/// What is told later at a rate than a tenth and its readings allow; of these the mean over all lies counts.
+bool is_told_late(const std::string& lie, Time period) {
+  return (lie == "current2:reversed" && period == 250us) || (lie == "encoder2:noise:1e-3" && period == 4ms);
+}
+
+/// Questions with rows of up to four readings take these, however long ticks are. The mean over robots counts:
+/// when one is named depends on what it does just then.
 TEST_P(Rate, NamesLiesAsSoonAsAKilohertzDoes) {
   const int readings = period() > 1ms ? 4 : 1;
 
   const std::vector<LieOutcome> usual = try_all(cases_at(1ms)), here = try_all(cases_at(period()));
   fmt::print("{}", table_head());
+  const std::vector<LieCase> cases = cases_at(period());
+  const auto latest = [&](Time at_usual, int named) {
+    return at_usual + at_usual / 10 + named * readings * period();
+  };
   Time at_usual{}, at_this{};
   int named = 0;
-  for (std::size_t i = 0; i < usual.size(); ++i) {
-    fmt::print("{}{}", line_of(usual[i]), line_of(here[i]));
-    EXPECT_EQ(problem_with(here[i]), "") << line_of(here[i]);
-    if (!usual[i].alarm || !usual[i].named) continue;
-    ASSERT_TRUE(here[i].alarm.has_value()) << line_of(here[i]);
-    EXPECT_TRUE(here[i].named) << line_of(here[i]);
-    at_usual += *usual[i].alarm;
-    at_this += *here[i].alarm;
-    ++named;
+  for (std::size_t first = 0; first < usual.size(); first += robots) {
+    Time of_usual{}, of_this{};
+    int of_lie = 0;
+    for (std::size_t i = first; i < first + robots; ++i) {
+      fmt::print("{}{}", line_of(usual[i]), line_of(here[i]));
+      EXPECT_EQ(problem_with(here[i]), "") << line_of(here[i]);
+      if (!usual[i].alarm || !usual[i].named) continue;
+      ASSERT_TRUE(here[i].alarm.has_value()) << line_of(here[i]);
+      EXPECT_TRUE(here[i].named) << line_of(here[i]);
+      of_usual += *usual[i].alarm;
+      of_this += *here[i].alarm;
+      ++of_lie;
+    }
+    if (!is_told_late(cases[first].lie, period())) {
+      EXPECT_LE(of_this, latest(of_usual, of_lie)) << line_of(here[first]);
+    }
+    at_usual += of_usual;
+    at_this += of_this;
+    named += of_lie;
   }
   ASSERT_GT(named, 0);
   fmt::print("named after {:.1f} ms at 1 kHz, {:.1f} ms at this rate, means of {}\n",
              1e3 * to_seconds(at_usual) / named, 1e3 * to_seconds(at_this) / named, named);
-  EXPECT_LE(at_this, at_usual + at_usual / 10 + named * readings * period());
+  EXPECT_LE(at_this, latest(at_usual, named));
 }
 
 TEST_P(Rate, DoesNotDoubtTheHonest) {
