@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "systems/robot/forward_dynamics.h"
+#include "systems/robot/hexapod.h"
+#include "systems/robot/hexapod_presets.h"
 #include "systems/robot/joint_friction.h"
 #include "systems/robot/legs/legs_robot.h"
 #include "systems/robot/rotation.h"
@@ -21,18 +23,19 @@ LegsParameters without_friction(LegsParameters parameters) {
   return parameters;
 }
 
-/// A robot of legs without friction whose drives are springs, so that its energy stays what it is. Its motion
-/// is integrated by the classical Runge-Kutta method in increments xi from the pose at a step's beginning.
-class SpringLegs {
+/// A robot without friction whose drives are springs, so that its energy stays what it is. Its motion is
+/// integrated by the classical Runge-Kutta method in increments xi from the pose at a step's beginning; of
+/// three rotations dxi/dt = (dp, J_l(xi)^-1 omega).
+class SpringRobot {
  public:
-  explicit SpringLegs(const MechanismCase& of, const LegsParameters& parameters)
-      : case_(of), robot_(parameters), gravity_(parameters.gravity) {
+  /// `bodies` by index; `stiffness` of each drive [Nm/rad or N/m].
+  SpringRobot(const ParallelRobot& robot, const std::vector<RigidBodyInertia>& bodies,
+              const Eigen::Vector3d& gravity, double stiffness, const PlatformVector& velocity)
+      : robot_(robot), bodies_(bodies), gravity_(gravity), stiffness_(stiffness), velocity_(velocity) {
     pose_ = robot_.home_pose();
     const auto [home, dynamics] = at(pose_, PlatformVector::Zero(robot_.dof()));
     rest_ = home.joints.active;
     holding_ = drive_torques(home, dynamics.g_x);
-    stiffness_ = robot_.drive_kind(0) == DriveKind::revolute ? 10.0 : 1000.0;
-    velocity_ = 0.2 * of.velocity;
   }
 
   void step(double h) {
@@ -54,7 +57,7 @@ class SpringLegs {
     const auto [k, dynamics] = at(pose_, velocity_);
     double potential = 0.0;
     for (int i = 0; i < robot_.body_count(); ++i) {
-      const RigidBodyInertia& body = case_.bodies[static_cast<std::size_t>(i)];
+      const RigidBodyInertia& body = bodies_[static_cast<std::size_t>(i)];
       const auto dimensions = static_cast<Eigen::Index>(robot_.space_dimension());
       const CartesianVector centre = body.centre_of_mass.head(dimensions);
       potential -=
@@ -86,14 +89,24 @@ class SpringLegs {
     return rates;
   }
 
-  const MechanismCase& case_;
-  LegsRobot robot_;
+  const ParallelRobot& robot_;
+  const std::vector<RigidBodyInertia>& bodies_;
   Eigen::Vector3d gravity_;
+  double stiffness_;
   JointVector rest_, holding_;
-  double stiffness_ = 0.0;  // [Nm/rad or N/m]
   Configuration pose_;
   PlatformVector velocity_;
 };
+
+void expect_to_keep_its_energy(const std::string& name, SpringRobot robot) {
+  Residual residual(name + ": drift of the energy in 5 s, of its kinetic part", 1e-8);
+  const double kinetic = robot.kinetic();
+  const double energy = robot.energy();
+  for (int step = 0; step < 10000; ++step) {
+    robot.step(5e-4);
+    if (step % 100 == 99) residual.add((robot.energy() - energy) / kinetic);
+  }
+}
 
 TEST(LegsOnSprings, KeepTheirEnergyForFiveSeconds) {
   const std::filesystem::path robots = std::filesystem::path(FLINCH_SOURCE_DIR) / "apps/robots";
@@ -101,14 +114,22 @@ TEST(LegsOnSprings, KeepTheirEnergyForFiveSeconds) {
   const std::vector<MechanismCase> cases = legs_cases();
   ASSERT_EQ(cases.size(), files.size());
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    Residual residual(files[i] + ": drift of the energy in 5 s, of its kinetic part", 1e-8);
-    SpringLegs legs(cases[i], without_friction(legs_parameters_of(robots / (files[i] + ".yaml"))));
-    const double kinetic = legs.kinetic();
-    const double energy = legs.energy();
-    for (int step = 0; step < 10000; ++step) {
-      legs.step(5e-4);
-      if (step % 100 == 99) residual.add((legs.energy() - energy) / kinetic);
-    }
+    const LegsParameters parameters = without_friction(legs_parameters_of(robots / (files[i] + ".yaml")));
+    const LegsRobot robot(parameters);
+    const double stiffness = robot.drive_kind(0) == DriveKind::revolute ? 10.0 : 1000.0;
+    expect_to_keep_its_energy(
+        files[i], {robot, cases[i].bodies, parameters.gravity, stiffness, 0.2 * cases[i].velocity});
+  }
+}
+
+TEST(HexapodOnSprings, KeepsItsEnergyForFiveSeconds) {
+  for (const HexapodPayload payload : {HexapodPayload::none, HexapodPayload::eccentric}) {
+    const HexapodParameters p = hexapod_robot(payload);
+    const Hexapod robot(p);
+    std::vector<RigidBodyInertia> bodies = {p.payload ? together(p.platform, *p.payload) : p.platform};
+    for (int i = 0; i < 6; ++i) bodies.insert(bodies.end(), {p.cylinder, p.rod});
+    expect_to_keep_its_energy(
+        "hexapod", {robot, bodies, p.gravity, 2000.0, PlatformVector{{0.25, -0.2, 0.15, 0.8, -0.6, 0.9}}});
   }
 }
 
