@@ -39,8 +39,8 @@ bool is_told_late(const std::string& lie, Time period) {
   return (lie == "current2:reversed" && period == 250us) || (lie == "encoder2:noise:1e-3" && period == 4ms);
 }
 
-/// Questions with rows of up to four readings take these, however long ticks are. The mean over robots counts,
-/// since the time at which a lie is named depends on what the robot does just then.
+/// Questions with rows of up to four readings take these, however long ticks are. The mean over robots
+/// counts, since the time at which a lie is named depends on what the robot does just then.
 TEST_P(Rate, NamesLiesAsSoonAsAKilohertzDoes) {
   const int readings = period() > 1ms ? 4 : 1;
 
