@@ -1,11 +1,13 @@
 #include "calibration/contact_free_motion.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "experiments/verdict/recorded_run.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recorded_values.h"
 #include "systems/framework/recording.h"
+#include "systems/signals/platform_motion.h"
 #include "systems/signals/platform_reference.h"
 
 namespace flinch {
@@ -45,6 +47,25 @@ std::vector<bool> nominal_samples(const Recording& recording, const Configuratio
     nominal[k] = now.mode == ReactionMode::nominal && now.time - moved_last <= longest_pause;
   }
   return nominal;
+}
+
+std::vector<bool> moving_samples(const Recording& estimates) {
+  constexpr double least_share = 0.02, longest_pause = 1.0;  // [1], [s]
+  const auto motion = read<PlatformMotion>(estimates, "motion");
+  std::vector<double> speed(motion.size());
+  for (std::size_t k = 0; k < speed.size(); ++k) {
+    const PlatformMotion now = motion[k];
+    speed[k] = now.valid() ? now.velocity.norm() : 0.0;
+  }
+  const double most = speed.empty() ? 0.0 : *std::max_element(speed.begin(), speed.end());
+  std::vector<bool> moving(speed.size());
+  double moved_last = -2.0 * longest_pause;
+  for (std::size_t k = 0; k < speed.size(); ++k) {
+    const double now = to_seconds(Time(estimates.time_ns[k]));
+    if (speed[k] > least_share * most) moved_last = now;
+    moving[k] = now - moved_last <= longest_pause;
+  }
+  return moving;
 }
 
 std::vector<std::pair<std::string, std::string>> estimates_of(const Recording& recording) {

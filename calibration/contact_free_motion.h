@@ -15,6 +15,10 @@ struct Recording;
 /// knows.
 std::vector<bool> nominal_samples(const Recording& recording, const ConfigurationSpace& space);
 
+/// Samples of a log's estimates in which the platform has moved within the last second, at a fiftieth of its
+/// largest velocity at least: an estimate at rest says little of one in motion.
+std::vector<bool> moving_samples(const Recording& estimates);
+
 /// Names of the estimators and the signals of what they say. Throws SetupError where there are none.
 std::vector<std::pair<std::string, std::string>> estimates_of(const Recording& recording);
 

@@ -10,7 +10,6 @@
 #include "experiments/verdict/recorded_run.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recorded_values.h"
-#include "systems/signals/platform_motion.h"
 
 namespace flinch {
 namespace {
@@ -72,27 +71,6 @@ std::vector<EstimatorPeaks> peaks_where(const std::vector<bool>& nominal, bool i
   return all;
 }
 
-/// Samples in which the platform has moved within the last second, at a fiftieth of its largest velocity at
-/// least: an estimate at rest says little of one in motion.
-std::vector<bool> moving_samples(const Recording& estimates) {
-  constexpr double least_share = 0.02, longest_pause = 1.0;  // [1], [s]
-  const auto motion = read<PlatformMotion>(estimates, "motion");
-  std::vector<double> speed(motion.size());
-  for (std::size_t k = 0; k < speed.size(); ++k) {
-    const PlatformMotion now = motion[k];
-    speed[k] = now.valid() ? now.velocity.norm() : 0.0;
-  }
-  const double most = speed.empty() ? 0.0 : *std::max_element(speed.begin(), speed.end());
-  std::vector<bool> moving(speed.size());
-  double moved_last = -2.0 * longest_pause;
-  for (std::size_t k = 0; k < speed.size(); ++k) {
-    const double now = to_seconds(Time(estimates.time_ns[k]));
-    if (speed[k] > least_share * most) moved_last = now;
-    moving[k] = now - moved_last <= longest_pause;
-  }
-  return moving;
-}
-
 }  // namespace
 
 std::vector<EstimatorPeaks> contact_free_peaks(const Recording& recording, const ConfigurationSpace& space,
@@ -101,10 +79,8 @@ std::vector<EstimatorPeaks> contact_free_peaks(const Recording& recording, const
   return peaks_where(nominal_samples(recording, space), is_watched, recording, space, stretch);
 }
 
-std::vector<EstimatorPeaks> contact_free_peaks(const Recording& estimates, const std::vector<bool>& free,
+std::vector<EstimatorPeaks> contact_free_peaks(const Recording& estimates, const std::vector<bool>& counts,
                                                const ConfigurationSpace& space, Time stretch) {
-  std::vector<bool> counts = moving_samples(estimates);
-  for (std::size_t k = 0; k < counts.size(); ++k) counts[k] = counts[k] && free[k];
   return peaks_where(counts, false, estimates, space, stretch);
 }
 

@@ -28,9 +28,9 @@ struct EstimatorPeaks {
 std::vector<EstimatorPeaks> contact_free_peaks(const Recording& recording, const ConfigurationSpace& space,
                                                Time stretch);
 
-/// The same of the estimates of a log, estimates_of_log(), in samples that somebody says are `free` of
-/// contact and in which the platform moved within the last second.
-std::vector<EstimatorPeaks> contact_free_peaks(const Recording& estimates, const std::vector<bool>& free,
+/// The same of the estimates of a log, estimates_of_log(), in samples that `counts` names: moving_samples()
+/// that somebody says are free of contact.
+std::vector<EstimatorPeaks> contact_free_peaks(const Recording& estimates, const std::vector<bool>& counts,
                                                const ConfigurationSpace& space, Time stretch);
 
 }  // namespace flinch

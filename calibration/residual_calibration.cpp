@@ -10,12 +10,14 @@
 #include "calibration/error_course.h"
 #include "calibration/error_sizes.h"
 #include "calibration/surprise_tail.h"
+#include "diagrams/fused_detector.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recorded_values.h"
 
 namespace flinch {
 namespace {
 
+constexpr std::array judged{"disturbance_filter", "imu_residual"};
 constexpr std::size_t most_samples = 60'000;  // of a drive, to which sizes are fitted
 constexpr double still_hidden = 0.01;         // share of friction near rest that is left behind filters
 constexpr double least_surprise = 1e-6;       // that a threshold may have
@@ -31,7 +33,6 @@ std::string loads_of(const Recording& recording) {
 /// A recording that is followed once and again.
 struct Motion {
   const ResidualRecording& of;
-  std::vector<bool> nominal;  ///< samples of the nominal motion
   const std::function<void()>& followed;
 };
 
@@ -54,7 +55,7 @@ void follow(const Motion& motion, const std::string& estimator, const Visit& vis
     follow_residual(estimates[k], load, past, Time(recording.time_ns[k]), tracking, memory, next);
     if (load.valid) past.push(load);
     memory = next;
-    visit(motion.nominal[k], memory);
+    visit(motion.of.nominal[k], memory);
   }
   motion.followed();
 }
@@ -123,7 +124,7 @@ class ErrorSamples {
 /// Of each statistic.
 std::vector<ResidualErrors> fit(const std::vector<Motion>& motions, const std::string& estimator) {
   std::size_t ticks = 0;
-  for (const Motion& each : motions) ticks += each.nominal.size();
+  for (const Motion& each : motions) ticks += each.of.nominal.size();
   const std::size_t stride = 1 + ticks / most_samples;
   std::vector<ErrorSamples> samples;
   for (const Statistic& statistic : statistics) samples.emplace_back(statistic, stride);
@@ -238,39 +239,43 @@ Surprise surprise_of(const OnsetRatio& ratio) {
   };
 }
 
-}  // namespace
-
-std::vector<std::string> calibrated_residuals(const std::vector<ResidualRecording>& recordings,
-                                              const std::vector<std::string>& wanted) {
+/// Those that a fused detector judges by and all recordings have an estimate of.
+std::vector<std::string> judged_estimators(const std::vector<ResidualRecording>& recordings) {
   std::map<std::string, std::size_t> times;
   for (const ResidualRecording& each : recordings) {
     if (loads_of(*each.recording).empty()) return {};
     for (const auto& [estimator, signal] : estimates_of(*each.recording)) ++times[estimator];
   }
   std::vector<std::string> found;
-  for (const std::string& name : wanted) {
-    if (times[name] == recordings.size()) found.push_back(name);
+  for (const char* const name : judged) {
+    if (times[name] == recordings.size()) found.emplace_back(name);
   }
   return found;
 }
 
+}  // namespace
+
+ResidualRecording::ResidualRecording(const Recording& of, std::vector<bool> samples,
+                                     const ContactControlSettings& settings)
+    : recording(&of), nominal(std::move(samples)) {
+  for (const char* const name : judged) tracking[name] = tracking_of(name, settings);
+}
+
 std::vector<CalibratedResidual> calibrate_residuals(const std::vector<ResidualRecording>& recordings,
-                                                    const std::vector<std::string>& estimators,
                                                     const ThresholdGoal& goal,
                                                     const std::function<void(double)>& progress) {
+  const std::vector<std::string> estimators = judged_estimators(recordings);
+  if (estimators.empty()) return {};
   const auto parts = static_cast<double>(statistics.size());
   const double share = 1.0 / (parts * static_cast<double>(estimators.size()));
   const double probability = share * goal.false_alarms_per_hour / 3600.0 * to_seconds(goal.stretch);
-  const std::size_t passes = 1 + 4 * estimators.size();
+  const std::size_t passes = 4 * estimators.size();
   std::size_t done = 0;
   const std::function<void()> followed = [&] {
     if (progress) progress(static_cast<double>(++done) / static_cast<double>(passes * recordings.size()));
   };
   std::vector<Motion> motions;
-  for (const ResidualRecording& each : recordings) {
-    motions.push_back({each, nominal_samples(*each.recording, each.space), followed});
-    followed();
-  }
+  for (const ResidualRecording& each : recordings) motions.push_back({each, followed});
   std::vector<CalibratedResidual> all;
   for (const std::string& estimator : estimators) {
     CalibratedResidual& residual = all.emplace_back();

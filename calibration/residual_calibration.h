@@ -9,18 +9,21 @@
 #include "calibration/threshold_calibration.h"
 #include "systems/contact/onset_ratio.h"
 #include "systems/contact/residual_errors.h"
-#include "systems/robot/configuration_space.h"
 
 namespace flinch {
 
+struct ContactControlSettings;
 struct Recording;
 
 /// Motion without contact in which a fused detector told the loads of the drives.
 struct ResidualRecording {
   const Recording* recording;
-  ConfigurationSpace space;  ///< of the recorded robot
+  std::vector<bool> nominal;  ///< samples that count: nominal_samples() or moving_samples()
   /// Of the detector that shall judge, by estimator.
   std::map<std::string, ResidualTracking> tracking;
+
+  /// For the fused detector of these settings.
+  ResidualRecording(const Recording& of, std::vector<bool> samples, const ContactControlSettings& settings);
 };
 
 /// When the level of a residual, its change, or what is smoothed of it is a contact.
@@ -45,16 +48,12 @@ struct CalibratedResidual {
   std::optional<CalibratedOnset> onset;
 };
 
-/// Those of `wanted` that all recordings have an estimate of; none where one has no loads.
-std::vector<std::string> calibrated_residuals(const std::vector<ResidualRecording>& recordings,
-                                              const std::vector<std::string>& wanted);
-
-/// Sizes of the errors, fitted to all recordings together, and thresholds, so that all residuals together
+/// Of the estimators by whose residuals a fused detector judges, as far as all recordings have their estimates;
+/// none where one has no loads. Sizes of the errors, fitted to all recordings together, and thresholds, so that all residuals together
 /// give the rate of false alarms that is asked: the level of each, its change or its onset, and what is
 /// smoothed of it have an equal share. `progress` is told the share that is done. Throws SetupError as
 /// `calibrate_thresholds`.
 std::vector<CalibratedResidual> calibrate_residuals(const std::vector<ResidualRecording>& recordings,
-                                                    const std::vector<std::string>& estimators,
                                                     const ThresholdGoal& goal,
                                                     const std::function<void(double)>& progress = {});
 

@@ -146,7 +146,8 @@ DynamicsRows rows_of(const Recording& recording, const ParallelRobot& robot,
   const auto joints = read<JointReading>(recording, "joints");
   for (Eigen::Index k = 0; k < n; ++k) {
     Kinematics at;
-    robot.kinematics(motion.pose[static_cast<std::size_t>(k)], motion.velocity.row(k).transpose(), at);
+    stretch.robot(robot).kinematics(motion.pose[static_cast<std::size_t>(k)],
+                                    motion.velocity.row(k).transpose(), at);
     const PlatformVector acceleration = motion.acceleration.row(k).transpose();
     const JointVector base = model_effort(robot, at, acceleration);
     surplus.row(k) = torque.row(k) - base.transpose();
@@ -196,7 +197,7 @@ DynamicsRows dynamics_rows(const Recording& recording, const ParallelRobot& robo
   MotorCurrents defects;
   std::size_t spikes = 0, samples = 0;
   for (const ValidStretch& stretch :
-       valid_stretches(recording, static_cast<std::size_t>(shortest / recording.period))) {
+       valid_stretches(recording, robot, static_cast<std::size_t>(shortest / recording.period))) {
     MotorCurrents currents = motor_currents(recording, stretch, robot.drives());
     defects.count(currents);
     spikes += remove_spikes(currents.current);

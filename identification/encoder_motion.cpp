@@ -4,6 +4,7 @@
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recorded_values.h"
 #include "systems/robot/kinematic_causes.h"
+#include "systems/robot/kinematic_check.h"
 #include "systems/robot/rotation.h"
 #include "systems/signals/joint_reading.h"
 #include "systems/signals/reaction_state.h"
@@ -11,11 +12,16 @@
 namespace flinch {
 namespace {
 
-std::string cause_of_no_pose(const RecordedValues<JointReading>& joints, const ParallelRobot& robot,
-                             const ValidStretch& stretch) {
+std::vector<JointVector> active_angles(const RecordedValues<JointReading>& joints,
+                                       const ValidStretch& stretch) {
   std::vector<JointVector> active;
   for (std::size_t k = 0; k < stretch.count; ++k) active.push_back(joints[stretch.first + k].active);
-  return told_kinematic_causes(robot, active,
+  return active;
+}
+
+std::string cause_of_no_pose(const RecordedValues<JointReading>& joints, const ParallelRobot& robot,
+                             const ValidStretch& stretch) {
+  return told_kinematic_causes(robot, active_angles(joints, stretch),
                                "the robot file is of another robot, or the encoders of its legs are swapped");
 }
 
@@ -24,7 +30,7 @@ Eigen::MatrixXd chart_coordinates(const Recording& recording, const ParallelRobo
                                   const ValidStretch& stretch, Configuration& origin) {
   const auto joints = read<JointReading>(recording, "joints");
   Eigen::MatrixXd xi(static_cast<Eigen::Index>(stretch.count), robot.dof());
-  Configuration pose = robot.home_pose();
+  Configuration pose = stretch.pose.value_or(robot.home_pose());
   WorkingMode mode = robot.home_working_mode();
   for (std::size_t k = 0; k < stretch.count; ++k) {
     const JointReading reading = joints[stretch.first + k];
@@ -56,16 +62,33 @@ Eigen::MatrixXd differences(const Eigen::MatrixXd& x, double period) {
   return rate;
 }
 
+/// Adds a stretch, divided where a leg without a passive encoder changes the side of its elbow.
+void add_as_assembled(const RecordedValues<JointReading>& joints, const ParallelRobot& robot,
+                      const ValidStretch& stretch, std::size_t least, std::vector<ValidStretch>& stretches) {
+  if (joints[stretch.first].passive_valid) return stretches.push_back(stretch);
+  const KinematicCheck check = check_kinematics(robot, active_angles(joints, stretch));
+  if (check.stretches.size() <= 1 && !check.folds_from_home(robot)) return stretches.push_back(stretch);
+  for (std::size_t i = 0; i < check.stretches.size(); ++i) {
+    const KinematicCheck::Stretch& own = check.stretches[i];
+    const std::size_t end = i + 1 < check.stretches.size() ? check.stretches[i + 1].first : stretch.count;
+    if (end - own.first >= least) {
+      stretches.push_back(
+          {stretch.first + own.first, end - own.first, robot.assembled_as(own.mode), own.pose});
+    }
+  }
+}
+
 }  // namespace
 
-std::vector<ValidStretch> valid_stretches(const Recording& recording, std::size_t least) {
+std::vector<ValidStretch> valid_stretches(const Recording& recording, const ParallelRobot& robot,
+                                          std::size_t least) {
   const auto joints = read<JointReading>(recording, "joints");
   const bool has_mode = recording.find("reaction") != nullptr;
   const auto mode = has_mode ? std::optional(read<ReactionState>(recording, "reaction")) : std::nullopt;
   std::vector<ValidStretch> stretches;
   ValidStretch now;
   const auto end = [&] {
-    if (now.count >= least) stretches.push_back(now);
+    if (now.count >= least) add_as_assembled(joints, robot, now, least, stretches);
     now.count = 0;
   };
   for (std::size_t k = 0; k < recording.samples(); ++k) {
@@ -84,8 +107,9 @@ std::vector<ValidStretch> valid_stretches(const Recording& recording, std::size_
   return stretches;
 }
 
-EncoderMotion encoder_motion(const Recording& recording, const ParallelRobot& robot,
+EncoderMotion encoder_motion(const Recording& recording, const ParallelRobot& at_home,
                              const ValidStretch& stretch, double cutoff_frequency) {
+  const ParallelRobot& robot = stretch.robot(at_home);
   const double period = to_seconds(recording.period);
   Configuration origin;
   const Eigen::MatrixXd xi =

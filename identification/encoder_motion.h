@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "systems/robot/parallel_robot.h"
@@ -9,15 +11,24 @@ namespace flinch {
 
 struct Recording;
 
-/// A stretch of a recording in which every joint reading is valid: samples first, first + 1, ...
+/// A stretch of a recording in which every joint reading is valid and no leg changes the side of its elbow:
+/// samples first, first + 1, ...
 struct ValidStretch {
   std::size_t first = 0;
   std::size_t count = 0;
+  std::shared_ptr<const ParallelRobot>
+      assembled{};                      ///< the robot with its elbows as they are; null: as at home
+  std::optional<Configuration> pose{};  ///< of its first sample, where no passive encoder tells it
+
+  const ParallelRobot& robot(const ParallelRobot& at_home) const {
+    return assembled == nullptr ? at_home : *assembled;
+  }
 };
 
 /// The stretches in which the encoders are valid and the control path moves the robot, each of at least
 /// `least` samples.
-std::vector<ValidStretch> valid_stretches(const Recording& recording, std::size_t least);
+std::vector<ValidStretch> valid_stretches(const Recording& recording, const ParallelRobot& robot,
+                                          std::size_t least);
 
 /// How the platform moved, from the encoders alone and afterwards: forward kinematics of every sample,
 /// smoothed without delay, and central differences of that. One row a sample.
@@ -28,7 +39,7 @@ struct EncoderMotion {
 };
 
 /// Of one stretch of a recording. Throws SetupError where the encoders fit no pose.
-EncoderMotion encoder_motion(const Recording& recording, const ParallelRobot& robot,
+EncoderMotion encoder_motion(const Recording& recording, const ParallelRobot& at_home,
                              const ValidStretch& stretch, double cutoff_frequency);
 
 }  // namespace flinch

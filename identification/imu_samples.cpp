@@ -78,7 +78,7 @@ std::vector<ImuStretch> imu_stretches(const Recording& recording, const Parallel
   std::vector<ImuStretch> stretches;
   std::size_t rows = 0, missing = 0, clipped = 0, spikes = 0;
   for (const ValidStretch& stretch :
-       valid_stretches(recording, static_cast<std::size_t>(shortest / recording.period))) {
+       valid_stretches(recording, robot, static_cast<std::size_t>(shortest / recording.period))) {
     ImuStretch& out = stretches.emplace_back();
     out.recording = number;
     out.start = to_seconds(Time(recording.time_ns[stretch.first]));

@@ -101,7 +101,8 @@ class Reader {
 
   Kinematics kinematics(Eigen::Index row) const {
     Kinematics at;
-    robot_.kinematics(motion_.pose[static_cast<std::size_t>(row)], motion_.velocity.row(row).transpose(), at);
+    stretch_.robot(robot_).kinematics(motion_.pose[static_cast<std::size_t>(row)],
+                                      motion_.velocity.row(row).transpose(), at);
     return at;
   }
   /// What the model needs for the motion at a sample, and its slopes.
@@ -273,7 +274,7 @@ std::vector<PullWindow> pull_windows(const Recording& recording, const ParallelR
   std::vector<Reader> readers;
   MotorCurrents defects;
   std::size_t samples = 0;
-  for (const ValidStretch& stretch : valid_stretches(recording, 5 * least)) {
+  for (const ValidStretch& stretch : valid_stretches(recording, robot, 5 * least)) {
     defects.count(readers.emplace_back(recording, robot, stretch).currents());
     samples += stretch.count;
   }

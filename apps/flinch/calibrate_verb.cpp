@@ -8,11 +8,12 @@
 #include "apps/flinch/simulated/simulated_parts.h"
 #include "apps/flinch/today.h"
 #include "calibration/calibration_sources.h"
+#include "calibration/contact_free_motion.h"
 #include "calibration/contact_free_peaks.h"
+#include "calibration/residual_calibration.h"
 #include "calibration/threshold_calibration.h"
 #include "calibration/thresholds_output.h"
 #include "calibration/written_parameters.h"
-#include "diagrams/fused_detector.h"
 #include "systems/config/file_kind.h"
 #include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/setup_error.h"
@@ -22,13 +23,15 @@ namespace flinch {
 
 namespace {
 
-/// The recordings that could be opened, and what those who made them knew of their robots.
+/// Motions without contact that could be opened, and what those who made them knew of their robots. Of a log
+/// the readings at first, then what estimators say over them.
 struct FreeMotions {
   std::vector<std::filesystem::path> files{};
   std::vector<Recording> recordings{};
   std::vector<Scenario> scenarios{};
   std::vector<bool> is_log{};  ///< readings of another controller, over which estimators have yet to run
-  std::vector<std::string> problems{};  ///< of the others
+  std::vector<std::vector<bool>> nominal{};  ///< Samples that count, once read.
+  std::vector<std::string> problems{};       ///< of those that could not be opened
 };
 
 void append(const SetupError& error, std::vector<std::string>& problems) {
@@ -55,31 +58,40 @@ FreeMotions open_motions(const CalibrateThresholdsOptions& options) {
   return opened;
 }
 
-/// Of a log, by running the estimators over it.
-std::vector<EstimatorPeaks> peaks_of_log(const Recording& log, const Scenario& scenario,
-                                         const std::vector<LogTruth::Stretch>& free, Time stretch) {
-  const Recording estimates = estimates_of_log(scenario, std::make_shared<const Recording>(log));
-  std::vector<bool> counts(estimates.samples(), free.empty());
-  for (std::size_t k = 0; k < counts.size(); ++k) {
-    const double now = to_seconds(Time(estimates.time_ns[k]));
-    for (const LogTruth::Stretch& each : free) counts[k] = counts[k] || each.contains(now);
+/// Runs the estimators over a log. Its samples count that are free of contact and in motion.
+void estimate(Recording& log, const Scenario& scenario, const std::vector<LogTruth::Stretch>& free,
+              std::vector<bool>& nominal) {
+  log = estimates_of_log(scenario, std::make_shared<const Recording>(std::move(log)));
+  nominal = moving_samples(log);
+  if (free.empty()) return;
+  for (std::size_t k = 0; k < nominal.size(); ++k) {
+    const double now = to_seconds(Time(log.time_ns[k]));
+    nominal[k] = nominal[k] && std::any_of(free.begin(), free.end(), [now](const LogTruth::Stretch& each) {
+                   return each.contains(now);
+                 });
   }
-  return contact_free_peaks(estimates, counts, scenario.robot.robot->space(), stretch);
 }
 
 /// Of all estimators. Throws SetupError with all that is wrong with all recordings, also those that could not
 /// be opened: told together, be it late.
-std::vector<EstimatorPeaks> peaks_of(const FreeMotions& motions, const std::vector<LogTruth::Stretch>& free,
+std::vector<EstimatorPeaks> peaks_of(FreeMotions& motions, const std::vector<LogTruth::Stretch>& free,
                                      const ThresholdGoal& goal, bool quiet) {
   std::vector<std::vector<EstimatorPeaks>> peaks;
   std::vector<std::string> problems = motions.problems;
+  motions.nominal.resize(motions.files.size());
   Progress progress("reading recordings", quiet);
   for (std::size_t i = 0; i < motions.files.size(); ++i) {
     try {
+      Recording& recording = motions.recordings[i];
+      std::vector<bool>& nominal = motions.nominal[i];
+      const ConfigurationSpace space = motions.scenarios[i].robot.robot->space();
       peaks.push_back(out_of(motions.files[i], [&] {
-        const Scenario& scenario = motions.scenarios[i];
-        if (motions.is_log[i]) return peaks_of_log(motions.recordings[i], scenario, free, goal.stretch);
-        return contact_free_peaks(motions.recordings[i], scenario.robot.robot->space(), goal.stretch);
+        if (!motions.is_log[i]) {
+          nominal = nominal_samples(recording, space);
+          return contact_free_peaks(recording, space, goal.stretch);
+        }
+        estimate(recording, motions.scenarios[i], free, nominal);
+        return contact_free_peaks(recording, nominal, space, goal.stretch);
       }));
       progress.show(static_cast<double>(i + 1) / static_cast<double>(motions.files.size()));
     } catch (const SetupError& error) {
@@ -93,19 +105,11 @@ std::vector<EstimatorPeaks> peaks_of(const FreeMotions& motions, const std::vect
 /// Of the estimators whose residuals a fused detector judges by, as far as they are recorded.
 std::vector<CalibratedResidual> residuals_of(const FreeMotions& motions, const ThresholdGoal& goal,
                                              bool quiet) {
-  const std::vector<std::string> judged{"disturbance_filter", "imu_residual"};
   std::vector<ResidualRecording> recordings;
-  for (std::size_t i = 0; i < motions.recordings.size(); ++i) {
-    if (motions.is_log[i]) return {};  // whose loads of the drives nobody has recorded
-    const Scenario& scenario = motions.scenarios[i];
-    ResidualRecording recording{&motions.recordings[i], scenario.robot.robot->space(), {}};
-    for (const std::string& name : judged) recording.tracking[name] = tracking_of(name, scenario.control);
-    recordings.push_back(recording);
-  }
-  const std::vector<std::string> estimators = calibrated_residuals(recordings, judged);
-  if (estimators.empty()) return {};
+  for (std::size_t i = 0; i < motions.recordings.size(); ++i)
+    recordings.emplace_back(motions.recordings[i], motions.nominal[i], motions.scenarios[i].control);
   Progress progress("calibrating the fused detector", quiet);
-  return calibrate_residuals(recordings, estimators, goal, [&](double share) { progress.show(share); });
+  return calibrate_residuals(recordings, goal, [&](double share) { progress.show(share); });
 }
 
 }  // namespace
@@ -120,7 +124,7 @@ ExitStatus calibrate_thresholds(const CalibrateThresholdsOptions& options) {
   found.goal.one_robot = options.one_robot;
   const bool quiet = options.common.quiet || options.common.json;
   const std::vector<LogTruth::Stretch> free = stretches_of(options.free);
-  const FreeMotions motions = open_motions(options);
+  FreeMotions motions = open_motions(options);
   if (motions.problems.empty()) {  // told before hours of recordings are read
     for (const std::filesystem::path& file : motions.files) found.recordings.push_back(source_of(file));
     require_different(found.recordings);

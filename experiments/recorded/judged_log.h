@@ -70,7 +70,8 @@ JudgedLog judge_log(const Scenario& scenario, const std::shared_ptr<const Record
                     const std::function<void(double share)>& progress = {});
 
 /// What every estimator of the scenario says over a log: "wrench" of that which is followed, "wrench_NAME" of
-/// the others, and "motion", a sample for each tick of the control path. Throws SetupError as judge_log().
+/// the others, "motion", and "load_NAME" of a detector that judges the drives' residuals, a sample for each
+/// tick of the control path. Throws SetupError as judge_log().
 Recording estimates_of_log(const Scenario& scenario, const std::shared_ptr<const Recording>& readings,
                            const std::function<void(double share)>& progress = {});
 

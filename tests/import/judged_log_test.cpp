@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iomanip>
 
+#include "calibration/contact_free_motion.h"
 #include "calibration/contact_free_peaks.h"
 #include "experiments/recorded/completed_readings.h"
 #include "import/imported_recording.h"
@@ -173,6 +174,23 @@ TEST_F(JudgedLogs, GoOnBeyondTheFoldOfALeg) {
   EXPECT_NEAR(judged.folds[0].at, 0.25, 1e-9);
 }
 
+/// The estimates and loads of a log are those of the run that it came from, so its residuals are as well.
+TEST_F(JudgedLogs, GiveTheResidualsOfWhichTheFusedDetectorIsMade) {
+  const test::Simulated free = test::simulated(
+      "random_motion.yaml", {{"duration_s: 36", "duration_s: 4"}, {"duration_s: 34", "duration_s: 3"}});
+  const Recording estimates =
+      estimates_of_log(free.scenario, std::make_shared<const Recording>(free.recording));
+  for (const char* const path : {"load_fused_detector", "wrench_disturbance_filter", "wrench_imu_residual"}) {
+    const std::vector<internal::Number>& of_log = estimates.signal(path).rows;
+    const std::vector<internal::Number>& of_run = free.recording.signal(path).rows;
+    ASSERT_EQ(of_log.size(), of_run.size()) << path;
+    EXPECT_EQ(std::memcmp(of_log.data(), of_run.data(), of_run.size() * sizeof of_run.front()), 0) << path;
+  }
+  const std::vector<bool> moves = moving_samples(estimates);
+  EXPECT_FALSE(moves.front());
+  EXPECT_GT(std::count(moves.begin(), moves.end(), true), 2500);
+}
+
 TEST_F(JudgedLogs, GiveThePeaksFromWhichThresholdsCome) {
   const test::Simulated free = test::simulated("square.yaml");
   const ConfigurationSpace& space = free.scenario.robot.robot->space();
@@ -180,7 +198,7 @@ TEST_F(JudgedLogs, GiveThePeaksFromWhichThresholdsCome) {
       estimates_of_log(free.scenario, std::make_shared<const Recording>(free.recording));
   ASSERT_EQ(estimates.samples(), free.recording.samples());
   const std::vector<EstimatorPeaks> peaks =
-      contact_free_peaks(estimates, std::vector<bool>(estimates.samples(), true), space, 500ms);
+      contact_free_peaks(estimates, moving_samples(estimates), space, 500ms);
   const std::vector<EstimatorPeaks> of_run = contact_free_peaks(free.recording, space, 500ms);
   ASSERT_EQ(peaks.size(), of_run.size());
   EXPECT_EQ(peaks.front().estimator, of_run.front().estimator);

@@ -12,7 +12,9 @@
 #include "apps/flinch/today.h"
 #include "calibration/calibration_output.h"
 #include "calibration/calibration_sources.h"
+#include "calibration/contact_free_motion.h"
 #include "calibration/contact_free_peaks.h"
+#include "calibration/residual_calibration.h"
 #include "calibration/threshold_calibration.h"
 #include "calibration/thresholds_output.h"
 #include "calibration/written_parameters.h"
@@ -96,6 +98,13 @@ JointVector found_constants(const CalibrationResult& result, JointVector constan
   return constant;
 }
 
+/// Of all signals those that thresholds come from.
+void keep_estimates(Recording& recording) {
+  std::erase_if(recording.signals, [](const Signal& signal) {
+    return !signal.path.starts_with("wrench") && !signal.path.starts_with("load_");
+  });
+}
+
 /// The thresholds that a control path with these calibrations needs, by playing the readings to it again.
 ThresholdFindings thresholds_with(const std::vector<OpenedRecording>& motion,
                                   const std::vector<ParameterFile>& calibrations, const ThresholdGoal& goal) {
@@ -115,14 +124,21 @@ ThresholdFindings thresholds_with(const std::vector<OpenedRecording>& motion,
   note_robot(played, found);
   note_settings(played, found);
   std::vector<std::vector<EstimatorPeaks>> peaks;
+  std::vector<Recording> replays(played.size());
+  std::vector<ResidualRecording> recordings;
   for (std::size_t i = 0; i < played.size(); ++i) {
     const std::string& file = found.recordings[i].file;
-    const Replay replayed = replay(played[i], read_recording(file));
-    peaks.push_back(out_of(file, [&] {
-      return contact_free_peaks(replayed.recording, played[i].robot.robot->space(), goal.stretch);
-    }));
+    const ConfigurationSpace space = played[i].robot.robot->space();
+    replays[i] = replay(played[i], read_recording(file)).recording;
+    out_of(file, [&] {
+      peaks.push_back(contact_free_peaks(replays[i], space, goal.stretch));
+      recordings.emplace_back(replays[i], nominal_samples(replays[i], space), played[i].control);
+    });
+    keep_estimates(replays[i]);
   }
   found.estimators = calibrate_thresholds(pooled(peaks), found.goal);
+  found.residuals = calibrate_residuals(recordings, found.goal);
+  found.tracking = played.front().control.fused_detector.tracking;
   return found;
 }
 

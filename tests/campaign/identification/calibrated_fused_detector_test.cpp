@@ -17,10 +17,10 @@
 #include <utility>
 #include <vector>
 
+#include "calibration/contact_free_motion.h"
 #include "calibration/contact_free_peaks.h"
 #include "calibration/residual_calibration.h"
 #include "calibration/threshold_calibration.h"
-#include "diagrams/fused_detector.h"
 #include "experiments/campaign/campaign_run.h"
 #include "experiments/campaign/campaign_summary.h"
 #include "experiments/campaign/exact_bounds.h"
@@ -39,7 +39,6 @@ using test::CalibratedRobot;
 constexpr unsigned threads = 2;
 constexpr double asked = 0.5;    // false alarms an hour
 constexpr double slowest = 0.3;  // speed of the platform before a contact [m/s]
-const std::vector<std::string> judged{"disturbance_filter", "imu_residual"};
 const std::string own = "fused_detector", of_others = "fused_detector_of_others";
 
 /// A momentum observer and the filter of its velocity.
@@ -113,14 +112,12 @@ Thresholds thresholds_of(const std::vector<const Robot*>& robots) {
   for (const Robot* const robot : robots) {
     const ConfigurationSpace space = robot->after.robot.robot->space();
     peaks.push_back(contact_free_peaks(robot->motion, space, goal.stretch));
-    ResidualRecording recording{&robot->motion, space, {}};
-    for (const std::string& name : judged) recording.tracking[name] = tracking_of(name, robot->after.control);
-    recordings.push_back(recording);
+    recordings.emplace_back(robot->motion, nominal_samples(robot->motion, space), robot->after.control);
   }
   Thresholds found;
   for (const EstimatorThresholds& of : calibrate_thresholds(pooled(peaks), goal))
     found.plain[of.estimator] = {of.force.value, of.moment.value};
-  for (const CalibratedResidual& of : calibrate_residuals(recordings, judged, goal)) {
+  for (const CalibratedResidual& of : calibrate_residuals(recordings, goal)) {
     found.residuals.push_back(
         {.estimator = of.estimator,
          .level = {of.level.threshold.value, of.level.errors},
