@@ -16,6 +16,7 @@
 #include "identification/dynamics_fit.h"
 #include "identification/dynamics_rows.h"
 #include "identification/encoder_doubts.h"
+#include "identification/left_torque_doubts.h"
 #include "identification/motion_doubts.h"
 #include "identification/motor_parameters.h"
 #include "identification/physical_parameters.h"
@@ -379,6 +380,12 @@ CalibrationResult calibrate_dynamics(const DynamicsBelief& belief,
   add_residuals(rows, without_cogging(rows, belief.drives.cogging), after, solution.fit.linear, drives,
                 result);
   doubt(rows, solution, after, result);
+  std::vector<std::string> files;
+  for (const MotionRecording& recording : recordings) files.push_back(recording.source.file);
+  for (const std::string& doubt : doubts_about_contacts(rows, after, files, result.residual_unit))
+    result.doubts.push_back(doubt);
+  for (const std::string& warning : warnings_about_drift(rows, after, files, result.residual_unit))
+    result.warnings.push_back(warning);
   if (result.doubts.empty())
     result.doubts = doubts_about_values(parameters, solution.fit.values, solution.held);
   for (const int drive : parameters.stilled()) {

@@ -18,11 +18,12 @@
 namespace flinch {
 namespace {
 
-constexpr double motion_cutoff = 100.0;    // what is made of it is low-passed again below [Hz]
-constexpr double cutoff_frequency = 25.0;  // [Hz]
-constexpr double rows_period = 0.01;       // [s]
-constexpr double edge = 0.1;               // [s]
-constexpr double cluster_length = 0.5;     // [s]
+constexpr double motion_cutoff = 100.0;                  // what is made of it is low-passed again below [Hz]
+constexpr double cutoff_frequency = 25.0;                // [Hz]
+constexpr double slowest_rate = 2.2 * cutoff_frequency;  // of readings [Hz]
+constexpr double rows_period = 0.01;                     // [s]
+constexpr double edge = 0.1;                             // [s]
+constexpr double cluster_length = 0.5;                   // [s]
 constexpr Time shortest = 1s;
 
 /// Currents at the instants of the encoders. A reading is what acted until its tick, so that what acts at the
@@ -192,6 +193,7 @@ DynamicsRows rows_of(const Recording& recording, const ParallelRobot& robot,
 DynamicsRows dynamics_rows(const Recording& recording, const ParallelRobot& robot,
                            const DynamicParameters& parameters, const TorqueBelief& belief, int number,
                            std::vector<std::string>& warnings) {
+  require_rate(recording.period, slowest_rate, "a fit of dynamics");
   const ParameterVariants variants(parameters);
   DynamicsRows rows;
   MotorCurrents defects;

@@ -1,5 +1,7 @@
 #include "identification/encoder_motion.h"
 
+#include <fmt/core.h>
+
 #include "identification/zero_phase.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recorded_values.h"
@@ -105,6 +107,13 @@ std::vector<ValidStretch> valid_stretches(const Recording& recording, const Para
   }
   end();
   return stretches;
+}
+
+void require_rate(Time period, double least, const char* what) {
+  const double rate = 1.0 / to_seconds(period);
+  if (rate >= least) return;
+  throw SetupError(fmt::format("there are {:.3g} readings a second; {} needs {:.3g} at least: record faster",
+                               rate, what, least));
 }
 
 EncoderMotion encoder_motion(const Recording& recording, const ParallelRobot& at_home,

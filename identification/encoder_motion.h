@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "systems/framework/time.h"
 #include "systems/robot/parallel_robot.h"
 
 namespace flinch {
@@ -29,6 +30,9 @@ struct ValidStretch {
 /// `least` samples.
 std::vector<ValidStretch> valid_stretches(const Recording& recording, const ParallelRobot& robot,
                                           std::size_t least);
+
+/// Throws SetupError where readings come at less than `least` [Hz], which `what` needs.
+void require_rate(Time period, double least, const char* what);
 
 /// How the platform moved, from the encoders alone and afterwards: forward kinematics of every sample,
 /// smoothed without delay, and central differences of that. One row a sample.

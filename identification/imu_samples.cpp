@@ -17,6 +17,7 @@ namespace {
 
 constexpr double motion_cutoff = 150.0;    // products of what is low-passed are low-passed again below [Hz]
 constexpr double cutoff_frequency = 40.0;  // [Hz]
+constexpr double slowest_rate = 2.2 * cutoff_frequency;  // of readings [Hz]
 constexpr Time shortest = 1s;
 
 /// What the platform's own axes see of the motion.
@@ -75,6 +76,7 @@ void add_readings(const Recording& recording, const ValidStretch& stretch, ImuSt
 std::vector<ImuStretch> imu_stretches(const Recording& recording, const ParallelRobot& robot, int number,
                                       std::vector<std::string>& warnings) {
   if (recording.find("imu") == nullptr) throw SetupError("there is no signal 'imu'");
+  require_rate(recording.period, slowest_rate, "a fit of the pose of an IMU");
   std::vector<ImuStretch> stretches;
   std::size_t rows = 0, missing = 0, clipped = 0, spikes = 0;
   for (const ValidStretch& stretch :

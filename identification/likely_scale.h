@@ -14,6 +14,8 @@ struct ScaleCause {
 
 /// Of currents, with [A] for what is right.
 std::span<const ScaleCause> causes_of_currents();
+/// Of the forces and moments of an instrument [N, Nm].
+std::span<const ScaleCause> causes_of_instruments();
 /// Of rates of turn [rad/s].
 std::span<const ScaleCause> causes_of_gyroscopes();
 /// Of specific forces [m/s^2].

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "identification/likely_scale.h"
 #include "identification/swapped_axes.h"
@@ -25,11 +26,18 @@ struct Answer {
   double slope = 0.0;  ///< of the torque over the current [Nm/A or N/A]
 };
 
-/// With the axes of the instrument turned: those of the window are `axes` times those that were read.
-Answer answer_of(const std::vector<PullWindow>& windows, int drive, const Eigen::Matrix3d& axes) {
-  const double handed = axes.determinant();  // a moment is no vector but the sense of a turn
+/// Whose axes were taken for one another.
+enum class Frame { instrument, base };
+
+/// With the axes of a frame turned or scaled: what the instrument says is `turned` times what was read.
+Answer answer_of(const std::vector<PullWindow>& windows, int drive, Frame frame,
+                 const Eigen::Matrix3d& turned) {
+  const double handed =
+      std::copysign(1.0, turned.determinant());  // a moment is no vector but the sense of a turn
   double si = 0.0, st = 0.0, sii = 0.0, stt = 0.0, sit = 0.0, n = 0.0;
   for (const PullWindow& window : windows) {
+    const Eigen::Matrix3d axes =
+        frame == Frame::instrument ? turned : window.axes.transpose() * turned * window.axes;
     const Eigen::Vector3d force = axes * window.force, moment = handed * (axes * window.moment);
     const double pulled = window.force_map.row(drive).dot(force) + window.moment_map.row(drive).dot(moment);
     const double torque = window.model_effort[drive] - pulled, current = window.current[drive];
@@ -42,10 +50,10 @@ Answer answer_of(const std::vector<PullWindow>& windows, int drive, const Eigen:
   return {c / std::sqrt(vi * vt), std::copysign(std::sqrt(vt / vi), c)};
 }
 
-std::vector<Answer> answers(const std::vector<PullWindow>& windows, Eigen::Index drives,
-                            const Eigen::Matrix3d& axes) {
+std::vector<Answer> answers(const std::vector<PullWindow>& windows, Eigen::Index drives, Frame frame,
+                            const Eigen::Matrix3d& turned) {
   std::vector<Answer> all;
-  for (int i = 0; i < drives; ++i) all.push_back(answer_of(windows, i, axes));
+  for (int i = 0; i < drives; ++i) all.push_back(answer_of(windows, i, frame, turned));
   return all;
 }
 
@@ -116,29 +124,60 @@ std::vector<std::string> doubts_about_constants(const std::vector<Answer>& answe
   return doubts;
 }
 
+/// With the forces of the instrument in another unit, under which the torque constants are those believed.
+std::optional<std::string> doubt_about_unit(const std::vector<PullWindow>& windows,
+                                            const JointVector& believed) {
+  for (const ScaleCause& each : causes_of_instruments()) {
+    const std::vector<Answer> with =
+        answers(windows, believed.size(), Frame::instrument, Eigen::Matrix3d::Identity() / each.factor);
+    bool explains = least_correlation(with) > good;
+    for (std::size_t i = 0; i < with.size(); ++i) {
+      const double ratio = with[i].slope / believed[static_cast<Eigen::Index>(i)];
+      explains = explains && ratio < largest_change && ratio > 1.0 / largest_change;
+    }
+    if (explains)
+      return fmt::format("what the instrument says is {} what the currents answer; {}",
+                         factor_text(each.factor), each.cause);
+  }
+  return std::nullopt;
+}
+
+/// With axes turned, under which the currents answer the instrument's forces better than `own`.
+std::optional<std::string> doubt_about_axes(const std::vector<PullWindow>& windows, Eigen::Index drives,
+                                            const std::vector<Answer>& own) {
+  double most = std::max(good, least_correlation(own));
+  std::optional<std::string> best;
+  for (const Frame frame : {Frame::instrument, Frame::base}) {
+    for (const Eigen::Matrix3d& turned : signed_permutations()) {
+      const std::vector<Answer> with = answers(windows, drives, frame, turned);
+      const bool right = std::all_of(with.begin(), with.end(), [](const Answer& a) { return a.slope > 0.0; });
+      if (!right || least_correlation(with) <= most) continue;
+      most = least_correlation(with);
+      best = fmt::format(
+          "axes {} are swapped or mirrored: the currents answer its forces only where {}",
+          frame == Frame::instrument ? "of the instrument" : "of the base frame in which it tells its forces",
+          axes_text(turned));
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 std::vector<std::string> doubts_about_pulls(const std::vector<PullWindow>& windows,
                                             const JointVector& believed) {
-  const std::vector<Answer> own = answers(windows, believed.size(), Eigen::Matrix3d::Identity());
-  if (least_correlation(own) < poor) {
-    const Eigen::Matrix3d* best = nullptr;
-    double most = good;
-    const std::vector<Eigen::Matrix3d> tried = signed_permutations();
-    for (const Eigen::Matrix3d& axes : tried) {
-      const std::vector<Answer> with = answers(windows, believed.size(), axes);
-      const bool right = std::all_of(with.begin(), with.end(), [](const Answer& a) { return a.slope > 0.0; });
-      if (!right || least_correlation(with) <= most) continue;
-      most = least_correlation(with);
-      best = &axes;
-    }
-    if (best != nullptr)
-      return {"axes of the instrument are swapped or mirrored: the currents answer its forces only where " +
-              axes_text(*best)};
+  const std::vector<Answer> own =
+      answers(windows, believed.size(), Frame::instrument, Eigen::Matrix3d::Identity());
+  const std::vector<std::string> of_signs = doubts_about_signs(own);
+  const bool is_poor = least_correlation(own) < poor;
+  if (const auto unit = doubt_about_unit(windows, believed)) return {*unit};
+  const bool is_of_all =
+      std::all_of(own.begin(), own.end(), [](const Answer& a) { return a.correlation < -clear; });
+  if (is_poor || (!of_signs.empty() && !is_of_all)) {
+    if (const auto axes = doubt_about_axes(windows, believed.size(), own)) return {*axes};
   }
-  std::vector<std::string> doubts = doubts_about_signs(own);
-  if (!doubts.empty()) return doubts;
-  if (least_correlation(own) < poor) return {};  // nothing is clear enough to name a cause
+  if (!of_signs.empty()) return of_signs;
+  if (is_poor) return {};  // nothing is clear enough to name a cause
   return doubts_about_constants(own, believed);
 }
 

@@ -142,6 +142,7 @@ PullWindow mean_window(const ParallelRobot& robot, const Reader& reader, Eigen::
   const BodyAt body(robot, at, mounting);
   PullWindow window;
   window.body = mounting.body;
+  window.axes = body.axes;
   window.current.resize(robot.drives());
   window.current_deviation.resize(robot.drives());
   for (int i = 0; i < robot.drives(); ++i) {

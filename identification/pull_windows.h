@@ -26,8 +26,9 @@ struct PullWindow {
   /// How that depends on each dynamic parameter, in deviations of what is believed of them [Nm or N]; no
   /// columns: the model is taken as true.
   Eigen::MatrixXd effort_slopes;
-  JointVector position;                   ///< of the drives [rad or m]
-  JointVector rate;                       ///< of the drives [rad/s or m/s]
+  JointVector position;                                ///< of the drives [rad or m]
+  JointVector rate;                                    ///< of the drives [rad/s or m/s]
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< of the body in the base frame, as columns
   Eigen::Vector3d force{0.0, 0.0, 0.0};   ///< in the axes of the body, without the zero of the instrument [N]
   Eigen::Vector3d moment{0.0, 0.0, 0.0};  ///< likewise, about the instrument's origin [Nm]
   ForceMap force_map;                     ///< drive torques of such a force: J_xc,qa^T R. [SafePR] (6b)

@@ -19,6 +19,7 @@
 #include "systems/signals/imu_reading.h"
 #include "systems/signals/joint_reading.h"
 #include "tests/identification/recorded.h"
+#include "tests/support/problems_of.h"
 
 namespace flinch {
 namespace {
@@ -28,6 +29,7 @@ using test::Simulated;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 using Doubts = std::vector<std::string>;
 
@@ -172,7 +174,7 @@ Doubts pull_doubts(const Recording& recording, const SimulatedScenario& scenario
                             scenario.control.drive_torque.torque_constant);
 }
 
-/// In the axes of the instrument, which are those of the base here.
+/// Told in the base frame.
 Wrong instrument(const char* name, std::function<void(ForceTorqueReading&)> change, const char* cause) {
   return {name,
           [change](Recording& recording) {
@@ -205,7 +207,21 @@ INSTANTIATE_TEST_SUITE_P(
                           r.force_in_base = -r.force_in_base;
                           r.moment_in_base = -r.moment_in_base;
                         },
-                        "the instrument says has the other sign")),
+                        "the instrument says has the other sign"),
+                    instrument(
+                        "force_in_kgf",
+                        [](ForceTorqueReading& r) {
+                          r.force_in_base /= 9.80665;
+                          r.moment_in_base /= 9.80665;
+                        },
+                        "they are in kgf and were taken for N"),
+                    instrument(
+                        "axes_swapped_in_the_base_frame",
+                        [](ForceTorqueReading& r) {
+                          r.force_in_base = swapped(r.force_in_base);
+                          r.moment_in_base = -swapped(r.moment_in_base);
+                        },
+                        "axes of the base frame in which it tells its forces are swapped or mirrored")),
     name_of);
 
 TEST_P(PullLogs, AreDoubtedForTheirCause) {
@@ -291,6 +307,55 @@ TEST_F(MotionLogs, ThatAreRightAreNotDoubted) {
   const Recording recording = right();
   EXPECT_THAT(calibrate_dynamics(motion_belief(simulated()), {{{"run.h5", ""}, &recording}}, {}).doubts,
               IsEmpty());
+}
+
+/// With so many amperes more in the current of each drive at a time [s].
+void add_current(Recording& recording, const std::function<JointVector(double time)>& more) {
+  edit<DriveReading>(recording, "drives", [&](std::size_t k, DriveReading& reading) {
+    reading.current += more(to_seconds(Time(recording.time_ns[k])));
+  });
+}
+
+CalibrationResult dynamics_of(const Recording& recording, const SimulatedScenario& scenario) {
+  return calibrate_dynamics(motion_belief(scenario), {{{"run.h5", ""}, &recording}}, {});
+}
+
+/// A hand that pushes with some 20 N for a second and a half.
+TEST_F(MotionLogs, InWhichSomethingTouchesTheRobotAreDoubtedWithTheTime) {
+  Recording recording = right();
+  std::erase_if(recording.signals, [](const Signal& signal) { return signal.path == "truth"; });
+  add_current(recording, [](double time) {
+    return JointVector(Eigen::Vector3d(0.9, -0.5, 0.2) * (time > 8.0 && time < 9.5 ? 1.0 : 0.0));
+  });
+  const CalibrationResult result = dynamics_of(recording, simulated());
+  EXPECT_THAT(result.doubts, Contains(HasSubstr("something touches the robot from about 8.0 to 9.5 s")));
+}
+
+TEST_F(MotionLogs, InWhichACurrentDriftsAreWarnedOf) {
+  Recording recording = right();
+  const auto drifts = HasSubstr("the torque of drive 2 changes by +");
+  EXPECT_THAT(dynamics_of(recording, simulated()).warnings, Not(Contains(HasSubstr("changes by"))));
+  add_current(recording, [](double time) { return JointVector(Eigen::Vector3d(0.0, 0.02 * time, 0.0)); });
+  EXPECT_THAT(dynamics_of(recording, simulated()).warnings, Contains(drifts));
+}
+
+TEST_F(MotionLogs, OfTooFewReadingsASecondAreRefused) {
+  const Recording all = right();
+  Recording slow;
+  slow.attributes = all.attributes;
+  slow.period = 50 * all.period;
+  for (const Signal& signal : all.signals) slow.signals.push_back({signal.path, signal.layout, {}});
+  for (std::size_t k = 0; k < all.samples(); k += 50) {
+    slow.time_ns.push_back(all.time_ns[k]);
+    for (std::size_t i = 0; i < all.signals.size(); ++i) {
+      const auto row =
+          all.signals[i].rows.begin() + static_cast<std::ptrdiff_t>(k * all.signals[i].layout.numbers);
+      slow.signals[i].rows.insert(slow.signals[i].rows.end(), row,
+                                  row + static_cast<std::ptrdiff_t>(all.signals[i].layout.numbers));
+    }
+  }
+  EXPECT_THAT(test::problems_of([&] { dynamics_of(slow, simulated()); }),
+              Contains(HasSubstr("there are 20 readings a second; a fit of dynamics needs 55 at least")));
 }
 
 TEST_F(MotionLogs, OfADriveThatIsAFullTurnOffAreWarnedOf) {
