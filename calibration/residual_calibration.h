@@ -48,11 +48,11 @@ struct CalibratedResidual {
   std::optional<CalibratedOnset> onset;
 };
 
-/// Of the estimators by whose residuals a fused detector judges, as far as all recordings have their estimates;
-/// none where one has no loads. Sizes of the errors, fitted to all recordings together, and thresholds, so that all residuals together
+/// Sizes of the errors, fitted to all recordings together, and thresholds, so that all residuals together
 /// give the rate of false alarms that is asked: the level of each, its change or its onset, and what is
-/// smoothed of it have an equal share. `progress` is told the share that is done. Throws SetupError as
-/// `calibrate_thresholds`.
+/// smoothed of it have an equal share. The residuals are those by which a fused detector judges, as far as all
+/// recordings have the estimates; none where one has no loads. `progress` is told the share that is done.
+/// Throws SetupError as `calibrate_thresholds`.
 std::vector<CalibratedResidual> calibrate_residuals(const std::vector<ResidualRecording>& recordings,
                                                     const ThresholdGoal& goal,
                                                     const std::function<void(double)>& progress = {});

@@ -17,9 +17,8 @@ struct Recording;
 struct ValidStretch {
   std::size_t first = 0;
   std::size_t count = 0;
-  std::shared_ptr<const ParallelRobot>
-      assembled{};                      ///< the robot with its elbows as they are; null: as at home
-  std::optional<Configuration> pose{};  ///< of its first sample, where no passive encoder tells it
+  std::shared_ptr<const ParallelRobot> assembled{};  ///< with its elbows as they are; null: as at home
+  std::optional<Configuration> pose{};               ///< of its first sample; none: passive encoders tell it
 
   const ParallelRobot& robot(const ParallelRobot& at_home) const {
     return assembled == nullptr ? at_home : *assembled;

@@ -303,8 +303,7 @@ Recording estimates_of_log(const Scenario& scenario, const std::shared_ptr<const
   const auto keep = [&kept](const Recording& latest) {
     if (kept.signals.empty()) {
       for (const Signal& signal : latest.signals) {
-        if (signal.path == "motion" || signal.path.starts_with("wrench") ||
-            signal.path.starts_with("load_"))
+        if (signal.path == "motion" || signal.path.starts_with("wrench") || signal.path.starts_with("load_"))
           kept.signals.push_back({signal.path, signal.layout, {}});
       }
     }
