@@ -50,8 +50,8 @@ struct CalibratedResidual {
 
 /// Sizes of the errors, fitted to all recordings together, and thresholds, so that all residuals together
 /// give the rate of false alarms that is asked: the level of each, its change or its onset, and what is
-/// smoothed of it have an equal share. The residuals are those by which a fused detector judges, as far as all
-/// recordings have the estimates; none where one has no loads. `progress` is told the share that is done.
+/// smoothed of it have an equal share. The residuals are those by which a fused detector judges, as far as
+/// all recordings have the estimates; none where one has no loads. `progress` is told the share that is done.
 /// Throws SetupError as `calibrate_thresholds`.
 std::vector<CalibratedResidual> calibrate_residuals(const std::vector<ResidualRecording>& recordings,
                                                     const ThresholdGoal& goal,

@@ -343,6 +343,16 @@ void doubt(const DynamicsRows& rows, const Solution& solution, const Eigen::Vect
   }
 }
 
+void doubt_left_torque(const DynamicsRows& rows, const Eigen::VectorXd& left,
+                       const std::vector<MotionRecording>& recordings, CalibrationResult& result) {
+  std::vector<std::string> files;
+  for (const MotionRecording& recording : recordings) files.push_back(recording.source.file);
+  for (const std::string& doubt : doubts_about_contacts(rows, left, files, result.residual_unit))
+    result.doubts.push_back(doubt);
+  for (const std::string& warning : warnings_about_drift(rows, left, files, result.residual_unit))
+    result.warnings.push_back(warning);
+}
+
 }  // namespace
 
 CalibrationResult calibrate_dynamics(const DynamicsBelief& belief,
@@ -380,12 +390,7 @@ CalibrationResult calibrate_dynamics(const DynamicsBelief& belief,
   add_residuals(rows, without_cogging(rows, belief.drives.cogging), after, solution.fit.linear, drives,
                 result);
   doubt(rows, solution, after, result);
-  std::vector<std::string> files;
-  for (const MotionRecording& recording : recordings) files.push_back(recording.source.file);
-  for (const std::string& doubt : doubts_about_contacts(rows, after, files, result.residual_unit))
-    result.doubts.push_back(doubt);
-  for (const std::string& warning : warnings_about_drift(rows, after, files, result.residual_unit))
-    result.warnings.push_back(warning);
+  doubt_left_torque(rows, after, recordings, result);
   if (result.doubts.empty())
     result.doubts = doubts_about_values(parameters, solution.fit.values, solution.held);
   for (const int drive : parameters.stilled()) {

@@ -1,6 +1,7 @@
 #include "import/text_lines.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "systems/foundation/readable_file.h"
 #include "systems/foundation/setup_error.h"
@@ -85,6 +86,10 @@ bool TextLines::fill() {
 }
 
 void TextLines::append_utf8(const char* bytes, std::size_t count) {
+  if (std::memchr(bytes, '\0', count) == nullptr) {
+    buffer_.append(bytes, count);
+    return;
+  }
   const std::size_t before = buffer_.size();
   std::remove_copy(bytes, bytes + count, std::back_inserter(buffer_), '\0');
   zeros_ += count - (buffer_.size() - before);

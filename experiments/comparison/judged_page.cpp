@@ -84,6 +84,8 @@ JudgedJson contacts_json(const JudgedLog& judged, const LogTruth& truth) {
 
 JudgedPage::JudgedPage(double first, double last, double period) : axis_(chart_axis(first, last, period)) {}
 
+bool JudgedPage::shows(const std::string& path) { return !drawn_like(path).empty(); }
+
 void JudgedPage::see(const Recording& latest) {
   for (const Signal& signal : latest.signals) {
     const std::string like = drawn_like(signal.path);

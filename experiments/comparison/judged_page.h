@@ -28,7 +28,9 @@ class JudgedPage {
   /// `first`, `last`: of the log, `period` of the control path [s].
   JudgedPage(double first, double last, double period);
 
-  /// To be called with all that judge_log() shows.
+  /// Whether a signal is drawn. What an estimator or detector says is drawn with all others of its kind.
+  static bool shows(const std::string& path);
+  /// To be called with all that judge_log() lets one see of those.
   void see(const Recording& latest);
   std::string html(const JudgedLog& judged, const LogTruth& truth, const JudgedFacts& facts) const;
 

@@ -208,14 +208,13 @@ void compare(const LogTruth& truth, double end, JudgedLog& judged) {
 /// The control path over the ticks of one part.
 class PartOfLog {
  public:
-  PartOfLog(const LogPart& part, const Recording& ticks, bool all_signals)
+  PartOfLog(const LogPart& part, const Recording& ticks, const SignalWatch& watch)
       : part_(part), ticks_(ticks), diagram_(build_replay(part.scenario, ticks)) {
     std::vector<std::string> paths = recorded_paths(*diagram_);
-    if (!all_signals) {
-      std::erase_if(paths, [](const std::string& path) {
-        return path != "gate" && path != "motion" && !path.starts_with("detection");
-      });
-    }
+    std::erase_if(paths, [&watch](const std::string& path) {
+      const bool is_judged = path == "gate" || path == "motion" || path.starts_with("detection");
+      return !is_judged && !(watch.see && watch.wants(path));
+    });
     recorder_ = std::make_unique<Recorder>(*diagram_, paths, samples_at_once,
                                            quantity_units(*part.scenario.robot.robot));
   }
@@ -260,7 +259,7 @@ std::size_t JudgedLog::count_by(const std::string& name) const {
 }
 
 JudgedLog judge_log(const Scenario& scenario, const std::shared_ptr<const Recording>& readings,
-                    const LogTruth& truth, const std::function<void(const Recording& latest)>& watch,
+                    const LogTruth& truth, const SignalWatch& watch,
                     const std::function<void(double share)>& progress) {
   if (readings->samples() == 0) throw SetupError("the log has no samples");
   const double first = 1e-9 * static_cast<double>(readings->time_ns.front());
@@ -271,7 +270,7 @@ JudgedLog judge_log(const Scenario& scenario, const std::shared_ptr<const Record
   judged.seconds = last - first;
   std::unique_ptr<LogWatch> seen;
   for (const LogPart& part : parts_of(scenario, *readings, ticks, judged)) {
-    PartOfLog path(part, ticks, watch != nullptr);
+    PartOfLog path(part, ticks, watch);
     if (seen == nullptr) {
       std::vector<Detector> detectors = path.detectors();
       for (const Detector& detector : detectors) {
@@ -283,7 +282,7 @@ JudgedLog judge_log(const Scenario& scenario, const std::shared_ptr<const Record
     path.run(
         [&](const Recording& latest) {
           seen->see(latest);
-          if (watch) watch(latest);
+          if (watch.see) watch.see(latest);
         },
         [&](std::size_t tick) {
           if (progress) progress(static_cast<double>(tick) / static_cast<double>(ticks.samples()));
@@ -300,11 +299,13 @@ Recording estimates_of_log(const Scenario& scenario, const std::shared_ptr<const
   Recording kept;
   kept.period = scenario.control_period;
   kept.attributes["control.estimator"] = followed_name(scenario.control.stages.estimators);
-  const auto keep = [&kept](const Recording& latest) {
+  const auto wants = [](const std::string& path) {
+    return path == "motion" || path.starts_with("wrench") || path.starts_with("load_");
+  };
+  const auto keep = [&](const Recording& latest) {
     if (kept.signals.empty()) {
       for (const Signal& signal : latest.signals) {
-        if (signal.path == "motion" || signal.path.starts_with("wrench") || signal.path.starts_with("load_"))
-          kept.signals.push_back({signal.path, signal.layout, {}});
+        if (wants(signal.path)) kept.signals.push_back({signal.path, signal.layout, {}});
       }
     }
     kept.time_ns.insert(kept.time_ns.end(), latest.time_ns.begin(), latest.time_ns.end());
@@ -313,7 +314,7 @@ Recording estimates_of_log(const Scenario& scenario, const std::shared_ptr<const
       signal.rows.insert(signal.rows.end(), rows.begin(), rows.end());
     }
   };
-  judge_log(scenario, readings, {}, keep, progress);
+  judge_log(scenario, readings, {}, {wants, keep}, progress);
   return kept;
 }
 

@@ -60,13 +60,18 @@ struct JudgedLog {
   std::size_t count_by(const std::string& name) const;
 };
 
+/// Who looks at the signals of a run over a log.
+struct SignalWatch {
+  std::function<bool(const std::string& path)> wants{};  ///< signals; "motion" and "gate" come in any case
+  std::function<void(const Recording& latest)> see{};    ///< some samples at a time; none: nobody looks
+};
+
 /// Runs the control path of a scenario open loop over readings, and tells when each of its estimators and
-/// detectors detected something after 0.1 s in which it had detected nothing. `watch`, if given, sees
-/// the signals of that run, some samples at a time. Where a log without passive angles passes the fold of a
-/// leg, the control path begins anew with that elbow on its other side. Throws SetupError as replay() does,
-/// and for a truth that is none of this log.
+/// detectors detected something after 0.1 s in which it had detected nothing. Where a log without passive angles
+/// passes the fold of a leg, the control path begins anew with that elbow on its other side. Throws SetupError
+/// as replay() does, and for a truth that is none of this log.
 JudgedLog judge_log(const Scenario& scenario, const std::shared_ptr<const Recording>& readings,
-                    const LogTruth& truth, const std::function<void(const Recording& latest)>& watch = {},
+                    const LogTruth& truth, const SignalWatch& watch = {},
                     const std::function<void(double share)>& progress = {});
 
 /// What every estimator of the scenario says over a log: "wrench" of that which is followed, "wrench_NAME" of

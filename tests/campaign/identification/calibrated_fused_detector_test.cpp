@@ -21,6 +21,7 @@
 #include "calibration/contact_free_peaks.h"
 #include "calibration/residual_calibration.h"
 #include "calibration/threshold_calibration.h"
+#include "diagrams/fused_detector.h"
 #include "experiments/campaign/campaign_run.h"
 #include "experiments/campaign/campaign_summary.h"
 #include "experiments/campaign/exact_bounds.h"
