@@ -67,9 +67,9 @@ struct SignalWatch {
 };
 
 /// Runs the control path of a scenario open loop over readings, and tells when each of its estimators and
-/// detectors detected something after 0.1 s in which it had detected nothing. Where a log without passive angles
-/// passes the fold of a leg, the control path begins anew with that elbow on its other side. Throws SetupError
-/// as replay() does, and for a truth that is none of this log.
+/// detectors detected something after 0.1 s in which it had detected nothing. Where a log without passive
+/// angles passes the fold of a leg, the control path begins anew with that elbow on its other side. Throws
+/// SetupError as replay() does, and for a truth that is none of this log.
 JudgedLog judge_log(const Scenario& scenario, const std::shared_ptr<const Recording>& readings,
                     const LogTruth& truth, const SignalWatch& watch = {},
                     const std::function<void(double share)>& progress = {});
