@@ -75,12 +75,14 @@ void resize(DynamicsRows& rows, Eigen::Index count, Eigen::Index parameters) {
 
 }  // namespace
 
-double DrivePath::blur(Eigen::Index sample, int drive) const {
+double DrivePath::speed(Eigen::Index sample, int drive) const {
   const Eigen::Index last = std::max<Eigen::Index>(sample - 1, 0);
   const Eigen::Index next = std::min<Eigen::Index>(sample + 1, position.rows() - 1);
-  const double way = std::abs(position(next, drive) - position(last, drive));
-  const double speed = way / (static_cast<double>(next - last) * period);
-  return speed / (2.0 * std::numbers::pi * cutoff_frequency);
+  return (position(next, drive) - position(last, drive)) / (static_cast<double>(next - last) * period);
+}
+
+double DrivePath::blur(Eigen::Index sample, int drive) const {
+  return std::abs(speed(sample, drive)) / (2.0 * std::numbers::pi * cutoff_frequency);
 }
 
 void DynamicsRows::append(const DynamicsRows& more) {

@@ -16,6 +16,8 @@ struct DrivePath {
   Eigen::MatrixXd position;  ///< [rad or m]
   double period = 0.0;       ///< [s]
 
+  /// Of a drive at a sample, signed [rad/s or m/s].
+  double speed(Eigen::Index sample, int drive) const;
   /// The way within which a drive that is as fast as at this sample is no longer resolved [rad or m].
   double blur(Eigen::Index sample, int drive) const;
 };

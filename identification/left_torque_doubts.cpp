@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "identification/robust_mean.h"
@@ -33,43 +34,38 @@ struct LeftMean {
 using LeftMeans = std::vector<LeftMean>;
 
 /// Speed of the drive at each row [rad/s or m/s]; its sign is that of the motion.
-std::vector<double> speeds(const DynamicsRows& rows) {
-  std::vector<double> speed(rows.drive.size());
-  for (std::size_t row = 0; row < speed.size(); ++row) {
-    const DrivePath& path = rows.paths[rows.path[row]];
-    const Eigen::Index k = rows.sample[row], last = path.position.rows() - 1;
-    const Eigen::Index before = std::max<Eigen::Index>(k - 1, 0), after = std::min(k + 1, last);
-    speed[row] = (path.position(after, rows.drive[row]) - path.position(before, rows.drive[row])) /
-                 (static_cast<double>(after - before) * path.period);
-  }
+Eigen::VectorXd speeds(const DynamicsRows& rows) {
+  Eigen::VectorXd speed(static_cast<Eigen::Index>(rows.drive.size()));
+  for (std::size_t row = 0; row < rows.drive.size(); ++row)
+    speed[static_cast<Eigen::Index>(row)] =
+        rows.paths[rows.path[row]].speed(rows.sample[row], rows.drive[row]);
   return speed;
 }
 
-double root_mean_square(const std::vector<double>& x) {
-  double sum = 0.0;
-  for (const double each : x) sum += each * each;
-  return x.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(x.size()));
+/// Of what a drive has in all rows.
+double usual_size(const DynamicsRows& rows, const Eigen::VectorXd& numbers, int drive) {
+  const Eigen::VectorXd own = of_drive(rows, numbers, drive);
+  return own.size() == 0 ? 0.0 : std::sqrt(own.squaredNorm() / static_cast<double>(own.size()));
 }
 
 /// By recording and drive.
 std::map<std::pair<int, int>, LeftMeans> left_means(const DynamicsRows& rows, const Eigen::VectorXd& left) {
-  const std::vector<double> speed = speeds(rows);
-  std::map<int, std::vector<double>> of_drive;
-  for (std::size_t row = 0; row < speed.size(); ++row) of_drive[rows.drive[row]].push_back(speed[row]);
+  const Eigen::VectorXd speed = speeds(rows);
   std::map<int, double> usual;
-  for (const auto& [drive, all] : of_drive) usual[drive] = root_mean_square(all);
+  for (const int drive : std::set<int>(rows.drive.begin(), rows.drive.end()))
+    usual[drive] = usual_size(rows, speed, drive);
   struct Sum {
     double torque = 0.0, friction = 0.0;
     std::size_t count = 0;
   };
   std::map<std::pair<int, int>, std::map<int, Sum>> sums;
-  for (std::size_t row = 0; row < speed.size(); ++row) {
-    const int drive = rows.drive[row];
+  for (Eigen::Index row = 0; row < speed.size(); ++row) {
+    const auto at = static_cast<std::size_t>(row);
+    const int drive = rows.drive[at];
     if (std::abs(speed[row]) < moves * usual[drive]) continue;
-    Sum& sum = sums[{rows.recording[row], drive}][static_cast<int>(rows.time[row] / cluster_length)];
-    const double torque = left[static_cast<Eigen::Index>(row)];
-    sum.torque += torque;
-    sum.friction += speed[row] > 0.0 ? torque : -torque;
+    Sum& sum = sums[{rows.recording[at], drive}][static_cast<int>(rows.time[at] / cluster_length)];
+    sum.torque += left[row];
+    sum.friction += speed[row] > 0.0 ? left[row] : -left[row];
     ++sum.count;
   }
   std::map<std::pair<int, int>, LeftMeans> means;
@@ -163,9 +159,6 @@ std::vector<std::string> doubts_about_contacts(const DynamicsRows& rows, const E
 std::vector<std::string> warnings_about_drift(const DynamicsRows& rows, const Eigen::VectorXd& left,
                                               const std::vector<std::string>& files,
                                               const std::string& unit) {
-  std::map<int, std::vector<double>> torque;
-  for (std::size_t row = 0; row < rows.drive.size(); ++row)
-    torque[rows.drive[row]].push_back(rows.torque[static_cast<Eigen::Index>(row)]);
   std::vector<std::string> warnings;
   for (const auto& [of, means] : left_means(rows, left)) {
     if (means.size() < fewest_means || means.back().time - means.front().time < shortest) continue;
@@ -173,7 +166,8 @@ std::vector<std::string> warnings_about_drift(const DynamicsRows& rows, const Ei
          {std::pair(&LeftMean::torque, "torque"), std::pair(&LeftMean::friction, "friction")}) {
       const Drift drift = drift_of(means, value);
       const bool is_clear = std::abs(drift.change) > clear * drift.deviation;
-      if (!is_clear || std::abs(drift.change) < worth_telling * root_mean_square(torque[of.second])) continue;
+      if (!is_clear || std::abs(drift.change) < worth_telling * usual_size(rows, rows.torque, of.second))
+        continue;
       warnings.push_back(
           fmt::format("{}: the {} of drive {} changes by {:+.2g} {} from begin to end; where it warms up, "
                       "let it move for as "
