@@ -39,7 +39,7 @@ std::vector<bool> nominal_samples(const Recording& recording, const Configuratio
                        "; thresholds come from motion without contact");
     }
     if (run.witness() == Witness::none && now.detection.level != ContactLevel::none) {
-      throw SetupError("the robot noticed a contact " + at(now.time) +
+      throw SetupError("the robot detected a contact " + at(now.time) +
                        ", and nobody knows whether there was one; record with higher thresholds in "
                        "control.contact_detector");
     }

@@ -11,7 +11,7 @@ namespace flinch {
 struct Recording;
 
 /// Whether each sample belongs to a nominal motion; where its reference rests for more than 1 s, it does not.
-/// Throws SetupError where something touched the robot, or where the robot noticed something, so that nobody
+/// Throws SetupError where something touched the robot, or where the robot detected something, so that nobody
 /// knows.
 std::vector<bool> nominal_samples(const Recording& recording, const ConfigurationSpace& space);
 

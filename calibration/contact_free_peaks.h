@@ -23,7 +23,7 @@ struct EstimatorPeaks {
 /// The peaks of every estimator of a recording, in stretches of length `stretch` in which its estimate was
 /// valid and a nominal motion followed throughout that did not rest for more than 1 s. `space` is that of the
 /// recorded robot. Throws SetupError, without naming the file, where the recording has no estimates, where
-/// something touched the robot, where the robot noticed something, so that nobody knows, or where nobody
+/// something touched the robot, where the robot detected something, so that nobody knows, or where nobody
 /// watched and one peak cannot be of the same motion as the others.
 std::vector<EstimatorPeaks> contact_free_peaks(const Recording& recording, const ConfigurationSpace& space,
                                                Time stretch);

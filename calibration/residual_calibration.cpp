@@ -6,10 +6,10 @@
 #include <optional>
 #include <utility>
 
+#include "calibration/autoregressive_error.h"
 #include "calibration/contact_free_motion.h"
-#include "calibration/error_course.h"
 #include "calibration/error_sizes.h"
-#include "calibration/surprise_tail.h"
+#include "calibration/mahalanobis_tail.h"
 #include "diagrams/fused_detector.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recorded_values.h"
@@ -20,7 +20,7 @@ namespace {
 constexpr std::array judged{"disturbance_filter", "imu_residual"};
 constexpr std::size_t most_samples = 60'000;  // of a drive, to which sizes are fitted
 constexpr double still_hidden = 0.01;         // share of friction near rest that is left behind filters
-constexpr double least_surprise = 1e-6;       // that a threshold may have
+constexpr double least_distance = 1e-6;       // that a threshold may have
 
 /// The signal of the loads of the drives; "" where there is none.
 std::string loads_of(const Recording& recording) {
@@ -52,7 +52,7 @@ void follow(const Motion& motion, const std::string& estimator, const Visit& vis
   ResidualMemory memory, next;
   for (std::size_t k = 0; k < estimates.size(); ++k) {
     const DriveLoad load = loads[k];
-    follow_residual(estimates[k], load, past, Time(recording.time_ns[k]), tracking, memory, next);
+    track_residual(estimates[k], load, past, Time(recording.time_ns[k]), tracking, memory, next);
     if (load.valid) past.push(load);
     memory = next;
     visit(motion.of.nominal[k], memory);
@@ -62,19 +62,19 @@ void follow(const Motion& motion, const std::string& estimator, const Visit& vis
 
 /// A part of a residual: what is seen of it, where it means something.
 struct Statistic {
-  DriveResidual SeenResidual::*part;
-  bool SeenResidual::*means_something;  ///< null: always
-  bool has_whole_torque;                ///< is seen with nearly the torque itself
+  DriveResidual ResidualSample::*part;
+  bool ResidualSample::*means_something;  ///< null: always
+  bool has_whole_torque;                  ///< is seen with nearly the torque itself
 
-  const DriveResidual* of(bool nominal, const SeenResidual& seen) const {
+  const DriveResidual* of(bool nominal, const ResidualSample& seen) const {
     return nominal && seen.is_new && (means_something == nullptr || seen.*means_something) ? &(seen.*part)
                                                                                            : nullptr;
   }
 };
 
-constexpr Statistic level_statistic{&SeenResidual::level, nullptr, true};
-constexpr Statistic change_statistic{&SeenResidual::change, &SeenResidual::settled, false};
-constexpr Statistic smoothed_statistic{&SeenResidual::smoothed, &SeenResidual::smooth, true};
+constexpr Statistic level_statistic{&ResidualSample::level, nullptr, true};
+constexpr Statistic change_statistic{&ResidualSample::change, &ResidualSample::settled, false};
+constexpr Statistic smoothed_statistic{&ResidualSample::smoothed, &ResidualSample::smooth, true};
 constexpr std::array statistics{level_statistic, change_statistic, smoothed_statistic};
 
 /// Which drives slide, so that no dry friction near rest hides their errors.
@@ -98,7 +98,7 @@ class ErrorSamples {
  public:
   ErrorSamples(const Statistic& statistic, std::size_t stride) : statistic_(statistic), stride_(stride) {}
 
-  void add(bool nominal, const SeenResidual& all) {
+  void add(bool nominal, const ResidualSample& all) {
     const DriveResidual* const seen = statistic_.of(nominal, all);
     if (seen == nullptr || ticks_++ % stride_ != 0) return;
     drives_.see(all.hidden);
@@ -142,9 +142,9 @@ std::vector<ResidualErrors> fit(const std::vector<Motion>& motions, const std::s
 }
 
 /// Of the errors of a residual's change, which `OnsetRatio` follows as far as no sample is missing.
-std::optional<ErrorCourse> fit_course(const std::vector<Motion>& motions, const std::string& estimator,
-                                      const ResidualErrors& errors) {
-  ErrorCourseFit fit;
+std::optional<AutoregressiveError> fit_course(const std::vector<Motion>& motions,
+                                              const std::string& estimator, const ResidualErrors& errors) {
+  AutoregressiveErrorFit fit;
   for (const Motion& each : motions) {
     const Sampling sampling = each.of.tracking.at(estimator).sampling;
     Time last{};
@@ -161,14 +161,14 @@ std::optional<ErrorCourse> fit_course(const std::vector<Motion>& motions, const 
   return fit.course();
 }
 
-/// How surprising a residual is at a tick; none where there is nothing to judge.
-using Surprise = std::function<std::optional<double>(bool nominal, const ResidualMemory& memory)>;
+/// The Mahalanobis distance of a residual at a tick; none where there is nothing to judge.
+using Distance = std::function<std::optional<double>(bool nominal, const ResidualMemory& memory)>;
 
-/// How surprising motion without contact is. Ticks without a surprise, as where the IMU is left out, are no
+/// Mahalanobis distances of motion without contact. Ticks without one, as where the IMU is left out, are no
 /// part of a stretch.
-class Surprises {
+class Distances {
  public:
-  Surprises(Surprise surprise, const ThresholdGoal& goal) : surprise_(std::move(surprise)), goal_(goal) {}
+  Distances(Distance distance, const ThresholdGoal& goal) : distance_(std::move(distance)), goal_(goal) {}
 
   void begin(const Recording& recording) {
     length_ = static_cast<std::size_t>(std::max<std::int64_t>(1, goal_.stretch / recording.period));
@@ -177,7 +177,7 @@ class Surprises {
   }
   void add(bool nominal, const ResidualMemory& memory) {
     const bool waits = nominal && memory.started && !memory.seen.is_new;
-    const std::optional<double> seen = surprise_(nominal, memory);
+    const std::optional<double> seen = distance_(nominal, memory);
     if (!seen && !waits) return;
     if (ticks_ == 0) largest_now_ = 0.0;
     if (seen) {
@@ -191,51 +191,51 @@ class Surprises {
   }
 
   const std::vector<double>& largest() const { return largest_; }  ///< of each stretch
-  const SurpriseTail& tail() const { return tail_; }
+  const MahalanobisTail& tail() const { return tail_; }
 
  private:
-  Surprise surprise_;
+  Distance distance_;
   ThresholdGoal goal_;
   std::size_t length_ = 1;
   std::size_t ticks_ = 0;  // of the present stretch
   double largest_now_ = 0.0;
   SlidingDrives drives_;
   std::vector<double> largest_;
-  SurpriseTail tail_;
+  MahalanobisTail tail_;
 };
 
 /// Of each of `which`. Throws SetupError where there is too little motion.
-std::vector<Surprises> surprises(const std::vector<Motion>& motions, const std::string& estimator,
-                                 const std::vector<Surprise>& which, const ThresholdGoal& goal) {
-  std::vector<Surprises> all;
-  for (const Surprise& surprise : which) all.emplace_back(surprise, goal);
+std::vector<Distances> distances(const std::vector<Motion>& motions, const std::string& estimator,
+                                 const std::vector<Distance>& which, const ThresholdGoal& goal) {
+  std::vector<Distances> all;
+  for (const Distance& distance : which) all.emplace_back(distance, goal);
   for (const Motion& each : motions) {
-    for (Surprises& of : all) of.begin(*each.of.recording);
+    for (Distances& of : all) of.begin(*each.of.recording);
     follow(each, estimator, [&all](bool nominal, const ResidualMemory& memory) {
-      for (Surprises& of : all) of.add(nominal, memory);
+      for (Distances& of : all) of.add(nominal, memory);
     });
   }
-  for (const Surprises& of : all) require_enough(estimator, of.largest().size(), goal);
+  for (const Distances& of : all) require_enough(estimator, of.largest().size(), goal);
   return all;
 }
 
-Surprise surprise_of(const Statistic& statistic, const ResidualErrors& errors) {
+Distance distance_of(const Statistic& statistic, const ResidualErrors& errors) {
   return [=](bool nominal, const ResidualMemory& memory) -> std::optional<double> {
     const DriveResidual* const seen = statistic.of(nominal, memory.seen);
     if (seen == nullptr) return std::nullopt;
-    return surprise(memory.seen.load, *seen, errors);
+    return mahalanobis_distance(memory.seen.load, *seen, errors);
   };
 }
 
 /// Of onsets, as `WhitenedDetector` follows them.
-Surprise surprise_of(const OnsetRatio& ratio) {
+Distance distance_of(const OnsetRatio& ratio) {
   return [=, onsets = OnsetMemory()](bool nominal,
                                      const ResidualMemory& memory) mutable -> std::optional<double> {
     OnsetMemory next;
     ratio.follow(memory.seen, onsets, next);
     onsets = next;
     if (change_statistic.of(nominal, memory.seen) == nullptr) return std::nullopt;
-    return ratio.surprise(onsets);
+    return ratio.mahalanobis_distance(onsets);
   };
 }
 
@@ -281,25 +281,25 @@ std::vector<CalibratedResidual> calibrate_residuals(const std::vector<ResidualRe
     CalibratedResidual& residual = all.emplace_back();
     residual.estimator = estimator;
     const std::vector<ResidualErrors> errors = fit(motions, estimator);
-    std::vector<Surprise> of_statistics;
+    std::vector<Distance> of_statistics;
     for (std::size_t i = 0; i < statistics.size(); ++i)
-      of_statistics.push_back(surprise_of(statistics[i], errors[i]));
-    const std::vector<Surprises> found = surprises(motions, estimator, of_statistics, goal);
+      of_statistics.push_back(distance_of(statistics[i], errors[i]));
+    const std::vector<Distances> found = distances(motions, estimator, of_statistics, goal);
     const std::array parts_of{&residual.level, &residual.change, &residual.smoothed};
     for (std::size_t i = 0; i < statistics.size(); ++i) {
-      const SurpriseTail& tail = found[i].tail();
+      const MahalanobisTail& tail = found[i].tail();
       *parts_of[i] = {
           errors[i], tail.variation(), tail.between_robots(),
           calibrated_threshold(found[i].largest(), probability, goal, tail.power(goal.confidence))};
-      require_errors(estimator + ", residual in deviations", parts_of[i]->threshold, least_surprise);
+      require_errors(estimator + ", residual in deviations", parts_of[i]->threshold, least_distance);
     }
     residual.stretches = found.back().largest().size();
     if (const auto course = fit_course(motions, estimator, residual.change.errors)) {
       const OnsetRatio ratio(residual.change.errors, *course, recordings.front().tracking.at(estimator));
-      const Surprises onsets = surprises(motions, estimator, {surprise_of(ratio)}, goal).front();
+      const Distances onsets = distances(motions, estimator, {distance_of(ratio)}, goal).front();
       residual.stretches = onsets.largest().size();
       residual.onset = {*course, calibrated_threshold(onsets.largest(), probability, goal)};
-      require_errors(estimator + ", onset in deviations", residual.onset->threshold, least_surprise);
+      require_errors(estimator + ", onset in deviations", residual.onset->threshold, least_distance);
     }
   }
   return all;

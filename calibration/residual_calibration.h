@@ -27,23 +27,23 @@ struct ResidualRecording {
 };
 
 /// When the level of a residual, its change, or what is smoothed of it is a contact.
-struct CalibratedSurprise {
+struct CalibratedDistance {
   ResidualErrors errors;
-  double variation = 0.0;         ///< of the errors' variance beside what is expected, see `SurpriseTail`
+  double variation = 0.0;         ///< of the errors' variance beside what is expected, see `MahalanobisTail`
   double between_robots = 0.0;    ///< the part of it by which the recorded robots differ
   CalibratedThreshold threshold;  ///< of what is left once the errors have deviation 1
 };
 
 /// When the onsets that a residual's change tells of are a contact.
 struct CalibratedOnset {
-  ErrorCourse course;  ///< of the change, divided by its deviation
+  AutoregressiveError course;  ///< of the change, divided by its deviation
   CalibratedThreshold threshold;
 };
 
 struct CalibratedResidual {
   std::string estimator;
   std::size_t stretches = 0;
-  CalibratedSurprise level, change, smoothed;
+  CalibratedDistance level, change, smoothed;
   /// None where no samples follow one another without a gap, as those of an IMU that is slow.
   std::optional<CalibratedOnset> onset;
 };

@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double largest_variation = 0.3;  // up to which thresholds keep the rate, see `SurpriseTail`
+constexpr double largest_variation = 0.3;  // up to which thresholds keep the rate, see `MahalanobisTail`
 
 Json json_of(const CalibratedThreshold& threshold) {
   return {{"value", threshold.value},
@@ -87,12 +87,12 @@ double seconds(std::size_t stretches, const ThresholdGoal& goal) {
 }
 
 /// One part of a residual, by name.
-struct NamedSurprise {
+struct NamedDistance {
   const char* name;
-  const CalibratedSurprise& surprise;
+  const CalibratedDistance& distance;
 };
 
-std::array<NamedSurprise, 3> parts(const CalibratedResidual& residual) {
+std::array<NamedDistance, 3> parts(const CalibratedResidual& residual) {
   return {{{"level", residual.level}, {"change", residual.change}, {"smoothed", residual.smoothed}}};
 }
 
@@ -133,8 +133,8 @@ std::string onsets_table(const ThresholdFindings& found) {
       "\nthe same by rule: likelihood_ratio, onsets in place of changes; how these are told from the {} "
       "before\n"
       "{:<22} {:<8} {:>9} {:>9} {:>9} {:>10}",
-      ErrorCourse::order, "residual", "of", "threshold", "guess", "largest", "innovation");
-  for (int j = 1; j <= ErrorCourse::order; ++j) text += fmt::format(" {:>7}", fmt::format("a_{}", j));
+      AutoregressiveError::order, "residual", "of", "threshold", "guess", "largest", "innovation");
+  for (int j = 1; j <= AutoregressiveError::order; ++j) text += fmt::format(" {:>7}", fmt::format("a_{}", j));
   text += "\n";
   for (const CalibratedResidual& residual : found.residuals) text += onset_row(residual);
   return text;
@@ -224,7 +224,7 @@ std::string provenance(const ThresholdFindings& found) {
   return text;
 }
 
-Json json_of(const CalibratedSurprise& of) {
+Json json_of(const CalibratedDistance& of) {
   return {{"value", of.threshold.value},     {"best_guess", of.threshold.best_guess},
           {"largest", of.threshold.largest}, {"noise", of.errors.noise},
           {"speed", of.errors.speed},        {"load", of.errors.load},
@@ -287,7 +287,7 @@ std::vector<std::string> warnings(const ThresholdFindings& found) {
   std::vector<std::string> all;
   for (const CalibratedResidual& of : found.residuals) {
     double variation = 0.0, of_one = 0.0;
-    for (const CalibratedSurprise* part : {&of.level, &of.change, &of.smoothed}) {
+    for (const CalibratedDistance* part : {&of.level, &of.change, &of.smoothed}) {
       variation = std::max(variation, part->variation);
       of_one = std::max(of_one, (1.0 + part->variation) / (1.0 + part->between_robots) - 1.0);
     }

@@ -3,7 +3,8 @@ include(GNUInstallDirs)
 # flinch_library(<name> FOLDERS <folder>... [PUBLIC <target>...] [PRIVATE <target>...])
 #
 # The library flinch::<name> of all sources and headers in the folders. Headers are included by their
-# path from the root, in the tree and once installed. Without a source file it is an interface library.
+# path from the root, in the tree and once installed; <flinch/<name>.h> includes all of them. Without a source
+# file it is an interface library.
 function(flinch_library name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "FOLDERS;PUBLIC;PRIVATE")
   flinch_glob(sources "*.cpp" ${arg_FOLDERS})
@@ -25,8 +26,12 @@ function(flinch_library name)
   add_library(flinch::${name} ALIAS ${target})
 
   target_compile_features(${target} ${scope} cxx_std_20)
-  target_include_directories(${target} ${scope} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
-                                                $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/flinch>)
+  target_include_directories(${target}
+    ${scope} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/flinch>
+    INTERFACE $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  list(TRANSFORM headers REPLACE "^${PROJECT_SOURCE_DIR}/(.*)$" "#include \"\\1\"\n" OUTPUT_VARIABLE includes)
+  list(JOIN includes "" includes)
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/include/flinch/${name}.h CONTENT "#pragma once\n\n${includes}")
   # That a header needs no other is shown by its own source, which includes it first (tests/house), or else by compiling
   # it alone (all_verify_interface_header_sets).
   set(with_source "")
@@ -48,6 +53,8 @@ function(flinch_library name)
   install(TARGETS ${target} EXPORT flinch-targets-${name} COMPONENT development
           FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/flinch COMPONENT development
           FILE_SET headers_alone DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/flinch COMPONENT development)
+  install(FILES ${PROJECT_BINARY_DIR}/include/flinch/${name}.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/flinch
+          COMPONENT development)
   set_property(GLOBAL APPEND PROPERTY flinch_libraries ${name})
 endfunction()
 

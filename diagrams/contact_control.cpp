@@ -7,8 +7,8 @@
 #include "diagrams/control_rate.h"
 #include "diagrams/drive_checking.h"
 #include "diagrams/isolation_stages.h"
-#include "diagrams/lagless_motion.h"
-#include "diagrams/limit_keeping.h"
+#include "diagrams/low_latency_motion.h"
+#include "diagrams/safety_filtering.h"
 #include "diagrams/shared_parts.h"
 #include "diagrams/watched_imu.h"
 #include "systems/contact/told_contact.h"
@@ -75,7 +75,7 @@ struct Laws {
   ZeroGravity& zero_gravity;
   ControlledStop& stop;
   ModeSelector& selector;
-  KeptTorques kept;  ///< of the selector's torques
+  LimitedTorques kept;  ///< of the selector's torques
 };
 
 /// And whether they may leave.
@@ -163,7 +163,7 @@ Laws add_laws(const Path& path, const ReactionPorts& given) {
   builder.connect(laws.zero_gravity.torque, laws.selector.zero_gravity);
   builder.connect(laws.nominal.port().reference, laws.selector.nominal_reference);
   builder.connect(laws.reaction.port().reference, laws.selector.reaction_reference);
-  laws.kept = add_limit_keeper(path.site("limits"), given, laws.selector.torque);
+  laws.kept = add_safety_filter(path.site("limits"), given, laws.selector.torque);
   return laws;
 }
 

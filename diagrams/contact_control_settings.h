@@ -17,9 +17,9 @@
 #include "systems/estimators/sliding_mode_observer.h"
 #include "systems/laws/controlled_stop.h"
 #include "systems/laws/impedance_controller.h"
-#include "systems/laws/limit_keeper.h"
 #include "systems/laws/mode_selector.h"
 #include "systems/laws/reaction_sequence.h"
+#include "systems/laws/safety_filter.h"
 #include "systems/model/forward_kinematics.h"
 #include "systems/motion/platform_trajectory.h"
 #include "systems/motion/retraction.h"
@@ -89,8 +89,8 @@ struct ContactControlSettings {
   /// After a hard contact: zero gravity that takes energy out. None: zero gravity alone, [SafePR] IV-A, which
   /// is no torque at all for a robot that moves horizontally: it coasts on.
   std::optional<ControlledStopSettings> yielding = ControlledStopSettings{.share_at_rest = 0.25};
-  ModeSelectorSettings modes;  ///< blends over 10 ms
-  LimitKeeperSettings limits;  ///< that the laws' torques keep; of settings_for(): those of the torque gate
+  ModeSelectorSettings modes;   ///< blends over 10 ms
+  SafetyFilterSettings limits;  ///< that the laws' torques keep; of settings_for(): those of the torque gate
   DisturbanceFilterSettings limits_filter{.pole = 400.0, .encoder_deviation = 7e-6, .sampling = {}};
 
   // ---- safety

@@ -5,7 +5,7 @@
 
 #include "diagrams/acceleration_stages.h"
 #include "diagrams/contact_control_settings.h"
-#include "diagrams/lagless_motion.h"
+#include "diagrams/low_latency_motion.h"
 #include "diagrams/shared_parts.h"
 #include "systems/estimators/direct_method.h"
 #include "systems/estimators/estimate_fallback.h"
@@ -93,7 +93,7 @@ OutputPort<WrenchEstimate> add_direct_imu_ekf(const StageSite& site, const Accel
 }
 
 OutputPort<WrenchEstimate> add_direct_extended_imu_ekf(const StageSite& site, const AcceleratedPorts& given) {
-  return add_direct(site, given, without_lag(site, given), acceleration_of("extended_imu_ekf", site, given));
+  return add_direct(site, given, low_latency(site, given), acceleration_of("extended_imu_ekf", site, given));
 }
 
 OutputPort<WrenchEstimate> add_disturbance_filter(const StageSite& site, const AcceleratedPorts& given) {
@@ -101,7 +101,7 @@ OutputPort<WrenchEstimate> add_disturbance_filter(const StageSite& site, const A
 }
 
 OutputPort<WrenchEstimate> add_imu_residual_alone(const StageSite& site, const AcceleratedPorts& given) {
-  return add_imu_residual(site, given, without_lag(site, given));
+  return add_imu_residual(site, given, low_latency(site, given));
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 
 #include "diagrams/contact_control_settings.h"
 #include "diagrams/estimator_stages.h"
-#include "diagrams/lagless_motion.h"
-#include "systems/contact/either_detector.h"
+#include "diagrams/low_latency_motion.h"
+#include "systems/contact/max_detector.h"
 #include "systems/foundation/nearest_name.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/constant.h"
@@ -19,7 +19,7 @@ namespace flinch {
 namespace {
 
 OutputPort<DriveLoad> add_loads(const StageSite& site, const AcceleratedPorts& given,
-                                const LaglessPorts& present) {
+                                const LowLatencyPorts& present) {
   auto& loads = site.builder.add<DriveLoads>(site.name + "_loads", site.robot);
   site.builder.connect(present.platform, loads.platform);
   site.builder.connect(present.kinematics, loads.kinematics);
@@ -31,7 +31,7 @@ OutputPort<DriveLoad> add_loads(const StageSite& site, const AcceleratedPorts& g
 /// That which runs, else one for this detector alone; of those that need a motion without a lag it is the
 /// detector's.
 OutputPort<WrenchEstimate> estimate_of(const std::string& name, const StageSite& site,
-                                       const EstimatePorts& given, const LaglessPorts& present) {
+                                       const EstimatePorts& given, const LowLatencyPorts& present) {
   std::vector<std::string> known;
   for (const auto& running : given.estimates) {
     if (running.name == name) return running.port;
@@ -48,7 +48,7 @@ OutputPort<WrenchEstimate> estimate_of(const std::string& name, const StageSite&
 
 /// With what stamps that err make of the residual of the IMU, where more is stated than was calibrated: of
 /// two in a row, behind an observer of the gyroscope; and of how late torques are.
-SurpriseThreshold with_stamps(SurpriseThreshold limit, const ContactControlSettings& settings) {
+MahalanobisThreshold with_stamps(MahalanobisThreshold limit, const ContactControlSettings& settings) {
   const double deviation = uniform_deviation(settings.imu_stamp_spread);
   const double T = to_seconds(settings.control_period);
   const double a = std::exp(-settings.imu_residual.gyroscope_gain * T);
@@ -59,7 +59,7 @@ SurpriseThreshold with_stamps(SurpriseThreshold limit, const ContactControlSetti
 }
 
 OutputPort<ContactDetection> add_residual(const StageSite& site, const FusedResidual& residual,
-                                          const EstimatePorts& given, const LaglessPorts& present,
+                                          const EstimatePorts& given, const LowLatencyPorts& present,
                                           OutputPort<DriveLoad> load) {
   WhitenedDetectorSettings settings{.level = residual.level,
                                     .change = residual.change,
@@ -103,7 +103,7 @@ ResidualTracking tracking_of(const std::string& estimator, const ContactControlS
 }
 
 OutputPort<ContactDetection> add_fused_detector(const StageSite& site, const EstimatePorts& given) {
-  const LaglessPorts present = without_lag(site, given);
+  const LowLatencyPorts present = low_latency(site, given);
   const OutputPort<DriveLoad> load = add_loads(site, given, present);
   if (site.loads != nullptr) site.loads->push_back({site.name, load});
   const std::vector<FusedResidual>& residuals = site.settings.fused_detector.residuals;
@@ -111,7 +111,7 @@ OutputPort<ContactDetection> add_fused_detector(const StageSite& site, const Est
   OutputPort<ContactDetection> noticed = add_residual(site, residuals.front(), given, present, load);
   for (std::size_t i = 1; i < residuals.size(); ++i) {
     const std::string name = i + 1 < residuals.size() ? site.name + "_" + std::to_string(i) : site.name;
-    auto& either = site.builder.add<EitherDetector>(name);
+    auto& either = site.builder.add<MaxDetector>(name);
     site.builder.connect(noticed, either.first);
     site.builder.connect(add_residual(site, residuals[i], given, present, load), either.second);
     noticed = either.contact;

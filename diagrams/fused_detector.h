@@ -3,7 +3,7 @@
 #include <string>
 
 #include "diagrams/control_stages.h"
-#include "systems/contact/seen_residual.h"
+#include "systems/contact/residual_sample.h"
 
 namespace flinch {
 
@@ -11,7 +11,7 @@ namespace flinch {
 /// others no filter is known, and their errors are expected at once.
 ResidualTracking tracking_of(const std::string& estimator, const ContactControlSettings& settings);
 
-/// A stage that notices what any of `ContactControlSettings::fused_detector.residuals` shows: a
+/// A stage that detects what any of `ContactControlSettings::fused_detector.residuals` shows: a
 /// `WhitenedDetector` on each, and either of them. An estimator that does not run is added for it alone. Hard
 /// contacts are those of `contact_detector`. Throws SetupError for an estimator that there is not, and where
 /// it is followed and has no residual.

@@ -11,8 +11,8 @@ namespace flinch {
 /// By which residual the fused detector judges, and how.
 struct FusedResidual {
   std::string estimator;  ///< one of `estimator_stages()`, or one that runs
-  SurpriseThreshold level, change;
-  std::optional<SurpriseThreshold> smoothed{};
+  MahalanobisThreshold level, change;
+  std::optional<MahalanobisThreshold> smoothed{};
   std::optional<OnsetThreshold> onset{};  ///< needed where likelihood ratios are the rule
 };
 

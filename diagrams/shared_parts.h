@@ -25,7 +25,7 @@ struct SharedParts {
 
   std::vector<Torque> torques;
   std::vector<Filter> filters;
-  MotionModel* model_without_lag = nullptr;
+  MotionModel* model_low_latency = nullptr;
   std::optional<OutputPort<WrenchEstimate>> momentum_observer;
 };
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "diagrams/contact_control_settings.h"
-#include "diagrams/limit_keeping.h"
+#include "diagrams/safety_filtering.h"
 #include "systems/laws/task_controller.h"
 #include "systems/laws/task_energy.h"
 #include "systems/motion/constraint_watch.h"
@@ -77,7 +77,7 @@ LawPorts add_reaction(const StageSite& site, TaskLevel level, const ReactionPort
   return add_reaction_with(site, level, settings.constraints, settings.reaction, given);
 }
 
-/// The limit keeper holds the constraints: none becomes a task, and motions may take what the drives have,
+/// The safety filter holds the constraints: none becomes a task, and motions may take what the drives have,
 /// from the first tick on.
 LawPorts add_strict_reaction(const StageSite& site, TaskLevel level, const ReactionPorts& given) {
   ConstraintSettings watched = site.settings.tasks.constraints;
@@ -122,7 +122,7 @@ void keep_constraints_strictly(const ParallelRobot& robot, ContactControlSetting
   constexpr double speed_share = 0.58;
   const ConstraintSettings& constraints = settings.tasks.constraints;
   PlaceLimits& limits = settings.limits.limits;
-  settings.limits.use = LimitKeeperSettings::Use::always;
+  settings.limits.use = SafetyFilterSettings::Use::always;
   limits.max_condition_number = std::min(limits.max_condition_number, constraints.sigma_kappa.safety);
   limits.workspace.min_self_collision_distance =
       std::max(limits.workspace.min_self_collision_distance, constraints.sigma_sc.safety);

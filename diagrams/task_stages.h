@@ -14,10 +14,10 @@ class ParallelRobot;
 std::vector<ControlLaw> tracking_stages();
 
 /// Laws of the reaction that do so: "velocity_reaction", "acceleration_reaction", "torque_reaction",
-/// and "strict_reaction": the tasks of the torque level, whose constraints the limit keeper holds instead.
+/// and "strict_reaction": the tasks of the torque level, whose constraints the safety filter holds instead.
 std::vector<ControlLaw> task_reaction_stages();
 
-/// What "strict_reaction" needs: the limit keeper holds the safety values of the tasks' constraints, in the
+/// What "strict_reaction" needs: the safety filter holds the safety values of the tasks' constraints, in the
 /// nominal motion too, and a speed of the platform from which the drives can brake in time: 0.58 of that at
 /// which, at the home pose, whichever drive gets there first is at its largest speed (2.1 m/s on the planar
 /// bench, found by trial). No limit that is there is loosened.

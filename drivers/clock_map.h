@@ -7,7 +7,7 @@
 namespace flinch {
 
 /// Tells the times of one steady clock ("there") by another ("here"), from events that are stamped there,
-/// when they begin, and here, when they are noticed. The delay between is unknown but never negative, so the
+/// when they begin, and here, when they are detected. The delay between is unknown but never negative, so the
 /// smallest difference of the two stamps is nearest to the difference of the clocks:
 ///
 ///   offset_k = min(offset_{k-1} + drift (t_k - t_{k-1}), here_k - there_k),   drift = 100 ppm

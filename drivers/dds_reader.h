@@ -21,7 +21,7 @@ class DdsArrivals {
 };
 
 /// What a writer has promised with its topic and not kept, since the start.
-struct BrokenPromises {
+struct QosMismatch {
   std::uint32_t deadlines = 0;  ///< periods in which no sample came although one was due
   std::uint32_t silences = 0;   ///< how often one did not show in time that it lives, or left
 };
@@ -43,7 +43,7 @@ class DdsReader {
   int writers() const noexcept;
 
   /// From any thread, also that of a control loop.
-  BrokenPromises broken_promises() const noexcept {
+  QosMismatch broken_promises() const noexcept {
     return {deadlines_.load(std::memory_order_relaxed), silences_.load(std::memory_order_relaxed)};
   }
 

@@ -109,7 +109,7 @@ class DdsServer::Implementation {
 
  private:
   struct Power {
-    Slot<DriveWish> wish;
+    Slot<RequestedDriveState> wish;
     Slot<Statusword> statusword;
   };
 
@@ -164,10 +164,10 @@ class DdsServer::Implementation {
     return is_asked() && (request_.engage_brake != 0 || request_.wanted != operation_enabled);
   }
 
-  void wish(DriveWish& wish) const noexcept {
-    wish = DriveWish{.fault_resets = fault_resets_};
+  void wish(RequestedDriveState& wish) const noexcept {
+    wish = RequestedDriveState{.fault_resets = fault_resets_};
     if (!is_asked() || request_.wanted > 3) return;
-    wish.state = static_cast<DriveWish::State>(request_.wanted);
+    wish.state = static_cast<RequestedDriveState::State>(request_.wanted);
     wish.engage_brake = request_.engage_brake != 0;
   }
 
@@ -233,7 +233,7 @@ class DdsServer::Implementation {
   flinch_DriveRequest request_{};         ///< of who commands, or commanded last
   flinch_DriveRequest others_request_{};  ///< the last of anybody else
   ReceivedSample<flinch_DriveRequest> new_request_;
-  SampleReceiver<flinch_DriveRequest, EachInTurn> requests_;
+  SampleReceiver<flinch_DriveRequest, RoundRobin> requests_;
 
   ReadingOutlet<flinch_JointSample, JointReading> joints_;
   ReadingOutlet<flinch_DriveSample, DriveReading> drives_;

@@ -177,7 +177,7 @@ class DdsStation::Implementation {
     return true;
   }
 
-  void request(const DriveWish& wish) noexcept {
+  void request(const RequestedDriveState& wish) noexcept {
     if (pace_ == Pace::lockstep) return;
     flinch_DriveRequest request{};
     request.header.acquired_ns = MonotonicClock::now().count();
@@ -351,7 +351,7 @@ DdsStation::Answer DdsStation::wait_for_tick(Time deadline) noexcept {
 }
 void DdsStation::send_again() noexcept { implementation_->send_again(); }
 void DdsStation::ask_for_end() noexcept { implementation_->ask_for_end(); }
-void DdsStation::request(const DriveWish& wish) noexcept { implementation_->request(wish); }
+void DdsStation::request(const RequestedDriveState& wish) noexcept { implementation_->request(wish); }
 DdsLink DdsStation::link() const noexcept { return implementation_->link(); }
 Time DdsStation::period() const noexcept { return implementation_->period(); }
 int DdsStation::peers() const noexcept { return implementation_->peers(); }

@@ -8,8 +8,8 @@
 #include "diagrams/external_station.h"
 #include "drivers/dds_bus.h"
 #include "drivers/drive_state.h"
-#include "drivers/drive_wish.h"
 #include "drivers/pace.h"
+#include "drivers/requested_drive_state.h"
 #include "drivers/robot_id.h"
 #include "systems/framework/context.h"
 #include "systems/framework/duration_histogram.h"
@@ -116,7 +116,7 @@ class DdsStation final : public Exchange {
 
   /// Asks for a state of the drives, until the next call. From one thread at a time, not from the loop. In
   /// lockstep nothing: the drives are on.
-  void request(const DriveWish& wish) noexcept;
+  void request(const RequestedDriveState& wish) noexcept;
 
   /// Of the thread that calls set_inputs(), or while it does not.
   DdsLink link() const noexcept;

@@ -5,15 +5,15 @@ namespace {
 
 using enum DriveState;
 
-DriveState state_for(DriveWish::State wanted) {
+DriveState state_for(RequestedDriveState::State wanted) {
   switch (wanted) {
-    case DriveWish::State::without_voltage:
+    case RequestedDriveState::State::without_voltage:
       return switch_on_disabled;
-    case DriveWish::State::switched_on:
+    case RequestedDriveState::State::switched_on:
       return switched_on;
-    case DriveWish::State::operation_enabled:
+    case RequestedDriveState::State::operation_enabled:
       return operation_enabled;
-    case DriveWish::State::quick_stop:
+    case RequestedDriveState::State::quick_stop:
       return quick_stop_active;
   }
   return switch_on_disabled;
@@ -37,7 +37,8 @@ DriveCommand stay_in(DriveState state) {
 
 }  // namespace
 
-Controlword DriveMaster::lead(std::uint32_t resets, const DriveWish& wanted, const Statusword& drive) const {
+Controlword DriveMaster::lead(std::uint32_t resets, const RequestedDriveState& wanted,
+                              const Statusword& drive) const {
   const DriveState state = drive.state();
   if (state == fault && wanted.fault_resets != resets) return {controlword_for(DriveCommand::fault_reset)};
   const DriveCommand step = step_towards(state_for(wanted.state), state);

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "drivers/drive_state_machine.h"
-#include "drivers/drive_wish.h"
+#include "drivers/requested_drive_state.h"
 #include "systems/framework/system.h"
 
 namespace flinch {
@@ -14,15 +14,15 @@ class DriveMaster final : public System {
   State<std::uint32_t> resets_ = state<std::uint32_t>("resets");
 
  public:
-  InputPort<DriveWish> wish = input<DriveWish>("wish");
+  InputPort<RequestedDriveState> wish = input<RequestedDriveState>("wish");
   InputPort<Statusword> statusword = input<Statusword>("statusword");
   OutputPort<Controlword> controlword = output<&DriveMaster::lead>("controlword", resets_, wish, statusword);
 
  private:
   Update count_ = update<&DriveMaster::count>(resets_, wish);
 
-  Controlword lead(std::uint32_t resets, const DriveWish& wanted, const Statusword& drive) const;
-  std::uint32_t count(const DriveWish& wanted) const { return wanted.fault_resets; }
+  Controlword lead(std::uint32_t resets, const RequestedDriveState& wanted, const Statusword& drive) const;
+  std::uint32_t count(const RequestedDriveState& wanted) const { return wanted.fault_resets; }
 };
 
 }  // namespace flinch

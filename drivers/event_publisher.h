@@ -30,7 +30,7 @@ struct EventSettings {
   std::uint32_t session = 0;  ///< that the samples name, see DdsStation::session(); 0: one of its own
 };
 
-/// Tells on the bus what a running controller notices and does: a contact event for each tick at which a
+/// Tells on the bus what a running controller detects and does: a contact event for each tick at which a
 /// contact begins, reaches a higher level or ends, or the reaction changes; and diagnostics ten times a
 /// second. Both are flinch's own topics, see drivers/idl/flinch.idl; each event arrives, in order, at all
 /// who listen by then.

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "drivers/drive_state_machine.h"
-#include "drivers/drive_wish.h"
+#include "drivers/requested_drive_state.h"
 #include "systems/framework/system.h"
 #include "systems/signals/brake_command.h"
 #include "systems/signals/station_status.h"
@@ -15,7 +15,7 @@ namespace flinch {
 class PowerStage final : public System {
  public:
   InputPort<Statusword> statusword = input<Statusword>("statusword");
-  InputPort<DriveWish> wish = input<DriveWish>("wish");
+  InputPort<RequestedDriveState> wish = input<RequestedDriveState>("wish");
   InputPort<TorqueCommand> wanted_torque = input<TorqueCommand>("wanted_torque");
   InputPort<BrakeCommand> wanted_brake = input<BrakeCommand>("wanted_brake");
   InputPort<StationStatus> bare_status = input<StationStatus>("bare_status");
@@ -31,7 +31,8 @@ class PowerStage final : public System {
   TorqueCommand pass(const Statusword& drive, const TorqueCommand& torque) const {
     return is_enabled(drive) ? torque : TorqueCommand();
   }
-  BrakeCommand hold(const Statusword& drive, const DriveWish& wanted, const BrakeCommand& command) const {
+  BrakeCommand hold(const Statusword& drive, const RequestedDriveState& wanted,
+                    const BrakeCommand& command) const {
     return {.engage = command.engage || wanted.engage_brake || !is_enabled(drive)};
   }
   StationStatus report(const Statusword& drive, const StationStatus& bare) const {

@@ -2,14 +2,14 @@
 
 #include "diagrams/station.h"
 #include "drivers/drive_state_machine.h"
-#include "drivers/drive_wish.h"
+#include "drivers/requested_drive_state.h"
 #include "systems/framework/diagram_builder.h"
 
 namespace flinch {
 
 /// A station whose drives must be switched on before they act: what DdsServer puts on the bus.
 struct PoweredStation : Station {
-  InputPort<DriveWish> wish;
+  InputPort<RequestedDriveState> wish;
   OutputPort<Statusword> statusword;
 };
 

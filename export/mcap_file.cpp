@@ -21,6 +21,7 @@ using internal::Number;
 using McapJson = nlohmann::ordered_json;
 
 constexpr std::size_t samples_of_chunk = 256;
+static_assert(Recording::block % samples_of_chunk == 0);
 
 // mcap.dev, MCAP Format Specification, Records
 enum Record : unsigned char {
@@ -293,8 +294,8 @@ void write_mcap(const Recording& recording, const std::vector<ExportedSignal>& s
       recording.time_ns.empty() ? 0 : std::min<std::int64_t>(0, recording.time_ns.front());
   std::string text;
   std::vector<std::vector<Number>> rows(signals.size());
-  for (std::size_t first = 0; first < recording.samples(); first += samples_of_chunk) {
-    const std::size_t count = std::min(samples_of_chunk, recording.samples() - first);
+  for (std::size_t first = 0; first < recording.samples(); first += Recording::block) {
+    const std::size_t count = std::min(Recording::block, recording.samples() - first);
     for (std::size_t i = 0; i < signals.size(); ++i) {
       rows[i].resize(count * signals[i].signal->layout.numbers);
       recording.read_rows(*signals[i].signal, first, count, rows[i].data());
@@ -306,8 +307,8 @@ void write_mcap(const Recording& recording, const std::vector<ExportedSignal>& s
         messages[i].append(rows[i].data() + k * signals[i].signal->layout.numbers, text);
         mcap.add_message(static_cast<std::uint16_t>(i + 1), time, text);
       }
+      if ((k + 1) % samples_of_chunk == 0) mcap.end_chunk();
     }
-    mcap.end_chunk();
   }
   mcap.finish();
 }

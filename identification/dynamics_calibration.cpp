@@ -20,6 +20,7 @@
 #include "identification/motion_doubts.h"
 #include "identification/motor_parameters.h"
 #include "identification/physical_parameters.h"
+#include "identification/root_mean_square.h"
 #include "systems/config/robot_file.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recording.h"
@@ -30,10 +31,6 @@ namespace {
 constexpr double least_excitation = 0.01;  // of the largest torque: range of a drive's torque
 constexpr double poor = 0.2;               // of the torque's deviation: what is left of it after the fit
 constexpr double worth_telling = 0.1;      // of what is left of a drive's torque: what a wave of it explains
-
-double root_mean_square(const Eigen::VectorXd& x) {
-  return x.size() == 0 ? 0.0 : std::sqrt(x.squaredNorm() / static_cast<double>(x.size()));
-}
 
 /// Throws SetupError where something touched the robot.
 void refuse_contact(const Recording& recording, const ParallelRobot& robot) {
@@ -270,11 +267,8 @@ void add_residuals(const DynamicsRows& rows, const Eigen::VectorXd& before, cons
     kept.insert(kept.end(), plot.after.begin(), plot.after.end());
     result.plots.push_back(std::move(plot));
   }
-  const auto rms = [](std::vector<double>& v) {
-    return root_mean_square(Eigen::Map<Eigen::VectorXd>(v.data(), static_cast<Eigen::Index>(v.size())));
-  };
-  result.residual_before = rms(old_kept);
-  result.residual_after = rms(kept);
+  result.residual_before = root_mean_square(old_kept);
+  result.residual_after = root_mean_square(kept);
 }
 
 /// Errors of the torque that the model predicts, before and after.

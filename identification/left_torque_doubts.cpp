@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "identification/robust_mean.h"
+#include "identification/root_mean_square.h"
 
 namespace flinch {
 namespace {
@@ -42,18 +43,12 @@ Eigen::VectorXd speeds(const DynamicsRows& rows) {
   return speed;
 }
 
-/// Of what a drive has in all rows.
-double usual_size(const DynamicsRows& rows, const Eigen::VectorXd& numbers, int drive) {
-  const Eigen::VectorXd own = of_drive(rows, numbers, drive);
-  return own.size() == 0 ? 0.0 : std::sqrt(own.squaredNorm() / static_cast<double>(own.size()));
-}
-
 /// By recording and drive.
 std::map<std::pair<int, int>, LeftMeans> left_means(const DynamicsRows& rows, const Eigen::VectorXd& left) {
   const Eigen::VectorXd speed = speeds(rows);
   std::map<int, double> usual;
   for (const int drive : std::set<int>(rows.drive.begin(), rows.drive.end()))
-    usual[drive] = usual_size(rows, speed, drive);
+    usual[drive] = root_mean_square(of_drive(rows, speed, drive));
   struct Sum {
     double torque = 0.0, friction = 0.0;
     std::size_t count = 0;
@@ -166,7 +161,8 @@ std::vector<std::string> warnings_about_drift(const DynamicsRows& rows, const Ei
          {std::pair(&LeftMean::torque, "torque"), std::pair(&LeftMean::friction, "friction")}) {
       const Drift drift = drift_of(means, value);
       const bool is_clear = std::abs(drift.change) > clear * drift.deviation;
-      if (!is_clear || std::abs(drift.change) < worth_telling * usual_size(rows, rows.torque, of.second))
+      if (!is_clear ||
+          std::abs(drift.change) < worth_telling * root_mean_square(of_drive(rows, rows.torque, of.second)))
         continue;
       warnings.push_back(
           fmt::format("{}: the {} of drive {} changes by {:+.2g} {} from begin to end; where it warms up, "

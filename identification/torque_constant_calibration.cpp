@@ -10,6 +10,7 @@
 #include "identification/pull_doubts.h"
 #include "identification/pull_windows.h"
 #include "identification/robust_mean.h"
+#include "identification/root_mean_square.h"
 #include "identification/torque_constant_fit.h"
 #include "systems/config/robot_file.h"
 #include "systems/foundation/median.h"
@@ -24,12 +25,6 @@ constexpr std::size_t fewest_windows = 40;  // in which a rope pulls
 /// Standard deviation of the scale of a calibrated instrument, assumed: all constants are off by it together.
 constexpr double instrument_scale = 1e-3;
 constexpr double degree = 3.14159265358979323846 / 180.0;
-
-double root_mean_square(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double v : values) sum += v * v;
-  return values.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(values.size()));
-}
 
 /// All windows, and what is wrong with parts of the recordings.
 struct Pulls {

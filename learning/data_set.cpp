@@ -11,7 +11,7 @@
 #include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/foundation/sha256.h"
-#include "systems/framework/hdf5_object.h"
+#include "systems/framework/hdf5_table.h"
 
 namespace flinch {
 namespace {
@@ -119,12 +119,12 @@ void write_samples(const DataSet& data, internal::Hdf5Object::Id file) {
 void read_samples(internal::Hdf5Object::Id file, DataSet& data) {
   constexpr std::size_t block = 4096;
   const std::size_t columns = columns_of(*data.robot);
-  const internal::Table table = internal::open_table(file, "samples", Field::Kind::real, columns);
+  internal::Table table = internal::open_table(file, "samples", Field::Kind::real, columns);
   const std::size_t count = table.rows;
   std::vector<internal::Number> rows(block * columns);
   for (std::size_t first = 0; first < count; first += block) {
     const std::size_t read = std::min(block, count - first);
-    internal::read_rows(table.set, Field::Kind::real, first, read, columns, rows.data());
+    internal::read_rows(table, Field::Kind::real, first, read, columns, rows.data());
     for (std::size_t i = 0; i < read; ++i)
       data.samples.push_back(sample_of(rows.data() + i * columns, first + i, *data.robot));
   }

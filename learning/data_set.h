@@ -16,8 +16,8 @@ namespace flinch {
 
 /// Ticks of a contact that its classification is judged by. One tick may be several of them.
 struct Moment {
-  static constexpr int early = 1;     ///< a detector on the estimator `early_by` notices the contact
-  static constexpr int detected = 2;  ///< the detector that the robot follows notices it
+  static constexpr int early = 1;     ///< a detector on the estimator `early_by` detects the contact
+  static constexpr int detected = 2;  ///< the detector that the robot follows detects it
   static constexpr int later = 4;     ///< 10 ms after that
 };
 

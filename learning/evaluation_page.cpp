@@ -191,7 +191,7 @@ std::string evaluation_page(const EvaluationPage& page) {
           "</p></div></header>\n<main>\n<section>" + figures_of(page.chosen) + "<div class=\"scroll\">" +
           moments_table(page.all) +
           "</div><p class=\"soft\">Accuracies are means over the classes. Early: when a detector on the "
-          "estimator <code>samples.early_by</code> notices the contact; detected: when the robot's does; "
+          "estimator <code>samples.early_by</code> detects the contact; detected: when the robot's does; "
           "later: 10 ms after that; all: every sample.</p></section>\n";
   html += confusions(page.chosen);
   html +=

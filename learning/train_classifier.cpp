@@ -76,7 +76,7 @@ void in_parallel(std::size_t jobs, std::size_t threads, const TrainingProgress& 
 }
 
 /// Mean of -ln of the probability of what is right, where all scores are divided by `temperature`.
-double surprise(const std::vector<Answered>& answers, double temperature) {
+double cross_entropy(const std::vector<Answered>& answers, double temperature) {
   double sum = 0.0;
   for (const Answered& answer : answers) {
     if (answer.probability.size() == 0) continue;
@@ -87,13 +87,13 @@ double surprise(const std::vector<Answered>& answers, double temperature) {
   return sum / std::max(static_cast<double>(answers.size()), 1.0);
 }
 
-/// The temperature of least surprise: golden section over its logarithm, in which that has one minimum.
+/// The temperature of least cross-entropy: golden section over its logarithm, in which that has one minimum.
 double best_temperature(const std::vector<Answered>& answers) {
   const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
   double low = std::log(0.2), high = std::log(5.0);
   for (int i = 0; i < 40; ++i) {
     const double a = high - golden * (high - low), b = low + golden * (high - low);
-    if (surprise(answers, std::exp(a)) < surprise(answers, std::exp(b)))
+    if (cross_entropy(answers, std::exp(a)) < cross_entropy(answers, std::exp(b)))
       high = b;
     else
       low = a;

@@ -167,8 +167,8 @@ template <class Robot>
 JointVector BenchOf<Robot>::drive_torque(const Instant& now, const DriveAction& drives) const noexcept {
   JointVector torque = drives.torque;
   if (torque.size() != robot().drives()) torque.setZero(robot().drives());
-  for (int i = 0; i < static_cast<int>(settings().uneven_torque.size()); ++i)
-    torque[i] = robot_.uneven_torque(now, i, torque[i]);
+  for (int i = 0; i < static_cast<int>(settings().torque_ripple.size()); ++i)
+    torque[i] = robot_.torque_ripple(now, i, torque[i]);
   return torque;
 }
 

@@ -32,7 +32,9 @@ bool a_leg_clamps(const BenchSnapshot& bench, const Mechanism& robot) {
 }  // namespace
 
 BenchPlant::BenchPlant(const BenchSettings& settings, Time tick)
-    : dynamics_(BenchDynamics::make(settings)), tick_(tick) {}
+    : dynamics_(BenchDynamics::make(settings)), tick_(tick) {
+  require_adaptive_steps();
+}
 
 // ---------------------------------------------------------------- motion
 

@@ -32,9 +32,9 @@ std::vector<std::string> problems(const BenchSettings& settings) {
   for (const auto& obstacle : settings.obstacles)
     found.add_all(obstacle->problems(obstacle->form().name + "."));
   if (settings.link_material) found.add_all(problems(*settings.link_material, "link_material."));
-  found.require(settings.uneven_torque.empty() ||
-                    settings.uneven_torque.size() == static_cast<std::size_t>(settings.robot->drives()),
-                "uneven_torque has " + std::to_string(settings.uneven_torque.size()) +
+  found.require(settings.torque_ripple.empty() ||
+                    settings.torque_ripple.size() == static_cast<std::size_t>(settings.robot->drives()),
+                "torque_ripple has " + std::to_string(settings.torque_ripple.size()) +
                     " entries; the robot has " + std::to_string(settings.robot->drives()) + " drives");
   for (const RopePull& pull : settings.pulls) {
     found.require(pull.body >= 0 && pull.body < settings.robot->body_count(),

@@ -7,7 +7,7 @@
 
 #include "plant/obstacle.h"
 #include "plant/rope_pull.h"
-#include "plant/uneven_torque.h"
+#include "plant/torque_ripple.h"
 #include "systems/robot/mechanism.h"
 #include "systems/robot/vectors.h"
 
@@ -50,7 +50,7 @@ struct BenchSettings {
   std::optional<ContactMaterial> link_material = ContactMaterial{.stiffness = 5e4};
   BrakeFriction brake;
   StickingFriction sticking;
-  std::vector<UnevenTorque> uneven_torque;  ///< Of each drive; empty: all are even.
+  std::vector<TorqueRipple> torque_ripple;  ///< Of each drive; empty: all are even.
   std::vector<RopePull> pulls;              ///< By ropes, besides all contacts.
 };
 

@@ -34,7 +34,7 @@ Placement placement(const PlacedObstacle& obstacle) { return {.origin = obstacle
 }  // namespace
 
 GeneralBench::GeneralBench(const BenchSettings& settings)
-    : robot_(settings.robot), directions_(robot_->space_dimension()), uneven_torque_(settings.uneven_torque) {
+    : robot_(settings.robot), directions_(robot_->space_dimension()), torque_ripple_(settings.torque_ripple) {
   for (const Body& body : robot_->description().bodies) {
     std::vector<Solid>& shapes = bodies_.emplace_back();
     for (const Shape& shape : body.shapes) shapes.emplace_back(shape);

@@ -36,8 +36,8 @@ class GeneralBench {
     return now.kinematics.rates.active[drive];
   }
   /// What the motor of `drive`, which is not even, makes of `torque`.
-  double uneven_torque(const Instant& now, int drive, double torque) const noexcept {
-    return uneven_torque_[static_cast<std::size_t>(drive)].at(drive_position(now, drive), torque);
+  double torque_ripple(const Instant& now, int drive, double torque) const noexcept {
+    return torque_ripple_[static_cast<std::size_t>(drive)].at(drive_position(now, drive), torque);
   }
   PlatformVector acceleration(const Instant& now, const JointVector& torque,
                               const PlatformVector& wrench) const noexcept;
@@ -88,7 +88,7 @@ class GeneralBench {
   std::vector<std::vector<Solid>> bodies_;
   std::vector<std::vector<Solid>> beside_platform_;  ///< Of each body, what may touch the platform.
   std::vector<Solid> obstacles_;
-  std::vector<UnevenTorque> uneven_torque_;
+  std::vector<TorqueRipple> torque_ripple_;
   std::vector<BodyPair> self_pairs_;  ///< None, where the robot's bodies pass through one another.
 };
 

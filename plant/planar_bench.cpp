@@ -74,14 +74,14 @@ PlanarBench::PlanarBench(const BenchSettings& settings)
       shapes_{robot_->parameters().link_radius, robot_->parameters().platform_hull_radius},
       rounds_(rounds_of(settings.obstacles)),
       links_meet_(settings.link_material.has_value()),
-      uneven_torque_(settings.uneven_torque) {
+      torque_ripple_(settings.torque_ripple) {
   const bool all_repeat =
-      std::all_of(uneven_torque_.begin(), uneven_torque_.end(), [](const UnevenTorque& torque) {
+      std::all_of(torque_ripple_.begin(), torque_ripple_.end(), [](const TorqueRipple& torque) {
         return std::all_of(torque.cogging.begin(), torque.cogging.end(), repeats_each_turn) &&
                repeats_each_turn(torque.ripple);
       });
   if (!all_repeat) return;
-  for (const UnevenTorque& torque : uneven_torque_)
+  for (const TorqueRipple& torque : torque_ripple_)
     turning_torque_.push_back({{torque.cogging.begin(), torque.cogging.end()}, TurningWave(torque.ripple)});
 }
 
@@ -106,9 +106,9 @@ double PlanarBench::drive_position(const Instant& now, int drive) const noexcept
   return std::atan2(direction.y(), direction.x());
 }
 
-double PlanarBench::uneven_torque(const Instant& now, int drive, double torque) const noexcept {
+double PlanarBench::torque_ripple(const Instant& now, int drive, double torque) const noexcept {
   const auto index = static_cast<std::size_t>(drive);
-  if (turning_torque_.empty()) return uneven_torque_[index].at(drive_position(now, drive), torque);
+  if (turning_torque_.empty()) return torque_ripple_[index].at(drive_position(now, drive), torque);
   return turning_torque_[index].at(drive_direction(now, drive), torque);
 }
 

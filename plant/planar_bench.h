@@ -37,7 +37,7 @@ class PlanarBench {
   }
   double drive_position(const Instant& now, int drive) const noexcept;
   /// What the motor of `drive`, which is not even, makes of `torque`.
-  double uneven_torque(const Instant& now, int drive, double torque) const noexcept;
+  double torque_ripple(const Instant& now, int drive, double torque) const noexcept;
   double drive_rate(const Instant& now, int drive) const noexcept {
     return now.legs[static_cast<std::size_t>(drive)].qa_rate;
   }
@@ -81,8 +81,8 @@ class PlanarBench {
   PlanarShapes shapes_;
   std::vector<Sphere> rounds_;  ///< one an obstacle
   bool links_meet_;
-  std::vector<UnevenTorque> uneven_torque_;
-  std::vector<UnevenTorqueBy<TurningWave>> turning_torque_;  ///< The same, where all repeat each turn.
+  std::vector<TorqueRipple> torque_ripple_;
+  std::vector<TorqueRippleBy<TurningWave>> turning_torque_;  ///< The same, where all repeat each turn.
 };
 
 template <class Touch, class Meet>

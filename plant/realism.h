@@ -5,7 +5,7 @@
 namespace flinch {
 
 /// How far robots that are built alike may be off their model: the largest sizes from which one robot is
-/// drawn, see `draw_specimen`. Zero: it is as the model says.
+/// drawn, see `draw_perturbed_robot`. Zero: it is as the model says.
 struct Realism {
   // ---- mechanics
   double friction = 0.0;  ///< Of each drive and passive joint, a share either way.

@@ -12,7 +12,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "plant/whole_step.h"
+#include "plant/single_step.h"
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/runge_kutta.h"
@@ -146,7 +146,7 @@ class SundialsIntegrator::Solver {
   sundials::Context context_;  // outlives what is made with it
   std::unique_ptr<std::remove_pointer_t<N_Vector>, Destroy> y_;
   std::unique_ptr<void, Free> memory_;
-  WholeStep whole_step_;
+  SingleStep single_step_;
   std::vector<double> weights_;
   DifferentialEquation* equation_ = nullptr;
   double duration_ = 0.0;
@@ -158,7 +158,7 @@ class SundialsIntegrator::Solver {
 SundialsIntegrator::Solver::Solver(const SundialsOptions& options, std::size_t size)
     : options_(options),
       y_(N_VNew_Serial(static_cast<sunindextype>(size), context_)),
-      whole_step_(coefficients(table(options.tableau)), size),
+      single_step_(coefficients(table(options.tableau)), size),
       weights_(size) {
   use_own_operations(y_.get());
   N_VConst(0.0, y_.get());
@@ -187,11 +187,11 @@ void SundialsIntegrator::Solver::require(int flag) {
 // SUNDIALS would take the same step first, for a multiple of the cost.
 bool SundialsIntegrator::Solver::advance(DifferentialEquation& equation, double duration,
                                          std::span<double> y) {
-  whole_step_.take(equation, duration, y);
-  evaluations_ += whole_step_.stages();
+  single_step_.take(equation, duration, y);
+  evaluations_ += single_step_.stages();
   write_error_weights(y, weights_);
-  if (whole_step_.error(weights_) <= 1.0) {
-    whole_step_.write(y);
+  if (single_step_.error(weights_) <= 1.0) {
+    single_step_.write(y);
     return true;
   }
   if (adapt(equation, duration, y)) return true;
@@ -217,7 +217,7 @@ bool SundialsIntegrator::Solver::adapt(DifferentialEquation& equation, double du
 int SundialsIntegrator::Solver::rates(double t, N_Vector y, N_Vector rates, void* solver) {
   auto& self = *static_cast<Solver*>(solver);
   if (self.is_done_) return 0;  // asked for a step that never follows: every tick starts afresh
-  if (const auto known = self.whole_step_.known_rates(t, numbers(y)); !known.empty()) {
+  if (const auto known = self.single_step_.known_rates(t, numbers(y)); !known.empty()) {
     std::copy(known.begin(), known.end(), data(rates));
     return 0;
   }

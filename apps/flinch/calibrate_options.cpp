@@ -175,7 +175,7 @@ void add_import_verb(CLI::App& app, Verbs& verbs) {
 void add_judge_verb(CLI::App& app, Verbs& verbs) {
   JudgeOptions& options = verbs.judge;
   CLI::App& verb = verbs.add(
-      app, "judge", "Tell what the estimators and detectors of a scenario would have noticed in a log",
+      app, "judge", "Tell what the estimators and detectors of a scenario would have detected in a log",
       "flinch judge out/log/run.h5 --scenario apps/scenarios/square.yaml --free 0..1.3 --contact 1.337",
       options, &judge);
   verb.add_option("log", options.log, "A recording, imported or of a run")->required()->type_name("LOG.h5");
@@ -184,7 +184,7 @@ void add_judge_verb(CLI::App& app, Verbs& verbs) {
       ->transform(shipped("scenarios"))
       ->type_name("S.yaml");
   verb.add_option("--free", options.free,
-                  "A stretch in which nothing touches the robot: what is noticed there is a false alarm [s]")
+                  "A stretch in which nothing touches the robot: what is detected there is a false alarm [s]")
       ->type_name("A..B")
       ->allow_extra_args(false);
   verb.add_option("-o,--out", options.out, "Page with what estimators made of it [none]")

@@ -71,7 +71,7 @@ void add_pace(CLI::App& verb, BusOptions& bus, const char* lockstep, const char*
 void add_fault(CLI::App& verb, std::vector<std::string>& faults) {
   verb.add_option(
           "--fault", faults,
-          "What shall be wrong with the robot from TIME [s] on: SIGNAL:KIND@TIME[:SIZE], such as "
+          "Fault to inject from TIME [s] on: SIGNAL:KIND@TIME[:SIZE], such as "
           "encoder2:drifting@0.5:-5. SIGNAL: encoder, passive_encoder, current, drive, brake, each with "
           "its number or as encoders etc. for all; gyroscope, accelerometer, imu, force_torque, status, "
           "link. KIND: off, stuck, noise, wrong, drifting, scaled, delayed, intermittent, reversed, "
@@ -355,7 +355,7 @@ std::string usage_problem(const CLI::App& app, const CLI::ParseError& error, con
     path += " " + verb->get_name();
   }
   if (!subcommands_of(*verb).empty())
-    return "'" + verb->get_name() + "' must be told what" + did_you_mean("", subcommands_of(*verb));
+    return "'" + verb->get_name() + "' needs a kind" + did_you_mean("", subcommands_of(*verb));
   const std::string unknown = problem_with_options(*verb, path);
   return unknown.empty() ? fmt::format("{}; '{} --help' shows how", error.what(), path) : unknown;
 }
@@ -403,7 +403,8 @@ int run_command_line(int argc, const char* const* argv) {
   app.formatter(std::make_shared<HelpLayout>());
   app.get_formatter()->label("SUBCOMMAND", "VERB");
   app.footer(
-      "Exit status: 0 done, 1 the verdict is bad, or the link, 2 bad input or usage,\n"
+      "'-' in the place of an input file is standard input.\n"
+      "Exit status: 0 done, 1 verdict or link failed, 2 bad input or usage,\n"
       "3 a fault stopped the run.\n"
       "'flinch VERB --help' shows the options of a verb.");
   Verbs verbs;
@@ -422,6 +423,7 @@ int run_command_line(int argc, const char* const* argv) {
   add_bus_verbs(app, verbs);
   add_keys_verb(app, verbs);
   add_program_verbs(app, verbs, version);
+  take_standard_input(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

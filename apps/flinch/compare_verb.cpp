@@ -92,7 +92,7 @@ std::vector<Compared> opened(const std::vector<std::filesystem::path>& files) {
 
 // ---------------------------------------------------------------- what is told
 
-/// When the first contact begins, or was first noticed where nobody else saw it.
+/// When the first contact begins, or was first detected where nobody else saw it.
 double contact_in(const Compared& one) {
   if (one.verdict && !one.verdict->contacts.empty()) return one.verdict->contacts.front().onset;
   if (one.verdict && !one.verdict->detections.empty()) return one.verdict->detections.front();
@@ -124,7 +124,7 @@ std::vector<std::pair<std::string, std::string>> told_verdict(const std::optiona
     };
     rows.emplace_back("first contact with", first.body.empty() ? "not measured" : first.body);
     rows.emplace_back("at", fmt::format("{:.3f} s", first.onset));
-    rows.emplace_back("noticed after", since(first.detected));
+    rows.emplace_back("detected after", since(first.detected));
     rows.emplace_back("removed after", since(first.removed));
     rows.emplace_back("largest force", fmt::format("{:.1f} N", first.peak_force));
     rows.emplace_back("within its limit", first.within_limit ? "yes" : "no");

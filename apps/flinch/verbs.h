@@ -49,6 +49,9 @@ void add_common(CLI::App& verb, CommonOptions& common);
 /// How much is done at once.
 void add_threads(CLI::App& verb, std::optional<std::size_t>& threads, const char* help);
 
+/// Lets '-' stand for standard input wherever a verb of `app` reads a file.
+void take_standard_input(CLI::App& app);
+
 /// The options by which a run is watched in a browser.
 void add_live(CLI::App& run_verb, LiveOptions& live);
 

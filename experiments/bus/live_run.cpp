@@ -166,7 +166,7 @@ std::string LiveRun::why_not_enabled() const {
 
 void LiveRun::enable() {
   if (in_lockstep()) return;
-  wish_ = {.state = DriveWish::State::operation_enabled, .engage_brake = false};
+  wish_ = {.state = RequestedDriveState::State::operation_enabled, .engage_brake = false};
   const auto faulty = [this] {
     const DdsLink link = station_.link();
     return link.commands_obeyed && link.drive_state == DriveState::fault;
@@ -189,7 +189,7 @@ void LiveRun::enable() {
   if (!stands_ready()) throw SetupError(why_not_enabled());
 }
 
-Tidings LiveRun::watch() {
+RunStatus LiveRun::watch() {
   const LiveState& now = panel_.last();
   constexpr const char* phases[] = {"waiting", "open", "closed", "recovering"};
   const std::string fault = now.gate.passes() ? "" : description_of(now.gate.fault);
@@ -282,9 +282,9 @@ void LiveRun::end() {
   if (in_lockstep()) return steps_.let_go();
   panel_.press_stop();
   tick_until(3s, [this] { return is_stopped() || settings_.interrupts() > 1; });
-  station_.request({.state = DriveWish::State::switched_on});
+  station_.request({.state = RequestedDriveState::State::switched_on});
   tick_until(500ms, [this] { return !station_.link().enabled; });
-  station_.request({.state = DriveWish::State::without_voltage});
+  station_.request({.state = RequestedDriveState::State::without_voltage});
   tick_until(50ms, {});
   thread_.reset();
 }

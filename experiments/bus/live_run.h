@@ -12,7 +12,7 @@
 #include "drivers/ros2_publisher.h"
 #include "experiments/bus/interrupt_count.h"
 #include "experiments/bus/operator_panel.h"
-#include "experiments/bus/tidings.h"
+#include "experiments/bus/run_status.h"
 #include "experiments/live/live_experiment.h"
 #include "systems/framework/block_profile.h"
 #include "systems/framework/exchange_list.h"
@@ -86,7 +86,7 @@ class LiveRun {
   void end();
 
   /// How the run is. For one other thread, during run() and end().
-  Tidings watch();
+  RunStatus watch();
 
   /// Makes the recording whole, with what is known of loop and link as attributes. Throws SetupError where
   /// it could not be written.
@@ -125,7 +125,7 @@ class LiveRun {
   std::unique_ptr<BlockProfile> profile_;
   std::unique_ptr<RealtimeRunner> recorded_;
   std::unique_ptr<Context> start_;
-  DriveWish wish_;
+  RequestedDriveState wish_;
   std::string ended_by_;
   Time asked_again_{};  ///< for the drives, in the time of the run
   std::uint32_t refusals_told_ = 0;

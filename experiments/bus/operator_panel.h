@@ -2,7 +2,7 @@
 
 #include "drivers/dds_station.h"
 #include "experiments/bus/interrupt_count.h"
-#include "experiments/bus/order_desk.h"
+#include "experiments/bus/operator_command_queue.h"
 #include "experiments/live/live_experiment.h"
 #include "systems/framework/context.h"
 #include "systems/framework/exchange.h"
@@ -39,7 +39,7 @@ class OperatorPanel final : public Exchange {
   }
   void press_stop() noexcept { stop_ = true; }
 
-  OrderDesk& orders() noexcept { return orders_; }
+  OperatorCommandQueue& orders() noexcept { return orders_; }
 
   /// The last state. For one thread at a time.
   const LiveState& last() noexcept {
@@ -59,7 +59,7 @@ class OperatorPanel final : public Exchange {
   bool checks_drives_;
   bool stop_ = true;
   CheckMask askable_ = 0;
-  OrderDesk orders_;
+  OperatorCommandQueue orders_;
   TripleBuffer<LiveState> states_;
   LiveState last_;
 };

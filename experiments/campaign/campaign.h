@@ -79,10 +79,10 @@ struct Campaign {
   std::string description;
   std::uint64_t seed = 1;
   std::size_t draws = 1;  ///< runs at each point of the grid
-  /// What the runs are added up to: how contacts were noticed, or how they were answered.
+  /// What the runs are added up to: how contacts were detected, or how they were answered.
   enum class Summary { detections, reactions };
   Summary summary = Summary::detections;
-  double missed_after = 0.1;  ///< a contact that is not noticed by then counts as missed [s]
+  double missed_after = 0.1;  ///< a contact that is not detected by then counts as missed [s]
 
   std::vector<std::filesystem::path> scenarios;
   std::vector<std::string> scenario_texts;

@@ -53,7 +53,7 @@ Json group_json(const CampaignGroup& group, const Alarms& alarms) {
           {"alarms", alarms.count},
           {"alarm_hours", alarms.hours},
           {"alarm_rate", alarms.rate()},
-          {"alarm_rate_at_most", finite(upper_rate(alarms.count, alarms.hours))},
+          {"alarm_rate_at_most", finite(garwood_upper(alarms.count, alarms.hours))},
           {"over_limit", group.longest_over_limit}};
 }
 
@@ -62,7 +62,7 @@ struct Reason {
   enum class Sort { fault, false_alarm, missed, slow };
   Sort sort;
   std::string why;
-  double time = 0.0;  ///< of slow contacts, until they were noticed [s]
+  double time = 0.0;  ///< of slow contacts, until they were detected [s]
 };
 
 std::optional<Reason> reason_for(const RunResult& result, double missed_after) {

@@ -67,7 +67,7 @@ void CollectedGroup::add(const RunResult& result, const EstimatorResult& estimat
 
 CampaignGroup CollectedGroup::group() const {
   CampaignGroup group = group_;
-  if (group.contacts > 0) group.missed_at_most = upper_share(group.missed, group.contacts);
+  if (group.contacts > 0) group.missed_at_most = clopper_pearson_upper(group.missed, group.contacts);
   static constexpr std::array shares = {0.1, 0.25, 0.5, 0.75, 0.9};
   for (std::size_t i = 0; i < shares.size(); ++i)
     group.quantiles[i] = quantile(times_, group.contacts, shares[i]);
@@ -75,7 +75,7 @@ CampaignGroup CollectedGroup::group() const {
   group.p90 = group.quantiles[4];
   const double hours = group.contact_free / 3600.0;
   group.false_alarms_per_hour = hours > 0.0 ? static_cast<double>(group.false_alarms) / hours : 0.0;
-  group.false_alarms_per_hour_at_most = upper_rate(group.false_alarms, hours);
+  group.false_alarms_per_hour_at_most = garwood_upper(group.false_alarms, hours);
   return group;
 }
 
@@ -140,7 +140,7 @@ std::string campaign_table(const Campaign& campaign, const std::vector<CampaignG
       at = here;
       if (!at.empty()) text += "\n" + at + "\n";
       text += fmt::format("{:<10} {:<24} {:>6} {:>7} {:>9} {:>8} {:>8} {:>12} {:>12} {:>7}\n", "touched",
-                          "noticed by", "runs", "missed", "at most", "median", "p90", "false alarms",
+                          "detected by", "runs", "missed", "at most", "median", "p90", "false alarms",
                           "at most", "faults");
       text += fmt::format("{:<10} {:<24} {:>6} {:>7} {:>9} {:>8} {:>8} {:>12} {:>12} {:>7}\n", "", "", "", "",
                           "(95 %)", "[ms]", "[ms]", "[1/h]", "(95 %)", "");

@@ -25,11 +25,11 @@ struct CampaignGroup {
 
   // Of runs whose contact no false alarm came before.
   std::size_t contacts = 0;
-  std::size_t missed = 0;                ///< not noticed within Campaign::missed_after
+  std::size_t missed = 0;                ///< not detected within Campaign::missed_after
   std::optional<double> missed_at_most;  ///< share, 95 % exact bound; none without contacts
-  /// Half and nine tenths of the contacts were noticed so soon; none where too many were missed [s].
+  /// Half and nine tenths of the contacts were detected so soon; none where too many were missed [s].
   std::optional<double> median, p90;
-  /// So soon a tenth, a quarter, half, three quarters and nine tenths were noticed, likewise [s].
+  /// So soon a tenth, a quarter, half, three quarters and nine tenths were detected, likewise [s].
   std::array<std::optional<double>, 5> quantiles;
 
   std::size_t false_alarms = 0;
@@ -48,14 +48,14 @@ std::optional<double> quantile(std::vector<double> values, std::size_t count, do
 /// Adds runs up to a group.
 class CollectedGroup {
  public:
-  /// `missed_after`: a contact that is noticed later counts as missed [s].
+  /// `missed_after`: a contact that is detected later counts as missed [s].
   void add(const RunResult& result, const EstimatorResult& estimator, double missed_after);
   /// What they add up to. Place, grid, body and estimator are left to who knows them.
   CampaignGroup group() const;
 
  private:
   CampaignGroup group_;
-  std::vector<double> times_;  ///< of the contacts that were noticed [s]
+  std::vector<double> times_;  ///< of the contacts that were detected [s]
 };
 
 /// By point of the grid, then by body.

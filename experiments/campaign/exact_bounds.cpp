@@ -30,7 +30,7 @@ double binomial_at_most(std::size_t events, std::size_t trials, double share) {
 
 }  // namespace
 
-double upper_rate(std::size_t events, double exposure, double confidence) {
+double garwood_upper(std::size_t events, double exposure, double confidence) {
   if (exposure <= 0.0) return std::numeric_limits<double>::infinity();
   const double count = static_cast<double>(events);
   const double highest = 10.0 * (count + 10.0) * (1.0 - std::log(1.0 - confidence));
@@ -39,10 +39,10 @@ double upper_rate(std::size_t events, double exposure, double confidence) {
 }
 
 double lower_rate(std::size_t events, double exposure, double confidence) {
-  return events == 0 ? 0.0 : upper_rate(events - 1, exposure, 1.0 - confidence);
+  return events == 0 ? 0.0 : garwood_upper(events - 1, exposure, 1.0 - confidence);
 }
 
-double upper_share(std::size_t events, std::size_t trials, double confidence) {
+double clopper_pearson_upper(std::size_t events, std::size_t trials, double confidence) {
   if (events >= trials) return 1.0;
   const auto likelier = [=](double share) {
     return binomial_at_most(events, trials, share) - (1.0 - confidence);

@@ -8,7 +8,7 @@ namespace flinch {
 /// Largest rate of a Poisson process that still shows at most `events` in `exposure` with a probability of
 /// 1 - `confidence`: its one-sided upper bound, in events per unit of `exposure` (Garwood 1936). Infinite
 /// without exposure.
-double upper_rate(std::size_t events, double exposure, double confidence = 0.95);
+double garwood_upper(std::size_t events, double exposure, double confidence = 0.95);
 
 /// Its one-sided lower bound: the smallest rate that still shows at least `events` with that probability.
 /// Zero without events.
@@ -16,10 +16,11 @@ double lower_rate(std::size_t events, double exposure, double confidence = 0.95)
 
 /// Largest probability under which at most `events` of `trials` are seen with a probability of
 /// 1 - `confidence`: the one-sided upper bound of Clopper and Pearson (1934). 1 without trials.
-double upper_share(std::size_t events, std::size_t trials, double confidence = 0.95);
+double clopper_pearson_upper(std::size_t events, std::size_t trials, double confidence = 0.95);
 
 /// Confidence with which a probability is below `share` where `events` of `trials` were seen: one minus the
-/// probability of at most so many events at that share. The inverse of upper_share(); 0 without trials.
+/// probability of at most so many events at that share. The inverse of clopper_pearson_upper(); 0 without
+/// trials.
 double confidence_below(std::size_t events, std::size_t trials, double share);
 
 /// The most events of `trials` that still show, with `confidence`, a probability below `share`; none where

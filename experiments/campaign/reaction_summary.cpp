@@ -151,7 +151,7 @@ std::string could_stop_lines(const ReactionSummary& summary) {
                         group.could_not_stop, group.violations_could_stop);
   }
   if (text.empty()) return "";
-  return fmt::format("\nwhen noticed, within the safety values\n{:<14} {:<10} {:>5} {:>10} {:>13}\n{}",
+  return fmt::format("\nwhen detected, within the safety values\n{:<14} {:<10} {:>5} {:>10} {:>13}\n{}",
                      "level", "body", "could", "could not", "could, beyond", text);
 }
 
@@ -215,7 +215,7 @@ std::string reactions_table(const Campaign& campaign, const ReactionSummary& sum
     text += fmt::format(
         "{:<14} {:<10} {:>5} {:>8} {:>17} {:>13} {:>6} {:>7} {:>10} {:>10} {:>7} {:>7} {:>7}\n", cells...);
   };
-  add_line("level", "body", "runs", "noticed", "removed ms", "peak N", "over", "starts", "kappa", "sc",
+  add_line("level", "body", "runs", "detected", "removed ms", "peak N", "over", "starts", "kappa", "sc",
            "inside", "self", "gate");
   add_line("", "", "", "", "median/p95/most", "median/most", "limit", "inside", "of it/all", "of it/all",
            "at end", "contact", "faults");

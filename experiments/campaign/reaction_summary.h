@@ -28,7 +28,7 @@ struct ReactionGroup {
   std::size_t starts_inside = 0;  ///< runs that start within both safety values, and of these beyond them:
   std::size_t starts_inside_violations_sigma_kappa = 0, starts_inside_violations_sigma_sc = 0;
   std::size_t final_inside = 0;  ///< runs that ended within 5 % of sigma_kappa's and 5 mm of sigma_sc's limit
-  /// Runs whose robot keeps the safety values and could, and could not, stop within them when it noticed the
+  /// Runs whose robot keeps the safety values and could, and could not, stop within them when it detected the
   /// contact, and how many of the former went beyond one nevertheless.
   std::size_t could_stop = 0, could_not_stop = 0, violations_could_stop = 0;
   std::size_t self_collisions = 0;

@@ -8,9 +8,9 @@
 #include "experiments/campaign/campaign_run.h"
 #include "experiments/verdict/verdict.h"
 #include "experiments/verdict/verdict_output.h"
-#include "plant/specimen.h"
+#include "plant/perturbed_robot.h"
 #include "systems/config/parsed.h"
-#include "systems/laws/limit_keeper.h"
+#include "systems/laws/safety_filter.h"
 #include "systems/motion/constraint_settings.h"
 
 namespace flinch {
@@ -32,14 +32,14 @@ bool exceeds_sigma_sc(double measure, const ConstraintSettings& limits) {
 }
 
 /// Whether the limits that the robot keeps are no wider than the safety values.
-bool keeps_safety_values(const LimitKeeperSettings& kept, const ConstraintSettings& limits) {
+bool keeps_safety_values(const SafetyFilterSettings& kept, const ConstraintSettings& limits) {
   return kept.limits.max_condition_number <= limits.sigma_kappa.safety &&
          kept.limits.workspace.min_self_collision_distance >= limits.sigma_sc.safety;
 }
 
 void note_constraints(const Verdict& verdict, const ContactControlSettings& control, RunResult& result) {
   const ConstraintSettings& limits = control.tasks.constraints;
-  const bool from_the_start = control.limits.use == LimitKeeperSettings::Use::always;
+  const bool from_the_start = control.limits.use == SafetyFilterSettings::Use::always;
   const auto& [sigma_kappa, sigma_sc] = from_the_start ? verdict.measures : verdict.measures_once_detected;
   result.self_contact = !verdict.self_contacts.empty();
   if (verdict.measures.sigma_kappa && verdict.measures.sigma_sc) {
@@ -148,10 +148,10 @@ void columns(Result& result, Visit&& visit, VisitValues&& visit_values) {
 /// What each detector saw until something was touched, and of the first contact.
 std::vector<EstimatorResult> results_by_estimator(const Verdict& verdict, std::optional<double> onset) {
   std::vector<EstimatorResult> results;
-  for (std::size_t i = 0; i < verdict.first_noticed.size(); ++i) {
-    const DetectionBy& first = verdict.first_noticed[i];
+  for (std::size_t i = 0; i < verdict.first_detected.size(); ++i) {
+    const DetectionBy& first = verdict.first_detected[i];
     EstimatorResult result{.name = first.estimator.empty() ? "followed" : first.estimator};
-    const std::optional<double>& followed = verdict.first_noticed.front().detected;
+    const std::optional<double>& followed = verdict.first_detected.front().detected;
     result.contact_free = std::min(onset.value_or(verdict.simulated), followed.value_or(verdict.simulated));
     if (first.detected && *first.detected < onset.value_or(verdict.simulated) &&
         *first.detected <= result.contact_free) {
@@ -179,8 +179,9 @@ RunResult result_of(const CampaignRun& run, const Verdict& verdict) {
   result.values = run.values;
   if (run.tells_figures) {
     const SimulatedScenario& made = run.scenario;
-    result.figures =
-        verdict_json(verdict, {.seed = run.seed, .robot = specimen_values(made.specimen, *made.robot.robot)});
+    result.figures = verdict_json(
+        verdict,
+        {.seed = run.seed, .robot = perturbed_robot_values(made.perturbed_robot, *made.robot.robot)});
   }
   result.good = verdict.good();
   result.fault = verdict.fault;

@@ -15,7 +15,7 @@ struct Verdict;
 /// What a detector saw that follows an estimator.
 struct EstimatorResult {
   std::string name;
-  /// From the onset [s]; none: not noticed, or nothing was touched.
+  /// From the onset [s]; none: not detected, or nothing was touched.
   std::optional<double> detection_time = std::nullopt;
   bool false_alarm = false;  ///< something was detected before anything was touched
   /// Until the first touch or detection, or the end [s]: by this detector or, after which the robot does
@@ -56,7 +56,7 @@ struct RunResult {
   bool violates_sigma_sc = false;                                      ///< likewise
   bool ends_inside = false;  ///< at the end within 5 % of sigma_kappa's and 5 mm of sigma_sc's safety value
   bool self_contact = false;
-  /// Whether the robot could stop within both safety values when it noticed the first contact; none: not
+  /// Whether the robot could stop within both safety values when it detected the first contact; none: not
   /// judged, or it keeps wider limits.
   std::optional<bool> could_stop;
   std::optional<double> largest_torque;  ///< as in Verdict [Nm or N]

@@ -98,7 +98,7 @@ std::string told_row(const RunResult& result) {
   const auto of_first = [&](const char* key, int decimals) {
     return told(first.value(key, SweepJson()), decimals);
   };
-  return fmt::format("{:<7} {:<15} {:>10} {:>10} {:>8} {:>8} {:>6} {:>10} {:>12}  {}",
+  return fmt::format("{:<7} {:<15} {:>11} {:>10} {:>8} {:>8} {:>6} {:>10} {:>12}  {}",
                      result.good ? "good" : "bad",
                      touched && first["body"].is_string() ? first["body"].get<std::string>() : "-",
                      of_first("detection_ms", 1), of_first("removal_ms", 1), of_first("peak_force_N", 0),
@@ -220,8 +220,8 @@ std::string sweep_table(const Campaign& sweep, const CampaignResults& results) {
   std::size_t width = 8;
   for (const RunResult& result : results) width = std::max(width, name_of(result.values).size());
   std::string text = fmt::format("{}: {} runs over {}\n\n", sweep.title, results.size(), keys);
-  text += fmt::format("{:>{}}  {:<7} {:<15} {:>10} {:>10} {:>8} {:>8} {:>6} {:>10} {:>12}\n", "value", width,
-                      "verdict", "contact with", "noticed ms", "removed ms", "peak N", "above ms", "false",
+  text += fmt::format("{:>{}}  {:<7} {:<15} {:>11} {:>10} {:>8} {:>8} {:>6} {:>10} {:>12}\n", "value", width,
+                      "verdict", "contact with", "detected ms", "removed ms", "peak N", "above ms", "false",
                       "observer N", "tracking mm");
   for (const RunResult& result : results)
     text += fmt::format("{:>{}}  {}\n", name_of(result.values), width, told_row(result));

@@ -20,9 +20,9 @@ struct JudgedFacts {
   std::string call;                       ///< the command that judged it
 };
 
-/// One HTML page that needs nothing else: what was noticed by whom, when by the user's words there was or was
-/// not a contact, and what estimators made of the log, on one time cursor. The signals come in parts, so that
-/// a long log is never whole in memory.
+/// One HTML page that needs nothing else: what was detected by whom, when by the user's words there was or
+/// was not a contact, and what estimators made of the log, on one time cursor. The signals come in parts,
+/// so that a long log is never whole in memory.
 class JudgedPage {
  public:
   /// `first`, `last`: of the log, `period` of the control path [s].

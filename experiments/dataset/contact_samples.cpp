@@ -88,7 +88,7 @@ class Label {
   double onset_ = 0.0, force_ = 0.0, clamped_at_ = 0.0;
 };
 
-/// First tick at which a detector has noticed something; none where it never does.
+/// First tick at which a detector has detected something; none where it never does.
 std::optional<std::size_t> first_detection(const Recording& recording, const std::string& path) {
   const auto detections = read<ContactDetection>(recording, path);
   for (std::size_t tick = 0; tick < detections.size(); ++tick)
@@ -138,10 +138,10 @@ struct Progress {
 
   std::string lacks() const {
     if (!begun) return "nothing touched";
-    if (!noticed) return "not noticed";
-    if (!labelled) return "noticed, but at no tick did one thing touch";
-    if (estimated && !chosen) return "noticed, but at no tick that 'samples' asks for";
-    return "noticed, but wrench or motion were not known";
+    if (!noticed) return "not detected";
+    if (!labelled) return "detected, but at no tick did one thing touch";
+    if (estimated && !chosen) return "detected, but at no tick that 'samples' asks for";
+    return "detected, but wrench or motion were not known";
   }
 };
 
@@ -191,7 +191,7 @@ ContactSamples contact_samples(const Recording& recording, const ParallelRobot& 
     const double time = static_cast<double>(tick) * period;
     label.see(tick, time);
     if (moments.early && tick == *moments.early && !label.begun())
-      return {{}, "noticed before anything touched"};
+      return {{}, "detected before anything touched"};
     if (!moments.early || tick < *moments.early) continue;
     if (label.touched() < 0) continue;
     progress.labelled = true;

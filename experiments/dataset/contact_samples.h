@@ -14,8 +14,8 @@ struct SampleChoice;
 /// The samples of one run, and why there are none where there are none.
 struct ContactSamples {
   std::vector<DataSample> samples;
-  /// "": there are some. Otherwise "nothing touched", "not noticed", "noticed before anything touched", or
-  /// "noticed, but" and what was missing: a label, a tick that is asked for, the wrench or the motion.
+  /// "": there are some. Otherwise "nothing touched", "not detected", "detected before anything touched", or
+  /// "detected, but" and what was missing: a label, a tick that is asked for, the wrench or the motion.
   std::string left_out;
 };
 

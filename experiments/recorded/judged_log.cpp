@@ -30,7 +30,7 @@ constexpr double quiet = 0.1;  ///< after which a detection is another one [s]
 struct Detector {
   std::string path;
   std::string by;
-  double last = -1e9;  ///< when it noticed something last [s]
+  double last = -1e9;  ///< when it detected something last [s]
 };
 
 std::vector<Detector> detectors_of(const Diagram& diagram, const Scenario& scenario) {

@@ -169,7 +169,7 @@ void add_led(const ConstraintSettings& constraints, const Report& report, Bounds
 }
 
 /// The limits within which torques were kept in this run.
-void add_kept(const LimitKeeperSettings& limits, const Report& report, Bounds& bounds) {
+void add_kept(const SafetyFilterSettings& limits, const Report& report, Bounds& bounds) {
   const bool were_kept = std::any_of(report.lanes.begin(), report.lanes.end(),
                                      [](const ReportLane& lane) { return lane.name == LimitLane::name; });
   if (!were_kept) return;

@@ -17,7 +17,7 @@ using ReportPoint = std::array<double, 3>;
 inline constexpr int most_page_particles = 12;
 
 /// One contact of an experiment, from the plant's ground truth and the robot's own detector.
-/// What did not happen or was not measured has no value: a contact that was never noticed has no `detected`.
+/// What did not happen or was not measured has no value: a contact that was never detected has no `detected`.
 struct ReportContact {
   std::string body;                ///< Touched body as a reader says it: "platform", "second link of leg 1".
   std::string clamping_leg;        ///< "leg 1", whose links clamp the object; empty: it was a collision.
@@ -26,9 +26,9 @@ struct ReportContact {
   std::string object;              ///< What it touched: "pylon"; "push": it was pushed without a touch.
   double start = 0.0;              ///< t_c: true contact force leaves zero [s].
   std::optional<double> detected;  ///< t_det: first tick with the detector's flag [s].
-  /// When the detector of each estimator noticed it [s]; empty: only one ran.
+  /// When the detector of each estimator detected it [s]; empty: only one ran.
   std::vector<std::pair<std::string, std::optional<double>>> detected_by;
-  /// It could still stop within its limits when it noticed the contact; none: nobody judged that.
+  /// It could still stop within its limits when it detected the contact; none: nobody judged that.
   std::optional<bool> could_stop;
   std::optional<double> removed;    ///< t_rem: the contact is over [s].
   std::optional<double> speed;      ///< Of the platform when it touched [m/s].

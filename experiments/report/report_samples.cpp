@@ -8,13 +8,13 @@
 #include <tuple>
 #include <vector>
 
+#include "experiments/report/classification_timeline.h"
 #include "experiments/report/constraint_lane.h"
 #include "experiments/report/drawn_robot.h"
 #include "experiments/report/limit_lane.h"
 #include "experiments/report/operator_lane.h"
 #include "experiments/report/page_samples.h"
 #include "experiments/report/reaction_lane.h"
-#include "experiments/report/taken_for_lane.h"
 #include "experiments/report/task_energy_columns.h"
 #include "experiments/report/vector_columns.h"
 #include "experiments/verdict/recorded_classification.h"
@@ -370,7 +370,7 @@ class Isolation {
   std::optional<RecordedValues<ParticleCloud>> cloud_;
   std::optional<VectorColumns> probability_, point_;
   std::vector<VectorColumns> particles_;
-  std::optional<TakenForLane> taken_for_;
+  std::optional<ClassificationTimeline> taken_for_;
   std::size_t location_error_ = 0, force_error_ = 0;
 };
 

@@ -79,7 +79,7 @@ void read_laws(ConfigReader& control, const ParallelRobot& robot, ContactControl
   const bool is_strict = followed_name(settings.stages.reaction_laws) == "strict_reaction";
   if (is_strict) keep_constraints_strictly(robot, settings);
   ConfigReader limits = control.section("limits");
-  using Use = LimitKeeperSettings::Use;
+  using Use = SafetyFilterSettings::Use;
   limits.choice("keep", settings.limits.use,
                 {{"never", Use::never}, {"after_contact", Use::after_contact}, {"always", Use::always}});
   if (is_strict && settings.limits.use == Use::never) {

@@ -10,7 +10,7 @@
 namespace flinch {
 namespace {
 
-void read(ConfigReader reader, bool drives_turn, SurpriseThreshold& limit) {
+void read(ConfigReader reader, bool drives_turn, MahalanobisThreshold& limit) {
   ConfigReader needed = reader.required();
   needed.number("threshold", unit::none, limit.threshold, positive);
   needed.number("noise", drives_turn ? unit::Nm : unit::N, limit.errors.noise, positive);

@@ -68,7 +68,7 @@ std::size_t ticks_of(const SimulatedScenario& scenario, const Diagram& diagram) 
 std::map<std::string, std::string> attributes_of(const SimulatedScenario& scenario,
                                                  const std::map<std::string, std::string>& provenance) {
   auto attributes = recorded_attributes(scenario, provenance);
-  note_robot(specimen_values(scenario.specimen, *scenario.robot.robot), attributes);
+  note_robot(perturbed_robot_values(scenario.perturbed_robot, *scenario.robot.robot), attributes);
   std::string faults;
   for (const RequestedFault& fault : scenario.station.faults) {
     faults += (faults.empty() ? "" : " ") + text_of(fault);

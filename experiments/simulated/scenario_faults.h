@@ -8,7 +8,7 @@ namespace flinch {
 
 class ConfigReader;
 
-/// Reads the list `faults` of a scenario: what shall be wrong with the robot from when on.
+/// Reads the list `faults` of a scenario: faults to inject, each from a time on.
 std::vector<RequestedFault> read_faults(ConfigReader& file, const ParallelRobot& robot);
 
 }  // namespace flinch

@@ -16,8 +16,8 @@
 #include "experiments/simulated/simulated_obstacles.h"
 #include "plant/contacts_at_start.h"
 #include "plant/delay_line.h"
+#include "plant/perturbed_robot.h"
 #include "plant/simulated_station.h"
-#include "plant/specimen.h"
 #include "systems/config/config_reader.h"
 #include "systems/foundation/nearest_name.h"
 #include "systems/robot/parallel_robot.h"
@@ -60,8 +60,8 @@ void read_scales(ConfigReader& plant, const char* name, int count, JointVector& 
 }
 
 /// Of motors that cog as the robot file says.
-std::vector<UnevenTorque> uneven_torque(const Cogging& cogging) {
-  std::vector<UnevenTorque> drives;
+std::vector<TorqueRipple> torque_ripple(const Cogging& cogging) {
+  std::vector<TorqueRipple> drives;
   for (const CoggingWave& wave : cogging.waves) {
     drives.resize(static_cast<std::size_t>(wave.sine.size()));
     for (Eigen::Index i = 0; i < wave.sine.size(); ++i) {
@@ -82,7 +82,7 @@ Realism read_plant(ConfigReader plant, const Scenario& scenario, SimulatedStatio
   PlantFriction friction = PlantFriction::as_robot_file;
   double mass_scale = 1.0;
   RobotDeviation deviation;
-  station.bench.uneven_torque = uneven_torque(built.drives.cogging);
+  station.bench.torque_ripple = torque_ripple(built.drives.cogging);
   station.drives.torque_delay = built.drives.torque_delay;
   station.drives.torque_constant = built.drives.torque_constant;
   station.drives.max_torque.setConstant(drives, built.drives.max_torque);
@@ -236,7 +236,7 @@ std::string key_of_obstacle(const ConfigReader& file, std::size_t obstacle) {
 }  // namespace
 
 void read_station(ConfigReader& file, const Scenario& scenario, SimulatedStationSettings& station,
-                  Specimen& specimen) {
+                  PerturbedRobot& perturbed_robot) {
   station.seed = scenario.seed;
   know_period(scenario.control_period, station);
   const std::optional<PlatformPath>& path = scenario.control.trajectory.path;
@@ -253,8 +253,9 @@ void read_station(ConfigReader& file, const Scenario& scenario, SimulatedStation
   station.instrument.mountings = scenario.mountings;
   read_sensors(file.section("sensors"), *scenario.robot.robot, station);
   station.faults = read_faults(file, *scenario.robot.robot);
-  specimen = draw_specimen(realism, *scenario.robot.robot, scenario.robot.drives.max_torque, scenario.seed);
-  station = with_specimen(std::move(station), specimen);
+  perturbed_robot =
+      draw_perturbed_robot(realism, *scenario.robot.robot, scenario.robot.drives.max_torque, scenario.seed);
+  station = with_perturbed_robot(std::move(station), perturbed_robot);
   if (file.good()) {
     for (const ContactAtStart& contact : contacts_at_start(station.bench))
       file.problem(key_of_obstacle(file, contact.obstacle), contact.complaint);

@@ -11,13 +11,13 @@ namespace {
 template <class Read>
 SimulatedScenario with_station(const Read& read) {
   SimulatedStationSettings station;
-  Specimen specimen;
+  PerturbedRobot perturbed_robot;
   Scenario scenario = read([&](ConfigReader& file, const Scenario& read_so_far) {
     station = {};
-    specimen = {};
-    read_station(file, read_so_far, station, specimen);
+    perturbed_robot = {};
+    read_station(file, read_so_far, station, perturbed_robot);
   });
-  return {std::move(scenario), std::move(station), std::move(specimen)};
+  return {std::move(scenario), std::move(station), std::move(perturbed_robot)};
 }
 
 }  // namespace

@@ -7,15 +7,16 @@
 #include <vector>
 
 #include "experiments/scenario/scenario.h"
+#include "plant/perturbed_robot.h"
 #include "plant/simulated_station.h"
-#include "plant/specimen.h"
 
 namespace flinch {
 
 /// A scenario with what stands behind its control path in simulation.
 struct SimulatedScenario : Scenario {
   SimulatedStationSettings station;
-  Specimen specimen;  ///< The robot of `station`, where it is one of many that differ from their model.
+  /// The robot of `station`, where it is one of many that differ from their model.
+  PerturbedRobot perturbed_robot;
 };
 
 /// As read_scenario(), parse_scenario() and recorded_scenario(), with the sections that describe the

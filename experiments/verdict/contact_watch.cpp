@@ -54,17 +54,17 @@ ContactWatch::Watched* ContactWatch::contact_of(const RunLoad& load, double time
   return same != nullptr ? same : find([](const Watched& contact) { return contact.obstacle < 0; });
 }
 
-/// By the present levels; a latched one would not do: of a second contact it knows nothing. Who has noticed
-/// something before there was a contact notices this one only after having let go of that.
+/// By the present levels; a latched one would not do: of a second contact it knows nothing. Who has detected
+/// something before there was a contact detects this one only after having let go of that.
 void ContactWatch::note_detections(const RunSample& now, Watched& of) const {
   ContactVerdict& contact = of.seen;
-  for (std::size_t i = 0; i < contact.detected_by.size() && i < now.noticed_by.size(); ++i) {
+  for (std::size_t i = 0; i < contact.detected_by.size() && i < now.detected_by.size(); ++i) {
     if (i < of.alarmed.size() && of.alarmed[i]) {
-      of.alarmed[i] = now.noticed_by[i];
+      of.alarmed[i] = now.detected_by[i];
       continue;
     }
     std::optional<double>& detected = contact.detected_by[i].detected;
-    if (now.noticed_by[i] && !detected) detected = now.time;
+    if (now.detected_by[i] && !detected) detected = now.time;
   }
   if (!contact.detected_by.empty()) contact.detected = contact.detected_by.front().detected;
 }
@@ -127,7 +127,7 @@ ContactWatch::Watched& ContactWatch::begin(const RunLoad& load, const RunSample&
   Watched watched{.seen = std::move(contact), .last = now.time};
   const bool is_first = std::none_of(contacts_.begin(), contacts_.end(),
                                      [&now](const Watched& other) { return other.lasts(now.time); });
-  if (is_first && before_) watched.alarmed = before_->noticed_by;
+  if (is_first && before_) watched.alarmed = before_->detected_by;
   return contacts_.emplace_back(std::move(watched));
 }
 

@@ -13,7 +13,7 @@ namespace flinch {
 /// Finds the contacts and pushes of a run, sample by sample.
 class ContactWatch {
  public:
-  /// `estimators`: names of those that `RunSample::noticed_by` tells of; `obstacles`: of all.
+  /// `estimators`: names of those that `RunSample::detected_by` tells of; `obstacles`: of all.
   ContactWatch(const ForceLimits& limits, std::vector<std::string> estimators,
                std::vector<std::string> obstacles)
       : limits_(limits), estimators_(std::move(estimators)), obstacles_(std::move(obstacles)) {}
@@ -32,7 +32,7 @@ class ContactWatch {
     double last = 0.0;               ///< sample that was touched [s]
     bool clamps = false;             ///< the contact is with both links of a leg
     std::string pending_clamping{};  ///< seen since the last sample with force; counts if there comes another
-    std::vector<bool> alarmed{};     ///< by estimator: has noticed something since before there was a contact
+    std::vector<bool> alarmed{};  ///< by estimator: has detected something since before there was a contact
 
     bool lasts(double time) const { return time - last < Verdict::same_contact; }
   };

@@ -290,9 +290,9 @@ RunSample RecordedRun::operator[](std::size_t sample) const {
   RunSample now;
   now.time = to_seconds(Time(recording_.time_ns[sample]));
   now.detection = signals.detection[sample];
-  now.noticed_by.push_back(now.detection.present_level != ContactLevel::none);
+  now.detected_by.push_back(now.detection.present_level != ContactLevel::none);
   for (const auto& detection : signals.detections_by) {
-    now.noticed_by.push_back(detection[sample].present_level != ContactLevel::none);
+    now.detected_by.push_back(detection[sample].present_level != ContactLevel::none);
   }
   now.mode = signals.reaction[sample].mode;
   if (signals.task) now.task = (*signals.task)[sample];

@@ -74,9 +74,9 @@ struct RunSample {
   std::optional<bool> several_contacts;
   ContactLocation location;  ///< of the followed locator
   ContactDetection detection;
-  /// Whether a detector notices something that follows the estimator of this name in
+  /// Whether a detector detects something that follows the estimator of this name in
   /// `RecordedRun::estimators`.
-  std::vector<bool> noticed_by;
+  std::vector<bool> detected_by;
   ReactionMode mode = ReactionMode::stopped;
   FollowedTask task;  ///< of a reaction that serves tasks
   GateStatus gate;

@@ -55,9 +55,9 @@ void extend(const RunSample& now, MeasureRanges& ranges) {
 }
 
 void note_first(const RunSample& now, Verdict& verdict) {
-  for (std::size_t i = 0; i < verdict.first_noticed.size() && i < now.noticed_by.size(); ++i) {
-    std::optional<double>& first = verdict.first_noticed[i].detected;
-    if (now.noticed_by[i] && !first) first = now.time;
+  for (std::size_t i = 0; i < verdict.first_detected.size() && i < now.detected_by.size(); ++i) {
+    std::optional<double>& first = verdict.first_detected[i].detected;
+    if (now.detected_by[i] && !first) first = now.time;
   }
 }
 
@@ -81,7 +81,7 @@ void note_self_contact(const SelfContact& found, double time, Verdict& verdict) 
   if (std::none_of(all.begin(), all.end(), same)) all.push_back({found.body, found.other, time});
 }
 
-/// Counts what was lost within a few milliseconds: what the gate notices after that has other causes.
+/// Counts what was lost within a few milliseconds: what the gate detects after that has other causes.
 class LossWatch {
  public:
   void see(double time, int lost) {
@@ -136,7 +136,7 @@ struct RunWatch::Parts {
     verdict.witness = run.witness();
     verdict.limits = limits;
     for (const std::string& estimator : run.estimators())
-      verdict.first_noticed.push_back({estimator, std::nullopt});
+      verdict.first_detected.push_back({estimator, std::nullopt});
   }
 
   double period;  ///< [s]

@@ -75,9 +75,9 @@ void remark_contacts(const Verdict& verdict, const Expectations& expected,
       remarks.push_back("the contact with " + name_of(contact, verdict) + " was not over at the end");
     const std::string body = body_of(contact, expected);
     if (contact.classified.empty() || body.empty() || contact.classified == body) continue;
-    remarks.push_back(
-        fmt::format("the contact with {} was taken for one with {}, sure by {:.1f} %; see control.isolation",
-                    body, contact.classified, 100.0 * contact.probability));
+    remarks.push_back(fmt::format(
+        "the contact with {} was taken for one with {}, with probability {:.3f}; see control.isolation", body,
+        contact.classified, contact.probability));
   }
 }
 

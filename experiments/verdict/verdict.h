@@ -41,7 +41,7 @@ struct Expectations {
   std::optional<double> return_time;
 };
 
-/// When a detector that follows an estimator noticed a contact.
+/// When a detector that follows an estimator detected a contact.
 struct DetectionBy {
   std::string estimator;           ///< "" where the recording does not name it
   std::optional<double> detected;  ///< [s]; none: never
@@ -64,7 +64,7 @@ struct ContactVerdict {
   bool is_push = false;  ///< something pushed the platform without touching it, as a scenario may ask for
   double onset = 0.0;    ///< t_c, when the force rose above `contact_force`, between samples [s]
   /// t_det, when the estimate reached the reaction threshold [s]. It may be above it for another contact:
-  /// what is noticed once counts for all that have begun and are not over.
+  /// what is detected once counts for all that have begun and are not over.
   std::optional<double> detected;
   /// The same for every estimator that ran, as by a contact detector that followed it; first that which the
   /// robot followed.
@@ -78,12 +78,12 @@ struct ContactVerdict {
   std::optional<bool> several_contacts;
   std::optional<double> location_error;  ///< of where it placed the contact then [m]; none: it did not know
   std::optional<double> force_error;     ///< of the force there [N], likewise
-  /// Whether the robot could still stop within the limits that it keeps when it noticed the contact; none: it
-  /// was not in its nominal motion, or keeps none.
+  /// Whether the robot could still stop within the limits that it keeps when it detected the contact; none:
+  /// it was not in its nominal motion, or keeps none.
   std::optional<bool> could_stop;
   std::optional<double> stop_duration;  ///< of the shortest straight stop from there [s]; none: none possible
-  /// What the reaction followed since it was noticed, one after the other; empty: it did not react, or serves
-  /// no tasks.
+  /// What the reaction followed since it was detected, one after the other; empty: it did not react, or
+  /// serves no tasks.
   std::vector<TaskBegin> reaction_tasks;
   std::optional<double> removed;        ///< t_rem; none: still touching at the end [s]
   double speed = 0.0;                   ///< of the platform at the onset [m/s]
@@ -157,11 +157,11 @@ struct Verdict {
   Witness witness = Witness::truth;
   ForceLimits limits;  ///< that contacts are judged by
   std::vector<ContactVerdict> contacts;
-  /// When each estimator first noticed anything at all, in the order of `ContactVerdict::detected_by`.
-  std::vector<DetectionBy> first_noticed;
-  std::vector<double> detections;         ///< when the detector noticed something after it had been quiet [s]
-  int false_detections = 0;               ///< while nothing has touched the robot in the last `same_contact`
-  double max_observer_error_force = 0.0;  ///< of any component, before anything touches the robot [N]
+  /// When each estimator first detected anything at all, in the order of `ContactVerdict::detected_by`.
+  std::vector<DetectionBy> first_detected;
+  std::vector<double> detections;  ///< when the detector detected something after it had been quiet [s]
+  int false_detections = 0;        ///< while nothing has touched the robot in the last `same_contact`
+  double max_observer_error_force = 0.0;   ///< of any component, before anything touches the robot [N]
   double max_observer_error_moment = 0.0;  ///< [Nm]
   double max_tracking_error = 0.0;         ///< in the nominal mode, before anything touches the robot [m]
   double max_orientation_error = 0.0;      ///< likewise [rad]

@@ -77,7 +77,7 @@ std::string told_body(const ContactVerdict& contact) {
 }
 
 std::string contact_line(const ContactVerdict& contact) {
-  return fmt::format("{:<15} {:>8.3f} {:>6.2f} {:>10} {:>10} {:>8.0f} {:>8.0f}  {:<12} {:>8.0f}  {}\n",
+  return fmt::format("{:<15} {:>8.3f} {:>6.2f} {:>11} {:>10} {:>8.0f} {:>8.0f}  {:<12} {:>8.0f}  {}\n",
                      told_body(contact), contact.onset, contact.speed,
                      milliseconds_text(contact.onset, contact.detected),
                      milliseconds_text(contact.onset, contact.removed), contact.peak_force, contact.limit,
@@ -119,12 +119,12 @@ Json self_contacts_json(const Verdict& verdict) {
   return contacts;
 }
 
-/// Where several estimators ran: what each of them would have noticed when.
+/// Where several estimators ran: what each of them would have detected when.
 std::string by_estimator_lines(const ContactVerdict& contact) {
   if (contact.detected_by.size() < 2) return "";
   std::string lines;
   for (const DetectionBy& by : contact.detected_by) {
-    lines += fmt::format("  by {:<37} {:>10}\n", by.estimator, milliseconds_text(contact.onset, by.detected));
+    lines += fmt::format("  by {:<26} {:>11}\n", by.estimator, milliseconds_text(contact.onset, by.detected));
   }
   return lines;
 }
@@ -135,11 +135,12 @@ std::string classified_line(const ContactVerdict& contact) {
   const std::string several =
       contact.several_contacts.value_or(false) ? "; no single contact explains the wrench" : "";
   if (!contact.classified_at) return "  taken for: nothing that is sure enough to act upon" + several + "\n";
-  std::string line = fmt::format("  taken for {} after {:.1f} ms, sure by {:.1f} %", contact.classified,
-                                 1e3 * (*contact.classified_at - contact.onset), 100.0 * contact.probability);
+  std::string line =
+      fmt::format("  taken for {} after {:.1f} ms, with probability {:.3f}", contact.classified,
+                  1e3 * (*contact.classified_at - contact.onset), contact.probability);
   if (contact.location_error) {
-    line += fmt::format("; placed {:.0f} mm off, force {:.0f} N off", 1e3 * *contact.location_error,
-                        contact.force_error.value_or(0.0));
+    line += fmt::format("; at that moment placed {:.0f} mm off, force {:.0f} N off",
+                        1e3 * *contact.location_error, contact.force_error.value_or(0.0));
   }
   return line + several + "\n";
 }
@@ -156,8 +157,8 @@ std::string reaction_lines(const ContactVerdict& contact) {
 std::string braking_line(const ContactVerdict& contact) {
   if (!contact.could_stop) return "";
   if (!*contact.could_stop || !contact.stop_duration)
-    return "  when noticed it could not stop straight within the limits that it keeps\n";
-  return fmt::format("  when noticed it could stop within the limits that it keeps, in {:.0f} ms\n",
+    return "  when detected it could not stop straight within the limits that it keeps\n";
+  return fmt::format("  when detected it could stop within the limits that it keeps, in {:.0f} ms\n",
                      1e3 * *contact.stop_duration);
 }
 
@@ -180,7 +181,7 @@ std::string no_contact_line(const Verdict& verdict) {
   if (verdict.witness != Witness::none) return "nothing was touched\n";
   std::string times;
   for (const double time : verdict.detections) times += fmt::format(" {:.3f} s", time);
-  return "no instrument saw what touched the robot; noticed at:" + (times.empty() ? " never" : times) + "\n";
+  return "no instrument saw what touched the robot; detected at:" + (times.empty() ? " never" : times) + "\n";
 }
 
 /// What nobody could ask of sensors and drives, above all the rest.
@@ -257,8 +258,8 @@ std::string verdict_table(const Verdict& verdict, const RunFacts& facts) {
   const std::string late = lateness_sentence(verdict);
   std::string text = (late.empty() ? "" : late + "\n\n") + checks_off_lines(verdict);
   text +=
-      fmt::format("{:<15} {:>8} {:>6} {:>10} {:>10} {:>8} {:>8}  {:<12} {:>8}  {}\n", "contact with", "at s",
-                  "m/s", "noticed ms", "removed ms", "peak N", "limit N", "kind", "above ms", "within");
+      fmt::format("{:<15} {:>8} {:>6} {:>11} {:>10} {:>8} {:>8}  {:<12} {:>8}  {}\n", "contact with", "at s",
+                  "m/s", "detected ms", "removed ms", "peak N", "limit N", "kind", "above ms", "within");
   for (const ContactVerdict& contact : verdict.contacts) {
     text += contact_line(contact) + obstacle_line(contact, verdict) + by_estimator_lines(contact) +
             classified_line(contact) + braking_line(contact) + reaction_lines(contact);

@@ -10,6 +10,7 @@
 #include "systems/config/yaml_text.h"
 #include "systems/foundation/nearest_name.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/foundation/standard_input.h"
 
 namespace flinch {
 namespace {
@@ -237,7 +238,7 @@ void ConfigReader::file(std::string_view name, std::filesystem::path& value) {
   const FoundValue found = document_->find(*section_, name, unit::none, required_);
   if (found.node != nullptr) {
     Parsed<std::string> parsed = parse_text(*found.node);
-    const std::filesystem::path folder = std::filesystem::path(document_->file()).parent_path();
+    const std::filesystem::path folder = folder_named_in(document_->file());
     const std::filesystem::path path = (folder / parsed.value).lexically_normal();
     const std::string problem = problem_with_file(path);
     if (parsed.complaint.empty() && !problem.empty())

@@ -7,13 +7,13 @@
 
 namespace flinch {
 
-/// Tells one contact from the next: a contact begins where the detector notices something after it has been
+/// Tells one contact from the next: a contact begins where the detector detects something after it has been
 /// quiet for `same_contact`, or since the reset, and lasts until then.
 class ContactPeriod final : public System {
  public:
   struct Memory {
     ContactPhase phase;
-    Time noticed{};  ///< last tick at which the detector noticed it
+    Time noticed{};  ///< last tick at which the detector detected it
   };
 
  private:

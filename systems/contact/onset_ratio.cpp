@@ -7,7 +7,7 @@
 namespace flinch {
 namespace {
 
-constexpr std::size_t longest = OnsetMemory::longest, order = ErrorCourse::order;
+constexpr std::size_t longest = OnsetMemory::longest, order = AutoregressiveError::order;
 
 using Course = std::array<double, longest>;
 
@@ -22,7 +22,7 @@ double step_behind_filters(int filters, double x) {
   return 1.0 - std::exp(-x) * sum;
 }
 
-/// The change that a step shows as, from one sample after it on; its mean of late as in `follow_residual`.
+/// The change that a step shows as, from one sample after it on; its mean of late as in `track_residual`.
 Course step_as_change(const ResidualTracking& tracking) {
   const double T = to_seconds(tracking.sampling.period);
   const double share = 1.0 - std::exp(-tracking.rate * T);
@@ -44,7 +44,7 @@ std::size_t onsets(int samples) {
 
 }  // namespace
 
-OnsetRatio::OnsetRatio(const ResidualErrors& errors, const ErrorCourse& course,
+OnsetRatio::OnsetRatio(const ResidualErrors& errors, const AutoregressiveError& course,
                        const ResidualTracking& tracking)
     : errors_(errors), course_(course), sampling_(tracking.sampling) {
   const Course step = step_as_change(tracking);
@@ -57,14 +57,14 @@ OnsetRatio::OnsetRatio(const ResidualErrors& errors, const ErrorCourse& course,
   }
 }
 
-void OnsetRatio::follow(const SeenResidual& seen, const OnsetMemory& memory, OnsetMemory& next) const {
+void OnsetRatio::follow(const ResidualSample& seen, const OnsetMemory& memory, OnsetMemory& next) const {
   next.samples = 0;
   if (!seen.settled) return;
   next = memory;
   if (!seen.is_new) return;
   const Time acquired = seen.load.acquired;
   const int before = sampling_.lost_between(memory.acquired, acquired) ? 0 : memory.samples;
-  next.samples = std::min(before + 1, ErrorCourse::order + OnsetMemory::longest);
+  next.samples = std::min(before + 1, AutoregressiveError::order + OnsetMemory::longest);
   next.acquired = acquired;
   const JointVector z = whitened(seen.load, seen.change, errors_);
   if (onsets(next.samples) > 0) {
@@ -79,7 +79,7 @@ void OnsetRatio::follow(const SeenResidual& seen, const OnsetMemory& memory, Ons
   std::copy(memory.before.begin(), memory.before.end() - 1, next.before.begin() + 1);
 }
 
-double OnsetRatio::surprise(const OnsetMemory& memory) const {
+double OnsetRatio::mahalanobis_distance(const OnsetMemory& memory) const {
   double largest = 0.0;
   for (std::size_t k = 0; k < onsets(memory.samples); ++k) {
     if (energy_[k] <= 0.0) continue;  // nothing of it would show yet

@@ -40,7 +40,7 @@ JointVector whitened(const DriveLoad& load, const DriveResidual& seen, const Res
   return z;
 }
 
-double surprise(const DriveLoad& load, const DriveResidual& seen, const ResidualErrors& errors) {
+double mahalanobis_distance(const DriveLoad& load, const DriveResidual& seen, const ResidualErrors& errors) {
   const double rising = rising_variance(seen);
   double sum = 0.0;
   for (int i = 0; i < seen.effort.size(); ++i)

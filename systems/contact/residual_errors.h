@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "systems/contact/seen_residual.h"
+#include "systems/contact/residual_sample.h"
 
 namespace flinch {
 
@@ -37,6 +37,6 @@ JointVector whitened(const DriveLoad& load, const DriveResidual& seen, const Res
 
 /// The length of the residual once each drive's is divided by its deviation, sqrt(sum of r_i^2 / v_i): its
 /// square is distributed as chi-square where the errors are as assumed. Infinite where it is not finite.
-double surprise(const DriveLoad& load, const DriveResidual& seen, const ResidualErrors& errors);
+double mahalanobis_distance(const DriveLoad& load, const DriveResidual& seen, const ResidualErrors& errors);
 
 }  // namespace flinch

@@ -10,7 +10,7 @@
 namespace flinch {
 namespace {
 
-void find_problems(const std::string& owner, const SurpriseThreshold& settings, Findings& findings) {
+void find_problems(const std::string& owner, const MahalanobisThreshold& settings, Findings& findings) {
   findings.positive(owner + ".threshold", settings.threshold);
   findings.positive(owner + ".noise", settings.errors.noise, "Nm or N");
   findings.not_negative(owner + ".speed", settings.errors.speed, "Nm s/rad or N s/m");
@@ -38,8 +38,8 @@ std::vector<std::string> problems(const WhitenedDetectorSettings& settings) {
   found.positive("tracking", settings.tracking.rate, "1/s");
   found.positive("smoothing", settings.tracking.smoothing, "1/s");
   found.positive("resting_rate", settings.tracking.resting_rate, "rad/s or m/s");
-  const EstimatorAnswer& answer = settings.tracking.answer;
-  found.require(answer.filters >= 0 && answer.filters <= EstimatorAnswer::most,
+  const FilterResponse& answer = settings.tracking.answer;
+  found.require(answer.filters >= 0 && answer.filters <= FilterResponse::most,
                 "tracking.answer has more filters than can be followed, or fewer than none");
   if (answer.filters > 0) found.positive("tracking.answer", answer.rate, "1/s");
   found.require(settings.hard.force > 0.0 && settings.hard.moment > 0.0,
@@ -47,8 +47,8 @@ std::vector<std::string> problems(const WhitenedDetectorSettings& settings) {
   return found.take();
 }
 
-bool exceeds(const DriveLoad& load, const DriveResidual& seen, const SurpriseThreshold& limit) {
-  return surprise(load, seen, limit.errors) >= limit.threshold;
+bool exceeds(const DriveLoad& load, const DriveResidual& seen, const MahalanobisThreshold& limit) {
+  return mahalanobis_distance(load, seen, limit.errors) >= limit.threshold;
 }
 
 }  // namespace
@@ -69,11 +69,11 @@ void WhitenedDetector::follow_onsets(const ResidualMemory& next, const OnsetMemo
   if (onset_) onset_->follow(next.seen, onsets, result);
 }
 
-bool WhitenedDetector::is_touched(const SeenResidual& seen, const OnsetMemory& onsets) const {
+bool WhitenedDetector::is_touched(const ResidualSample& seen, const OnsetMemory& onsets) const {
   if (exceeds(seen.load, seen.level, settings_.level)) return true;
   const auto& smoothed = settings_.smoothed;
   if (smoothed && seen.smooth && exceeds(seen.load, seen.smoothed, *smoothed)) return true;
-  if (onset_) return onset_->surprise(onsets) >= settings_.onset->threshold;
+  if (onset_) return onset_->mahalanobis_distance(onsets) >= settings_.onset->threshold;
   return seen.settled && exceeds(seen.load, seen.change, settings_.change);
 }
 

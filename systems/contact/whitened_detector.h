@@ -11,23 +11,23 @@
 
 namespace flinch {
 
-/// Above which surprise a residual is a contact, and what makes it one.
-struct SurpriseThreshold {
+/// Above which Mahalanobis distance a residual is a contact, and what makes it one.
+struct MahalanobisThreshold {
   double threshold = 0.0;  ///< of the length of the whitened residual
   ResidualErrors errors;
 };
 
-/// Above which surprise a likelihood ratio of onsets is a contact, and how the errors go on.
+/// Above which Mahalanobis distance a likelihood ratio of onsets is a contact, and how the errors go on.
 struct OnsetThreshold {
   double threshold = 0.0;
-  ErrorCourse course;
+  AutoregressiveError course;
 };
 
 struct WhitenedDetectorSettings {
-  SurpriseThreshold level;                      ///< of the residual itself
-  SurpriseThreshold change;                     ///< of what is new of it: slow errors of the model are gone
-  std::optional<SurpriseThreshold> smoothed{};  ///< of what lasts: noise is gone
-  std::optional<OnsetThreshold> onset{};        ///< in place of the threshold of the change
+  MahalanobisThreshold level;   ///< of the residual itself
+  MahalanobisThreshold change;  ///< of what is new of it: slow errors of the model are gone
+  std::optional<MahalanobisThreshold> smoothed{};  ///< of what lasts: noise is gone
+  std::optional<OnsetThreshold> onset{};           ///< in place of the threshold of the change
   ResidualTracking tracking;
   WrenchThreshold hard{60.0, 3.0};  ///< of the estimate, as of `ContactDetector`
 };
@@ -39,7 +39,7 @@ struct WhitenedDetectorSettings {
 /// late, from which slow errors are gone, or with how the change has come about (`OnsetRatio`), and with the
 /// smoothed residual, from which noise is gone: small forces that last show there. (Derived.)
 ///
-/// The level latches as that of `ContactDetector`. In a tick whose estimate is not new nothing is noticed;
+/// The level latches as that of `ContactDetector`. In a tick whose estimate is not new nothing is detected;
 /// where none has come for the longest hold, or it has fallen back to another estimator, the detection is
 /// not valid.
 class WhitenedDetector final : public System {
@@ -72,7 +72,7 @@ class WhitenedDetector final : public System {
 
   void follow(const WrenchEstimate& estimate, const DriveLoad& fresh, const LoadHistory& past,
               const ResidualMemory& memory, Time now, ResidualMemory& next) const {
-    follow_residual(estimate, fresh, past, now, settings_.tracking, memory, next);
+    track_residual(estimate, fresh, past, now, settings_.tracking, memory, next);
   }
   void follow_onsets(const ResidualMemory& next, const OnsetMemory& onsets, OnsetMemory& result) const;
   void remember(const DriveLoad& fresh, LoadHistory& past) const {
@@ -81,7 +81,7 @@ class WhitenedDetector final : public System {
   void detect(const ResidualMemory& next, const OnsetMemory& onsets, const WrenchEstimate& estimate,
               const ResetCommand& command, const ContactDetection& previous, Time now,
               ContactDetection& result) const;
-  bool is_touched(const SeenResidual& seen, const OnsetMemory& onsets) const;
+  bool is_touched(const ResidualSample& seen, const OnsetMemory& onsets) const;
 
   WhitenedDetectorSettings settings_;
   std::optional<OnsetRatio> onset_;

@@ -128,6 +128,16 @@ void Diagram::collect_taps(const Diagram& diagram, const std::string& prefix, st
   }
 }
 
+std::string Diagram::needing_adaptive_steps() const {
+  for (const auto& child : children_) {
+    if (child->needs_adaptive_steps()) return child->name();
+    const auto* nested = dynamic_cast<const Diagram*>(child.get());
+    const std::string inner = nested != nullptr ? nested->needing_adaptive_steps() : "";
+    if (!inner.empty()) return child->name() + "/" + inner;
+  }
+  return "";
+}
+
 std::vector<Diagram::Tap> Diagram::taps() const {
   std::vector<Tap> taps;
   for (std::size_t i = 0; i < inputs().size(); ++i) {

@@ -62,6 +62,8 @@ class Diagram : public System {
 
   /// How many numbers the continuous states have together.
   std::size_t continuous_size() const { return continuous_size_; }
+  /// The path of the first block inside that needs adaptive steps; "" where none does.
+  std::string needing_adaptive_steps() const;
   void get_continuous(const Context& context, std::span<double> numbers) const;
   void set_continuous(Context& context, std::span<const double> numbers) const;
   /// Computes what the derivatives depend on and what stays constant during a step: once before

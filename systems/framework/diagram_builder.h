@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -37,15 +38,24 @@ class DiagramBuilder {
   /// Nests a diagram, under its own name.
   Diagram& add(std::unique_ptr<Diagram> diagram);
 
-  /// Lets `to`, an input of a block in this diagram, read `from`, an output of a block in it.
-  template <class T>
-  void connect(OutputPort<T> from, InputPort<T> to) {
+  /// Lets `to`, an input of a block in this diagram, and further ones read `from`, an output of a block in
+  /// it.
+  template <class T, std::same_as<InputPort<T>>... More>
+  void connect(OutputPort<T> from, InputPort<T> to, More... more) {
     add_wire(from.id, to.id);
+    (add_wire(from.id, more.id), ...);
   }
   /// The same from an input of the diagram itself, made by input() or export_input().
   template <class T>
   void connect(InputPort<T> from, InputPort<T> to) {
     add_wire(from.id, to.id);
+  }
+
+  /// Lets `to`, an input of a block in this diagram, and further ones read `value` for ever.
+  template <class T, std::same_as<InputPort<T>>... More>
+  void fix(const T& value, InputPort<T> to, More... more) {
+    connect(add<Constant<T>>(to.id.owner->name() + "_" + to.id.owner->port_name(to.id), value).value, to,
+            more...);
   }
 
   /// Gives the diagram an input.

@@ -15,14 +15,6 @@ namespace {
 constexpr int deepest_group = 32;
 constexpr std::size_t most_sets = 10'000;
 
-void check(herr_t status, const std::string& doing) {
-  if (status < 0) throw SetupError("HDF5 failed " + doing);
-}
-
-[[noreturn]] void refuse(const std::string& name, const std::string& why) {
-  throw SetupError("the data set '" + name + "' " + why);
-}
-
 bool is_number(hid_t type) {
   const H5T_class_t kind = H5Tget_class(type);
   return (kind == H5T_FLOAT || kind == H5T_INTEGER) && H5Tget_size(type) <= sizeof(Number);
@@ -97,7 +89,7 @@ Opened open_checked(hid_t parent, const std::string& name, const std::string& me
   const std::size_t words = std::max<std::size_t>(H5Tget_size(type) / 8, 1);
   if (words > 1'000'000) refuse(name, "has rows of more than a megabyte");
   check_storage(opened.set, name, size[0], size[1] * words);
-  check_chunks(opened.set, 0, size[0], size[1]);
+  CheckedChunks().require(opened.set, 0, size[0], size[1]);
   return opened;
 }
 

@@ -12,14 +12,6 @@
 namespace flinch::internal {
 namespace {
 
-void check(herr_t status, const std::string& doing) {
-  if (status < 0) throw SetupError("HDF5 failed " + doing);
-}
-
-[[noreturn]] void refuse(const std::string& name, const std::string& why) {
-  throw SetupError("the data set '" + name + "' " + why);
-}
-
 /// The filters that have packed a data set, in the order in which they did.
 std::vector<H5Z_filter_t> filters_of(hid_t creation) {
   std::vector<H5Z_filter_t> filters;
@@ -114,7 +106,7 @@ void check_storage(Hdf5Object::Id table, const std::string& name, std::size_t ro
   }
 }
 
-void check_chunks(Hdf5Object::Id table, std::size_t first, std::size_t rows, std::size_t columns) {
+void CheckedChunks::require(Hdf5Object::Id table, std::size_t first, std::size_t rows, std::size_t columns) {
   const Hdf5Object creation(H5Dget_create_plist(table), H5Pclose, "reading how a data set was made");
   hsize_t chunk[2] = {1, 1};
   if (H5Pget_layout(creation) != H5D_CHUNKED || H5Pget_chunk(creation, 2, chunk) < 1) return;
@@ -122,6 +114,9 @@ void check_chunks(Hdf5Object::Id table, std::size_t first, std::size_t rows, std
   const std::size_t size = chunk[0] * chunk[1] * H5Tget_size(type), most = file_size(table);
   const std::vector<H5Z_filter_t> filters = filters_of(creation);
   for (hsize_t row = first / chunk[0] * chunk[0]; row < first + rows; row += chunk[0]) {
+    const std::size_t number = row / chunk[0];
+    if (number >= good_.size()) good_.resize(number + 1);
+    if (good_[number]) continue;
     for (hsize_t column = 0; column < columns; column += chunk[1]) {
       StoredChunk stored{{row, column}};
       haddr_t address = HADDR_UNDEF;
@@ -132,6 +127,7 @@ void check_chunks(Hdf5Object::Id table, std::size_t first, std::size_t rows, std
                          " bytes, more than the file");
       if (address != HADDR_UNDEF) check_unpacked(table, stored, filters, size);
     }
+    good_[number] = true;
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "systems/framework/hdf5_object.h"
 
@@ -16,9 +17,16 @@ void check_layout(Hdf5Object::Id table, const std::string& name);
 /// Throws where a table claims to hold more than its bytes can be unpacked to.
 void check_storage(Hdf5Object::Id table, const std::string& name, std::size_t rows, std::size_t columns);
 
-/// Throws unless each chunk that these rows lie in can be unpacked to its full size: HDF5 allocates what the
-/// file says that a chunk takes there, and copies a whole chunk from what it was unpacked to. Of tables with
-/// one or two dimensions whose layout was checked.
-void check_chunks(Hdf5Object::Id table, std::size_t first, std::size_t rows, std::size_t columns);
+/// Which chunks of one data set, of one or two dimensions and a layout that was checked, can be unpacked to
+/// their full size: HDF5 allocates what the file says that a chunk takes there, and copies a whole chunk from
+/// what it was unpacked to.
+class CheckedChunks {
+ public:
+  /// Unpacks each chunk that these rows lie in, once; throws where it has not its full size.
+  void require(Hdf5Object::Id table, std::size_t first, std::size_t rows, std::size_t columns);
+
+ private:
+  std::vector<bool> good_;  ///< by the number of the chunk among those of its columns
+};
 
 }  // namespace flinch::internal

@@ -9,24 +9,11 @@
 #include "systems/foundation/readable_file.h"
 #include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
-#include "systems/framework/hdf5_chunks.h"
 
 namespace flinch::internal {
 namespace {
 
 static_assert(std::is_same_v<hid_t, Hdf5Object::Id> && std::is_same_v<herr_t, int>);
-
-void check(herr_t status, const std::string& doing) {
-  if (status < 0) throw SetupError("HDF5 failed " + doing);
-}
-
-/// HDF5 prints every failure of this thread unless told not to; and at the end of the program it would try
-/// again to write what could not be written, and crash.
-void silence_hdf5() {
-  static const bool stays_away_from_the_end = H5dont_atexit() >= 0;
-  static_cast<void>(stays_away_from_the_end);
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-}
 
 Hdf5Object text_type(std::size_t size) {
   Hdf5Object type(H5Tcopy(H5T_C_S1), H5Tclose, "making a text type");
@@ -55,22 +42,6 @@ Hdf5Object timeless(hid_t kind) {
   return list;
 }
 
-hid_t file_type(Field::Kind kind) {
-  if (kind == Field::Kind::real) return H5T_IEEE_F64LE;
-  return kind == Field::Kind::boolean ? H5T_STD_U8LE : H5T_STD_I64LE;
-}
-
-hid_t memory_type(Field::Kind kind) {
-  return kind == Field::Kind::real ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64;
-}
-
-/// Whole chunks are written and read, one after the other: a cache of chunks would only cost memory.
-Hdf5Object without_cache() {
-  Hdf5Object list(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose, "making access properties");
-  check(H5Pset_chunk_cache(list, H5D_CHUNK_CACHE_NSLOTS_DEFAULT, 0, 1.0), "leaving out the chunk cache");
-  return list;
-}
-
 /// Notes where a link leads that leaves the file, and refuses to follow it.
 herr_t refuse_link(const char* /*group*/, const char* /*parent*/, const char* file, const char* /*object*/,
                    unsigned* /*flags*/, hid_t /*access*/, void* target) {
@@ -92,26 +63,31 @@ Hdf5Object open_own(const Hdf5Object& access, int (*close)(hid_t), const std::st
   return {id, close, "opening " + what};
 }
 
-/// The rows first ... first + rows of a table, in the file; and as they lie in memory.
-struct Selection {
-  Hdf5Object in_file;
-  Hdf5Object in_memory;
-};
-
-Selection select(hid_t table, std::size_t first, std::size_t rows, std::size_t columns) {
-  const hsize_t start[2] = {first, 0}, size[2] = {rows, columns};
-  Selection selection{{H5Dget_space(table), H5Sclose, "reading the size of a data set"},
-                      {H5Screate_simple(2, size, nullptr), H5Sclose, "making a data space"}};
-  check(H5Sselect_hyperslab(selection.in_file, H5S_SELECT_SET, start, nullptr, size, nullptr),
-        "choosing rows of a data set");
-  return selection;
-}
-
 }  // namespace
 
 std::mutex& hdf5_mutex() {
   static std::mutex mutex;
   return mutex;
+}
+
+void check(int status, const std::string& doing) {
+  if (status < 0) throw SetupError("HDF5 failed " + doing);
+}
+
+void refuse(const std::string& name, const std::string& why) {
+  throw SetupError("the data set '" + name + "' " + why);
+}
+
+void silence_hdf5() {
+  static const bool stays_away_from_the_end = H5dont_atexit() >= 0;
+  static_cast<void>(stays_away_from_the_end);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+Hdf5Object without_chunk_cache() {
+  Hdf5Object list(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose, "making access properties");
+  check(H5Pset_chunk_cache(list, H5D_CHUNK_CACHE_NSLOTS_DEFAULT, 0, 1.0), "leaving out the chunk cache");
+  return list;
 }
 
 Hdf5Object::Hdf5Object(Id id, int (*close)(Id), const std::string& doing) : id_(id), close_(close) {
@@ -279,22 +255,8 @@ std::vector<std::string> attribute_names(Hdf5Object::Id object) {
   return names;
 }
 
-Hdf5Object make_table(Hdf5Object::Id parent, const std::string& name, Field::Kind kind, std::size_t columns,
-                      std::size_t chunk_rows) {
-  const hsize_t none[2] = {0, columns}, most[2] = {H5S_UNLIMITED, columns}, chunk[2] = {chunk_rows, columns};
-  const Hdf5Object space(H5Screate_simple(2, none, most), H5Sclose, "making a data space");
-  const Hdf5Object creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "making data set properties");
-  check(H5Pset_obj_track_times(creation, false), "leaving out time stamps");
-  check(H5Pset_chunk(creation, 2, chunk), "chunking");
-  check(H5Pset_shuffle(creation), "shuffling");
-  check(H5Pset_deflate(creation, 1), "compressing");
-  const Hdf5Object access = without_cache();
-  return {H5Dcreate2(parent, name.c_str(), file_type(kind), space, H5P_DEFAULT, creation, access), H5Dclose,
-          "making the data set '" + name + "'"};
-}
-
 Hdf5Object open_data_set(Hdf5Object::Id parent, const std::string& name) {
-  return open_own(without_cache(), H5Dclose, "the data set '" + name + "'",
+  return open_own(without_chunk_cache(), H5Dclose, "the data set '" + name + "'",
                   [&](hid_t own) { return H5Dopen2(parent, name.c_str(), own); });
 }
 
@@ -302,57 +264,6 @@ std::uint64_t address(Hdf5Object::Id object) {
   H5O_info_t info{};
   check(H5Oget_info2(object, &info, H5O_INFO_BASIC), "finding a data set");
   return info.addr;
-}
-
-namespace {
-
-[[noreturn]] void refuse(const std::string& name, const std::string& why) {
-  throw SetupError("the data set '" + name + "' " + why);
-}
-
-/// Throws unless the numbers of a table convert to those of `kind`.
-void check_type(hid_t table, const std::string& name, Field::Kind kind) {
-  const Hdf5Object type(H5Dget_type(table), H5Tclose, "reading the type of '" + name + "'");
-  const H5T_class_t wanted = kind == Field::Kind::real ? H5T_FLOAT : H5T_INTEGER;
-  if (H5Tget_class(type) != wanted || H5Tget_size(type) > sizeof(Number)) {
-    refuse(name, kind == Field::Kind::real ? "has no real numbers" : "has no integers");
-  }
-}
-
-}  // namespace
-
-Table open_table(Hdf5Object::Id parent, const std::string& name, Field::Kind kind, std::size_t columns) {
-  Hdf5Object table = open_data_set(parent, name);
-  check_type(table, name, kind);
-  const Hdf5Object space(H5Dget_space(table), H5Sclose, "reading the size of '" + name + "'");
-  hsize_t size[2] = {0, 0};
-  if (H5Sget_simple_extent_ndims(space) != 2 || H5Sget_simple_extent_dims(space, size, nullptr) != 2) {
-    refuse(name, "is no table of rows and columns");
-  }
-  if (size[1] != columns) {
-    refuse(name, "has " + std::to_string(size[1]) + " columns instead of " + std::to_string(columns));
-  }
-  check_layout(table, name);
-  check_storage(table, name, size[0], columns);
-  return {std::move(table), size[0]};
-}
-
-void append_rows(Hdf5Object::Id table, Field::Kind kind, std::size_t at, std::size_t rows,
-                 std::size_t columns, const Number* numbers) {
-  const hsize_t size[2] = {at + rows, columns};
-  check(H5Dset_extent(table, size), "growing a data set");
-  const Selection selection = select(table, at, rows, columns);
-  check(H5Dwrite(table, memory_type(kind), selection.in_memory, selection.in_file, H5P_DEFAULT, numbers),
-        "writing a data set");
-}
-
-void read_rows(Hdf5Object::Id table, Field::Kind kind, std::size_t first, std::size_t rows,
-               std::size_t columns, Number* numbers) {
-  silence_hdf5();
-  check_chunks(table, first, rows, columns);
-  const Selection selection = select(table, first, rows, columns);
-  check(H5Dread(table, memory_type(kind), selection.in_memory, selection.in_file, H5P_DEFAULT, numbers),
-        "reading a data set");
 }
 
 }  // namespace flinch::internal

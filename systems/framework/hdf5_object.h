@@ -10,8 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "systems/framework/fields.h"
-
 /// The calls of HDF5 that recordings need, without a type of HDF5. All throw SetupError saying what failed.
 /// HDF5 need not be safe for threads: whoever calls them holds hdf5_mutex().
 namespace flinch::internal {
@@ -40,6 +38,18 @@ class Hdf5Object {
   Id id_;
   int (*close_)(Id);
 };
+
+/// Throws where a call of HDF5 that was `doing` something says that it failed.
+void check(int status, const std::string& doing);
+/// Throws saying of the data set `name` why it cannot be read.
+[[noreturn]] void refuse(const std::string& name, const std::string& why);
+
+/// HDF5 prints every failure of a thread unless that thread has told it not to; and at the end of the program
+/// it would try again to write what could not be written, and crash.
+void silence_hdf5();
+/// Access properties of data sets whose chunks are written and read whole, one after the other: a cache of
+/// chunks would only cost memory.
+Hdf5Object without_chunk_cache();
 
 /// Files and groups without time stamps, so that equal contents make equal files.
 Hdf5Object create_hdf5_file(const std::filesystem::path& file);
@@ -72,25 +82,8 @@ Hdf5Object make_column(Hdf5Object::Id parent, const std::string& name, std::size
 /// Writes `rows` of its cells, which lie one behind the other, from row `first` on.
 void write_cells(Hdf5Object::Id column, std::size_t first, std::size_t rows, const void* cells);
 
-/// Makes a table of numbers that rows can be appended to, compressed in chunks of `chunk_rows`.
-Hdf5Object make_table(Hdf5Object::Id parent, const std::string& name, Field::Kind kind, std::size_t columns,
-                      std::size_t chunk_rows);
 /// A data set of whatever type and size, for its attributes. Links are followed within the file only.
 Hdf5Object open_data_set(Hdf5Object::Id parent, const std::string& name);
 /// Where an object lies in its file: two names of one object have one address.
 std::uint64_t address(Hdf5Object::Id object);
-/// A table of numbers that was opened.
-struct Table {
-  Hdf5Object set;
-  std::size_t rows;
-};
-/// Trusts nothing that the file says of the table: numbers of `kind` in so many columns, in this file, no
-/// more of them than its bytes can hold.
-Table open_table(Hdf5Object::Id parent, const std::string& name, Field::Kind kind, std::size_t columns);
-/// Appends `rows` rows after the first `at`.
-void append_rows(Hdf5Object::Id table, Field::Kind kind, std::size_t at, std::size_t rows,
-                 std::size_t columns, const Number* numbers);
-void read_rows(Hdf5Object::Id table, Field::Kind kind, std::size_t first, std::size_t rows,
-               std::size_t columns, Number* numbers);
-
 }  // namespace flinch::internal

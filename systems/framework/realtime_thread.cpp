@@ -31,12 +31,12 @@ std::string permit(const std::string& limit, const std::string& value, const std
 }
 
 /// The answer to a request that returned `error` (0: granted).
-Privilege answer(std::string name, Insistence insistence, int error, std::string remedy) {
+Privilege answer(std::string name, Requirement insistence, int error, std::string remedy) {
   if (error == 0) return {std::move(name), insistence, true, "", ""};
   return {std::move(name), insistence, false, std::strerror(error), std::move(remedy)};
 }
 
-Privilege ask_for_priority(Insistence insistence, int priority) {
+Privilege ask_for_priority(Requirement insistence, int priority) {
   sched_param parameters{};
   parameters.sched_priority = priority;
   const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
@@ -51,13 +51,13 @@ void touch_stack() {
   for (std::size_t i = 0; i < stack_to_touch; i += 1024) stack[i] = std::byte{0};
 }
 
-Privilege ask_for_locked_memory(Insistence insistence) {
+Privilege ask_for_locked_memory(Requirement insistence) {
   touch_stack();
   const int error = mlockall(MCL_CURRENT) == 0 ? 0 : errno;
   return answer("locked memory", insistence, error, permit("memlock", "unlimited", "-l"));
 }
 
-Privilege ask_for_processor(Insistence insistence, int cpu) {
+Privilege ask_for_processor(Requirement insistence, int cpu) {
   cpu_set_t wanted;
   CPU_ZERO(&wanted);
   const bool exists = cpu >= 0 && cpu < CPU_SETSIZE;
@@ -68,7 +68,7 @@ Privilege ask_for_processor(Insistence insistence, int cpu) {
       "choose one that 'taskset -cp $$' lists: the others do not exist or are not for this process");
 }
 
-Privilege look_for_realtime_kernel(Insistence insistence) {
+Privilege look_for_realtime_kernel(Requirement insistence) {
   std::ifstream file("/sys/kernel/realtime");
   int realtime = 0;
   file >> realtime;
@@ -85,7 +85,7 @@ std::string problem(const Privilege& privilege) {
 std::vector<std::string> refused_requirements(const std::vector<Privilege>& privileges) {
   std::vector<std::string> problems;
   for (const Privilege& privilege : privileges) {
-    const bool required = privilege.insistence == Insistence::require;
+    const bool required = privilege.insistence == Requirement::require;
     if (required && !privilege.granted) problems.push_back(problem(privilege));
   }
   return problems;
@@ -112,7 +112,7 @@ bool permits_realtime(int priority) {
   int policy = 0;
   sched_param before{};
   pthread_getschedparam(pthread_self(), &policy, &before);
-  const bool granted = ask_for_priority(Insistence::prefer, priority).granted;
+  const bool granted = ask_for_priority(Requirement::prefer, priority).granted;
   pthread_setschedparam(pthread_self(), policy, &before);
   return granted;
 }
@@ -122,16 +122,16 @@ RealtimeThread::RealtimeThread(const RealtimeSettings& settings) {
   pthread_getaffinity_np(pthread_self(), sizeof processors_, &processors_);
 
   std::vector<Privilege>& privileges = report_.privileges;
-  if (settings.scheduling != Insistence::none) {
+  if (settings.scheduling != Requirement::none) {
     privileges.push_back(ask_for_priority(settings.scheduling, settings.priority));
   }
-  if (settings.locked_memory != Insistence::none) {
+  if (settings.locked_memory != Requirement::none) {
     privileges.push_back(ask_for_locked_memory(settings.locked_memory));
   }
-  if (settings.affinity != Insistence::none) {
+  if (settings.affinity != Requirement::none) {
     privileges.push_back(ask_for_processor(settings.affinity, settings.cpu));
   }
-  if (settings.realtime_kernel != Insistence::none) {
+  if (settings.realtime_kernel != Requirement::none) {
     privileges.push_back(look_for_realtime_kernel(settings.realtime_kernel));
   }
 

@@ -8,7 +8,7 @@
 namespace flinch {
 
 /// How much a program insists on something that the machine may refuse.
-enum class Insistence {
+enum class Requirement {
   none,     ///< do not ask for it
   prefer,   ///< ask, and report whether it was granted
   require,  ///< ask, and do not start without it
@@ -16,18 +16,18 @@ enum class Insistence {
 
 /// What a control thread asks the machine for.
 struct RealtimeSettings {
-  Insistence scheduling = Insistence::prefer;
+  Requirement scheduling = Requirement::prefer;
   int priority = 80;  ///< SCHED_FIFO, 1 to 99; threads that the loop waits for should have no lower one
-  Insistence locked_memory = Insistence::prefer;
-  Insistence affinity = Insistence::none;
+  Requirement locked_memory = Requirement::prefer;
+  Requirement affinity = Requirement::none;
   int cpu = 0;  ///< the one processor to run on
-  Insistence realtime_kernel = Insistence::prefer;
+  Requirement realtime_kernel = Requirement::prefer;
 };
 
 /// One thing that was asked for, and the answer.
 struct Privilege {
   std::string name;  ///< "SCHED_FIFO priority 80"
-  Insistence insistence = Insistence::none;
+  Requirement insistence = Requirement::none;
   bool granted = false;
   std::string reason;  ///< why it was not granted
   std::string remedy;  ///< how to change that

@@ -6,7 +6,7 @@
 
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/hdf5_format.h"
-#include "systems/framework/hdf5_object.h"
+#include "systems/framework/hdf5_table.h"
 #include "systems/framework/recording_check.h"
 #include "systems/framework/recording_journal.h"
 
@@ -64,7 +64,7 @@ std::vector<Column> columns_of(const RowLayout& layout) {
 struct Table {
   std::size_t numbers;  ///< of a row of the signal
   std::vector<Column> columns;
-  std::vector<Hdf5Object> sets;  ///< one for each column
+  std::vector<internal::Table> sets;  ///< one for each column
 };
 
 Table make_tables(Hdf5Object::Id root, const Signal& signal, Time period, std::size_t chunk_rows) {
@@ -74,9 +74,9 @@ Table make_tables(Hdf5Object::Id root, const Signal& signal, Time period, std::s
   std::string order;
   auto field = signal.layout.fields.begin();
   for (const Column& column : table.columns) {
-    table.sets.push_back(internal::make_table(group, column.name, column.kind, column.columns, chunk_rows));
+    table.sets.push_back({internal::make_table(group, column.name, column.kind, column.columns, chunk_rows)});
     if (column.name != field->name) continue;  // the sizes before a field
-    const Hdf5Object& set = table.sets.back();
+    const Hdf5Object& set = table.sets.back().set;
     internal::write_text(set, "unit", field->unit);
     internal::write_text(set, "frame", field->frame);
     internal::write_integer(set, "kind", static_cast<std::int64_t>(field->kind));
@@ -108,7 +108,7 @@ Table open_tables(Hdf5Object::Id root, std::size_t samples, Signal& signal) {
       throw SetupError("the data set '" + column.name + "' of '" + signal.path + "' has " +
                        std::to_string(opened.rows) + " samples instead of " + std::to_string(samples));
     }
-    table.sets.push_back(std::move(opened.set));
+    table.sets.push_back(std::move(opened));
   }
   return table;
 }
@@ -129,8 +129,8 @@ class RecordingFile final : public RowSource {
     for (const std::string& path : lines_of(internal::read_text(open.root, signals_attribute))) {
       Signal signal{path, {}, {}};
       Table tables = open_tables(open.root, recording.samples(), signal);
-      for (const Hdf5Object& set : tables.sets) {
-        if (!opened.insert(internal::address(set)).second || opened.size() > most_tables) {
+      for (const internal::Table& table : tables.sets) {
+        if (!opened.insert(internal::address(table.set)).second || opened.size() > most_tables) {
           throw SetupError("the signal '" + path + "' has a data set of another, or is one of too many");
         }
       }
@@ -152,7 +152,7 @@ class RecordingFile final : public RowSource {
 
   void read(const std::string& path, std::size_t first, std::size_t count, Number* rows) const override {
     const std::lock_guard lock(internal::hdf5_mutex());
-    const Table& table = open_->tables.at(path);
+    Table& table = open_->tables.at(path);
     std::vector<Number> numbers;
     for (std::size_t i = 0; i < table.columns.size(); ++i) {
       const Column& column = table.columns[i];
@@ -173,7 +173,7 @@ class RecordingFile final : public RowSource {
   };
 
   static std::vector<std::int64_t> read_times(Hdf5Object::Id root) {
-    const internal::Table table = internal::open_table(root, time_table, Field::Kind::integer, 1);
+    internal::Table table = internal::open_table(root, time_table, Field::Kind::integer, 1);
     if (table.rows > most_samples + internal::file_size(root) / 2) {
       throw SetupError("there are " + std::to_string(table.rows) + " samples in so small a file");
     }
@@ -181,7 +181,7 @@ class RecordingFile final : public RowSource {
     std::vector<Number> numbers(std::min(table.rows, Recording::block));
     for (std::size_t first = 0; first < table.rows; first += numbers.size()) {
       const std::size_t count = std::min(numbers.size(), table.rows - first);
-      internal::read_rows(table.set, Field::Kind::integer, first, count, 1, numbers.data());
+      internal::read_rows(table, Field::Kind::integer, first, count, 1, numbers.data());
       for (std::size_t k = 0; k < count; ++k) times[first + k] = numbers[k].integer;
     }
     internal::check_times(times);
@@ -258,7 +258,8 @@ class RecordingFileWriter::Tables {
         std::copy_n(signal.rows.data() + k * table.numbers + column.first, column.columns,
                     numbers.data() + k * column.columns);
       }
-      internal::append_rows(table.sets[i], column.kind, written_, samples, column.columns, numbers.data());
+      internal::append_rows(table.sets[i].set, column.kind, written_, samples, column.columns,
+                            numbers.data());
     }
   }
 

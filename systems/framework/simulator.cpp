@@ -1,5 +1,6 @@
 #include "systems/framework/simulator.h"
 
+#include "systems/foundation/setup_error.h"
 #include "systems/framework/block_profile.h"
 #include "systems/framework/diagram.h"
 #include "systems/framework/recorder.h"
@@ -28,9 +29,22 @@ class Simulator::Step final : public DifferentialEquation {
   Time start_;
 };
 
+namespace {
+
+std::unique_ptr<Integrator> default_integrator(const Diagram& diagram) {
+  if (const std::string block = diagram.needing_adaptive_steps(); !block.empty()) {
+    throw SetupError("the motion of '" + block + "' in the diagram '" + diagram.name() +
+                     "' needs an integrator that adapts its steps; give the Simulator one, such as "
+                     "std::make_unique<SundialsIntegrator>()");
+  }
+  return std::make_unique<RungeKutta>();
+}
+
+}  // namespace
+
 Simulator::Simulator(const Diagram& diagram, std::unique_ptr<Integrator> integrator)
     : diagram_(diagram),
-      integrator_(integrator ? std::move(integrator) : std::make_unique<RungeKutta>()),
+      integrator_(integrator ? std::move(integrator) : default_integrator(diagram)),
       continuous_(diagram.continuous_size()) {
   integrator_->prepare(continuous_.size());
 }

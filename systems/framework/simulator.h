@@ -17,7 +17,8 @@ class Recorder;
 /// One Simulator works on one Context at a time; two threads need two Simulators and may share the diagram.
 class Simulator {
  public:
-  /// The default integrator is RungeKutta with one step a tick.
+  /// The default integrator is RungeKutta with one step a tick. Throws SetupError where a block needs another
+  /// one and none is given.
   explicit Simulator(const Diagram& diagram, std::unique_ptr<Integrator> integrator = nullptr);
   ~Simulator();
 

@@ -88,6 +88,9 @@ class System {
   /// The name of a port or state of this block.
   const std::string& port_name(PortId port) const;
 
+  /// Whether the continuous states change too fast for equal steps from tick to tick.
+  bool needs_adaptive_steps() const { return needs_adaptive_steps_; }
+
  protected:
   System() = default;
 
@@ -184,6 +187,10 @@ class System {
     return add_derivative(integrated.id, internal::call<function>, {reads.id...});
   }
 
+  /// Declares that the continuous states change too fast for equal steps from tick to tick, as those of
+  /// bodies that touch do: a Simulator of this block must be given an Integrator.
+  void require_adaptive_steps() { needs_adaptive_steps_ = true; }
+
   /// The time of the tick, as an argument of functions.
   static constexpr Clock clock{};
 
@@ -239,6 +246,7 @@ class System {
   std::vector<StateVariable> states_;
   std::vector<Change> updates_;
   std::vector<Change> derivatives_;
+  bool needs_adaptive_steps_ = false;
 };
 
 }  // namespace flinch

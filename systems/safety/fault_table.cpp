@@ -202,7 +202,7 @@ constexpr std::array rows{
     FaultRow{GateFault::self_collision, Doubt::nothing, 0, self_collision,
              "links are too close to one another or to the platform"},
     FaultRow{GateFault::contact_unmonitored, Doubt::nothing, 0, contact_unmonitored,
-             "contacts would not be noticed"},
+             "contacts would not be detected"},
     FaultRow{GateFault::control_error, Doubt::nothing, 0, control_error,
              "a drive is too far from its reference"},
     FaultRow{GateFault::command_invalid, Doubt::laws, 0, command_invalid, "the laws have no torques"},

@@ -6,10 +6,10 @@
 
 namespace flinch {
 
-/// Whether the robot could stop within the limits that it keeps when a contact was last noticed.
+/// Whether the robot could stop within the limits that it keeps when a contact was last detected.
 struct BrakingStatus {
-  bool valid = false;         ///< a contact was noticed, and motion and model were there
-  Time judged{};              ///< tick at which it was noticed
+  bool valid = false;         ///< a contact was detected, and motion and model were there
+  Time judged{};              ///< tick at which it was detected
   bool stays_inside = false;  ///< It could: limits that are kept from then on need not be exceeded.
   /// Of the shortest straight stop from there [s]; infinite: none is possible.
   double duration = std::numeric_limits<double>::infinity();

@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "diagrams/contact_control_settings.h"
-#include "diagrams/limit_keeping.h"
+#include "diagrams/safety_filtering.h"
 #include "diagrams/shared_parts.h"
 #include "systems/framework/constant.h"
-#include "systems/laws/limit_keeper.h"
+#include "systems/laws/safety_filter.h"
 #include "systems/robot/forward_dynamics.h"
 #include "tests/support/planar_bench.h"
 #include "tests/support/smooth_trajectory.h"
@@ -76,9 +76,9 @@ class LawSources final : public System {
 
 enum class Limits { not_kept, kept };
 
-LimitKeeperSettings strict_limits() {
-  LimitKeeperSettings settings;
-  settings.use = LimitKeeperSettings::Use::always;
+SafetyFilterSettings strict_limits() {
+  SafetyFilterSettings settings;
+  settings.use = SafetyFilterSettings::Use::always;
   settings.limits.workspace = {
       .centre = {}, .max_distance = 0.35, .min_abs_det_A = 0.02, .min_abs_det_B = 0.02};
   settings.limits.workspace.min_self_collision_distance = 0.17;
@@ -160,8 +160,8 @@ class LawBench {
       const LawPorts added = law.add({builder_, name, bench(), settings_, shared_}, given);
       if (limits == Limits::not_kept) continue;
       settings_.limits = strict_limits();
-      const KeptTorques kept =
-          add_limit_keeper({builder_, "limits", bench(), settings_, shared_}, given, added.torque);
+      const LimitedTorques kept =
+          add_safety_filter({builder_, "limits", bench(), settings_, shared_}, given, added.torque);
       builder_.connect(kept.torque, *kept.commanded);
       kept_ = kept.status;
     }
@@ -201,7 +201,7 @@ BENCHMARK(StrictLevelTick);
 class RobotBetweenLimits {
  public:
   explicit RobotBetweenLimits(unsigned seed) : random_(seed) {
-    builder_.connect(keeper_.torque, keeper_.commanded);
+    builder_.connect(safety_filter_.torque, safety_filter_.commanded);
   }
 
   Path drive(int ticks) {
@@ -218,8 +218,9 @@ class RobotBetweenLimits {
       ticking.set(disturbance_, WrenchEstimate());
       ticking.set(request_, TorqueCommand{.computed = ticking.now(), .valid = true, .torque = torque});
       ticking.tick();
-      velocity += 1e-3 * *forward_dynamics(here.kinematics, here.dynamics, ticking.get(keeper_.torque).torque,
-                                           PlatformVector::Zero(3));
+      velocity +=
+          1e-3 * *forward_dynamics(here.kinematics, here.dynamics, ticking.get(safety_filter_.torque).torque,
+                                   PlatformVector::Zero(3));
       pose += 1e-3 * velocity;
     }
     return path;
@@ -231,12 +232,12 @@ class RobotBetweenLimits {
   std::mt19937 random_;
   std::uniform_real_distribution<double> unit_{-1.0, 1.0};
   DiagramBuilder builder_{"robot", 1ms};
-  LimitKeeper& keeper_ = builder_.add<LimitKeeper>("limits", bench(), strict_limits());
-  InputPort<PlatformMotion> motion_ = builder_.export_input("motion", keeper_.motion);
-  InputPort<Kinematics> kinematics_ = builder_.export_input("kinematics", keeper_.kinematics);
-  InputPort<Dynamics> dynamics_ = builder_.export_input("dynamics", keeper_.dynamics);
-  InputPort<WrenchEstimate> disturbance_ = builder_.export_input("disturbance", keeper_.disturbance);
-  InputPort<TorqueCommand> request_ = builder_.export_input("request", keeper_.request);
+  SafetyFilter& safety_filter_ = builder_.add<SafetyFilter>("limits", bench(), strict_limits());
+  InputPort<PlatformMotion> motion_ = builder_.export_input("motion", safety_filter_.motion);
+  InputPort<Kinematics> kinematics_ = builder_.export_input("kinematics", safety_filter_.kinematics);
+  InputPort<Dynamics> dynamics_ = builder_.export_input("dynamics", safety_filter_.dynamics);
+  InputPort<WrenchEstimate> disturbance_ = builder_.export_input("disturbance", safety_filter_.disturbance);
+  InputPort<TorqueCommand> request_ = builder_.export_input("request", safety_filter_.request);
 };
 
 double median(std::vector<double> values) {

@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "systems/framework/diagram_builder.h"
-#include "systems/laws/limit_keeper.h"
+#include "systems/laws/safety_filter.h"
 #include "systems/laws/task_energy.h"
 #include "systems/model/robot_model.h"
 #include "systems/robot/braking_set.h"
@@ -28,10 +28,10 @@ std::shared_ptr<const PlanarRrr> bench() {
   return robot;
 }
 
-LimitKeeperSettings strict_settings() {
+SafetyFilterSettings strict_settings() {
   constexpr double degree = std::numbers::pi / 180.0;
-  LimitKeeperSettings settings;
-  settings.use = LimitKeeperSettings::Use::always;
+  SafetyFilterSettings settings;
+  settings.use = SafetyFilterSettings::Use::always;
   settings.limits.workspace = {.centre = {},
                                .max_distance = 0.35,
                                .max_rotation = 29.0 * degree,
@@ -67,7 +67,7 @@ class Kept {
     return best;
   }
   void tick() { ticking_.tick(); }
-  int steps() const { return static_cast<int>(ticking_.get(keeper_->status).steps); }
+  int steps() const { return static_cast<int>(ticking_.get(safety_filter_->status).steps); }
 
  private:
   DiagramBuilder& wire(bool limits) {
@@ -75,18 +75,18 @@ class Kept {
     platform_ = builder_.input<PlatformMotion>("platform");
     builder_.connect(platform_, model.platform);
     if (!limits) return builder_;
-    keeper_ = &builder_.add<LimitKeeper>("limits", bench(), strict_settings());
-    builder_.connect(platform_, keeper_->motion);
-    builder_.connect(model.kinematics, keeper_->kinematics);
-    builder_.connect(model.dynamics, keeper_->dynamics);
-    request_ = builder_.export_input("request", keeper_->request);
-    commanded_ = builder_.export_input("commanded", keeper_->commanded);
-    disturbance_ = builder_.export_input("disturbance", keeper_->disturbance);
+    safety_filter_ = &builder_.add<SafetyFilter>("limits", bench(), strict_settings());
+    builder_.connect(platform_, safety_filter_->motion);
+    builder_.connect(model.kinematics, safety_filter_->kinematics);
+    builder_.connect(model.dynamics, safety_filter_->dynamics);
+    request_ = builder_.export_input("request", safety_filter_->request);
+    commanded_ = builder_.export_input("commanded", safety_filter_->commanded);
+    disturbance_ = builder_.export_input("disturbance", safety_filter_->disturbance);
     return builder_;
   }
 
   DiagramBuilder builder_{"bench", 1ms};
-  LimitKeeper* keeper_ = nullptr;
+  SafetyFilter* safety_filter_ = nullptr;
   InputPort<PlatformMotion> platform_;
   InputPort<TorqueCommand> request_;
   InputPort<TorqueCommand> commanded_;

@@ -105,9 +105,9 @@ DurationHistogram lateness_of_bare_loop() {
 void Lateness(benchmark::State& state, DurationHistogram (*run)()) {
   const bool control_thread = state.range(0) != 0;
   const Load load(state.range(1) != 0);
-  const Insistence wish = control_thread ? Insistence::prefer : Insistence::none;
+  const Requirement wish = control_thread ? Requirement::prefer : Requirement::none;
   const RealtimeThread thread(
-      {.scheduling = wish, .locked_memory = wish, .realtime_kernel = Insistence::none});
+      {.scheduling = wish, .locked_memory = wish, .realtime_kernel = Requirement::none});
   if (!thread.report().all_granted()) return state.SkipWithError(thread.report().text().c_str());
 
   DurationHistogram lateness;

@@ -105,7 +105,7 @@ TEST(ARecordingWithContact, IsRefusedWithItsTime) {
 TEST(ARecordingWithoutWitness, IsRefusedWhereTheRobotNoticedSomething) {
   const Recording recording = named(SyntheticRun(40).notice(8, 9).recording());
   EXPECT_EQ(complaint(recording), "") << "the simulation knows that there was nothing";
-  EXPECT_THAT(complaint(without_witness(recording)), HasSubstr("the robot noticed a contact at 0.008 s"));
+  EXPECT_THAT(complaint(without_witness(recording)), HasSubstr("the robot detected a contact at 0.008 s"));
 }
 
 TEST(ARecordingWithoutNames, IsRefused) {

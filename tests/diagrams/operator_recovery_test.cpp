@@ -15,7 +15,7 @@ using test::BenchExperiment;
 using test::encoder_noise;
 
 /// The robot passes by anywhere, is struck, and ends up somewhere.
-class Struck : public testing::TestWithParam<LimitKeeperSettings::Use> {
+class Struck : public testing::TestWithParam<SafetyFilterSettings::Use> {
  protected:
   static BenchExperiment experiment(std::mt19937& random) {
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -63,8 +63,8 @@ class Struck : public testing::TestWithParam<LimitKeeperSettings::Use> {
   }
 };
 INSTANTIATE_TEST_SUITE_P(OperatorRecovery, Struck,
-                         testing::Values(LimitKeeperSettings::Use::never,
-                                         LimitKeeperSettings::Use::after_contact));
+                         testing::Values(SafetyFilterSettings::Use::never,
+                                         SafetyFilterSettings::Use::after_contact));
 
 TEST_P(Struck, IsBroughtHomeByOneSequenceFromWhereverItEnds) {
   std::mt19937 random(11);

@@ -126,7 +126,7 @@ TEST_P(TaskStages, WhetherTheRobotCouldStopIsJudgedAtTheDetectionAndKept) {
 
 TEST(BrakingWatch, JudgesNothingWhereLimitsAreNeverKept) {
   BenchExperiment experiment = collision(0.5);
-  experiment.control.limits.use = LimitKeeperSettings::Use::never;
+  experiment.control.limits.use = SafetyFilterSettings::Use::never;
   Bench bench(experiment);
   ASSERT_TRUE(bench.run_until(react, 1500ms));
   EXPECT_FALSE(bench.context.get(bench.control.braking).valid);
@@ -175,12 +175,12 @@ TEST(TaskStageNames, AreKnownToScenarios) {
                                                     "torque_reaction", "strict_reaction"}));
 }
 
-TEST(TheStrictReaction, LetsTheLimitKeeperHoldTheSafetyValuesOfTheConstraints) {
+TEST(TheStrictReaction, LetsTheSafetyFilterHoldTheSafetyValuesOfTheConstraints) {
   ContactControlSettings settings;
   settings.tasks.constraints.sigma_kappa.safety = 9.0;
   settings.tasks.constraints.sigma_sc.safety = 0.12;
   keep_constraints_strictly(*test::planar_bench(), settings);
-  EXPECT_EQ(settings.limits.use, LimitKeeperSettings::Use::always);
+  EXPECT_EQ(settings.limits.use, SafetyFilterSettings::Use::always);
   EXPECT_EQ(settings.limits.limits.max_condition_number, 9.0);
   EXPECT_EQ(settings.limits.limits.workspace.min_self_collision_distance, 0.12);
 }

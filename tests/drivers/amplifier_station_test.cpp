@@ -10,7 +10,8 @@ namespace {
 
 using enum DriveState;
 
-constexpr DriveWish operation{.state = DriveWish::State::operation_enabled, .engage_brake = false};
+constexpr RequestedDriveState operation{.state = RequestedDriveState::State::operation_enabled,
+                                        .engage_brake = false};
 
 /// Three amplifiers that answer at once, and a bus that commands 1, 2, 3 Nm without brakes.
 class CommandedAmplifiers {
@@ -20,7 +21,7 @@ class CommandedAmplifiers {
     status_.source = 1;
   }
 
-  void tick(const DriveWish& wish) {
+  void tick(const RequestedDriveState& wish) {
     Statuswords told{.count = answer ? std::uint8_t{3} : std::uint8_t{0}};
     for (std::size_t i = 0; i < 3; ++i) told.bits[i] = statusword_of(drives[i].state);
     status_.reading.acquired = context_.time();
@@ -115,7 +116,7 @@ TEST(AmplifierStation, ReportsTheFaultOfOneAndNeedsAResetBeforeItMovesAgain) {
     EXPECT_TRUE(amplifiers.told_status.fault);
     EXPECT_TRUE(amplifiers.is_held());
   }
-  DriveWish reset = operation;
+  RequestedDriveState reset = operation;
   reset.fault_resets = 1;
   for (int i = 0; i < 6; ++i) amplifiers.tick(reset);
   EXPECT_FALSE(amplifiers.told_status.fault);
@@ -133,8 +134,8 @@ TEST(AmplifierStation, IsHeldFromTheTickOnAtWhichTheAmplifiersDoNotAnswer) {
 
 TEST(AmplifierStation, HasNoTorqueFromTheTickOnAtWhichAQuickStopIsUnderWay) {
   CommandedAmplifiers amplifiers = enabled_amplifiers();
-  amplifiers.tick({.state = DriveWish::State::quick_stop});
-  amplifiers.tick({.state = DriveWish::State::quick_stop});
+  amplifiers.tick({.state = RequestedDriveState::State::quick_stop});
+  amplifiers.tick({.state = RequestedDriveState::State::quick_stop});
   EXPECT_EQ(amplifiers.told_state, quick_stop_active);
   EXPECT_TRUE(amplifiers.is_held());
 }

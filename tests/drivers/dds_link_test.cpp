@@ -204,7 +204,8 @@ TEST(DdsLink, SwitchesTheDrivesOnAgainAfterASilenceOnlyWhenAskedAnew) {
   NearEnd near(bus);
   std::atomic<bool> far_ends = false;
   std::thread serving([&] { far.ticking.run(far.server, [&] { return far_ends.load(); }); });
-  const DriveWish operation{.state = DriveWish::State::operation_enabled, .engage_brake = false};
+  const RequestedDriveState operation{.state = RequestedDriveState::State::operation_enabled,
+                                      .engage_brake = false};
   const auto enabled = [&near] { return near.dds().link().drive_state == DriveState::operation_enabled; };
 
   near.dds().request(operation);
@@ -261,7 +262,7 @@ TEST(DdsLink, ClosesTheBrakesOnRequestWhateverTheCommandsSay) {
   NearEnd near(bus);
   std::atomic<bool> brake = true;
   const FarThread running(far, [&] { brake = far.brake(); });
-  const auto run_until = [&](bool braked, DriveWish wish) {
+  const auto run_until = [&](bool braked, RequestedDriveState wish) {
     int lasted = 0;
     near.dds().request(wish);
     near.run([&] {
@@ -270,9 +271,11 @@ TEST(DdsLink, ClosesTheBrakesOnRequestWhateverTheCommandsSay) {
     });
     return lasted == 50;
   };
-  const DriveWish operate{.state = DriveWish::State::operation_enabled, .engage_brake = false};
-  const DriveWish brakes{.state = DriveWish::State::operation_enabled, .engage_brake = true};
-  const DriveWish stop{.state = DriveWish::State::quick_stop, .engage_brake = false};
+  const RequestedDriveState operate{.state = RequestedDriveState::State::operation_enabled,
+                                    .engage_brake = false};
+  const RequestedDriveState brakes{.state = RequestedDriveState::State::operation_enabled,
+                                   .engage_brake = true};
+  const RequestedDriveState stop{.state = RequestedDriveState::State::quick_stop, .engage_brake = false};
   EXPECT_TRUE(run_until(false, operate));
   EXPECT_TRUE(run_until(true, brakes));
   EXPECT_TRUE(run_until(false, operate));

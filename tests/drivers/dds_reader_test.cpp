@@ -49,8 +49,8 @@ class ListensToACommander : public testing::Test {
     before_ = reader_.broken_promises();  // a busy machine breaks some
   }
 
-  BrokenPromises since() const {
-    const BrokenPromises now = reader_.broken_promises();
+  QosMismatch since() const {
+    const QosMismatch now = reader_.broken_promises();
     return {now.deadlines - before_.deadlines, now.silences - before_.silences};
   }
 
@@ -59,7 +59,7 @@ class ListensToACommander : public testing::Test {
   DdsBus bus_{BusSettings{.domain = domain_}};
   std::atomic<int> arrived_ = 0;
   DdsReader reader_{bus_, torque_command_topic, &take_all, &arrived_};
-  BrokenPromises before_;
+  QosMismatch before_;
 };
 
 TEST_F(ListensToACommander, ThatHangsAndCountsItsDeadlinesAndItsSilence) {
@@ -68,7 +68,7 @@ TEST_F(ListensToACommander, ThatHangsAndCountsItsDeadlinesAndItsSilence) {
   const Time stopped = MonotonicClock::now();
   ASSERT_TRUE(wait_until([this] { return since().silences >= 1; }));
   const Time noticed = MonotonicClock::now() - stopped;
-  std::cout << "a hung commander noticed after " << 1e3 * to_seconds(noticed) << " ms, " << since().deadlines
+  std::cout << "a hung commander detected after " << 1e3 * to_seconds(noticed) << " ms, " << since().deadlines
             << " deadlines missed by then" << std::endl;
   EXPECT_TRUE(wait_until([this] { return since().deadlines >= 3; }));
 

@@ -12,7 +12,7 @@ namespace flinch {
 namespace {
 
 using enum DriveState;
-using Wish = DriveWish::State;
+using Wish = RequestedDriveState::State;
 
 constexpr DriveCondition well{.started = true, .fault = false, .standstill = true};
 
@@ -24,7 +24,7 @@ class LedDrives {
     for (std::size_t i = 0; i < 3; ++i) drives_[i].state = states[i];
   }
   /// One tick, after which the drives have seen the controlword; returns their state together before it.
-  DriveState tick(const DriveWish& wish, const DriveCondition& condition = well) {
+  DriveState tick(const RequestedDriveState& wish, const DriveCondition& condition = well) {
     Statuswords told{.count = 3};
     for (std::size_t i = 0; i < 3; ++i) told.bits[i] = statusword_of(drives_[i].state);
     context_.set(told_, told);
@@ -39,7 +39,7 @@ class LedDrives {
     return before;
   }
 
-  std::vector<DriveState> states(const DriveWish& wish, int ticks) {
+  std::vector<DriveState> states(const RequestedDriveState& wish, int ticks) {
     std::vector<DriveState> seen;
     for (int i = 0; i < ticks; ++i) seen.push_back(tick(wish));
     return seen;
@@ -62,7 +62,7 @@ class LedDrives {
 
   std::array<DriveStateMachine::Memory, 3> drives_;
   InputPort<Statuswords> told_;
-  InputPort<DriveWish> wish_;
+  InputPort<RequestedDriveState> wish_;
   OutputPort<Controlword> controlword_;
   OutputPort<Statusword> statusword_;
   std::unique_ptr<Diagram> diagram_;

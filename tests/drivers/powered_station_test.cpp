@@ -13,8 +13,10 @@ namespace {
 
 using enum DriveState;
 
-constexpr DriveWish operation{.state = DriveWish::State::operation_enabled, .engage_brake = false};
-constexpr DriveWish quick_stop{.state = DriveWish::State::quick_stop, .engage_brake = false};
+constexpr RequestedDriveState operation{.state = RequestedDriveState::State::operation_enabled,
+                                        .engage_brake = false};
+constexpr RequestedDriveState quick_stop{.state = RequestedDriveState::State::quick_stop,
+                                         .engage_brake = false};
 
 /// A powered station whose bare one says what the test wants, commanded 1, 2, 3 Nm without brakes.
 class PoweredBench {
@@ -22,7 +24,7 @@ class PoweredBench {
   PoweredBench() : diagram_(build()), context_(diagram_->make_context()) {}
 
   /// One tick; returns the state that the drives tell in it.
-  DriveState tick(const DriveWish& wish) {
+  DriveState tick(const RequestedDriveState& wish) {
     const Time now = context_.time();
     ++number_;
     angle_ += speed * 1e-3;
@@ -49,7 +51,7 @@ class PoweredBench {
     return state;
   }
 
-  std::vector<DriveState> tick(const DriveWish& wish, int ticks) {
+  std::vector<DriveState> tick(const RequestedDriveState& wish, int ticks) {
     std::vector<DriveState> states;
     for (int i = 0; i < ticks; ++i) states.push_back(tick(wish));
     return states;
@@ -79,7 +81,7 @@ class PoweredBench {
   std::uint32_t number_ = 0;
   ExternalStation bare_;
   PoweredStation station_;
-  InputPort<DriveWish> wish_;
+  InputPort<RequestedDriveState> wish_;
   InputPort<TorqueCommand> torque_;
   InputPort<BrakeCommand> brake_;
   std::unique_ptr<Diagram> diagram_;
@@ -100,7 +102,7 @@ TEST(PoweredStation, IsSwitchedOnStepByStepAndPassesTorqueInOperationOnly) {
 
 TEST(PoweredStation, StaysWithoutVoltageWhereNobodyWishesAnything) {
   PoweredBench bench;
-  for (const DriveState state : bench.tick(DriveWish(), 20)) {
+  for (const DriveState state : bench.tick(RequestedDriveState(), 20)) {
     EXPECT_TRUE(state == not_ready_to_switch_on || state == switch_on_disabled);
   }
   EXPECT_TRUE(bench.is_held);
@@ -121,7 +123,7 @@ TEST(PoweredStation, DropsOutOfOperationAtAFaultAndIsResetByANewRequestOnly) {
   EXPECT_TRUE(bench.is_held);
   EXPECT_TRUE(bench.told.fault);
 
-  DriveWish reset = operation;
+  RequestedDriveState reset = operation;
   reset.fault_resets = 1;  // while the fault is still there
   EXPECT_EQ(bench.tick(reset, 10).back(), fault);
   bench.status.fault = false;
@@ -159,9 +161,9 @@ TEST(PoweredStation, IsBrakedWithinTwoTicksWhereTheWishFallsBackToNothing) {
   PoweredBench bench;
   bench.tick(operation, 10);
   ASSERT_TRUE(bench.moves);
-  bench.tick(DriveWish(), 2);  // as DdsServer wishes when who commands falls silent
+  bench.tick(RequestedDriveState(), 2);  // as DdsServer wishes when who commands falls silent
   EXPECT_TRUE(bench.is_held);
-  EXPECT_EQ(bench.tick(DriveWish()), switch_on_disabled);
+  EXPECT_EQ(bench.tick(RequestedDriveState()), switch_on_disabled);
 }
 
 }  // namespace

@@ -290,7 +290,7 @@ TEST(AReaction, ThatLosesThePoseEndsInTheBrakes) {
   expect("encoder stuck", one_of(encoder, stuck, std::nullopt), 20ms);
 }
 
-// It is noticed where it is asked for more. A reaction that never asks for as much goes on to its end.
+// It is detected where it is asked for more. A reaction that never asks for as much goes on to its end.
 TEST(AReaction, WhoseDriveGivesLessThanItIsToldEndsInTheBrakes) {
   for (const double limit : {5.0, 20.0}) {
     const Failure saturated = [limit](SimulatedScenario& scenario, const Begin& begin, std::mt19937& random) {

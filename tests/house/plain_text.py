@@ -20,6 +20,19 @@ RULES = [
     (r"[ \t]+$", EVERYWHERE, (), "trailing blanks"),
     (r"\t", EVERYWHERE, (), "tabs"),
 ]
+# Names that the field has a word for: what was said, and what is said now.
+RETIRED = {
+    "LimitKeeper": "SafetyFilter", "limit_keeper": "safety_filter", "limit keeper": "safety filter",
+    "SurpriseTail": "MahalanobisTail", "SurpriseThreshold": "MahalanobisThreshold", "surprise": "Mahalanobis distance",
+    "SeenResidual": "ResidualSample", "EstimatorAnswer": "FilterResponse", "AnsweredLoad": "FilteredLoad",
+    "LaglessPorts": "LowLatencyPorts", "without_lag": "low_latency", "Tidings": "RunStatus",
+    "OrderDesk": "OperatorCommandQueue", "TakenForLane": "ClassificationTimeline", "KeptMotion": "GatedMotion",
+    "KeptTorques": "LimitedTorques", "ErrorCourse": "AutoregressiveError", "Specimen": "PerturbedRobot",
+    "UnevenTorque": "TorqueRipple", "DriveWish": "RequestedDriveState", "upper_share": "clopper_pearson_upper",
+    "upper_rate": "garwood_upper", "EitherDetector": "MaxDetector", "WholeStep": "SingleStep",
+    "EachInTurn": "RoundRobin", "BrokenPromises": "QosMismatch", "Insistence": "Requirement",
+}
+RULES += [(rf"\b{old}", EVERYWHERE, (), f"the field says {new!r}") for old, new in RETIRED.items()]
 THIS_FILE = "tests/house/plain_text.py"
 COMPILED = [(re.compile(pattern), folders, allowed, why) for pattern, folders, allowed, why in RULES]
 

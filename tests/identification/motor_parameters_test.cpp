@@ -9,7 +9,7 @@
 #include <string>
 
 #include "identification/dynamics_calibration.h"
-#include "plant/specimen.h"
+#include "plant/perturbed_robot.h"
 #include "systems/framework/random.h"
 #include "systems/robot/hexapod.h"
 #include "systems/robot/hexapod_presets.h"
@@ -207,7 +207,7 @@ TEST(MotorParameters, LeaveNoSurplusWhereTheyAreTrue) {
 /// Of what the motors of a robot add about home, the share that a calibration does not find.
 double not_found(const SimulatedScenario& scenario, const CalibrationResult& got, int drive) {
   const Cogging found = test::found_cogging(got, drive);
-  const auto& harmonics = scenario.specimen.uneven_torque[static_cast<std::size_t>(drive)].cogging;
+  const auto& harmonics = scenario.perturbed_robot.torque_ripple[static_cast<std::size_t>(drive)].cogging;
   const ParallelRobot& robot = *scenario.robot.robot;
   Kinematics home;
   robot.kinematics(robot.home_pose(), PlatformVector::Zero(robot.dof()), home);
@@ -241,7 +241,7 @@ TEST(Dynamics, FindHowFarTorquesAreBehindTheirCurrents) {
   for (const std::uint64_t seed : {1U, 2U}) {
     test::CalibratedRobot robot(seed);
     robot.torque_constants("calibration_pulls.yaml");
-    const JointVector lag = robot.scenario("calibration_excitation.yaml").specimen.current_lag;
+    const JointVector lag = robot.scenario("calibration_excitation.yaml").perturbed_robot.current_lag;
     robot.dynamics("calibration_excitation.yaml");
     const JointVector found = robot.scenario("calibration_motion.yaml").robot.drives.torque_delay;
     ASSERT_EQ(found.size(), 3);

@@ -18,7 +18,8 @@ TEST(ShippedModel, FitsTheShippedRobotAndThisVersionOfItsFeatures) {
   const ClassifierModel model = shipped();
   EXPECT_EQ(features_for(model, test::contact_examples(1, 1)).question(), Question::touched);
   EXPECT_GT(std::stod(model.provenance.at("cross_validated_accuracy")), 0.92);
-  EXPECT_GT(model.least_wrench, 4.0) << "contacts that are noticed earlier than those that it has learned of";
+  EXPECT_GT(model.least_wrench, 4.0)
+      << "contacts that are detected earlier than those that it has learned of";
 }
 
 TEST(ShippedModel, IsRefusedWithoutARobotWhereItsFeaturesAreThoseOfAnotherVersion) {

@@ -314,7 +314,7 @@ SimulatedStationSettings pulled_at(double whisper) {
   settings.applied_wrench.front().start = 500ms;
   settings.applied_wrench.push_back(
       {.peak_in_base = PlatformVector{{whisper, 0.0, 0.0}}, .start = 0s, .rise = 0s, .hold = 2s, .fall = 0s});
-  settings.bench.uneven_torque.assign(
+  settings.bench.torque_ripple.assign(
       3, {.cogging = {{.amplitude = 0.5, .rate = 24.0, .phase = 1.0}}, .ripple = {}});
   return settings;
 }

@@ -85,7 +85,7 @@ bool drive(const Arguments& given) {
   ClockTicks ticks;                      // with EtherCAT: a TickSource of yours, by its distributed clock
   RealtimeRunner runner(*diagram, ticks, all);
   runner.follow_clock();
-  const RealtimeThread thread({.priority = 80});  // beside a real robot: .scheduling = Insistence::require
+  const RealtimeThread thread({.priority = 80});  // beside a real robot: .scheduling = Requirement::require
   std::printf("%s", thread.report().text().c_str());
   running = &runner;
   std::signal(SIGINT, end_in_order);

@@ -21,7 +21,7 @@ BusSettings bus_settings(const BusOptions& options, bool quiet, BusRole role) {
 
 RealtimeSettings loop_settings(const BusOptions& options) {
   RealtimeSettings settings;
-  if (options.priority == 0) return {.scheduling = Insistence::none, .locked_memory = Insistence::none};
+  if (options.priority == 0) return {.scheduling = Requirement::none, .locked_memory = Requirement::none};
   settings.priority = options.priority;
   return settings;
 }

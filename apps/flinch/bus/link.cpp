@@ -101,8 +101,8 @@ ExitStatus link(const LinkOptions& options) {
   {
     const StatusLine line(
         [&] {
-          return Tidings{"measuring",
-                         fmt::format("{:.1f} of {:.1f} s", to_seconds(time.now()), to_seconds(end))};
+          return RunStatus{"measuring",
+                           fmt::format("{:.1f} of {:.1f} s", to_seconds(time.now()), to_seconds(end))};
         },
         silent);
     const RealtimeThread thread(loop_settings(options.bus));

@@ -73,7 +73,7 @@ OperatorConsole::~OperatorConsole() {
     sigaction(terminal_signals.at(i), &handlers_.at(i), nullptr);
 }
 
-void OperatorConsole::tell(Tidings& now) {
+void OperatorConsole::tell(RunStatus& now) {
   const std::lock_guard lock(mutex_);
   if (terminal_) now.typed = "> " + line_ + "  ";
   now.said = std::exchange(said_, {}) + now.said;

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <thread>
 
-#include "experiments/bus/tidings.h"
+#include "experiments/bus/run_status.h"
 
 namespace flinch {
 
@@ -32,7 +32,7 @@ class OperatorConsole {
   /// Gives the order of a line, and says so. False: it is none, or too many wait. Of any thread.
   bool follow(std::string_view line);
   /// Adds what is typed, and what is to be said since the last call.
-  void tell(Tidings& now);
+  void tell(RunStatus& now);
 
  private:
   void read_until(const std::stop_token& ending);

@@ -37,8 +37,9 @@ void tell_of_loop_and_link(const LiveRun& run) {
                 1e6 * to_seconds(round_trip->max), link.lost, link.refused);
 }
 
-constexpr RealtimeSettings no_rights{
-    .scheduling = Insistence::none, .locked_memory = Insistence::none, .realtime_kernel = Insistence::none};
+constexpr RealtimeSettings no_rights{.scheduling = Requirement::none,
+                                     .locked_memory = Requirement::none,
+                                     .realtime_kernel = Requirement::none};
 
 /// What was asked for, else what the robot goes by; none: nobody says so.
 std::optional<Pace> pace_of_run(const Scenario& scenario, const DdsBus& bus, const RunOptions& options) {
@@ -105,7 +106,7 @@ ExitStatus run_on_bus(const RunOptions& options) {
     if (options.attended) console.emplace(scenario, run, silent);
     const OrdersFromPage::Taken taken(page, console ? &*console : nullptr);
     const auto ask = [&run, &console] {
-      Tidings now = run.watch();
+      RunStatus now = run.watch();
       if (console) console->tell(now);
       return now;
     };

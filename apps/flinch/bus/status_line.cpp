@@ -25,7 +25,7 @@ std::string fitting(std::string typed, const std::string& line) {
 
 }  // namespace
 
-StatusLine::StatusLine(std::function<Tidings()> ask, bool quiet)
+StatusLine::StatusLine(std::function<RunStatus()> ask, bool quiet)
     : ask_(std::move(ask)),
       quiet_(quiet),
       terminal_(isatty(STDERR_FILENO) == 1),
@@ -46,7 +46,7 @@ void StatusLine::run(const std::stop_token& ending) {
   tell(ask_());
 }
 
-void StatusLine::tell(const Tidings& now) {
+void StatusLine::tell(const RunStatus& now) {
   if (terminal_ && (!now.said.empty() || !now.noted.empty())) clear_line();
   print_messages(now.said);
   if (quiet_) return;

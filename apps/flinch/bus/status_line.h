@@ -4,7 +4,7 @@
 #include <string>
 #include <thread>
 
-#include "experiments/bus/tidings.h"
+#include "experiments/bus/run_status.h"
 
 namespace flinch {
 
@@ -14,7 +14,7 @@ namespace flinch {
 class StatusLine {
  public:
   /// `ask` is called on that thread, of ordinary priority, also when quiet.
-  StatusLine(std::function<Tidings()> ask, bool quiet);
+  StatusLine(std::function<RunStatus()> ask, bool quiet);
   StatusLine(const StatusLine&) = delete;
   StatusLine& operator=(const StatusLine&) = delete;
   /// Tells the last state and wipes the line.
@@ -22,9 +22,9 @@ class StatusLine {
 
  private:
   void run(const std::stop_token& ending);
-  void tell(const Tidings& now);
+  void tell(const RunStatus& now);
 
-  std::function<Tidings()> ask_;
+  std::function<RunStatus()> ask_;
   bool quiet_;
   bool terminal_;
   std::string last_state_;

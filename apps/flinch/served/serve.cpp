@@ -68,7 +68,7 @@ class ServedWatch final : public Exchange {
   ServedState last_;
 };
 
-Tidings tidings(const ServedState& now) {
+RunStatus run_status(const ServedState& now) {
   const bool commanded = now.commander.session != 0;
   return {fmt::format("drives: {}; brakes {}; {}", name(now.drives), now.braked ? "closed" : "open",
                       commanded ? fmt::format("commanded by {:08x}", now.commander.session)
@@ -144,7 +144,7 @@ ExitStatus serve_in_real_time(const SimulatedScenario& scenario, const ServeOpti
       return BusWarnings::Commanders{server.unreadable_commanders(), watch.in_lockstep()};
     });
     const auto ask = [&] {
-      Tidings now = tidings(watch.last());
+      RunStatus now = run_status(watch.last());
       if (!silent) now.said = beside.news();
       return now;
     };

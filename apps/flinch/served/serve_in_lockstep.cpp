@@ -29,9 +29,9 @@ class Teller {
   Teller(LockstepServer& server, BusWarnings& warnings, double patience, bool silent)
       : server_(server), warnings_(warnings), patience_(patience), silent_(silent) {}
 
-  Tidings operator()() {
+  RunStatus operator()() {
     const LockstepState now = server_.state();
-    Tidings told = tidings(now);
+    RunStatus told = run_status(now);
     if (silent_) return told;
     told.said = warnings_.news();
     if (std::exchange(abandoned_, now.abandoned) != now.abandoned)
@@ -41,7 +41,7 @@ class Teller {
   }
 
  private:
-  static Tidings tidings(const LockstepState& now) {
+  static RunStatus run_status(const LockstepState& now) {
     const bool has_controller = now.controller != 0;
     return {fmt::format("drives: {}; {}", now.enabled ? "on" : "off",
                         has_controller ? fmt::format("waits for {:08x} at each tick", now.controller)

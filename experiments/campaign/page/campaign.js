@@ -11,7 +11,7 @@ function showCampaign() {
   const places = campaign.runs / campaign.draws;
   const each = places === 1 ? "" : ` at each of ${places} places of the grid`;
   byId("summary").textContent = `${campaign.draws} ${campaign.draws === 1 ? "draw" : "draws"}${each}, ${number(campaign.simulated_h, 3)} h simulated. ` +
-    `A contact that is not noticed within ${inMs(campaign.missed_after, 0)} ms counts as missed.`;
+    `A contact that is not detected within ${inMs(campaign.missed_after, 0)} ms counts as missed.`;
 }
 
 function showProvenance() {

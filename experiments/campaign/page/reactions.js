@@ -33,11 +33,11 @@ function showReactions() {
   showLegend("contact-legend", levels);
 
   const duration = (name, of) => ({ of: (run) => milliseconds(of(run)), last: longestOf(runs, of), name });
-  const noticed = duration("ms until noticed", (run) => run.detection);
+  const detected = duration("ms until detected", (run) => run.detection);
   const given = duration("ms from there until removed", (run) => run.reaction);
   const most = { along: limits.transient };
   byId("duration-panels").replaceChildren(
-    dotPanel("Detection", runs, force, noticed, byBody, most), dotPanel("Reaction", runs, force, given, byBody, most));
+    dotPanel("Detection", runs, force, detected, byBody, most), dotPanel("Reaction", runs, force, given, byBody, most));
   showLegend("duration-legend", bodies);
 
   const condition = (of) => ({ of, first: 0.4 * limits.sigma_kappa, last: 1.4 * limits.sigma_kappa, name: "condition number" });

@@ -32,7 +32,7 @@ function showGroups() {
     cell(group.contacts > 0 ? inMs(group.over_limit, 0) : none, group.over_limit > 0 ? "n bad" : "n"),
     cell(String(group.faults), group.faults > 0 ? "n bad" : "n")));
   byId("group-table").replaceChildren(
-    head([...(hasGrid ? [["Grid point"]] : []), ["Noticed by"], ["Touched"], ["Runs", "n"], ["Median, ms", "n"],
+    head([...(hasGrid ? [["Grid point"]] : []), ["Detected by"], ["Touched"], ["Runs", "n"], ["Median, ms", "n"],
       ["Nine tenths, ms", "n"], ["Missed", "n"], ["Missed at most", "n"], ["False alarms", "n"], ["in hours", "n"],
       ["per hour", "n"], ["False alarms at most, 1/h", "n"], ["Above a force limit at most, ms", "n"], ["Faults", "n"]]),
     element("tbody", {}, ...rows));
@@ -50,6 +50,6 @@ function showRuns() {
     cell(run.speed === null ? none : `${fixed(run.speed, 2)} m/s`),
     cell(listOf(run.drawn), "soft drawn")));
   byId("run-table").replaceChildren(
-    head([["Run"], ["Why"], ["Place in the grid"], ["Touched"], ["Noticed, ms", "n"], ["Speed", "n"], ["Drawn"]]),
+    head([["Run"], ["Why"], ["Place in the grid"], ["Touched"], ["Detected, ms", "n"], ["Speed", "n"], ["Drawn"]]),
     element("tbody", {}, ...rows));
 }

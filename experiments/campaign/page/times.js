@@ -1,5 +1,5 @@
 "use strict";
-// How soon contacts are noticed: a box for each estimator and place in the grid, a panel for each body.
+// How soon contacts are detected: a box for each estimator and place in the grid, a panel for each body.
 
 const boxRow = { height: 28, least: 232, letter: 7.5, gap: 10, width: 246, right: 166 };
 

@@ -44,7 +44,7 @@ function tradePanel(body, groups, all) {
     write(svg, left - 6, y(tick / 1000) + 4, chosen(tick), { class: "tick end" });
   }
   write(svg, left + width, top + height + 33, "false alarms per hour", { class: "tick end" });
-  write(svg, left, top + height + 33, "ms until noticed, upwards", { class: "tick start" });
+  write(svg, left, top + height + 33, "ms until detected, upwards", { class: "tick start" });
   for (const estimator of campaign.estimators) tradeLine(svg, groups.filter((group) => group.estimator === estimator), x, y);
   return panel(capitalised(body), svg);
 }

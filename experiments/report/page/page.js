@@ -1,5 +1,5 @@
 "use strict";
-// Starts the parts. The page opens at the moment that the first contact was noticed.
+// Starts the parts. The page opens at the moment that the first contact was detected.
 
 showVerdict();
 showStory();

@@ -27,11 +27,11 @@ function detection(contact) {
   const taken = contact.isolated_body ? ` and takes it for a contact of ${withArticle(contact.isolated_body)}` : "";
   const late = contact.could_stop === false ? " It could not stop within its limits any more." : "";
   const several = contact.several_contacts ? " No single contact explains the wrench." : "";
-  return `The robot notices${taken}.${several}${late}`;
+  return `The robot detects it${taken}.${several}${late}`;
 }
 
 function removal(contact) {
-  const reaction = contact.detected === null ? "" : `, ${milliseconds(contact.removed - contact.detected)} after it was noticed`;
+  const reaction = contact.detected === null ? "" : `, ${milliseconds(contact.removed - contact.detected)} after it was detected`;
   return `The contact is removed${reaction}.`;
 }
 

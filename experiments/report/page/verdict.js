@@ -35,7 +35,7 @@ function summary() {
   if (!contact) return (withoutContact() + stop).trim();
   const others = report.contacts.length - 1;
   const more = others === 0 ? "" : ` The table tells of ${others} more contact${others > 1 ? "s" : ""}.`;
-  return [touched(contact), noticed(contact), pressed(contact)].join(" ") + more + stop;
+  return [touched(contact), detected(contact), pressed(contact)].join(" ") + more + stop;
 }
 
 function withoutContact() {
@@ -57,11 +57,11 @@ function withArticle(body) {
   return body.startsWith("both ") ? body : `the ${body}`;
 }
 
-function noticed(contact) {
-  if (contact.detected === null) return "The robot did not notice.";
+function detected(contact) {
+  if (contact.detected === null) return "The robot did not detect it.";
   const after = milliseconds(contact.detected - contact.start);
-  if (contact.removed === null) return `The robot noticed ${after} later, but was still in contact at the end.`;
-  return `The robot noticed ${after} later and was clear of it after ${milliseconds(contact.removed - contact.start)}.`;
+  if (contact.removed === null) return `The robot detected it ${after} later, but was still in contact at the end.`;
+  return `The robot detected it ${after} later and was clear of it after ${milliseconds(contact.removed - contact.start)}.`;
 }
 
 function pressed(contact) {
@@ -81,7 +81,7 @@ function showFigures() {
   const since = (time) => (time === null ? none : fixed(1000 * (time - contact.start), 0));
   const figures = [
     [contact.speed === null ? none : fixed(contact.speed, 2), "m/s", "platform, at contact"],
-    [since(contact.detected), "ms", contact.detected === null ? "never noticed" : "to notice"],
+    [since(contact.detected), "ms", contact.detected === null ? "never detected" : "until detected"],
     [since(contact.removed), "ms", contact.removed === null ? "never removed" : "until removed"],
     [fixed(judgedForce(contact), 0), "N", contact.force_limit === null ? "at most" : `of ${fixed(contact.force_limit, 0)} N allowed`],
   ];
@@ -131,13 +131,13 @@ function touchedBy(contact) {
   return objects.size < 2 || !contact.object ? "" : element("small", {}, `by ${contact.object}`);
 }
 
-/** When each estimator's detector noticed the contact, where several ran. */
+/** When each estimator's detector detected the contact, where several ran. */
 function timesByEstimator(contact) {
   return contact.detected_by.map(([name, time]) => element("small", { class: time === null ? "by bad" : "by" },
     `${name.replaceAll("_", " ")} ${time === null ? "never" : `${fixed(1000 * (time - contact.start), 1)} ms`}`));
 }
 
-/** Whether the limits that the robot keeps could still be kept when it noticed the contact. */
+/** Whether the limits that the robot keeps could still be kept when it detected the contact. */
 function braking(contact) {
   if (contact.could_stop === null) return "";
   return element("small", { class: contact.could_stop ? "by" : "by bad" },

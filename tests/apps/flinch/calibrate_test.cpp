@@ -163,7 +163,7 @@ TEST(Calibrate, SaysWhatItCanCalibrate) {
     EXPECT_EQ(outcome.status, 2);
     EXPECT_THAT(
         outcome.err,
-        HasSubstr("must be told what; known are: thresholds, torque-constant, dynamics, imu-pose, all"));
+        HasSubstr("needs a kind; known are: thresholds, torque-constant, dynamics, imu-pose, all"));
   }
   EXPECT_THAT(flinch({"--help"}).out, HasSubstr("VERB"));
   EXPECT_THAT(flinch({"calibrate", "--help"}).out, HasSubstr("WHAT"));

@@ -217,7 +217,7 @@ TEST_F(CommandLine, PrintsOneJsonObjectForEveryVerb) {
 TEST_F(CommandLine, HelpsWithAnExampleOfEveryVerb) {
   const Outcome help = flinch({"--help"});
   EXPECT_EQ(help.status, 0);
-  EXPECT_THAT(help.out, HasSubstr("Exit status: 0 done, 1 the verdict is bad, or the link, 2 bad input or "
+  EXPECT_THAT(help.out, HasSubstr("Exit status: 0 done, 1 verdict or link failed, 2 bad input or "
                                   "usage,\n3 a fault"));
   for (const std::string& verb : verbs) {
     EXPECT_THAT(help.out, HasSubstr("  " + verb + " "));

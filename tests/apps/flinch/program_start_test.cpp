@@ -85,6 +85,23 @@ class StandardStreams : public ::testing::Test {
   test::Workplace place;
 };
 
+TEST_F(StandardStreams, MayHoldWhatIsRead) {
+  const auto check = [](const std::string& text) {
+    test::OtherProgram::Start start = test::flinch_program({"check", "-"});
+    start.input = test::OtherProgram::Start::Input::pipe;
+    test::OtherProgram program(start);
+    program.type(text);
+    program.end_input();
+    EXPECT_TRUE(program.wait(100s).has_value());
+    return program.output();
+  };
+  const auto scenario = [&] { return test::bytes_of(place / "scenarios/platform_collision.yaml"); };
+  EXPECT_THAT(check(scenario()), HasSubstr("standard_input:")) << "there is no robot beside this folder";
+  place.replace("scenarios/platform_collision.yaml", "../robots/", place.at("robots/"));
+  EXPECT_THAT(check(scenario()), HasSubstr("good"));
+  EXPECT_THAT(check(""), HasSubstr("is empty"));
+}
+
 TEST_F(StandardStreams, ThatTakeNoMessagesChangeNothing) {
   for (const auto& [call, expected] : calls()) {
     for (const Spoil spoil : {&shut, &fill, &leave})

@@ -14,7 +14,7 @@ constexpr double confidence = 0.999;
 ShareBounds bounds_at(double events, double trials, double of_each) {
   const auto all = static_cast<std::size_t>(std::lround(trials));
   const auto seen = static_cast<std::size_t>(std::lround(events));
-  return {1.0 - upper_share(all - seen, all, of_each), upper_share(seen, all, of_each)};
+  return {1.0 - clopper_pearson_upper(all - seen, all, of_each), clopper_pearson_upper(seen, all, of_each)};
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// How early a contact can be noticed at all with the sensors of the bench. FLINCH_CONTACTS in the environment
-// says of how many contacts of each sort; docs/observers.md cites 200.
+// How early a contact can be detected at all with the sensors of the bench. FLINCH_CONTACTS in the
+// environment says of how many contacts of each sort; docs/observers.md cites 200.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -25,7 +25,7 @@ TEST(TheFusedDetector, SeesContactsInMotionWithoutOneNoMoreOftenThanAsked) {
     hours += by(result, "fused_detector").contact_free / 3600.0;
   }
   std::printf("  %zu false alarms in %.2f h: at most %.1f an hour (95 %%)\n", alarms, hours,
-              upper_rate(alarms, hours));
+              garwood_upper(alarms, hours));
   EXPECT_GT(hours, 0.13);
   constexpr double asked = 0.5;  // an hour
   EXPECT_LE(lower_rate(alarms, hours), asked) << "one in 7.3 h is in these, docs/observers.md; two refute it";
@@ -67,7 +67,7 @@ TEST(TheFusedDetector, IsFasterOnEveryBodyThanAnyEstimatorWithAThreshold) {
     std::printf("  %-9s %3zu contacts, median %.1f ms\n", body.c_str(), fused.size(), median);
     const double usual = median_of_all.at(body);
     const auto soon = std::upper_bound(fused.begin(), fused.end(), usual) - fused.begin();
-    EXPECT_GE(upper_share(static_cast<std::size_t>(soon), fused.size(), 0.999), 0.5)
+    EXPECT_GE(clopper_pearson_upper(static_cast<std::size_t>(soon), fused.size(), 0.999), 0.5)
         << body << " later than the whole campaign";
   }
   EXPECT_LE(missed, contacts / 33) << "seven of the 800 of the whole campaign are";

@@ -37,7 +37,7 @@ std::map<std::string, Alarms> alarms_in(const Campaign& campaign) {
   for (const auto& [name, alarms] : by) {
     std::printf("  %-26s %2zu false alarms in %.2f h: between %.2f and %.2f an hour, each by 95 %%\n",
                 name.c_str(), alarms.count, alarms.hours, lower_rate(alarms.count, alarms.hours),
-                upper_rate(alarms.count, alarms.hours));
+                garwood_upper(alarms.count, alarms.hours));
   }
   return by;
 }

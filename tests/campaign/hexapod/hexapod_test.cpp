@@ -1,4 +1,4 @@
-// What a hexapod notices: in free motion, of contacts of its platform, and with drives that rub unevenly: 8
+// What a hexapod detects: in free motion, of contacts of its platform, and with drives that rub unevenly: 8
 // contacts of each sort. FLINCH_CONTACTS in the environment says how many instead. The tables are printed;
 // docs/theory.md cites those of 20.
 #include <gtest/gtest.h>
@@ -60,7 +60,7 @@ struct Tally {
   }
   void print(const char* what) const {
     std::printf(
-        "  %s: noticed %d of %zu, after %.1f ms (median; at best %.1f), at most %.1f ms; removed %d; "
+        "  %s: detected %d of %zu, after %.1f ms (median; at best %.1f), at most %.1f ms; removed %d; "
         "faults %d; false %d; peak %.0f N\n",
         what, noticed, times.size(), test::median(times), test::median(best), largest(times), removed, faults,
         false_detections, peak_force);
@@ -76,7 +76,7 @@ void print(const PlatformContact& contact, const ContactOutcome& got) {
 
 Tally collide(Stiffness stiffness) {
   std::printf("  contacts, %d N/mm, limits 10 N and 1 Nm, gain 20 1/s\n", static_cast<int>(stiffness) / 1000);
-  std::printf("  moves     m/s  direction          noticed ms  at best  removed  peak N\n");
+  std::printf("  moves     m/s  direction          detected ms  at best  removed  peak N\n");
   Tally tally;
   std::uint64_t seed = 0;
   for (const PlatformContact& contact : test::draw_contacts(test::hexapod_trial(1), trials, 1)) {
@@ -98,7 +98,7 @@ TEST(Hexapod, NoticesContactsAsStiffAsAHand) {
   EXPECT_LE(test::median(collide(Stiffness::hand).times), 13.0);
 }
 
-// The gain alone takes longer than that to notice a force that rises so slowly.
+// The gain alone takes longer than that to detect a force that rises so slowly.
 TEST(Hexapod, NoticesSoftContactsAsFastAsItsGainAllows) {
   const Tally got = collide(Stiffness::pad);
   EXPECT_GT(test::median(got.best), 13.0);

@@ -1,4 +1,4 @@
-// A hexapod errs along its upright legs by more than across them, so a threshold for each component notices
+// A hexapod errs along its upright legs by more than across them, so a threshold for each component detects
 // pushes from the side sooner. One robot is looked at; with FLINCH_ROBOTS=9 in the environment 9 set
 // thresholds and 9 others are held against them, in eight minutes, which docs/observers.md cites.
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // What calibrating a robot is good for: bench robots drawn anew, of which the controller believes 6.1 Nm/A at
 // each drive and the masses and friction of the robot file. Thresholds for 0.5 false alarms an hour before
 // and after torque constants and dynamics are calibrated, and the times after which drawn contacts are
-// noticed by them. The table is printed; docs/theory.md cites it. FLINCH_ROBOTS in the environment says how
+// detected by them. The table is printed; docs/theory.md cites it. FLINCH_ROBOTS in the environment says how
 // many robots.
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ constexpr Collision collisions[] = {{"platform_collision.yaml", 0.95},
 /// A robot before or after its calibrations.
 struct Stage {
   double force = 0.0, moment = 0.0;  ///< thresholds [N, Nm]
-  std::vector<double> times;         ///< after which contacts were noticed; infinite: never [ms]
+  std::vector<double> times;         ///< after which contacts were detected; infinite: never [ms]
   int noticed = 0;
 };
 
@@ -86,7 +86,7 @@ TEST(CalibratedRobots, NoticeContactsSoonerByLowerThresholds) {
   const auto robots = test::wanted<std::uint64_t>("FLINCH_ROBOTS", 4);
   std::vector<double> before, after, factors;
   int noticed_before = 0, noticed_after = 0;
-  std::printf("  robot   threshold before           after      noticed after, median before, after\n");
+  std::printf("  robot   threshold before           after      detected after, median before, after\n");
   for (std::uint64_t seed = 1; seed <= robots; ++seed) {
     CalibratedRobot robot(seed);
     Stage nominal, calibrated;
@@ -108,7 +108,7 @@ TEST(CalibratedRobots, NoticeContactsSoonerByLowerThresholds) {
     factors.push_back(nominal.force / calibrated.force);
   }
   std::printf(
-      "  thresholds lower by %.1f (median); noticed %d and %d of %zu, after %.1f and %.1f ms (median)\n",
+      "  thresholds lower by %.1f (median); detected %d and %d of %zu, after %.1f and %.1f ms (median)\n",
       median(factors), noticed_before, noticed_after, before.size(), median(before), median(after));
   EXPECT_GT(median(factors), 2.0);
   EXPECT_LT(median(after), 0.8 * median(before));

@@ -1,4 +1,4 @@
-// How early contacts are noticed of robots that were calibrated themselves: torque constants from pulls,
+// How early contacts are detected of robots that were calibrated themselves: torque constants from pulls,
 // dynamics from a motion that excites them, then error sizes and thresholds for half a false alarm an hour
 // from 90 s of motion without contact, in which the robots also stand still, each robot by its own or by
 // those of others. Beside them the same contacts with the same robots before, and as near to their model as
@@ -26,7 +26,7 @@
 #include "experiments/campaign/campaign_summary.h"
 #include "experiments/campaign/exact_bounds.h"
 #include "experiments/campaign/run_campaign.h"
-#include "plant/specimen.h"
+#include "plant/perturbed_robot.h"
 #include "tests/campaign/detection/shipped_runs.h"
 #include "tests/identification/calibrated_robot.h"
 #include "tests/support/in_parallel.h"
@@ -123,7 +123,7 @@ Thresholds thresholds_of(const std::vector<const Robot*>& robots) {
         {.estimator = of.estimator,
          .level = {of.level.threshold.value, of.level.errors},
          .change = {of.change.threshold.value, of.change.errors},
-         .smoothed = SurpriseThreshold{of.smoothed.threshold.value, of.smoothed.errors}});
+         .smoothed = MahalanobisThreshold{of.smoothed.threshold.value, of.smoothed.errors}});
   }
   return found;
 }
@@ -152,8 +152,8 @@ DetectionStage judging_by(const std::vector<FusedResidual>& residuals) {
 
 /// Puts a robot in the place of that of a scenario that is as its model, with what its controller knows.
 void put(const SimulatedScenario& robot, SimulatedScenario& scenario) {
-  scenario.specimen = robot.specimen;
-  scenario.station = with_specimen(std::move(scenario.station), robot.specimen);
+  scenario.perturbed_robot = robot.perturbed_robot;
+  scenario.station = with_perturbed_robot(std::move(scenario.station), robot.perturbed_robot);
   scenario.robot = robot.robot;
   scenario.calibrations = robot.calibrations;
   scenario.control.drive_torque = robot.control.drive_torque;
@@ -174,7 +174,7 @@ Campaign contacts_of(std::size_t draws, const Observer& observer) {
   return campaign;
 }
 
-/// What detectors noticed in the runs of a campaign.
+/// What detectors detected in the runs of a campaign.
 class Noticed {
  public:
   explicit Noticed(std::vector<RunResult> results) : results_(std::move(results)) {
@@ -192,8 +192,8 @@ class Noticed {
     const auto found = bodies.find(body);
     return found == bodies.end() ? CampaignGroup{} : found->second.group();
   }
-  /// When a detector noticed the contact of each run [s]: missed ones after `missed_after`, none that a false
-  /// alarm came before.
+  /// When a detector detected the contact of each run [s]: missed ones after `missed_after`, none that a
+  /// false alarm came before.
   std::vector<std::optional<double>> times(const std::string& detector) const {
     std::vector<std::optional<double>> times;
     for (const RunResult& result : results_) {
@@ -206,8 +206,8 @@ class Noticed {
     }
     return times;
   }
-  /// How many contacts with a body a detector noticed by a time [s].
-  std::size_t noticed_by(double time, const std::string& detector, const std::string& body) const {
+  /// How many contacts with a body a detector detected by a time [s].
+  std::size_t detected_by(double time, const std::string& detector, const std::string& body) const {
     const std::vector<std::optional<double>> when = times(detector);
     std::size_t count = 0;
     for (std::size_t i = 0; i < when.size(); ++i)
@@ -283,7 +283,7 @@ Noticed runs_of(const Campaign& campaign, const Calibrated& of, SimulatedScenari
       threads));
 }
 
-/// Contacts that were noticed at least half a tick sooner, or later, than otherwise.
+/// Contacts that were detected at least half a tick sooner, or later, than otherwise.
 struct Comparison {
   std::size_t sooner = 0, later = 0;
 
@@ -305,17 +305,17 @@ Comparison compared(const Noticed& before, const Noticed& after, const std::stri
 
 using Times = std::map<std::string, double>;  // by body [s]
 
-/// By then nine tenths of the contacts of the whole campaign were noticed, docs/observers.md.
+/// By then nine tenths of the contacts of the whole campaign were detected, docs/observers.md.
 const Times of_calibrated{{"platform", 4.8e-3}, {"link1", 8.0e-3}, {"link2", 7.3e-3}, {"clamping", 10.4e-3}};
 
 /// Half of them by then, by the momentum observer alone. It may be as slow as that.
 const Times of_fast_observer{{"platform", 5e-3}, {"link1", 8e-3}, {"link2", 8e-3}, {"clamping", 9e-3}};
 
-/// Nothing refutes that a detector has noticed such a share by then.
+/// Nothing refutes that a detector has detected such a share by then.
 void expect_noticed(double share, const Times& by, const std::string& detector, const Noticed& noticed) {
   for (const auto& [body, time] : by) {
-    const std::size_t soon = noticed.noticed_by(time, detector, body);
-    EXPECT_GE(upper_share(soon, noticed.of(detector, body).contacts, 0.999), share) << body;
+    const std::size_t soon = noticed.detected_by(time, detector, body);
+    EXPECT_GE(clopper_pearson_upper(soon, noticed.of(detector, body).contacts, 0.999), share) << body;
   }
 }
 
@@ -331,10 +331,10 @@ TEST(CalibratedThemselves, RobotsNoticeContactsSoonerAtTheRateOfFalseAlarmsThatI
 
   for (const char* const detector : {"momentum_observer", "disturbance_filter", "imu_residual"}) {
     const Comparison than_near = compared(near, after, detector);
-    EXPECT_LT(upper_share(than_near.later, than_near.differ()), 0.5) << detector;
+    EXPECT_LT(clopper_pearson_upper(than_near.later, than_near.differ()), 0.5) << detector;
   }
   const Comparison fused = compared(near, after, own);
-  EXPECT_GE(upper_share(fused.sooner, fused.differ()), 0.5);
+  EXPECT_GE(clopper_pearson_upper(fused.sooner, fused.differ()), 0.5);
   EXPECT_EQ(after.of(own, "platform").missed, 0U);
   expect_noticed(0.9, of_calibrated, own, after);
 

@@ -279,7 +279,7 @@ void try_pushes(bool angled) {
         particles[k].add(by_particles, push, push.force * risen, link);
     }
   }
-  std::printf("%s pushes: %d of %d noticed, body right in %.1f %%, balanced\n",
+  std::printf("%s pushes: %d of %d detected, body right in %.1f %%, balanced\n",
               angled ? "leaning" : "orthogonal", detected, pushes, 100.0 * body.accuracy());
   std::printf(
       "| locator | after detection | located | fraction off by %%, median / 90 %% | force N | covered | "

@@ -200,7 +200,7 @@ TEST(SeveralContacts, AreSeldomSaidOfOne) {
     }
     add(run, sample, sort_of({run.robot->body_count(), run.robot->legs()}, *touched), answers);
   }
-  std::printf("one thing touches; not noticed: %d, touched otherwise as well: %d\n", not_noticed,
+  std::printf("one thing touches; not detected: %d, touched otherwise as well: %d\n", not_noticed,
               more_than_one);
   for (BySort& of_classifier : answers) {
     Answers all;
@@ -270,7 +270,7 @@ TEST(SeveralContacts, AreToldWhereNoSingleOneMakesTheTrueWrench) {
       add(run, sample, sort_by(missed_by_one(run, detection)), answers);
     }
   }
-  std::printf("two posts touch at once; not noticed: %d, only one touched: %d\n", not_noticed, one_only);
+  std::printf("two posts touch at once; not detected: %d, only one touched: %d\n", not_noticed, one_only);
   for (const auto& [sort, said] : answers[0])
     std::printf("  %s: %s\n", sort.c_str(), share(said.said, answers[0]["all"].said).c_str());
   print_shares(answers);

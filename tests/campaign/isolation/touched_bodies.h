@@ -31,7 +31,8 @@ inline std::string sort_of(const ContactClasses& classes, int touched) {
 /// Two-sided exact bounds of a share.
 inline std::array<double, 2> bounds(std::size_t events, std::size_t trials, double confidence = 0.95) {
   const double of_a_side = 0.5 * (1.0 + confidence);
-  return {1.0 - upper_share(trials - events, trials, of_a_side), upper_share(events, trials, of_a_side)};
+  return {1.0 - clopper_pearson_upper(trials - events, trials, of_a_side),
+          clopper_pearson_upper(events, trials, of_a_side)};
 }
 
 inline std::string share(std::size_t events, std::size_t trials) {
@@ -56,7 +57,7 @@ class Touched {
     return RecordedValues<T>(recording_, path)[sample];
   }
 
-  /// First sample at which the detector notices something that is there; none: `samples()`.
+  /// First sample at which the detector detects something that is there; none: `samples()`.
   std::size_t detection() const {
     const RecordedValues<ContactDetection> detection(recording_, "detection");
     const RecordedValues<PlantTruth> truth(recording_, "truth");

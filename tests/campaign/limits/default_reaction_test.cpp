@@ -195,8 +195,8 @@ TEST(DefaultReaction, StaysWithinTheWorkspaceComesToRestAndLeavesARobotThatCanBe
   EXPECT_EQ(lost, 0U);
   EXPECT_EQ(outside, 0U);
   const std::size_t soon = rest.size() - late;
-  EXPECT_GE(upper_share(soon, rest.size(), 0.999), 0.95) << "at rest within 0.5 s";
-  EXPECT_GE(upper_share(rest.size() - stiff, rest.size(), 0.999), 0.99) << "led by a hand";
+  EXPECT_GE(clopper_pearson_upper(soon, rest.size(), 0.999), 0.95) << "at rest within 0.5 s";
+  EXPECT_GE(clopper_pearson_upper(rest.size() - stiff, rest.size(), 0.999), 0.99) << "led by a hand";
 }
 
 }  // namespace

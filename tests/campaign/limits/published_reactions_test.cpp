@@ -47,7 +47,8 @@ void print(const std::vector<RunResult>& runs) {
                 group.violations_sigma_sc);
 }
 
-/// What both detectors must bring about: each contact is noticed, over, below its limits and without a fault.
+/// What both detectors must bring about: each contact is detected, over, below its limits and without a
+/// fault.
 void expect_good(const std::vector<RunResult>& runs) {
   ASSERT_EQ(runs.size(), 72U);
   std::size_t inside = 0;
@@ -84,7 +85,7 @@ TEST(ThePublishedReactions, AreOverInTimeButForTheSlowestOfSecondLinksAndClampin
   for (const ForceFit& fit : fits) EXPECT_GE(fit.pearson, 0.95) << fit.body;
 }
 
-// What is noticed so soon hardly grows with the speed where a leg clamps.
+// What is detected so soon hardly grows with the speed where a leg clamps.
 TEST(ThePublishedReactions, AreAllOverInTimeWhereTheFusedDetectorNoticesThem) {
   const std::vector<RunResult> runs = results_of("safepr_72_fused.yaml");
   print(runs);

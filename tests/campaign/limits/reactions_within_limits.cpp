@@ -8,7 +8,7 @@
 #include "experiments/simulated/experiment.h"
 #include "experiments/verdict/recorded_truth.h"
 #include "systems/framework/recorded_values.h"
-#include "systems/laws/limit_keeper.h"
+#include "systems/laws/safety_filter.h"
 #include "systems/robot/contact_jacobian.h"
 #include "systems/robot/link_segments.h"
 #include "systems/safety/fault_table.h"
@@ -42,7 +42,7 @@ std::string kind_of(const std::string& body) {
   return body.starts_with("leg") ? body.substr(body.find('_') + 1) : body;
 }
 
-/// Follows when the robot is touched. What was over before anything was noticed is not what it answers.
+/// Follows when the robot is touched. What was over before anything was detected is not what it answers.
 class Touching {
  public:
   void see(double time, double force, ReactionOutcome& outcome) {
@@ -154,8 +154,8 @@ ReactionOutcome outcome_of(const CampaignRun& run) {
   const Mechanism& robot = *run.scenario.robot.robot;
   outcome.speed = number_of(run, "motion.speed_m_per_s");
   const int translations = robot.space().translations();
-  const LimitKeeperSettings& kept = run.scenario.control.limits;
-  const bool from_the_start = kept.use == LimitKeeperSettings::Use::always;
+  const SafetyFilterSettings& kept = run.scenario.control.limits;
+  const bool from_the_start = kept.use == SafetyFilterSettings::Use::always;
   const bool keeps_safety_values = kept.limits.max_condition_number <= sigma_kappa_s &&
                                    kept.limits.workspace.min_self_collision_distance >= sigma_sc_s;
   Touching touching;

@@ -23,12 +23,12 @@ struct ReactionOutcome {
   bool detected = false;
   bool starts_inside = false;  ///< at the start both measures are within their safety values
   /// At the detection it could still stop within the safety values, as the robot itself judges; none: it does
-  /// not keep these, or noticed nothing.
+  /// not keep these, or detected nothing.
   std::optional<bool> says_it_could_stop;
   bool could_stop = false;        ///< the same of the true robot then; means nothing where that one is none
   bool is_lost = false;           ///< at a tick the true robot had no kinematics: the measures leave that out
   std::string fault;              ///< why the gate closed, "" if it did not
-  std::optional<double> removed;  ///< after the onset of the contact that is noticed [s]
+  std::optional<double> removed;  ///< after the onset of the contact that is detected [s]
   /// Largest speed of the platform in hold when nothing has touched it for 100 ms [m/s].
   double held_speed = 0.0;
   double speed = 0.0;       ///< that was asked of the platform [m/s]; 0 where that is not drawn
@@ -44,7 +44,7 @@ struct ReactionOutcome {
   double rotation = 0.0;     ///< the largest [rad]
   double slack = 0.0;        ///< the largest
   int steps = 0;             ///< the most of a quadratic programme
-  bool reclosed = false;     ///< touched again, once noticed, after a release of 100 ms
+  bool reclosed = false;     ///< touched again, once detected, after a release of 100 ms
 };
 
 /// Runs every run of a campaign file, `draws` at each point of its grid, in `threads` threads; `set` as of

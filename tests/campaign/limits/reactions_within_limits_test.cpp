@@ -114,7 +114,7 @@ void add_to(std::map<std::string, Group>& groups, const char* file, const std::s
 void expect_removed_within(double time, const std::string& name, const Group& group) {
   const auto soon =
       std::count_if(group.removed.begin(), group.removed.end(), [time](double t) { return t <= time; });
-  EXPECT_GE(upper_share(static_cast<std::size_t>(soon), group.detected, 0.999), 0.95) << name;
+  EXPECT_GE(clopper_pearson_upper(static_cast<std::size_t>(soon), group.detected, 0.999), 0.95) << name;
 }
 
 TEST(TheStrictReaction, KeepsTheLimits) {
@@ -133,7 +133,7 @@ TEST(TheStrictReaction, KeepsTheLimits) {
   EXPECT_EQ(strict.sc, 0U);
   EXPECT_EQ(strict.faults, 0U);
   EXPECT_LT(strict.held_speed, reduced_speed);
-  EXPECT_GE(upper_share(strict.n - strict.slack, strict.n, 0.999), 0.99) << "slack in at most 1 %";
+  EXPECT_GE(clopper_pearson_upper(strict.n - strict.slack, strict.n, 0.999), 0.99) << "slack in at most 1 %";
   EXPECT_GT(strict.steps, 0);
   EXPECT_LE(strict.steps, 15) << "of the programme";
   EXPECT_EQ(groups["strict_reaction, clamping"].reclosed, 0U) << "no clamping closes again";
@@ -173,9 +173,9 @@ TEST(TheStrictReaction, GivesWayAndKeepsTheLimitsWhereItIsNotToldWhatIsTouched) 
   EXPECT_GT(all.n, 0U);
   EXPECT_EQ(all.lost, 0U);
   EXPECT_EQ(all.kappa, 0U);
-  EXPECT_GE(upper_share(all.n - all.sc, all.n, 0.999), 908.0 / 909.0) << "docs/theory.md";
+  EXPECT_GE(clopper_pearson_upper(all.n - all.sc, all.n, 0.999), 908.0 / 909.0) << "docs/theory.md";
   EXPECT_EQ(all.faults, 0U);
-  EXPECT_GE(upper_share(all.removed.size(), all.detected, 0.999), 0.99);
+  EXPECT_GE(clopper_pearson_upper(all.removed.size(), all.detected, 0.999), 0.99);
 }
 
 // Whoever stands within the limits at the detection and could stop there stays there.
@@ -189,8 +189,8 @@ TEST(TheStrictReaction, KeepsTheLimitsFromTheDetectionOnWhereItCouldStopWithinTh
   strict.print("strict, after contact");
   EXPECT_EQ(strict.lost, 0U);
   EXPECT_EQ(strict.judged, strict.detected);
-  EXPECT_GE(upper_share(strict.said_so, strict.judged, 0.999), 908.0 / 909.0) << "docs/theory.md";
-  EXPECT_GE(upper_share(strict.judged_well, strict.judged, 0.999), 0.99);
+  EXPECT_GE(clopper_pearson_upper(strict.said_so, strict.judged, 0.999), 908.0 / 909.0) << "docs/theory.md";
+  EXPECT_GE(clopper_pearson_upper(strict.judged_well, strict.judged, 0.999), 0.99);
   EXPECT_EQ(strict.beyond_despite_said_so, 0U);
   EXPECT_EQ(strict.beyond_despite_could_stop, 0U);
 }

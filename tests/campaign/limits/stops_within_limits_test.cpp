@@ -62,8 +62,8 @@ class Measured {
   Kinematics at_;
 };
 
-/// Lets the contact be noticed, presses the stop button `after` that, and looks on for half a second. Nothing
-/// where the contact is not noticed, or something else has closed the gate.
+/// Lets the contact be detected, presses the stop button `after` that, and looks on for half a second.
+/// Nothing where the contact is not detected, or something else has closed the gate.
 std::optional<Stop> stop_in_reaction(const SimulatedScenario& scenario, Time after) {
   test::ScenarioLoop loop(scenario);
   Context& context = loop.context;

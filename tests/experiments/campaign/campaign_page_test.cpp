@@ -99,7 +99,7 @@ TEST_F(TheCampaignPage, ShowsTheFalseAlarmsOfAnotherCampaignWhereTheyAreGiven) {
 
 TEST_F(TheCampaignPage, HasAColumnForTheGridAndOneForTheEstimator) {
   for (const char* const heading :
-       {"Grid point", "Noticed by", "Missed at most", "False alarms at most, 1/h"})
+       {"Grid point", "Detected by", "Missed at most", "False alarms at most, 1/h"})
     EXPECT_THAT(page, HasSubstr("[\"" + std::string(heading) + "\""));
 }
 
@@ -135,7 +135,7 @@ TEST_F(TheCampaignPage, HasADotForEachReactionAndTheLimitsOfTheScenario) {
   EXPECT_EQ(dot["body"], "link2");
   EXPECT_NEAR(dot["detection"], 0.003, 1e-12);
   EXPECT_NEAR(dot["reaction"], 0.097, 1e-12);
-  EXPECT_TRUE(shown["runs"][4]["reaction"].is_null()) << "it was not noticed";
+  EXPECT_TRUE(shown["runs"][4]["reaction"].is_null()) << "it was not detected";
   EXPECT_TRUE(dot["kappa"].is_null());
   EXPECT_NEAR(shown["fits"][0]["slope"], 120.0, 1e-9);
   EXPECT_NEAR(shown["fits"][0]["speed_at_transient"], 260.0 / 120.0, 1e-9);

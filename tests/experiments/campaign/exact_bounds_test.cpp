@@ -10,12 +10,12 @@ namespace {
 
 TEST(UpperRate, IsThatOfNoEventsInClosedForm) {
   for (const double hours : {0.5, 3.0, 100.0})
-    EXPECT_NEAR(upper_rate(0, hours), -std::log(0.05) / hours, 1e-9);
+    EXPECT_NEAR(garwood_upper(0, hours), -std::log(0.05) / hours, 1e-9);
 }
 
 TEST(UpperRate, IsHalfTheQuantileOfChiSquare) {
-  EXPECT_NEAR(upper_rate(3, 1.0), 7.7537, 1e-4);  // chi-square of 8 degrees of freedom, 0.95: 15.5073
-  EXPECT_NEAR(upper_rate(10, 1.0), 16.9622, 1e-4);
+  EXPECT_NEAR(garwood_upper(3, 1.0), 7.7537, 1e-4);  // chi-square of 8 degrees of freedom, 0.95: 15.5073
+  EXPECT_NEAR(garwood_upper(10, 1.0), 16.9622, 1e-4);
 }
 
 TEST(UpperRate, CoversTheTrueRateAsOftenAsItSays) {
@@ -24,11 +24,11 @@ TEST(UpperRate, CoversTheTrueRateAsOftenAsItSays) {
   int covered = 0;
   constexpr int trials = 20000;
   for (int i = 0; i < trials; ++i)
-    covered += upper_rate(static_cast<std::size_t>(events(random)), 1.0) >= 4.0 ? 1 : 0;
+    covered += garwood_upper(static_cast<std::size_t>(events(random)), 1.0) >= 4.0 ? 1 : 0;
   EXPECT_GE(covered, static_cast<int>(0.945 * trials));
 }
 
-TEST(UpperRate, IsInfiniteWithoutExposure) { EXPECT_TRUE(std::isinf(upper_rate(0, 0.0))); }
+TEST(UpperRate, IsInfiniteWithoutExposure) { EXPECT_TRUE(std::isinf(garwood_upper(0, 0.0))); }
 
 TEST(LowerRate, IsHalfTheQuantileOfChiSquareToo) {
   EXPECT_NEAR(lower_rate(3, 1.0), 0.817691, 1e-6);  // chi-square of 6 degrees of freedom, 0.05: 1.635383
@@ -38,19 +38,20 @@ TEST(LowerRate, IsHalfTheQuantileOfChiSquareToo) {
 TEST(LowerRate, IsZeroWithoutEvents) { EXPECT_EQ(lower_rate(0, 3.0), 0.0); }
 
 TEST(UpperShare, IsThatOfNoneAndOfAllButOneInClosedForm) {
-  EXPECT_NEAR(upper_share(0, 100), 1.0 - std::pow(0.05, 0.01), 1e-12);
-  EXPECT_NEAR(upper_share(9, 10), std::pow(0.95, 0.1), 1e-12);
+  EXPECT_NEAR(clopper_pearson_upper(0, 100), 1.0 - std::pow(0.05, 0.01), 1e-12);
+  EXPECT_NEAR(clopper_pearson_upper(9, 10), std::pow(0.95, 0.1), 1e-12);
 }
 
 TEST(UpperShare, IsOneWhereAllOrNothingHappened) {
-  EXPECT_EQ(upper_share(5, 5), 1.0);
-  EXPECT_EQ(upper_share(0, 0), 1.0);
+  EXPECT_EQ(clopper_pearson_upper(5, 5), 1.0);
+  EXPECT_EQ(clopper_pearson_upper(0, 0), 1.0);
 }
 
 TEST(ConfidenceBelow, IsTheInverseOfTheUpperShare) {
   for (const std::size_t events : {0U, 3U, 40U}) {
     for (const double confidence : {0.6, 0.95, 0.999})
-      EXPECT_NEAR(confidence_below(events, 60, upper_share(events, 60, confidence)), confidence, 1e-9);
+      EXPECT_NEAR(confidence_below(events, 60, clopper_pearson_upper(events, 60, confidence)), confidence,
+                  1e-9);
   }
   EXPECT_EQ(confidence_below(7, 7, 0.9), 0.0);
 }
@@ -68,9 +69,9 @@ TEST(ToleratedEvents, AreThoseOfToleranceLimits) {
 }
 
 TEST(UpperShare, HoldsForManyTrials) {  // no sum under- or overflows
-  EXPECT_NEAR(upper_share(0, 1'000'000), -std::log(0.05) / 1e6, 1e-11);
-  EXPECT_GT(upper_share(5000, 10'000), 0.5);
-  EXPECT_LT(upper_share(5000, 10'000), 0.51);
+  EXPECT_NEAR(clopper_pearson_upper(0, 1'000'000), -std::log(0.05) / 1e6, 1e-11);
+  EXPECT_GT(clopper_pearson_upper(5000, 10'000), 0.5);
+  EXPECT_LT(clopper_pearson_upper(5000, 10'000), 0.51);
 }
 
 }  // namespace

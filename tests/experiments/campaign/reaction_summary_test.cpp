@@ -97,7 +97,7 @@ TEST(ReactionSummary, TellsHowContactsWereNoticedAsThatOfDetectionsDoes) {
   EXPECT_EQ(group["estimator"], "observer");
   EXPECT_EQ(group["n"], 11);
   EXPECT_EQ(group["contacts"], 10);
-  EXPECT_EQ(group["missed"], 1) << "it was noticed later than that";
+  EXPECT_EQ(group["missed"], 1) << "it was detected later than that";
   EXPECT_NEAR(group["median_ms"], 5.0, 1e-9);
   EXPECT_NEAR(group["p90_ms"], 9.0, 1e-9);
   EXPECT_NEAR(group["missed_share_at_most"], 0.3942, 1e-4);  // 1 of 10, Clopper and Pearson

@@ -9,7 +9,7 @@
 #include "diagrams/task_stages.h"
 #include "experiments/campaign/campaign_run.h"
 #include "experiments/verdict/verdict.h"
-#include "systems/laws/limit_keeper.h"
+#include "systems/laws/safety_filter.h"
 #include "tests/support/planar_bench.h"
 
 namespace flinch {
@@ -62,7 +62,7 @@ TEST(CellsOfCsv, MayHoldCommasAndQuotes) {
   EXPECT_TRUE(csv_cells("a,\"b").empty());
 }
 
-/// Two estimators that first noticed something at these times, and noticed the contact at those.
+/// Two estimators that first detected something at these times, and detected the contact at those.
 Verdict verdict_with(double onset, std::vector<std::optional<double>> first,
                      std::vector<std::optional<double>> contact_noticed) {
   Verdict verdict;
@@ -70,8 +70,8 @@ Verdict verdict_with(double onset, std::vector<std::optional<double>> first,
   contact.body = "leg3_clamping";
   contact.onset = onset;
   for (const char* name : {"observer", "filter"}) {
-    const std::size_t i = verdict.first_noticed.size();
-    verdict.first_noticed.push_back({name, first[i]});
+    const std::size_t i = verdict.first_detected.size();
+    verdict.first_detected.push_back({name, first[i]});
     contact.detected_by.push_back({name, contact_noticed[i]});
   }
   verdict.contacts.push_back(contact);
@@ -136,7 +136,7 @@ TEST(AResult, IsOfTheTimeFromTheDetectionOn) {
 
 TEST(AResult, IsOfTheWholeTimeWhereLimitsAreKeptAlways) {
   CampaignRun run;
-  run.scenario.control.limits.use = LimitKeeperSettings::Use::always;
+  run.scenario.control.limits.use = SafetyFilterSettings::Use::always;
   const RunResult result = result_of(run, verdict_of_places({{{10.0, 0.18}, {16.0, 0.16}, {14.0, 0.171}}}));
   EXPECT_TRUE(result.violates_sigma_kappa && result.violates_sigma_sc);
   EXPECT_EQ(result.sigma_kappa_most, 16.0);
@@ -205,7 +205,7 @@ TEST(AResult, CountsNoAlarmAfterTheRobotHasReactedToAnother) {
 TEST(AResult, OfARunWithoutContactIsFreeOfItToTheEnd) {
   Verdict verdict;
   verdict.simulated = 3.0;
-  verdict.first_noticed.push_back({"observer", std::nullopt});
+  verdict.first_detected.push_back({"observer", std::nullopt});
   const RunResult result = result_of(CampaignRun(), verdict);
   EXPECT_EQ(result.body, "none");
   EXPECT_EQ(result.estimators[0].contact_free, 3.0);

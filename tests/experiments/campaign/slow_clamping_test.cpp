@@ -24,7 +24,7 @@ constexpr double largest_Nm = 1.0;
 
 struct SlowClamping {
   double reached = 0.0;  ///< from the onset until the true wrench reaches the papers' thresholds [s]
-  double noticed = 0.0;  ///< likewise until the robot notices
+  double noticed = 0.0;  ///< likewise until the robot detects
   double removed = 0.0;
 };
 
@@ -56,7 +56,7 @@ std::vector<SlowClamping> slow_clampings(const std::string& name, const std::str
     const CampaignRun run = draw_run(campaign, number);
     if (run.scenario.expected.contact != "leg1_clamping") continue;
     all.push_back(measured(run));
-    std::printf("  %s: 10 N or 1 Nm after %.0f ms, noticed %.0f ms, removed %.0f ms\n", name.c_str(),
+    std::printf("  %s: 10 N or 1 Nm after %.0f ms, detected %.0f ms, removed %.0f ms\n", name.c_str(),
                 1e3 * all.back().reached, 1e3 * all.back().noticed, 1e3 * all.back().removed);
   }
   EXPECT_EQ(all.size(), 3U);

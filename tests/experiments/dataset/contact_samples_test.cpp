@@ -54,7 +54,7 @@ TEST(ContactSamples, AreThereForAContactThatIsNoticed) {
 TEST(ContactSamples, SayThatNothingTouchedOrThatItWasNotNoticed) {
   Collision deaf;
   deaf.change<ContactDetection>("detection", [](auto& now) { now.level = ContactLevel::none; });
-  EXPECT_EQ(deaf.samples().left_out, "not noticed");
+  EXPECT_EQ(deaf.samples().left_out, "not detected");
   deaf.change<ContactTruth>("contact", [](auto& now) { now = ContactTruth(); });
   EXPECT_EQ(deaf.samples().left_out, "nothing touched");
 }
@@ -63,16 +63,16 @@ TEST(ContactSamples, SayWhatIsMissingOfAContactThatWasNoticed) {
   Collision with_two;
   with_two.change<ContactTruth>("contact", [](auto& now) { now.second.body = BodyId::link2(0).index(); });
   EXPECT_TRUE(with_two.samples().samples.empty());
-  EXPECT_EQ(with_two.samples().left_out, "noticed, but at no tick did one thing touch");
+  EXPECT_EQ(with_two.samples().left_out, "detected, but at no tick did one thing touch");
 
   Collision soft;
   soft.choice.from_force = 1e6;
   EXPECT_TRUE(soft.samples().samples.empty());
-  EXPECT_EQ(soft.samples().left_out, "noticed, but at no tick that 'samples' asks for");
+  EXPECT_EQ(soft.samples().left_out, "detected, but at no tick that 'samples' asks for");
 
   Collision blind;
   blind.change<WrenchEstimate>("isolation_wrench", [](auto& now) { now.valid = false; });
-  EXPECT_EQ(blind.samples().left_out, "noticed, but wrench or motion were not known");
+  EXPECT_EQ(blind.samples().left_out, "detected, but wrench or motion were not known");
 }
 
 }  // namespace

@@ -135,7 +135,7 @@ TEST(Scenario, OfTheStrictReactionKeepsLimits) {
     return std::string(least) + "control: {" + control + "}\n";
   };
   const ContactControlSettings strict = scenario_of(place, with("reaction_laws: [strict_reaction]")).control;
-  EXPECT_EQ(strict.limits.use, LimitKeeperSettings::Use::always);
+  EXPECT_EQ(strict.limits.use, SafetyFilterSettings::Use::always);
   EXPECT_EQ(strict.limits.limits.max_condition_number, strict.tasks.constraints.sigma_kappa.safety);
   EXPECT_LT(strict.limits.max_platform_speed, 3.0);
   EXPECT_THAT(problems_with(place, with("reaction_laws: [strict_reaction], limits: {keep: never}")),
@@ -155,8 +155,8 @@ TEST(Scenario, KeepsTheLimitsOfTheReactionThatIsFollowed) {
                                   "}\n")
         .control.limits.use;
   };
-  EXPECT_EQ(limits_with(""), LimitKeeperSettings::Use::after_contact);
-  EXPECT_EQ(limits_with(", follow: {reaction_law: strict_reaction}"), LimitKeeperSettings::Use::always);
+  EXPECT_EQ(limits_with(""), SafetyFilterSettings::Use::after_contact);
+  EXPECT_EQ(limits_with(", follow: {reaction_law: strict_reaction}"), SafetyFilterSettings::Use::always);
 }
 
 TEST(Scenario, SaysWhereTheForceLimitsAreFrom) {

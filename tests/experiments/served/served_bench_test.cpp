@@ -17,7 +17,7 @@ class ServedSquare {
       : bench_(build_served_bench(read_simulated_scenario(test::shipped("scenarios/square.yaml")), 5ms)),
         context_(bench_.diagram->make_context()) {}
 
-  StationStatus after(Time duration, const DriveWish& wish) {
+  StationStatus after(Time duration, const RequestedDriveState& wish) {
     context_.set(bench_.station.wish, wish);
     Simulator simulator(*bench_.diagram, std::make_unique<SundialsIntegrator>());
     for (const Time end = context_.time() + duration; context_.time() < end;) {
@@ -40,7 +40,7 @@ TEST(ServedBench, StandsBehindClosedBrakesUntilItsDrivesAreSwitchedOn) {
   EXPECT_TRUE(before.valid && before.braked);
   EXPECT_FALSE(before.enabled);
   const StationStatus enabled =
-      square.after(500ms, {.state = DriveWish::State::operation_enabled, .engage_brake = false});
+      square.after(500ms, {.state = RequestedDriveState::State::operation_enabled, .engage_brake = false});
   EXPECT_TRUE(enabled.enabled);
   EXPECT_FALSE(enabled.braked);
   EXPECT_FALSE(square.after(500ms, {}).enabled);

@@ -28,8 +28,8 @@ SimulatedScenario with_uneven_drives(SimulatedScenario trial, KnownFriction know
 /// `trial` with limits that nothing reaches.
 SimulatedScenario unheeding(SimulatedScenario trial);
 
-/// `trial`, whose contacts are noticed where the estimate exceeds by a fifth what it was without one, but not
-/// below the limits that it has.
+/// `trial`, whose contacts are detected where the estimate exceeds by a fifth what it was without one, but
+/// not below the limits that it has.
 SimulatedScenario with_limits_above(SimulatedScenario trial, const Verdict& without_contact);
 
 /// A contact of the platform with a ball that lies in line with the platform's origin.

@@ -118,7 +118,7 @@ TEST_P(ACollision, IsAnsweredByEachAsItsScenarioExpects) {
     const ContactVerdict& contact = verdict.contacts.front();
     ASSERT_TRUE(verdict.good()) << "robot " << seed << ": " << verdict.failures.front();
     const double time = 1e3 * (*contact.detected - contact.onset);
-    std::printf("  robot %2d: noticed after %4.1f ms, %3.0f N\n", static_cast<int>(seed), time,
+    std::printf("  robot %2d: detected after %4.1f ms, %3.0f N\n", static_cast<int>(seed), time,
                 contact.peak_force);
     times.push_back(time);
     forces.push_back(contact.peak_force);

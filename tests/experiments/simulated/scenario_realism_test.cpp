@@ -44,7 +44,7 @@ std::vector<std::string> problems_with(const std::string& plant, const std::stri
 
 std::vector<std::string> keys_of(const SimulatedScenario& scenario) {
   std::vector<std::string> keys;
-  for (const auto& [key, values] : specimen_values(scenario.specimen, *scenario.robot.robot)) {
+  for (const auto& [key, values] : perturbed_robot_values(scenario.perturbed_robot, *scenario.robot.robot)) {
     keys.push_back(key);
   }
   return keys;
@@ -64,17 +64,17 @@ TEST(ScenarioRealism, CanBeSetSizeBySize) {
       "realism: {friction: 0.3, current_lag_ms: 0.5, cogging: 0.01, cogging_periods: 12, payload_g: 300}");
   EXPECT_THAT(keys_of(scenario), ElementsAre("drive_friction_scale", "passive_friction_scale", "payload_kg",
                                              "cogging_Nm", "cogging_phase_rad", "current_lag_s"));
-  EXPECT_EQ(scenario.station.bench.uneven_torque[0].cogging[0].rate, 12.0);
-  EXPECT_EQ(scenario.station.drives.current_lag, scenario.specimen.current_lag);
+  EXPECT_EQ(scenario.station.bench.torque_ripple[0].cogging[0].rate, 12.0);
+  EXPECT_EQ(scenario.station.drives.current_lag, scenario.perturbed_robot.current_lag);
 }
 
 TEST(ScenarioRealism, CanBeLikeTheBenchButForWhatItSays) {
   const test::Workplace place;
   const SimulatedScenario bench = scenario_with(place, "realism: bench");
   const SimulatedScenario other = scenario_with(place, "realism: {like: bench, torque_constant: 0}");
-  EXPECT_EQ(other.specimen.mechanics.payload, bench.specimen.mechanics.payload);
-  EXPECT_EQ(other.specimen.torque_constant_scale.size(), 0);
-  EXPECT_EQ(bench.specimen.torque_constant_scale.size(), 3);
+  EXPECT_EQ(other.perturbed_robot.mechanics.payload, bench.perturbed_robot.mechanics.payload);
+  EXPECT_EQ(other.perturbed_robot.torque_constant_scale.size(), 0);
+  EXPECT_EQ(bench.perturbed_robot.torque_constant_scale.size(), 3);
 }
 
 TEST(ScenarioRealism, ComesOnTopOfWhatThePlantSays) {
@@ -84,7 +84,7 @@ TEST(ScenarioRealism, ComesOnTopOfWhatThePlantSays) {
       "drive_friction_scale: [2, 1, 1], passive_friction_scale: [1, 0, 1], payload_kg: 0.5, realism: bench");
   const auto& truth = dynamic_cast<const PlanarRrr&>(*scenario.station.bench.robot).parameters();
   const auto& model = dynamic_cast<const PlanarRrr&>(*scenario.robot.robot).parameters();
-  const RobotDeviation& drawn = scenario.specimen.mechanics;
+  const RobotDeviation& drawn = scenario.perturbed_robot.mechanics;
   EXPECT_DOUBLE_EQ(truth.legs[0].active_friction.coulomb,
                    2.0 * model.legs[0].active_friction.coulomb * drawn.drive_friction_scale[0]);
   EXPECT_EQ(truth.legs[1].passive_friction.viscous, 0.0);
@@ -102,7 +102,7 @@ TEST(ScenarioRealism, LetsMotorsCogAsTheRobotFileSays) {
   for (const char* const plant : {"friction: as_robot_file", "realism: bench"}) {
     const SimulatedScenario scenario = scenario_with(place, plant);
     const Cogging& known = scenario.control.drive_torque.cogging;
-    const std::vector<UnevenTorque>& motors = scenario.station.bench.uneven_torque;
+    const std::vector<TorqueRipple>& motors = scenario.station.bench.torque_ripple;
     ASSERT_EQ(known.waves.size(), 2U);
     ASSERT_EQ(motors.size(), 3U);
     for (const double q : {-0.7, 0.0, 0.3}) {
@@ -131,7 +131,7 @@ TEST(ScenarioRealism, HasTheUnitsOfDrivesThatSlide) {
       "hexapod_6ups");
   EXPECT_THAT(keys_of(scenario), ElementsAre("force_constant_scale", "cogging_N", "cogging_phase_rad",
                                              "active_encoder_wave_m", "active_encoder_wave_phase_rad"));
-  EXPECT_DOUBLE_EQ(scenario.specimen.active_encoder_wave[5].rate, 2.0 * std::numbers::pi / 0.01);
+  EXPECT_DOUBLE_EQ(scenario.perturbed_robot.active_encoder_wave[5].rate, 2.0 * std::numbers::pi / 0.01);
   EXPECT_THAT(problems_with("realism: {screw_lead_mm: 5}"),
               ElementsAre(HasSubstr("own.yaml:3: plant.realism.screw_lead_mm: is not a known key")));
   EXPECT_THAT(problems_with("realism: {passive_encoder_wave_deg: 0.1}", "hexapod_6ups"),
@@ -190,7 +190,7 @@ TEST(RealisticRun, RecordsTheRobotThatWasDrawnAndShowsIt) {
   const SimulatedScenario scenario = scenario_with(place, "realism: bench");
   const Recording run = run_experiment(scenario);
   const DrawnValues drawn = robot_as_drawn(run);
-  EXPECT_EQ(drawn, specimen_values(scenario.specimen, *scenario.robot.robot)) << "bit for bit";
+  EXPECT_EQ(drawn, perturbed_robot_values(scenario.perturbed_robot, *scenario.robot.robot)) << "bit for bit";
   EXPECT_EQ(robot_as_drawn(replay(scenario, run).recording), drawn);
 
   const Verdict verdict = judge(run, scenario.robot.robot->space(), scenario.expected, scenario.force_limits);

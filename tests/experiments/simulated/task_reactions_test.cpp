@@ -234,7 +234,7 @@ TEST(TaskTracking, KeepsBothConstraintsWithoutAContact) {
   EXPECT_LT(run(scenario("constraints_without_contact", "kept: always", "kept: never")).least_distance, 0.15);
 }
 
-// Every sort of contact, on every level: noticed, answered, released, and no fault.
+// Every sort of contact, on every level: detected, answered, released, and no fault.
 TEST(TaskReaction, AnswersEverySortOfContactOnEveryLevel) {
   for (const std::string body : {"platform", "first_link", "second_link", "clamping"}) {
     for (const std::string level : {"velocity", "acceleration", "torque"}) {

@@ -14,7 +14,7 @@ constexpr ConfigurationSpace planar = ConfigurationSpace::Kind::planar_pose;
 
 Verdict judged(const SyntheticRun& run) { return judge(run.recording(), planar, {}, {}); }
 
-/// Touched at 100 ms and 400 ms, noticed 10 ms later.
+/// Touched at 100 ms and 400 ms, detected 10 ms later.
 SyntheticRun touched_twice() {
   SyntheticRun run(700);
   run.touch(BodyId::platform(), 100, 150, 50.0).touch(BodyId::platform(), 400, 450, 50.0);
@@ -79,7 +79,7 @@ TEST(ContactWatch, SaysNothingOfAStopThatNobodyJudged) {
   EXPECT_EQ(judged(touched_twice()).contacts.at(0).could_stop, std::nullopt);
 }
 
-// Noticed since 90 ms, until 120 ms; the contact begins at 100 ms and is noticed at 130 ms.
+// Detected since 90 ms, until 120 ms; the contact begins at 100 ms and is detected at 130 ms.
 TEST(ContactWatch, DoesNotTakeAnAlarmThatLastsFromBeforeForTheContact) {
   SyntheticRun run(400);
   run.touch(BodyId::platform(), 100, 200, 50.0).notice(90, 120);
@@ -110,7 +110,7 @@ TEST(ContactWatch, TellsTwoObstaclesThatTouchAtOnceApart) {
   EXPECT_EQ(hand.peak_force, 30.0);
   EXPECT_NEAR(hand.onset, 0.119 + 0.001 / 30.0, 1e-12);
   EXPECT_NEAR(hand.removed.value_or(-1.0), 0.301, 1e-12);
-  EXPECT_NEAR(crate.detected.value_or(-1.0), 0.130, 1e-12) << "noticed once, for both had begun";
+  EXPECT_NEAR(crate.detected.value_or(-1.0), 0.130, 1e-12) << "detected once, for both had begun";
   EXPECT_EQ(hand.detected, crate.detected);
 }
 
@@ -142,7 +142,7 @@ TEST(ContactWatch, LetsAContactThatIsTakenForAnotherBeRemarked) {
   EXPECT_TRUE(judged(run).good());
   EXPECT_THAT(judged(run).remarks,
               ::testing::ElementsAre(
-                  "the contact with platform was taken for one with leg1_link2, sure by 97.0 %; see "
+                  "the contact with platform was taken for one with leg1_link2, with probability 0.970; see "
                   "control.isolation"));
 
   SyntheticRun right(500);

@@ -50,7 +50,7 @@ struct Moment {
 };
 
 /// A recording made up tick by tick: the robot rests where it shall, nothing touches it and nothing is
-/// noticed, until something else is said.
+/// detected, until something else is said.
 class SyntheticRun {
  public:
   explicit SyntheticRun(int milliseconds) : moments_(static_cast<std::size_t>(milliseconds), quiet()) {}

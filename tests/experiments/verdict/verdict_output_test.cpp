@@ -13,7 +13,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// A contact that was noticed after 12.3 ms and never ended.
+/// A contact that was detected after 12.3 ms and never ended.
 Verdict verdict_with_contact() {
   ContactVerdict contact;
   contact.body = "platform";
@@ -47,7 +47,7 @@ TEST(VerdictTable, SaysNothingOfContactsThatNobodyCouldSee) {
   verdict.witness = Witness::none;
   verdict.detections = {0.25};
   EXPECT_THAT(verdict_table(verdict, {}),
-              ::testing::AllOf(HasSubstr("noticed at: 0.250 s"), Not(HasSubstr("nothing was touched"))));
+              ::testing::AllOf(HasSubstr("detected at: 0.250 s"), Not(HasSubstr("nothing was touched"))));
 }
 
 TEST(VerdictTable, TellsWhetherTheRobotCouldStopWithinItsLimits) {
@@ -78,7 +78,7 @@ TEST(VerdictOutput, TellsWhetherSeveralThingsTouchedTheRobot) {
   verdict.contacts[0].several_contacts = true;
   verdict.contacts[0].classified = "platform";
   verdict.contacts[0].classified_at = 0.513;
-  EXPECT_THAT(verdict_table(verdict, {}), HasSubstr("sure by 0.0 %" + sentence)) << "what it said first";
+  EXPECT_THAT(verdict_table(verdict, {}), HasSubstr("with probability 0.000" + sentence)) << "what it said first";
 }
 
 TEST(VerdictOutput, TellsWhatTheReactionDid) {

@@ -53,7 +53,8 @@ ContactVerdict contact_of(const SyntheticRun& run, const ForceLimits& limits = {
   return verdict.contacts.empty() ? ContactVerdict() : verdict.contacts.front();
 }
 
-// ---------------------------------------------------------------- when a contact begins, is noticed and ends
+// ---------------------------------------------------------------- when a contact begins, is detected and
+// ends
 
 TEST(Contact, BeginsWhereTheForceRisesAboveOneNewtonBetweenSamples) {
   SyntheticRun run(500);

@@ -24,7 +24,7 @@ struct ImuOutcome {
   std::optional<Time> named{};  ///< from the first wrong sample
   std::optional<Time> shown{};  ///< from there to the first that errs by more than 0.3 m/s^2, if it is late
   ImuDoubt doubt = ImuDoubt::none;
-  std::vector<std::string> false_contacts{};  ///< detectors that noticed one before there was any
+  std::vector<std::string> false_contacts{};  ///< detectors that detected one before there was any
   std::vector<std::string> missed{};  ///< that did not within 100 ms of a contact, but do without the failure
   int contacts = 0;                   ///< detectors that notice it without the failure
   std::string told{};                 ///< the failure

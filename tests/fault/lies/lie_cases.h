@@ -30,7 +30,7 @@ std::vector<LieCase> all_lies_of(const std::string& robot);
 std::vector<LieCase> pairs_of_lies(std::size_t count, std::uint64_t seed,
                                    const std::string& robot = "planar_3rrr");
 
-/// What was once told without being noticed, or answered by torque.
+/// What was once told without being detected, or answered by torque.
 std::vector<LieCase> lies_that_once_passed();
 
 /// Why a lie cannot be seen in time, or its answer not be better; empty where it can.

@@ -1,12 +1,9 @@
+#include <flinch/framework.h>
+#include <flinch/robot.h>
+
 #include <cmath>
 #include <cstdio>
 #include <memory>
-
-#include "systems/framework/constant.h"
-#include "systems/framework/diagram_builder.h"
-#include "systems/framework/simulator.h"
-#include "systems/robot/planar_rrr.h"
-#include "systems/robot/planar_rrr_presets.h"
 
 namespace {
 

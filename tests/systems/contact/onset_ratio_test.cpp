@@ -15,15 +15,15 @@
 namespace flinch {
 namespace {
 
-constexpr std::size_t longest = OnsetMemory::longest, order = ErrorCourse::order;
+constexpr std::size_t longest = OnsetMemory::longest, order = AutoregressiveError::order;
 
-const ErrorCourse slow{.prediction = {1.1, -0.3, 0.2, -0.1}, .innovation = 0.4};
-const ErrorCourse white{};
+const AutoregressiveError slow{.prediction = {1.1, -0.3, 0.2, -0.1}, .innovation = 0.4};
+const AutoregressiveError white{};
 
 /// A residual whose change has errors of deviation 1.
 const ResidualErrors unit{.noise = 1.0};
 
-SeenResidual seen(const JointVector& change) {
+ResidualSample seen(const JointVector& change) {
   const JointVector none = JointVector::Zero(change.size());
   return {.is_new = true,
           .settled = true,
@@ -61,7 +61,7 @@ std::vector<double> step_as_change(int filters) {
     const double step = filters == 0 ? (k > 0 ? 1.0 : 0.0) : test::answer_of_three_filters(0.3 * k);
     load.acquired = estimate.acquired = now;
     estimate.drive_torque = JointVector::Constant(1, step);
-    follow_residual(estimate, load, past, now, tracking, memory, next);
+    track_residual(estimate, load, past, now, tracking, memory, next);
     past.push(load);
     memory = next;
     if (k > 0) change.push_back(memory.seen.change.effort[0]);
@@ -72,7 +72,7 @@ std::vector<double> step_as_change(int filters) {
 using Rows = std::vector<JointVector>;
 
 /// Errors of three drives that go as `course` says.
-Rows errors_of(const ErrorCourse& course, std::size_t samples, RandomGenerator& random) {
+Rows errors_of(const AutoregressiveError& course, std::size_t samples, RandomGenerator& random) {
   Rows rows;
   for (std::size_t t = 0; t < samples; ++t) {
     JointVector z = JointVector::Zero(3);
@@ -84,7 +84,7 @@ Rows errors_of(const ErrorCourse& course, std::size_t samples, RandomGenerator& 
 }
 
 /// Minus twice the log likelihood of the last samples from `first` on, without its constant.
-double misfit(const Rows& z, std::size_t first, int drive, const ErrorCourse& course) {
+double misfit(const Rows& z, std::size_t first, int drive, const AutoregressiveError& course) {
   double sum = 0.0;
   for (std::size_t t = first; t < z.size(); ++t) {
     double e = z[t][drive];
@@ -96,7 +96,7 @@ double misfit(const Rows& z, std::size_t first, int drive, const ErrorCourse& co
 
 /// The largest 2 ln of the likelihood ratio over onsets and forces: for each onset the force of each drive is
 /// taken off, which makes a parabola of the misfit, whose lowest point three values tell.
-double searched(const Rows& z, const std::vector<double>& step, const ErrorCourse& course) {
+double searched(const Rows& z, const std::vector<double>& step, const AutoregressiveError& course) {
   double largest = 0.0;
   for (std::size_t k = 1; k <= longest; ++k) {
     const std::size_t first = z.size() - k;
@@ -116,20 +116,20 @@ double searched(const Rows& z, const std::vector<double>& step, const ErrorCours
   return largest;
 }
 
-double surprise_after(const Rows& rows, const OnsetRatio& ratio) {
+double distance_after(const Rows& rows, const OnsetRatio& ratio) {
   OnsetMemory memory, next;
   for (const JointVector& z : rows) {
     ratio.follow(seen(z), memory, next);
     memory = next;
   }
-  return ratio.surprise(memory);
+  return ratio.mahalanobis_distance(memory);
 }
 
 TEST(OnsetRatio, IsTheLargestLikelihoodRatioThatASearchFinds) {
   RandomGenerator random(5);
   for (const int filters : {0, 3}) {
     const std::vector<double> step = step_as_change(filters);
-    for (const ErrorCourse& course : {white, slow}) {
+    for (const AutoregressiveError& course : {white, slow}) {
       const OnsetRatio ratio(unit, course, behind(filters));
       for (std::size_t trial = 0; trial < 20; ++trial) {
         Rows rows = errors_of(course, 60, random);
@@ -137,8 +137,8 @@ TEST(OnsetRatio, IsTheLargestLikelihoodRatioThatASearchFinds) {
           const double force = 3.0 * (1.0 - std::exp(-0.2 * static_cast<double>(trial - age)));
           rows[59 - age][static_cast<int>(trial % 3)] += force;
         }
-        const double surprise = surprise_after(rows, ratio);
-        EXPECT_NEAR(surprise * surprise, searched(rows, step, course), 1e-9 * surprise * surprise);
+        const double distance = distance_after(rows, ratio);
+        EXPECT_NEAR(distance * distance, searched(rows, step, course), 1e-9 * distance * distance);
       }
     }
   }
@@ -158,7 +158,7 @@ TEST(OnsetRatio, OfErrorsAsAssumedIsSeldomLarge) {
     ratio.follow(seen(z), memory, next);
     memory = next;
     for (std::size_t i = 0; i < 3; ++i)
-      exceeded[i] += std::pow(ratio.surprise(memory), 2) > squares[i] ? 1 : 0;
+      exceeded[i] += std::pow(ratio.mahalanobis_distance(memory), 2) > squares[i] ? 1 : 0;
   }
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_GE(exceeded[i], share[i] * samples) << squares[i];
@@ -168,7 +168,7 @@ TEST(OnsetRatio, OfErrorsAsAssumedIsSeldomLarge) {
 
 TEST(OnsetRatio, OfSilenceIsZero) {
   const OnsetRatio ratio(unit, slow, behind(3));
-  EXPECT_EQ(surprise_after(Rows(100, JointVector::Zero(3)), ratio), 0.0);
+  EXPECT_EQ(distance_after(Rows(100, JointVector::Zero(3)), ratio), 0.0);
 }
 
 // Beside errors that are independent, n samples of a step are as surprising as one of root n times its size.
@@ -181,7 +181,7 @@ TEST(OnsetRatio, AddsUpAStepUntilTheWindowIsFull) {
     ratio.follow(seen(Eigen::Vector3d(t < 0 ? 0.0 : 1.2, 0.0, t < 0 ? 0.0 : -1.6)), memory, next);
     memory = next;
     const int n = std::clamp(t + 1, 0, OnsetMemory::longest);
-    EXPECT_NEAR(ratio.surprise(memory), 2.0 * std::sqrt(n), 1e-6) << t;
+    EXPECT_NEAR(ratio.mahalanobis_distance(memory), 2.0 * std::sqrt(n), 1e-6) << t;
   }
 }
 
@@ -189,33 +189,33 @@ TEST(OnsetRatio, DividesByTheDeviationsUnderTheLoad) {
   const ResidualErrors errors{.noise = 3.0, .load = 0.5};
   const OnsetRatio ratio(errors, white, behind(0));
   OnsetMemory memory, next;
-  SeenResidual residual = seen(Eigen::Vector3d::Zero());
+  ResidualSample residual = seen(Eigen::Vector3d::Zero());
   residual.load.torque[1] = 8.0;
   for (int t = 0; t < 30; ++t) {
     residual.change.effort[1] = t < 29 ? 0.0 : 10.0;
     ratio.follow(residual, memory, next);
     memory = next;
   }
-  EXPECT_NEAR(ratio.surprise(memory), 10.0 / std::hypot(3.0, 0.5 * 8.0), 1e-12);
+  EXPECT_NEAR(ratio.mahalanobis_distance(memory), 10.0 / std::hypot(3.0, 0.5 * 8.0), 1e-12);
 }
 
 TEST(OnsetRatio, KnowsNothingUntilItCanPredictAndAfterWhatMeansNothing) {
   const OnsetRatio ratio(unit, slow, behind(0));
   OnsetMemory memory, next;
-  SeenResidual large = seen(Eigen::Vector3d(9.0, 0.0, 0.0));
+  ResidualSample large = seen(Eigen::Vector3d(9.0, 0.0, 0.0));
   for (int times = 0; times < 2; ++times) {
     for (std::size_t t = 0; t < order; ++t) {
       ratio.follow(large, memory, next);
       memory = next;
-      EXPECT_EQ(ratio.surprise(memory), 0.0);
+      EXPECT_EQ(ratio.mahalanobis_distance(memory), 0.0);
     }
     large.change.effort[0] += 9.0;
     ratio.follow(large, memory, next);
-    EXPECT_GT(ratio.surprise(next), 5.0);
-    SeenResidual unsettled = large;
+    EXPECT_GT(ratio.mahalanobis_distance(next), 5.0);
+    ResidualSample unsettled = large;
     unsettled.settled = false;
     ratio.follow(unsettled, next, memory);
-    EXPECT_EQ(ratio.surprise(memory), 0.0);
+    EXPECT_EQ(ratio.mahalanobis_distance(memory), 0.0);
   }
 }
 
@@ -225,10 +225,10 @@ TEST(OnsetRatio, IsHeldWhileNothingIsNew) {
   OnsetMemory memory, next, held;
   for (const JointVector& z : errors_of(slow, 50, random)) {
     ratio.follow(seen(z), memory, next);
-    SeenResidual old = seen(JointVector::Constant(3, 100.0));
+    ResidualSample old = seen(JointVector::Constant(3, 100.0));
     old.is_new = false;
     ratio.follow(old, next, held);
-    EXPECT_EQ(ratio.surprise(held), ratio.surprise(next));
+    EXPECT_EQ(ratio.mahalanobis_distance(held), ratio.mahalanobis_distance(next));
     memory = held;
   }
 }
@@ -242,16 +242,16 @@ TEST(OnsetRatio, ForgetsWhatWasBeforeAMissingSample) {
   OnsetMemory memory, fresh, next;
   for (std::size_t t = 0; t < rows.size(); ++t) {
     if (t == missing) continue;
-    SeenResidual residual = seen(rows[t]);
+    ResidualSample residual = seen(rows[t]);
     residual.load.acquired = static_cast<int>(t) * Time(1ms);
     ratio.follow(residual, memory, next);
     memory = next;
     if (t < missing) continue;
     ratio.follow(residual, fresh, next);
     fresh = next;
-    EXPECT_EQ(ratio.surprise(memory), ratio.surprise(fresh)) << t;
+    EXPECT_EQ(ratio.mahalanobis_distance(memory), ratio.mahalanobis_distance(fresh)) << t;
   }
-  EXPECT_GT(ratio.surprise(fresh), 0.0);
+  EXPECT_GT(ratio.mahalanobis_distance(fresh), 0.0);
 }
 
 // The clock of an IMU is its own.
@@ -261,14 +261,14 @@ TEST(OnsetRatio, RemembersAcrossSamplesThatComeUnevenly) {
   OnsetMemory memory, next, uneven;
   Time acquired{};
   for (const JointVector& z : errors_of(slow, 60, random)) {
-    SeenResidual residual = seen(z);
+    ResidualSample residual = seen(z);
     ratio.follow(residual, memory, next);
     memory = next;
     acquired += acquired % 1ms == 0ms ? 1250us : 750us;
     residual.load.acquired = acquired;
     ratio.follow(residual, uneven, next);
     uneven = next;
-    EXPECT_EQ(ratio.surprise(uneven), ratio.surprise(memory));
+    EXPECT_EQ(ratio.mahalanobis_distance(uneven), ratio.mahalanobis_distance(memory));
   }
 }
 
@@ -276,16 +276,16 @@ TEST(OnsetRatio, OfAnEstimatorThatDoesNotAnswerInTimeIsZero) {
   ResidualTracking deaf = behind(3);
   deaf.answer.rate = 1e-30;
   const OnsetRatio ratio(unit, white, deaf);
-  EXPECT_EQ(surprise_after(Rows(50, JointVector::Constant(3, 9.0)), ratio), 0.0);
+  EXPECT_EQ(distance_after(Rows(50, JointVector::Constant(3, 9.0)), ratio), 0.0);
 }
 
 TEST(OnsetRatio, OfWhatIsNotFiniteIsInfiniteAndForgotten) {
   const OnsetRatio ratio(unit, slow, behind(3));
   Rows rows(50, JointVector::Zero(3));
   rows.back()[1] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(surprise_after(rows, ratio), INFINITY);
+  EXPECT_EQ(distance_after(rows, ratio), INFINITY);
   for (std::size_t t = 0; t < order + longest; ++t) rows.push_back(JointVector::Zero(3));
-  EXPECT_EQ(surprise_after(rows, ratio), 0.0);
+  EXPECT_EQ(distance_after(rows, ratio), 0.0);
 }
 
 TEST(OnsetRatio, NeverAllocates) {
@@ -298,7 +298,7 @@ TEST(OnsetRatio, NeverAllocates) {
   for (const JointVector& z : rows) {
     ratio.follow(seen(z), memory, next);
     memory = next;
-    largest = std::max(largest, ratio.surprise(memory));
+    largest = std::max(largest, ratio.mahalanobis_distance(memory));
   }
   EXPECT_EQ(counter.count(), 0);
   EXPECT_GT(largest, 0.0);

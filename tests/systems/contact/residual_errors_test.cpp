@@ -42,7 +42,7 @@ TEST(ErrorVariance, IsTheSumOfIndependentParts) {
               1e-15);
 }
 
-TEST(Surprise, HasASquareThatIsChiSquareForErrorsAsAssumed) {
+TEST(Distance, HasASquareThatIsChiSquareForErrorsAsAssumed) {
   RandomGenerator random(1);
   const ResidualErrors errors{.noise = 0.1,
                               .speed = 0.2,
@@ -66,7 +66,7 @@ TEST(Surprise, HasASquareThatIsChiSquareForErrorsAsAssumed) {
       const ErrorFeatures features = error_features(load, seen, i);
       seen.effort[i] = std::sqrt(errors.variance(features)) * random.normal() + rising * random.normal();
     }
-    const double square = std::pow(surprise(load, seen, errors), 2);
+    const double square = std::pow(mahalanobis_distance(load, seen, errors), 2);
     EXPECT_NEAR(whitened(load, seen, errors).squaredNorm(), square, 1e-12 * square);
     sum += square / trials;
     squares += square * square / trials;
@@ -75,14 +75,14 @@ TEST(Surprise, HasASquareThatIsChiSquareForErrorsAsAssumed) {
   EXPECT_NEAR(squares - sum * sum, 6.0, 0.5) << "and its variance";
 }
 
-TEST(Surprise, OfWhatIsNotFiniteIsInfinite) {
+TEST(Distance, OfWhatIsNotFiniteIsInfinite) {
   const DriveResidual seen{.effort = Eigen::Vector3d(std::nan(""), 0.0, 0.0),
                            .torque = Eigen::Vector3d::Zero(),
                            .friction = Eigen::Vector3d::Zero(),
                            .slope = Eigen::Vector3d::Zero(),
                            .rising = Eigen::Vector3d::Zero(),
                            .rest = Eigen::Vector3d::Zero()};
-  EXPECT_EQ(surprise(load, seen, {.noise = 1.0}), INFINITY);
+  EXPECT_EQ(mahalanobis_distance(load, seen, {.noise = 1.0}), INFINITY);
 }
 
 }  // namespace

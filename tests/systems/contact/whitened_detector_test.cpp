@@ -91,7 +91,7 @@ class Smoothing : public WhitenedDetectorTest {
   Smoothing() : WhitenedDetectorTest(smoothing()) {}
   static WhitenedDetectorSettings smoothing() {
     WhitenedDetectorSettings by = settings();
-    by.smoothed = SurpriseThreshold{.threshold = 5.0, .errors = {.noise = 0.01, .rest = 0.2}};
+    by.smoothed = MahalanobisThreshold{.threshold = 5.0, .errors = {.noise = 0.01, .rest = 0.2}};
     return by;
   }
   int ticks_to_notice(double effort) {
@@ -167,20 +167,20 @@ class ByOnsets : public WhitenedDetectorTest {
   }
 };
 
-// Of a step of 3 deviations n samples have a surprise of 3 sqrt(sum of g^2), where g falls by a twentieth a
+// Of a step of 3 deviations n samples have a distance of 3 sqrt(sum of g^2), where g falls by a twentieth a
 // sample: 3, 4.1, 4.9, 5.6.
 TEST_F(ByOnsets, NoticesAStepThatIsTooSmallAtOnceAsSoonAsItsSamplesAddUp) {
   settle();
   for (int n = 1; n <= 4; ++n) EXPECT_EQ(notices(0.3), n == 4) << n;
 }
 
-// An onset is told from the four samples before it, so nothing is noticed until the fifth after the gap.
+// An onset is told from the four samples before it, so nothing is detected until the fifth after the gap.
 TEST_F(ByOnsets, BeginsAnewAfterASingleInvalidSample) {
   settle();
   estimate_.valid = false;
   EXPECT_FALSE(see(0.0).valid);
   estimate_.valid = true;
-  for (std::size_t k = 0; k < ErrorCourse::order; ++k) EXPECT_FALSE(notices(1.0)) << k;
+  for (std::size_t k = 0; k < AutoregressiveError::order; ++k) EXPECT_FALSE(notices(1.0)) << k;
   EXPECT_TRUE(notices(1.6));
 }
 

@@ -19,10 +19,10 @@ namespace {
 
 RealtimeSettings nothing() {
   RealtimeSettings settings;
-  settings.scheduling = Insistence::none;
-  settings.locked_memory = Insistence::none;
-  settings.affinity = Insistence::none;
-  settings.realtime_kernel = Insistence::none;
+  settings.scheduling = Requirement::none;
+  settings.locked_memory = Requirement::none;
+  settings.affinity = Requirement::none;
+  settings.realtime_kernel = Requirement::none;
   return settings;
 }
 
@@ -60,7 +60,7 @@ TEST(RealtimeThread, ReportsNothingWhenNothingIsAskedFor) {
 TEST(RealtimeThread, ReportsOfThePriorityWhatTheSystemSaysAndGivesItBack) {
   const auto before = scheduling();
   RealtimeSettings settings = nothing();
-  settings.scheduling = Insistence::prefer;
+  settings.scheduling = Requirement::prefer;
   settings.priority = 3;
   {
     const RealtimeThread thread(settings);
@@ -76,7 +76,7 @@ TEST(RealtimeThread, ReportsOfThePriorityWhatTheSystemSaysAndGivesItBack) {
 TEST(RealtimeThread, RunsOnTheProcessorAskedForAndGivesItBack) {
   const int before = processors();
   RealtimeSettings settings = nothing();
-  settings.affinity = Insistence::require;
+  settings.affinity = Requirement::require;
   settings.cpu = some_processor();
   {
     const RealtimeThread thread(settings);
@@ -90,9 +90,9 @@ TEST(RealtimeThread, RunsOnTheProcessorAskedForAndGivesItBack) {
 TEST(RealtimeThread, DoesNotStartWithoutWhatIsRequiredAndSaysAllThatIsMissing) {
   const auto before = scheduling();
   RealtimeSettings settings = nothing();
-  settings.scheduling = Insistence::require;
+  settings.scheduling = Requirement::require;
   settings.priority = 100;
-  settings.affinity = Insistence::require;
+  settings.affinity = Requirement::require;
   settings.cpu = 1'000'000;
   try {
     const RealtimeThread thread(settings);
@@ -108,7 +108,7 @@ TEST(RealtimeThread, DoesNotStartWithoutWhatIsRequiredAndSaysAllThatIsMissing) {
 
 TEST(RealtimeThread, StartsWithoutWhatIsOnlyPreferredAndSaysSo) {
   RealtimeSettings settings = nothing();
-  settings.affinity = Insistence::prefer;
+  settings.affinity = Requirement::prefer;
   settings.cpu = -1;
   const RealtimeThread thread(settings);
   EXPECT_FALSE(thread.report().all_granted());
@@ -133,9 +133,9 @@ TEST(RealtimeThreadDeathTest, TellsAnOrdinaryUserHowToPermitIt) {
   const auto ask_as_ordinary_user = [] {
     give_up_privileges();
     RealtimeSettings settings = nothing();
-    settings.scheduling = Insistence::prefer;
+    settings.scheduling = Requirement::prefer;
     settings.priority = 42;
-    settings.locked_memory = Insistence::prefer;
+    settings.locked_memory = Requirement::prefer;
     const RealtimeThread thread(settings);
     const std::string text = thread.report().text();
     const bool told = mentions(text, "SCHED_FIFO priority 42 was not granted: Operation not permitted") &&
@@ -159,7 +159,7 @@ int locked_memory() {
 
 TEST(RealtimeThread, ReportsOfLockedMemoryWhatTheSystemSays) {
   RealtimeSettings settings = nothing();
-  settings.locked_memory = Insistence::prefer;
+  settings.locked_memory = Requirement::prefer;
   const RealtimeThread thread(settings);
   ASSERT_EQ(thread.report().privileges.size(), 1U);
   if (test::sanitized()) GTEST_SKIP() << "sanitizers do not let memory be locked";
@@ -168,7 +168,7 @@ TEST(RealtimeThread, ReportsOfLockedMemoryWhatTheSystemSays) {
 
 TEST(RealtimeThread, LooksForARealtimeKernel) {
   RealtimeSettings settings = nothing();
-  settings.realtime_kernel = Insistence::prefer;
+  settings.realtime_kernel = Requirement::prefer;
   const RealtimeThread thread(settings);
   ASSERT_EQ(thread.report().privileges.size(), 1U);
   const Privilege& privilege = thread.report().privileges[0];

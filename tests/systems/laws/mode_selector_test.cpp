@@ -186,7 +186,7 @@ TEST(ModeSelector, IsNotValidWhereTheNewLawIsNot) {
 TEST(ModeSelector, KeepsTheTimeAtWhichTheLawComputed) {
   Selector selector;
   selector.settle(nominal);
-  EXPECT_EQ(selector.tick(nominal).computed, Time::zero()) << "so that a law that hangs is noticed";
+  EXPECT_EQ(selector.tick(nominal).computed, Time::zero()) << "so that a law that hangs is detected";
 }
 
 TEST(ModeSelector, SwitchesAtOnceWithoutABlend) {

@@ -196,7 +196,7 @@ TEST(Retreat, AClassThatBecomesKnownWithinTheTimeIsFollowedInItsPlaceLaterOnesAr
 TEST(Retreat, IsToldFromTheDetectionOn) {
   Travelling robot(v);
   robot.know(-1, against, robot.at, v);
-  EXPECT_FALSE(robot.ticking.get(robot.block.followed_task).valid) << "nothing was noticed yet";
+  EXPECT_FALSE(robot.ticking.get(robot.block.followed_task).valid) << "nothing was detected yet";
   robot.begin();
   EXPECT_EQ(robot.ticking.get(robot.block.followed_task), (FollowedTask{true, ReactionKind::retreat, -1}));
 }

@@ -78,7 +78,7 @@ TEST(ControlThread, TakesNoMemoryAndNoLockAndNeverCallsTheBus) {
 
   std::int64_t called = 0, locked = 0, allocated = 0;
   for (int attempt = 0; attempt < 5 && !opened; ++attempt) {  // a busy machine may let the robot give us up
-    station.request({.state = DriveWish::State::operation_enabled, .engage_brake = false});
+    station.request({.state = RequestedDriveState::State::operation_enabled, .engage_brake = false});
     panel.release_stop();
     const std::int64_t calls = test::dds_calls(), locks = test::locks(), allocations = test::allocations();
     runner.run(context, context.time() + 10s, enabled);

@@ -49,6 +49,22 @@ TEST(Lockstep, IsWhatTheRobotSaysUnlessSomebodyChooses) {
   EXPECT_THAT(told.err, HasSubstr("in lockstep: robot and controller wait for one another"));
 }
 
+/// What the example says, and how it ends.
+std::string swapped_plant(const std::vector<std::string>& arguments) {
+  test::OtherProgram program(
+      {.command = with({FLINCH_SWAP_EXAMPLE}, arguments), .environment = {}, .preloaded = "", .prepare = {}});
+  const std::optional<int> status = program.wait(120s);
+  return program.output() + (status == 0 ? "" : "it did not end well");
+}
+
+TEST(Lockstep, GivesAProgramOfOnesOwnTheSameRobotAsItsSimulation) {
+  const BenchOnTheBus bench("platform_collision", {"--lockstep"});
+  const std::string simulated = swapped_plant({});
+  EXPECT_THAT(simulated, HasSubstr("contact detected at 0."));
+  EXPECT_EQ(swapped_plant({bench.domain}), simulated);
+  EXPECT_THAT(swapped_plant({"loop"}), HasSubstr("DOMAIN: is 'loop'; it must be a whole number"));
+}
+
 TEST(Lockstep, TellsAtTheEndWhatItServed) {
   BenchOnTheBus bench("platform_collision", {"--lockstep", "--json"});
   ASSERT_EQ(test::flinch(bench.run_arguments()).status, 0);
