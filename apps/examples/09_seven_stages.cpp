@@ -29,8 +29,8 @@ int main() try {
   auto& imu = builder.add<ImuFilter>("imu", robot, set.extended_imu_ekf);
   auto& direct = builder.add<DirectMethod>("direct", robot);
   auto& observer = builder.add<MomentumObserver>("observer", robot, set.momentum_observer);
-  MomentumObserverSettings quicker =
-      set.momentum_observer;  // its noise matters less to who asks what is touched
+  // Noise matters less to who asks what is touched.
+  MomentumObserverSettings quicker = set.momentum_observer;
   quicker.gain.setConstant(where.observer_gain);
   auto& isolation = builder.add<MomentumObserver>("isolation", robot, quicker);
   auto& sooner = builder.add<ContactDetector>(

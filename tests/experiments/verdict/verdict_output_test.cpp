@@ -78,7 +78,8 @@ TEST(VerdictOutput, TellsWhetherSeveralThingsTouchedTheRobot) {
   verdict.contacts[0].several_contacts = true;
   verdict.contacts[0].classified = "platform";
   verdict.contacts[0].classified_at = 0.513;
-  EXPECT_THAT(verdict_table(verdict, {}), HasSubstr("with probability 0.000" + sentence)) << "what it said first";
+  EXPECT_THAT(verdict_table(verdict, {}), HasSubstr("with probability 0.000" + sentence))
+      << "what it said first";
 }
 
 TEST(VerdictOutput, TellsWhatTheReactionDid) {
