@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "systems/framework/hdf5_object.h"
+#include "systems/framework/hdf5_table.h"
 #include "tests/support/hdf5_columns.h"
 #include "tests/support/problems_of.h"
 #include "tests/support/temporary_folder.h"

@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "identification/torque_constant_calibration.h"
-#include "systems/framework/hdf5_object.h"
+#include "systems/framework/hdf5_table.h"
 #include "systems/signals/drive_reading.h"
 #include "systems/signals/force_torque_reading.h"
 #include "systems/signals/joint_reading.h"
