@@ -161,9 +161,8 @@ TEST(Calibrate, SaysWhatItCanCalibrate) {
        {std::vector<std::string>{"calibrate"}, {"calibrate", "treshold"}}) {
     const Outcome outcome = flinch(typed);
     EXPECT_EQ(outcome.status, 2);
-    EXPECT_THAT(
-        outcome.err,
-        HasSubstr("needs a kind; known are: thresholds, torque-constant, dynamics, imu-pose, all"));
+    EXPECT_THAT(outcome.err,
+                HasSubstr("needs a kind; known are: thresholds, torque-constant, dynamics, imu-pose, all"));
   }
   EXPECT_THAT(flinch({"--help"}).out, HasSubstr("VERB"));
   EXPECT_THAT(flinch({"calibrate", "--help"}).out, HasSubstr("WHAT"));
