@@ -51,7 +51,8 @@ int main(int argc, char** argv) try {
   if (outside) {
     run_on_bus(*diagram, *outside, scenario, domain_of(argv[1]), context);
   } else {
-    Simulator(*diagram, std::make_unique<SundialsIntegrator>()).advance_to(context, scenario.duration);
+    Simulator simulator(*diagram, std::make_unique<SundialsIntegrator>());
+    while (context.time() < scenario.duration) simulator.step(context);
   }
   const ContactDetection& contact = context.get(control.detection);
   const PlatformMotion& platform = context.get(control.platform_motion);

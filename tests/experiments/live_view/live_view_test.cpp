@@ -13,7 +13,6 @@
 #include "experiments/simulated/experiment.h"
 #include "experiments/simulated/simulated_scenario.h"
 #include "systems/framework/recording.h"
-#include "systems/framework/simulator.h"
 #include "systems/robot/quantity_units.h"
 #include "tests/experiments/live_view/loopback_connection.h"
 #include "tests/experiments/report/chromium.h"
@@ -84,7 +83,7 @@ TEST(LiveView, CostsTheTickNoAllocationAndNoLock) {
   const SimulatedScenario scenario = read_simulated_scenario(collision);
   const Experiment experiment = build_experiment(scenario);
   Context context = experiment.diagram->make_context();
-  Simulator(*experiment.diagram).evaluate(context);
+  experiment.diagram->evaluate(context);
   LiveView view(scenario, at_speed(1.0));
   Recorder& recorder = view.begin(*experiment.diagram, quantity_units(*scenario.robot.robot), {});
   const test::AllocationCounter allocations;
