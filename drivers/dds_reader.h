@@ -43,7 +43,7 @@ class DdsReader {
   int writers() const noexcept;
 
   /// From any thread, also that of a control loop.
-  QosMismatch broken_promises() const noexcept {
+  QosMismatch qos_mismatch() const noexcept {
     return {deadlines_.load(std::memory_order_relaxed), silences_.load(std::memory_order_relaxed)};
   }
 

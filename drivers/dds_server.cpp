@@ -233,7 +233,7 @@ class DdsServer::Implementation {
   flinch_DriveRequest request_{};         ///< of who commands, or commanded last
   flinch_DriveRequest others_request_{};  ///< the last of anybody else
   ReceivedSample<flinch_DriveRequest> new_request_;
-  SampleReceiver<flinch_DriveRequest, RoundRobin> requests_;
+  SampleReceiver<flinch_DriveRequest, SampleQueue> requests_;
 
   ReadingOutlet<flinch_JointSample, JointReading> joints_;
   ReadingOutlet<flinch_DriveSample, DriveReading> drives_;

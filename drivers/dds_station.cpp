@@ -201,7 +201,7 @@ class DdsStation::Implementation {
     link.robots = robots_.count();
     link.period = Time(status_.last().sample.period_ns);
     link.lost = joints_.receiver().lost();
-    link.deadlines_missed = joints_.receiver().broken_promises().deadlines;
+    link.deadlines_missed = joints_.receiver().qos_mismatch().deadlines;
     const ReceivedSample<flinch_StatusSample>& last = status_.last();
     link.enabled = (last.sample.header.flags & flag_valid) != 0 && last.sample.enabled != 0;
     link.drive_state = static_cast<DriveState>(last.sample.drive_state);

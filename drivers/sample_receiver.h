@@ -25,7 +25,7 @@ struct ReceivedSample {
 /// Keeps each value until it is taken, in order, where TripleBuffer keeps the last. Of values that nobody
 /// takes the seventeenth and later are dropped.
 template <class T>
-class RoundRobin {
+class SampleQueue {
  public:
   void publish(const T& value) noexcept { queue_.push(value); }
   bool take(T& value) noexcept { return queue_.pop(value); }
@@ -35,7 +35,7 @@ class RoundRobin {
 };
 
 /// Receives samples of one topic, admits or refuses each as it arrives, and keeps the last admitted one for a
-/// control loop, which takes it without waiting; or, with RoundRobin, each of them.
+/// control loop, which takes it without waiting; or, with SampleQueue, each of them.
 template <class Sample, template <class> class Keep = TripleBuffer>
 class SampleReceiver {
  public:
@@ -69,7 +69,7 @@ class SampleReceiver {
 
   /// How many writers send.
   int writers() const noexcept { return reader_.writers(); }
-  QosMismatch broken_promises() const noexcept { return reader_.broken_promises(); }
+  QosMismatch qos_mismatch() const noexcept { return reader_.qos_mismatch(); }
 
  private:
   static void receive(DdsArrivals arrivals, void* self) {

@@ -46,11 +46,11 @@ class ListensToACommander : public testing::Test {
  protected:
   ListensToACommander() {
     EXPECT_TRUE(wait_until([this] { return arrived_ > 100; }));
-    before_ = reader_.broken_promises();  // a busy machine breaks some
+    before_ = reader_.qos_mismatch();  // a busy machine breaks some
   }
 
   QosMismatch since() const {
-    const QosMismatch now = reader_.broken_promises();
+    const QosMismatch now = reader_.qos_mismatch();
     return {now.deadlines - before_.deadlines, now.silences - before_.silences};
   }
 
@@ -75,7 +75,7 @@ TEST_F(ListensToACommander, ThatHangsAndCountsItsDeadlinesAndItsSilence) {
   commander_.resume();
   const int arrived = arrived_;
   EXPECT_TRUE(wait_until([&] { return arrived_ > arrived + 100; }));
-  before_ = reader_.broken_promises();
+  before_ = reader_.qos_mismatch();
   commander_.stop();
   EXPECT_TRUE(wait_until([this] { return since().silences >= 1; }));
 }
@@ -90,8 +90,8 @@ TEST(DdsReader, HasNothingToComplainOfWhileNobodyHasPromised) {
   std::atomic<int> arrived = 0;
   const DdsReader reader(bus, torque_command_topic, &take_all, &arrived);
   std::this_thread::sleep_for(50ms);
-  EXPECT_EQ(reader.broken_promises().deadlines, 0u);
-  EXPECT_EQ(reader.broken_promises().silences, 0u);
+  EXPECT_EQ(reader.qos_mismatch().deadlines, 0u);
+  EXPECT_EQ(reader.qos_mismatch().silences, 0u);
 }
 
 }  // namespace

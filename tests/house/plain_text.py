@@ -30,7 +30,7 @@ RETIRED = {
     "KeptTorques": "LimitedTorques", "ErrorCourse": "AutoregressiveError", "Specimen": "PerturbedRobot",
     "UnevenTorque": "TorqueRipple", "DriveWish": "RequestedDriveState", "upper_share": "clopper_pearson_upper",
     "upper_rate": "garwood_upper", "EitherDetector": "MaxDetector", "WholeStep": "SingleStep",
-    "EachInTurn": "RoundRobin", "BrokenPromises": "QosMismatch", "Insistence": "Requirement",
+    "EachInTurn": "SampleQueue", "BrokenPromises": "QosMismatch", "Insistence": "Requirement",
 }
 RULES += [(rf"\b{old}", EVERYWHERE, ("CHANGELOG.md",), f"the field says {new!r}") for old, new in RETIRED.items()]
 THIS_FILE = "tests/house/plain_text.py"
