@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -69,6 +70,7 @@ struct BodyGraph {
   std::vector<GraphFrame> frames;  ///< Those of the links among them.
   std::size_t base = 0;
   Eigen::Vector3d gravity{0.0, 0.0, -9.81};  ///< In the frame of the base [m/s^2].
+  std::map<std::string, double> zeros;       ///< About where joints are at home [rad or m].
   std::vector<std::string> notes;            ///< What was left out, one sentence each.
 
   /// Adds a body and its frame; throws SetupError where the name is taken.

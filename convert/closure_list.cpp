@@ -1,6 +1,7 @@
 #include "convert/closure_list.h"
 
 #include "systems/config/config_node.h"
+#include "systems/config/parsed.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
@@ -27,6 +28,7 @@ class ClosureReader {
     for (std::size_t i = 0; i < pairs->items.size(); ++i)
       add(*pairs->items[i], types.empty() ? "6d" : types[i], i);
     if (find("name_mot") != nullptr) graph_.set_driven(words("name_mot"));
+    read_zeros();
   }
 
  private:
@@ -55,6 +57,22 @@ class ClosureReader {
       result.push_back(item->scalar);
     }
     return result;
+  }
+
+  void read_zeros() {
+    const ConfigNode* const zeros = find("zeros");
+    if (zeros == nullptr) return;
+    if (zeros->kind != Kind::mapping)
+      refuse(*zeros, "zeros must be a mapping from joints to their positions");
+    for (const ConfigNode::Entry& entry : zeros->entries) {
+      const Parsed<double> position = parse_number(*entry.value, {}, any_number);
+      if (!position.complaint.empty()) refuse(*entry.value, "zeros." + entry.key + " " + position.complaint);
+      try {
+        graph_.zeros[graph_.joints[graph_.joint(entry.key)].name] = position.value;
+      } catch (const SetupError& error) {
+        refuse(*entry.value, error.problems().front());
+      }
+    }
   }
 
   // A joint stands for the side of it that moves.

@@ -116,7 +116,12 @@ class Converting {
       result_.chains = closed_chains(graph(), {.platform = settings_.platform});
       check_size();
       const double length = characteristic_length(result_.chains);
-      const FoundHome home = find_home(graph(), result_.chains, settings_.guess, length, cad_noise);
+      std::map<std::string, double> guess = settings_.guess;
+      for (const GraphJoint& joint : graph().joints) {  // where nobody says otherwise
+        const auto zero = graph().zeros.find(joint.name);
+        if (zero != graph().zeros.end()) guess.insert(*zero);
+      }
+      const FoundHome home = find_home(graph(), result_.chains, guess, length, cad_noise);
       const MotionSamples samples =
           motion_samples(result_.chains, home.state, length, nearby_states, cad_noise);
       if (samples.motions.front().cols() == 0)

@@ -5,65 +5,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "systems/config/legs_text.h"
+#include "convert/platform_at_home.h"
+#include "convert/xml_tag.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/legs/legs_model.h"
 
 namespace flinch {
 namespace {
 
-/// A value of an attribute.
-std::string escaped_word(const std::string& word) {
-  std::string result;
-  for (const char c : word) {
-    if (c == '<') {
-      result += "&lt;";
-    } else if (c == '&') {
-      result += "&amp;";
-    } else {
-      result += c == '"' ? "&quot;" : std::string(1, c);
-    }
-  }
-  return result;
-}
-
-class Tag {
- public:
-  explicit Tag(const std::string& name) : text_("<" + name) {}
-
-  Tag& word(const std::string& key, const std::string& value) {
-    text_ += " " + key + "=\"" + escaped_word(value) + "\"";
-    return *this;
-  }
-  template <class Vector>
-  Tag& numbers(const std::string& key, const Vector& values) {
-    std::string list;
-    for (const double value : values) list += (list.empty() ? "" : " ") + yaml_number(value);
-    return word(key, list);
-  }
-  Tag& number(const std::string& key, double value) { return word(key, yaml_number(value)); }
-  Tag& number_unless_zero(const std::string& key, double value) {
-    return value == 0.0 ? *this : number(key, value);
-  }
-
-  std::string open() const { return text_ + ">"; }
-  std::string closed() const { return text_ + "/>"; }
-
- private:
-  std::string text_;
-};
-
-void add_pose(const Eigen::Isometry3d& pose, Tag& tag) {
+void add_pose(const Eigen::Isometry3d& pose, XmlTag& tag) {
   const Eigen::Quaterniond q(pose.linear());
   tag.numbers("pos", pose.translation());
   tag.numbers("quat", Eigen::Vector4d(q.w(), q.x(), q.y(), q.z()));
-}
-
-Eigen::Isometry3d pose_at(const Eigen::Vector3d& origin, const Eigen::Matrix3d& axes) {
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.translation() = origin;
-  pose.linear() = axes;
-  return pose;
 }
 
 /// MuJoCo refuses a rod without thickness and a point, which have no inertia about an axis.
@@ -75,15 +28,19 @@ Eigen::Matrix3d thick(const Eigen::Matrix3d& inertia) {
 
 struct GeomText {
   std::string operator()(const Sphere& one) const {
-    return Tag("geom").word("type", "sphere").numbers("pos", one.centre).number("size", one.radius).closed();
+    return XmlTag("geom")
+        .word("type", "sphere")
+        .numbers("pos", one.centre)
+        .number("size", one.radius)
+        .closed();
   }
   std::string operator()(const Capsule& one) const {
     Eigen::Matrix<double, 6, 1> ends;
     ends << one.begin, one.end;
-    return Tag("geom").word("type", "capsule").numbers("fromto", ends).number("size", one.radius).closed();
+    return XmlTag("geom").word("type", "capsule").numbers("fromto", ends).number("size", one.radius).closed();
   }
   std::string operator()(const Box& one) const {
-    Tag tag("geom");
+    XmlTag tag("geom");
     tag.word("type", "box").numbers("size", one.half_lengths);
     add_pose(pose_at(one.centre, one.axes), tag);
     return tag.closed();
@@ -103,9 +60,9 @@ class MjcfWriter {
 
   std::string write() {
     line(0, "<!-- Written by flinch export. Where nothing has moved the robot is at home. -->");
-    line(0, Tag("mujoco").word("model", robot_.name).open());
-    line(1, Tag("compiler").word("angle", "radian").word("autolimits", "true").closed());
-    line(1, Tag("option").numbers("gravity", robot_.gravity).closed());
+    line(0, XmlTag("mujoco").word("model", robot_.name).open());
+    line(1, XmlTag("compiler").word("angle", "radian").word("autolimits", "true").closed());
+    line(1, XmlTag("option").numbers("gravity", robot_.gravity).closed());
     // Bodies of a robot lie in one another at its joints.
     line(1, "<default><geom contype=\"0\" conaffinity=\"0\"/></default>");
     line(1, "<worldbody>");
@@ -123,16 +80,13 @@ class MjcfWriter {
   }
 
  private:
-  static std::string indented(std::size_t depth, const std::string& text) {
-    return std::string(2 * depth, ' ') + text + "\n";
-  }
   void line(std::size_t depth, const std::string& text) { text_ += indented(depth, text); }
 
   void write_body(std::size_t depth, const RigidBodyInertia& body, const std::vector<Shape>& shapes) {
     const Eigen::Matrix3d I = thick(body.inertia);
     Eigen::Matrix<double, 6, 1> full;
     full << I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2);
-    line(depth, Tag("inertial")
+    line(depth, XmlTag("inertial")
                     .numbers("pos", body.centre_of_mass)
                     .number("mass", body.mass)
                     .numbers("fullinertia", full)
@@ -141,14 +95,12 @@ class MjcfWriter {
   }
 
   void write_platform() {
-    PlatformTwist home;
-    model_.place(home_chart(), home);
-    platform_ = pose_at(home.origin, home.axes);
-    Tag body("body");
+    platform_ = platform_at_home(model_);
+    XmlTag body("body");
     body.word("name", "platform");
     add_pose(platform_, body);
     line(2, body.open());
-    const Eigen::Matrix3d to_body = home.axes.transpose();
+    const Eigen::Matrix3d to_body = platform_.linear().transpose();
     const auto& roles = robot_.moves.roles;
     const bool turns_in_space = roles[3] != ChartRole::fixed || roles[4] != ChartRole::fixed;
     if (turns_in_space) {
@@ -156,7 +108,7 @@ class MjcfWriter {
     } else {
       for (std::size_t i = 0; i < 6; ++i) {
         if (roles[i] == ChartRole::fixed) continue;
-        line(3, Tag("joint")
+        line(3, XmlTag("joint")
                     .word("name", "platform_" + std::string(chart_names[i]))
                     .word("type", i < 3 ? "slide" : "hinge")
                     .numbers("axis", Eigen::Vector3d(to_body.col(static_cast<Eigen::Index>(i % 3))))
@@ -165,16 +117,6 @@ class MjcfWriter {
     }
     write_body(3, model_.platform, robot_.platform.shapes);
     line(2, "</body>");
-  }
-
-  ChartNumbers home_chart() const {
-    ChartNumbers chart = model_.home_chart();
-    Eigen::Index next = 0;
-    for (std::size_t i = 0; i < 6; ++i) {
-      if (robot_.moves.roles[i] == ChartRole::follows)
-        chart[static_cast<Eigen::Index>(i)] = model_.home_following[next++];
-    }
-    return chart;
   }
 
   // The first of the axes of one turn each that a joint is, and how many they are.
@@ -192,10 +134,6 @@ class MjcfWriter {
       next += axes.back().count;
     }
     return axes;
-  }
-
-  std::string name(std::size_t leg, const std::string& joint) const {
-    return "leg" + std::to_string(leg + 1) + "_" + joint;
   }
 
   void write_leg(std::size_t index) {
@@ -225,16 +163,17 @@ class MjcfWriter {
     const RobotLeg& leg = robot_.legs[index];
     const LegJoint& joint = leg.joints[j];
     const int on = parent(leg, j);
-    Tag body("body");
-    body.word("name", name(index, joint.name) + "_link");
+    XmlTag body("body");
+    body.word("name", name_in_model(index, joint.name) + "_link");
     add_pose(on < 0 ? poses[j] : poses[static_cast<std::size_t>(on)].inverse() * poses[j], body);
     line(depth, body.open());
     for (std::size_t k = 0; k < axes[j].count; ++k) {
       const ChainJoint& one = model_.legs[index].chain.joints[axes[j].first + k];
       const double q = one.position(model_.legs[index].home);
-      Tag tag("joint");
+      XmlTag tag("joint");
       const std::string suffix = axes[j].count > 1 ? "_" + std::to_string(k + 1) : "";
-      tag.word("name", name(index, joint.name) + suffix).word("type", one.slides ? "slide" : "hinge");
+      tag.word("name", name_in_model(index, joint.name) + suffix)
+          .word("type", one.slides ? "slide" : "hinge");
       tag.numbers("axis", Eigen::Vector3d(poses[j].linear().transpose() * place.axis[axes[j].first + k]));
       tag.number_unless_zero("ref", q).number_unless_zero("armature", one.armature);
       tag.number_unless_zero("damping", one.friction.viscous)
@@ -254,9 +193,9 @@ class MjcfWriter {
     }
     line(depth, "</body>");
     if (joint.drive) {
-      actuators_ += indented(2, Tag("motor")
-                                    .word("name", name(index, joint.name) + "_drive")
-                                    .word("joint", name(index, joint.name))
+      actuators_ += indented(2, XmlTag("motor")
+                                    .word("name", name_in_model(index, joint.name) + "_drive")
+                                    .word("joint", name_in_model(index, joint.name))
                                     .number("gear", joint.drive->ratio)
                                     .closed());
     }
@@ -264,9 +203,9 @@ class MjcfWriter {
 
   void couple(std::size_t index, const LegJoint& joint, const std::string& suffix) {
     equalities_ +=
-        indented(2, Tag("joint")
-                        .word("joint1", name(index, joint.name) + suffix)
-                        .word("joint2", name(index, joint.follows->joint) + suffix)
+        indented(2, XmlTag("joint")
+                        .word("joint1", name_in_model(index, joint.name) + suffix)
+                        .word("joint2", name_in_model(index, joint.follows->joint) + suffix)
                         .numbers("polycoef", std::array<double, 5>{0.0, joint.follows->ratio, 0.0, 0.0, 0.0})
                         .closed());
   }
@@ -275,15 +214,15 @@ class MjcfWriter {
     const RobotLeg& leg = robot_.legs[index];
     const LegClosure& closure = leg.closures[c];
     const std::size_t a = closure.joint.empty() ? leg.joints.size() - 1 : *joint_index(leg, closure.joint);
-    Tag tag(closure.holds_frame ? "weld" : "connect");
-    tag.word("body1", name(index, leg.joints[a].name) + "_link");
+    XmlTag tag(closure.holds_frame ? "weld" : "connect");
+    tag.word("body1", name_in_model(index, leg.joints[a].name) + "_link");
     Eigen::Isometry3d other = Eigen::Isometry3d::Identity();
     if (closure.on == LegClosure::On::platform) {
       tag.word("body2", "platform");
       other = platform_;
     }
     if (closure.on == LegClosure::On::joint) {
-      tag.word("body2", name(index, closure.on_joint) + "_link");
+      tag.word("body2", name_in_model(index, closure.on_joint) + "_link");
       other = poses[*joint_index(leg, closure.on_joint)];
     }
     if (closure.holds_frame) {

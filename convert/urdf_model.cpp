@@ -78,6 +78,7 @@ void set_limits(const XmlElement& element, GraphJoint& joint) {
   const double least = limit->number("lower", 0.0);
   const double most = limit->number("upper", 0.0);
   if (element.attribute("type") == "continuous" || !(least < most)) return;
+  if (joint.kind == GraphJoint::Kind::prismatic && std::min(-least, most) >= unlimited_slide) return;
   joint.least = least;
   joint.most = most;
 }

@@ -5,6 +5,9 @@
 
 namespace flinch {
 
+/// URDF wants a range of each joint that slides: one as wide as this either way, or wider, is none [m].
+inline constexpr double unlimited_slide = 10.0;
+
 /// The links and joints of a URDF, `root` being its <robot>. The base is the link that is no child. Driven
 /// are the joints that its transmissions name. Throws SetupError naming element and line.
 BodyGraph read_urdf(const XmlElement& root);

@@ -9,6 +9,7 @@
 #include "apps/flinch/printing.h"
 #include "convert/legs_of_robot.h"
 #include "convert/mjcf_text.h"
+#include "convert/urdf_text.h"
 #include "export/csv_folder.h"
 #include "export/exported_signal.h"
 #include "export/mat_file.h"
@@ -74,19 +75,40 @@ LegsParameters legs_in(const std::filesystem::path& file) {
   return kind == "legs" ? read_legs_parameters(reader) : as_legs(*robot.robot);
 }
 
+/// ROBOT.urdf, and beside it what closes its loops.
+std::filesystem::path closures_beside(const std::filesystem::path& model) {
+  return model.parent_path() / (model.stem().string() + "_closures.yaml");
+}
+
 /// A robot as a model.
 ExitStatus export_robot(const ExportOptions& options) {
+  const bool is_urdf = options.format == "urdf";
   std::filesystem::path place = options.out;
-  if (place.empty()) place = std::filesystem::path(options.recording).replace_extension(".xml");
-  if (!options.signals.empty()) throw SetupError("--signal: is for recordings, and mjcf is for robots");
-  require_output(place, {options.recording}, OutputKind::model);
+  if (place.empty())
+    place = std::filesystem::path(options.recording).replace_extension(is_urdf ? ".urdf" : ".xml");
+  if (!options.signals.empty())
+    throw SetupError("--signal: is for recordings, and " + options.format + " is for robots");
+  require_output(place, {options.recording}, is_urdf ? OutputKind::urdf : OutputKind::model);
   const LegsParameters robot = out_of(options.recording, [&] { return legs_in(options.recording); });
-  const std::string model = out_of(options.recording, [&] { return mjcf_text(robot); });
-  write_result(place, model);
+  std::vector<std::string> files = {place.string()};
+  if (is_urdf) {
+    const std::filesystem::path closures = closures_beside(place);
+    require_output(closures, {options.recording}, OutputKind::closures);
+    const double max_torque = read_robot_file(options.recording).drives.max_torque;
+    const UrdfTexts texts = out_of(options.recording, [&] { return urdf_texts(robot, max_torque); });
+    write_result(place, texts.model);
+    write_result(closures, texts.closures);
+    files.push_back(closures.string());
+  } else {
+    write_result(place, out_of(options.recording, [&] { return mjcf_text(robot); }));
+  }
   if (options.common.json) {
-    print_result("{}\n", json_text(nlohmann::ordered_json{{"to", options.format}, {"out", place.string()}}));
+    nlohmann::ordered_json told{{"to", options.format}, {"out", place.string()}};
+    if (is_urdf) told["closures"] = files.back();
+    print_result("{}\n", json_text(told));
   } else if (!options.common.quiet) {
-    print_result("{}: a model for MuJoCo\n", place.string());
+    print_result("{}: a model {}\n", place.string(), is_urdf ? "as URDF" : "for MuJoCo");
+    if (is_urdf) print_result("{}: what closes its loops\n", files.back());
   }
   return ExitStatus::done;
 }
@@ -94,7 +116,7 @@ ExitStatus export_robot(const ExportOptions& options) {
 }  // namespace
 
 ExitStatus export_recording(const ExportOptions& options) {
-  if (options.format == "mjcf") return export_robot(options);
+  if (options.format == "mjcf" || options.format == "urdf") return export_robot(options);
   require_no_kind(options.recording, "a recording");
   const Recording recording = open_recording(options.recording);
   tell_if_partial(recording, options.common);

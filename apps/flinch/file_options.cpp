@@ -11,7 +11,7 @@ namespace {
 
 /// What is wrong with `text` as a format of exports; "" if nothing is.
 std::string problem_with_format(const std::string& text) {
-  const std::vector<std::string> names = {"csv", "mat", "mcap", "mjcf", "npz"};
+  const std::vector<std::string> names = {"csv", "mat", "mcap", "mjcf", "npz", "urdf"};
   if (std::find(names.begin(), names.end(), text) != names.end()) return "";
   return "is '" + text + "', which is no format" + did_you_mean(text, names);
 }
@@ -47,7 +47,8 @@ void add_export_verb(CLI::App& app, Verbs& verbs) {
   export_verb
       .add_option("--to", verbs.export_recording.format,
                   "csv (a folder with a table of each signal), mat (MATLAB, Octave), mcap (PlotJuggler, "
-                  "Foxglove; JSON), npz (NumPy); of a robot file mjcf (MuJoCo)")
+                  "Foxglove; JSON), npz (NumPy); of a robot file mjcf (MuJoCo) or urdf (RViz; with a YAML "
+                  "file of what closes its loops)")
       ->required()
       ->check(CLI::Validator(problem_with_format, ""))
       ->type_name("FORMAT");

@@ -59,6 +59,8 @@ bool is_robot(const fs::path& file) { return head_of(file).starts_with("# Conver
 
 bool is_model(const fs::path& file) { return has(head_of(file), "<!-- Written by flinch export"); }
 
+bool is_closures(const fs::path& file) { return head_of(file).starts_with("# Written by flinch export"); }
+
 bool is_recording(const fs::path& file) {
   try {
     open_recording(file);
@@ -92,6 +94,10 @@ Form form_of(OutputKind kind) {
       return {"robot file of flinch convert", {".yaml", ".yml"}, &is_robot};
     case OutputKind::model:
       return {"model of flinch export", {".xml"}, &is_model};
+    case OutputKind::urdf:
+      return {"model of flinch export", {".urdf"}, &is_model};
+    case OutputKind::closures:
+      return {"list of closures of flinch export", {".yaml"}, &is_closures};
     case OutputKind::recording:
       return {"recording", {".h5"}, &is_recording};
     case OutputKind::data_set:

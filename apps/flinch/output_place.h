@@ -16,7 +16,9 @@ enum class OutputKind {
   data_set,
   classifier,
   robot,
-  model
+  model,
+  urdf,
+  closures
 };
 
 /// As require_place(). Throws SetupError as well where the name does not end as those of this kind do, or

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "convert/mjcf_text.h"
+#include "convert/urdf_text.h"
 #include "systems/config/robot_file.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/dynamics.h"
@@ -22,6 +23,7 @@ namespace {
 using test::five_bar;
 using test::model;
 using test::read_again;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 constexpr double g = 9.81;
@@ -272,6 +274,37 @@ TEST_P(ShippedLegs, AreTheSameByWayOfMjcf) {
   EXPECT_EQ(back.robot.moves.roles, shipped.moves.roles);
   ASSERT_EQ(back.robot.legs.size(), shipped.legs.size());
   expect_same_motion(LegsRobot(shipped), LegsRobot(read_again(robot_text(back))));
+}
+
+// URDF has no rotors, so the model is one without.
+TEST_P(ShippedLegs, AreTheSameByWayOfUrdf) {
+  LegsParameters shipped = shipped_legs(GetParam());
+  for (RobotLeg& leg : shipped.legs) {
+    for (LegJoint& joint : leg.joints) {
+      if (joint.drive) joint.drive = LegDrive();
+    }
+  }
+  const UrdfTexts texts = urdf_texts(shipped, 50.0);
+  BodyGraph graph = read_model(texts.model, "robot.urdf");
+  add_closures(texts.closures, "closures.yaml", graph);
+  graph.gravity = shipped.gravity;
+  const Conversion back = converted_robot(std::move(graph), {.platform = "platform"});
+  EXPECT_EQ(back.robot.moves.roles, shipped.moves.roles);
+  ASSERT_EQ(back.robot.legs.size(), shipped.legs.size());
+  expect_same_motion(LegsRobot(shipped), LegsRobot(read_again(robot_text(back))));
+}
+
+TEST(Urdf, IsRefusedWhereItCannotSayWhatARobotIs) {
+  LegsParameters robot = shipped_legs("hexa_6rus");
+  robot.legs[0].joints[0].kind = LegJointKind::screw;
+  EXPECT_FALSE(refusal([&] { urdf_texts(robot, 1.0); }).empty());
+}
+
+TEST(ZerosOfAModel, AreRefusedForJointsThatThereAreNot) {
+  BodyGraph graph = model("five_bar.urdf");
+  EXPECT_THAT(
+      refusal([&] { add_closures("closed_loop: []\nzeros: {motor_lef: 0.1}\n", "closures.yaml", graph); }),
+      AllOf(HasSubstr("closures.yaml:2"), HasSubstr("did you mean 'motor_left'?")));
 }
 
 TEST_P(ShippedLegs, AreTheSameByWayOfTheirText) {
