@@ -63,6 +63,11 @@ LawPorts add_retraction(const StageSite& site, const ReactionPorts& given) {
   return add_impedance(site, site.name + "_impedance", soft, given, retraction.reference);
 }
 
+std::vector<ContactClassifier>& added_classifiers() {
+  static std::vector<ContactClassifier> added;
+  return added;
+}
+
 bool is_word(const std::string& name) {
   const auto allowed = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
@@ -118,7 +123,14 @@ ControlStages known_stages() {
   for (ControlLaw& law : tracking_stages()) stages.nominal_laws.add(std::move(law));
   for (ControlLaw& law : task_reaction_stages()) stages.reaction_laws.add(std::move(law));
   stages.detectors.all.push_back({"fused_detector", add_fused_detector});
+  for (const ContactClassifier& classifier : added_classifiers()) stages.classifiers.add(classifier);
   return stages;
+}
+
+void add_known_classifier(ContactClassifier classifier) {
+  std::vector<ContactClassifier>& added = added_classifiers();
+  std::erase_if(added, [&](const ContactClassifier& other) { return other.name == classifier.name; });
+  added.push_back(std::move(classifier));
 }
 
 std::vector<std::string> problems(const ControlStages& stages) {

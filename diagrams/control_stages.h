@@ -128,8 +128,13 @@ struct ControlStages {
 /// retreat; no acceleration.
 ControlStages standard_stages();
 
-/// All stages that flinch has, of which a scenario file names those that run: the standard ones first.
+/// All stages that flinch has, of which a scenario file names those that run: the standard ones first, then
+/// classifiers that were added.
 ControlStages known_stages();
+
+/// Lets scenario files name one more classifier, anywhere in this program; of the same name, it takes the
+/// place of the one before. Call it from one thread, before anything is read.
+void add_known_classifier(ContactClassifier classifier);
 
 /// All that is wrong with the choice of stages, one sentence each: no stage of a kind, names used twice or of
 /// other characters, a followed one that there is not.

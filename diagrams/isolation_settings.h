@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 
 #include "systems/contact/contact_locator.h"
 #include "systems/contact/decision_tree.h"
@@ -11,6 +12,14 @@
 #include "systems/contact/wrench_uncertainty.h"
 
 namespace flinch {
+
+/// Networks of the classifier "papers_networks", as ONNX files; empty: those that come with flinch.
+struct PapersNetworkFiles {
+  std::filesystem::path clamping;  ///< of the question 'clamping'
+  std::filesystem::path chain;     ///< of the question 'chain'
+  std::filesystem::path body;      ///< of the question 'body'
+  double accept = 0.0;             ///< least probability to act upon; the papers act on the most likely class
+};
 
 /// What can be set of how a contact is classified and located.
 struct IsolationSettings {
@@ -33,6 +42,9 @@ struct IsolationSettings {
                                      .clamping_bias = -1.05};
   ModelClassifierSettings model_classifier;
   DecisionTreeSettings decision_tree;
+  PapersNetworkFiles papers_networks;
+  /// ONNX file of "learned_classifier"; empty: that which comes with flinch.
+  std::filesystem::path learned_network;
   ContactLocatorSettings closed_form;
   LinkParticleSettings particle_filter;
   std::uint64_t particle_seed = 1;

@@ -105,8 +105,8 @@ ContactClassifier learned_classifier_stage(LearnedClassifierSettings settings) {
           }};
 }
 
-ContactClassifier papers_classifier_stage(PapersClassifierSettings settings) {
-  return {"papers_classifier",
+ContactClassifier papers_networks_stage(PapersClassifierSettings settings) {
+  return {"papers_networks",
           [settings = std::move(settings)](const StageSite& site, const ContactPorts& given) {
             auto& classifier = site.builder.add<PapersClassifier>(site.name, site.robot, settings);
             site.builder.connect(given.contact, classifier.phase);

@@ -14,8 +14,8 @@ std::vector<ContactClassifier> classifier_stages();
 /// The classifier "learned_classifier", which needs a network and so is none of those.
 ContactClassifier learned_classifier_stage(LearnedClassifierSettings settings);
 
-/// The classifier "papers_classifier", which needs three.
-ContactClassifier papers_classifier_stage(PapersClassifierSettings settings);
+/// The classifier "papers_networks", which needs three.
+ContactClassifier papers_networks_stage(PapersClassifierSettings settings);
 
 /// Every locator of flinch, likewise.
 std::vector<ContactLocatorStage> locator_stages();

@@ -42,6 +42,7 @@ struct Stage {
 
   std::string name;  ///< letters, digits and '_'
   Add add;
+  bool only_when_named = false;  ///< whether it is left out where a scenario names no stages of its kind
 };
 
 /// Stages of one kind, side by side: all of them run, one of them is followed by what comes after it.

@@ -30,6 +30,13 @@ void compare(const std::vector<std::string>& of_model, const std::vector<std::st
   }
 }
 
+void require_names(const ClassifierModel& model, const FeatureSet& features, const std::string& prefix = "") {
+  Findings found(prefix);
+  compare(model.features, features.names(), "feature", found);
+  compare(model.classes, features.classes(), "class", found);
+  throw_if_any(found.take());
+}
+
 std::string card_of(const DataSet& data, const std::string& key) {
   const auto found = data.card.find(key);
   return found == data.card.end() ? "" : found->second;
@@ -83,11 +90,21 @@ FeatureSet features_for(const ClassifierModel& model, const DataSet& data) {
         "the features that the model was trained with were made otherwise, by another version of flinch; "
         "train it anew");
   }
-  Findings found;
-  compare(model.features, features.names(), "feature", found);
-  compare(model.classes, features.classes(), "class", found);
-  throw_if_any(found.take());
+  require_names(model, features);
   return features;
+}
+
+void require_features(const ClassifierModel& model, const std::shared_ptr<const ParallelRobot>& robot) {
+  const FeatureSet features(question_of(model), robot);
+  require_names(model, features,
+                "it was trained for the robot '" + value_of(model, "robot.name") + "', and this one is '" +
+                    robot->name() + "': ");
+  const std::string told = value_of(model, "features.check");
+  if (told.empty() || told == features.check()) return;
+  throw SetupError(fmt::format(
+      "the model was trained for the robot '{}', and '{}' has another geometry, or its features were made "
+      "otherwise, by another version of flinch; train it anew with data of this robot",
+      value_of(model, "robot.name"), robot->name()));
 }
 
 std::string warning_of_learned(const ClassifierModel& model, const DataSet& data,

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <memory>
+#include <string>
+#include <vector>
+
 #include "learning/classifier_model.h"
 #include "learning/feature_set.h"
 
@@ -16,6 +20,10 @@ Question question_of(const ClassifierModel& model);
 /// another robot or by features of another version, which is all that is told then; or else with all features
 /// and classes that are others.
 FeatureSet features_for(const ClassifierModel& model, const DataSet& data);
+
+/// Throws SetupError where the model cannot be asked about contacts of the robot: it was trained for one of
+/// another geometry, or by features of another version, or has other features and classes.
+void require_features(const ClassifierModel& model, const std::shared_ptr<const ParallelRobot>& robot);
 
 /// One sentence where the model has learned from the data, or from data of the same title and seed, of which
 /// the smaller are part of the larger, and in one of the `configurations` (empty: all); "" otherwise, and

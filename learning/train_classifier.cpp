@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cmath>
 #include <exception>
+#include <map>
 #include <mutex>
 #include <set>
 #include <thread>
@@ -85,6 +86,15 @@ double cross_entropy(const std::vector<Answered>& answers, double temperature) {
     sum += top + std::log((scores - top).exp().sum()) - scores[answer.right];
   }
   return sum / std::max(static_cast<double>(answers.size()), 1.0);
+}
+
+/// Mean over the classes of -ln of the probability of what is right.
+double balanced_cross_entropy(const std::vector<Answered>& answers) {
+  std::map<int, std::vector<Answered>> by_class;
+  for (const Answered& answer : answers) by_class[answer.right].push_back(answer);
+  double sum = 0.0;
+  for (const auto& [right, of_class] : by_class) sum += cross_entropy(of_class, 1.0);
+  return sum / std::max(static_cast<double>(by_class.size()), 1.0);
 }
 
 /// The temperature of least cross-entropy: golden section over its logarithm, in which that has one minimum.
@@ -187,6 +197,23 @@ TrainingSettings standard_settings(Question question) {
   return settings;
 }
 
+SearchedSettings searched_settings(Question question) {
+  if (question == Question::touched) return {{TrainingSettings().epochs}, {TrainingSettings().l2}};
+  return {{10, 20, 40}, {1e-4, 1e-3, 1e-2}};
+}
+
+std::vector<TrainingSettings> combinations(const TrainingSettings& base, const SearchedSettings& searched) {
+  std::vector<TrainingSettings> all;
+  for (const int epochs : searched.epochs) {
+    for (const double l2 : searched.l2) {
+      TrainingSettings& settings = all.emplace_back(base);
+      settings.epochs = epochs;
+      settings.l2 = l2;
+    }
+  }
+  return all;
+}
+
 std::vector<TrainingSettings> paper_grid(const TrainingSettings& base) {
   std::vector<TrainingSettings> grid;
   for (const std::size_t layers : {2U, 3U, 4U, 5U}) {
@@ -244,7 +271,8 @@ TrainedClassifier train_classifier(const DataSet& data, const ClassifierTraining
     for (std::size_t j = 0; j < folds; ++j)
       answers.insert(answers.end(), parts[i * folds + j].begin(), parts[i * folds + j].end());
     result.accuracies.push_back(accuracy_of(answers, features));
-    if (result.accuracies.back() == *std::max_element(result.accuracies.begin(), result.accuracies.end())) {
+    result.losses.push_back(balanced_cross_entropy(answers));
+    if (result.losses.back() == *std::min_element(result.losses.begin(), result.losses.end())) {
       result.settings = candidates[i];
       best = std::move(answers);
     }

@@ -13,6 +13,7 @@
 
 #include "apps/flinch/commit.h"
 #include "apps/flinch/help_layout.h"
+#include "apps/flinch/learning_verbs.h"
 #include "apps/flinch/printing.h"
 #include "apps/flinch/shell_word.h"
 #include "apps/flinch/verbs.h"
@@ -407,6 +408,7 @@ int run_command_line(int argc, const char* const* argv) {
       "Exit status: 0 done, 1 verdict or link failed, 2 bad input or usage,\n"
       "3 a fault stopped the run.\n"
       "'flinch VERB --help' shows the options of a verb.");
+  add_network_stages();
   Verbs verbs;
   add_demo_verb(app, verbs);
   add_run_verb(app, verbs);

@@ -43,9 +43,13 @@ void add_train_verb(CLI::App& app, Verbs& verbs) {
                             ->allow_extra_args(false)
                             ->check(between(1, 1000))
                             ->type_name("N,N");
-  CLI::Option* l2 = verb.add_option("--l2", options.l2, "Weight of the squared weights [of the question]")
+  CLI::Option* l2 = verb.add_option("--l2", options.l2,
+                                    "Weight of the squared weights; of several the best in the "
+                                    "cross-validation [1e-5; for the papers' questions 1e-4,1e-3,1e-2]")
+                        ->delimiter(',')
+                        ->allow_extra_args(false)
                         ->check(within(0.0, 1e6))
-                        ->type_name("X");
+                        ->type_name("X,X");
   verb.add_option(
           "--least-scale", options.least_scale,
           "Least number that inputs are divided by; large: what hardly varied in the data counts little [0]")
@@ -54,9 +58,13 @@ void add_train_verb(CLI::App& app, Verbs& verbs) {
   verb.add_option("--learning-rate", options.learning_rate, "Of Adam, at first [of the question]")
       ->check(within(1e-12, 1e3))
       ->type_name("X");
-  verb.add_option("--epochs", options.epochs, "Passes through the data [40]")
+  verb.add_option("--epochs", options.epochs,
+                  "Passes through the data; of several the best in the cross-validation [40; for the papers' "
+                  "questions 10,20,40, with --grid 40]")
+      ->delimiter(',')
+      ->allow_extra_args(false)
       ->check(between(1, 1'000'000))
-      ->type_name("N");
+      ->type_name("N,N");
   verb.add_flag("--grid", options.grid, "Search the papers' grid of layers, widths and L2 (80 networks)")
       ->excludes(hidden)
       ->excludes(l2);

@@ -30,10 +30,10 @@ struct TrainOptions {
   std::filesystem::path out;
   std::string question = "touched";
   std::vector<int> hidden;
-  std::optional<double> l2;
+  std::vector<double> l2;  ///< likewise
   std::optional<double> least_scale;
   std::optional<double> learning_rate;
-  std::optional<int> epochs;
+  std::vector<int> epochs;  ///< of several the best; none: as searched_settings(), with `grid` 40
   std::optional<std::uint64_t> seed;
   std::optional<std::size_t> threads;
   std::vector<int> configurations;
@@ -62,9 +62,10 @@ void check_classifier(const std::filesystem::path& model);
 void check_data_set(const std::filesystem::path& data);
 std::vector<CalibrationDoubt> check_data_spec(const std::filesystem::path& spec);
 
-/// What lets the control path of scenarios follow the classifier of `models`: one of the question `touched`,
-/// or the three of the papers in any order. Throws SetupError where one cannot be read or they do not make
-/// one classifier; the function, which threads may share, where they are not for the robot of the scenario.
+/// follow_networks(), and what stands in for it where this program was built without what reads networks.
 std::function<void(Scenario&)> classifier_of(const std::vector<std::filesystem::path>& models);
+
+/// Lets scenario files name "papers_networks" and "learned_classifier".
+void add_network_stages();
 
 }  // namespace flinch

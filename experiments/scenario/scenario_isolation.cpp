@@ -5,6 +5,15 @@
 
 namespace flinch {
 
+namespace {
+
+/// Those that a file does not name come with flinch, and are no file of the scenario.
+void read_network(ConfigReader& section, const char* question, std::filesystem::path& file) {
+  if (section.has(question)) section.file(question, file);
+}
+
+}  // namespace
+
 void read_isolation(ConfigReader isolation, IsolationSettings& settings) {
   isolation.number("observer_gain", unit::per_s, settings.observer_gain, positive);
   isolation.number("force_deviation", unit::N, settings.uncertainty.force, positive);
@@ -19,6 +28,13 @@ void read_isolation(ConfigReader isolation, IsolationSettings& settings) {
   right.number("right_of_link1", unit::none, settings.decision_tree.right_of_link1, fraction);
   right.number("right_of_link2", unit::none, settings.decision_tree.right_of_link2, fraction);
   right.number("right_of_clamping", unit::none, settings.decision_tree.right_of_clamping, fraction);
+  ConfigReader papers = isolation.section("papers_networks");
+  read_network(papers, "clamping", settings.papers_networks.clamping);
+  read_network(papers, "chain", settings.papers_networks.chain);
+  read_network(papers, "body", settings.papers_networks.body);
+  papers.number("accept", unit::none, settings.papers_networks.accept, fraction);
+  ConfigReader learned = isolation.section("learned_classifier");
+  read_network(learned, "network", settings.learned_network);
   isolation.number("largest_residual", unit::none, settings.model_classifier.largest_residual, positive);
   isolation.duration("window", settings.model_classifier.window, not_negative);
   isolation.number("leaning", unit::none, settings.closed_form.leaning, not_negative);

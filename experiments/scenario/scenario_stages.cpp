@@ -24,6 +24,16 @@ void keep(Stages<S>& stages, const std::vector<std::string>& names) {
   stages.all = std::move(kept);
 }
 
+/// The names of those that run where a file names none.
+template <class S>
+std::vector<std::string> unasked(const Stages<S>& stages) {
+  std::vector<std::string> names;
+  for (const S& stage : stages.all) {
+    if (!stage.only_when_named) names.push_back(stage.name);
+  }
+  return names;
+}
+
 /// Where a kind of stages stands in the file.
 struct Keys {
   const char* list;      ///< in `control`
@@ -59,8 +69,8 @@ void read_stages(ConfigReader& control, ControlStages& stages) {
     read_kind(control, follow, {"accelerations", "acceleration"}, {}, stages.accelerations);
   read_kind(control, follow, {"estimators", "estimator"}, stages.estimators);
   read_kind(control, follow, {"detectors", "detector"}, stages.detectors);
-  read_kind(control, follow, {"classifiers", "classifier"}, names_of(stages.classifiers), stages.classifiers);
-  read_kind(control, follow, {"locators", "locator"}, names_of(stages.locators), stages.locators);
+  read_kind(control, follow, {"classifiers", "classifier"}, unasked(stages.classifiers), stages.classifiers);
+  read_kind(control, follow, {"locators", "locator"}, unasked(stages.locators), stages.locators);
   read_kind(control, follow, {"nominal_laws", "nominal_law"}, stages.nominal_laws);
   read_kind(control, follow, {"reaction_laws", "reaction_law"}, stages.reaction_laws);
 }

@@ -82,7 +82,7 @@ std::shared_ptr<const NeuralNetwork> always(int inputs, const Eigen::VectorXd& s
 
 TEST(IsolationStages, FollowTheThreeNetworksOfThePapers) {
   BenchExperiment experiment = all_stages();
-  experiment.control.stages.classifiers.follow(papers_classifier_stage(
+  experiment.control.stages.classifiers.follow(papers_networks_stage(
       {.clamping = always(6, Eigen::Vector2d(std::log(19.0), 0.0)),
        .chain = always(6, Eigen::Vector3d::Zero()),
        .body = always(12, std::log(114.0) * Eigen::VectorXd::Unit(7, 4))}));  // 0.95 of the fifth
@@ -106,6 +106,17 @@ TEST(IsolationStages, AreKnownByTheirNames) {
   const ControlStages known = known_stages();
   EXPECT_THAT(names_of(known.classifiers), ElementsAre("model_classifier", "decision_tree"));
   EXPECT_THAT(names_of(known.locators), ElementsAre("closed_form", "particle_filter"));
+}
+
+TEST(IsolationStages, KnowAClassifierThatAProgramAddsByItsName) {
+  const auto refuse = [](const StageSite&, const ContactPorts&) -> OutputPort<ContactClassification> {
+    throw SetupError("never built");
+  };
+  add_known_classifier({"own_classifier", refuse, true});
+  add_known_classifier({"own_classifier", refuse, true});  // again: it is there once
+  const ControlStages known = known_stages();
+  EXPECT_THAT(names_of(known.classifiers),
+              ElementsAre("model_classifier", "decision_tree", "own_classifier"));
 }
 
 TEST(IsolationStages, NeedAnObserverWithAPositiveGain) {

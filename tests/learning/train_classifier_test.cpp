@@ -62,6 +62,16 @@ TEST(TrainClassifier, FindsTheSameBitsOnAnyNumberOfThreads) {
   EXPECT_EQ(onnx_bytes(train_classifier(data, training).model), one);
 }
 
+TEST(TrainClassifier, CombinesEachNumberOfEpochsWithEachL2) {
+  const SearchedSettings searched = searched_settings(Question::body);
+  const auto all = combinations(standard_settings(Question::body), searched);
+  ASSERT_EQ(all.size(), searched.epochs.size() * searched.l2.size());
+  EXPECT_EQ(all.front().epochs, searched.epochs.front());
+  EXPECT_EQ(all.back().l2, searched.l2.back());
+  EXPECT_EQ(all.back().hidden, standard_settings(Question::body).hidden);
+  EXPECT_EQ(combinations(TrainingSettings(), searched_settings(Question::touched)).size(), 1U);
+}
+
 TEST(TrainClassifier, TakesTheBestOfItsCandidates) {
   const DataSet data = test::contact_examples(400, 1);
   ClassifierTraining training = quick(Question::chain);
@@ -72,6 +82,8 @@ TEST(TrainClassifier, TakesTheBestOfItsCandidates) {
   EXPECT_EQ(trained.settings.learning_rate, training.candidates[1].learning_rate);
   EXPECT_EQ(trained.accuracies.size(), 3U);
   EXPECT_GT(trained.accuracies[1], trained.accuracies[0]);
+  EXPECT_LT(trained.losses[1], trained.losses[0]);
+  EXPECT_NEAR(trained.losses[0], std::log(3.0), 0.5) << "as good as guessing among three legs";
 }
 
 /// Contacts that one wrench in each configuration gives away, and nothing besides.

@@ -23,37 +23,53 @@ namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 
+/// `settings` with each number of epochs and L2 that is asked for, or each of the papers' grid.
+std::vector<TrainingSettings> candidates_of(const TrainOptions& options, Question question,
+                                            const TrainingSettings& settings) {
+  SearchedSettings searched = searched_settings(question);
+  if (options.grid) searched = {{settings.epochs}, {settings.l2}};
+  if (!options.epochs.empty()) searched.epochs = options.epochs;
+  if (!options.l2.empty()) searched.l2 = options.l2;
+  std::vector<TrainingSettings> candidates;
+  for (const TrainingSettings& each : combinations(settings, searched)) {
+    throw_if_any(problems_with(each));
+    const std::vector<TrainingSettings> more = options.grid ? paper_grid(each) : std::vector{each};
+    candidates.insert(candidates.end(), more.begin(), more.end());
+  }
+  return candidates;
+}
+
 ClassifierTraining training_of(const TrainOptions& options) {
   ClassifierTraining training;
   training.question = out_of("--question", [&] { return question_named(options.question); });
   TrainingSettings settings = standard_settings(training.question);
   if (!options.hidden.empty()) settings.hidden = options.hidden;
-  settings.l2 = options.l2.value_or(settings.l2);
   settings.least_scale = options.least_scale.value_or(settings.least_scale);
   settings.learning_rate = options.learning_rate.value_or(settings.learning_rate);
-  settings.epochs = options.epochs.value_or(settings.epochs);
   settings.seed = options.seed.value_or(settings.seed);
-  training.candidates = options.grid ? paper_grid(settings) : std::vector{settings};
+  training.candidates = candidates_of(options, training.question, settings);
   training.folds = options.folds;
   training.folds_by = out_of("--folds-by", [&] { return folds_by_named(options.folds_by); });
   training.filter.configurations = options.configurations;
   training.threads = options.threads.value_or(0);
-  throw_if_any(problems_with(settings));
   return training;
 }
 
 void print_table(const TrainedClassifier& trained, const ClassifierTraining& training) {
   if (training.candidates.size() > 1) {
-    print_result("{:>7} {:>6} {:>8} {:>10}\n", "layers", "width", "l2", "accuracy");
+    print_result("{:>7} {:>6} {:>8} {:>7} {:>10} {:>14}\n", "layers", "width", "l2", "epochs", "accuracy",
+                 "cross-entropy");
     for (std::size_t i = 0; i < training.candidates.size(); ++i) {
       const TrainingSettings& each = training.candidates[i];
-      print_result("{:>7} {:>6} {:>8} {:>8.2f} %\n", each.hidden.size(), each.hidden.front(), each.l2,
-                   100.0 * trained.accuracies[i]);
+      print_result("{:>7} {:>6} {:>8} {:>7} {:>8.2f} % {:>14.4f}\n", each.hidden.size(), each.hidden.front(),
+                   each.l2, each.epochs, 100.0 * trained.accuracies[i], trained.losses[i]);
     }
   }
   const Evaluation& expected = trained.expected;
-  print_result("question:           {}\nhidden layers:      {}\nsamples:            {}\n",
-               name_of(training.question), fmt::join(trained.settings.hidden, ", "), expected.samples);
+  print_result(
+      "question:           {}\nhidden layers:      {}\nepochs:             {}\nsamples:            {}\n",
+      name_of(training.question), fmt::join(trained.settings.hidden, ", "), trained.settings.epochs,
+      expected.samples);
   print_result("accuracy:           {:.2f} %, balanced over classes, in {} folds that keep {}s together\n",
                100.0 * expected.confusion.balanced_accuracy().value_or(0.0), training.folds,
                name_of(training.folds_by));
@@ -93,6 +109,7 @@ ExitStatus train(const TrainOptions& options) {
         {"samples", expected.samples},
         {"hidden_layers", trained.settings.hidden},
         {"l2", trained.settings.l2},
+        {"epochs", trained.settings.epochs},
         {"accuracy", expected.confusion.balanced_accuracy().value_or(0.0)},
         {"expected_calibration_error", expected.calibration_error},
         {"accepted_from", trained.model.accepted_from},

@@ -1,5 +1,6 @@
 // What stands in for the verbs that learn in a program that was built without dlib or ONNX.
 #include "apps/flinch/learning_verbs.h"
+#include "diagrams/control_stages.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
@@ -19,6 +20,15 @@ void check_classifier(const std::filesystem::path& model) { refuse(model.string(
 void check_data_set(const std::filesystem::path& data) { refuse(data.string()); }
 std::function<void(Scenario&)> classifier_of(const std::vector<std::filesystem::path>&) {
   refuse("--classifier");
+}
+
+void add_network_stages() {
+  for (const char* const name : {"papers_networks", "learned_classifier"}) {
+    const auto add = [name](const StageSite&, const ContactPorts&) -> OutputPort<ContactClassification> {
+      refuse(name);
+    };
+    add_known_classifier({name, add, true});
+  }
 }
 
 }  // namespace flinch

@@ -175,6 +175,24 @@ TEST_F(LearningVerbs, MakeAModelThatEveryRunOfACampaignCanFollow) {
   EXPECT_THAT(wrong.err, HasSubstr("this is no ONNX file"));
 }
 
+TEST_F(LearningVerbs, LetAScenarioNameTheNetworksThatItAsks) {
+  const std::string scenario = place.at("scenarios/platform_collision.yaml");
+  const auto run = [&](const std::string& settings) {
+    return flinch({"run", scenario, "--set", "control.classifiers=[papers_networks, model_classifier]",
+                   "--set", "control.isolation=" + settings, "--out", place.at("named"), "--json"});
+  };
+  const Outcome shipped = run("{observer_gain_per_s: 20}");
+  ASSERT_EQ(shipped.status, 0) << shipped.err;
+  EXPECT_TRUE(nlohmann::json::parse(shipped.out)["contacts"][0]["classified"].is_string());
+  const Outcome wrong = run("{papers_networks: {body: '" + model() + "'}}");
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("answers the question 'touched', and that of 'body' is asked for"));
+  const Outcome none = flinch({"run", scenario, "--set", "control.classifiers=[papers_network]", "--out",
+                               place.at("none"), "--json"});
+  EXPECT_EQ(none.status, 2);
+  EXPECT_THAT(none.err, HasSubstr("did you mean 'papers_networks'?"));
+}
+
 TEST_F(LearningVerbs, MakeThePapersThreeModelsThatARunCanFollow) {
   std::vector<std::string> three;
   const auto follow = [&](const std::string& scenario, const std::vector<std::string>& models) {

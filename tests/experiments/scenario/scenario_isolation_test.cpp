@@ -2,18 +2,23 @@
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
+#include <fstream>
+
 #include "diagrams/isolation_settings.h"
 #include "systems/config/config_reader.h"
 #include "systems/foundation/setup_error.h"
+#include "tests/support/problems_of.h"
+#include "tests/support/temporary_folder.h"
 
 namespace flinch {
 namespace {
 
 using testing::HasSubstr;
 
-IsolationSettings read(const std::string& text) {
+IsolationSettings read(const std::string& text, const std::filesystem::path& file = "scenario.yaml") {
   IsolationSettings settings;
-  ConfigReader reader = ConfigReader::parse(text, "scenario.yaml");
+  ConfigReader reader = ConfigReader::parse(text, file.string());
   read_isolation(reader.section("isolation"), settings);
   reader.finish();
   return settings;
@@ -51,6 +56,29 @@ TEST(ReadIsolation, TakesAShareOfRightAnswersOfTheTreeForEachThatItNames) {
   EXPECT_EQ(tree.right_of_link1, 0.2);
   EXPECT_EQ(tree.right_of_link2, 0.3);
   EXPECT_EQ(tree.right_of_clamping, 0.4);
+}
+
+TEST(ReadIsolation, TakesFilesOfNetworksBesideTheScenario) {
+  const test::TemporaryFolder folder;
+  const auto here = [&](const char* name) {
+    std::ofstream(folder.path() / name) << "bytes";
+    return folder.path() / name;
+  };
+  const auto body = here("body.onnx"), bodies = here("bodies.onnx");
+  const IsolationSettings settings = read(
+      "isolation: {papers_networks: {body: body.onnx, accept: 0.7}, learned_classifier: {network: "
+      "bodies.onnx}}",
+      folder.path() / "scenario.yaml");
+  EXPECT_EQ(settings.papers_networks.body, body);
+  EXPECT_EQ(settings.papers_networks.chain, "") << "that comes with flinch";
+  EXPECT_EQ(settings.papers_networks.accept, 0.7);
+  EXPECT_EQ(settings.learned_network, bodies);
+}
+
+TEST(ReadIsolation, RefusesANetworkThatIsNotThere) {
+  EXPECT_THAT(
+      test::problems_of([] { read("isolation: {papers_networks: {chain: nowhere.onnx}}"); }),
+      testing::ElementsAre(AllOf(HasSubstr("isolation.papers_networks.chain"), HasSubstr("nowhere.onnx"))));
 }
 
 TEST(ReadIsolation, RefusesWhatCannotBe) {

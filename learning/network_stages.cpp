@@ -1,14 +1,12 @@
-// flinch run and flinch campaign --classifier: networks of flinch train in the control path.
+#include "learning/network_stages.h"
+
 #include <algorithm>
-#include <filesystem>
-#include <functional>
 #include <map>
 #include <memory>
 #include <string>
 #include <utility>
-#include <vector>
 
-#include "apps/flinch/learning_verbs.h"
+#include "diagrams/contact_control_settings.h"
 #include "diagrams/isolation_stages.h"
 #include "experiments/scenario/scenario.h"
 #include "learning/model_questions.h"
@@ -27,13 +25,18 @@ struct ReadModel {
 };
 using ReadModels = std::map<Question, ReadModel>;
 
+ReadModel model_in(const std::filesystem::path& file) {
+  ReadModel read{file.string(), read_onnx(file), {}};
+  read.network = std::make_shared<NeuralNetwork>(read.model.network);
+  return read;
+}
+
 /// The models by what they answer. Throws SetupError where these are not one classifier.
 ReadModels models_in(const std::vector<std::filesystem::path>& files) {
   ReadModels models;
   Findings found("--classifier: ");
   for (const auto& file : files) {
-    ReadModel read{file.string(), read_onnx(file), {}};
-    read.network = std::make_shared<NeuralNetwork>(read.model.network);
+    ReadModel read = model_in(file);
     const Question question = out_of(read.file, [&] { return question_of(read.model); });
     const auto [place, is_first] = models.try_emplace(question, read);
     found.require(is_first, place->second.file + " and " + read.file + " both answer the question '" +
@@ -84,22 +87,69 @@ ContactClassifier papers_stage(const ReadModels& models) {
     accept = std::max(accept, read.model.accepted_from);
     least_wrench = std::max(least_wrench, read.model.least_wrench);
   }
-  return papers_classifier_stage({.clamping = models.at(Question::clamping).network,
-                                  .chain = models.at(Question::chain).network,
-                                  .body = models.at(Question::body).network,
-                                  .accept = accept,
-                                  .least_wrench = least_wrench});
+  return papers_networks_stage({.clamping = models.at(Question::clamping).network,
+                                .chain = models.at(Question::chain).network,
+                                .body = models.at(Question::body).network,
+                                .accept = accept,
+                                .least_wrench = least_wrench});
+}
+
+/// The model in `own`, or else the one that comes with flinch as `standard`, for this question and robot.
+ReadModel model_of(const StageSite& site, Question question, const std::filesystem::path& own,
+                   const std::filesystem::path& standard) {
+  ReadModel read = model_in(own.empty() ? standard : own);
+  out_of(read.file, [&] {
+    const Question answered = question_of(read.model);
+    if (answered != question)
+      throw SetupError("the model answers the question '" + name_of(answered) + "', and that of '" +
+                       name_of(question) + "' is asked for");
+    require_features(read.model, site.robot);
+  });
+  return read;
+}
+
+OutputPort<ContactClassification> add_papers_networks(const StageSite& site, const ContactPorts& given,
+                                                      const std::filesystem::path& shipped) {
+  const PapersNetworkFiles& files = site.settings.isolation.papers_networks;
+  const auto network = [&](Question question, const std::filesystem::path& own) {
+    return model_of(site, question, own, shipped / ("papers_" + name_of(question) + ".onnx")).network;
+  };
+  return papers_networks_stage({.clamping = network(Question::clamping, files.clamping),
+                                .chain = network(Question::chain, files.chain),
+                                .body = network(Question::body, files.body),
+                                .accept = files.accept})
+      .add(site, given);
+}
+
+OutputPort<ContactClassification> add_learned_classifier(const StageSite& site, const ContactPorts& given,
+                                                         const std::filesystem::path& shipped) {
+  const IsolationSettings& settings = site.settings.isolation;
+  const ReadModel read = model_of(site, Question::touched, settings.learned_network, shipped / "bodies.onnx");
+  return learned_stage(read, settings.model_classifier).add(site, given);
 }
 
 }  // namespace
 
-std::function<void(Scenario&)> classifier_of(const std::vector<std::filesystem::path>& files) {
+std::vector<ContactClassifier> network_stages(const std::filesystem::path& shipped) {
+  const auto from = [&shipped](auto add) {
+    return [add, shipped](const StageSite& site, const ContactPorts& given) {
+      return add(site, given, shipped);
+    };
+  };
+  return {{"papers_networks", from(add_papers_networks), true},
+          {"learned_classifier", from(add_learned_classifier), true}};
+}
+
+std::function<void(Scenario&)> follow_networks(const std::vector<std::filesystem::path>& files) {
   return [models = models_in(files)](Scenario& scenario) {
     require_for_robot(models, scenario);
     const auto touched = models.find(Question::touched);
-    scenario.control.stages.classifiers.follow(
+    ContactClassifier stage =
         touched != models.end() ? learned_stage(touched->second, scenario.control.isolation.model_classifier)
-                                : papers_stage(models));
+                                : papers_stage(models);
+    Stages<ContactClassifier>& classifiers = scenario.control.stages.classifiers;
+    std::erase_if(classifiers.all, [&](const ContactClassifier& named) { return named.name == stage.name; });
+    classifiers.follow(std::move(stage));
   };
 }
 
