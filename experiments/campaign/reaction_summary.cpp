@@ -32,6 +32,7 @@ struct Collected {
     }
     const bool detected = !result.estimators.empty() && result.estimators.front().detection_time.has_value();
     group.detected += detected ? 1U : 0U;
+    if (result.class_right) ++(*result.class_right ? group.class_right : group.class_wrong);
     if (result.removal_time) removals.push_back(*result.removal_time);
     if (result.peak_force) peaks.push_back(*result.peak_force);
     group.over_limit += result.over_limit > 0.0 ? 1U : 0U;
@@ -54,6 +55,7 @@ struct Collected {
   ReactionGroup finished() {
     group.noticed = noticed.group();
     group.noticed.estimator = estimator;
+    group.removed = removals.size();
     group.removed_median = quantile(removals, group.n, 0.5);
     group.removed_p95 = quantile(removals, group.n, 0.95);
     group.removed_largest = quantile(removals, removals.size(), 1.0);
@@ -213,14 +215,16 @@ std::string reactions_table(const Campaign& campaign, const ReactionSummary& sum
   std::string text = fmt::format("{}: {} runs\n\n", campaign.title, campaign.runs());
   const auto add_line = [&text](const auto&... cells) {
     text += fmt::format(
-        "{:<14} {:<10} {:>5} {:>8} {:>17} {:>13} {:>6} {:>7} {:>10} {:>10} {:>7} {:>7} {:>7}\n", cells...);
+        "{:<12} {:<8} {:>4} {:>8} {:>7} {:>7} {:>15} {:>11} {:>5} {:>6} {:>9} {:>9} {:>6} {:>7} {:>6}\n",
+        cells...);
   };
-  add_line("level", "body", "runs", "detected", "removed ms", "peak N", "over", "starts", "kappa", "sc",
-           "inside", "self", "gate");
-  add_line("", "", "", "", "median/p95/most", "median/most", "limit", "inside", "of it/all", "of it/all",
-           "at end", "contact", "faults");
+  add_line("level", "body", "runs", "detected", "class", "removed", "removed ms", "peak N", "over", "starts",
+           "kappa", "sc", "inside", "self", "gate");
+  add_line("", "", "", "", "r./wr.", "", "median/p95/most", "median/most", "limit", "inside", "of it/all",
+           "of it/all", "at end", "contact", "faults");
   for (const ReactionGroup& group : summary.groups) {
     add_line(group.level, group.body, group.n, group.detected,
+             fmt::format("{}/{}", group.class_right, group.class_wrong), group.removed,
              text_of(group.removed_median, 1e3) + "/" + text_of(group.removed_p95, 1e3) + "/" +
                  text_of(group.removed_largest, 1e3),
              text_of(group.peak_median, 1.0) + "/" + text_of(group.peak_largest, 1.0), group.over_limit,
@@ -248,6 +252,9 @@ std::string reactions_json(const Campaign& campaign, const ReactionSummary& summ
                       {"body", group.body},
                       {"n", group.n},
                       {"detected", group.detected},
+                      {"class_right", group.class_right},
+                      {"class_wrong", group.class_wrong},
+                      {"removed", group.removed},
                       {"removed_median_ms", json_of(group.removed_median, 1e3)},
                       {"removed_p95_ms", json_of(group.removed_p95, 1e3)},
                       {"removed_max_ms", json_of(group.removed_largest, 1e3)},

@@ -18,6 +18,8 @@ struct ReactionGroup {
   std::size_t n = 0;
   std::size_t detected = 0;
   CampaignGroup noticed;  ///< how, by the estimator that was followed; it has no name where that differs
+  std::size_t class_right = 0, class_wrong = 0;  ///< of those in which one was accepted, and known to others
+  std::size_t removed = 0;                       ///< contacts that were over before the end of the run
   std::optional<double> removed_median, removed_p95;  ///< from the onset; none where more stayed [s]
   std::optional<double> removed_largest;              ///< of those that were removed [s]
   std::optional<double> peak_median, peak_largest;    ///< [N]

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -20,7 +21,7 @@ struct Step {
 };
 
 struct Path {
-  enum class Of { first, most, least };
+  enum class Of { first, most, least, sum };
   Of of = Of::first;
   std::vector<Step> steps;
 };
@@ -60,6 +61,7 @@ std::optional<Path> parsed(std::string_view text) {
   Path path;
   if (text.starts_with("most ")) path.of = Path::Of::most;
   if (text.starts_with("least ")) path.of = Path::Of::least;
+  if (text.starts_with("sum ")) path.of = Path::Of::sum;
   if (path.of != Path::Of::first) text = without_blanks(text.substr(text.find(' ')));
   while (true) {
     Step& step = path.steps.emplace_back();
@@ -124,6 +126,7 @@ std::optional<double> figure_at(const nlohmann::json& object, const std::string&
   if (numbers.empty()) return std::nullopt;
   if (way->of == Path::Of::most) return *std::max_element(numbers.begin(), numbers.end());
   if (way->of == Path::Of::least) return *std::min_element(numbers.begin(), numbers.end());
+  if (way->of == Path::Of::sum) return std::accumulate(numbers.begin(), numbers.end(), 0.0);
   return numbers.front();
 }
 

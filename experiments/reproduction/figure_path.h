@@ -8,9 +8,10 @@ namespace flinch {
 
 /// A number in a JSON object, by a path such as
 ///   "contacts[0].detection_ms", "groups[body=platform, estimator=momentum_observer].median_ms",
-///   "most groups[body=platform].removed_max_ms", "least ...":
+///   "most groups[body=platform].removed_max_ms", "least ...", "sum groups.detected":
 /// keys with points between them; of a list the entry of that number, counted from 0, or the first whose keys
-/// have these values. "most" and "least" take all entries that have them, and a list without brackets whole.
+/// have these values. "most", "least" and "sum" take all entries that have them, and a list without brackets
+/// whole.
 /// None where nothing is there, or no number.
 std::optional<double> figure_at(const nlohmann::json& object, const std::string& path);
 

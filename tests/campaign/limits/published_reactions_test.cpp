@@ -66,7 +66,7 @@ void expect_good(const std::vector<RunResult>& runs) {
 
 // Forces that rise slowly reach the thresholds of the papers late, slow_clamping_test.cpp.
 TEST(ThePublishedReactions, AreOverInTimeButForTheSlowestOfSecondLinksAndClampings) {
-  const std::vector<RunResult> runs = results_of("safepr_72.yaml");
+  const std::vector<RunResult> runs = results_of("safepr_72_oracle.yaml");
   print(runs);
   expect_good(runs);
   std::size_t late = 0;
@@ -87,7 +87,7 @@ TEST(ThePublishedReactions, AreOverInTimeButForTheSlowestOfSecondLinksAndClampin
 
 // What is detected so soon hardly grows with the speed where a leg clamps.
 TEST(ThePublishedReactions, AreAllOverInTimeWhereTheFusedDetectorNoticesThem) {
-  const std::vector<RunResult> runs = results_of("safepr_72_fused.yaml");
+  const std::vector<RunResult> runs = results_of("safepr_72_fused_oracle.yaml");
   print(runs);
   expect_good(runs);
   for (const RunResult& run : runs) EXPECT_LE(run.removal_time.value_or(9.0), asked_of(run)) << name_of(run);

@@ -42,9 +42,14 @@ TEST(ReactionSummary, CountsWhatRunsShow) {
   bad.ends_inside = false;
   bad.fault = "a drive is too fast";
   bad.estimators.front().detection_time.reset();
-  const ReactionGroup group =
-      reactions_of({bad, run("torque_reaction", "platform", 0.1, 0.5, 80.0)}).groups[0];
+  bad.class_right = false;
+  RunResult good = run("torque_reaction", "platform", 0.1, 0.5, 80.0);
+  good.class_right = true;
+  const ReactionGroup group = reactions_of({bad, good}).groups[0];
   EXPECT_EQ(group.n, 2U);
+  EXPECT_EQ(group.class_right, 1U);
+  EXPECT_EQ(group.class_wrong, 1U);
+  EXPECT_EQ(group.removed, 2U);
   EXPECT_EQ(group.detected, 1U);
   EXPECT_EQ(group.over_limit, 1U);
   EXPECT_EQ(group.violations_sigma_kappa, 1U);
@@ -223,9 +228,10 @@ TEST(ReactionSummary, IsOneJsonObjectWithTheGroupsAndTheLines) {
                                                 run("torque_reaction", "platform", 0.1, 1.5, 150.0)});
   const auto json = nlohmann::json::parse(reactions_json(campaign, summary, {}));
   const auto& group = json["groups"][0];
-  for (const char* key : {"level", "body", "n", "detected", "removed_median_ms", "removed_p95_ms",
-                          "peak_median_N", "peak_max_N", "over_limit", "violations_sigma_kappa",
-                          "violations_sigma_sc", "self_collisions", "gate_faults"}) {
+  for (const char* key :
+       {"level", "body", "n", "detected", "class_right", "class_wrong", "removed", "removed_median_ms",
+        "removed_p95_ms", "peak_median_N", "peak_max_N", "over_limit", "violations_sigma_kappa",
+        "violations_sigma_sc", "self_collisions", "gate_faults"}) {
     EXPECT_TRUE(group.contains(key)) << key;
   }
   EXPECT_EQ(group["removed_median_ms"], 100.0);

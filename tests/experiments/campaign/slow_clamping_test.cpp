@@ -64,7 +64,7 @@ std::vector<SlowClamping> slow_clampings(const std::string& name, const std::str
 }
 
 TEST(AClampingAtLowSpeed, ReachesThePapersThresholdsTooLateForAnyEstimator) {
-  for (const SlowClamping& one : slow_clampings("safepr_72.yaml")) {
+  for (const SlowClamping& one : slow_clampings("safepr_72_oracle.yaml")) {
     EXPECT_GT(one.reached, asked);
     EXPECT_LT(one.noticed - one.reached, 0.06) << "the observer's part";
     EXPECT_LT(one.removed - one.noticed, 0.07) << "the reaction's part";
@@ -72,7 +72,7 @@ TEST(AClampingAtLowSpeed, ReachesThePapersThresholdsTooLateForAnyEstimator) {
 }
 
 TEST(AClampingAtLowSpeed, IsOverInTimeWhereTheFusedDetectorNoticesIt) {
-  for (const SlowClamping& one : slow_clampings("safepr_72_fused.yaml")) EXPECT_LE(one.removed, asked);
+  for (const SlowClamping& one : slow_clampings("safepr_72_fused_oracle.yaml")) EXPECT_LE(one.removed, asked);
 }
 
 }  // namespace

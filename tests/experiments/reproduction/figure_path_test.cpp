@@ -27,9 +27,11 @@ TEST(FigurePath, ChoosesTheFirstEntryWithTheseValues) {
       << "where it stands in the grid";
 }
 
-TEST(FigurePath, TakesTheMostOrTheLeastOfAllThatFit) {
+TEST(FigurePath, TakesTheMostTheLeastOrTheSumOfAllThatFit) {
   EXPECT_EQ(figure_at(run, "most groups.median_ms"), 9.0);
   EXPECT_EQ(figure_at(run, "least groups[body=platform].median_ms"), 5.0);
+  EXPECT_EQ(figure_at(run, "sum groups.n"), 17.0);
+  EXPECT_EQ(figure_at(run, "sum groups[body=platform].n"), 12.0);
 }
 
 TEST(FigurePath, FindsNothingWhereThereIsNoNumber) {

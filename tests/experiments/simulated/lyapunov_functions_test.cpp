@@ -119,7 +119,7 @@ TEST(TheLyapunovFunctionOfAReaction, FallsAtEveryTickWithoutContactWhereTheVeloc
 // With velocities of 30 Hz it rises while the robot accelerates, for it is not the motion that (48) is about.
 TEST(TheLyapunovFunctionOfAReaction, FallsOnRealisticRobotsInTheEnd) {
   for (int seed = 1; seed <= 8; ++seed) {
-    const Edits realistic{{"classification: truth", "classification: truth, realism: bench"},
+    const Edits realistic{{"\nexpect:", "\nplant: {classification: truth, realism: bench}\n\nexpect:"},
                           {"seed: 1", "seed: " + std::to_string(seed)},
                           {"[torque_reaction]", "[strict_reaction]"},
                           {"limits: {keep: never}", "limits: {keep: always}"}};

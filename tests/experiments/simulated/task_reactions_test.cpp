@@ -145,7 +145,7 @@ TrueRetreat retreat(const std::string& name, const std::string& law, const std::
   replace("[torque_reaction]", "[" + law + "]");
   replace("limits: {keep: never}", limits);
   replace("kept: after_contact", "kept: never");
-  replace("plant: {classification: truth}", "plant: {classification: truth" + plant + "}");
+  replace("\nexpect:", "\nplant: {classification: truth" + plant + "}\n\nexpect:");
   replace("seed: 1", "seed: " + std::to_string(seed));
   const SimulatedScenario scenario = parse_simulated_scenario(text, file);
   const Recording recording = run_experiment(scenario);
