@@ -94,25 +94,35 @@ ContactClassifier papers_stage(const ReadModels& models) {
                                 .least_wrench = least_wrench});
 }
 
-/// The model in `own`, or else the one that comes with flinch as `standard`, for this question and robot.
-ReadModel model_of(const StageSite& site, Question question, const std::filesystem::path& own,
-                   const std::filesystem::path& standard) {
-  ReadModel read = model_in(own.empty() ? standard : own);
-  out_of(read.file, [&] {
+/// A network that a control path asks.
+struct AskedNetwork {
+  Question question;
+  std::string key;                ///< of the scenario, that names a file
+  std::filesystem::path own;      ///< that file; empty: none
+  std::filesystem::path shipped;  ///< what comes with flinch
+};
+
+ReadModel model_of(const StageSite& site, const AskedNetwork& asked) {
+  const bool is_own = !asked.own.empty();
+  const std::string place = is_own ? "control.isolation." + asked.key : asked.shipped.string();
+  return out_of(place, [&] {
+    ReadModel read = model_in(is_own ? asked.own : asked.shipped);
     const Question answered = question_of(read.model);
-    if (answered != question)
-      throw SetupError("the model answers the question '" + name_of(answered) + "', and that of '" +
-                       name_of(question) + "' is asked for");
+    if (answered != asked.question)
+      throw SetupError(read.file + " answers the question '" + name_of(answered) + "', and that of '" +
+                       name_of(asked.question) + "' is asked for");
     require_features(read.model, site.robot);
+    return read;
   });
-  return read;
 }
 
 OutputPort<ContactClassification> add_papers_networks(const StageSite& site, const ContactPorts& given,
                                                       const std::filesystem::path& shipped) {
   const PapersNetworkFiles& files = site.settings.isolation.papers_networks;
   const auto network = [&](Question question, const std::filesystem::path& own) {
-    return model_of(site, question, own, shipped / ("papers_" + name_of(question) + ".onnx")).network;
+    const std::string name = name_of(question);
+    return model_of(site, {question, "papers_networks." + name, own, shipped / ("papers_" + name + ".onnx")})
+        .network;
   };
   return papers_networks_stage({.clamping = network(Question::clamping, files.clamping),
                                 .chain = network(Question::chain, files.chain),
@@ -124,7 +134,8 @@ OutputPort<ContactClassification> add_papers_networks(const StageSite& site, con
 OutputPort<ContactClassification> add_learned_classifier(const StageSite& site, const ContactPorts& given,
                                                          const std::filesystem::path& shipped) {
   const IsolationSettings& settings = site.settings.isolation;
-  const ReadModel read = model_of(site, Question::touched, settings.learned_network, shipped / "bodies.onnx");
+  const ReadModel read = model_of(site, {Question::touched, "learned_classifier.network",
+                                         settings.learned_network, shipped / "bodies.onnx"});
   return learned_stage(read, settings.model_classifier).add(site, given);
 }
 

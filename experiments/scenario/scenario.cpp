@@ -9,6 +9,7 @@
 #include "experiments/scenario/robot_files.h"
 #include "experiments/scenario/scenario_calibrations.h"
 #include "experiments/scenario/scenario_control.h"
+#include "experiments/scenario/scenario_isolation.h"
 #include "experiments/scenario/scenario_operator.h"
 #include "experiments/scenario/scenario_pulls.h"
 #include "experiments/verdict/body_regions.h"
@@ -115,6 +116,7 @@ void read_rest(ConfigReader& reader, std::optional<std::uint64_t> seed, const Se
     reader.add_problems(error.problems());
   }
   read_control(reader.section("control"), robot, scenario.control);
+  find_networks(scenario.file.parent_path(), scenario.control.isolation);
   read_motion(reader.section("motion"), scenario.robot, scenario.seed, scenario.control);
   scenario.operator_script = read_operator(reader, robot, scenario.control, scenario.duration);
   scenario.obstacles = read_obstacles(reader);

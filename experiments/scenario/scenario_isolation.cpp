@@ -7,9 +7,12 @@ namespace flinch {
 
 namespace {
 
-/// Those that a file does not name come with flinch, and are no file of the scenario.
+/// Whether the file is there tells who reads it: a recording of the scenario is read where it may be missing.
 void read_network(ConfigReader& section, const char* question, std::filesystem::path& file) {
-  if (section.has(question)) section.file(question, file);
+  if (!section.has(question)) return;  // that which comes with flinch
+  std::string name = file.string();
+  section.text(question, name);
+  file = name;
 }
 
 }  // namespace
@@ -40,6 +43,14 @@ void read_isolation(ConfigReader isolation, IsolationSettings& settings) {
   isolation.number("leaning", unit::none, settings.closed_form.leaning, not_negative);
   settings.particle_filter.leaning = settings.closed_form.leaning;
   isolation.integer("particles", settings.particle_filter.particles, 1, max_particles);
+}
+
+void find_networks(const std::filesystem::path& folder, IsolationSettings& settings) {
+  PapersNetworkFiles& papers = settings.papers_networks;
+  for (std::filesystem::path* file :
+       {&papers.clamping, &papers.chain, &papers.body, &settings.learned_network}) {
+    if (!file->empty()) *file = (folder / *file).lexically_normal();
+  }
 }
 
 }  // namespace flinch
