@@ -89,9 +89,8 @@ class UrdfWriter {
     text_ += transmissions_;
     line(0, "</robot>");
     return {std::move(text_),
-            "# Written by flinch export: frames of the model that coincide, joints that are driven, and "
-            "where joints "
-            "are at home.\n"
+            "# Written by flinch export: frames that coincide, joints that are driven, where joints are at "
+            "home.\n"
             "closed_loop: [" +
                 pairs_ + "]\ntype: [" + types_ + "]\nname_mot: [" + driven_ + "]\nzeros: {" + zeros_ + "}\n"};
   }

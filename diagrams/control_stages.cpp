@@ -63,8 +63,19 @@ LawPorts add_retraction(const StageSite& site, const ReactionPorts& given) {
   return add_impedance(site, site.name + "_impedance", soft, given, retraction.reference);
 }
 
+/// Stands for a classifier that asks networks until a program adds it: files that name it can be read.
+ContactClassifier without_networks(const std::string& name) {
+  const auto refuse = [name](const StageSite&, const ContactPorts&) -> OutputPort<ContactClassification> {
+    throw SetupError("the classifier '" + name +
+                     "' asks networks, of which this program knows none; it must hand those of "
+                     "network_stages() to add_known_classifier() first");
+  };
+  return {name, refuse, true};
+}
+
 std::vector<ContactClassifier>& added_classifiers() {
-  static std::vector<ContactClassifier> added;
+  static std::vector<ContactClassifier> added = {without_networks("papers_networks"),
+                                                 without_networks("learned_classifier")};
   return added;
 }
 

@@ -104,8 +104,20 @@ TEST(IsolationStages, FollowTheThreeNetworksOfThePapers) {
 
 TEST(IsolationStages, AreKnownByTheirNames) {
   const ControlStages known = known_stages();
-  EXPECT_THAT(names_of(known.classifiers), ElementsAre("model_classifier", "decision_tree"));
+  EXPECT_THAT(names_of(known.classifiers),
+              ElementsAre("model_classifier", "decision_tree", "papers_networks", "learned_classifier"));
   EXPECT_THAT(names_of(known.locators), ElementsAre("closed_form", "particle_filter"));
+}
+
+TEST(IsolationStages, RefuseToAskNetworksThatNobodyHasAdded) {
+  BenchExperiment experiment;
+  experiment.control.stages.classifiers.follow(known_stages().classifiers.all[2]);
+  try {
+    Bench bench(experiment);
+    FAIL();
+  } catch (const SetupError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("'papers_networks' asks networks"));
+  }
 }
 
 TEST(IsolationStages, KnowAClassifierThatAProgramAddsByItsName) {
@@ -115,8 +127,8 @@ TEST(IsolationStages, KnowAClassifierThatAProgramAddsByItsName) {
   add_known_classifier({"own_classifier", refuse, true});
   add_known_classifier({"own_classifier", refuse, true});  // again: it is there once
   const ControlStages known = known_stages();
-  EXPECT_THAT(names_of(known.classifiers),
-              ElementsAre("model_classifier", "decision_tree", "own_classifier"));
+  EXPECT_THAT(names_of(known.classifiers), ElementsAre("model_classifier", "decision_tree", "papers_networks",
+                                                       "learned_classifier", "own_classifier"));
 }
 
 TEST(IsolationStages, NeedAnObserverWithAPositiveGain) {
