@@ -22,12 +22,6 @@ Eigen::Vector3d roll_pitch_yaw(const Eigen::Matrix3d& R) {
   return {std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))};
 }
 
-Eigen::Isometry3d frame_at(const Eigen::Vector3d& at, const Eigen::Vector3d& turned) {
-  const double angle = turned.norm();
-  const Eigen::Vector3d axis = angle > 0.0 ? Eigen::Vector3d(turned / angle) : Eigen::Vector3d::UnitZ();
-  return pose_at(at, Eigen::AngleAxisd(angle, axis).toRotationMatrix());
-}
-
 std::string origin(const Eigen::Isometry3d& pose) {
   return XmlTag("origin")
       .numbers("xyz", pose.translation())
@@ -293,13 +287,13 @@ class UrdfWriter {
     const std::string end = name_in_model(index, "end" + number);
     const LegJoint& joint =
         closure.joint.empty() ? leg.joints.back() : leg.joints[*joint_index(leg, closure.joint)];
-    add_frame(end, link_name(index, joint), frame_at(closure.at, closure.turned));
+    add_frame(end, link_name(index, joint), pose_at(closure.at, rotation_exp(closure.turned)));
     std::string other = "base";
     if (closure.on == LegClosure::On::platform) other = "platform";
     if (closure.on == LegClosure::On::joint)
       other = link_name(index, leg.joints[*joint_index(leg, closure.on_joint)]);
     const std::string there = end + "_on_" + (closure.on == LegClosure::On::joint ? closure.on_joint : other);
-    add_frame(there, other, frame_at(closure.on_at, closure.on_turned));
+    add_frame(there, other, pose_at(closure.on_at, rotation_exp(closure.on_turned)));
     add(pairs_, "[" + end + ", " + there + "]");
     add(types_, closure.holds_frame ? "6d" : "3d");
   }

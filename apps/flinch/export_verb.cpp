@@ -67,8 +67,7 @@ std::vector<std::string> each_once(const std::vector<std::string>& names) {
 }
 
 /// What a robot file says as of kind `legs`.
-LegsParameters legs_in(const std::filesystem::path& file) {
-  const RobotFile robot = read_robot_file(file);
+LegsParameters legs_in(const std::filesystem::path& file, const RobotFile& robot) {
   ConfigReader reader = ConfigReader::open(file);
   std::string kind;
   reader.text("kind", kind);
@@ -86,29 +85,26 @@ ExitStatus export_robot(const ExportOptions& options) {
   std::filesystem::path place = options.out;
   if (place.empty())
     place = std::filesystem::path(options.recording).replace_extension(is_urdf ? ".urdf" : ".xml");
+  const std::filesystem::path closures = closures_beside(place);
   if (!options.signals.empty())
     throw SetupError("--signal: is for recordings, and " + options.format + " is for robots");
   require_output(place, {options.recording}, is_urdf ? OutputKind::urdf : OutputKind::model);
-  const LegsParameters robot = out_of(options.recording, [&] { return legs_in(options.recording); });
-  std::vector<std::string> files = {place.string()};
-  if (is_urdf) {
-    const std::filesystem::path closures = closures_beside(place);
-    require_output(closures, {options.recording}, OutputKind::closures);
-    const double max_torque = read_robot_file(options.recording).drives.max_torque;
-    const UrdfTexts texts = out_of(options.recording, [&] { return urdf_texts(robot, max_torque); });
-    write_result(place, texts.model);
-    write_result(closures, texts.closures);
-    files.push_back(closures.string());
-  } else {
-    write_result(place, out_of(options.recording, [&] { return mjcf_text(robot); }));
-  }
+  if (is_urdf) require_output(closures, {options.recording}, OutputKind::closures);
+  const RobotFile file = read_robot_file(options.recording);  // which names the file in its errors
+  const UrdfTexts texts = out_of(options.recording, [&]() -> UrdfTexts {
+    const LegsParameters robot = legs_in(options.recording, file);
+    if (is_urdf) return urdf_texts(robot, file.drives.max_torque);
+    return {mjcf_text(robot), ""};
+  });
+  write_result(place, texts.model);
+  if (is_urdf) write_result(closures, texts.closures);
   if (options.common.json) {
     nlohmann::ordered_json told{{"to", options.format}, {"out", place.string()}};
-    if (is_urdf) told["closures"] = files.back();
+    if (is_urdf) told["closures"] = closures.string();
     print_result("{}\n", json_text(told));
   } else if (!options.common.quiet) {
     print_result("{}: a model {}\n", place.string(), is_urdf ? "as URDF" : "for MuJoCo");
-    if (is_urdf) print_result("{}: what closes its loops\n", files.back());
+    if (is_urdf) print_result("{}: what closes its loops\n", closures.string());
   }
   return ExitStatus::done;
 }
