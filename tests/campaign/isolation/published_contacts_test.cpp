@@ -5,32 +5,24 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "experiments/campaign/campaign.h"
 #include "experiments/campaign/reaction_summary.h"
-#include "experiments/campaign/run_campaign.h"
 #include "experiments/campaign/run_result.h"
 #include "learning/network_stages.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/campaign/published_runs.h"
 
 namespace flinch {
 namespace {
 
+using test::name_of;
+
 std::vector<RunResult> results_of(const char* name) {
   for (ContactClassifier& stage : network_stages(FLINCH_SOURCE_DIR "/apps/models"))
     add_known_classifier(std::move(stage));
-  const Campaign campaign = read_campaign(std::filesystem::path(FLINCH_SOURCE_DIR) / "apps/campaigns" / name);
-  const test::TemporaryFolder folder;
-  const CampaignResults results = run_campaign(campaign, folder.path(), 2);
-  return {results.begin(), results.end()};
-}
-
-std::string name_of(const RunResult& run) {
-  return level_of(run.law) + ", " + body_of(run) + ", " + std::to_string(run.speed.value_or(0.0)) + " m/s";
+  return test::published_runs(name);
 }
 
 /// Contacts of these bodies whose class was accepted and right.

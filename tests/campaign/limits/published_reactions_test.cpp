@@ -3,32 +3,20 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <filesystem>
 #include <string>
 #include <vector>
 
-#include "experiments/campaign/campaign.h"
 #include "experiments/campaign/reaction_summary.h"
-#include "experiments/campaign/run_campaign.h"
 #include "experiments/campaign/run_result.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/campaign/published_runs.h"
 
 namespace flinch {
 namespace {
 
+using test::name_of;
+
 constexpr double collision_asked = 0.125, clamping_asked = 0.275;  // [s]
 constexpr double slowest = 0.1;                                    // [m/s]
-
-std::vector<RunResult> results_of(const char* name) {
-  const Campaign campaign = read_campaign(std::filesystem::path(FLINCH_SOURCE_DIR) / "apps/campaigns" / name);
-  const test::TemporaryFolder folder;
-  const CampaignResults results = run_campaign(campaign, folder.path(), 2);
-  return {results.begin(), results.end()};
-}
-
-std::string name_of(const RunResult& run) {
-  return level_of(run.law) + ", " + body_of(run) + ", " + std::to_string(run.speed.value_or(0.0)) + " m/s";
-}
 
 bool is_slowest(const RunResult& run) { return run.speed.value_or(0.0) < 1.5 * slowest; }
 
@@ -66,7 +54,7 @@ void expect_good(const std::vector<RunResult>& runs) {
 
 // Forces that rise slowly reach the thresholds of the papers late, slow_clamping_test.cpp.
 TEST(ThePublishedReactions, AreOverInTimeButForTheSlowestOfSecondLinksAndClampings) {
-  const std::vector<RunResult> runs = results_of("safepr_72_oracle.yaml");
+  const std::vector<RunResult> runs = test::published_runs("safepr_72_oracle.yaml");
   print(runs);
   expect_good(runs);
   std::size_t late = 0;
@@ -87,7 +75,7 @@ TEST(ThePublishedReactions, AreOverInTimeButForTheSlowestOfSecondLinksAndClampin
 
 // What is detected so soon hardly grows with the speed where a leg clamps.
 TEST(ThePublishedReactions, AreAllOverInTimeWhereTheFusedDetectorNoticesThem) {
-  const std::vector<RunResult> runs = results_of("safepr_72_fused_oracle.yaml");
+  const std::vector<RunResult> runs = test::published_runs("safepr_72_fused_oracle.yaml");
   print(runs);
   expect_good(runs);
   for (const RunResult& run : runs) EXPECT_LE(run.removal_time.value_or(9.0), asked_of(run)) << name_of(run);
