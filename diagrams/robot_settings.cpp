@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "diagrams/robot_constraints.h"
 #include "systems/robot/joint_space_dynamics.h"
 
 namespace flinch {
@@ -139,6 +140,7 @@ ContactControlSettings settings_for(const ParallelRobot& robot, const DriveParam
   settings.limits.limits.workspace = limits;
   settings.limits.max_torque = drives.max_torque;
   settings.limits.max_torque_rate = drives.max_torque_rate;
+  settings.tasks.constraints = constraints_for(robot, limits);
   settings.tasks.levels.velocity_gain = velocity_rate * inertia;
   settings.tasks.levels.velocity_feedforward = feedforward_rate * inertia;
   settings.tasks.levels.largest_torque = drives.max_torque;

@@ -18,6 +18,10 @@ void read_gains(ConfigReader reader, const Unit& force, TaskGains& gains) {
 
 void read_levels(ConfigReader reader, bool turn, TaskLevelSettings& levels) {
   const Unit& damping = turn ? unit::Nms_per_rad : unit::Ns_per_m;
+  reader.choice("priorities", levels.priorities,
+                {{"recursive", PriorityForm::recursive},
+                 {"augmented", PriorityForm::augmented},
+                 {"printed", PriorityForm::printed}});
   reader.number("free_damping", unit::per_s, levels.free_damping, positive);
   reader.number("velocity_gain", damping, levels.velocity_gain, positive);
   reader.number("velocity_feedforward", damping, levels.velocity_feedforward, not_negative);
@@ -40,6 +44,7 @@ void read_reaction(ConfigReader reader, ReactionTaskSettings& reaction) {
   reader.number("opening_angle", unit::rad, reaction.opening_angle, positive);
   reader.number("opening_step", unit::rad, reaction.opening_step, positive);
   reader.number("largest_opening", unit::rad, reaction.largest_opening, positive);
+  reader.flag("opening_by_priority", reaction.opening_by_priority);
   reader.flag("along_force_only", reaction.along_force_only);
   reader.number("force_to_go_by", unit::N, reaction.force_to_go_by, positive);
   reader.flag("retreat", reaction.retreat);

@@ -198,6 +198,27 @@ class Programme {
   QuadraticProgramme programme_;
 };
 
+/// The setting that a barrier stands for.
+const char* key_of(BarrierKind kind) {
+  switch (kind) {
+    case BarrierKind::condition_number:
+      return "max_condition_number";
+    case BarrierKind::type_1_singularity:
+      return "min_abs_det_B";
+    case BarrierKind::type_2_singularity:
+      return "min_abs_det_A";
+    case BarrierKind::self_collision:
+      return "min_self_collision_distance";
+    case BarrierKind::distance:
+      return "max_distance";
+    case BarrierKind::rotation:
+      return "max_rotation";
+    case BarrierKind::drive_range:
+      break;
+  }
+  return "min_active and max_active";
+}
+
 std::vector<std::string> problems(const SafetyFilterSettings& settings, const ParallelRobot& robot) {
   Findings found("limits: ");
   found.add_all(problems(settings.limits.workspace, robot));
@@ -220,9 +241,11 @@ std::vector<std::string> problems(const SafetyFilterSettings& settings, const Pa
   robot.kinematics(robot.home_pose(), PlatformVector::Zero(robot.dof()), home);
   BarrierList barriers;
   evaluate_barriers(robot, home, settings.limits, settings.margins, barriers);
-  bool inside = barriers.valid;
-  for (int i = 0; i < barriers.count; ++i) inside = inside && barriers[i].room > 0.0;
-  found.require(inside, "the home pose is not within them, by their margins");
+  found.require(barriers.valid, "the home pose is no place that the robot can be kept at");
+  for (int i = 0; i < barriers.count; ++i) {
+    found.require(barriers[i].room > 0.0, std::string("the home pose must be within ") +
+                                              key_of(barriers[i].kind) + ", and by its margin");
+  }
   return found.take();
 }
 

@@ -14,7 +14,7 @@ constexpr double least_conditioned = 1e-10;  // of a task's mobility, relative
 
 PlatformVector velocity_reference(const TaskList& list, const Kinematics& kinematics,
                                   const TaskLevelSettings& settings) {
-  TaskPriority priority(drive_count(kinematics), settings.inverse);
+  TaskPriority priority(drive_count(kinematics), settings.inverse, settings.priorities);
   for (const TaskGoal& goal : list) {
     const DriveTask task = seen_by_drives(goal.task, kinematics);
     if (!task.valid) continue;
@@ -26,8 +26,7 @@ PlatformVector velocity_reference(const TaskList& list, const Kinematics& kinema
 
 PlatformVector acceleration_reference(const TaskList& list, const Kinematics& kinematics,
                                       const TaskLevelSettings& settings) {
-  const int drives = drive_count(kinematics);
-  TaskPriority priority(drives, settings.inverse);
+  TaskPriority priority(drive_count(kinematics), settings.inverse, settings.priorities);
   for (const TaskGoal& goal : list) {
     const DriveTask task = seen_by_drives(goal.task, kinematics);
     if (!task.valid) continue;
@@ -36,7 +35,7 @@ PlatformVector acceleration_reference(const TaskList& list, const Kinematics& ki
                                   goal.gains.damping.cwiseProduct(error.de);  // (33b)
     priority.add(task.J, wanted - task.drift);
   }
-  priority.add(PlatformMatrix::Identity(drives, drives), -settings.free_damping * kinematics.rates.active);
+  priority.add_free(-settings.free_damping * kinematics.rates.active);
   const PlatformVector& wanted = priority.solution();
   return wanted * share_within(wanted, settings.largest_acceleration);
 }
@@ -63,11 +62,12 @@ JointVector task_torque(TaskLevel level, const PlatformVector& reference, const 
   const PlatformMatrix& J = kinematics.J_x_qa;
   const JointVector& dq = kinematics.rates.active;
   PlatformVector b_x = dynamics.C_x * kinematics.velocity + dynamics.g_x + dynamics.F_fr_x;
-  if (level == TaskLevel::torque) {
-    return saturated(J.transpose() * b_x, J.transpose() * reference, settings.largest_torque);
-  }
-  b_x += dynamics.M_x * (kinematics.dJ_x_qa * dq);
+  const bool of_drives = level != TaskLevel::torque || settings.priorities == PriorityForm::printed;
+  if (of_drives) b_x += dynamics.M_x * (kinematics.dJ_x_qa * dq);
   const JointVector b = J.transpose() * b_x;
+  if (level == TaskLevel::torque) {
+    return saturated(b, J.transpose() * reference, settings.largest_torque);  // (44c)
+  }
   if (level == TaskLevel::acceleration) {
     return saturated(b, J.transpose() * (dynamics.M_x * (J * reference)), settings.largest_torque);
   }

@@ -20,6 +20,7 @@ enum class TaskLevel : std::uint8_t {
 
 struct TaskLevelSettings {
   DampedInverseSettings inverse;
+  PriorityForm priorities = PriorityForm::recursive;  ///< Of all levels.
   /// What the tasks leave free is braked: ddx = -damping dx [1/s]. On the velocity level it stands still.
   double free_damping = 20.0;
 
@@ -39,7 +40,8 @@ struct TaskLevelSettings {
 ///   acceleration  ddsigma_ref = ddsigma_d + k e + d de
 ///   torque        ddsigma_ref = ddsigma_d + M_i^-1 (K_F e + D_F de),   M_i^-1 = J_i M_x^-1 J_i^T
 ///
-/// each less the task's drift, which (44b) omits. D_F is the factorisation damping (46) with its fallback.
+/// each less the task's drift, which (44b) omits: so it stays in there on the torque level where priorities
+/// are as printed. D_F is the factorisation damping (46) with its fallback.
 PlatformVector task_reference(TaskLevel level, const TaskList& list, const Kinematics& kinematics,
                               const Dynamics& dynamics, const TaskLevelSettings& settings,
                               bool constrained = false) noexcept;
@@ -50,7 +52,8 @@ PlatformVector task_reference(TaskLevel level, const TaskList& list, const Kinem
 ///   acceleration  tau = M_qa ddq_a,ref + b_qa
 ///   torque        tau = J_x,qa^T (F_ref + b_x)
 ///
-/// with b = C dq + g + friction in the coordinates of the drives or of the platform.
+/// with b = C dq + g + friction in the coordinates of the drives or of the platform; where priorities are as
+/// printed, tau = J_x,qa^T F_ref + b_qa on the torque level too, as (44c) has it.
 ///
 /// What the tasks ask for is reduced, in its direction, until no torque exceeds the largest.
 JointVector task_torque(TaskLevel level, const PlatformVector& reference, const Kinematics& kinematics,

@@ -27,14 +27,39 @@ PlatformMatrix damped_inverse(const PlatformMatrix& J, const DampedInverseSettin
   return J.transpose() * (U * inverses.asDiagonal() * U.transpose());
 }
 
-TaskPriority::TaskPriority(int n, const DampedInverseSettings& settings) noexcept
-    : settings_(settings), solution_(PlatformVector::Zero(n)), null_space_(PlatformMatrix::Identity(n, n)) {}
+TaskPriority::TaskPriority(int n, const DampedInverseSettings& settings, PriorityForm form) noexcept
+    : settings_(settings),
+      form_(form),
+      solution_(PlatformVector::Zero(n)),
+      null_space_(PlatformMatrix::Identity(n, n)),
+      middle_(PlatformVector::Zero(n)) {}
 
 void TaskPriority::add(const PlatformMatrix& J, const PlatformVector& target) noexcept {
   const PlatformMatrix J_p = J * null_space_;
   const PlatformMatrix inverse = damped_inverse(J_p, settings_);
-  solution_ += inverse * (target - J * solution_);
+  if (form_ == PriorityForm::recursive) {
+    solution_ += inverse * (target - J * solution_);
+  } else {
+    const PlatformVector alone = damped_inverse(J, settings_) * target;
+    solution_ += form_ == PriorityForm::augmented ? null_space_ * alone : printed(alone);
+  }
   null_space_ -= inverse * J_p;
+}
+
+// Term i of the sum has task i as it is and task i + 1 projected: the task before the next is a middle one.
+PlatformVector TaskPriority::printed(const PlatformVector& alone) noexcept {
+  const PlatformVector added = middle_ + null_space_ * alone;
+  if (has_first_) middle_ = alone;
+  has_first_ = true;
+  return added;
+}
+
+void TaskPriority::add_free(const PlatformVector& target) noexcept {
+  if (form_ == PriorityForm::recursive) {
+    add(PlatformMatrix::Identity(target.size(), target.size()), target);
+  } else {
+    solution_ += null_space_ * target;
+  }
 }
 
 }  // namespace flinch

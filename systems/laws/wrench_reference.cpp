@@ -33,7 +33,8 @@ PlatformVector wrench_reference(const TaskList& list, bool constrained, const Ki
   const int n = static_cast<int>(dynamics.M_x.rows());
   const Eigen::LLT<PlatformMatrix> M(dynamics.M_x);
   const PlatformMatrix L = M.matrixL();
-  TaskPriority priority(n, settings.inverse);
+  const bool with_drift = settings.priorities != PriorityForm::printed;  // which (44b) omits
+  TaskPriority priority(n, settings.inverse, settings.priorities);
   for (const TaskGoal& goal : list) {
     if (!goal.task.valid) continue;
     const PlatformMatrix J =
@@ -41,12 +42,12 @@ PlatformVector wrench_reference(const TaskList& list, bool constrained, const Ki
     const PlatformVector wanted =
         goal.reference.acceleration +
         compliant_acceleration(goal.gains, J * J.transpose(), error_of(goal, kinematics.velocity));
-    priority.add(J, wanted - goal.task.drift);
+    priority.add(J, with_drift ? PlatformVector(wanted - goal.task.drift) : wanted);
   }
-  const PlatformMatrix I = PlatformMatrix::Identity(n, n);
-  if (constrained) {
-    priority.add(I, -settings.free_damping * (L.transpose() * kinematics.velocity));
+  if (constrained || settings.priorities != PriorityForm::recursive) {
+    priority.add_free(-settings.free_damping * (L.transpose() * kinematics.velocity));
   } else {
+    const PlatformMatrix I = PlatformMatrix::Identity(n, n);
     priority.add(L.triangularView<Eigen::Lower>().solve(I).transpose(),
                  -settings.free_damping * kinematics.velocity);
   }

@@ -411,13 +411,13 @@ void ReactionTask::lead(Time now, const ReactionPlan& plan, const Kinematics& at
   if (plan.kind == ReactionKind::retreat && wanted.valid) {
     const PlatformReference pose =
         chart_motion(robot_->space(), plan.from, wanted.position, wanted.velocity, wanted.acceleration);
-    add_pose_goals(*robot_, held_, pose, at, list);
-    return;
+    return add_pose_goals(*robot_, held_, pose, at, list);
   }
   if (!task.valid || !wanted.valid || wanted.position.size() != task.rows()) return;
-  list.add({task,
-            {error_of(plan, task, wanted.position), wanted.velocity, wanted.acceleration},
-            gains_of(plan, task.rows())});
+  const TaskReference reference{error_of(plan, task, wanted.position), wanted.velocity, wanted.acceleration};
+  const TaskGoal goal{task, reference, gains_of(plan, task.rows())};
+  if (plan.kind == ReactionKind::opening && settings_.opening_by_priority) return list.add_rows(goal);  // (31)
+  list.add(goal);
 }
 
 PlatformVector ReactionTask::error_of(const ReactionPlan& plan, const Task& task,

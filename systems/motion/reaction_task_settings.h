@@ -16,15 +16,16 @@ struct ReactionTaskSettings {
   double opening_angle = 0.2094;    ///< of the first link; the second opens against it by twice as much [rad]
   double opening_step = 0.1047;     ///< by which it is opened further while it still clamps [rad]
   double largest_opening = 0.6981;  ///< of the first link, in all [rad]
-  bool along_force_only = false;    ///< platform and second link: only the direction of the force is a task
-  double force_to_go_by = 3.0;      ///< a weaker force has no reliable direction [N],
-  double load_to_go_by = 1.5;       ///< nor a weaker load of a first link's drive [Nm or N]
-  bool retreat = true;              ///< the way it came, from what is not known; false: brake
-  Time decide_within = 20ms;        ///< of the detection: so long what is not known may still become known
-  double released_force = 5.0;      ///< a leg is released where no force component reaches it [N],
-  double released_moment = 0.5;     ///< no moment component this [Nm],
-  Time released_for = 100ms;        ///< for so long
-  Time pressed_for = 20ms;          ///< where such a force stays so long, it is given way to anew
+  bool opening_by_priority = false;  ///< of the first link over the elbow, (31a), (31b); false: both alike
+  bool along_force_only = false;     ///< platform and second link: only the direction of the force is a task
+  double force_to_go_by = 3.0;       ///< a weaker force has no reliable direction [N],
+  double load_to_go_by = 1.5;        ///< nor a weaker load of a first link's drive [Nm or N]
+  bool retreat = true;               ///< the way it came, from what is not known; false: brake
+  Time decide_within = 20ms;         ///< of the detection: so long what is not known may still become known
+  double released_force = 5.0;       ///< a leg is released where no force component reaches it [N],
+  double released_moment = 0.5;      ///< no moment component this [Nm],
+  Time released_for = 100ms;         ///< for so long
+  Time pressed_for = 20ms;           ///< where such a force stays so long, it is given way to anew
   /// Of the force that accelerates the robot, which it may feel without a contact.
   double inertial_share = 0.05;
   MotionLimits translation{.velocity = 1.0, .acceleration = 60.0, .jerk = 8000.0};

@@ -33,6 +33,15 @@ struct TaskGoal {
   Task task;
   TaskReference reference;
   TaskGains gains;
+
+  /// Row `i` as a goal of its own.
+  TaskGoal row(int i) const {
+    const auto entry = [i](const PlatformVector& all) -> PlatformVector { return all.segment(i, 1); };
+    return {along(task, PlatformVector::Unit(task.rows(), i)),
+            {entry(reference.error), entry(reference.rate), entry(reference.acceleration)},
+            {entry(gains.velocity), entry(gains.stiffness), entry(gains.damping), entry(gains.force),
+             entry(gains.damping_ratio)}};
+  }
 };
 
 /// Tasks by priority, the highest first. Without any the robot is braked.
@@ -46,6 +55,10 @@ struct TaskList {
   /// Without effect where there is no room left.
   void add(const TaskGoal& goal) {
     if (count < static_cast<int>(most)) goals[static_cast<std::size_t>(count++)] = goal;
+  }
+  /// The rows of `goal` as goals of their own, the first of the highest priority.
+  void add_rows(const TaskGoal& goal) {
+    for (int i = 0; i < goal.task.rows(); ++i) add(goal.row(i));
   }
   const TaskGoal* begin() const { return goals.data(); }
   const TaskGoal* end() const { return goals.data() + count; }

@@ -224,8 +224,8 @@ TEST(DeltaOfTwoRods, DrivesStandWhereSpheresOfRodsSay) {
 class ShippedLegs : public ::testing::TestWithParam<const char*> {};
 
 INSTANTIATE_TEST_SUITE_P(Robots, ShippedLegs,
-                         ::testing::Values("delta", "planar_3rpr", "planar_4rrr", "hexa_6rus",
-                                           "linapod_6pus"),
+                         ::testing::Values("delta", "planar_3rpr", "planar_4rrr", "hexa_6rus", "linapod_6pus",
+                                           "tricept"),
                          [](const auto& each) { return std::string(each.param); });
 
 LegsParameters shipped_legs(const std::string& name) {

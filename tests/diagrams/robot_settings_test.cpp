@@ -57,7 +57,8 @@ TEST(RobotSettings, AreForTheBenchThoseOfTheTables) {
 }
 
 TEST(RobotSettings, AreAsStiffAsPublishedWhereThePlatformCanFollow) {
-  for (const char* const name : {"planar_3rrr", "five_bar", "hexapod_6ups", "delta", "linapod_6pus"}) {
+  for (const char* const name :
+       {"planar_3rrr", "five_bar", "hexapod_6ups", "delta", "linapod_6pus", "tricept"}) {
     const RobotFile file = shipped(name);
     EXPECT_EQ(settings_of(file).impedance.stiffness, complete({}, file.robot->space()).stiffness) << name;
   }

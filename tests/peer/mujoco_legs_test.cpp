@@ -75,7 +75,8 @@ std::vector<double> differences(const ParallelRobot& robot, const LegsParameters
 class MujocoLegsPeer : public testing::TestWithParam<const char*> {};
 
 INSTANTIATE_TEST_SUITE_P(Robots, MujocoLegsPeer,
-                         testing::Values("delta", "planar_3rpr", "planar_4rrr", "hexa_6rus", "linapod_6pus"),
+                         testing::Values("delta", "planar_3rpr", "planar_4rrr", "hexa_6rus", "linapod_6pus",
+                                         "tricept"),
                          [](const auto& each) { return std::string(each.param); });
 
 void expect_same(const ParallelRobot& robot, const LegsParameters& parameters) {

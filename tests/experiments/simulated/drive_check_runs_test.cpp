@@ -34,7 +34,8 @@ INSTANTIATE_TEST_SUITE_P(Shipped, CheckedRobot,
                          testing::Values("platform_collision_realistic", "five_bar_collision",
                                          "hexapod_collision_realistic", "delta_collision_realistic",
                                          "planar_3rpr_collision_realistic", "planar_4rrr_collision_realistic",
-                                         "hexa_collision_realistic", "linapod_collision_realistic"),
+                                         "hexa_collision_realistic", "linapod_collision_realistic",
+                                         "tricept_collision_realistic"),
                          [](const auto& scenario) { return std::string(scenario.param); });
 
 TEST_P(CheckedRobot, PassesHoweverItsRobotIsDrawnAndThenMoves) {

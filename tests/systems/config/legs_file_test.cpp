@@ -26,7 +26,8 @@ TEST(ShippedLegs, AreReadWithTheirCoordinatesDrivesAndForms) {
                                {"planar_3rpr.yaml", 3, 3, 3, 0},
                                {"planar_4rrr.yaml", 3, 4, 4, 4},
                                {"hexa_6rus.yaml", 6, 6, 6, 0},
-                               {"linapod_6pus.yaml", 6, 6, 6, 0}}) {
+                               {"linapod_6pus.yaml", 6, 6, 6, 0},
+                               {"tricept.yaml", 3, 3, 4, 0}}) {
     const RobotFile file = read_robot_file(robots / each.file);
     EXPECT_EQ(file.robot->dof(), each.dof) << each.file;
     EXPECT_EQ(file.robot->drives(), each.drives) << each.file;
@@ -34,7 +35,10 @@ TEST(ShippedLegs, AreReadWithTheirCoordinatesDrivesAndForms) {
     EXPECT_EQ(file.robot->passive_joints(), each.passive) << each.file;
     EXPECT_EQ(file.drives.torque_constant.size(), each.drives) << each.file;
     const auto& robot = dynamic_cast<const LegsRobot&>(*file.robot);
-    for (const ModelLeg& leg : robot.model().legs) EXPECT_TRUE(leg.form.has_value()) << each.file;
+    const bool in_closed_form = robot.model().following() == 0;
+    for (const ModelLeg& leg : robot.model().legs) {
+      EXPECT_EQ(leg.form.has_value(), in_closed_form) << each.file;
+    }
   }
 }
 

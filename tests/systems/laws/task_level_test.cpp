@@ -1,6 +1,9 @@
 #include "systems/laws/task_level.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include "systems/framework/random.h"
 #include "systems/robot/forward_dynamics.h"
@@ -156,6 +159,137 @@ TEST_F(TaskLevels, TheTorqueLevelIsThatOfTheDynamicallyConsistentFormulasOfThePa
         TaskLevel::torque, task_reference(TaskLevel::torque, list, at.kinematics, at.dynamics, settings),
         at.kinematics, at.dynamics, settings);
     residual.add((torque - expected).norm() / std::max(1.0, expected.norm()));
+  }
+}
+
+/// [SafePR] (32a), (33a) or (44a) over the drives, evaluated as printed: `inverse` is J_i^+ of the first two
+/// and J_i^T of the last, `target` what it acts on, and N_i projects as (32c) or (43) says.
+template <class Inverse, class NullSpace>
+JointVector printed_sum(const std::vector<Eigen::MatrixXd>& J, const std::vector<Eigen::VectorXd>& target,
+                        Inverse inverse, NullSpace null_space) {
+  JointVector sum = JointVector::Zero(J.front().cols());
+  Eigen::MatrixXd J_A(0, J.front().cols());
+  for (std::size_t i = 0; i + 1 < J.size(); ++i) {
+    Eigen::MatrixXd longer(J_A.rows() + J[i].rows(), J_A.cols());
+    longer << J_A, J[i];
+    J_A = longer;
+    sum += inverse(J[i]) * target[i] + null_space(J_A) * (inverse(J[i + 1]) * target[i + 1]);
+  }
+  return sum;
+}
+
+class PrintedLaws : public TaskLevels {
+ protected:
+  PrintedLaws() {
+    settings.priorities = PriorityForm::printed;
+    settings.free_damping = 0.0;  // The papers leave free what no task wants.
+  }
+
+  /// What the paper's laws are made of, at a posture with two or three tasks.
+  struct Case {
+    test::Posture at;
+    JointSpaceDynamics joints;
+    JointVector dq;
+    TaskList list;
+    std::vector<DriveTask> tasks;
+
+    Eigen::VectorXd b_qa() const {
+      return Eigen::VectorXd(joints.C_qa * dq + joints.g_qa + joints.tau_fr_qa);
+    }
+    std::vector<Eigen::MatrixXd> jacobians() const {
+      std::vector<Eigen::MatrixXd> all;
+      for (const DriveTask& task : tasks) all.emplace_back(task.J);
+      return all;
+    }
+    /// Of each task what `wanted` says of its goal and Jacobian.
+    template <class Wanted>
+    std::vector<Eigen::VectorXd> targets(Wanted wanted) const {
+      std::vector<Eigen::VectorXd> all;
+      for (std::size_t i = 0; i < tasks.size(); ++i) all.emplace_back(wanted(list.goals[i], tasks[i]));
+      return all;
+    }
+    PlatformVector rate_error(const TaskGoal& goal, const DriveTask& task) const {
+      return goal.reference.rate - task.J * dq;
+    }
+  };
+  Case any_case(int count) {
+    const test::Posture at = any_posture();
+    Case found{at, joint_space_dynamics(at.kinematics, at.dynamics), at.kinematics.rates.active, {}, {}};
+    const std::array goals{
+        drive_goal(at, 0),
+        goal_of(passive_joint_task(at.kinematics, 0), TaskGains::uniform(1, 10, 1250, 75, 1000, 1)),
+        drive_goal(at, 2)};
+    for (int i = 0; i < count; ++i) {
+      found.list.add(goals[static_cast<std::size_t>(i)]);
+      found.tasks.push_back(
+          seen_by_drives(found.list.goals[static_cast<std::size_t>(i)].task, at.kinematics));
+    }
+    return found;
+  }
+  JointVector torque_of(TaskLevel level, const Case& made) const {
+    const PlatformVector reference =
+        task_reference(level, made.list, made.at.kinematics, made.at.dynamics, settings);
+    return task_torque(level, reference, made.at.kinematics, made.at.dynamics, settings);
+  }
+  static Eigen::MatrixXd moore_penrose(const Eigen::MatrixXd& J) {
+    return J.completeOrthogonalDecomposition().pseudoInverse();
+  }
+  static Eigen::MatrixXd null_space(const Eigen::MatrixXd& J_A) {
+    return Eigen::MatrixXd::Identity(J_A.cols(), J_A.cols()) - moore_penrose(J_A) * J_A;  // (32c)
+  }
+  static double relative(const JointVector& found, const JointVector& expected) {
+    return (found - expected).norm() / std::max(1.0, expected.norm());
+  }
+};
+
+TEST_F(PrintedLaws, OnTheVelocityLevelAreThoseOf32) {
+  Residual residual("torque against (32a)-(32e) written out, relative", 1e-12);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Case made = any_case(2 + trial % 2);
+    const auto rates = made.targets([](const TaskGoal& goal, const DriveTask&) {
+      return goal.reference.rate + goal.gains.velocity.cwiseProduct(goal.reference.error);
+    });
+    const JointVector dq_ref = printed_sum(made.jacobians(), rates, moore_penrose, null_space);
+    const JointVector expected =
+        settings.velocity_feedforward * dq_ref + settings.velocity_gain * (dq_ref - made.dq) + made.b_qa();
+    residual.add(relative(torque_of(TaskLevel::velocity, made), expected));
+  }
+}
+
+TEST_F(PrintedLaws, OnTheAccelerationLevelAreThoseOf33) {
+  Residual residual("torque against (33a)-(33c) written out, relative", 1e-12);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Case made = any_case(2 + trial % 2);
+    const auto accelerations =
+        made.targets([&](const TaskGoal& goal, const DriveTask& task) -> PlatformVector {
+          return goal.reference.acceleration + goal.gains.stiffness.cwiseProduct(goal.reference.error) +
+                 goal.gains.damping.cwiseProduct(made.rate_error(goal, task)) - task.drift;
+        });
+    const JointVector ddq_ref = printed_sum(made.jacobians(), accelerations, moore_penrose, null_space);
+    residual.add(
+        relative(torque_of(TaskLevel::acceleration, made), made.joints.M_qa * ddq_ref + made.b_qa()));
+  }
+}
+
+TEST_F(PrintedLaws, OnTheTorqueLevelAreThoseOf44) {
+  Residual residual("torque against (44a)-(44c) written out, relative", 1e-12);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Case made = any_case(2 + trial % 2);
+    const Eigen::MatrixXd M_inverse = made.joints.M_qa.inverse();
+    const auto forces = made.targets([&](const TaskGoal& goal, const DriveTask& task) -> PlatformVector {
+      const double M_i = 1.0 / (task.J * M_inverse * task.J.transpose())(0, 0);                     // (36)
+      const double D_F = 2.0 * goal.gains.damping_ratio[0] * std::sqrt(M_i * goal.gains.force[0]);  // (46)
+      return M_i * goal.reference.acceleration + goal.gains.force[0] * goal.reference.error +
+             D_F * made.rate_error(goal, task);
+    });
+    const auto transposed = [](const Eigen::MatrixXd& J) -> Eigen::MatrixXd { return J.transpose(); };
+    const auto projector = [&](const Eigen::MatrixXd& J_A) -> Eigen::MatrixXd {
+      const Eigen::MatrixXd M_A = (J_A * M_inverse * J_A.transpose()).inverse();  // (41)
+      const Eigen::MatrixXd J_bar = M_inverse * J_A.transpose() * M_A;            // (42)
+      return Eigen::MatrixXd::Identity(J_A.cols(), J_A.cols()) - J_A.transpose() * J_bar.transpose();
+    };
+    const JointVector tau_ref = printed_sum(made.jacobians(), forces, transposed, projector);
+    residual.add(relative(torque_of(TaskLevel::torque, made), tau_ref + made.b_qa()));
   }
 }
 

@@ -40,6 +40,28 @@ TEST(ReactionTask, AClampingLegOpensAndItsFirstLinkRetreats) {
   EXPECT_NEAR(goal.reference.error[1], -2.0 * s * 0.2094, 1e-9);
 }
 
+TEST(ReactionTask, ALegMayOpenByTwoTasksOfWhichTheFirstLinksGoesBefore) {
+  ReactionTaskSettings settings;
+  settings.opening_by_priority = true;
+  Reaction alike, by_priority(settings);
+  for (Reaction* reaction : {&alike, &by_priority}) {
+    reaction->know(leg2_clamping, pushing_apart);
+    reaction->begin();
+  }
+  const TaskGoal whole = alike.go_on(5ms).goals[0];
+  const TaskList& list = by_priority.go_on(5ms);
+  ASSERT_EQ(list.count, 2);
+  const Kinematics& at = by_priority.posture->kinematics;
+  EXPECT_LT((list.goals[0].task.J - drive_task(at, 1).J).norm(), 1e-15);          // (31a)
+  EXPECT_LT((list.goals[1].task.J - passive_joint_task(at, 1).J).norm(), 1e-15);  // (31b)
+  for (int row = 0; row < 2; ++row) {
+    const TaskGoal& goal = list.goals[static_cast<std::size_t>(row)];
+    EXPECT_EQ(goal.reference.error[0], whole.reference.error[row]);
+    EXPECT_EQ(goal.reference.rate[0], whole.reference.rate[row]);
+    EXPECT_EQ(goal.gains.force[0], whole.gains.force[row]);
+  }
+}
+
 // There was room for what it clamps before the robot came: a first link that hardly moved hardly retreats.
 TEST(ReactionTask, ALegThatClosesOpensTheWayItCame) {
   const Eigen::Vector3d pose(0.02, 0.01, 0.05);

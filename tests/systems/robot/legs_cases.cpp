@@ -40,7 +40,7 @@ struct PlacedJoint {
 class LegsReference {
  public:
   LegsReference(const LegsParameters& parameters, const ParallelRobot& robot)
-      : parameters_(parameters), robot_(robot) {}
+      : parameters_(parameters), robot_(robot), follows_(parameters.moves.following() > 0) {}
 
   PlatformVector acceleration(const MotionState& state, const Loads& loads) {
     Kinematics k;
@@ -91,7 +91,8 @@ class LegsReference {
 
   // What the platform's coordinates leave out.
   void hold_platform(const Placed& platform) {
-    if (space().rotations() == 0) model_.same_axes(ConstrainedBodies::base, platform.body);
+    const bool keeps_its_axes = space().rotations() == 0 && !follows_;
+    if (keeps_its_axes) model_.same_axes(ConstrainedBodies::base, platform.body);
   }
 
   void add_leg(const Kinematics& k, std::size_t index, const Placed& platform,
@@ -184,6 +185,8 @@ class LegsReference {
     Vector angular = Vector::Zero();
     velocity.head(t) = k.velocity.head(t);
     angular.tail(r) = k.velocity.tail(r);
+    if (follows_)
+      angular = robot_.contact_jacobian(k, BodyId::platform(), Vector::Zero()).rotation * k.velocity;
     return {velocity, angular};
   }
 
@@ -209,6 +212,7 @@ class LegsReference {
 
   const LegsParameters& parameters_;
   const ParallelRobot& robot_;
+  bool follows_;  ///< Of its chart numbers, some follow from the others.
   ConstrainedBodies model_;
   std::vector<int> bodies_;  ///< By BodyId, the payload last.
 };
@@ -291,8 +295,12 @@ std::vector<MechanismCase> legs_cases() {
   MechanismCase rrr =
       of("LegsPlanar4Rrr", "planar_4rrr.yaml", vector({0.2, 0.2, 0.3}), vector({0.6, 0.6, 2.0}));
   rrr.largest_disagreement = 1e-3;  // A turned platform fits all four drives to some tenths of a milliradian.
-  return {delta, rpr, rrr, of("LegsHexa6Rus", "hexa_6rus.yaml", pose, twist),
-          of("LegsLinapod6Pus", "linapod_6pus.yaml", pose, twist)};
+  return {delta,
+          rpr,
+          rrr,
+          of("LegsHexa6Rus", "hexa_6rus.yaml", pose, twist),
+          of("LegsLinapod6Pus", "linapod_6pus.yaml", pose, twist),
+          of("LegsTricept", "tricept.yaml", vector({0.08, 0.08, 0.08}), vector({0.6, 0.6, 0.6}))};
 }
 
 }  // namespace flinch::test

@@ -110,7 +110,8 @@ void expect_to_keep_its_energy(const std::string& name, SpringRobot robot) {
 
 TEST(LegsOnSprings, KeepTheirEnergyForFiveSeconds) {
   const std::filesystem::path robots = std::filesystem::path(FLINCH_SOURCE_DIR) / "apps/robots";
-  const std::vector<std::string> files = {"delta", "planar_3rpr", "planar_4rrr", "hexa_6rus", "linapod_6pus"};
+  const std::vector<std::string> files = {"delta",     "planar_3rpr",  "planar_4rrr",
+                                          "hexa_6rus", "linapod_6pus", "tricept"};
   const std::vector<MechanismCase> cases = legs_cases();
   ASSERT_EQ(cases.size(), files.size());
   for (std::size_t i = 0; i < cases.size(); ++i) {
