@@ -32,6 +32,7 @@ struct IsolationSettings {
   Time same_contact = 100ms;  ///< for so long a contact that has gone may come back as the same
 
   FeatureSettings features;
+  /// Biases are those of the planar bench; settings_for() has none for robots in space.
   TouchHypothesesSettings hypotheses{.object_speed = 0.2,
                                      .object_radius = 0.04,
                                      .softness = 0.005,

@@ -83,6 +83,13 @@ PlausibilityLimits plausibility_for(const DriveParameters& drives, double inerti
   return limits;
 }
 
+/// Biases are learnt on the planar bench.
+void forget_planar_biases(TouchHypothesesSettings& settings) {
+  for (double* const bias :
+       {&settings.platform_bias, &settings.link1_bias, &settings.link2_bias, &settings.clamping_bias})
+    *bias = 0.0;
+}
+
 }  // namespace
 
 void know_drives(const DriveParameters& drives, DriveTorqueSettings& settings) {
@@ -151,6 +158,7 @@ ContactControlSettings settings_for(const ParallelRobot& robot, const DriveParam
   settings.limits.max_drive_speed = 0.95 * drives.max_speed;
   settings.yielding->damping = settings.controlled_stop.damping;
   settings.yielding->whole_from = drives.max_speed / 4.0;
+  if (robot.space_dimension() == 3) forget_planar_biases(settings.isolation.hypotheses);
   know_period(period, settings);
   return settings;
 }

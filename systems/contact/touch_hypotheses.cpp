@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
+#include <optional>
 #include <utility>
 
 #include "systems/contact/normal_share.h"
 #include "systems/contact/touch_tally.h"
+#include "systems/contact/wrench_line.h"
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/outline.h"
@@ -18,6 +19,9 @@ namespace flinch {
 namespace {
 
 constexpr double impossible = -1e6;
+constexpr double deviations = 3.0;    // of the moment's noise, beside the line of action
+constexpr int tried_across = 7;       // rays along the line of action, in each of two directions
+constexpr double grazing = 0.1;       // cosine of a force against the normal below which no place is tried
 constexpr double surely_free = 20.0;  // softnesses away: what is there leaves a room of 1, within 2e-9
 
 Eigen::Vector3d in_space(const CartesianVector& v) {
@@ -84,27 +88,15 @@ Quadratic product(const Linear<Vector>& v, const Linear<Vector>& w) {
   return {v.a.dot(w.a), v.a.dot(w.b) + v.b.dot(w.a), v.b.dot(w.b)};
 }
 
-/// `count` directions, evenly around the plane or over the sphere.
-std::vector<Eigen::Vector3d> directions(int dimension, int count) {
-  std::vector<Eigen::Vector3d> all;
-  const double golden = std::numbers::pi * (3.0 - std::sqrt(5.0));
-  for (int i = 0; i < count; ++i) {
-    const double z = dimension == 2 ? 0.0 : 1.0 - 2.0 * (i + 0.5) / count;
-    const double angle = dimension == 2 ? 2.0 * std::numbers::pi * i / count : golden * i;
-    const double r = std::sqrt(1.0 - z * z);
-    all.emplace_back(r * std::cos(angle), r * std::sin(angle), z);
-  }
-  return all;
-}
-
 }  // namespace
 
 /// What is the same for all classes at one instant. L L^T = S whitens wrenches.
 struct TouchHypotheses::Scene {
   const std::array<LegPoints, max_dof>* legs = nullptr;
   std::array<Placed, max_bodies> bodies;
-  WhitenedWrench wrench;  // L^-1 F
-  Frictions frictions;    // against the sliding
+  WhitenedWrench wrench;             // L^-1 F
+  const WrenchLine* line = nullptr;  // on the platform; none: it is not known closely
+  Frictions frictions;               // against the sliding
 };
 
 /// A place that is touched: whitened wrenches of forces of 1 N along the normal and the sliding there.
@@ -122,7 +114,8 @@ TouchHypotheses::TouchHypotheses(std::shared_ptr<const ParallelRobot> robot,
       settings_(settings),
       classes_(robot_->body_count(), robot_->legs()),
       places_(static_cast<std::size_t>(robot_->body_count())),
-      sides_(places_.size()) {
+      sides_(places_.size()),
+      platform_(robot_->body(BodyId::platform()).shapes) {
   Findings found("contact hypotheses: ");
   found.positive("force_scale", settings.force_scale, "N");
   found.positive("object_speed", settings.object_speed, "m/s");
@@ -130,39 +123,41 @@ TouchHypotheses::TouchHypotheses(std::shared_ptr<const ParallelRobot> robot,
   found.positive("softness", settings.softness, "m");
   found.positive("closing_speed", settings.closing_speed, "m/s");
   found.not_negative("friction", settings.friction);
-  found.require(settings.points_along > 0 && settings.points_around > 0, "there must be points to try");
+  found.require(settings.points_along > 0 && settings.points_around > 0 && settings.places_in_space > 0 &&
+                    settings.sides_in_space > 0 && settings.places_along_in_space > 0,
+                "there must be places to try");
   throw_if_any(found.take());
   for (int i = 0; i < robot_->body_count(); ++i) add_places(BodyId::from_index(i));
 }
 
 void TouchHypotheses::add_places(BodyId body) {
-  std::vector<Place>& places = places_[static_cast<std::size_t>(body.index())];
+  std::vector<TouchPlace>& places = places_[static_cast<std::size_t>(body.index())];
   std::vector<Side>& sides = sides_[static_cast<std::size_t>(body.index())];
-  const auto along = static_cast<std::size_t>(settings_.points_along);
   const int dimension = robot_->space_dimension();
+  const auto add = [&](const std::vector<TouchPlace>& more, std::size_t together) {
+    for (std::size_t first = 0; first < more.size(); first += together)
+      sides.push_back({places.size() + first, together});
+    places.insert(places.end(), more.begin(), more.end());
+  };
+  if (dimension == 3 && body.is_platform()) {
+    const OutlinePlaces all = places_by_area(robot_->body(body).shapes, settings_.places_in_space);
+    area_each_ = all.area_each;
+    return add(all.places, 1);
+  }
+  const int sides_of_link = dimension == 2 ? 2 : settings_.sides_in_space;
+  const int along = dimension == 2 ? settings_.points_along : settings_.places_along_in_space;
   for (const Shape& shape : robot_->body(body).shapes) {
-    if (const auto* capsule = std::get_if<Capsule>(&shape)) {
-      const Eigen::Vector3d axis = (capsule->end - capsule->begin).normalized();
-      const Eigen::Vector3d across =
-          dimension == 2 ? Eigen::Vector3d::UnitZ().cross(axis) : axis.unitOrthogonal();
-      for (const Eigen::Vector3d& turned : directions(2, dimension == 2 ? 2 : 8)) {
-        const Eigen::Vector3d normal = turned.x() * across + turned.y() * axis.cross(across);
-        for (int i = 0; i < settings_.points_along; ++i) {
-          const double fraction = (i + 0.5) / settings_.points_along;
-          const Eigen::Vector3d point = capsule->begin + fraction * (capsule->end - capsule->begin);
-          places.push_back({point + capsule->radius * normal, normal, fraction});
-        }
-        sides.push_back({places.size() - along, along});
-      }
-    } else {
-      const Outline outline({shape});
-      for (const Eigen::Vector3d& direction : directions(dimension, settings_.points_around)) {
-        const LinePassage passage = outline.passage(Eigen::Vector3d::Zero(), direction);
-        if (!passage.hits) continue;
-        const Eigen::Vector3d point = passage.leave * direction;
-        sides.push_back({places.size(), 1});
-        places.push_back({point, outline.normal_at(point), 0.0});
-      }
+    const auto* capsule = std::get_if<Capsule>(&shape);
+    if (capsule == nullptr) {
+      add(places_around(shape, dimension, settings_.points_around), 1);
+      continue;
+    }
+    const Eigen::Vector3d axis = (capsule->end - capsule->begin).normalized();
+    const Eigen::Vector3d across =
+        dimension == 2 ? Eigen::Vector3d::UnitZ().cross(axis) : axis.unitOrthogonal();
+    for (const Eigen::Vector3d& turned : even_directions(2, sides_of_link)) {
+      const Eigen::Vector3d normal = turned.x() * across + turned.y() * axis.cross(across);
+      add(places_along(*capsule, normal, along), static_cast<std::size_t>(along));
     }
   }
 }
@@ -183,7 +178,7 @@ double TouchHypotheses::room(const Scene& scene, int body, int other, const Eige
   return room;
 }
 
-void TouchHypotheses::add(const Scene& scene, BodyId body, const Place& place, const Touch& touch,
+void TouchHypotheses::add(const Scene& scene, BodyId body, const TouchPlace& place, const Touch& touch,
                           TouchTally& tally) const {
   const double rare = 1.0 / (settings_.force_scale * settings_.force_scale);
   std::array<double, frictions.size()> hh, hF;
@@ -199,7 +194,7 @@ void TouchHypotheses::add(const Scene& scene, BodyId body, const Place& place, c
   }
   if (std::none_of(matters.begin(), matters.end(), std::identity())) return;
   const Placed& placed = scene.bodies[static_cast<std::size_t>(body.index())];
-  const double weight = approach_weight(touch.speed, settings_.object_speed) *
+  const double weight = place.share * approach_weight(touch.speed, settings_.object_speed) *
                         room(scene, body.index(), body.index(),
                              placed.origin + touch.arm + settings_.object_radius * touch.normal);
   const double against =
@@ -219,7 +214,7 @@ void TouchHypotheses::add(const Scene& scene, BodyId body, const Place& place, c
 void TouchHypotheses::weigh_side(const Scene& scene, BodyId body, const Side& side, TouchTally& tally) const {
   const auto at = static_cast<std::size_t>(body.index());
   const Placed& placed = scene.bodies[at];
-  const Place* const places = &places_[at][side.first];
+  const TouchPlace* const places = &places_[at][side.first];
   const Eigen::Vector3d begin = placed.axes * places[0].point;
   const Eigen::Vector3d step =
       (placed.axes * places[side.count - 1].point - begin) / static_cast<double>(side.count - 1);
@@ -255,7 +250,7 @@ void TouchHypotheses::weigh_side(const Scene& scene, BodyId body, const Side& si
   }
 }
 
-void TouchHypotheses::weigh_place(const Scene& scene, BodyId body, const Place& place,
+void TouchHypotheses::weigh_place(const Scene& scene, BodyId body, const TouchPlace& place,
                                   TouchTally& tally) const {
   const Placed& placed = scene.bodies[static_cast<std::size_t>(body.index())];
   const Eigen::Vector3d arm = placed.axes * place.point;
@@ -279,13 +274,39 @@ void TouchHypotheses::weigh_place(const Scene& scene, BodyId body, const Place& 
   add(scene, body, place, touch, tally);
 }
 
+/// Rays along the line of action, each for its part of the outline, in the place of the places near it.
+void TouchHypotheses::weigh_platform(const Scene& scene, TouchTally& tally) const {
+  const BodyId body = BodyId::platform();
+  const WrenchLine& line = *scene.line;
+  for (const TouchPlace& place : places_[0]) {
+    if (!line.passes(place.point)) weigh_place(scene, body, place, tally);
+  }
+  const double step = 2.0 * line.reach / tried_across;
+  for (int i = 0; i < tried_across * tried_across; ++i) {
+    const double a = (i % tried_across + 0.5) * step - line.reach;
+    const double b = (i / tried_across + 0.5) * step - line.reach;
+    const Eigen::Vector3d beside = line.point + a * line.across[0] + b * line.across[1];
+    const LinePassage passage = platform_.passage(beside, line.direction);
+    if (!passage.hits) continue;
+    const Eigen::Vector3d point = beside + passage.enter * line.direction;
+    const Eigen::Vector3d normal = platform_.normal_at(point);
+    const double facing = -normal.dot(line.direction);
+    if (facing > grazing)
+      weigh_place(scene, body, {point, normal, 0.0, step * step / (facing * area_each_)}, tally);
+  }
+}
+
 void TouchHypotheses::weigh_body(const Scene& scene, BodyId body, TouchTally& tally) const {
   const auto at = static_cast<std::size_t>(body.index());
-  for (const Side& side : sides_[at]) {
-    if (side.count > 1) {
-      weigh_side(scene, body, side, tally);
-    } else {
-      weigh_place(scene, body, places_[at][side.first], tally);
+  if (body.is_platform() && scene.line != nullptr) {
+    weigh_platform(scene, tally);
+  } else {
+    for (const Side& side : sides_[at]) {
+      if (side.count > 1) {
+        weigh_side(scene, body, side, tally);
+      } else {
+        weigh_place(scene, body, places_[at][side.first], tally);
+      }
     }
   }
   tally.sum *= 2.0 / (settings_.force_scale * static_cast<double>(places_[at].size()));
@@ -404,6 +425,9 @@ void TouchHypotheses::weigh(const Kinematics& kinematics, const PlatformVector& 
   scene.wrench.head(robot_->dof()) = S.matrixL().solve(wrench);
   for (int i = 0; i < robot_->body_count(); ++i)
     place(kinematics, S, BodyId::from_index(i), scene.bodies[static_cast<std::size_t>(i)]);
+  std::optional<WrenchLine> line;
+  if (robot_->space().rotations() == 3) line.emplace(wrench, covariance, scene.bodies[0].axes);
+  if (line && line->reach * 2.0 / tried_across < std::sqrt(area_each_)) scene.line = &*line;
   const double whole = scene.wrench.squaredNorm();
   for (int number = 0; number < classes_.count(); ++number) {
     TouchTally tally;

@@ -6,6 +6,8 @@
 #include <memory>
 #include <vector>
 
+#include "systems/contact/touch_places.h"
+#include "systems/robot/outline.h"
 #include "systems/robot/parallel_robot.h"
 #include "systems/signals/contact_classes.h"
 
@@ -20,8 +22,11 @@ struct TouchHypothesesSettings {
   double softness = 0.01;       ///< over which a place between bodies gets too narrow for it [m]
   double closing_speed = 0.1;   ///< standard deviation of how fast something clamped gives way [m/s]
   double friction = 0.15;       ///< coefficients tried: 0, this, and twice this
-  int points_along = 36;        ///< tried on each side of a link, and in the gap of a leg
-  int points_around = 72;       ///< tried around the platform
+  int points_along = 36;        ///< tried on each side of a link in the plane, and in the gap of a leg
+  int points_around = 72;       ///< tried around the platform in the plane
+  int places_in_space = 300;    ///< tried all over the platform in space
+  int sides_in_space = 48;      ///< of a link in space, each with so many places:
+  int places_along_in_space = 6;
   /// ln of how often a class is touched before its motion is looked at: of platform, first and second links,
   /// and clampings. So that all are equally likely where all are touched equally often.
   double platform_bias = 0.0;
@@ -43,6 +48,9 @@ struct TouchHypothesesSettings {
 /// leg is touched at both links, as far from the elbow on both, with two forces; it is as likely as the gap
 /// closes there.
 ///
+/// In space the platform is tried all over its outline, and closely where the line of action of the wrench
+/// meets it, as far around as the noise of the moment leaves open.
+///
 /// Nothing is trained but the biases of the settings. Legs and bodies may be any number, in the plane or in
 /// space; without links that can close on something a leg cannot clamp.
 class TouchHypotheses {
@@ -56,11 +64,6 @@ class TouchHypotheses {
              ContactEvidence& evidence) const noexcept;
 
  private:
-  /// A place on the outline of a body, in its frame.
-  struct Place {
-    Eigen::Vector3d point, normal;
-    double fraction = 0.0;
-  };
   /// `count` places from `first` on: one alone, or evenly on a straight line and with one normal.
   struct Side {
     std::size_t first, count;
@@ -93,10 +96,12 @@ class TouchHypotheses {
   void add_places(BodyId body);
   void place(const Kinematics& kinematics, const Eigen::LLT<PlatformMatrix>& S, BodyId body,
              Placed& placed) const;
-  void add(const Scene& scene, BodyId body, const Place& place, const Touch& touch, TouchTally& tally) const;
+  void add(const Scene& scene, BodyId body, const TouchPlace& place, const Touch& touch,
+           TouchTally& tally) const;
   void weigh_side(const Scene& scene, BodyId body, const Side& side, TouchTally& tally) const;
-  void weigh_place(const Scene& scene, BodyId body, const Place& place, TouchTally& tally) const;
+  void weigh_place(const Scene& scene, BodyId body, const TouchPlace& place, TouchTally& tally) const;
   void weigh_body(const Scene& scene, BodyId body, TouchTally& tally) const;
+  void weigh_platform(const Scene& scene, TouchTally& tally) const;
   void weigh_clamping(const Scene& scene, int leg, TouchTally& tally) const;
   double room(const Scene& scene, int body, int neighbour, const Eigen::Vector3d& centre) const;
   double bias(int number) const;
@@ -104,8 +109,10 @@ class TouchHypotheses {
   std::shared_ptr<const ParallelRobot> robot_;
   TouchHypothesesSettings settings_;
   ContactClasses classes_;
-  std::vector<std::vector<Place>> places_;  ///< of each body
-  std::vector<std::vector<Side>> sides_;    ///< of these
+  std::vector<std::vector<TouchPlace>> places_;  ///< of each body
+  std::vector<std::vector<Side>> sides_;         ///< of these
+  Outline platform_;
+  double area_each_ = 0.0;  ///< of the platform in space, that a place stands for [m^2]
 };
 
 }  // namespace flinch

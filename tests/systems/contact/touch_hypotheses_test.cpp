@@ -8,13 +8,17 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <random>
 
+#include "systems/config/robot_file.h"
 #include "systems/contact/wrench_uncertainty.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/five_bar.h"
 #include "systems/robot/five_bar_presets.h"
 #include "systems/robot/hexapod.h"
 #include "systems/robot/hexapod_presets.h"
+#include "systems/robot/outline.h"
 #include "tests/support/allocations.h"
 #include "tests/systems/contact/touched_robot.h"
 
@@ -101,7 +105,8 @@ double evidence_of_link(const ParallelRobot& robot, const Kinematics& k, BodyId 
                         const PlatformVector& wrench, const TouchHypothesesSettings& settings) {
   const PlatformMatrix inverse = noise(robot).inverse();
   const auto& capsule = std::get<Capsule>(robot.body(link).shapes.front());
-  const int dimension = robot.space_dimension(), sides = dimension == 2 ? 2 : 8;
+  const int dimension = robot.space_dimension(), sides = dimension == 2 ? 2 : settings.sides_in_space;
+  const int along = dimension == 2 ? settings.points_along : settings.places_along_in_space;
   const Eigen::Vector3d axis = (capsule.end - capsule.begin).normalized();
   const Eigen::Vector3d across =
       dimension == 2 ? Eigen::Vector3d::UnitZ().cross(axis) : axis.unitOrthogonal();
@@ -110,8 +115,8 @@ double evidence_of_link(const ParallelRobot& robot, const Kinematics& k, BodyId 
   for (int side = 0; side < sides; ++side) {
     const Eigen::Vector3d normal =
         Eigen::AngleAxisd(2.0 * std::numbers::pi * side / sides, axis).toRotationMatrix() * across;
-    for (int i = 0; i < settings.points_along; ++i) {
-      const double fraction = (i + 0.5) / settings.points_along;
+    for (int i = 0; i < along; ++i) {
+      const double fraction = (i + 0.5) / along;
       const Eigen::Vector3d point =
           capsule.begin + fraction * (capsule.end - capsule.begin) + capsule.radius * normal;
       if (is_inside(robot, k, link, in_base(robot, k, link, point))) continue;
@@ -126,14 +131,18 @@ double evidence_of_link(const ParallelRobot& robot, const Kinematics& k, BodyId 
              std::erfc(-m / s / std::numbers::sqrt2);
     }
   }
-  return std::log(at_rest * sum / (sides * settings.points_along)) - 0.5 * wrench.dot(inverse * wrench);
+  return std::log(at_rest * sum / (sides * along)) - 0.5 * wrench.dot(inverse * wrench);
 }
 
 TEST(TouchHypotheses, SumOverALinkWhatItsPlacesSay) {
   const std::shared_ptr<const ParallelRobot> robots[] = {test::touched_bench(),
                                                          std::make_shared<Hexapod>(hexapod_robot())};
-  const TouchHypothesesSettings settings{
-      .object_radius = 1e-9, .softness = 1e-9, .friction = 0.0, .points_along = 5};
+  const TouchHypothesesSettings settings{.object_radius = 1e-9,
+                                         .softness = 1e-9,
+                                         .friction = 0.0,
+                                         .points_along = 5,
+                                         .sides_in_space = 12,
+                                         .places_along_in_space = 5};
   for (const auto& robot : robots) {
     const TouchHypotheses hypotheses(robot, settings);
     const Kinematics k = test::at_home(*robot);
@@ -258,6 +267,73 @@ TEST(TouchHypotheses, ServeOtherMechanisms) {
   }
 }
 
+/// A push of 40 N on a robot in space that moves, at a random place that moves towards what it touches, with
+/// random friction against the sliding; none: it does not at this place.
+struct PushInSpace {
+  Kinematics kinematics;
+  PlatformVector wrench;
+};
+std::optional<PushInSpace> random_push(const ParallelRobot& robot, BodyId body, std::mt19937_64& generator) {
+  std::uniform_real_distribution<double> random(-1.0, 1.0);
+  const auto draw = [&](int size) {
+    return PlatformVector::NullaryExpr(size, [&](Eigen::Index) { return random(generator); });
+  };
+  const Kinematics k =
+      test::kinematics_of(robot, robot.space().plus(robot.home_pose(), 0.05 * draw(6)), 0.4 * draw(6));
+  const Shape& shape = robot.body(body).shapes.front();
+  const Outline outline({shape});
+  const auto* const capsule = std::get_if<Capsule>(&shape);
+  const Eigen::Vector3d inside = capsule == nullptr
+                                     ? Eigen::Vector3d::Zero()
+                                     : Eigen::Vector3d(capsule->begin + (0.5 + 0.4 * random(generator)) *
+                                                                            (capsule->end - capsule->begin));
+  const Eigen::Vector3d ray = draw(3).normalized();
+  const Eigen::Vector3d point = inside + outline.passage(inside, ray).leave * ray;
+  const Eigen::Vector3d normal =
+      in_base(robot, k, body, point + outline.normal_at(point)) - in_base(robot, k, body, point);
+  const ContactJacobian J = robot.contact_jacobian(k, body, point);
+  const Eigen::Vector3d velocity = J.translation * k.velocity;
+  if (velocity.dot(normal) < 0.05) return std::nullopt;
+  const Eigen::Vector3d sliding = (velocity - velocity.dot(normal) * normal).normalized();
+  const Eigen::Vector3d force = -40.0 * (normal + 0.15 * (1.0 + random(generator)) * sliding).normalized();
+  return PushInSpace{k, J.translation.transpose() * force};
+}
+
+/// Of random pushes on some body of each leg, or the platform, the share of which that leg, or it, is said.
+double told_in_space(const ParallelRobot& robot, const TouchHypotheses& hypotheses, bool platform) {
+  std::mt19937_64 generator(7);
+  std::normal_distribution<double> normal;
+  int right = 0, count = 0;
+  while (count < 200) {
+    const BodyId body =
+        platform ? BodyId::platform() : BodyId::from_index(1 + static_cast<int>(generator() % 12));
+    auto push = random_push(robot, body, generator);
+    if (!push) continue;
+    for (int i = 0; i < 6; ++i) push->wrench[i] += (i < 3 ? 0.5 : 0.05) * normal(generator);
+    ContactEvidence evidence;
+    hypotheses.weigh(push->kinematics, push->wrench, noise(robot), evidence);
+    EXPECT_TRUE(evidence.valid);
+    right +=
+        hypotheses.classes().leg(likeliest(evidence, robot.body_count())) == (platform ? -1 : body.leg());
+    ++count;
+  }
+  return static_cast<double>(right) / count;
+}
+
+TEST(TouchHypotheses, TellThePlatformFromTheLegsOfRobotsInSpace) {
+  const std::shared_ptr<const ParallelRobot> robots[] = {
+      std::make_shared<Hexapod>(hexapod_robot()),
+      read_robot_file(FLINCH_SOURCE_DIR "/apps/robots/hexa_6rus.yaml").robot};
+  for (const auto& robot : robots) {
+    const TouchHypotheses hypotheses(robot, {});
+    const double platform = told_in_space(*robot, hypotheses, true),
+                 legs = told_in_space(*robot, hypotheses, false);
+    std::printf("  %s: platform told %.3f, leg told %.3f\n", robot->name().c_str(), platform, legs);
+    EXPECT_GE(platform, 0.95) << robot->name();
+    EXPECT_GE(legs, 0.95) << robot->name();
+  }
+}
+
 TEST(TouchHypotheses, AreNotValidForUnusableInput) {
   const auto robot = test::touched_bench();
   const TouchHypotheses hypotheses(robot, {});
@@ -281,18 +357,26 @@ TEST(TouchHypotheses, AreNotValidForUnusableInput) {
 }
 
 TEST(TouchHypotheses, NeverAllocate) {
-  const auto robot = test::touched_bench();
-  const TouchHypotheses hypotheses(robot, {});
-  const Kinematics k = test::at_home(*robot);
-  ContactEvidence evidence;
-  const test::AllocationCounter allocations;
-  hypotheses.weigh(k, PlatformVector{{20.0, 3.0, 0.5}}, noise(*robot), evidence);
-  EXPECT_EQ(allocations.count(), 0);
+  const std::shared_ptr<const ParallelRobot> robots[] = {test::touched_bench(),
+                                                         std::make_shared<Hexapod>(hexapod_robot())};
+  for (const auto& robot : robots) {
+    const TouchHypotheses hypotheses(robot, {});
+    const Kinematics k = test::at_home(*robot);
+    const PlatformMatrix S = noise(*robot);
+    PlatformVector wrench = PlatformVector::Constant(robot->dof(), 0.5);
+    wrench[0] = 20.0;
+    ContactEvidence evidence;
+    const test::AllocationCounter allocations;
+    hypotheses.weigh(k, wrench, S, evidence);
+    EXPECT_EQ(allocations.count(), 0);
+    EXPECT_TRUE(evidence.valid);
+  }
 }
 
 TEST(TouchHypotheses, AskForPositiveSettings) {
   EXPECT_THROW(TouchHypotheses(test::touched_bench(), {.force_scale = 0.0}), SetupError);
   EXPECT_THROW(TouchHypotheses(test::touched_bench(), {.points_around = 0}), SetupError);
+  EXPECT_THROW(TouchHypotheses(test::touched_bench(), {.places_in_space = 0}), SetupError);
 }
 
 }  // namespace
