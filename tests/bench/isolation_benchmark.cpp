@@ -14,6 +14,8 @@
 #include "systems/contact/touch_hypotheses.h"
 #include "systems/contact/wrench_uncertainty.h"
 #include "systems/framework/random.h"
+#include "systems/robot/hexapod.h"
+#include "systems/robot/hexapod_presets.h"
 #include "systems/robot/planar_rrr.h"
 #include "systems/robot/planar_rrr_presets.h"
 #include "tests/support/processor_time.h"
@@ -107,6 +109,31 @@ void EvidenceOfTheModel(benchmark::State& state) {
   });
 }
 BENCHMARK(EvidenceOfTheModel);
+
+/// The same of a push of 50 N on the platform of a 6-UPS that moves.
+void EvidenceOfTheModelInSpace(benchmark::State& state) {
+  const Hexapod robot(hexapod_robot());
+  const TouchHypotheses hypotheses(std::make_shared<Hexapod>(hexapod_robot()), {});
+  Kinematics k;
+  robot.kinematics(robot.home_pose(), PlatformVector{{0.4, 0.1, -0.1, 0.3, 0.2, 0.1}}, k);
+  const PlatformVector wrench{{-48.0, -12.0, 5.0, 0.4, -1.8, 3.0}};
+  const PlatformMatrix covariance = WrenchUncertainty().covariance(robot.space(), wrench);
+  ContactEvidence evidence;
+  const auto weigh = [&] {
+    hypotheses.weigh(k, wrench, covariance, evidence);
+    benchmark::DoNotOptimize(evidence.valid);
+  };
+  for (auto _ : state) weigh();
+  Kinematics now;
+  Dynamics model;
+  const double evaluation = time_of(500, [&] {
+    robot.kinematics(robot.home_pose(), k.velocity, now);
+    robot.dynamics(now, model);
+    benchmark::DoNotOptimize(model.valid);
+  });
+  state.counters["times_the_model"] = time_of(30, weigh) / evaluation;
+}
+BENCHMARK(EvidenceOfTheModelInSpace);
 
 /// Evidence of the wrench and of its growth, the course of the legs, features, and the scorer of all classes.
 void LearnedClassifierOfAWrench(benchmark::State& state) {
