@@ -50,6 +50,10 @@ function legPoints(i, pose, sample) {
   return [leg.base, vectorAt(`elbow_${i + 1}_`, sample) ?? coupling, coupling];
 }
 
+function dot(a, b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 function cross(a, b) {
   return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 }

@@ -9,11 +9,10 @@ player.start();
 charts.start();
 lanes.start();
 
-// Paper is light and cannot be unfolded.
+// Paper is light. Of parameters and files it shows what is unfolded.
 for (const [event, printing] of [["beforeprint", true], ["afterprint", false]]) {
   addEventListener(event, () => {
     document.documentElement.classList.toggle("printing", printing);
-    for (const box of document.querySelectorAll("#appendix details")) box.open = printing;
     charts.recolour();
   });
 }

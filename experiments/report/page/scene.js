@@ -1,10 +1,11 @@
 "use strict";
-// The robot at the chosen time: a planar one from above, a spatial one from above, from the front and from the side.
+// The robot at the chosen time: a planar one from above, a spatial one from any side, or from above, front and side.
 
 const sceneWidth = 720;
 const sceneHeight = 650;
 const arrowPixels = 150; // length of the largest force
 const closeUpWidth = 0.6; // metres across the close-up
+const fromAbove = [[1, 0, 0], [0, 1, 0]]; // what points right, and up
 
 const scene = {
   svg: byId("scene"),
@@ -19,29 +20,65 @@ const scene = {
     if (!this.available()) return;
     byId("key-true").hidden = !has("contact_1_force_x");
     set(this.svg, { viewBox: `0 0 ${sceneWidth} ${sceneHeight}` });
-    byId("seen-from").textContent = isSpatial ? "Above, front, side" : "From above";
-    this.views = isSpatial ? spatialViews(this.svg) : [new View(this.svg, "", 0, 1, panel(0, 0, 1, 1))];
-    this.scales = shape(this.svg, "g", { class: "layer-scales" });
+    this.sides = shape(this.svg, "g", { class: "sides" });
+    this.views = isSpatial ? threeSides(this.sides) : [new View(this.sides, "", ...fromAbove, panel(0, 0, 1, 1))];
+    this.scales = shape(this.sides, "g", { class: "layer-scales" });
+    if (isSpatial) this.addTurned();
     for (const [id, closeUp] of [["view-whole", false], ["view-close", true]]) {
       byId(id).addEventListener("click", () => this.view(closeUp));
     }
     this.view(false);
+    this.choose(isSpatial);
     clock.follow((sample) => this.show(sample));
   },
 
+  /** The view that can be turned; paper shows the three sides instead. */
+  addTurned() {
+    const group = shape(this.svg, "g", { class: "turned" });
+    const scales = shape(group, "g", { class: "layer-scales" });
+    this.turned = new TurnedView(group, panel(0, 0, 1, 1), () =>
+      drawScales(scales, 0, sceneHeight, this.turned.scale, this.turned.newtonsPerPixel));
+    group.append(scales);
+    byId("sides").hidden = false;
+    byId("view-turned").addEventListener("click", () => this.choose(true));
+    byId("view-sides").addEventListener("click", () => this.choose(false));
+    window.addEventListener("beforeprint", () => {
+      this.wasTurned = this.isTurned;
+      this.choose(false);
+    });
+    window.addEventListener("afterprint", () => this.choose(this.wasTurned));
+  },
+
+  choose(turned) {
+    this.isTurned = turned;
+    this.svg.classList.toggle("shows-turned", turned);
+    byId("seen-from").textContent = !isSpatial ? "From above" : turned ? "Drag to turn" : "Above, front, side";
+    byId("view-turned").setAttribute("aria-pressed", String(turned));
+    byId("view-sides").setAttribute("aria-pressed", String(!turned));
+    this.view(this.isCloseUp);
+  },
+
   view(closeUp) {
+    this.isCloseUp = closeUp;
     byId("view-whole").setAttribute("aria-pressed", String(!closeUp));
     byId("view-close").setAttribute("aria-pressed", String(closeUp));
-    const newtonsPerPixel = (largestForce() / arrowPixels) * (isSpatial ? 2 : 1);
-    const boxes = this.views.map((view) => (closeUp ? closeUpBox(view) : wholeBox(view)));
+    const { points, margin } = closeUp ? closeUpTarget() : wholeTarget();
+    const newtonsPerPixel = largestForce() / arrowPixels;
+    const boxes = this.views.map((view) => view.boxAround(points, margin));
     const scale = Math.min(...this.views.map((view, i) => view.scaleOf(boxes[i])));
-    this.views.forEach((view, i) => view.frame(boxes[i], scale, newtonsPerPixel));
-    drawScales(this.scales, isSpatial ? sceneWidth / 2 : 0, isSpatial ? sceneHeight / 2 : sceneHeight, scale, newtonsPerPixel);
+    const shrunk = newtonsPerPixel * (isSpatial ? 2 : 1);
+    this.views.forEach((view, i) => view.frame(boxes[i], scale, shrunk));
+    drawScales(this.scales, isSpatial ? sceneWidth / 2 : 0, isSpatial ? sceneHeight / 2 : sceneHeight, scale, shrunk);
+    if (this.turned) {
+      const box = this.turned.boxAround(points, margin);
+      this.turned.frame(box, this.turned.scaleOf(box), newtonsPerPixel);
+      this.turned.changed();
+    }
     if (clock.sample >= 0) this.show(clock.sample);
   },
 
   show(sample) {
-    for (const view of this.views) view.show(sample);
+    for (const view of this.isTurned ? [this.turned] : this.views) view.show(sample);
     this.svg.setAttribute("aria-label", describeScene(sample));
     byId("state").textContent = report.lanes.filter((lane) => lane.name === "mode")
       .map((lane) => lane.states[stateOf(lane, sample)] ?? none).join();
@@ -54,11 +91,11 @@ function panel(x, y, width, height) {
 }
 
 /** Each view lies beside the one that it shares an axis with. */
-function spatialViews(svg) {
+function threeSides(svg) {
   return [
-    new View(svg, "above (x, y)", 0, 1, panel(0, 0, 0.5, 0.5)),
-    new View(svg, "front (x, z)", 0, 2, panel(0, 0.5, 0.5, 0.5)),
-    new View(svg, "side (y, z)", 1, 2, panel(0.5, 0.5, 0.5, 0.5)),
+    new View(svg, "above (x, y)", ...fromAbove, panel(0, 0, 0.5, 0.5)),
+    new View(svg, "front (x, z)", [1, 0, 0], [0, 0, 1], panel(0, 0.5, 0.5, 0.5)),
+    new View(svg, "side (y, z)", [0, 1, 0], [0, 0, 1], panel(0.5, 0.5, 0.5, 0.5)),
   ];
 }
 
@@ -78,8 +115,8 @@ function drawScales(group, left, bottom, scale, newtonsPerPixel) {
   });
 }
 
-/** Around the base joints and everywhere that the legs and the platform go. */
-function wholeBox(view) {
+/** The base joints and everywhere that the legs and the platform go. */
+function wholeTarget() {
   const points = report.robot.legs.map((leg) => leg.base);
   for (let sample = 0; sample <= lastSample; sample += Math.ceil((lastSample + 1) / 100)) {
     const pose = poseAt(sample);
@@ -87,21 +124,16 @@ function wholeBox(view) {
     report.robot.legs.forEach((_, i) => points.push(...legPoints(i, pose, sample)));
     points.push(...report.robot.platform.map((point) => inBase(pose, point)));
   }
-  const [xs, ys] = [0, 1].map((k) => points.map((point) => view.flat(point)[k]));
-  const margin = 3.2 * report.robot.link_radius;
-  return { left: Math.min(...xs) - margin, right: Math.max(...xs) + margin,
-    bottom: Math.min(...ys) - margin, top: Math.max(...ys) + margin };
+  return { points, margin: 3.2 * report.robot.link_radius };
 }
 
-/** Around the worst contact and the platform, or around where the platform starts. */
-function closeUpBox(view) {
+/** Between the worst contact and the platform, or where the platform starts. */
+function closeUpTarget() {
   const contact = worstContact();
   const sample = contact ? sampleAt(contact.peak_time ?? contact.start) : 0;
   const position = poseAt(sample)?.position ?? [0, 0, 0];
   const point = vectorAt("contact_1_", sample) ?? position;
-  const [x, y] = [0, 1].map((k) => (view.flat(position)[k] + view.flat(point)[k]) / 2);
-  const half = closeUpWidth / 2;
-  return { left: x - half, right: x + half, bottom: y - half, top: y + half };
+  return { points: [position.map((value, k) => (value + point[k]) / 2)], margin: closeUpWidth / 2 };
 }
 
 function largestForce() {

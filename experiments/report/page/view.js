@@ -1,10 +1,10 @@
 "use strict";
-// The robot seen along one axis. Everything is drawn in pixels of the view's box; project() brings metres there.
+// The robot seen from one side, without perspective. Everything is drawn in pixels of the view's box; project() brings metres there.
 
 class View {
-  /** `across` and `up` are the indices of the base frame's axes that point right and up; the box is in pixels. */
-  constructor(svg, name, across, up, box) {
-    Object.assign(this, { name, across, up, ...box });
+  /** `right` and `up` are the unit vectors that point there; the box is in pixels. */
+  constructor(svg, name, right, up, box) {
+    Object.assign(this, { name, right, up, ...box });
     this.svg = shape(svg, "svg", { ...box, viewBox: `0 0 ${box.width} ${box.height}`, class: "view" });
     this.build();
     shape(this.svg, "text", { x: 18, y: 24, class: "view-name" }).textContent = name;
@@ -21,14 +21,26 @@ class View {
     this.newtonsPerPixel = newtonsPerPixel;
     this.scale = scale;
     this.centre = [(box.left + box.right) / 2, (box.bottom + box.top) / 2];
+    this.drawAround();
+  }
+
+  /** Everything that does not move with the robot. */
+  drawAround() {
     this.drawGrid();
     this.drawObstacles();
     this.drawPath();
     this.drawEvents();
   }
 
+  /** The rectangle around points [m] in the view's plane, with a margin. */
+  boxAround(points, margin) {
+    const [xs, ys] = [0, 1].map((k) => points.map((point) => this.flat(point)[k]));
+    return { left: Math.min(...xs) - margin, right: Math.max(...xs) + margin,
+      bottom: Math.min(...ys) - margin, top: Math.max(...ys) + margin };
+  }
+
   flat(vector) {
-    return [vector[this.across], vector[this.up]];
+    return [dot(vector, this.right), dot(vector, this.up)];
   }
 
   project(point) {
@@ -64,7 +76,7 @@ class View {
     const pin = shape(group, "circle", { class: "pin", r: 2.5 });
     const label = shape(group, "text", { class: "leg-name" });
     label.textContent = String(i + 1);
-    return { outer, inner, joints, pin, label };
+    return { group, outer, inner, joints, pin, label };
   }
 
   buildPlatform() {
@@ -198,7 +210,7 @@ class View {
   }
 
   drawObstacles() {
-    this.obstacles.replaceChildren();
+    for (const group of this.obstacleGroups ?? []) group.remove();
     this.obstacleGroups = report.obstacles.map(({ name, points, radius }) => {
       const group = shape(this.obstacles, "g", {});
       const outline = convexHull(points.map((point) => this.project(point)));

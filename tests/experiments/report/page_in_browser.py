@@ -7,6 +7,7 @@ Exit status 0: nothing wrong; 1: what is wrong is printed; 77: there is no chrom
 """
 
 import argparse
+import base64
 import os
 import pathlib
 import re
@@ -116,11 +117,11 @@ def slider_moves_everything(page):
 
 
 def obstacles_are_where_they_are(page):
-    """An obstacle with columns is drawn as far from its place as they say, in pixels of the first view."""
+    """An obstacle with columns is drawn as far from its place as they say, in pixels of the view that is shown."""
     wrong = page.value("""[0, 0.5, 1].flatMap((share) => {
         clock.seek(Math.round(share * lastSample));
-        const group = document.querySelector('#scene .layer-obstacles'), view = scene.views[0];
-        return [...group.children].filter((drawn, i) => {
+        const view = scene.isTurned ? scene.turned : scene.views[0];
+        return view.obstacleGroups.filter((drawn, i) => {
             const found = new DOMMatrix(getComputedStyle(drawn).transform);
             const moved = has(`obstacle_${i + 1}_x`) ? vectorAt(`obstacle_${i + 1}_`, clock.sample) : [0, 0, 0];
             const [x, y] = view.flat(moved);
@@ -132,13 +133,44 @@ def obstacles_are_where_they_are(page):
 
 def labels_are_inside(page):
     """What stands in the robot's views is not cut by their frames."""
-    cut = page.value("""[...document.querySelectorAll('#scene .view')].flatMap((view) => {
+    cut = page.value("""[...document.querySelectorAll('#scene .view')].filter((view) => view.getBoundingClientRect().width > 0).flatMap((view) => {
         const frame = view.getBoundingClientRect();
         return [...view.querySelectorAll('.layer-marks text')].filter((text) => {
           const box = text.getBoundingClientRect();
           return box.left < frame.left - 1 || box.right > frame.right + 1;
         }).map((text) => text.textContent); })""")
     page.expect(cut == [], f"these labels are cut: {cut}")
+
+
+def robots_in_space_turn(page):
+    """By mouse and keys, which leave the clock alone; the three sides stand beside."""
+    if not page.value("isSpatial && scene.available()"):
+        page.expect(not page.value("byId('view-turned').checkVisibility()"), "a planar robot can be turned")
+        return
+    page.browser.run("byId('scene').scrollIntoView({block: 'center'}); clock.seek(20)")
+    x, y, width, height = page.value("(({x, y, width, height}) => [x, y, width, height])(byId('scene').getBoundingClientRect())")
+    place = lambda across, down: (x + across * width, y + down * height)
+    seen = lambda: page.value("[scene.turned.azimuth, scene.turned.elevation, scene.turned.scale]")
+    before = seen()
+    page.browser.drag(place(0.4, 0.5), place(0.6, 0.6))
+    turned = seen()
+    page.expect(turned[0] < before[0] and turned[1] > before[1], f"dragging turns from {before} to {turned}")
+    page.browser.press("left")
+    page.expect(seen()[0] < turned[0] and page.value("clock.sample") == 20, "an arrow key does not turn the robot alone")
+    page.browser.run("scene.turned.svg.dispatchEvent(new WheelEvent('wheel', {deltaY: -200, bubbles: true, cancelable: true}))")
+    page.expect(seen()[2] > before[2], "the wheel does not zoom")
+    page.expect(page.value("Math.abs(dot(scene.turned.right, scene.turned.up)) < 1e-9"), "the view is skewed")
+    page.browser.click("#view-whole")
+    page.expect(abs(seen()[2] - before[2]) < 1e-9 * before[2], "'Whole robot' does not show the whole robot")
+    page.browser.click("#view-sides")
+    page.expect(page.value("document.querySelectorAll('#scene .sides .view').length") == 3, "there are no three sides")
+    shown = page.value("['sides', 'turned'].map((name) => document.querySelector(`#scene .${name}`).getBoundingClientRect().width > 0)")
+    page.expect(shown == [True, False], f"'Three sides' shows {shown} of the sides and the turned robot")
+    obstacles_are_where_they_are(page)
+    labels_are_inside(page)
+    page.browser.click("#view-turned")
+    page.browser.run("document.activeElement.blur()")
+    page.expect_silence("turning the robot")
 
 
 def keys_step(page):
@@ -236,6 +268,15 @@ def parameters_can_be_searched(page):
     page.expect_silence("searching")
 
 
+def fits_on_paper(page):
+    """A run with one contact takes four sheets of A4 at most, without parameters and files that nobody unfolded."""
+    page.open()
+    sheets = len(re.findall(rb"/Type\s*/Page\b", base64.b64decode(page.browser.devtools(
+        "Page.printToPDF", preferCSSPageSize=True, paperWidth=8.27, paperHeight=11.69)["data"])))
+    allowed = 4 if page.value("report.contacts.length") <= 1 else 8
+    page.expect(1 <= sheets <= allowed, f"the page prints on {sheets} sheets")
+
+
 def fits_every_window(page, pictures):
     for width, height, scheme in LOOKS:
         page.browser.look(width, height, scheme)
@@ -274,12 +315,14 @@ def use(page, pictures):
         slider_moves_everything(page)
         obstacles_are_where_they_are(page)
         labels_are_inside(page)
+        robots_in_space_turn(page)
         keys_step(page)
         charts_read_under_the_mouse(page)
         charts_zoom_together(page)
         charts_keep_peaks(page)
         buttons_do_what_they_say(page)
     parameters_can_be_searched(page)
+    fits_on_paper(page)
     fits_every_window(page, pictures)
     broken_page_is_noticed(page)
 
