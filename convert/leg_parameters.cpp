@@ -37,10 +37,10 @@ class LegWriter {
     robot.gravity = chains_.bodies[graph_.base].linear() * graph_.gravity;
     robot.platform = platform();
     for (std::size_t i = 0; i < chains_.legs.size(); ++i) {
-      if (is_guide(chains_.legs[i]) && moves.following() == 0) {
-        notes_.push_back(
-            "joint '" + chains_.legs[i].links.front().name +
-            "' and those after it carry nothing and only guide the platform: `moves` says the same");
+      if (is_guide(chains_.legs[i]) && (moves.following() == 0 || !holds_anything(i))) {
+        notes_.push_back("joint '" + chains_.legs[i].links.front().name +
+                         "' and those after it carry nothing and only guide the platform: " +
+                         (moves.following() == 0 ? "`moves` says the same" : "the other legs hold it alike"));
       } else {
         robot.legs.push_back(leg(i));
       }
@@ -65,6 +65,16 @@ class LegWriter {
       return has_mass(link) || joint.driven || joint.friction.viscous != 0.0 ||
              joint.friction.coulomb != 0.0 || std::isfinite(joint.least) || std::isfinite(joint.most);
     });
+  }
+
+  /// Whether more could move without this leg.
+  bool holds_anything(std::size_t leg) const {
+    ClosedChains others = chains_;
+    ChainState there = home_;
+    others.legs.erase(others.legs.begin() + static_cast<std::ptrdiff_t>(leg));
+    there.s.erase(there.s.begin() + static_cast<std::ptrdiff_t>(leg));
+    constexpr double length = 0.1;  // at which an angle counts as much as a distance [m]
+    return free_motions(others, there, length).cols() != free_motions(chains_, home_, length).cols();
   }
 
   /// A body in a frame in which it stands at `pose`.

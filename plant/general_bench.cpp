@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "plant/body_placement.h"
 #include "systems/robot/forward_dynamics.h"
 #include "systems/robot/parallel_robot.h"
 #include "systems/robot/rotation.h"
@@ -99,16 +100,7 @@ Eigen::Vector3d GeneralBench::in_space(const CartesianVector& v) const noexcept 
 }
 
 Placement GeneralBench::placement(const Instant& now, int body) const noexcept {
-  const BodyId of = BodyId::from_index(body);
-  const auto point = [&](const Eigen::Vector3d& in_body) {
-    return in_space(robot_->point_on_body(now.kinematics, of, cartesian(in_body)));
-  };
-  Placement at;
-  at.origin = point(Eigen::Vector3d::Zero());
-  for (int axis = 0; axis < directions_; ++axis) {
-    at.axes.col(axis) = point(Eigen::Vector3d::Unit(axis)) - at.origin;
-  }
-  return at;
+  return body_placement(*robot_, now.kinematics, BodyId::from_index(body));
 }
 
 Eigen::Vector3d GeneralBench::point_in_body(const Instant& now, int body,

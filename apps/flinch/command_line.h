@@ -43,7 +43,7 @@ struct RunOptions {
   CommonOptions common;
   LiveOptions live;
   std::filesystem::path input;  ///< a scenario; with a recorded station, the recording
-  std::filesystem::path out;    ///< empty: out/NAME
+  std::filesystem::path out;    ///< empty: out/NAME, on the bus out/NAME_DATE_TIME
   std::optional<std::uint64_t> seed;
   std::vector<std::string> set;        ///< values of keys of the scenario, KEY=VALUE,...; several: a sweep
   std::optional<std::size_t> threads;  ///< of a sweep

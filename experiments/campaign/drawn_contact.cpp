@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "experiments/scenario/scenario.h"
-#include "plant/narrow_phase.h"
+#include "plant/body_placement.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/random.h"
 #include "systems/robot/parallel_robot.h"
@@ -23,20 +23,6 @@ Eigen::Vector3d in_space(const CartesianVector& vector) {
   return result;
 }
 
-CartesianVector point(const Mechanism& robot, const Eigen::Vector3d& in_body) {
-  return in_body.head(robot.space_dimension());
-}
-
-Placement placement(const Mechanism& robot, const Kinematics& now, BodyId body) {
-  Placement at;
-  at.origin = in_space(robot.point_on_body(now, body, point(robot, Eigen::Vector3d::Zero())));
-  for (int axis = 0; axis < robot.space_dimension(); ++axis) {
-    at.axes.col(axis) =
-        in_space(robot.point_on_body(now, body, point(robot, Eigen::Vector3d::Unit(axis)))) - at.origin;
-  }
-  return at;
-}
-
 /// A direction of length 1 in the space in which the robot's points move.
 Eigen::Vector3d random_direction(const Mechanism& robot, RandomGenerator& random) {
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
@@ -49,7 +35,8 @@ Eigen::Vector3d random_direction(const Mechanism& robot, RandomGenerator& random
 /// A body where it is now, for distances from it.
 class PlacedBody {
  public:
-  PlacedBody(const Mechanism& robot, const Kinematics& now, BodyId body) : at_(placement(robot, now, body)) {
+  PlacedBody(const Mechanism& robot, const Kinematics& now, BodyId body)
+      : at_(body_placement(robot, now, body)) {
     for (const Shape& part : robot.body(body).shapes) parts_.emplace_back(part);
   }
 

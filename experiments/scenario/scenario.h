@@ -47,6 +47,9 @@ struct Scenario {
   Expectations expected;
   ForceLimits force_limits;
 
+  /// What a run of it shows in which nothing was touched, though it should have been, in one sentence; empty:
+  /// nobody knows more.
+  std::function<std::string(const Scenario&, const Recording&)> near_miss;
   std::vector<CalibrationDoubt> doubts;
   std::vector<ReadValue> values;  ///< every parameter of the scenario, defaults included
   std::string text;               ///< of the file

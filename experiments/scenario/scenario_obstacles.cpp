@@ -17,7 +17,7 @@ constexpr double default_radius = 0.04;  // [m]
 std::span<double> entries(Eigen::Vector3d& vector) { return {vector.data(), 3}; }
 
 ScenarioObstacle read_pylon(ConfigReader reader) {
-  ScenarioObstacle pylon{.name = "pylon"};
+  ScenarioObstacle pylon{.name = "pylon", .key = "pylon"};
   double radius = default_radius;
   reader.required().number("x", unit::m, pylon.position_in_base.x());
   reader.required().number("y", unit::m, pylon.position_in_base.y());
@@ -102,8 +102,10 @@ ScenarioObstacle read_obstacle(ConfigReader reader, std::size_t number) {
 std::vector<ScenarioObstacle> read_obstacles(ConfigReader& scenario) {
   std::vector<ScenarioObstacle> obstacles;
   if (scenario.has("pylon")) obstacles.push_back(read_pylon(scenario.section("pylon")));
+  std::size_t entry = 0;
   for (ConfigReader& reader : scenario.sections("obstacles")) {
     obstacles.push_back(read_obstacle(reader, obstacles.size() + 1));
+    obstacles.back().key = "obstacles[" + std::to_string(entry++) + "]";
     const auto same = [&](const ScenarioObstacle& other) { return other.name == obstacles.back().name; };
     if (std::count_if(obstacles.begin(), obstacles.end(), same) > 1) {
       reader.problem("name", "is '" + obstacles.back().name + "', as that of another obstacle is");

@@ -13,6 +13,7 @@ class ConfigReader;
 /// Something beside the robot that may be touched.
 struct ScenarioObstacle {
   std::string name;
+  std::string key = {};  ///< of its section in the scenario: "pylon", "obstacles[0]"
   Eigen::Vector3d position_in_base{0.0, 0.0, 0.0};  ///< Before anything touches or moves it [m].
   Shape shape = Sphere{.radius = 0.04};             ///< About its position.
 };

@@ -227,12 +227,6 @@ WrenchRamp read_ramp(ConfigReader reader, const ConfigurationSpace& space) {
   return ramp;
 }
 
-/// Of the pylon, which comes first, or of an entry of the list.
-std::string key_of_obstacle(const ConfigReader& file, std::size_t obstacle) {
-  const std::size_t pylons = file.has("pylon") ? 1 : 0;
-  return obstacle < pylons ? "pylon" : "obstacles[" + std::to_string(obstacle - pylons) + "]";
-}
-
 }  // namespace
 
 void read_station(ConfigReader& file, const Scenario& scenario, SimulatedStationSettings& station,
@@ -258,7 +252,7 @@ void read_station(ConfigReader& file, const Scenario& scenario, SimulatedStation
   station = with_perturbed_robot(std::move(station), perturbed_robot);
   if (file.good()) {
     for (const ContactAtStart& contact : contacts_at_start(station.bench))
-      file.problem(key_of_obstacle(file, contact.obstacle), contact.complaint);
+      file.problem(scenario.obstacles[contact.obstacle].key, contact.complaint);
   }
 }
 

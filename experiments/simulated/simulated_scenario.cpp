@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "experiments/simulated/near_miss.h"
 #include "experiments/simulated/scenario_station.h"
 
 namespace flinch {
@@ -17,6 +18,7 @@ SimulatedScenario with_station(const Read& read) {
     perturbed_robot = {};
     read_station(file, read_so_far, station, perturbed_robot);
   });
+  scenario.near_miss = near_miss;
   return {std::move(scenario), std::move(station), std::move(perturbed_robot)};
 }
 

@@ -1,5 +1,6 @@
 #include "systems/config/legs_file.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstddef>
 #include <span>
@@ -10,6 +11,7 @@
 #include "systems/config/robot_keys.h"
 #include "systems/robot/legs/legs_robot.h"
 #include "systems/robot/legs/platform_twist.h"
+#include "systems/robot/workspace_limits.h"
 
 namespace flinch {
 namespace {
@@ -287,6 +289,18 @@ LegsParameters read_legs_parameters(ConfigReader& file) {
   for (const ConfigReader& leg : file.required().sections("legs")) robot.legs.push_back(read_leg(leg));
   robot.drive_map = read_drive_map(file);
   return robot;
+}
+
+void begin_limits_of_legs(const ParallelRobot& robot, WorkspaceLimits& limits) {
+  const LegsModel& model = dynamic_cast<const LegsRobot&>(robot).model();
+  for (const ModelDrive& drive : model.drives) {
+    if (drive.terms.size() != 1) continue;
+    const ModelDrive::Term& term = drive.terms.front();
+    const ChainJoint& joint = model.legs[term.leg].chain.joints[term.joint];
+    const double ends[] = {drive.zero + term.weight * joint.least, drive.zero + term.weight * joint.most};
+    limits.min_active = std::max(limits.min_active, std::min(ends[0], ends[1]));
+    limits.max_active = std::min(limits.max_active, std::max(ends[0], ends[1]));
+  }
 }
 
 std::shared_ptr<const ParallelRobot> read_legs(ConfigReader& file) {

@@ -86,9 +86,10 @@ DriveParameters read_drives(ConfigReader file, const ParallelRobot& like) {
   return drives;
 }
 
-WorkspaceLimits read_limits(ConfigReader& file, const ParallelRobot& like) {
+WorkspaceLimits read_limits(ConfigReader& file, const RobotKind& kind, const ParallelRobot& like) {
   const DriveKeys& keys = keys_of(like);
   WorkspaceLimits limits;
+  if (kind.begin_limits) kind.begin_limits(like, limits);
   limits.centre.setZero(like.space_dimension());
   file.numbers("centre", unit::m, entries(limits.centre));
   file.number("max_distance", unit::m, limits.max_distance);
@@ -161,7 +162,7 @@ RobotFile read_any(ConfigReader file) {
   read_control_period(file, result.control_period);
   result.drives = read_drives(file.section("drives"), *like);
   ConfigReader limits = file.section("workspace_limits");
-  result.limits = read_limits(limits, *like);
+  result.limits = read_limits(limits, *kind, *like);
   if (file.good()) {
     note_problems(limits, problems(result.limits, *result.robot),
                   [](const std::string& field) { return field; });

@@ -24,7 +24,7 @@ std::vector<RobotKind>& kinds() {
        std::make_shared<const PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::none))},
       {"five_bar", read_five_bar, std::make_shared<const FiveBar>(five_bar_robot())},
       {"hexapod_6ups", read_hexapod, std::make_shared<const Hexapod>(hexapod_robot())},
-      {"legs", read_legs, nullptr}};
+      {"legs", read_legs, nullptr, begin_limits_of_legs}};
   return all;
 }
 

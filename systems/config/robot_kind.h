@@ -9,6 +9,7 @@ namespace flinch {
 
 class ConfigReader;
 class ParallelRobot;
+struct WorkspaceLimits;
 
 /// A kind of mechanism that robot files can describe. Its drives move alike, and a file says of them, of
 /// limits and of calibrations the same as of every robot.
@@ -21,6 +22,9 @@ struct RobotKind {
   /// robot whose file is no good while the rest of a scenario is looked through. Null where robots of the
   /// kind differ in drives and coordinates, so that only a file that is good tells.
   std::shared_ptr<const ParallelRobot> preset;
+  /// Sets what follows from a robot of this kind about where it may be, for what its file leaves out; none:
+  /// nothing.
+  std::function<void(const ParallelRobot& robot, WorkspaceLimits& limits)> begin_limits = {};
 };
 
 /// Lets robot files be of one more kind, anywhere in this program, which brings its own mechanism. Call it

@@ -9,8 +9,8 @@
 
 namespace flinch {
 
-/// The line along which a force acts that alone makes a wrench in space, in the frame of the platform, and how
-/// far beside it the force may act by the noise of the moment.
+/// The line along which a force acts that alone makes a wrench in space, in the frame of the platform, and
+/// how far beside it the force may act by the noise of the moment.
 struct WrenchLine {
   static constexpr double deviations = 3.0;
 

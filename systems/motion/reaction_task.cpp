@@ -416,7 +416,7 @@ void ReactionTask::lead(Time now, const ReactionPlan& plan, const Kinematics& at
   if (!task.valid || !wanted.valid || wanted.position.size() != task.rows()) return;
   const TaskReference reference{error_of(plan, task, wanted.position), wanted.velocity, wanted.acceleration};
   const TaskGoal goal{task, reference, gains_of(plan, task.rows())};
-  if (plan.kind == ReactionKind::opening && settings_.opening_by_priority) return list.add_rows(goal);  // (31)
+  if (plan.kind == ReactionKind::opening && settings_.opening_by_priority) return list.add_rows(goal);
   list.add(goal);
 }
 

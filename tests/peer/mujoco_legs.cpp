@@ -46,7 +46,7 @@ Eigen::MatrixXd MujocoLegs::constraint_jacobian() {
 
 void MujocoLegs::set_platform(const Configuration& pose) {
   mjtNum* position = mujoco_.data()->qpos;
-  if (robot_.space().rotations() == 3) {
+  if (mujoco_.model()->jnt_type[0] == mjJNT_FREE) {  // an orientation that follows is for close() to find
     std::copy(pose.begin(), pose.end(), position);
   } else {  // slides and hinges, zero at home
     const PlatformVector from_home = robot_.space().difference(pose, robot_.home_pose());

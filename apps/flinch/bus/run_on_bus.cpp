@@ -10,6 +10,7 @@
 #include "apps/flinch/live/shown_run.h"
 #include "apps/flinch/printing.h"
 #include "apps/flinch/stop_watch.h"
+#include "apps/flinch/today.h"
 #include "drivers/robot_pace.h"
 #include "drivers/wire_header.h"
 #include "experiments/bus/live_run.h"
@@ -94,7 +95,7 @@ ExitStatus run_on_bus(const RunOptions& options) {
                .spectator = shown ? &shown->spectator() : nullptr});
   out_of(name_of(options.bus), [&] { run.connect(); });
   if (!silent) print_message("{}\n", sentence(pace));
-  const RunFolder folder = folder_of(options, scenario.name);
+  const RunFolder folder = folder_of(options, scenario.name + "_" + moment_in_names());
   run.prepare(recording_in(folder),
               {{"command_line", options.common.command_line}, {"station", "dds, " + name_of(options.bus)}});
   tell_what_is_missing(run.granted(), silent);

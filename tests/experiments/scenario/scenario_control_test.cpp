@@ -111,7 +111,12 @@ TEST_P(ShippedRobot, HasTheDefaultsOfCpp) {
   const Values of_cpp = read(silent, file, bare), of_file = read(silent, file, of_robot);
   EXPECT_GT(of_file.size(), 150U);
   EXPECT_EQ(of_cpp.size(), of_file.size());
-  std::vector<std::string> of_the_robot = {"control.limits.min_self_collision_distance"};
+  std::vector<std::string> of_the_robot;
+  if (of_robot.tasks.constraints.sigma_sc.safety != bare.tasks.constraints.sigma_sc.safety) {
+    of_the_robot = {"control.constraints.self_collision.activation",
+                    "control.constraints.self_collision.safety"};
+  }
+  of_the_robot.emplace_back("control.limits.min_self_collision_distance");
   if (file.drives.max_torque != bare.tasks.levels.largest_torque) {
     of_the_robot.insert(of_the_robot.end(),
                         {"control.tasks.levels.largest_torque", "control.tasks.levels.largest_torque_rate"});
@@ -184,10 +189,14 @@ TEST(TheLimits, HoldTheHomePose) {
               ElementsAre(StartsWith("own.yaml:2: control.limits: min_self_collision_distance is 0.5 m; it "
                                      "must be at most that at the home pose")));
   settings = settings_of(file);
+  const std::string of_the_bench =
+      "control: {reaction_laws: [strict_reaction], constraints: {self_collision: {safety_m: 0.17, "
+      "activation_m: 0.18}}}";
   EXPECT_THAT(
-      test::problems_of([&] { read("control: {reaction_laws: [strict_reaction]}", file, settings); }),
-      ElementsAre(EndsWith("and strict_reaction keeps no less than constraints.self_collision.safety_m")))
-      << "which is that of the bench";
+      test::problems_of([&] { read(of_the_bench, file, settings); }),
+      ElementsAre(EndsWith("and strict_reaction keeps no less than constraints.self_collision.safety_m")));
+  settings = settings_of(file);
+  EXPECT_NO_THROW(read("control: {reaction_laws: [strict_reaction]}", file, settings));
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ TEST_P(RobotThatKeepsItsLimits, IsReleasedByTheStrictReactionOfItsScenario) {
       read_simulated_scenario(test::shipped(std::string("scenarios/") + GetParam() + ".yaml"),
                               {"control.reaction_laws=[strict_reaction]"});
   const Verdict verdict = judge_experiment(scenario);
-  ASSERT_EQ(verdict.contacts.size(), 1U);
+  ASSERT_FALSE(verdict.contacts.empty());
   const ContactVerdict& contact = verdict.contacts.front();
   EXPECT_TRUE(contact.removed.has_value());
   EXPECT_TRUE(contact.could_stop.value_or(false));

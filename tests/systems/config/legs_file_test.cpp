@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "systems/config/robot_file.h"
 #include "systems/robot/legs/legs_robot.h"
 #include "tests/systems/config/problems_of.h"
@@ -40,6 +42,16 @@ TEST(ShippedLegs, AreReadWithTheirCoordinatesDrivesAndForms) {
       EXPECT_EQ(leg.form.has_value(), in_closed_form) << each.file;
     }
   }
+}
+
+// The shoulders of the 6-RUS turn from -50 to 85 degrees; the linapod has limits of its own.
+TEST(ShippedLegs, KeepTheirDrivesWithinTheRangesOfTheirJoints) {
+  const WorkspaceLimits hexa = read_robot_file(robots / "hexa_6rus.yaml").limits;
+  EXPECT_NEAR(hexa.min_active, -50.0 * std::numbers::pi / 180.0, 1e-12);
+  EXPECT_NEAR(hexa.max_active, 85.0 * std::numbers::pi / 180.0, 1e-12);
+  const WorkspaceLimits linapod = read_robot_file(robots / "linapod_6pus.yaml").limits;
+  EXPECT_EQ(linapod.min_active, 0.45);
+  EXPECT_EQ(linapod.max_active, 1.05);
 }
 
 class LegsFile : public ::testing::Test {

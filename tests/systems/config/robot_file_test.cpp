@@ -102,7 +102,7 @@ TEST(ShippedRobots, CanAllBeLoaded) {
     EXPECT_GE(load_robot(entry.path())->dof(), 2) << entry.path();
     ++count;
   }
-  EXPECT_EQ(count, 9);
+  EXPECT_EQ(count, 10);
 }
 
 TEST(ShippedRobots, SayWhatTheirDrivesAreGivenAndMayDo) {
