@@ -19,7 +19,6 @@ namespace flinch {
 namespace {
 
 constexpr double impossible = -1e6;
-constexpr double deviations = 3.0;    // of the moment's noise, beside the line of action
 constexpr int tried_across = 7;       // rays along the line of action, in each of two directions
 constexpr double grazing = 0.1;       // cosine of a force against the normal below which no place is tried
 constexpr double surely_free = 20.0;  // softnesses away: what is there leaves a room of 1, within 2e-9
@@ -283,8 +282,8 @@ void TouchHypotheses::weigh_platform(const Scene& scene, TouchTally& tally) cons
   }
   const double step = 2.0 * line.reach / tried_across;
   for (int i = 0; i < tried_across * tried_across; ++i) {
-    const double a = (i % tried_across + 0.5) * step - line.reach;
-    const double b = (i / tried_across + 0.5) * step - line.reach;
+    const int row = i / tried_across, column = i % tried_across;
+    const double a = (column + 0.5) * step - line.reach, b = (row + 0.5) * step - line.reach;
     const Eigen::Vector3d beside = line.point + a * line.across[0] + b * line.across[1];
     const LinePassage passage = platform_.passage(beside, line.direction);
     if (!passage.hits) continue;

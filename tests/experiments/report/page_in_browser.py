@@ -283,6 +283,9 @@ def fits_every_window(page, pictures):
         page.open()
         over = page.value("document.documentElement.scrollWidth - innerWidth")
         page.expect(over <= 0, f"at a width of {width} the page is {over} pixels too wide")
+        hidden = page.value("[...document.querySelectorAll('.stage button')].filter(e => e.getBoundingClientRect().width > 0 &&"
+                            " e.getBoundingClientRect().right > e.closest('.stage').getBoundingClientRect().right + 1).map(e => e.innerText)")
+        page.expect(hidden == [], f"at a width of {width} these buttons are cut off: {hidden}")
         if width >= 800:
             cut = page.value("[...document.querySelectorAll('.scroll')].filter(e => e.scrollWidth > e.clientWidth).length")
             page.expect(cut == 0, f"at a width of {width}, {cut} tables are cut off")

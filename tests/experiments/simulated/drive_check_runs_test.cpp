@@ -12,6 +12,7 @@
 #include "experiments/verdict/verdict.h"
 #include "systems/framework/recording.h"
 #include "systems/robot/parallel_robot.h"
+#include "tests/experiments/simulated/scenario_of_each_robot.h"
 #include "tests/support/workplace.h"
 
 namespace flinch {
@@ -30,12 +31,7 @@ SimulatedScenario checked(const std::string& name, std::vector<std::string> set 
 
 class CheckedRobot : public testing::TestWithParam<const char*> {};
 
-INSTANTIATE_TEST_SUITE_P(Shipped, CheckedRobot,
-                         testing::Values("platform_collision_realistic", "five_bar_collision",
-                                         "hexapod_collision_realistic", "delta_collision_realistic",
-                                         "planar_3rpr_collision_realistic", "planar_4rrr_collision_realistic",
-                                         "hexa_collision_realistic", "linapod_collision_realistic",
-                                         "tricept_collision_realistic"),
+INSTANTIATE_TEST_SUITE_P(Shipped, CheckedRobot, testing::ValuesIn(test::scenario_of_each_robot),
                          [](const auto& scenario) { return std::string(scenario.param); });
 
 TEST_P(CheckedRobot, PassesHoweverItsRobotIsDrawnAndThenMoves) {

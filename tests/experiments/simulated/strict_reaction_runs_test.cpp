@@ -6,6 +6,7 @@
 #include "experiments/simulated/experiment.h"
 #include "experiments/simulated/simulated_scenario.h"
 #include "experiments/verdict/verdict.h"
+#include "tests/experiments/simulated/scenario_of_each_robot.h"
 #include "tests/support/workplace.h"
 
 namespace flinch {
@@ -13,12 +14,7 @@ namespace {
 
 class RobotThatKeepsItsLimits : public testing::TestWithParam<const char*> {};
 
-INSTANTIATE_TEST_SUITE_P(Shipped, RobotThatKeepsItsLimits,
-                         testing::Values("platform_collision_realistic", "five_bar_collision",
-                                         "hexapod_collision_realistic", "delta_collision_realistic",
-                                         "planar_3rpr_collision_realistic", "planar_4rrr_collision_realistic",
-                                         "hexa_collision_realistic", "linapod_collision_realistic",
-                                         "tricept_collision_realistic"),
+INSTANTIATE_TEST_SUITE_P(Shipped, RobotThatKeepsItsLimits, testing::ValuesIn(test::scenario_of_each_robot),
                          [](const auto& scenario) { return std::string(scenario.param); });
 
 TEST_P(RobotThatKeepsItsLimits, IsReleasedByTheStrictReactionOfItsScenario) {
