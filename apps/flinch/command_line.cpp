@@ -150,7 +150,7 @@ void add_what_is_run(CLI::App& run_verb, Verbs& verbs) {
           "each with an option of its own [as the scenario says]")
       ->allow_extra_args(false)
       ->type_name("MODEL.onnx");
-  run_verb.add_option("-o,--out", verbs.run.out, "Folder for results [out/NAME; of a run on the bus dated]")
+  run_verb.add_option("-o,--out", verbs.run.out, "Folder of run.h5, report.html [out/NAME, on a bus dated]")
       ->type_name("DIR");
   run_verb.add_option("--seed", verbs.run.seed, "Seed of all noise, instead of the scenario's")
       ->check(problem_with_seed)

@@ -8,6 +8,7 @@
 
 #include "diagrams/contact_control.h"
 #include "systems/config/robot_file.h"
+#include "systems/robot/robot_deviation.h"
 
 namespace flinch {
 namespace {
