@@ -9,8 +9,6 @@ namespace flinch {
 
 std::string today() { return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr))); }
 
-std::string moment_in_names() {
-  return fmt::format("{:%Y-%m-%d_%H-%M-%S}", fmt::gmtime(std::time(nullptr)));
-}
+std::string moment_in_names() { return fmt::format("{:%Y-%m-%d_%H-%M-%S}", fmt::gmtime(std::time(nullptr))); }
 
 }  // namespace flinch
