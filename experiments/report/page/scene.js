@@ -9,6 +9,7 @@ const fromAbove = [[1, 0, 0], [0, 1, 0]]; // what points right, and up
 
 const scene = {
   svg: byId("scene"),
+  isCloseUp: false,
 
   available() {
     return report.robot !== null && has("pose_x", "pose_y");
@@ -27,7 +28,6 @@ const scene = {
     for (const [id, closeUp] of [["view-whole", false], ["view-close", true]]) {
       byId(id).addEventListener("click", () => this.view(closeUp));
     }
-    this.view(false);
     this.choose(isSpatial);
     clock.follow((sample) => this.show(sample));
   },
