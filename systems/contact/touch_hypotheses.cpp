@@ -425,7 +425,8 @@ void TouchHypotheses::weigh(const Kinematics& kinematics, const PlatformVector& 
   for (int i = 0; i < robot_->body_count(); ++i)
     place(kinematics, S, BodyId::from_index(i), scene.bodies[static_cast<std::size_t>(i)]);
   std::optional<WrenchLine> line;
-  if (robot_->space().rotations() == 3) line.emplace(wrench, covariance, scene.bodies[0].axes);
+  if (robot_->space().rotations() == 3)
+    line.emplace(robot_->space(), wrench, covariance, scene.bodies[0].axes);
   if (line && line->reach * 2.0 / tried_across < std::sqrt(area_each_)) scene.line = &*line;
   const double whole = scene.wrench.squaredNorm();
   for (int number = 0; number < classes_.count(); ++number) {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "systems/robot/vectors.h"
+#include "systems/robot/line_of_action.h"
 
 namespace flinch {
 
@@ -18,15 +18,17 @@ struct WrenchLine {
   std::array<Eigen::Vector3d, 2> across;  ///< square to it and to one another
   double reach = 0.0;  ///< so far it may be either way along both of these [m]; infinite without a force
 
-  /// `wrench`: of six entries, with its `covariance`; `axes` of the platform in the base frame. [SafePR] (14)
-  WrenchLine(const PlatformVector& wrench, const PlatformMatrix& covariance, const Eigen::Matrix3d& axes) {
-    const Eigen::Vector3d force = axes.transpose() * wrench.head<3>();
-    const Eigen::Vector3d moment = axes.transpose() * wrench.tail<3>();
-    direction = force.stableNormalized();
-    point = force.cross(moment) / force.squaredNorm();
+  /// `wrench`: of a platform that turns about all axes, with its `covariance`; `axes`: of the platform in the
+  /// base frame.
+  WrenchLine(const ConfigurationSpace& space, const PlatformVector& wrench, const PlatformMatrix& covariance,
+             const Eigen::Matrix3d& axes) {
+    const LineOfAction line = line_of_action(space, wrench, 0.0);
+    direction = axes.transpose() * line.direction;
+    point = axes.transpose() * line.lever;
     across[0] = direction.unitOrthogonal();
     across[1] = direction.cross(across[0]);
-    reach = deviations * std::sqrt(covariance.bottomRightCorner<3, 3>().trace() / 3.0) / force.norm();
+    reach =
+        deviations * std::sqrt(covariance.bottomRightCorner<3, 3>().trace() / 3.0) / wrench.head<3>().norm();
   }
 
   /// Whether it may pass through a place.

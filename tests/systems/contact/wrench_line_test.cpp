@@ -5,6 +5,8 @@
 namespace flinch {
 namespace {
 
+constexpr ConfigurationSpace in_space = ConfigurationSpace::Kind::spatial_pose;
+
 PlatformMatrix covariance(double force, double moment) {
   PlatformMatrix S = PlatformMatrix::Zero(6, 6);
   S.diagonal() << force, force, force, moment, moment, moment;
@@ -20,7 +22,7 @@ PlatformVector wrench_of(const Eigen::Vector3d& force, const Eigen::Vector3d& at
 TEST(WrenchLine, PassesThroughThePointWhereTheForceActs) {
   const Eigen::Matrix3d turned(Eigen::AngleAxisd(0.4, Eigen::Vector3d(1.0, 2.0, -1.0).normalized()));
   const Eigen::Vector3d force(10.0, -20.0, 5.0), at(0.1, 0.2, -0.05);
-  const WrenchLine line(wrench_of(force, at), covariance(1.0, 0.1), turned);
+  const WrenchLine line(in_space, wrench_of(force, at), covariance(1.0, 0.1), turned);
   const Eigen::Vector3d in_platform = turned.transpose() * at;
   EXPECT_LT((in_platform - line.point).cross(line.direction).norm(), 1e-12);
   EXPECT_LT((line.direction - turned.transpose() * force.normalized()).norm(), 1e-12);
@@ -29,7 +31,7 @@ TEST(WrenchLine, PassesThroughThePointWhereTheForceActs) {
 
 // 0.1 Nm are 5 mm at 20 N.
 TEST(WrenchLine, ReachesThreeDeviationsOfItsMomentOverItsForce) {
-  const WrenchLine line(wrench_of({20.0, 0.0, 0.0}, {0.0, 0.0, 0.0}), covariance(1.0, 0.1),
+  const WrenchLine line(in_space, wrench_of({20.0, 0.0, 0.0}, {0.0, 0.0, 0.0}), covariance(1.0, 0.1),
                         Eigen::Matrix3d::Identity());
   EXPECT_NEAR(line.reach, 0.015, 1e-12);
   for (const Eigen::Vector3d& across : line.across) {
@@ -40,7 +42,7 @@ TEST(WrenchLine, ReachesThreeDeviationsOfItsMomentOverItsForce) {
 }
 
 TEST(WrenchLine, IsAnywhereWithoutAForce) {
-  const WrenchLine line(PlatformVector::Zero(6), covariance(1.0, 0.1), Eigen::Matrix3d::Identity());
+  const WrenchLine line(in_space, PlatformVector::Zero(6), covariance(1.0, 0.1), Eigen::Matrix3d::Identity());
   EXPECT_FALSE(line.reach < 1.0);
 }
 
