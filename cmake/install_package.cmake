@@ -7,6 +7,8 @@ set(libraries_of_program ${libraries})
 if(TARGET flinch::program)
   list(APPEND libraries program)
 endif()
+set(default_libraries ${libraries})
+list(REMOVE_ITEM default_libraries mechanism_laws)  # which needs GoogleTest
 foreach(name IN LISTS libraries)
   install(EXPORT flinch-targets-${name} NAMESPACE flinch:: DESTINATION ${package_dir}
           COMPONENT development)

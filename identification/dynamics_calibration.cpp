@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "experiments/verdict/recorded_run.h"
-#include "identification/dynamic_parameters.h"
 #include "identification/dynamics_fit.h"
 #include "identification/dynamics_rows.h"
 #include "identification/encoder_doubts.h"
@@ -24,6 +23,7 @@
 #include "systems/config/robot_file.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recording.h"
+#include "systems/robot/dynamic_parameters.h"
 
 namespace flinch {
 namespace {
@@ -231,8 +231,12 @@ void add_parameters(const MotorParameters& parameters, const Solution& solution,
   const bool wave_held = std::any_of(first_of_waves, all.end(), std::identity());
   for (std::size_t i = 0; i < now.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    const bool is_delay = now[i].mainly && *now[i].mainly >= parameters.first_delay();
-    const bool held = now[i].mainly ? bool(all[static_cast<std::size_t>(*now[i].mainly)]) : wave_held;
+    const std::vector<int>& mainly = now[i].mainly;
+    const bool is_delay = !mainly.empty() && mainly.front() >= parameters.first_delay();
+    const bool held =
+        mainly.empty() ? wave_held : std::all_of(mainly.begin(), mainly.end(), [&](int parameter) {
+          return all[static_cast<std::size_t>(parameter)];
+        });
     const double variance = result.covariance(row, row);
     result.parameters.push_back(
         {.name = now[i].name,

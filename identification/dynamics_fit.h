@@ -3,9 +3,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "identification/dynamic_parameters.h"
 #include "identification/dynamics_rows.h"
 #include "identification/fit_uncertainty.h"
+#include "systems/robot/dynamic_parameters.h"
 
 namespace flinch {
 

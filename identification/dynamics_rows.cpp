@@ -7,12 +7,12 @@
 #include "identification/clipped.h"
 #include "identification/encoder_motion.h"
 #include "identification/motor_currents.h"
-#include "identification/parameter_variants.h"
 #include "identification/robust_mean.h"
 #include "identification/spikes.h"
 #include "identification/zero_phase.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recorded_values.h"
+#include "systems/robot/parameter_variants.h"
 #include "systems/signals/joint_reading.h"
 
 namespace flinch {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "identification/dynamic_parameters.h"
+#include "systems/robot/dynamic_parameters.h"
 
 namespace flinch {
 

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <optional>
 
-#include "identification/dynamic_parameters.h"
-#include "identification/parameter_variants.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/random.h"
 #include "systems/motion/platform_path.h"
+#include "systems/robot/dynamic_parameters.h"
+#include "systems/robot/parameter_variants.h"
 
 namespace flinch {
 namespace {

@@ -239,7 +239,7 @@ std::vector<FileValue> MotorParameters::but_for_cogging(const Eigen::VectorXd& v
   for (std::ptrdiff_t j = first_delay(); j < first_of_waves(); ++j) {
     const DynamicParameter& delay = list_[static_cast<std::size_t>(j)];
     in_file.push_back(
-        {.name = delay.name, .unit = delay.unit, .value = values[j], .mainly = static_cast<int>(j)});
+        {.name = delay.name, .unit = delay.unit, .value = values[j], .mainly = {static_cast<int>(j)}});
   }
   return in_file;
 }

@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "identification/dynamic_parameters.h"
 #include "identification/dynamics_rows.h"
 #include "systems/robot/drive_parameters.h"
+#include "systems/robot/dynamic_parameters.h"
 
 namespace flinch {
 

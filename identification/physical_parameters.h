@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "identification/dynamic_parameters.h"
+#include "systems/robot/dynamic_parameters.h"
 
 namespace flinch {
 

@@ -5,13 +5,13 @@
 #include <memory>
 #include <optional>
 
-#include "identification/dynamic_parameters.h"
 #include "identification/encoder_motion.h"
 #include "identification/motor_currents.h"
-#include "identification/parameter_variants.h"
 #include "identification/robust_mean.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recorded_values.h"
+#include "systems/robot/dynamic_parameters.h"
+#include "systems/robot/parameter_variants.h"
 #include "systems/signals/force_torque_reading.h"
 
 namespace flinch {
@@ -66,7 +66,7 @@ class Reader {
   Reader(const Recording& recording, const ParallelRobot& robot, const ValidStretch& stretch)
       : robot_(robot),
         stretch_(stretch),
-        parameters_(DynamicParameters::find(robot)),
+        parameters_(robot.dynamic_parameters()),
         motion_(encoder_motion(recording, robot, stretch, cutoff_frequency)) {
     if (parameters_) variants_.emplace(*parameters_);
     const auto n = static_cast<Eigen::Index>(stretch.count);

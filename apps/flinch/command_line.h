@@ -216,6 +216,7 @@ struct GraphOptions {
 struct CheckOptions {
   CommonOptions common;
   std::vector<std::filesystem::path> files;
+  std::filesystem::path picture;  ///< Of the workspace of the one robot file; empty: none.
 };
 
 /// The verbs. Each throws SetupError for bad input.

@@ -105,6 +105,10 @@ void add_check_verb(CLI::App& app, Verbs& verbs) {
           "Any files in YAML, HDF5 or ONNX: scenario, robot, campaign, recording, data set, classifier, ...")
       ->required()
       ->type_name("FILE");
+  check_verb
+      .add_option("--picture", verbs.check.picture,
+                  "Draw the workspace of the one robot file into a .svg file [none]")
+      ->type_name("FILE");
 }
 
 }  // namespace

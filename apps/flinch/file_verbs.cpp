@@ -12,6 +12,10 @@
 #include "apps/flinch/simulated/simulated_parts.h"
 #include "experiments/report/experiment_report.h"
 #include "experiments/report/report_page.h"
+#include "experiments/robot_check/robot_doubts.h"
+#include "experiments/robot_check/robot_summary.h"
+#include "experiments/robot_check/workspace_picture.h"
+#include "experiments/scenario/scenario.h"
 #include "experiments/scenario/scenario_calibrations.h"
 #include "import/imported_recording.h"
 #include "systems/config/config_file.h"
@@ -61,6 +65,8 @@ void draw_svg(const std::string& dot, const std::filesystem::path& file) {
 struct Checked {
   std::string what;
   std::vector<CalibrationDoubt> doubts = {};
+  std::vector<std::string> robot_doubts = {};
+  std::optional<RobotFile> robot = {};  ///< Of a robot file.
 };
 
 /// Checks a file of HDF5, and says of which kind it is.
@@ -99,12 +105,13 @@ Checked check_text(const std::filesystem::path& file) {
       const std::string text = read_config_file(file);
       const RobotFile robot = parse_robot_file(text, file.string());
       check_thresholds(robot_calibrations(text, file.string()), robot);
-      return {"robot"};
+      return {"robot", {}, robot_doubts(robot), robot};
     }
     case FileKind::scenario:
       break;
   }
-  return {"scenario", check_scenario(file)};
+  const std::vector<CalibrationDoubt> doubts = check_scenario(file);
+  return {"scenario", doubts, robot_doubts(read_scenario(file).robot)};
 }
 
 Checked check_file(const std::filesystem::path& file, const CommonOptions& common) {
@@ -116,24 +123,38 @@ Checked check_file(const std::filesystem::path& file, const CommonOptions& commo
   return check_text(file);
 }
 
-std::vector<std::string> warnings_of(const Checked& checked) {
+std::vector<std::string> warnings_of(const std::filesystem::path& file, const Checked& checked) {
   std::vector<std::string> warnings;
+  for (const std::string& doubt : checked.robot_doubts) warnings.push_back(file.string() + ": " + doubt);
   for (const CalibrationDoubt& doubt : checked.doubts) warnings.push_back(doubt.sentence);
   return warnings;
 }
 
 Json checked_json(const std::filesystem::path& file, const Checked& checked) {
-  return {
-      {"file", file.string()}, {"kind", checked.what}, {"good", true}, {"warnings", warnings_of(checked)}};
+  Json json = {{"file", file.string()},
+               {"kind", checked.what},
+               {"good", true},
+               {"warnings", warnings_of(file, checked)}};
+  if (checked.robot) json["robot"] = robot_summary_json(*checked.robot);
+  return json;
 }
 
 void tell(const std::filesystem::path& file, const Checked& checked, const CommonOptions& common) {
   const char* more = "";
   if (checked.what == "readings") more = ", for flinch calibrate";
   if (checked.what == "campaign results") more = ", by what it says it is; its columns were not read";
-  if (!common.quiet && !common.json)
+  if (!common.quiet && !common.json) {
     print_result("{}: a good {} file{}\n", file.string(), checked.what, more);
-  for (const std::string& warning : warnings_of(checked)) print_message("warning: {}\n", warning);
+    if (checked.robot) print_result("{}", robot_summary_text(*checked.robot));
+  }
+  for (const std::string& warning : warnings_of(file, checked)) print_message("warning: {}\n", warning);
+}
+
+void draw_workspace(const std::filesystem::path& file, const Checked& checked, const CheckOptions& options) {
+  if (!checked.robot || options.files.size() > 1)
+    throw SetupError(file.string() + ": --picture draws the workspace of one robot file; give that alone");
+  write_result(options.picture, workspace_picture(*checked.robot));
+  if (!options.common.quiet && !options.common.json) print_result("picture: {}\n", options.picture.string());
 }
 
 }  // namespace
@@ -178,6 +199,7 @@ ExitStatus graph(const GraphOptions& options) {
 }
 
 ExitStatus check(const CheckOptions& options) {
+  if (!options.picture.empty()) require_output(options.picture, options.files, OutputKind::picture);
   std::vector<std::string> problems;
   Json all = Json::array();
   for (const std::filesystem::path& file : options.files) {
@@ -185,6 +207,7 @@ ExitStatus check(const CheckOptions& options) {
       const Checked checked = check_file(file, options.common);
       all.push_back(checked_json(file, checked));
       tell(file, checked, options.common);
+      if (!options.picture.empty()) draw_workspace(file, checked, options);
     } catch (const SetupError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }

@@ -23,7 +23,7 @@ fs::path or_shipped(const fs::path& file, const char* kind) {
   for (const fs::path& name : {file, fs::path(file.string() + ".yaml")}) {
     if (fs::is_regular_file(folder / kind / name, none)) return folder / kind / name;
   }
-  return file;
+  return file.has_extension() ? file : folder / kind / file;
 }
 
 }  // namespace flinch

@@ -6,6 +6,7 @@
 
 #include "diagrams/contact_control_settings.h"
 #include "experiments/campaign/campaign_run.h"
+#include "experiments/verdict/names_of_touched.h"
 #include "experiments/verdict/verdict.h"
 #include "experiments/verdict/verdict_output.h"
 #include "plant/perturbed_robot.h"
@@ -209,7 +210,7 @@ RunResult result_of(const CampaignRun& run, const Verdict& verdict) {
     result.peak_force = first.peak_force;
     result.lasting_force = first.lasting_force;
     const bool is_known = !first.classified.empty() && !first.body.empty() && !first.is_push;
-    if (is_known) result.class_right = first.classified == first.body;
+    if (is_known) result.class_right = names_body(first.classified, first.body);
   }
   return result;
 }

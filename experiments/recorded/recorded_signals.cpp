@@ -5,6 +5,7 @@
 #include "diagrams/contact_control.h"
 #include "diagrams/station.h"
 #include "experiments/scenario/scenario.h"
+#include "experiments/verdict/names_of_touched.h"
 #include "systems/framework/diagram.h"
 #include "systems/framework/diagram_builder.h"
 
@@ -12,12 +13,10 @@ namespace flinch {
 
 namespace {
 
-/// What can be touched of a robot, by numbers, separated by blanks.
-std::string class_names(const ParallelRobot& robot) {
-  const ContactClasses classes(robot.body_count(), robot.legs());
-  std::string names;
-  for (int i = 0; i < classes.count(); ++i) names += (i > 0 ? " " : "") + classes.name(i);
-  return names;
+std::string separated_by_blanks(const std::vector<std::string>& names) {
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "" : " ") + name;
+  return all;
 }
 
 }  // namespace
@@ -82,7 +81,7 @@ std::map<std::string, std::string> recorded_attributes(const Scenario& scenario,
   attributes["flinch.version"] = FLINCH_VERSION;
   attributes["seed"] = std::to_string(scenario.seed);
   attributes["control.estimator"] = followed_name(scenario.control.stages.estimators);
-  attributes["contact.classes"] = class_names(*scenario.robot.robot);
+  attributes["contact.classes"] = separated_by_blanks(names_of_touched(*scenario.robot.robot));
   attributes["control.detector"] = followed_name(scenario.control.stages.detectors);
   attributes["scenario.name"] = scenario.name;
   attributes["scenario.file"] = scenario.file.filename().string();

@@ -4,19 +4,21 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/verdict/names_of_touched.h"
+
 namespace flinch {
 
-ClassificationTimeline::ClassificationTimeline(const ContactClasses& classes, PageSamples& page)
-    : classes_(classes), page_(page) {
-  std::vector<std::string> states{"nothing"};
-  for (int i = 0; i < classes.count(); ++i) states.push_back(classes.name(i));
+ClassificationTimeline::ClassificationTimeline(const ParallelRobot& robot, PageSamples& page) : page_(page) {
+  std::vector<std::string> states = names_of_touched(robot);
+  states.insert(states.begin(), "nothing");
+  several_ = static_cast<int>(states.size());
   states.emplace_back("several contacts");
   lane_ = page.lane("taken for", std::move(states));
 }
 
 void ClassificationTimeline::show(const RecordedClassification& said, double weight) {
   const int taken = said.accepted ? said.most_likely + 1 : 0;
-  const int state = said.several_contacts ? classes_.count() + 1 : taken;
+  const int state = said.several_contacts ? several_ : taken;
   page_.set_state(lane_, said.valid ? state : 0, weight);
 }
 

@@ -4,20 +4,20 @@
 
 #include "experiments/report/page_samples.h"
 #include "experiments/verdict/recorded_classification.h"
-#include "systems/signals/contact_classes.h"
+#include "systems/robot/parallel_robot.h"
 
 namespace flinch {
 
 /// What the robot takes for touched, as named states of a page: nothing, a class, or several contacts.
 class ClassificationTimeline {
  public:
-  ClassificationTimeline(const ContactClasses& classes, PageSamples& page);
+  ClassificationTimeline(const ParallelRobot& robot, PageSamples& page);
 
   void show(const RecordedClassification& said, double weight);
 
  private:
-  ContactClasses classes_;
   PageSamples& page_;
+  int several_ = 0;  ///< The state of several contacts.
   std::size_t lane_ = 0;
 };
 

@@ -311,7 +311,7 @@ class Isolation {
     for (int i = 0; i < classes_.count(); ++i) names.push_back("probability_" + classes_.name(i));
     probability_.emplace(page, names);
     point_.emplace(page, named("isolated_", robot.space_dimension()));
-    taken_for_.emplace(classes_, page);
+    taken_for_.emplace(robot, page);
     if (simulated) {
       location_error_ = page.column("location_error");
       force_error_ = page.column("force_error");

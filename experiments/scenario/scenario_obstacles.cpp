@@ -10,7 +10,7 @@
 namespace flinch {
 namespace {
 
-enum class Outline { sphere, capsule, box, hull };
+enum class ObstacleOutline { sphere, capsule, box, hull };
 
 constexpr double default_radius = 0.04;  // [m]
 
@@ -65,21 +65,21 @@ Shape read_hull(ConfigReader& reader) {
 }
 
 Shape read_shape(ConfigReader& reader) {
-  Outline outline = Outline::sphere;
+  ObstacleOutline outline = ObstacleOutline::sphere;
   const bool is_known = reader.choice("shape", outline,
-                                      {{"sphere", Outline::sphere},
-                                       {"capsule", Outline::capsule},
-                                       {"box", Outline::box},
-                                       {"hull", Outline::hull}});
+                                      {{"sphere", ObstacleOutline::sphere},
+                                       {"capsule", ObstacleOutline::capsule},
+                                       {"box", ObstacleOutline::box},
+                                       {"hull", ObstacleOutline::hull}});
   if (!is_known) reader.leave_rest_unread();
   switch (outline) {
-    case Outline::capsule:
+    case ObstacleOutline::capsule:
       return read_capsule(reader);
-    case Outline::box:
+    case ObstacleOutline::box:
       return read_box(reader);
-    case Outline::hull:
+    case ObstacleOutline::hull:
       return read_hull(reader);
-    case Outline::sphere:
+    case ObstacleOutline::sphere:
       break;
   }
   double radius = default_radius;

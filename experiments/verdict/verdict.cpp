@@ -6,6 +6,7 @@
 #include <charconv>
 #include <utility>
 
+#include "experiments/verdict/names_of_touched.h"
 #include "experiments/verdict/recorded_run.h"
 #include "experiments/verdict/run_watch.h"
 #include "systems/framework/recording.h"
@@ -74,7 +75,7 @@ void remark_contacts(const Verdict& verdict, const Expectations& expected,
     if (!contact.removed)
       remarks.push_back("the contact with " + name_of(contact, verdict) + " was not over at the end");
     const std::string body = body_of(contact, expected);
-    if (contact.classified.empty() || body.empty() || contact.classified == body) continue;
+    if (contact.classified.empty() || body.empty() || names_body(contact.classified, body)) continue;
     remarks.push_back(fmt::format(
         "the contact with {} was taken for one with {}, with probability {:.3f}; see control.isolation", body,
         contact.classified, contact.probability));

@@ -11,6 +11,7 @@
 
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/robot/alike_links.h"
 #include "systems/robot/contact_jacobian.h"
 #include "systems/robot/line_of_action.h"
 #include "systems/robot/rotation.h"
@@ -188,6 +189,7 @@ ContactLocator::ContactLocator(std::shared_ptr<const ParallelRobot> robot,
                                const ContactLocatorSettings& settings, const WrenchUncertainty& uncertainty)
     : robot_(std::move(robot)),
       classes_(robot_->body_count(), robot_->legs()),
+      alike_(legs_of_alike_links(*robot_)),
       platform_(robot_->body(BodyId::platform()).shapes),
       settings_(settings),
       uncertainty_(uncertainty) {
@@ -214,7 +216,8 @@ ContactLocation ContactLocator::locate(const ContactPhase& contact, const Contac
     const BodyId body = ContactClasses::body(touched.most_likely);
     if (body.is_platform()) {
       found = locate_on_platform(*robot_, now, platform_, F, noise, errors, settings_.least_force);
-    } else if (F.head(robot_->space_dimension()).norm() >= settings_.least_force) {
+    } else if (!alike_[static_cast<std::size_t>(body.leg())] &&
+               F.head(robot_->space_dimension()).norm() >= settings_.least_force) {
       found = locate_on_link(link_contact_map(*robot_, now, body), body, F, noise, errors, settings_);
     }
   }

@@ -46,7 +46,8 @@ CartesianVector pushed_point(const LinkContactMap& link, double fraction,
 double unexplained(const PlatformVector& missed, const PlatformMatrix& covariance) noexcept;
 
 /// Says in closed form where the classified body is touched, anew at every tick of the contact. Of a
-/// clamping, and of contacts that are not classified, it knows no place.
+/// clamping, of a link that no wrench tells from the other one of its leg, and of contacts that are not
+/// classified, it knows no place.
 class ContactLocator final : public System {
  public:
   ContactLocator(std::shared_ptr<const ParallelRobot> robot, const ContactLocatorSettings& settings,
@@ -67,6 +68,7 @@ class ContactLocator final : public System {
 
   std::shared_ptr<const ParallelRobot> robot_;
   ContactClasses classes_;
+  std::vector<bool> alike_;  ///< Of each leg.
   Outline platform_;
   ContactLocatorSettings settings_;
   WrenchUncertainty uncertainty_;

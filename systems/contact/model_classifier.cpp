@@ -2,15 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/robot/alike_links.h"
 
 namespace flinch {
 
 ModelClassifier::ModelClassifier(const std::shared_ptr<const ParallelRobot>& robot,
                                  const ModelClassifierSettings& settings)
-    : classes_(robot->body_count(), robot->legs()), settings_(settings) {
+    : classes_(robot->body_count(), robot->legs()), alike_(legs_of_alike_links(*robot)), settings_(settings) {
   Findings found("model classifier: ");
   found.require(settings.accept > 0.0 && settings.accept <= 1.0, "accept must be above 0 and at most 1");
   found.require(settings.window >= Time{}, "window must not be negative");
@@ -22,13 +24,18 @@ ModelClassifier::ModelClassifier(const std::shared_ptr<const ParallelRobot>& rob
 void ModelClassifier::conclude(const ContactEvidence& seen, Memory& next) const {
   ContactClassification& result = next.last;
   const ClassVector mean = next.log_evidence / next.weight * settings_.independent_ticks;
-  Eigen::Index most_likely = 0;
-  const double largest = mean.maxCoeff(&most_likely);
   result.acquired = seen.acquired;
   result.valid = true;
-  result.most_likely = static_cast<int>(most_likely);
-  result.probability = (mean.array() - largest).max(-700.0).exp();
+  result.probability = (mean.array() - mean.maxCoeff()).max(-700.0).exp();
   result.probability /= result.probability.sum();
+  for (int leg = 0; leg < classes_.legs(); ++leg) {
+    if (!alike_[static_cast<std::size_t>(leg)]) continue;
+    double& of_second = result.probability[ContactClasses::collision(BodyId::link2(leg))];
+    result.probability[ContactClasses::collision(BodyId::link1(leg))] += std::exchange(of_second, 0.0);
+  }
+  Eigen::Index most_likely = 0;
+  result.probability.maxCoeff(&most_likely);
+  result.most_likely = static_cast<int>(most_likely);
   result.residual = next.residual / next.weight;
   result.several_contacts = result.residual > settings_.largest_residual;
   result.accepted = result.confidence() >= settings_.accept && !result.several_contacts;

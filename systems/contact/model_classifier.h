@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "systems/framework/system.h"
 #include "systems/robot/parallel_robot.h"
@@ -20,7 +21,8 @@ struct ModelClassifierSettings {
 };
 
 /// Classifies the contact by the evidence of the model: probabilities of all classes, weighted before by how
-/// often each is touched (the biases of `TouchHypothesesSettings`). The evidence of the ticks since the
+/// often each is touched (the biases of `TouchHypothesesSettings`). Where both links of a leg load the robot
+/// alike (`legs_of_alike_links`) a touch of either is said of the first one. The evidence of the ticks since the
 /// detection is averaged, each with the weight of the square of its force, for it is the growing force that
 /// tells.
 class ModelClassifier final : public System {
@@ -58,6 +60,7 @@ class ModelClassifier final : public System {
   void conclude(const ContactEvidence& seen, Memory& next) const;
 
   ContactClasses classes_;
+  std::vector<bool> alike_;  ///< Of each leg.
   ModelClassifierSettings settings_;
 };
 

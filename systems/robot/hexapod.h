@@ -49,6 +49,7 @@ class Hexapod final : public ParallelRobot {
                            MotionEquations& equations) const noexcept override;
   DryFriction dry_friction(int drive) const noexcept override;
   std::shared_ptr<const Mechanism> deviating(const RobotDeviation& deviation) const override;
+  std::unique_ptr<const DynamicParameters> dynamic_parameters() const override;
   CartesianVector point_on_body(const Kinematics& kinematics, BodyId body,
                                 const CartesianVector& point_in_body) const noexcept override;
   ContactJacobian contact_jacobian(const Kinematics& kinematics, BodyId body,

@@ -7,6 +7,8 @@
 
 namespace flinch {
 
+class DynamicParameters;
+
 /// A fully-parallel robot: legs that are driven and coupled to one platform. It refines a mechanism by what
 /// only such a robot has: passive joints that may carry encoders, working modes, and a pose that must be
 /// found from the drives.
@@ -49,6 +51,9 @@ class ParallelRobot : public Mechanism {
                                      const Configuration& pose) const noexcept = 0;
   /// a minus b of two readings of the passive encoders, every entry wrapped to (-pi, pi] [rad].
   static JointVector passive_difference(const JointVector& a, const JointVector& b) noexcept;
+
+  /// Masses, moments and friction that can be calibrated; null where none are known.
+  virtual std::unique_ptr<const DynamicParameters> dynamic_parameters() const;
 
   using Mechanism::kinematics;
   /// Evaluates everything that depends on pose and velocity, assembled as in `mode`.

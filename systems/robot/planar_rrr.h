@@ -44,6 +44,7 @@ class PlanarRrr final : public ParallelRobot {
                                                 const JointVector& drive_torques) const noexcept override;
   DryFriction dry_friction(int drive) const noexcept override;
   std::shared_ptr<const Mechanism> deviating(const RobotDeviation& deviation) const override;
+  std::unique_ptr<const DynamicParameters> dynamic_parameters() const override;
   CartesianVector point_on_body(const Kinematics& kinematics, BodyId body,
                                 const CartesianVector& point_in_body) const noexcept override;
   ContactJacobian contact_jacobian(const Kinematics& kinematics, BodyId body,

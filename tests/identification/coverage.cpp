@@ -10,10 +10,10 @@
 
 #include "identification/dynamics_fit.h"
 #include "identification/imu_pose_fit.h"
-#include "identification/parameter_variants.h"
 #include "identification/torque_constant_fit.h"
 #include "identification/zero_phase.h"
 #include "systems/framework/random.h"
+#include "systems/robot/parameter_variants.h"
 #include "systems/robot/planar_rrr.h"
 #include "systems/robot/planar_rrr_presets.h"
 #include "systems/robot/rotation.h"

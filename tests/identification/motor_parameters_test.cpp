@@ -187,7 +187,7 @@ TEST(MotorParameters, HaveTheSlopeOfItsTorqueForTheDelayOfADrive) {
   const std::vector<FileValue> file = parameters.in_file(values);
   EXPECT_EQ(file.back().name, "drives.torque_delay_s[2]");
   EXPECT_EQ(file.back().value, 4e-4);
-  EXPECT_EQ(file.back().mainly, static_cast<int>(p + 2));
+  EXPECT_EQ(file.back().mainly, std::vector{static_cast<int>(p + 2)});
 }
 
 // What was believed is what the waves make of the surplus.

@@ -21,7 +21,8 @@ using LegCoordinates = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_leg_coord
 
 /// A joint of one axis in a leg, and what moves with it.
 struct ChainJoint {
-  int parent = -1;  ///< Joint whose link carries it; -1: the base.
+  int parent = -1;    ///< Joint whose link carries it; -1: the base.
+  int described = 0;  ///< Joint of the description that it is an axis of.
   bool slides = false;
   int coordinate = 0;  ///< Of the leg: q = ratio s + offset.
   double ratio = 1.0;

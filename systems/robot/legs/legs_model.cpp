@@ -139,6 +139,7 @@ class ChainBuilder {
     for (std::size_t i = 0; i < directions.size(); ++i) {
       ChainJoint one;
       one.parent = parent;
+      one.described = static_cast<int>(index);
       one.at = i == 0 ? joint.at : Eigen::Vector3d(Eigen::Vector3d::Zero());
       one.set_axis(i == 0 ? rotation_exp(joint.turned) : Eigen::Matrix3d(Eigen::Matrix3d::Identity()),
                    directions[i]);
@@ -254,6 +255,7 @@ LegsModel described(const LegsParameters& robot, std::vector<ChainBuilder>& buil
   model.home_angle = robot.home_rotation.z();
   model.characteristic_length = robot.characteristic_length;
   model.gravity = robot.gravity;
+  if (robot.payload) model.payload = *robot.payload;
   model.platform = robot.payload ? together(robot.platform.inertia, *robot.payload) : robot.platform.inertia;
   for (const RobotLeg& from : robot.legs) {
     const ChainBuilder& builder = builders.emplace_back(from);

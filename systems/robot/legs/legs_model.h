@@ -89,6 +89,7 @@ struct LegsModel {
   double characteristic_length = 1.0;
   Eigen::Vector3d gravity{0.0, 0.0, 0.0};
   RigidBodyInertia platform;  ///< With payload.
+  RigidBodyInertia payload;   ///< No mass: none.
   std::vector<ModelLeg> legs;
   std::vector<ModelDrive> drives;
   std::vector<JointOfLeg> measured;  ///< Passive joints with encoders.

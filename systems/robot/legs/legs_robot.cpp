@@ -143,7 +143,11 @@ std::shared_ptr<const Mechanism> LegsRobot::deviating(const RobotDeviation& devi
   scale(robot.platform, deviation.platform_inertia_scale);
   if (deviation.payload > 0.0)
     robot.platform = together(robot.platform, RigidBodyInertia{.mass = deviation.payload});
-  return std::shared_ptr<const Mechanism>(new LegsRobot(description(), std::move(robot)));
+  return with(std::move(robot));
+}
+
+std::shared_ptr<const LegsRobot> LegsRobot::with(LegsModel model) const {
+  return std::shared_ptr<const LegsRobot>(new LegsRobot(description(), std::move(model)));
 }
 
 // ---------------------------------------------------------------- what a kinematics carries

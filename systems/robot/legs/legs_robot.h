@@ -26,6 +26,10 @@ class LegsRobot final : public ParallelRobot {
 
   const LegsModel& model() const noexcept { return model_; }
 
+  /// The same robot with the masses, inertia and friction of `model`, which differs in nothing else. They are
+  /// not checked.
+  std::shared_ptr<const LegsRobot> with(LegsModel model) const;
+
   int legs() const noexcept override { return static_cast<int>(model_.legs.size()); }
   int passive_joints() const noexcept override { return static_cast<int>(model_.measured.size()); }
   WorkingMode home_working_mode() const noexcept override;
@@ -44,6 +48,9 @@ class LegsRobot final : public ParallelRobot {
   void dynamics(const Kinematics& kinematics, Dynamics& out) const noexcept override;
   DryFriction dry_friction(int drive) const noexcept override;
   std::shared_ptr<const Mechanism> deviating(const RobotDeviation& deviation) const override;
+  /// Base parameters: friction, armatures, and moments of the platform, then of links from the base
+  /// outwards, as far as motion tells them apart; what it does not is held as the robot has it.
+  std::unique_ptr<const DynamicParameters> dynamic_parameters() const override;
   CartesianVector point_on_body(const Kinematics& kinematics, BodyId body,
                                 const CartesianVector& point_in_body) const noexcept override;
   ContactJacobian contact_jacobian(const Kinematics& kinematics, BodyId body,

@@ -352,8 +352,8 @@ TEST_F(CommandLine, PrintsOnlyKeysThatTheDocumentNames) {
 TEST_F(CommandLine, ChecksScenariosRobotsAndRecordings) {
   run(collision);
   EXPECT_EQ(flinch({"check", place.at(collision)}).out, place.at(collision) + ": a good scenario file\n");
-  EXPECT_EQ(flinch({"check", place.at("robots/planar_3rrr.yaml")}).out,
-            place.at("robots/planar_3rrr.yaml") + ": a good robot file\n");
+  EXPECT_THAT(flinch({"check", place.at("robots/planar_3rrr.yaml")}).out,
+              StartsWith(place.at("robots/planar_3rrr.yaml") + ": a good robot file\n"));
   EXPECT_EQ(flinch({"check", place.at("out/run.h5")}).out,
             place.at("out/run.h5") + ": a good recording file\n");
 }
@@ -403,7 +403,9 @@ TEST_F(CommandLine, ChecksTheKeysOfACampaign) {
 
 TEST_F(CommandLine, FindsEveryShippedRobotGood) {
   for (const auto& entry : std::filesystem::directory_iterator(place / "robots")) {
-    EXPECT_EQ(flinch({"check", entry.path().string()}).out, entry.path().string() + ": a good robot file\n");
+    const Outcome outcome = flinch({"check", entry.path().string()});
+    EXPECT_THAT(outcome.out, StartsWith(entry.path().string() + ": a good robot file\n"));
+    EXPECT_EQ(outcome.err, "");
   }
 }
 

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "systems/foundation/setup_error.h"
+#include "systems/robot/hexapod.h"
+#include "systems/robot/hexapod_presets.h"
 #include "tests/support/allocations.h"
 #include "tests/support/ticking.h"
 #include "tests/systems/contact/touched_robot.h"
@@ -11,8 +13,10 @@ namespace flinch {
 namespace {
 
 struct Classifier {
-  explicit Classifier(const ModelClassifierSettings& settings = {})
-      : block(builder.add<ModelClassifier>("classifier", test::touched_bench(), settings)),
+  explicit Classifier(const ModelClassifierSettings& settings = {},
+                      const std::shared_ptr<const ParallelRobot>& robot = test::touched_bench())
+      : count(robot->body_count() + robot->legs()),
+        block(builder.add<ModelClassifier>("classifier", robot, settings)),
         phase(builder.export_input("phase", block.phase)),
         evidence(builder.export_input("evidence", block.evidence)),
         ticking(builder) {}
@@ -23,10 +27,13 @@ struct Classifier {
     ContactEvidence seen;
     seen.valid = true;
     seen.acquired = ticking.now();
-    seen.log_evidence = ClassVector::Constant(10, -50.0);
+    seen.log_evidence = ClassVector::Constant(count, -50.0);
     seen.log_evidence[number] += strength;
-    seen.residual = ClassVector::Constant(10, residual);
-    seen.force = ClassVector::Constant(10, force);
+    seen.residual = ClassVector::Constant(count, residual);
+    seen.force = ClassVector::Constant(count, force);
+    return see(seen, active);
+  }
+  ContactClassification see(const ContactEvidence& seen, bool active = true) {
     ticking.set(evidence, seen);
     if (active && !active_) since_ = ticking.now();
     active_ = active;
@@ -35,6 +42,7 @@ struct Classifier {
     return ticking.get(block.classification);
   }
 
+  int count;
   DiagramBuilder builder;
   ModelClassifier& block;
   InputPort<ContactPhase> phase;
@@ -87,6 +95,25 @@ TEST(ModelClassifier, StandsByWhatItHasFoundInItsWindowUntilTheContactEnds) {
   EXPECT_EQ(classifier.see(5, 30.0, 90.0).most_likely, 2);
   EXPECT_FALSE(classifier.see(5, 30.0, 90.0, 1.0, false).valid);
   EXPECT_EQ(classifier.see(5, 30.0, 90.0).most_likely, 5);
+}
+
+// Its cylinders and rods load the platform alike, so that each has half of the evidence.
+TEST(ModelClassifier, AcceptsALegWhoseLinksAreAlike) {
+  const auto robot = std::make_shared<const Hexapod>(hexapod_robot());
+  Classifier classifier({}, robot);
+  ContactEvidence seen;
+  seen.valid = true;
+  seen.acquired = classifier.ticking.now();
+  seen.log_evidence = ClassVector::Constant(classifier.count, -50.0);
+  seen.log_evidence[BodyId::link1(2).index()] = -40.0;
+  seen.log_evidence[BodyId::link2(2).index()] = -39.5;
+  seen.residual = ClassVector::Constant(classifier.count, 1.0);
+  seen.force = ClassVector::Constant(classifier.count, 20.0);
+  const ContactClassification said = classifier.see(seen);
+  EXPECT_TRUE(said.accepted);
+  EXPECT_EQ(said.most_likely, BodyId::link1(2).index());
+  EXPECT_EQ(said.probability[BodyId::link2(2).index()], 0.0);
+  EXPECT_NEAR(said.probability.sum(), 1.0, 1e-12);
 }
 
 TEST(ModelClassifier, SaysNothingWithoutEvidenceAndNeverAllocates) {

@@ -53,23 +53,22 @@ struct MechanismCase {
   PlatformVector region;    ///< Half widths of the increments from home within which poses are drawn.
   PlatformVector velocity;  ///< Largest velocities drawn.
   double least_det_A = 0.0;
-  std::vector<RigidBodyInertia> bodies;  ///< By index; planar ones in the plane z = 0.
+  /// By index; planar ones in the plane z = 0. Empty: laws that compare with the bodies are left out.
+  std::vector<RigidBodyInertia> bodies;
   /// How many of 2000 random starts at least lead to another branch; 0 where there is none.
   int least_jumps = 21;
   /// By how much drives may disagree at a pose that is taken for theirs [rad or m]; more drives than
   /// coordinates never agree quite.
   double largest_disagreement = 1e-9;
   double armature = 0.0;  ///< Of every drive, where it is none of the bodies' inertia.
-  /// Acceleration of the platform from maximal coordinates.
+  /// Acceleration of the platform from maximal coordinates, as ConstrainedBodies gives it; none: laws that
+  /// compare with it are left out.
   std::function<PlatformVector(const MotionState&, const Loads&)> reference;
   Tolerances tolerances;
 };
 
-/// Every mechanism and parameter set.
+/// Every mechanism and parameter set that the laws are to try; whoever links them says which.
 const std::vector<MechanismCase>& mechanism_cases();
-
-/// States within the case's region; the same for the same seed.
-std::vector<MotionState> random_states(const MechanismCase& mechanism, int count, unsigned seed = 1);
 
 inline std::string case_name(const ::testing::TestParamInfo<MechanismCase>& info) { return info.param.name; }
 inline void PrintTo(const MechanismCase& mechanism, std::ostream* out) { *out << mechanism.name; }

@@ -5,6 +5,7 @@
 #include "systems/robot/contact_jacobian.h"
 #include "tests/systems/robot/differences.h"
 #include "tests/systems/robot/mechanism_cases.h"
+#include "tests/systems/robot/random_states.h"
 #include "tests/systems/robot/residual.h"
 
 namespace flinch::test {

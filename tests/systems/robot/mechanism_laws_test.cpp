@@ -3,8 +3,6 @@
 #include <Eigen/SVD>
 #include <span>
 
-#include "systems/robot/five_bar.h"
-#include "systems/robot/hexapod.h"
 #include "systems/robot/joint_space_dynamics.h"
 
 // What holds for the motion of every mechanism, whatever its joints.

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,7 +23,8 @@ struct FileValue {
   std::string name;
   std::string unit;
   double value = 0.0;
-  std::optional<int> mainly{};  ///< the parameter on which it mainly depends; none: on those of the cogging
+  /// the parameters on which it mainly depends, by their places in the list; none: those of the cogging
+  std::vector<int> mainly{};
 };
 
 /// The inertial and friction parameters of a mechanism, and the robot that has others.
@@ -46,9 +46,7 @@ class DynamicParameters {
 
   Eigen::VectorXd believed() const;
 
-  /// Of the robot's own kind; null for one whose parameters are not known here.
-  static std::unique_ptr<const DynamicParameters> find(const ParallelRobot& robot);
-  /// Likewise, and throws SetupError for such a one.
+  /// Those of `robot`; throws SetupError where it tells none.
   static std::unique_ptr<const DynamicParameters> of(const ParallelRobot& robot);
 
  protected:

@@ -1,4 +1,4 @@
-#include "identification/parameter_variants.h"
+#include "systems/robot/parameter_variants.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "identification/dynamic_parameters.h"
+#include "systems/robot/dynamic_parameters.h"
 
 namespace flinch {
 

@@ -1,5 +1,4 @@
-#include "identification/planar_dynamic_parameters.h"
-
+#include "systems/robot/dynamic_parameters.h"
 #include "systems/robot/five_bar.h"
 #include "systems/robot/planar_rrr.h"
 
@@ -69,12 +68,12 @@ class PlanarDynamicParameters final : public DynamicParameters {
 
 }  // namespace
 
-std::unique_ptr<const DynamicParameters> planar_dynamic_parameters(const PlanarRrrParameters& robot) {
-  return std::make_unique<const PlanarDynamicParameters<PlanarRrr, PlanarRrrParameters>>(robot);
+std::unique_ptr<const DynamicParameters> PlanarRrr::dynamic_parameters() const {
+  return std::make_unique<const PlanarDynamicParameters<PlanarRrr, PlanarRrrParameters>>(parameters_);
 }
 
-std::unique_ptr<const DynamicParameters> planar_dynamic_parameters(const FiveBarParameters& robot) {
-  return std::make_unique<const PlanarDynamicParameters<FiveBar, FiveBarParameters>>(robot);
+std::unique_ptr<const DynamicParameters> FiveBar::dynamic_parameters() const {
+  return std::make_unique<const PlanarDynamicParameters<FiveBar, FiveBarParameters>>(parameters_);
 }
 
 }  // namespace flinch
