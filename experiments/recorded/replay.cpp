@@ -28,12 +28,22 @@ const Signal* find(const Recording& recording, const std::string& path) {
   return found == recording.signals.end() ? nullptr : &*found;
 }
 
+/// Scenario, robot and calibrations, as a recording keeps them.
+std::map<std::string, std::string> texts_in(std::map<std::string, std::string> attributes) {
+  std::erase_if(attributes, [](const auto& attribute) {
+    const std::string& name = attribute.first;
+    const bool is_one = name == "scenario.text" || name == "robot.text" || name.starts_with("calibration.");
+    return !is_one || !name.ends_with(".text");
+  });
+  return attributes;
+}
+
 /// The control that runs on the readings. What another than the recorded one commands has never reached the
 /// drives whose currents are seen.
 ContactControlSettings control_over(const Scenario& scenario, const Recording& recorded) {
   ContactControlSettings settings = scenario.control;
-  const auto text = recorded.attributes.find("scenario.text");
-  settings.plausibility.commands_act = text != recorded.attributes.end() && text->second == scenario.text;
+  settings.plausibility.commands_act =
+      texts_in(recorded.attributes) == texts_in(recorded_attributes(scenario, {}));
   settings.contact_is_told = find(recorded, "told_classification") != nullptr;
   return settings;
 }

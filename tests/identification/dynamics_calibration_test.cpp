@@ -86,6 +86,29 @@ TEST(Dynamics, HalveWhatTheObserverTakesForAContact) {
   EXPECT_LT(errors.after, 0.5 * errors.before);
 }
 
+// Friction, arms, rods and a payload of a robot of legs, from base parameters.
+TEST(Dynamics, OfADeltaPredictItsTorqueOnAnUnseenMotion) {
+  const Simulated run =
+      test::simulated("delta_calibration_excitation.yaml", {{"duration_s: 19.0", "duration_s: 10"}});
+  const Simulated other =
+      test::simulated("delta_calibration_motion.yaml",
+                      {{"duration_s: 45", "duration_s: 5"}, {"duration_s: 43", "duration_s: 4"}});
+  const CalibrationResult got = calibrate_dynamics(belief(run), {{{"run.h5", ""}, &run.recording}},
+                                                   {{{"other.h5", ""}, &other.recording}});
+  EXPECT_TRUE(got.doubts.empty()) << ::testing::PrintToString(got.doubts);
+  EXPECT_LT(got.residual_after, 0.1 * got.residual_before);
+  ASSERT_EQ(got.validation.size(), 3U);
+  for (const auto& drive : got.validation) {
+    EXPECT_LT(std::abs(drive.median), 0.1) << drive.name;  // before it was 0.4 Nm, for the payload
+    EXPECT_LT(drive.high - drive.low, 0.3) << drive.name;
+  }
+  const auto mass = std::find_if(got.parameters.begin(), got.parameters.end(),
+                                 [](const auto& parameter) { return parameter.name == "platform.mass_kg"; });
+  ASSERT_NE(mass, got.parameters.end());
+  EXPECT_TRUE(mass->identifiable);
+  EXPECT_NEAR(mass->value, 0.75, 0.12) << "0.45 kg and 10 %, and 0.3 kg of payload, and what rods differ by";
+}
+
 TEST(DynamicsFit, HasTheJacobianOfItsRows) {
   DynamicsRows rows;
   RandomGenerator random(1);

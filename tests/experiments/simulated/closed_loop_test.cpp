@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "experiments/recorded/replay.h"
+#include "experiments/scenario/scenario_calibrations.h"
 #include "experiments/simulated/experiment.h"
 #include "experiments/simulated/simulated_scenario.h"
 #include "experiments/verdict/verdict.h"
@@ -147,6 +148,21 @@ TEST(Replay, TellsAnotherControlPathFromTheRecordedOne) {
   EXPECT_FALSE(test::is_same(recorded, replayed.recording, "wrench"));
   EXPECT_THAT(replayed.differing, testing::Contains("wrench"));
   EXPECT_THAT(replayed.differing, testing::Not(testing::Contains("motion")));
+}
+
+// Its platform weighs what others have found out since: what it commands has never reached the drives.
+TEST(Replay, DoesNotBlameDrivesForTheCommandsOfARobotThatWasCalibratedSince) {
+  SimulatedScenario scenario = scenario_called("delta_calibration_motion");
+  scenario.duration = 2s;
+  const Recording recorded = run_experiment(scenario);
+  ParameterFile heavier;
+  heavier.text = "platform of 1.2 kg";
+  heavier.parameters = {{.name = "platform.mass_kg", .value = 1.2, .belongs_to = "robot"}};
+  scenario.calibrations = {heavier};
+  scenario.robot = calibrated_robot(scenario);
+  const Replay replayed = replay(scenario, recorded);
+  const std::vector<double> faults = replayed.recording.column("gate", "fault");
+  EXPECT_EQ(*std::max_element(faults.begin(), faults.end()), 0.0);
 }
 
 }  // namespace

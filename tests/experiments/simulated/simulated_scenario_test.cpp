@@ -41,19 +41,22 @@ const PlanarRrrParameters& believed(const SimulatedScenario& scenario) {
 TEST(ShippedScenarios, AreTheseAndNoOthers) {
   EXPECT_THAT(
       test::shipped_scenarios(),
-      ElementsAre(
-          "brought_back", "calibration_excitation", "calibration_motion", "calibration_pulls",
-          "calibration_pulls_second", "calibration_rectangle", "calibration_standstill", "clamping",
-          "clamping_reaction", "constraints_without_contact", "delta_collision", "delta_collision_realistic",
-          "first_link_collision", "first_link_reaction", "five_bar_collision", "hexa_collision",
-          "hexa_collision_realistic", "hexapod_calibration_excitation", "hexapod_calibration_motion",
-          "hexapod_calibration_pulls", "hexapod_collision", "hexapod_collision_realistic", "hexapod_push",
-          "linapod_collision", "linapod_collision_realistic", "planar_3rpr_collision",
-          "planar_3rpr_collision_realistic", "planar_4rrr_collision", "planar_4rrr_collision_realistic",
-          "platform_collision", "platform_collision_fused", "platform_collision_realistic",
-          "platform_reaction", "random_motion", "reaction_near_itself", "reaction_near_singularity",
-          "second_link_collision", "second_link_reaction", "square", "square_realistic", "square_tasks",
-          "square_unaligned", "stiffness", "tricept_collision", "tricept_collision_realistic"));
+      ElementsAre("brought_back", "calibration_excitation", "calibration_motion", "calibration_pulls",
+                  "calibration_pulls_second", "calibration_rectangle", "calibration_standstill", "clamping",
+                  "clamping_reaction", "constraints_without_contact", "delta_calibration_excitation",
+                  "delta_calibration_motion", "delta_calibration_pulls", "delta_calibration_rectangle",
+                  "delta_calibration_standstill", "delta_collision", "delta_collision_realistic",
+                  "first_link_collision", "first_link_reaction", "five_bar_collision", "hexa_collision",
+                  "hexa_collision_realistic", "hexapod_calibration_excitation", "hexapod_calibration_motion",
+                  "hexapod_calibration_pulls", "hexapod_calibration_rectangle",
+                  "hexapod_calibration_standstill", "hexapod_collision", "hexapod_collision_realistic",
+                  "hexapod_push", "linapod_collision", "linapod_collision_realistic", "planar_3rpr_collision",
+                  "planar_3rpr_collision_realistic", "planar_4rrr_collision",
+                  "planar_4rrr_collision_realistic", "platform_collision", "platform_collision_fused",
+                  "platform_collision_realistic", "platform_reaction", "random_motion",
+                  "reaction_near_itself", "reaction_near_singularity", "second_link_collision",
+                  "second_link_reaction", "square", "square_realistic", "square_tasks", "square_unaligned",
+                  "stiffness", "tricept_collision", "tricept_collision_realistic"));
 }
 
 TEST(ShippedScenarios, AreAllGood) {
