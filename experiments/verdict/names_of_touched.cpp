@@ -19,7 +19,7 @@ std::vector<std::string> names_of_touched(const ParallelRobot& robot) {
 }
 
 bool names_body(const std::string& told, const std::string& body) {
-  return told == body || body.starts_with(told + "_link");
+  return told == body || body.starts_with(told + "_");
 }
 
 }  // namespace flinch

@@ -11,7 +11,7 @@ namespace flinch {
 /// "leg1_clamping"; "leg1" of a leg whose links load the robot alike.
 std::vector<std::string> names_of_touched(const ParallelRobot& robot);
 
-/// Whether what is `told` is that body: "leg1" is either of its links.
+/// Whether what is `told` is that body: "leg1" is either of its links, or both.
 bool names_body(const std::string& told, const std::string& body);
 
 }  // namespace flinch

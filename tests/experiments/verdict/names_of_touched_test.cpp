@@ -28,12 +28,13 @@ TEST(NamesOfTouched, SayTheLegWhereItsLinksAreAlike) {
   EXPECT_EQ(names[13], "leg1_clamping");
 }
 
-TEST(WhatIsTold, IsRightOfTheBodyOrOfEitherLinkOfTheLeg) {
+TEST(WhatIsTold, IsRightOfTheBodyOrOfAnyLinkOfTheLeg) {
   EXPECT_TRUE(names_body("platform", "platform"));
   EXPECT_TRUE(names_body("leg4_link2", "leg4_link2"));
   EXPECT_TRUE(names_body("leg4", "leg4_link1"));
   EXPECT_TRUE(names_body("leg4", "leg4_link2"));
-  EXPECT_FALSE(names_body("leg4", "leg4_clamping"));
+  EXPECT_TRUE(names_body("leg4", "leg4_clamping"));
+  EXPECT_FALSE(names_body("leg1", "leg11_link1"));
   EXPECT_FALSE(names_body("leg4", "leg3_link1"));
   EXPECT_FALSE(names_body("leg4_link1", "leg4_link2"));
 }
