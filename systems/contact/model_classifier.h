@@ -21,10 +21,10 @@ struct ModelClassifierSettings {
 };
 
 /// Classifies the contact by the evidence of the model: probabilities of all classes, weighted before by how
-/// often each is touched (the biases of `TouchHypothesesSettings`). Where both links of a leg load the robot
-/// alike (`legs_of_alike_links`) a touch of either is said of the first one. The evidence of the ticks since the
+/// often each is touched (the biases of `TouchHypothesesSettings`). The evidence of the ticks since the
 /// detection is averaged, each with the weight of the square of its force, for it is the growing force that
-/// tells.
+/// tells. A touch of either link is said of the first one where those of a leg load the robot alike
+/// (`legs_of_alike_links`).
 class ModelClassifier final : public System {
  public:
   /// What has come together since the contact began.

@@ -21,8 +21,8 @@ RigidBodyInertia body_of(const BodyMoments& moments);
 const char* moment_name(int index);
 const char* moment_unit(int index);
 
-/// The pseudo-inertia, which is positive definite for a body whose density is nowhere negative: so each moment
-/// of inertia is less than the sum of the other two. [Wensing, Kim and Slotine, IEEE RA-L 3(1), 2018, (8)]
+/// The pseudo-inertia, positive definite for a body whose density is nowhere negative: so each moment of
+/// inertia is less than the sum of the other two. [Wensing, Kim and Slotine, IEEE RA-L 3(1), 2018, (8)]
 Eigen::Matrix4d pseudo_inertia(const BodyMoments& moments);
 /// The same of what motion in the plane z = 0 feels of it: mass, centre of mass and I_zz.
 Eigen::Matrix3d planar_pseudo_inertia(const BodyMoments& moments);

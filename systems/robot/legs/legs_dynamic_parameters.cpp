@@ -80,8 +80,8 @@ std::vector<int> felt_moments(const LegsModel& model) {
   return {0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
 }
 
-/// Whether files give it without its thickness: it can be heavier as a whole, but each of its moments is on the
-/// edge of what a body can have.
+/// Whether files give it without its thickness: it can be heavier as a whole, but each of its moments is on
+/// the edge of what a body can have.
 bool is_thin(const RigidBodyInertia& body, bool planar) {
   if (planar) return body.inertia(2, 2) < thinness * about_origin(body)(2, 2);
   const double trace = body.inertia.trace();
@@ -223,12 +223,13 @@ class LegsDynamicParameters final : public DynamicParameters {
     }
     return places;
   }
-  /// As a file describes it: what motion in the plane does not feel stays as believed.
+  /// As a file describes it: moments that motion in the plane does not feel stay in proportion.
   RigidBodyInertia described(std::size_t body, const RigidBodyInertia& found) const {
     if (!robot_->model().moves.planar) return found;
     RigidBodyInertia planar = inertia_of(bodies_[body], robot_->model());
     planar.mass = found.mass;
     planar.centre_of_mass.head<2>() = found.centre_of_mass.head<2>();
+    if (planar.inertia(2, 2) > 0.0) planar.inertia *= found.inertia(2, 2) / planar.inertia(2, 2);
     planar.inertia(2, 2) = found.inertia(2, 2);
     return planar;
   }
@@ -270,8 +271,8 @@ double spread(int number, int dimension) {
   return 2.0 * (multiple - std::floor(multiple)) - 1.0;
 }
 
-/// What parameters do to the drives in motions about home that are of no consequence to the robot: rows of all
-/// drives, columns by deviation of their belief; and the torque.
+/// What parameters do to the drives in motions about home: rows of all drives, columns by deviation of their
+/// belief; and the torque.
 struct Effects {
   Eigen::MatrixXd of_parameters;
   Eigen::VectorXd torque;

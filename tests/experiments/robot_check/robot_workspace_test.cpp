@@ -19,10 +19,10 @@ TEST(ThePosesInReach, OfAFiveBarAreThoseOfTwoRings) {
   RandomGenerator random(1);
   int in_reach = 0;
   for (int trial = 0; trial < 500; ++trial) {
-    const Configuration pose = Eigen::Vector2d(random.uniform(-1.2, 1.2), random.uniform(-1.2, 1.2));
+    const Configuration pose = Eigen::Vector2d(random.uniform(-0.6, 0.6), random.uniform(-0.6, 0.6));
     bool expected = true;
     double margin = 1.0;
-    for (const PlanarLegParameters& leg : robot.parameters().legs) {
+    for (const FiveBarLeg& leg : robot.parameters().legs) {
       const double distance = (Eigen::Vector2d(pose) - leg.base_joint).norm();
       const double longest = leg.link1_length + leg.link2_length;
       const double shortest = std::abs(leg.link1_length - leg.link2_length);
