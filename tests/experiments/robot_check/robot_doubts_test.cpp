@@ -63,8 +63,10 @@ TEST(RobotDoubts, NameAnglesOfMoreThanATurn) {
 }
 
 TEST(RobotDoubts, NameALegUnlikeTheOthers) {
-  EXPECT_THAT(doubts_with("planar_3rrr.yaml", "p1_kg_m2: ", "p1_kg_m2: 1000"),
-              Contains(HasSubstr("base_parameters.p1 is ")));
+  EXPECT_THAT(
+      doubts_with("planar_3rrr.yaml", "base_parameters: *leg_inertia",
+                  "base_parameters: {p1_kg_m2: 605.4, p2_kg_m2: 96.55, p3_kg_m2: 135.7}"),
+      Contains(HasSubstr("legs[1].base_parameters.p1 is 605.4 kg m^2, of other legs 0.605363 kg m^2")));
 }
 
 }  // namespace
