@@ -26,7 +26,7 @@ constexpr double thinness = 0.01;  // of a body's trace, or in the plane of its 
 
 constexpr int tried_states = 60;
 constexpr double own_share = 0.01;     // of its effect: what of a parameter the others cannot stand for
-constexpr double torque_share = 1e-3;  // of all torque: what an effect must amount to
+constexpr double torque_share = 5e-4;  // of all torque: what an effect must amount to
 
 /// What of a robot a parameter is.
 struct Meaning {

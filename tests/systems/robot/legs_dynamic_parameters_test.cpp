@@ -151,11 +151,12 @@ TEST(TheParametersOfADelta, AreThoseThatItsMotionTells) {
   for (const DynamicParameter& parameter : parameters->list()) names.insert(parameter.name);
   for (const char* const told :
        {"legs[0].joints[0].friction.viscous_Nms_per_rad", "legs[2].joints[0].friction.coulomb_Nm",
-        "platform.mass", "legs[1].joints[0].link.first_moment_x", "legs[1].joints[0].link.first_moment_z"})
+        "platform.mass", "legs[1].joints[0].link.first_moment_x", "legs[1].joints[0].link.first_moment_z",
+        "legs[0].joints[1].link.mass"})
     EXPECT_TRUE(names.contains(told)) << told;
   for (const char* const not_told :
        {"platform.first_moment_x", "platform.I_zz", "legs[0].joints[0].link.mass",
-        "legs[0].joints[0].link.I_xx", "legs[0].joints[1].link.mass"})
+        "legs[0].joints[0].link.I_xx", "legs[0].joints[1].link.I_xx"})
     EXPECT_FALSE(names.contains(not_told)) << not_told;
 }
 
