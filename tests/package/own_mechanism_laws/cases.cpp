@@ -7,9 +7,10 @@ const std::vector<flinch::test::MechanismCase>& flinch::test::mechanism_cases() 
   static const std::vector<MechanismCase> cases = {
       {.name = "Own",
        .robot = std::make_shared<const FiveBar>(five_bar_robot()),
-       .region = Eigen::Vector2d(0.08, 0.08),
-       .velocity = Eigen::Vector2d(1.0, 1.0),
+       .region = Eigen::Vector2d(0.03, 0.03),
+       .velocity = Eigen::Vector2d(0.5, 0.5),
        .bodies = {},
+       .least_jumps = 0,  // so near to home
        .reference = {},
        .tolerances = {}}};
   return cases;
