@@ -83,7 +83,7 @@ Form form_of(OutputKind kind) {
     case OutputKind::page:
       return {"page of flinch", {".html", ".htm"}, &is_page};
     case OutputKind::picture:
-      return {"picture of a graph", {".svg"}, &is_picture};
+      return {"picture", {".svg"}, &is_picture};
     case OutputKind::graph:
       return {"graph", {".dot"}, &is_graph};
     case OutputKind::parameters:
