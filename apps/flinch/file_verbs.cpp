@@ -110,8 +110,8 @@ Checked check_text(const std::filesystem::path& file) {
     case FileKind::scenario:
       break;
   }
-  const std::vector<CalibrationDoubt> doubts = check_scenario(file);
-  return {"scenario", doubts, robot_doubts(read_scenario(file).robot)};
+  const Scenario scenario = check_scenario(file);
+  return {"scenario", scenario.doubts, robot_doubts(scenario.robot)};
 }
 
 Checked check_file(const std::filesystem::path& file, const CommonOptions& common) {
@@ -205,7 +205,7 @@ ExitStatus check(const CheckOptions& options) {
   for (const std::filesystem::path& file : options.files) {
     try {
       const Checked checked = check_file(file, options.common);
-      all.push_back(checked_json(file, checked));
+      if (options.common.json) all.push_back(checked_json(file, checked));
       tell(file, checked, options.common);
       if (!options.picture.empty()) draw_workspace(file, checked, options);
     } catch (const SetupError& error) {

@@ -16,7 +16,7 @@ VALUE = re.compile(COMMENT + r"struct (\w+) \{(.*?)^\};", re.S | re.M)
 FIELD = re.compile(r'visit\("([^"]+)",\s*"([^"]*)"')
 
 
-def sentence_of(comment):
+def text_of(comment):
     """The comment as text, with its paragraphs."""
     lines = [line.strip().removeprefix("///").strip() for line in comment.strip().splitlines()]
     return "\n".join(lines).replace("<", "\\<")
@@ -34,7 +34,7 @@ def values():
         for comment, name, body in VALUE.findall(path.read_text()):
             fields = FIELD.findall(body)
             if fields and name not in found:
-                found[name] = (sentence_of(comment), path.relative_to(ROOT), fields)
+                found[name] = (text_of(comment), path.relative_to(ROOT), fields)
     return found
 
 
@@ -44,12 +44,12 @@ def blocks():
     for folder in ROOMS:
         for path in headers(folder):
             for comment, name, _, body in BLOCK.findall(path.read_text()):
-                ports = PORT.findall(body)
                 if name == "Diagram":  # it is made of blocks; its ports are theirs
                     continue
+                ports = PORT.findall(body)
                 inputs = [(kind, port) for way, kind, port in ports if way == "Input"]
                 outputs = [(kind, port) for way, kind, port in ports if way == "Output"]
-                rooms.setdefault(folder, []).append((name, sentence_of(comment), path.relative_to(ROOT), inputs, outputs))
+                rooms.setdefault(folder, []).append((name, text_of(comment), path.relative_to(ROOT), inputs, outputs))
     return rooms
 
 

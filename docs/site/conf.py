@@ -1,9 +1,7 @@
-"""How Sphinx makes one site of README.md, docs/ and the reference that site.py writes."""
-import os
+"""How Sphinx makes one site of README.md, docs/ and the reference that make_site.py writes."""
 
 project = "flinch"
 author = "the flinch authors"
-version = release = os.environ.get("FLINCH_VERSION", "")
 extensions = ["myst_parser", "sphinx.ext.mathjax"]
 include_patterns = ["index.md", "README.md", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md", "docs/*.md", "reference/*.md"]
 myst_enable_extensions = ["dollarmath", "amsmath"]
@@ -11,7 +9,7 @@ myst_heading_anchors = 6
 suppress_warnings = ["myst.header", "myst.xref_missing"]  # tests/house/links.py looks at links
 
 html_theme = "sphinx_rtd_theme"
-html_title = f"flinch {version}".strip()
+html_title = "flinch"
 html_show_copyright = False
 html_show_sphinx = False
 html_copy_source = False

@@ -57,7 +57,7 @@ void widen(const CartesianVector& reached, RobotWorkspace& found) {
 }
 
 /// Follows straight ways from home, as long as they are in reach.
-void follow_rays(const ParallelRobot& robot, const WorkspaceLimits& limits, RobotWorkspace& found) {
+void follow_rays(const ParallelRobot& robot, const PoseCheck& check, RobotWorkspace& found) {
   const int translations = robot.space().translations();
   const CartesianVector home = robot.home_pose().head(translations);
   const double size = size_of(robot), step = size / steps_over_size;
@@ -67,7 +67,7 @@ void follow_rays(const ParallelRobot& robot, const WorkspaceLimits& limits, Robo
     int missed = 0;
     for (double way = step; way < farthest * size && missed < patience; way += step) {
       const CartesianVector by = way * direction;
-      const WorkspacePose there = look_at(robot, limits, moved(robot, by));
+      const WorkspacePose there = check.at(moved(robot, by));
       missed = there.reachable ? 0 : missed + 1;
       if (!there.reachable) continue;
       widen(home + by, found);
@@ -113,27 +113,32 @@ bool WorkspacePose::is_within() const {
          std::none_of(breaks.begin(), breaks.end(), [](bool one) { return one; });
 }
 
-WorkspacePose look_at(const ParallelRobot& robot, const WorkspaceLimits& limits, const Configuration& pose) {
-  Kinematics at, home;
-  const PlatformVector rest = PlatformVector::Zero(robot.dof());
-  robot.kinematics(pose, rest, at);
+PoseCheck::PoseCheck(const ParallelRobot& robot, const WorkspaceLimits& limits)
+    : robot_(robot), limits_(limits) {
+  Kinematics home;
+  robot.kinematics(robot.home_pose(), PlatformVector::Zero(robot.dof()), home);
+  home_determinant_ = home.det_A;
+}
+
+WorkspacePose PoseCheck::at(const Configuration& pose) const {
+  Kinematics at;
+  robot_.kinematics(pose, PlatformVector::Zero(robot_.dof()), at);
   WorkspacePose result;
   result.reachable = at.valid;
   if (!at.valid) return result;
-  robot.kinematics(robot.home_pose(), rest, home);
-  result.beyond_singularity = at.det_A * home.det_A <= 0.0;
+  result.beyond_singularity = at.det_A * home_determinant_ <= 0.0;
   result.sigma_kappa = at.sigma_kappa;
-  result.self_collision_distance = self_collision_distance(robot, at);
+  result.self_collision_distance = self_collision_distance(robot_, at);
   result.drives = at.joints.active;
   result.breaks = {
-      distance_from_centre(limits, robot, pose) > limits.max_distance,
-      robot.space().rotation_angle(pose) > limits.max_rotation, std::abs(at.det_A) < limits.min_abs_det_A,
-      std::abs(at.det_B) < limits.min_abs_det_B,
+      distance_from_centre(limits_, robot_, pose) > limits_.max_distance,
+      robot_.space().rotation_angle(pose) > limits_.max_rotation, std::abs(at.det_A) < limits_.min_abs_det_A,
+      std::abs(at.det_B) < limits_.min_abs_det_B,
       result
-          .self_collision_distance<limits.min_self_collision_distance,
-                                   robot.platform_gap(at) < limits.min_platform_gap,
-                                   result.drives.minCoeff() < limits.min_active, result.drives.maxCoeff()>
-              limits.max_active};
+          .self_collision_distance<limits_.min_self_collision_distance,
+                                   robot_.platform_gap(at) < limits_.min_platform_gap,
+                                   result.drives.minCoeff() < limits_.min_active, result.drives.maxCoeff()>
+              limits_.max_active};
   return result;
 }
 
@@ -142,7 +147,8 @@ RobotWorkspace robot_workspace(const ParallelRobot& robot, const WorkspaceLimits
   found.breaking.assign(limit_names(robot).size(), 0);
   constexpr double infinite = std::numeric_limits<double>::infinity();
   found.drives = {infinite, -infinite};
-  follow_rays(robot, limits, found);
+  const PoseCheck check(robot, limits);
+  follow_rays(robot, check, found);
   const int translations = robot.space().translations();
   const CartesianVector home = robot.home_pose().head(translations);
   const auto along_rays = found.reach;
@@ -157,7 +163,7 @@ RobotWorkspace robot_workspace(const ParallelRobot& robot, const WorkspaceLimits
       const double place = static_cast<double>(rest % static_cast<std::size_t>(points)) / (points - 1);
       by[axis] = low + (high - low) * ((1.0 + 2.0 * beside) * place - beside) - home[axis];
     }
-    const WorkspacePose there = look_at(robot, limits, moved(robot, by));
+    const WorkspacePose there = check.at(moved(robot, by));
     if (there.reachable) widen(home + by, found);
     count(there, found);
   }

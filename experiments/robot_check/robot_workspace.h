@@ -26,7 +26,19 @@ struct WorkspacePose {
 
   bool is_within() const;
 };
-WorkspacePose look_at(const ParallelRobot& robot, const WorkspaceLimits& limits, const Configuration& pose);
+
+/// Looks at poses of a robot, which outlives it, as do its limits.
+class PoseCheck {
+ public:
+  PoseCheck(const ParallelRobot& robot, const WorkspaceLimits& limits);
+
+  WorkspacePose at(const Configuration& pose) const;
+
+ private:
+  const ParallelRobot& robot_;
+  const WorkspaceLimits& limits_;
+  double home_determinant_ = 0.0;  ///< det A.
+};
 
 /// Where a robot can be with the orientation that it has at home, and what its limits leave of that.
 struct RobotWorkspace {

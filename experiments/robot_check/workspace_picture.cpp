@@ -36,12 +36,11 @@ class Section {
  public:
   Section(const RobotFile& file, const RobotWorkspace& workspace, int across, int up, double left)
       : file_(file), robot_(*file.robot), across_(across), up_(up), left_(left) {
-    Kinematics home;
-    robot_.kinematics(robot_.home_pose(), PlatformVector::Zero(robot_.dof()), home);
+    robot_.kinematics(robot_.home_pose(), PlatformVector::Zero(robot_.dof()), home_);
     for (const int axis : {across, up}) {
       auto [low, high] = workspace.reach[static_cast<std::size_t>(axis)];
       for (int leg = 0; leg < robot_.legs(); ++leg) {
-        const LegPoints& points = home.legs[static_cast<std::size_t>(leg)];
+        const LegPoints& points = home_.legs[static_cast<std::size_t>(leg)];
         for (const CartesianVector* point :
              {&points.base_joint, &points.passive_joint, &points.coupling_joint}) {
           low = std::min(low, (*point)[axis]);
@@ -51,7 +50,6 @@ class Section {
       range_.push_back({low, high});
     }
     scale_ = width / std::max(range_[0][1] - range_[0][0], range_[1][1] - range_[1][0]);
-    home_ = home;
   }
 
   double right() const { return x(range_[0][1]) + margin; }
@@ -61,9 +59,10 @@ class Section {
     std::string text;
     const double side = width / cells;
     const double step = side / scale_;
+    const PoseCheck check(robot_, file_.limits);
     for (double b = range_[1][0] + 0.5 * step; b < range_[1][1]; b += step) {
       for (double a = range_[0][0] + 0.5 * step; a < range_[0][1]; a += step) {
-        const WorkspacePose there = look_at(robot_, file_.limits, pose(a, b));
+        const WorkspacePose there = check.at(pose(a, b));
         if (!there.reachable) continue;
         text += fmt::format("<rect x='{:.1f}' y='{:.1f}' width='{:.1f}' height='{:.1f}' fill='{}'/>\n",
                             x(a) - 0.5 * side, y(b) - 0.5 * side, side + 0.3, side + 0.3, colour_of(there));

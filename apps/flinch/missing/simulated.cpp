@@ -46,10 +46,10 @@ std::unique_ptr<Diagram> closed_loop(const std::filesystem::path& scenario) {
   return built(read_scenario(scenario)).diagram;
 }
 
-std::vector<CalibrationDoubt> check_scenario(const std::filesystem::path& file) {
+Scenario check_scenario(const std::filesystem::path& file) {
   const Scenario scenario = read_scenario(file);
   built(scenario);
-  return scenario.doubts;
+  return scenario;
 }
 
 Scenario scenario_of(const Recording& recording, const std::filesystem::path& file,

@@ -57,10 +57,10 @@ std::unique_ptr<Diagram> closed_loop(const std::filesystem::path& scenario) {
   return built(read_simulated_scenario(scenario)).diagram;
 }
 
-std::vector<CalibrationDoubt> check_scenario(const std::filesystem::path& file) {
+Scenario check_scenario(const std::filesystem::path& file) {
   const SimulatedScenario scenario = read_simulated_scenario(file);
   built(scenario);
-  return scenario.doubts;
+  return static_cast<const Scenario&>(scenario);
 }
 
 std::vector<CalibrationDoubt> check_campaign(const std::filesystem::path& file) {

@@ -21,11 +21,10 @@ ExitStatus run_sweep(const RunOptions& options);
 /// built without the simulation, with a robot outside. Throws SetupError for all that is wrong with the file.
 std::unique_ptr<Diagram> closed_loop(const std::filesystem::path& scenario);
 
-/// Builds the closed loop of a scenario. Returns what is doubtful about its calibrations. Throws SetupError
-/// as closed_loop().
-std::vector<CalibrationDoubt> check_scenario(const std::filesystem::path& file);
+/// Builds the closed loop of a scenario, and returns what was read of it. Throws SetupError as closed_loop().
+Scenario check_scenario(const std::filesystem::path& file);
 
-/// Draws the first run of a campaign. Returns what is doubtful about its calibrations, likewise. Throws
+/// Draws the first run of a campaign. Returns what is doubtful about its calibrations. Throws
 /// SetupError for all that is wrong with the file, and where this program was built without the simulation.
 std::vector<CalibrationDoubt> check_campaign(const std::filesystem::path& file);
 

@@ -16,7 +16,7 @@ namespace flinch {
 namespace {
 
 constexpr double link_share = 0.2;      // of what is believed of a link
-constexpr double platform_share = 0.5;  // likewise, with what is mounted on it
+constexpr double platform_share = 0.5;  // of the platform, with what is mounted on it
 constexpr double armature_share = 0.2;
 constexpr JointFriction turning_belief{.viscous = 0.5, .coulomb = 1.0};
 constexpr JointFriction turning_belief_of_passive{.viscous = 0.1, .coulomb = 0.1};

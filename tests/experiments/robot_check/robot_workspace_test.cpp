@@ -16,6 +16,8 @@ namespace {
 // Both legs of a five-bar reach a point that is neither too far from nor too near to their bases.
 TEST(ThePosesInReach, OfAFiveBarAreThoseOfTwoRings) {
   const FiveBar robot(five_bar_robot());
+  const WorkspaceLimits none;
+  const PoseCheck check(robot, none);
   RandomGenerator random(1);
   int in_reach = 0;
   for (int trial = 0; trial < 500; ++trial) {
@@ -30,7 +32,7 @@ TEST(ThePosesInReach, OfAFiveBarAreThoseOfTwoRings) {
       margin = std::min({margin, std::abs(distance - longest), std::abs(distance - shortest)});
     }
     if (margin < 1e-6) continue;
-    EXPECT_EQ(look_at(robot, {}, pose).reachable, expected) << pose.transpose();
+    EXPECT_EQ(check.at(pose).reachable, expected) << pose.transpose();
     in_reach += expected ? 1 : 0;
   }
   EXPECT_GT(in_reach, 50);
@@ -41,13 +43,14 @@ TEST(ThePosesWithinLimits, AreThoseThatTheGateLetsPass) {
        {"robots/planar_3rrr.yaml", "robots/delta.yaml", "robots/hexapod_6ups.yaml"}) {
     const RobotFile file = read_robot_file(test::shipped(name));
     const int translations = file.robot->space().translations();
+    const PoseCheck check(*file.robot, file.limits);
     RandomGenerator random(2);
     int within = 0;
     for (int trial = 0; trial < 300; ++trial) {
       PlatformVector away = PlatformVector::Zero(file.robot->dof());
       for (int axis = 0; axis < translations; ++axis) away[axis] = random.uniform(-0.3, 0.3);
       const Configuration pose = file.robot->space().plus(file.robot->home_pose(), away);
-      const WorkspacePose seen = look_at(*file.robot, file.limits, pose);
+      const WorkspacePose seen = check.at(pose);
       if (seen.beyond_singularity) continue;
       Kinematics at;
       file.robot->kinematics(pose, PlatformVector::Zero(file.robot->dof()), at);

@@ -1,4 +1,4 @@
-"""Makes the site of all documents: python3 docs/site/site.py PROGRAM OUT [--without-api]
+"""Makes the site of all documents: python3 docs/site/make_site.py PROGRAM OUT [--without-api]
 
 PROGRAM is a built flinch, which tells of its verbs. Everything lies in OUT, and no page asks the network for anything.
 """
