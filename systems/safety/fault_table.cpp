@@ -125,7 +125,9 @@ bool self_collision(const Evidence& e) {
 
 // ---------------------------------------------------------------- observers and laws
 
-bool contact_unmonitored(const Evidence& e) { return !e.detection.valid; }
+bool contact_unmonitored(const Evidence& e) {
+  return !e.detection.valid || (e.plausibility.valid && e.plausibility.learning);
+}
 
 /// A reference that the legs do not reach cannot be followed.
 bool control_error(const Evidence& e) {

@@ -12,6 +12,7 @@ namespace {
 constexpr Time settling = 8ms;      // after the brakes have opened, that belongs to no check
 constexpr Time lost_after = 20ms;   // without a reading
 constexpr Time there_after = 20ms;  // with one
+constexpr Time longest_learning = 1s;
 
 /// What the two commands before have done over the last two intervals: each half of them. None where one of
 /// them was no torque.
@@ -34,6 +35,14 @@ bool is_lost(const PlausibilityTick& tick, bool there, int& seen, int& missing) 
   if (there) seen = std::min(seen + 1, enough);
   missing = there ? 0 : std::min(missing + 1, too_many);
   return seen >= enough && missing >= too_many;
+}
+
+/// Whether all is known that a sensor which is read tells while nothing moves.
+bool has_learned(const PlausibilityMemory& memory, const PlausibilityTick& tick) {
+  return (memory.angles.readings == 0 || memory.angles.change.known()) &&
+         (memory.currents.readings == 0 || memory.currents.noise.known()) &&
+         (!tick.imu.valid || memory.inertial.gyroscope.known()) &&
+         (!tick.joints.passive_valid || memory.parity.knows_offset());
 }
 
 /// Whether a unit with this doubt still measures what happens to it.
@@ -101,6 +110,9 @@ void PlausibilityMonitor::advance(Time now, const PlausibilityMemory& last, cons
   flinch::advance(next.rest, past.driven, next.angles, tick, next.found);
   next.found.passive_lost = is_lost(tick, angles.passive_valid, next.passive_seen, next.passive_missing);
   next.found.imu_lost = is_lost(tick, inertial.valid, next.imu_seen, next.imu_missing);
+  if (tick.held) next.held_for += look_;
+  next.found.learning =
+      tick.held && next.rest.engage && next.held_for < longest_learning && !has_learned(next, tick);
   next.found.askable = askable_checks(next, tick);
 }
 

@@ -29,6 +29,7 @@ struct PlausibilityMemory {
   Time looked{};                             ///< the last tick at which anybody looked
   JointVector torque, torque_before;         ///< commanded in the two ticks before [Nm]; empty: none
   int free = 0;                              ///< ticks since the brakes have opened
+  Time held_for{};                           ///< closed, before they were open
   bool moved = false;                        ///< they have been open before: nothing is learned any more
   int passive_seen = 0, imu_seen = 0;        ///< ticks with valid readings
   int passive_missing = 0, imu_missing = 0;  ///< ticks in a row without

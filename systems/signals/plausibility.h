@@ -47,6 +47,7 @@ struct Plausibility {
   bool imu_lost = false;      ///< likewise
   ImuDoubt imu_doubt = ImuDoubt::none;
   bool imu_left_out = false;  ///< nobody is told its present sample
+  bool learning = false;      ///< noise is still being learned, before the first motion
   CheckMask askable = 0;      ///< what each of them needs is there: sensors, and what was learned of them
   /// By PlausibilityCheck: what was found over what is allowed; 0 where it could not be asked.
   std::array<double, plausibility_checks> ratio{};
@@ -63,6 +64,7 @@ struct Plausibility {
     visit("imu_lost", "", self.imu_lost);
     visit("imu_doubt", "", self.imu_doubt);
     visit("imu_left_out", "", self.imu_left_out);
+    visit("learning", "", self.learning);
     visit("askable", "", self.askable);
     visit("ratio", "", self.ratio);
   }

@@ -209,7 +209,8 @@ std::map<GateFault, std::vector<Way>> ways_of_laws_and_operator() {
   return {
       {GateFault::contact_unmonitored,
        {{[](Inputs& in) { in.detection.valid = false; }, 0,
-         [](Inputs& in) { in.detection.level = in.detection.present_level = ContactLevel::hard; }}}},
+         [](Inputs& in) { in.detection.level = in.detection.present_level = ContactLevel::hard; }},
+        {[](Inputs& in) { in.plausibility.valid = in.plausibility.learning = true; }, 0}}},
       {GateFault::control_error,
        {{wanted(25.2 * degree), 0, wanted(24.8 * degree)},
         {[](Inputs& in) { in.reference.pose = Eigen::Vector3d(5.0, 0.0, 0.0); }, 0,  // out of reach

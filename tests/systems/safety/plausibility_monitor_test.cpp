@@ -303,6 +303,39 @@ TEST(PlausibilityMonitor, DoesNotDoubtAStationWhoseBrakesWereToldToClose) {
   EXPECT_EQ(ticks_until(watched, GateFault::status_contradicted, closing), std::nullopt);
 }
 
+/// Ticks for which a robot that is held goes on learning, once it is told anything; `change`: of each tick.
+int ticks_of_learning(const std::function<void(Told&)>& change) {
+  bool told_anything = false;
+  Watched watched(
+      [&](Told& told) {
+        Watched::held(told);
+        if (!told_anything) told.joints.valid = told.drives.valid = told.imu.valid = false;
+      },
+      test::watched_limits(), 0);
+  told_anything = true;
+  int ticks = 0;
+  while (watched.tick(change).learning) ++ticks;
+  return ticks;
+}
+
+TEST(PlausibilityMonitor, SaysThatItLearnsUntilAllNoiseIsKnown) {
+  const int ticks = ticks_of_learning([](Told&) {});
+  EXPECT_GE(ticks, 50);
+  EXPECT_LE(ticks, 55);
+}
+
+TEST(PlausibilityMonitor, LearnsNoLongerThanASecondHoweverFewSamplesCome) {
+  const auto slow = [](Told& told) { told.imu.acquired = told.imu.acquired / 25ms * 25ms; };
+  EXPECT_GT(ticks_of_learning(slow), 500);
+  EXPECT_LE(ticks_of_learning(slow), 1000);
+}
+
+TEST(PlausibilityMonitor, LearnsNothingOnceTheRobotHasMoved) {
+  Watched watched([](Told&) {}, test::watched_limits(), 0);
+  EXPECT_FALSE(watched.tick().learning);
+  EXPECT_FALSE(watched.tick(Watched::held).learning);
+}
+
 TEST(PlausibilityMonitor, NeverAllocates) {
   Watched watched;
   std::int64_t allocations = 0;
