@@ -44,7 +44,7 @@ TEST(Lockstep, IsWhatTheRobotSaysUnlessSomebodyChooses) {
   const json printed = json::parse(live.out);
   EXPECT_TRUE(printed.at("computer").is_null()) << "no clock took part";
   EXPECT_THAT(test::undocumented_keys(printed, "JSON"), IsEmpty());
-  EXPECT_THAT(bench.server.output(), HasSubstr("in lockstep"));
+  EXPECT_THAT(bench.server->output(), HasSubstr("in lockstep"));
   const test::Outcome told = test::flinch(bench.run_arguments());
   EXPECT_THAT(told.err, HasSubstr("in lockstep: robot and controller wait for one another"));
 }
@@ -68,9 +68,9 @@ TEST(Lockstep, GivesAProgramOfOnesOwnTheSameRobotAsItsSimulation) {
 TEST(Lockstep, TellsAtTheEndWhatItServed) {
   BenchOnTheBus bench("platform_collision", {"--lockstep", "--json"});
   ASSERT_EQ(test::flinch(bench.run_arguments()).status, 0);
-  bench.server.interrupt();
-  EXPECT_EQ(bench.server.wait(20s), 0);
-  const json served = json::parse(bench.server.output());
+  bench.server->interrupt();
+  EXPECT_EQ(bench.server->wait(20s), 0);
+  const json served = json::parse(bench.server->output());
   EXPECT_THAT(test::undocumented_keys(served, "JSON"), IsEmpty());
   EXPECT_EQ(served["ticks"], 1200);
   EXPECT_EQ(served["runs"], 1);
@@ -95,8 +95,8 @@ TEST(Lockstep, RefusesAControllerThatGoesByTheClock) {
                 HasSubstr("the robot goes in lockstep with its controller, and this program by the"));
   }
   EXPECT_FALSE(std::filesystem::exists(bench.place / "live"));
-  EXPECT_TRUE(bench.server.writes("a program commands by the clock, and is not obeyed", 20s))
-      << bench.server.output();
+  EXPECT_TRUE(bench.server->writes("a program commands by the clock, and is not obeyed", 20s))
+      << bench.server->output();
 }
 
 TEST(Lockstep, EndsWhereTheRobotIsGone) {
@@ -104,7 +104,7 @@ TEST(Lockstep, EndsWhereTheRobotIsGone) {
   test::OtherProgram run(
       test::flinch_program(with(with(bench.run_arguments(), for_long), {"--patience", "1"})));
   ASSERT_TRUE(run.writes("gate open", 20s)) << run.output();
-  bench.server.kill();
+  bench.server->kill();
   EXPECT_TRUE(run.writes("ended:     the robot has sent nothing for 1 s", 60s)) << run.output();
   EXPECT_EQ(run.wait(20s), 1) << run.output();
   EXPECT_THAT(run.output(), HasSubstr("verdict: bad\n  - the robot has sent nothing for 1 s\n"));
@@ -119,7 +119,7 @@ TEST(Lockstep, WaitsForTheNextControllerWhereOneIsGone) {
     ASSERT_TRUE(run.writes("gate open", 20s)) << run.output();
     run.kill();
   }
-  EXPECT_TRUE(bench.server.writes("the controller has sent nothing for 1 s", 60s)) << bench.server.output();
+  EXPECT_TRUE(bench.server->writes("the controller has sent nothing for 1 s", 60s)) << bench.server->output();
   EXPECT_EQ(test::flinch(bench.run_arguments("next")).status, 0);
 }
 

@@ -118,7 +118,7 @@ TEST(RunOnBus, EndsWhereTheRobotIsGone) {
   arguments.insert(arguments.end(), {"--patience", "1"});
   test::OtherProgram run(test::flinch_program(arguments));
   ASSERT_TRUE(run.writes("gate open", 20s)) << run.output();
-  bench.server.kill();
+  bench.server->kill();
   EXPECT_TRUE(run.writes("ended:     the robot has sent nothing for 1 s", 20s)) << run.output();
   EXPECT_EQ(run.wait(20s), stopped_by_fault) << run.output();
   const Recording recording = read_recording(bench.place / "live/run.h5");
@@ -129,9 +129,9 @@ TEST(RunOnBus, EndsWhereTheRobotIsGone) {
 TEST(RunOnBus, ServesUntilCtrlC) {
   BenchOnTheBus bench;
   ASSERT_EQ(bench.run(bench.run_arguments()).status, 0);
-  bench.server.interrupt();
-  EXPECT_EQ(bench.server.wait(20s), 0);
-  const json served = json::parse(bench.server.output());
+  bench.server->interrupt();
+  EXPECT_EQ(bench.server->wait(20s), 0);
+  const json served = json::parse(bench.server->output());
   EXPECT_THAT(test::undocumented_keys(served, "JSON"), IsEmpty());
   EXPECT_GT(served["commands"], 1000);
 }
