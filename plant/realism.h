@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
 #include "systems/robot/drive_parameters.h"
 
 namespace flinch {
@@ -7,6 +10,8 @@ namespace flinch {
 /// How far robots that are built alike may be off their model: the largest sizes from which one robot is
 /// drawn, see `draw_perturbed_robot`. Zero: it is as the model says.
 struct Realism {
+  std::optional<std::uint64_t> seed{};  ///< Of the robot that is drawn; none: that of the run.
+
   // ---- mechanics
   double friction = 0.0;  ///< Of each drive and passive joint, a share either way.
   /// Of the dry friction of each drive, which then sticks: from a twentieth of this up [Nm/rad or N/m].

@@ -43,6 +43,7 @@ Realism read_realism(ConfigReader& plant, const ParallelRobot& robot) {
   if (!plant.has_section("realism")) return read_like(plant, "realism", drives);
   ConfigReader reader = plant.section("realism");
   Realism realism = read_like(reader, "like", drives);
+  if (reader.has("seed")) reader.seed("seed", realism.seed.emplace());
   // Nothing that must be positive may be scaled by zero.
   constexpr Range share{.low = 0.0, .high = 0.9};
   const bool turn = drives == DriveKind::revolute;

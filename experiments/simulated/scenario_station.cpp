@@ -247,8 +247,8 @@ void read_station(ConfigReader& file, const Scenario& scenario, SimulatedStation
   station.instrument.mountings = scenario.mountings;
   read_sensors(file.section("sensors"), *scenario.robot.robot, station);
   station.faults = read_faults(file, *scenario.robot.robot);
-  perturbed_robot =
-      draw_perturbed_robot(realism, *scenario.robot.robot, scenario.robot.drives.max_torque, scenario.seed);
+  perturbed_robot = draw_perturbed_robot(realism, *scenario.robot.robot, scenario.robot.drives.max_torque,
+                                         realism.seed.value_or(scenario.seed));
   station = with_perturbed_robot(std::move(station), perturbed_robot);
   if (file.good()) {
     for (const ContactAtStart& contact : contacts_at_start(station.bench))

@@ -68,6 +68,16 @@ TEST(ScenarioRealism, CanBeSetSizeBySize) {
   EXPECT_EQ(scenario.station.drives.current_lag, scenario.perturbed_robot.current_lag);
 }
 
+TEST(ScenarioRealism, IsThatOfTheRunUnlessTheRobotHasASeedOfItsOwn) {
+  const test::Workplace place;
+  const auto payload = [&](const std::string& realism, std::uint64_t seed) {
+    return scenario_with(place, realism, "planar_3rrr", seed).perturbed_robot.mechanics.payload;
+  };
+  const double seventh = payload("realism: bench", 7);
+  EXPECT_NE(payload("realism: bench", 8), seventh);
+  EXPECT_EQ(payload("realism: {like: bench, seed: 7}", 8), seventh);
+}
+
 TEST(ScenarioRealism, CanBeLikeTheBenchButForWhatItSays) {
   const test::Workplace place;
   const SimulatedScenario bench = scenario_with(place, "realism: bench");
