@@ -76,6 +76,13 @@ std::vector<double> values_of(const CalibratedThreshold& whole,
   return values;
 }
 
+std::vector<double> values_of(const JointVector& of) { return {of.begin(), of.end()}; }
+
+/// Of each drive.
+std::string deviations_text(const ThresholdFindings& found) {
+  return fmt::format("{:.4g}", fmt::join(values_of(found.drive_deviations), ", "));
+}
+
 /// As the value of a key.
 std::string text_of(const std::vector<double>& values) {
   if (values.size() == 1) return fmt::format("{:.4g}", values.front());
@@ -326,6 +333,10 @@ std::string thresholds_table(const ThresholdFindings& found) {
     text += rows(of, found.space);
   }
   if (!found.residuals.empty()) text += residuals_table(found) + onsets_table(found);
+  if (found.drive_deviations.size() > 0) {
+    text += fmt::format("\nwrench of classifiers and locators: deviation at each drive [{}] {}\n",
+                        deviations_text(found), found.drives_turn ? "Nm" : "N");
+  }
   if (!found.estimators.empty()) {
     text += fmt::format("\nfrom {:.1f} s of motion without contact, in stretches of {} s\n",
                         seconds(found.estimators.front().stretches, goal), to_seconds(goal.stretch));
@@ -361,7 +372,8 @@ std::string thresholds_json(const ThresholdFindings& found) {
                         {"one_robot", goal.one_robot},
                         {"warnings", warnings(found)},
                         {"thresholds", list},
-                        {"fused_detector", residuals}});
+                        {"fused_detector", residuals},
+                        {"drive_deviations", values_of(found.drive_deviations)}});
 }
 
 std::string thresholds_yaml(const ThresholdFindings& found, const std::string& date) {
@@ -382,6 +394,10 @@ std::string thresholds_yaml(const ThresholdFindings& found, const std::string& d
     text += "}\n";
   }
   if (!found.residuals.empty()) text += residuals_yaml(found);
+  if (found.drive_deviations.size() > 0) {
+    text += fmt::format("  isolation: {{drive_deviation_{}: [{}]}}\n", found.drives_turn ? "Nm" : "N",
+                        deviations_text(found));
+  }
   return text;
 }
 

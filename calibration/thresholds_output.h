@@ -23,6 +23,8 @@ struct ThresholdFindings {
   ConfigurationSpace space = ConfigurationSpace::Kind::planar_pose;  ///< of the robot
   ResidualTracking tracking{};  ///< with which the fused detector must follow its residuals
   bool drives_turn = true;
+  /// Of what the classifiers and locators read, at each drive; empty: not recorded [Nm or N]
+  JointVector drive_deviations{};
 };
 
 /// Notes of which robot, and with which torque constants, all recordings of these scenarios were made.
@@ -41,8 +43,8 @@ std::vector<double> force_values(const EstimatorThresholds& of, const Configurat
 std::vector<double> moment_values(const EstimatorThresholds& of, const ConfigurationSpace& space);
 
 /// As a table for people; as one JSON object on one line, to which later versions add keys and rename none;
-/// and as a parameter file with the sections `contact_detector` and `fused_detector` of `control`, with what
-/// they come from above: made on `date`, "2026-11-22".
+/// and as a parameter file with the sections `contact_detector`, `fused_detector` and `isolation` of
+/// `control`, as far as they are known, and with what they come from above: made on `date`, "2026-11-22".
 std::string thresholds_table(const ThresholdFindings& found);
 std::string thresholds_json(const ThresholdFindings& found);
 std::string thresholds_yaml(const ThresholdFindings& found, const std::string& date);

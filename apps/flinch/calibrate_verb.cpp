@@ -10,6 +10,7 @@
 #include "calibration/calibration_sources.h"
 #include "calibration/contact_free_motion.h"
 #include "calibration/contact_free_peaks.h"
+#include "calibration/drive_deviations.h"
 #include "calibration/residual_calibration.h"
 #include "calibration/threshold_calibration.h"
 #include "calibration/thresholds_output.h"
@@ -102,12 +103,16 @@ std::vector<EstimatorPeaks> peaks_of(FreeMotions& motions, const std::vector<Log
   return pooled(peaks);
 }
 
-/// Of the estimators whose residuals a fused detector judges by, as far as they are recorded.
-std::vector<CalibratedResidual> residuals_of(const FreeMotions& motions, const ThresholdGoal& goal,
-                                             bool quiet) {
+std::vector<ResidualRecording> residuals_of(const FreeMotions& motions) {
   std::vector<ResidualRecording> recordings;
   for (std::size_t i = 0; i < motions.recordings.size(); ++i)
     recordings.emplace_back(motions.recordings[i], motions.nominal[i], motions.scenarios[i].control);
+  return recordings;
+}
+
+/// Of the estimators whose residuals a fused detector judges by, as far as they are recorded.
+std::vector<CalibratedResidual> calibrated(const std::vector<ResidualRecording>& recordings,
+                                           const ThresholdGoal& goal, bool quiet) {
   Progress progress("calibrating the fused detector", quiet);
   return calibrate_residuals(recordings, goal, [&](double share) { progress.show(share); });
 }
@@ -131,7 +136,10 @@ ExitStatus calibrate_thresholds(const CalibrateThresholdsOptions& options) {
     note_settings(motions.scenarios, found);
   }
   found.estimators = calibrate_thresholds(peaks_of(motions, free, found.goal, quiet), found.goal);
-  found.residuals = residuals_of(motions, found.goal, quiet);
+  const std::vector<ResidualRecording> residuals = residuals_of(motions);
+  found.residuals = calibrated(residuals, found.goal, quiet);
+  found.drive_deviations =
+      drive_deviations(residuals, *motions.scenarios.front().robot.robot, IsolationSettings().uncertainty);
   found.tracking = motions.scenarios.front().control.fused_detector.tracking;
   note_robot(motions.scenarios, found);
   print_result("{}", options.common.json ? thresholds_json(found) + "\n" : thresholds_table(found));

@@ -27,7 +27,7 @@ const std::map<std::string, std::vector<std::string>> other_sections = {
 /// Of the keys that count: sections, each with a dot, and single keys.
 std::set<std::string> beginnings(const ControlStages& stages) {
   std::set<std::string> all{"control.drive_torque.aligned_with_velocity", "control.follow.velocity",
-                            "control.follow.acceleration"};
+                            "control.follow.acceleration", "control.isolation.observer_gain"};
   for (const auto& names :
        {names_of(stages.velocities), names_of(stages.accelerations), names_of(stages.estimators)}) {
     for (const std::string& name : names) {

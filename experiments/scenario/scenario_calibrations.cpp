@@ -9,6 +9,7 @@
 #include "diagrams/robot_settings.h"
 #include "experiments/scenario/largest_stamp_spread.h"
 #include "experiments/scenario/scenario.h"
+#include "experiments/scenario/scenario_isolation.h"
 #include "experiments/scenario/scenario_thresholds.h"
 #include "systems/config/config_reader.h"
 #include "systems/foundation/problems_of_place.h"
@@ -32,10 +33,17 @@ bool has_thresholds(const ParameterFile& file) {
 }
 
 /// Throws SetupError with all that is wrong with the section `control` of the file.
-void take_thresholds(const ParameterFile& file, DriveKind drives, const ConfigurationSpace* space,
+/// `robot`: null: not known.
+void take_thresholds(const ParameterFile& file, DriveKind drives, const ParallelRobot* robot,
                      ContactControlSettings& control) {
   ConfigReader reader = ConfigReader::over(file.nodes, file.file);
-  read_thresholds(reader.section("control"), drives, space, names_of(control.stages.estimators), control);
+  ConfigReader section = reader.section("control");
+  ConfigReader isolation = section.section("isolation");
+  KnownDrives known{drives, {}};
+  if (robot != nullptr) known.count = static_cast<std::size_t>(robot->legs());
+  read_thresholds(section, drives, robot == nullptr ? nullptr : &robot->space(),
+                  names_of(control.stages.estimators), control);
+  read_wrench_errors(isolation, known, control.isolation);
   reader.leave_rest_unread();
   reader.finish();
 }
@@ -89,7 +97,7 @@ void calibrate_control(const std::vector<ParameterFile>& calibrations, const Par
   std::vector<std::string> problems;
   for (const ParameterFile& file : calibrations) {
     try {
-      if (has_thresholds(file)) take_thresholds(file, robot.drive_kind(0), &robot.space(), control);
+      if (has_thresholds(file)) take_thresholds(file, robot.drive_kind(0), &robot, control);
     } catch (const SetupError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }

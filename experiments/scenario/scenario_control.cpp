@@ -186,7 +186,8 @@ void read_control(ConfigReader control, const ParallelRobot& robot, ContactContr
   read_sensing(control, robot, settings);
   read_estimators(control, robot, settings);
   read_thresholds(control, robot.drive_kind(0), &robot.space(), estimators, settings);
-  read_isolation(control.section("isolation"), settings.isolation);
+  read_isolation(control.section("isolation"), {robot.drive_kind(0), static_cast<std::size_t>(robot.legs())},
+                 settings.isolation);
   read_tasks(control, robot, settings.tasks);
   read_laws(control, robot, settings);
   read_recovery(control.section("recovery"), settings);

@@ -2,6 +2,7 @@
 
 #include "diagrams/isolation_settings.h"
 #include "systems/config/config_reader.h"
+#include "systems/robot/parallel_robot.h"
 
 namespace flinch {
 
@@ -17,7 +18,18 @@ void read_network(ConfigReader& section, const char* question, std::filesystem::
 
 }  // namespace
 
-void read_isolation(ConfigReader isolation, IsolationSettings& settings) {
+void read_wrench_errors(ConfigReader& isolation, const KnownDrives& drives, IsolationSettings& settings) {
+  JointVector& errors = settings.uncertainty.drive_torque;
+  std::vector<double> deviations(errors.begin(), errors.end());
+  isolation.one_or_numbers("drive_deviation", drives.kind == DriveKind::revolute ? unit::Nm : unit::N,
+                           deviations, drives.count, positive);
+  if (deviations.size() == 1 && drives.count) deviations.resize(*drives.count, deviations.front());
+  if (deviations.size() > static_cast<std::size_t>(max_dof)) return;
+  errors = Eigen::Map<const Eigen::VectorXd>(deviations.data(), static_cast<Eigen::Index>(deviations.size()));
+}
+
+void read_isolation(ConfigReader isolation, const KnownDrives& drives, IsolationSettings& settings) {
+  read_wrench_errors(isolation, drives, settings);
   isolation.number("observer_gain", unit::per_s, settings.observer_gain, positive);
   isolation.number("force_deviation", unit::N, settings.uncertainty.force, positive);
   isolation.number("moment_deviation", unit::Nm, settings.uncertainty.moment, positive);

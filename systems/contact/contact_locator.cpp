@@ -211,8 +211,8 @@ ContactLocation ContactLocator::locate(const ContactPhase& contact, const Contac
                               usable(lately.wrench_in_base, robot_->dof());
   if (can_be_located) {
     const PlatformVector& F = estimate.wrench_in_base;
-    const PlatformMatrix noise = uncertainty_.covariance(robot_->space(), F);
-    const PlatformMatrix errors = uncertainty_.errors(robot_->space(), F, lately.wrench_in_base);
+    const PlatformMatrix noise = uncertainty_.covariance(robot_->space(), now, F);
+    const PlatformMatrix errors = uncertainty_.errors(robot_->space(), now, F, lately.wrench_in_base);
     const BodyId body = ContactClasses::body(touched.most_likely);
     if (body.is_platform()) {
       found = locate_on_platform(*robot_, now, platform_, F, noise, errors, settings_.least_force);

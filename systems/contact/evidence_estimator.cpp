@@ -28,7 +28,7 @@ void EvidenceEstimator::weigh(const ContactPhase& contact, const Kinematics& now
       contact.active && estimate.valid && usable(estimate.wrench_in_base, space_.dimension());
   const PlatformVector F =
       can_be_weighed ? estimate.wrench_in_base : PlatformVector::Zero(space_.dimension());
-  hypotheses_.weigh(now, F, uncertainty_.covariance(space_, F), result);
+  hypotheses_.weigh(now, F, uncertainty_.covariance(space_, now, F), result);
   result.valid = result.valid && can_be_weighed;
   result.acquired = estimate.acquired;
 }

@@ -58,8 +58,8 @@ void ParticleLocator::advance(Time now, const ContactPhase& contact, const Conta
                            usable(lately.wrench_in_base, robot_->dof());
   if (!can_be_read) return;
   const PlatformVector& F = estimate.wrench_in_base;
-  const PlatformMatrix noise = uncertainty_.covariance(robot_->space(), F);
-  const PlatformMatrix errors = uncertainty_.errors(robot_->space(), F, lately.wrench_in_base);
+  const PlatformMatrix noise = uncertainty_.covariance(robot_->space(), at, F);
+  const PlatformMatrix errors = uncertainty_.errors(robot_->space(), at, F, lately.wrench_in_base);
   if (ContactClasses::body(number).is_platform())
     next.location = locate_on_platform(*robot_, at, platform_, F, noise, errors, closed_form_.least_force);
   if (on_link2) {

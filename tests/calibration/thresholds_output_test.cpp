@@ -101,6 +101,16 @@ TEST(TheParameterFile, IsWhatAScenarioTakes) {
             "      - {estimator: filter, reaction_force_N: 7.5}\n");
 }
 
+TEST(TheParameterFile, TellsHowFarTheWrenchOfTheClassifiersIsOffWhereThatIsKnown) {
+  ThresholdFindings found = some;
+  EXPECT_THAT(thresholds_yaml(found, "2026-11-22"), Not(HasSubstr("isolation")));
+  found.drive_deviations = Eigen::Vector2d(0.125, 2.5);
+  EXPECT_THAT(thresholds_yaml(found, "2026-11-22"),
+              HasSubstr("\n  isolation: {drive_deviation_Nm: [0.125, 2.5]}\n"));
+  EXPECT_THAT(thresholds_table(found), HasSubstr("deviation at each drive [0.125, 2.5] Nm\n"));
+  EXPECT_THAT(thresholds_json(found), HasSubstr("\"drive_deviations\":[0.125,2.5]"));
+}
+
 TEST(Thresholds, ByComponentAreListsWhereThereAreSeveral) {
   ThresholdFindings found = some;
   found.estimators = {some.estimators.front()};

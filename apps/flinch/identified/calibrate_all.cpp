@@ -14,6 +14,7 @@
 #include "calibration/calibration_sources.h"
 #include "calibration/contact_free_motion.h"
 #include "calibration/contact_free_peaks.h"
+#include "calibration/drive_deviations.h"
 #include "calibration/residual_calibration.h"
 #include "calibration/threshold_calibration.h"
 #include "calibration/thresholds_output.h"
@@ -28,6 +29,7 @@
 #include "systems/foundation/json_text.h"
 #include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/framework/hdf5_format.h"
 
 namespace flinch {
 namespace {
@@ -41,12 +43,18 @@ struct Sorted {
   bool are_none() const { return pulls.empty() && imu.empty() && dynamics.empty() && motion.empty(); }
 };
 
+/// Results of campaigns and data sets of contacts, which stand in folders of runs too, say what they are.
+bool is_of_another_kind(const std::filesystem::path& file) {
+  return hdf5_format(file).starts_with("flinch ");
+}
+
 std::vector<std::filesystem::path> recordings_below(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder)) throw SetupError(folder.string() + ": is no folder");
   std::vector<std::filesystem::path> files;
   try {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-      if (entry.is_regular_file() && entry.path().extension() == ".h5") files.push_back(entry.path());
+      if (entry.is_regular_file() && entry.path().extension() == ".h5" && !is_of_another_kind(entry.path()))
+        files.push_back(entry.path());
     }
   } catch (const std::filesystem::filesystem_error& error) {
     throw SetupError(folder.string() + ": not all folders below it can be read: " + error.code().message());
@@ -101,7 +109,8 @@ JointVector found_constants(const CalibrationResult& result, JointVector constan
 /// Of all signals those that thresholds come from.
 void keep_estimates(Recording& recording) {
   std::erase_if(recording.signals, [](const Signal& signal) {
-    return !signal.path.starts_with("wrench") && !signal.path.starts_with("load_");
+    return !signal.path.starts_with("wrench") && !signal.path.starts_with("load_") &&
+           signal.path != isolation_signal;
   });
 }
 
@@ -138,6 +147,8 @@ ThresholdFindings thresholds_with(const std::vector<OpenedRecording>& motion,
   }
   found.estimators = calibrate_thresholds(pooled(peaks), found.goal);
   found.residuals = calibrate_residuals(recordings, found.goal);
+  found.drive_deviations =
+      drive_deviations(recordings, *played.front().robot.robot, IsolationSettings().uncertainty);
   found.tracking = played.front().control.fused_detector.tracking;
   return found;
 }
@@ -282,8 +293,9 @@ class All {
   std::optional<ThresholdFindings> possible_thresholds(const std::string& what,
                                                        const std::vector<ParameterFile>& calibrations) {
     try {
-      return thresholds_with(files_.motion, calibrations,
-                             {.false_alarms_per_hour = options_.rate, .by_component = options_.by_component});
+      return thresholds_with(
+          files_.motion, calibrations,
+          {.false_alarms_per_hour = options_.rate, .by_component = options_.by_component, .one_robot = true});
     } catch (const SetupError& error) {
       for (const std::string& problem : error.problems()) warnings_.push_back(what + problem);
       return std::nullopt;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "systems/framework/table_file.h"
 #include "tests/apps/flinch/documented_keys.h"
 #include "tests/apps/flinch/program.h"
 #include "tests/support/workplace.h"
@@ -85,6 +86,7 @@ TEST_F(Identify, AParameterFileIsTakenOverByAScenario) {
 TEST_F(Identify, AllThatAFolderAllowsIsCalibratedInOrder) {
   for (const char* const scenario : {"calibration_pulls", "calibration_excitation", "calibration_rectangle"})
     recorded(scenario);
+  write_table({}, 0, {}, {{"format", "flinch campaign"}}, place / "results.h5");  // which is left out
   const Outcome outcome = flinch({"calibrate", "all", place.at(""), "--out", place.at("found"), "--json"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   const auto json = nlohmann::json::parse(outcome.out);

@@ -17,18 +17,14 @@
 #include <utility>
 #include <vector>
 
-#include "calibration/contact_free_motion.h"
-#include "calibration/contact_free_peaks.h"
-#include "calibration/residual_calibration.h"
-#include "calibration/threshold_calibration.h"
 #include "diagrams/fused_detector.h"
 #include "experiments/campaign/campaign_run.h"
 #include "experiments/campaign/campaign_summary.h"
 #include "experiments/campaign/exact_bounds.h"
 #include "experiments/campaign/run_campaign.h"
-#include "plant/perturbed_robot.h"
 #include "tests/campaign/detection/shipped_runs.h"
 #include "tests/identification/calibrated_robot.h"
+#include "tests/identification/own_thresholds.h"
 #include "tests/support/in_parallel.h"
 #include "tests/support/wanted.h"
 
@@ -36,6 +32,8 @@ namespace flinch {
 namespace {
 
 using test::CalibratedRobot;
+using test::FreeMotion;
+using test::OwnThresholds;
 
 constexpr unsigned threads = 2;
 constexpr double asked = 0.5;    // false alarms an hour
@@ -57,8 +55,7 @@ const Observer fast{
 struct Robot {
   SimulatedScenario as_bench;  ///< nearer to its model, with its torque constants known to 1.5 %
   SimulatedScenario before;    ///< as calibration_motion.yaml has it, with 6.1 Nm/A
-  SimulatedScenario after;     ///< once it was calibrated
-  Recording motion;            ///< of that
+  FreeMotion after;            ///< once it was calibrated
 };
 
 constexpr const char* constants = "  drive_torque: {torque_constant_Nm_per_A: [6.021, 6.6116, 6.7315]}\n";
@@ -78,58 +75,25 @@ SimulatedScenario motion_of(const CalibratedRobot& robot, const char* realism, c
                          {"momentum_kalman_filter, sliding_mode_observer, direct_extended_imu_ekf, ", ""}});
 }
 
-/// With the signals that tell thresholds.
-Recording recorded(const SimulatedScenario& motion) {
-  Recording recording =
-      run_for_signals(motion, {"detection", "reaction", "wrench", "reference", "gate", "contact", "truth",
-                               "wrench_disturbance_filter", "wrench_imu_residual", "load_fused_detector"});
-  recording.attributes["control.estimator"] = followed_name(motion.control.stages.estimators);
-  return recording;
-}
-
 /// A robot drawn from a seed, which moves for so many seconds once it was calibrated.
 Robot calibrated(std::uint64_t seed, const Observer& observer, double seconds) {
   CalibratedRobot robot(seed);
-  Robot result;
-  result.as_bench = motion_of(robot, bench, constants, observer, seconds);
-  result.before = motion_of(robot, drawn, believed, observer, seconds);
+  SimulatedScenario as_bench = motion_of(robot, bench, constants, observer, seconds);
+  SimulatedScenario before = motion_of(robot, drawn, believed, observer, seconds);
   robot.torque_constants("calibration_pulls.yaml");
   robot.dynamics("calibration_excitation.yaml");
-  result.after = motion_of(robot, drawn, "", observer, seconds);
-  result.motion = recorded(result.after);
-  return result;
+  return {std::move(as_bench), std::move(before),
+          test::free_motion(motion_of(robot, drawn, "", observer, seconds))};
 }
 
-/// By which contacts are told.
-struct Thresholds {
-  std::map<std::string, OwnThreshold> plain;  ///< by estimator
-  std::vector<FusedResidual> residuals;       ///< of the fused detector
-};
-
-Thresholds thresholds_of(const std::vector<const Robot*>& robots) {
-  const ThresholdGoal goal{.false_alarms_per_hour = asked};
-  std::vector<std::vector<EstimatorPeaks>> peaks;
-  std::vector<ResidualRecording> recordings;
-  for (const Robot* const robot : robots) {
-    const ConfigurationSpace space = robot->after.robot.robot->space();
-    peaks.push_back(contact_free_peaks(robot->motion, space, goal.stretch));
-    recordings.emplace_back(robot->motion, nominal_samples(robot->motion, space), robot->after.control);
-  }
-  Thresholds found;
-  for (const EstimatorThresholds& of : calibrate_thresholds(pooled(peaks), goal))
-    found.plain[of.estimator] = {of.force.value, of.moment.value};
-  for (const CalibratedResidual& of : calibrate_residuals(recordings, goal)) {
-    found.residuals.push_back(
-        {.estimator = of.estimator,
-         .level = {of.level.threshold.value, of.level.errors},
-         .change = {of.change.threshold.value, of.change.errors},
-         .smoothed = MahalanobisThreshold{of.smoothed.threshold.value, of.smoothed.errors}});
-  }
-  return found;
+OwnThresholds thresholds_of(const std::vector<const Robot*>& robots) {
+  std::vector<const FreeMotion*> motions;
+  for (const Robot* const robot : robots) motions.push_back(&robot->after);
+  return test::thresholds_of(motions, {.false_alarms_per_hour = asked});
 }
 
 /// Those of the robots with odd numbers for those with even ones, and the other way round.
-std::vector<Thresholds> thresholds_of_others(const std::vector<Robot>& robots) {
+std::vector<OwnThresholds> thresholds_of_others(const std::vector<Robot>& robots) {
   return test::in_parallel(
       2,
       [&](std::size_t parity) {
@@ -148,15 +112,6 @@ DetectionStage judging_by(const std::vector<FusedResidual>& residuals) {
             settings.fused_detector.residuals = residuals;
             return add_fused_detector({site.builder, site.name, site.robot, settings, site.shared}, given);
           }};
-}
-
-/// Puts a robot in the place of that of a scenario that is as its model, with what its controller knows.
-void put(const SimulatedScenario& robot, SimulatedScenario& scenario) {
-  scenario.perturbed_robot = robot.perturbed_robot;
-  scenario.station = with_perturbed_robot(std::move(scenario.station), robot.perturbed_robot);
-  scenario.robot = robot.robot;
-  scenario.calibrations = robot.calibrations;
-  scenario.control.drive_torque = robot.control.drive_torque;
 }
 
 /// A campaign that ships, for robots that are put into its scenarios.
@@ -249,7 +204,7 @@ class Noticed {
 /// Robots that were calibrated, and by what they tell contacts.
 struct Calibrated {
   std::vector<Robot> robots;
-  std::vector<Thresholds> own, of_others;  ///< of each; the second is empty where there is but one
+  std::vector<OwnThresholds> own, of_others;  ///< of each; the second is empty where there is but one
 };
 
 Calibrated calibrated(std::size_t count, const Observer& observer) {
@@ -263,15 +218,23 @@ Calibrated calibrated(std::size_t count, const Observer& observer) {
   return made;
 }
 
-/// The runs of a campaign, with one robot after the other, of which its controller knows what `known` says.
-Noticed runs_of(const Campaign& campaign, const Calibrated& of, SimulatedScenario Robot::*known) {
+/// What the controller of a robot knows of it.
+enum class Knows { as_bench, before, itself };
+
+const SimulatedScenario& with(const Robot& robot, Knows what) {
+  if (what == Knows::itself) return robot.after.scenario;
+  return what == Knows::before ? robot.before : robot.as_bench;
+}
+
+/// The runs of a campaign, with one robot after the other.
+Noticed runs_of(const Campaign& campaign, const Calibrated& of, Knows what) {
   return Noticed(test::in_parallel(
       campaign.runs(),
       [&](std::size_t number) {
         CampaignRun run = draw_run(campaign, number);
         const std::size_t robot = run.draw % of.robots.size();
-        put(of.robots[robot].*known, run.scenario);
-        if (known == &Robot::after) {
+        test::put(with(of.robots[robot], what), run.scenario);
+        if (what == Knows::itself) {
           ContactControlSettings& control = run.scenario.control;
           control.reaction_thresholds = of.own[robot].plain;
           control.fused_detector.residuals = of.own[robot].residuals;
@@ -322,11 +285,11 @@ void expect_noticed(double share, const Times& by, const std::string& detector, 
 TEST(CalibratedThemselves, RobotsNoticeContactsSoonerAtTheRateOfFalseAlarmsThatIsAsked) {
   const Calibrated all = calibrated(test::wanted<std::size_t>("FLINCH_ROBOTS", 1), usual);
   const Campaign contacts = contacts_of(test::wanted<std::size_t>("FLINCH_CONTACTS", 5), usual);
-  const Noticed before = runs_of(contacts, all, &Robot::before);
+  const Noticed before = runs_of(contacts, all, Knows::before);
   before.print("before calibration, thresholds that ship");
-  const Noticed near = runs_of(contacts, all, &Robot::as_bench);
+  const Noticed near = runs_of(contacts, all, Knows::as_bench);
   near.print("as near to their model as bench, thresholds that ship");
-  const Noticed after = runs_of(contacts, all, &Robot::after);
+  const Noticed after = runs_of(contacts, all, Knows::itself);
   after.print("after calibration, thresholds of their own");
 
   for (const char* const detector : {"momentum_observer", "disturbance_filter", "imu_residual"}) {
@@ -340,7 +303,7 @@ TEST(CalibratedThemselves, RobotsNoticeContactsSoonerAtTheRateOfFalseAlarmsThatI
 
   const Campaign motion =
       with_other_robots("false_alarms", test::wanted<std::size_t>("FLINCH_RUNS", 1), {"motion.pause_ms=300"});
-  const Noticed noticed = runs_of(motion, all, &Robot::after);
+  const Noticed noticed = runs_of(motion, all, Knows::itself);
   noticed.print("motion without contact");
   for (const std::string& detector : noticed.detectors()) {
     const CampaignGroup alarms = noticed.of(detector);
@@ -351,7 +314,7 @@ TEST(CalibratedThemselves, RobotsNoticeContactsSoonerAtTheRateOfFalseAlarmsThatI
 TEST(CalibratedThemselves, RobotsNeedNoMoreThanAMomentumObserverToNoticeHalfOfAllContactsAsSoonAsAsked) {
   const Calibrated all = calibrated(test::wanted<std::size_t>("FLINCH_ROBOTS", 1), fast);
   const Noticed noticed =
-      runs_of(contacts_of(test::wanted<std::size_t>("FLINCH_CONTACTS", 5), fast), all, &Robot::after);
+      runs_of(contacts_of(test::wanted<std::size_t>("FLINCH_CONTACTS", 5), fast), all, Knows::itself);
   noticed.print("after calibration, momentum observer at 150 1/s with velocities at 60 Hz");
   expect_noticed(0.5, of_fast_observer, "momentum_observer", noticed);
 }

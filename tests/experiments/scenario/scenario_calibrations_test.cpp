@@ -69,6 +69,20 @@ TEST_F(Calibrations, GiveWayToWhatTheScenarioSaysItself) {
   EXPECT_EQ(scenario.control.imu_mount.position_in_platform, Eigen::Vector3d::Zero());
 }
 
+TEST_F(Calibrations, TellHowFarTheWrenchOfTheClassifiersIsOff) {
+  const auto with = [&](const std::string& deviation) {
+    place.write(
+        "scenarios/thresholds.yaml",
+        parameter_file_text(made()) + "control:\n  isolation: {drive_deviation_Nm: " + deviation + "}\n");
+    place.write("scenarios/own.yaml",
+                "robot: ../robots/planar_3rrr.yaml\nduration_s: 1\ncalibrations: [{file: "
+                "thresholds.yaml}]\n");
+    return read_scenario(place / "scenarios/own.yaml").control.isolation.uncertainty.drive_torque;
+  };
+  EXPECT_EQ(with("[0.1, 0.2, 0.3]"), Eigen::Vector3d(0.1, 0.2, 0.3));
+  EXPECT_THAT(test::problems_of([&] { with("[0.1, 0.2]"); }), Contains(HasSubstr("drive_deviation")));
+}
+
 TEST_F(Calibrations, TellHowFarStampsOfTheImuErr) {
   ParameterFile file = made();
   file.parameters.push_back({.name = "control.imu_stamps.spread", .value = 1e-3, .belongs_to = "scenario"});
@@ -148,8 +162,8 @@ TEST_F(Calibrations, RestOnWhatAnEstimatorBringsThatRunsNowhereElse) {
     }
     return sections;
   };
-  const std::set<std::string> always{"drive_torque", "follow",     "velocity_filter", "imu_ekf",
-                                     "imu_mount",    "imu_stamps", "plausibility"};
+  const std::set<std::string> always{"drive_torque", "follow",    "velocity_filter", "imu_ekf",
+                                     "isolation",    "imu_mount", "imu_stamps",      "plausibility"};
   const auto with = [&](std::set<std::string> more) {
     more.insert(always.begin(), always.end());
     return more;

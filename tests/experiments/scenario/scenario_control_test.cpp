@@ -158,10 +158,11 @@ TEST(DefaultsOfControl, AreWhatTheDocumentSays) {
   const RobotFile file = robot_called("planar_3rrr");
   ContactControlSettings settings = settings_of(file), by_document = settings_of(file);
   const Values documented = read(documented_control(), file, by_document);
-  EXPECT_THAT(different(documented, read(silent, file, settings), true),
-              ElementsAre("control.accelerations", "control.detectors",
-                          "control.drive_torque.torque_constant", "control.estimators",
-                          "control.limits.max_condition_number", "control.limits.max_platform_speed"))
+  EXPECT_THAT(
+      different(documented, read(silent, file, settings), true),
+      ElementsAre("control.accelerations", "control.detectors", "control.drive_torque.torque_constant",
+                  "control.estimators", "control.isolation.drive_deviation",
+                  "control.limits.max_condition_number", "control.limits.max_platform_speed"))
       << "of these it says what the default is";
 }
 

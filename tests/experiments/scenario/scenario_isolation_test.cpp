@@ -14,7 +14,7 @@ using testing::HasSubstr;
 IsolationSettings read(const std::string& text) {
   IsolationSettings settings;
   ConfigReader reader = ConfigReader::parse(text, "scenario.yaml");
-  read_isolation(reader.section("isolation"), settings);
+  read_isolation(reader.section("isolation"), {DriveKind::revolute, 3}, settings);
   reader.finish();
   return settings;
 }
@@ -39,6 +39,17 @@ TEST(ReadIsolation, TakesWhatTheFileSaysAndLeavesTheRest) {
   EXPECT_EQ(read("isolation: {leaning: 0}").particle_filter.leaning, 0.0);
   EXPECT_EQ(settings.particle_filter.particles, 200);
   EXPECT_EQ(settings.hypotheses.object_speed, 0.1);
+}
+
+TEST(ReadIsolation, TakesADeviationForEachDriveOrOneForAll) {
+  EXPECT_EQ(read("isolation: {drive_deviation_Nm: [1, 2, 3]}").uncertainty.drive_torque,
+            Eigen::Vector3d(1.0, 2.0, 3.0));
+  EXPECT_EQ(read("isolation: {drive_deviation_Nm: 2}").uncertainty.drive_torque,
+            Eigen::Vector3d::Constant(2.0));
+  EXPECT_EQ(read("isolation: {}").uncertainty.drive_torque.size(), 0);
+  EXPECT_THROW(read("isolation: {drive_deviation_Nm: [1, 2]}"), SetupError);
+  EXPECT_THROW(read("isolation: {drive_deviation_Nm: [1, 0, 1]}"), SetupError);
+  EXPECT_THROW(read("isolation: {drive_deviation_N: 1}"), SetupError) << "these drives turn";
 }
 
 TEST(ReadIsolation, TakesAShareOfRightAnswersOfTheTreeForEachThatItNames) {

@@ -3,13 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
+#include <numeric>
 #include <string>
+#include <vector>
 
 #include "experiments/simulated/experiment.h"
 #include "experiments/simulated/simulated_scenario.h"
 #include "experiments/verdict/verdict.h"
 #include "tests/experiments/simulated/fed_control.h"
+#include "tests/support/in_parallel.h"
 #include "tests/support/workplace.h"
 
 namespace flinch {
@@ -61,7 +65,19 @@ TEST_P(SkewedReadings, LookLikeAForceOfSomeNewtonsForAMillisecond) {
   EXPECT_LT(skewed, aligned + 8.0);
 }
 
+/// Largest error of a robot's estimate in free motion, with samples of the IMU so long before each tick [N].
+double largest_error(const std::string& file, std::uint64_t seed) {
+  const SimulatedScenario scenario = read_simulated_scenario(file, seed);
+  const Verdict verdict = judge(run_experiment(scenario), scenario.robot.robot->space(), scenario.expected,
+                                scenario.force_limits);
+  EXPECT_EQ(verdict.imu_doubt, ImuDoubt::none) << seed;
+  return verdict.max_observer_error_force;
+}
+
+// One robot's largest error is a matter of luck: at a corner of the square its torque jumps between a sample
+// and a tick, or does not. So eight are drawn.
 TEST(ImuBetweenTicks, IsBelievedAndLeavesAResidualAsSmallAsOnTheTick) {
+  constexpr std::size_t robots = 8;
   const test::Workplace place;
   double on_tick = 0.0;
   for (const int before : {0, 60, 300, 500, 700}) {
@@ -75,13 +91,13 @@ TEST(ImuBetweenTicks, IsBelievedAndLeavesAResidualAsSmallAsOnTheTick) {
                     "  momentum_observer: {gain_per_s: [135, 135, 135]}\n"
                     "  contact_detector: {reaction_force_N: 500, reaction_moment_Nm: 100, hard_force_N: 600, "
                     "hard_moment_Nm: 200}\n");
-    const SimulatedScenario scenario = read_simulated_scenario(place / "scenarios/clock.yaml");
-    const Verdict verdict = judge(run_experiment(scenario), scenario.robot.robot->space(), scenario.expected,
-                                  scenario.force_limits);
-    std::printf("%3d us before the tick: %5.2f N\n", before, verdict.max_observer_error_force);
-    EXPECT_EQ(verdict.imu_doubt, ImuDoubt::none) << before;
-    if (before == 0) on_tick = verdict.max_observer_error_force;
-    EXPECT_LT(verdict.max_observer_error_force, 1.2 * on_tick) << before;
+    const std::string file = place.at("scenarios/clock.yaml");
+    const std::vector<double> errors = test::in_parallel(
+        robots, [&file](std::size_t i) { return largest_error(file, i + 1); }, 2);
+    const double mean = std::accumulate(errors.begin(), errors.end(), 0.0) / robots;
+    std::printf("%3d us before the tick: %5.2f N\n", before, mean);
+    if (before == 0) on_tick = mean;
+    EXPECT_LT(mean, 1.2 * on_tick) << before;
   }
 }
 
