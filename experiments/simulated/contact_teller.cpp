@@ -14,6 +14,16 @@ double fraction_of(const Segment& axis, const CartesianVector& point) {
   return squared > 0.0 ? std::clamp(along.dot(point - axis.begin) / squared, 0.0, 1.0) : 0.0;
 }
 
+/// A force on a link of the leg that comes from between both: it pushes the link away from the other one.
+bool comes_from_between(const Kinematics& at, BodyId link, const CartesianVector& force) {
+  const LegPoints& points = at.legs[static_cast<std::size_t>(link.leg())];
+  const CartesianVector& other_end = link.is_link1() ? points.coupling_joint : points.base_joint;
+  const Segment axis = link_segment(at, link);
+  const CartesianVector along = (axis.end - axis.begin).normalized();
+  const CartesianVector to_other = other_end - points.passive_joint;
+  return force.dot(to_other - along.dot(to_other) * along) < 0.0;
+}
+
 }  // namespace
 
 ContactTeller::ContactTeller(std::shared_ptr<const ParallelRobot> robot, const std::string& made_for)
@@ -23,15 +33,24 @@ ContactTeller::ContactTeller(std::shared_ptr<const ParallelRobot> robot, const s
   }
 }
 
-ContactClassification ContactTeller::classify(const ContactTruth& truth) const {
+bool ContactTeller::begins_a_clamping(const TouchTruth& touch, const PlatformMotion& motion) const {
+  const BodyId body = BodyId::from_index(touch.body);
+  if (!classes_.is_clamping(made_for_) || classes_.leg(made_for_) != body.leg() || !motion.valid())
+    return false;
+  Kinematics now;
+  robot_->kinematics(motion.pose, motion.velocity, now);
+  return now.reachable && comes_from_between(now, body, touch.force_in_base);
+}
+
+ContactClassification ContactTeller::classify(const ContactTruth& truth, const PlatformMotion& motion) const {
   ContactClassification told;
   told.acquired = truth.acquired;
   told.probability = ClassVector::Zero(classes_.count());
   const int body = truth.strongest.body;
   if (!truth.valid || !truth.in_contact || body < 0) return told;
   const int leg = BodyId::from_index(body).leg();
-  const bool clamps = truth.clamping || (classes_.is_clamping(made_for_) && classes_.leg(made_for_) == leg);
-  told.most_likely = clamps && leg >= 0 ? classes_.clamping(leg) : body;
+  const bool clamps = leg >= 0 && (truth.clamping || begins_a_clamping(truth.strongest, motion));
+  told.most_likely = clamps ? classes_.clamping(leg) : body;
   told.probability[told.most_likely] = 1.0;
   told.valid = told.accepted = true;
   return told;

@@ -14,8 +14,8 @@
 namespace flinch {
 
 /// Tells what really touches the simulated robot, as a classifier and a locator would that never err: for
-/// experiments that examine what is done about it. A clamping begins where one of the two links is touched:
-/// where the experiment is made for one, it is told from then on.
+/// experiments that examine what is done about it. A clamping begins where one of the two links is touched
+/// from between them: where the experiment is made for one, it is told from then on.
 class ContactTeller final : public System {
  public:
   /// `made_for`: the name of the class that the experiment brings about; empty or any other: what touches
@@ -25,11 +25,12 @@ class ContactTeller final : public System {
   InputPort<ContactTruth> contact = input<ContactTruth>("contact");
   InputPort<PlatformMotion> platform = input<PlatformMotion>("platform");
   OutputPort<ContactClassification> classification =
-      output<&ContactTeller::classify>("classification", contact);
+      output<&ContactTeller::classify>("classification", contact, platform);
   OutputPort<ContactLocation> location = output<&ContactTeller::locate>("location", contact, platform);
 
  private:
-  ContactClassification classify(const ContactTruth& truth) const;
+  ContactClassification classify(const ContactTruth& truth, const PlatformMotion& motion) const;
+  bool begins_a_clamping(const TouchTruth& touch, const PlatformMotion& motion) const;
   ContactLocation locate(const ContactTruth& truth, const PlatformMotion& motion) const;
 
   std::shared_ptr<const ParallelRobot> robot_;

@@ -13,7 +13,8 @@ struct Teller {
   explicit Teller(const std::string& made_for = "truth")
       : block(builder.add<ContactTeller>("teller", robot, made_for)) {}
 
-  void touch(int body, double fraction = 0.5, bool clamping = false) {
+  void touch(int body, double fraction = 0.5, bool clamping = false,
+             const Eigen::Vector2d& force = Eigen::Vector2d(3, 4)) {
     const test::Posture posture(*robot);
     ContactTruth truth;
     truth.clear(3, 2);
@@ -22,7 +23,7 @@ struct Teller {
     const BodyId id = BodyId::from_index(body);
     const CartesianVector point =
         robot->point_on_body(posture.kinematics, id, robot->axis_point(id, fraction));
-    truth.strongest = {.body = body, .point_in_base = point, .force_in_base = Eigen::Vector2d(3, 4)};
+    truth.strongest = {.body = body, .point_in_base = point, .force_in_base = force};
     ticking.set(contact, truth);
     ticking.set(platform, posture.platform);
     ticking.tick();
@@ -61,10 +62,20 @@ TEST(ContactTeller, TwoLinksOfALegOnOneObjectAreAClamping) {
 
 TEST(ContactTeller, AnExperimentMadeForAClampingBeginsOneWithItsFirstLink) {
   Teller teller("leg2_clamping");
-  teller.touch(BodyId::link2(1).index());
-  EXPECT_EQ(teller.told().most_likely, ContactClasses(7, 3).clamping(1));
-  teller.touch(BodyId::link2(0).index());
+  const int clamping = ContactClasses(7, 3).clamping(1);
+  const LegPoints leg = test::Posture(*teller.robot).kinematics.legs[1];
+  const Eigen::Vector2d apart = leg.coupling_joint - leg.base_joint;  // pushes the second link from the first
+  const int first = BodyId::link1(1).index(), second = BodyId::link2(1).index();
+  teller.touch(second, 0.5, false, apart);
+  EXPECT_EQ(teller.told().most_likely, clamping);
+  teller.touch(first, 0.5, false, -apart);
+  EXPECT_EQ(teller.told().most_likely, clamping);
+  teller.touch(BodyId::link2(0).index(), 0.5, false, apart);
   EXPECT_EQ(teller.told().most_likely, BodyId::link2(0).index());
+  teller.touch(second, 0.5, false, -apart);
+  EXPECT_EQ(teller.told().most_likely, second) << "from outside";
+  teller.touch(first, 0.5, false, apart);
+  EXPECT_EQ(teller.told().most_likely, first) << "likewise";
 }
 
 TEST(ContactTeller, WithoutAContactNothingIsTold) {
