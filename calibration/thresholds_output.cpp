@@ -78,11 +78,6 @@ std::vector<double> values_of(const CalibratedThreshold& whole,
 
 std::vector<double> values_of(const JointVector& of) { return {of.begin(), of.end()}; }
 
-/// Of each drive.
-std::string deviations_text(const ThresholdFindings& found) {
-  return fmt::format("{:.4g}", fmt::join(values_of(found.drive_deviations), ", "));
-}
-
 /// As the value of a key.
 std::string text_of(const std::vector<double>& values) {
   if (values.size() == 1) return fmt::format("{:.4g}", values.front());
@@ -334,8 +329,8 @@ std::string thresholds_table(const ThresholdFindings& found) {
   }
   if (!found.residuals.empty()) text += residuals_table(found) + onsets_table(found);
   if (found.drive_deviations.size() > 0) {
-    text += fmt::format("\nwrench of classifiers and locators: deviation at each drive [{}] {}\n",
-                        deviations_text(found), found.drives_turn ? "Nm" : "N");
+    text += fmt::format("\nwrench of classifiers and locators: deviation at each drive {} {}\n",
+                        text_of(values_of(found.drive_deviations)), found.drives_turn ? "Nm" : "N");
   }
   if (!found.estimators.empty()) {
     text += fmt::format("\nfrom {:.1f} s of motion without contact, in stretches of {} s\n",
@@ -395,8 +390,8 @@ std::string thresholds_yaml(const ThresholdFindings& found, const std::string& d
   }
   if (!found.residuals.empty()) text += residuals_yaml(found);
   if (found.drive_deviations.size() > 0) {
-    text += fmt::format("  isolation: {{drive_deviation_{}: [{}]}}\n", found.drives_turn ? "Nm" : "N",
-                        deviations_text(found));
+    text += fmt::format("  isolation: {{drive_deviation_{}: {}}}\n", found.drives_turn ? "Nm" : "N",
+                        text_of(values_of(found.drive_deviations)));
   }
   return text;
 }

@@ -207,7 +207,6 @@ void expect_stays(const Way& way) {
 void expect_all_back(const std::vector<Way>& ways) {
   print(ways);
   int back = 0;
-  std::size_t stopped = 0;
   double recovering = 0.0, nominal = 0.0, error = 0.0;
   for (const Way& way : ways) {
     if (way.end.empty()) continue;
@@ -218,17 +217,14 @@ void expect_all_back(const std::vector<Way>& ways) {
     const double duration = way.duration.value_or(way.touched_again > 0 ? 0.0 : INFINITY);
     EXPECT_LT(duration, longest_return) << "run " << way.number << " from " << way.end;
     EXPECT_EQ(way.false_reactions, 0) << "run " << way.number << " from " << way.end;
-    stopped += way.faults.empty() ? 0 : 1;
+    EXPECT_TRUE(way.faults.empty()) << "run " << way.number << " from " << way.end;
     back += way.duration ? 1 : 0;
     recovering = std::max(recovering, way.recovering);
     nominal = std::max(nominal, way.nominal);
     error = std::max(error, way.error);
   }
-  std::printf(
-      "  at most %.3f m/s in recover, %.3f m/s in nominal; at most %.1f mm off the start; %zu stopped\n",
-      recovering, nominal, 1e3 * error, stopped);
-  // Where a leg is nearly stretched torques may jump; then another reset goes on.
-  EXPECT_LE(stopped, ways.size() / 100) << "the gate closed again on the way";
+  std::printf("  at most %.3f m/s in recover, %.3f m/s in nominal; at most %.1f mm off the start\n",
+              recovering, nominal, 1e3 * error);
   const PlatformTrajectorySettings planned;
   EXPECT_LT(recovering, overshoot * planned.recovery.translation.velocity);
   EXPECT_LT(nominal, overshoot * planned.approach.translation.velocity);

@@ -75,7 +75,7 @@ TEST(ContactTeller, AnExperimentMadeForAClampingBeginsOneWithItsFirstLink) {
   teller.touch(second, 0.5, false, -apart);
   EXPECT_EQ(teller.told().most_likely, second) << "from outside";
   teller.touch(first, 0.5, false, apart);
-  EXPECT_EQ(teller.told().most_likely, first) << "likewise";
+  EXPECT_EQ(teller.told().most_likely, first) << "from outside";
 }
 
 TEST(ContactTeller, WithoutAContactNothingIsTold) {

@@ -74,12 +74,16 @@ double largest_error(const std::string& file, std::uint64_t seed) {
   return verdict.max_observer_error_force;
 }
 
-// One robot's largest error is a matter of luck: at a corner of the square its torque jumps between a sample
-// and a tick, or does not. So eight are drawn.
+double mean_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+// Seven tenths of a tick before it, torques that jump between a sample and a tick, as at corners of a square,
+// make single robots err by up to 1.5 times as much: there the mean of eight is judged.
 TEST(ImuBetweenTicks, IsBelievedAndLeavesAResidualAsSmallAsOnTheTick) {
   constexpr std::size_t robots = 8;
   const test::Workplace place;
-  double on_tick = 0.0;
+  std::vector<double> on_tick;
   for (const int before : {0, 60, 300, 500, 700}) {
     place.write("scenarios/clock.yaml",
                 "robot: ../robots/planar_3rrr.yaml\nduration_s: 1.6\nplant: {realism: bench}\n"
@@ -94,10 +98,11 @@ TEST(ImuBetweenTicks, IsBelievedAndLeavesAResidualAsSmallAsOnTheTick) {
     const std::string file = place.at("scenarios/clock.yaml");
     const std::vector<double> errors = test::in_parallel(
         robots, [&file](std::size_t i) { return largest_error(file, i + 1); }, 2);
-    const double mean = std::accumulate(errors.begin(), errors.end(), 0.0) / robots;
-    std::printf("%3d us before the tick: %5.2f N\n", before, mean);
-    if (before == 0) on_tick = mean;
-    EXPECT_LT(mean, 1.2 * on_tick) << before;
+    if (before == 0) on_tick = errors;
+    std::printf("%3d us before the tick: %5.2f N\n", before, mean_of(errors));
+    EXPECT_LT(mean_of(errors), 1.2 * mean_of(on_tick)) << before;
+    for (std::size_t i = 0; i < robots && before <= 500; ++i)
+      EXPECT_LT(errors[i], 1.2 * on_tick[i]) << before << ", robot " << i + 1;
   }
 }
 
