@@ -1,13 +1,11 @@
 #pragma once
 
-#include <cstddef>
-#include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "experiments/reproduction/paper_figures.h"
+#include "experiments/reproduction/shared_runs.h"
 
 namespace flinch {
 
@@ -25,6 +23,19 @@ struct ReproducedFigure {
   double wall = 0.0;  ///< that its runs took [s]; of runs which several figures share, each has the whole
 };
 
+/// A picture with its points: of each of its lines, and of each of its dots.
+struct DrawnPicture {
+  PaperPicture picture;
+  std::vector<PicturePoints> lines, dots;
+  PictureShares matrix;
+};
+
+/// What came out of all of them.
+struct Reproduction {
+  std::vector<ReproducedFigure> figures;
+  std::vector<DrawnPicture> pictures;
+};
+
 /// "reproduced", "better", "not reached".
 const char* word(ReproducedFigure::Outcome outcome);
 
@@ -32,20 +43,14 @@ const char* word(ReproducedFigure::Outcome outcome);
 ReproducedFigure judged(const PaperFigure& figure, std::optional<double> as_printed,
                         std::optional<double> ours);
 
-/// Told now and then which share of the runs is done. Returns false to stop: what is done is kept.
-using ReproductionProgress = std::function<bool(double share)>;
+/// Runs the scenarios, campaigns and commands of all that is wanted, each once. Throws SetupError with what
+/// is wrong with any of their files, before any run, and as SharedRuns::run() does.
+Reproduction reproduce(const PaperFigures& wanted, const ReproductionOptions& options);
 
-/// Runs the scenarios and campaigns of all `figures`, each once, on `threads` threads (0: one a processor).
-/// Campaigns keep their results in folders of `folder`, from which the same call goes on. Throws SetupError
-/// with what is wrong with any of their files, before any run, and where it was stopped.
-std::vector<ReproducedFigure> reproduce(const std::vector<PaperFigure>& figures,
-                                        const std::filesystem::path& folder, std::size_t threads = 0,
-                                        const ReproductionProgress& progress = {});
-
-/// The figures as a table for people, as one JSON object on one line, {"entries": [...]}, and as one HTML
-/// page that needs nothing else. `call`: the command that made them.
-std::string reproduction_table(const std::vector<ReproducedFigure>& figures);
-std::string reproduction_json(const std::vector<ReproducedFigure>& figures);
-std::string reproduction_page(const std::vector<ReproducedFigure>& figures, const std::string& call);
+/// The figures as a table for people, as one JSON object on one line, {"entries": [...]}, and with the
+/// pictures as one HTML page that needs nothing else. `call`: the command that made them.
+std::string reproduction_table(const Reproduction& reproduction);
+std::string reproduction_json(const Reproduction& reproduction);
+std::string reproduction_page(const Reproduction& reproduction, const std::string& call);
 
 }  // namespace flinch

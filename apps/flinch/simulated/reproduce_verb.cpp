@@ -3,10 +3,12 @@
 #include <csignal>
 
 #include "apps/flinch/command_line.h"
+#include "apps/flinch/own_command.h"
 #include "apps/flinch/printing.h"
 #include "apps/flinch/progress.h"
 #include "apps/flinch/shipped_files.h"
 #include "experiments/report/run_folder.h"
+#include "experiments/reproduction/paper_file.h"
 #include "experiments/reproduction/reproduction.h"
 #include "systems/foundation/result_file.h"
 
@@ -15,31 +17,39 @@ namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 
-std::vector<PaperFigure> wanted_figures(const ReproduceOptions& options) {
-  const auto all = read_paper_figures(options.file.empty() ? or_shipped("papers", "papers")
-                                                           : or_shipped(options.file, "papers"));
-  std::vector<PaperFigure> wanted;
+PaperFigures wanted_figures(const ReproduceOptions& options) {
+  PaperFigures all = read_paper_file(options.file.empty() ? or_shipped("papers", "papers")
+                                                          : or_shipped(options.file, "papers"));
+  if (options.only.empty()) return all;
+  PaperFigures wanted;
+  const auto add = [](auto& list, auto each) {
+    const auto same = [&each](const auto& other) { return other.id == each.id; };
+    if (std::none_of(list.begin(), list.end(), same)) list.push_back(std::move(each));
+  };
   for (const std::string& only : options.only) {
-    for (PaperFigure& figure : figures_called(all, only)) {
-      const auto same = [&figure](const PaperFigure& other) { return other.id == figure.id; };
-      if (std::none_of(wanted.begin(), wanted.end(), same)) wanted.push_back(std::move(figure));
-    }
+    const PaperFigures called = figures_called(all, only);
+    for (const PaperFigure& figure : called.figures) add(wanted.figures, figure);
+    for (const PaperPicture& picture : called.pictures) add(wanted.pictures, picture);
   }
-  return options.only.empty() ? all : wanted;
+  return wanted;
 }
 
 }  // namespace
 
 ExitStatus reproduce(const ReproduceOptions& options) {
-  const std::vector<PaperFigure> figures = wanted_figures(options);
+  const PaperFigures wanted = wanted_figures(options);
   const RunFolder folder = make_run_folder(options.out.empty() ? default_folder("papers") : options.out);
   std::signal(SIGINT, [](int) { interrupted = 1; });
-  const std::vector<ReproducedFigure> reproduced = [&] {
+  const Reproduction reproduced = [&] {
     Progress progress("reproducing the papers", options.common.quiet || options.common.json);
-    return reproduce(figures, folder.path, options.threads.value_or(0), [&](double share) {
-      progress.show(share);
-      return interrupted == 0;
-    });
+    return reproduce(wanted, {.folder = folder.path,
+                              .threads = options.threads.value_or(0),
+                              .progress =
+                                  [&](double share) {
+                                    progress.show(share);
+                                    return interrupted == 0;
+                                  },
+                              .run_command = run_own_command});
   }();
   std::signal(SIGINT, SIG_DFL);
   print_result("{}",

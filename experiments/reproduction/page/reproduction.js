@@ -54,17 +54,39 @@ function rowOf(entry) {
     element("td", { class: `verdict ${colour}` }, entry.verdict));
 }
 
-function sectionOf(source, entries) {
+function tableOf(entries) {
   const head = element("tr", {}, ...["figure", "paper", "as printed", "ours", "unit", "ratio to the paper", "verdict"].map(
     (name) => element("th", { scope: "col" }, name)));
   const table = element("table", {}, element("thead", {}, head), element("tbody", {}, ...entries.map(rowOf)));
-  return element("section", { "aria-label": source }, element("h2", {}, source), element("div", { class: "scroll" }, table));
+  return element("div", { class: "scroll" }, table);
 }
 
-const sources = Map.groupBy
-  ? Map.groupBy(reproduction.entries, (entry) => entry.source)
-  : reproduction.entries.reduce((all, entry) => all.set(entry.source, [...(all.get(entry.source) ?? []), entry]), new Map());
+function sectionOf(source) {
+  const pictures = reproduction.pictures.filter((each) => each.source === source);
+  const entries = reproduction.entries.filter((each) => each.source === source);
+  const section = element("section", { "aria-label": source }, element("h2", {}, source));
+  if (pictures.length > 0) section.append(element("div", { class: "pictures" }, ...pictures.map(pictureOf)));
+  if (entries.length > 0) section.append(tableOf(entries));
+  return section;
+}
+
+/** Of "[SafePR] Fig. 9" the paper, and the number by which its figures follow one another. */
+function order(source) {
+  const [paper] = source.split(" ");
+  return [paper, /Fig/.test(source) ? 0 : /Table/.test(source) ? 1 : 2, Number(/\d+/.exec(source.slice(paper.length))?.[0] ?? 0)];
+}
+
+function inOrder(one, two) {
+  const [a, b] = [order(one), order(two)];
+  const which = a.findIndex((each, i) => each !== b[i]);
+  if (which < 0) return one.localeCompare(two);
+  return which === 0 ? papers.indexOf(a[0]) - papers.indexOf(b[0]) : a[which] - b[which];
+}
+
+const all = [...reproduction.entries, ...reproduction.pictures];
+const papers = [...new Set(all.map((each) => order(each.source)[0]))];
+const sources = [...new Set(all.map((each) => each.source))].sort(inOrder);
 byId("summary").textContent = `${reproduction.summary}.`;
-byId("sources").replaceChildren(...[...sources].map(([source, entries]) => sectionOf(source, entries)));
+byId("sources").replaceChildren(...sources.map(sectionOf));
 byId("provenance").replaceChildren(
   element("dt", {}, "command"), element("dd", {}, reproduction.call), element("dt", {}, "version"), element("dd", {}, reproduction.version));
