@@ -21,8 +21,8 @@ using RunCommand =
 
 /// How figures are reproduced.
 struct ReproductionOptions {
-  std::filesystem::path folder =
-      {};                   ///< for campaigns and commands; the same call goes on with what is there
+  /// For campaigns and commands; the same call goes on with what is there.
+  std::filesystem::path folder = {};
   std::size_t threads = 0;  ///< runs at once; 0: one a processor
   ReproductionProgress progress = {};
   RunCommand run_command = {};  ///< none: figures of commands are refused
