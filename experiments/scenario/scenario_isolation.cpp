@@ -54,6 +54,8 @@ void read_isolation(ConfigReader isolation, const KnownDrives& drives, Isolation
   isolation.duration("window", settings.model_classifier.window, not_negative);
   isolation.number("leaning", unit::none, settings.closed_form.leaning, not_negative);
   settings.particle_filter.leaning = settings.closed_form.leaning;
+  settings.closed_form.object_speed = settings.particle_filter.object_speed =
+      settings.hypotheses.object_speed;
   isolation.integer("particles", settings.particle_filter.particles, 1, max_particles);
 }
 

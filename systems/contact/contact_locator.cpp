@@ -160,23 +160,26 @@ CartesianVector pushed_point(const LinkContactMap& link, double fraction,
   return size > 0.0 ? CartesianVector(on_axis - link.radius / size * across) : on_axis;
 }
 
-ContactLocation locate_on_link(const LinkContactMap& map, BodyId link, const PlatformVector& wrench,
-                               const PlatformMatrix& noise, const PlatformMatrix& errors,
+ContactLocation locate_on_link(const LinkContactMap& map, BodyId link, const PlatformVector& velocity,
+                               const PlatformVector& wrench, const PlatformMatrix& noise,
+                               const PlatformMatrix& errors,
                                const ContactLocatorSettings& settings) noexcept {
   ContactLocation location;
-  const LinkPush push = link_push(map, wrench, noise, settings.largest_deviation);
-  if (!push.valid) return location;
+  const LinkPush across = link_push(map, wrench, noise, settings.largest_deviation);
+  if (!across.valid) return location;
+  const Lean lean = lean_by_friction(map, velocity, across.fraction, Eigen::Vector2d(0.0, across.force),
+                                     settings.leaning, settings.object_speed);
+  const LinkPush push = link_push(map, wrench, noise, settings.largest_deviation, lean.mean);
+  const CartesianVector force = push.force * Eigen::Vector2d(push.force < 0.0 ? -lean.mean : lean.mean, 1.0);
   location.valid = true;
   location.body = link.index();
   location.fraction = std::clamp(push.fraction, 0.0, 1.0);
-  location.force_in_base = push.force * map.axes.col(1);
+  location.force_in_base = map.axes * force;
   location.point_in_base = pushed_point(map, location.fraction, location.force_in_base);
   location.covariance = push.covariance;
-  if (push.identifiable) {
-    const CartesianVector across = Eigen::Vector2d(0.0, push.force);
-    location.covariance = push_covariance(map, push.fraction, across, errors) +
-                          lean_covariance(map, wrench, noise, push, settings.leaning);
-  }
+  if (push.identifiable)
+    location.covariance =
+        push_covariance(map, push.fraction, force, errors) + lean_covariance(map, wrench, noise, push, lean);
   const double deviation = std::sqrt(location.covariance(0, 0));
   location.located = push.identifiable && deviation <= settings.largest_deviation;
   location.point_deviation = map.length * deviation;
@@ -197,6 +200,7 @@ ContactLocator::ContactLocator(std::shared_ptr<const ParallelRobot> robot,
   found.positive("least_force", settings.least_force, "N");
   found.positive("largest_deviation", settings.largest_deviation);
   found.not_negative("leaning", settings.leaning);
+  found.positive("object_speed", settings.object_speed, "m/s");
   uncertainty.find_problems(found);
   throw_if_any(found.take());
 }
@@ -218,7 +222,8 @@ ContactLocation ContactLocator::locate(const ContactPhase& contact, const Contac
       found = locate_on_platform(*robot_, now, platform_, F, noise, errors, settings_.least_force);
     } else if (!alike_[static_cast<std::size_t>(body.leg())] &&
                F.head(robot_->space_dimension()).norm() >= settings_.least_force) {
-      found = locate_on_link(link_contact_map(*robot_, now, body), body, F, noise, errors, settings_);
+      found = locate_on_link(link_contact_map(*robot_, now, body), body, now.velocity, F, noise, errors,
+                             settings_);
     }
   }
   found.acquired = estimate.acquired;

@@ -18,8 +18,10 @@ struct ContactLocatorSettings {
   double least_force = 1.0;  ///< below it nothing is located [N]
   /// Largest standard deviation of the fraction at which a place on a link counts as known.
   double largest_deviation = 0.15;
-  /// Standard deviation of f_x / f_y: how far friction lets a force on a link lean. 0: pushes are orthogonal.
+  /// Root mean square of f_x / f_y: how far friction lets a force on a link lean. 0: pushes are orthogonal.
   double leaning = 0.15;
+  /// Standard deviation of the velocity of what is touched, along the link [m/s]; see lean_by_friction().
+  double object_speed = 0.2;
 };
 
 /// Where the line of action of `wrench` enters the platform: the point of a push, [SafePR] III-A. Where it
@@ -31,12 +33,13 @@ ContactLocation locate_on_platform(const ParallelRobot& robot, const Kinematics&
                                    const PlatformMatrix& noise, const PlatformMatrix& errors,
                                    double least_force) noexcept;
 
-/// Where `link` is pushed, by `link_push`, which takes the push as orthogonal. What it tells of place and
-/// force is as uncertain as the wrench is and as friction lets the force lean. `noise`: covariance of the
-/// wrench, by which its components are weighed; `errors`: the same with all that it may be off by.
-ContactLocation locate_on_link(const LinkContactMap& map, BodyId link, const PlatformVector& wrench,
-                               const PlatformMatrix& noise, const PlatformMatrix& errors,
-                               const ContactLocatorSettings& settings) noexcept;
+/// Where `link` is pushed, by `link_push`, with the lean that friction is expected to make while the platform
+/// moves with `velocity`. What it tells of place and force is as uncertain as the wrench and that lean are.
+/// `noise`: covariance of the wrench, by which its components are weighed; `errors`: the same with all that it
+/// may be off by.
+ContactLocation locate_on_link(const LinkContactMap& map, BodyId link, const PlatformVector& velocity,
+                               const PlatformVector& wrench, const PlatformMatrix& noise,
+                               const PlatformMatrix& errors, const ContactLocatorSettings& settings) noexcept;
 
 /// The point at `fraction` of a link on the side from which a force pushes it [m].
 CartesianVector pushed_point(const LinkContactMap& link, double fraction,

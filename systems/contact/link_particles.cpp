@@ -139,11 +139,11 @@ void LinkParticles::resample(const Weights& weights, double sum) noexcept {
   }
 }
 
-void LinkParticles::lean_anew(const TorqueMaps& maps, const JointVector& drive_torque,
+void LinkParticles::lean_anew(const TorqueMaps& maps, const JointVector& drive_torque, const Lean& lean,
                               const LinkParticleSettings& settings) noexcept {
   for (int i = 0; i < count_; ++i) {
     LinkParticle& particle = particles_[static_cast<std::size_t>(i)];
-    const LinkParticle other = maps.leaning(particle, settings.leaning * random_.normal());
+    const LinkParticle other = maps.leaning(particle, lean.mean + lean.deviation * random_.normal());
     if (!(other.fraction >= 0.0 && other.fraction <= 1.0)) continue;
     const double gained = likelihood(drive_torque, maps.torque(other), settings);
     const double had = likelihood(drive_torque, maps.torque(particle), settings);
@@ -182,7 +182,12 @@ LinkParticleEstimate LinkParticles::step(const LinkContactMap& link, const Kinem
     estimate.covariance += share * off * off.transpose();
   }
   resample(weights, sum);
-  if (settings.lean()) lean_anew(maps, drive_torque, settings);
+  if (settings.lean()) {
+    const Lean lean =
+        lean_by_friction(link, kinematics.velocity, estimate.fraction, estimate.force.head(maps.along.cols()),
+                         settings.leaning, settings.object_speed);
+    lean_anew(maps, drive_torque, lean, settings);
+  }
   return estimate;
 }
 

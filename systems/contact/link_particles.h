@@ -18,8 +18,10 @@ struct LinkParticleSettings {
   double along_variance = 1.25e-3;
   double across_variance = 12.5;
   double torque_variance = 10.0;  ///< Sigma_meas, of each drive, [PAR] [Nm^2 or N^2]
-  /// Standard deviation of f_x / f_y: as far as friction lets a force lean. 0: forces across the link alone.
+  /// Root mean square of f_x / f_y: as far as friction lets a force lean. 0: forces across the link alone.
   double leaning = 0.15;
+  /// Standard deviation of the velocity of what is touched, along the link [m/s]; see lean_by_friction().
+  double object_speed = 0.2;
 
   bool lean() const { return leaning > 0.0; }
 };
@@ -74,7 +76,7 @@ class LinkParticles {
   struct TorqueMaps;
   void move(const LinkParticleSettings& settings, int directions) noexcept;
   void resample(const std::array<double, max_particles>& weights, double sum) noexcept;
-  void lean_anew(const TorqueMaps& maps, const JointVector& drive_torque,
+  void lean_anew(const TorqueMaps& maps, const JointVector& drive_torque, const Lean& lean,
                  const LinkParticleSettings& settings) noexcept;
   LinkParticle drawn_about(const LinkPush& push) noexcept;
 

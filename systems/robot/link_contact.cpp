@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 namespace flinch {
@@ -115,20 +116,41 @@ LinkContactMap link_contact_map(const Mechanism& robot, const Kinematics& kinema
   return map;
 }
 
+Lean lean_by_friction(const LinkContactMap& link, const PlatformVector& velocity, double fraction,
+                      const CartesianVector& force, double leaning, double object_speed) noexcept {
+  const double across = force.tail(force.size() - 1).norm();
+  if (leaning <= 0.0 || !link.valid || !(across > 0.0)) return {0.0, leaning};
+  // In the axes of the link: of the axis at the fraction, and how much it differs from one end to the other.
+  const CartesianVector at_axis = (link.at_joint + fraction * link.along).transpose() * velocity;
+  const CartesianVector of_length = link.along.transpose() * velocity;
+  const auto to_surface = -link.radius / across * force.tail(force.size() - 1);
+  const double sliding = at_axis[0] - of_length.tail(force.size() - 1).dot(to_surface) / link.length;
+  const double sign = std::erf(sliding / (std::numbers::sqrt2 * object_speed));  // expected
+  const double size = leaning * std::sqrt(2.0 * std::numbers::inv_pi);           // of a half-normal lean
+  const double mean = -sign * size;
+  return {mean, std::sqrt(leaning * leaning - mean * mean)};
+}
+
 LinkPush link_push(const LinkContactMap& link, const PlatformVector& wrench, const PlatformMatrix& covariance,
-                   double largest_deviation) noexcept {
+                   double largest_deviation, double lean) noexcept {
   if (!can_be_a_link(link, wrench)) return {};
   const Eigen::LLT<PlatformMatrix> S(covariance);
   if (S.info() != Eigen::Success) return {};
-  const PlatformVector g0 = link.at_joint.col(1);
-  const PlatformVector g1 = link.along.col(1);
-  const LinkPush push = unconfined_push(g0, g1, wrench, S);
-  return is_identified(push, largest_deviation) ? push : in_the_middle(g0 + 0.5 * g1, wrench, S);
+  const auto leaning_to = [&](double side) {
+    const CartesianVector direction = Eigen::Vector2d(side * lean, 1.0);
+    return unconfined_push(link.at_joint * direction, link.along * direction, wrench, S);
+  };
+  LinkPush push = leaning_to(1.0);
+  if (lean != 0.0 && push.force < 0.0) push = leaning_to(-1.0);
+  if (lean != 0.0 && !push.valid) push = leaning_to(-1.0);
+  return is_identified(push, largest_deviation)
+             ? push
+             : in_the_middle(link.at_joint.col(1) + 0.5 * link.along.col(1), wrench, S);
 }
 
 Eigen::Matrix2d lean_covariance(const LinkContactMap& link, const PlatformVector& wrench,
                                 const PlatformMatrix& covariance, const LinkPush& push,
-                                double leaning) noexcept {
+                                const Lean& lean) noexcept {
   struct Node {
     double place, weight;
   };
@@ -138,10 +160,11 @@ Eigen::Matrix2d lean_covariance(const LinkContactMap& link, const PlatformVector
                             {near, 0.22207592200561264},
                             {far, 0.011257411327720689}};
   Eigen::Matrix2d found = Eigen::Matrix2d::Zero();
-  if (leaning <= 0.0) return found;
+  if (lean.deviation <= 0.0) return found;
   const Eigen::LLT<PlatformMatrix> S(covariance);
+  const double side = push.force < 0.0 ? -1.0 : 1.0;
   for (const Node& node : nodes) {
-    const CartesianVector direction = Eigen::Vector2d(node.place * leaning, 1.0);
+    const CartesianVector direction = Eigen::Vector2d(side * (lean.mean + node.place * lean.deviation), 1.0);
     const LinkPush leans = unconfined_push(link.at_joint * direction, link.along * direction, wrench, S);
     if (!leans.valid) return Eigen::Vector2d(1.0, push.force * push.force).asDiagonal();
     const double moved = std::clamp(leans.fraction, 0.0, 1.0) - std::clamp(push.fraction, 0.0, 1.0);

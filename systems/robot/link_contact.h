@@ -37,24 +37,37 @@ struct LinkPush {
   double residual = 0.0;                                 ///< e^T S^-1 e of what it leaves of the wrench
 };
 
+/// How far a force on a link leans along its axis, f_x / |f_y|: normally distributed.
+struct Lean {
+  double mean = 0.0;
+  double deviation = 0.0;
+};
+
+/// The lean that friction makes, against the sliding: |f_x / f_y| is half-normal with the root mean square
+/// `leaning`, and of the sign that the velocity of the touched point along the link has, less that of what is
+/// touched, which is normally distributed with the deviation `object_speed` [m/s]. Of a link that hardly moves
+/// along itself the sign is not known, and the mean is 0. `velocity`: of the platform; `fraction` and `force`,
+/// in the link's axes: of the push. (Derived.)
+Lean lean_by_friction(const LinkContactMap& link, const PlatformVector& velocity, double fraction,
+                      const CartesianVector& force, double leaning, double object_speed) noexcept;
+
 /// The push f_y across a planar link that explains `wrench` best, in closed form: F = g0 f_y + g1 (l f_y) is
 /// linear in f_y and l f_y, so that these are a weighted mean and l is their ratio. Of a 3-RRR this is
 ///   f_y = F_n + F_e tan qp,  l = F_n / f_y
 /// with F_n across and F_e along the second link, where the wrench acts through the coupling joint as that of
 /// a leg does. Not identifiable where the wrench does not tell g0 from g1 (a first link, an elbow at 90
 /// degrees), where the fraction's standard deviation exceeds `largest_deviation`, or where it lies outside of
-/// the link by more than three of them. `covariance`: of the wrench.
+/// the link by more than three of them. `covariance`: of the wrench. `lean`: of the force, known.
 LinkPush link_push(const LinkContactMap& link, const PlatformVector& wrench, const PlatformMatrix& covariance,
-                   double largest_deviation) noexcept;
+                   double largest_deviation, double lean = 0.0) noexcept;
 
-/// What a force (lean, 1) f_y that leans along the link by an unknown share of its size, normally distributed
-/// with standard deviation `leaning`, adds to the covariance of a `push` that `link_push` has identified: the
-/// mean square by which the pushes that explain `wrench` then differ from it, by Gauss-Hermite quadrature in
-/// five points. A place is on the link. A lean by which nothing explains the wrench counts as the whole link
+/// What a force that leans as `lean` says adds to the covariance of a `push` that `link_push` has identified
+/// with its mean: the mean square by which the pushes that explain `wrench` then differ from it, by
+/// Gauss-Hermite quadrature in five points. A place is on the link. A lean by which nothing explains the wrench counts as the whole link
 /// and all of the force. (Derived.)
 Eigen::Matrix2d lean_covariance(const LinkContactMap& link, const PlatformVector& wrench,
                                 const PlatformMatrix& covariance, const LinkPush& push,
-                                double leaning) noexcept;
+                                const Lean& lean) noexcept;
 
 /// What errors of the wrench with this `covariance` make of place and size of a `force`, in the link's axes,
 /// that is found at `fraction`: the covariance of (fraction, force across the link). Not more of the fraction

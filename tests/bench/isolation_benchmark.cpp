@@ -160,8 +160,8 @@ void ClosedFormOnALink(benchmark::State& state) {
   const Touch touch;
   compare(state, touch, [&] {
     const LinkContactMap link = link_contact_map(*touch.robot, touch.k, touch.body);
-    benchmark::DoNotOptimize(
-        locate_on_link(link, touch.body, touch.wrench, touch.covariance, touch.covariance, {}));
+    benchmark::DoNotOptimize(locate_on_link(link, touch.body, touch.k.velocity, touch.wrench,
+                                            touch.covariance, touch.covariance, {}));
   });
 }
 BENCHMARK(ClosedFormOnALink);

@@ -280,7 +280,8 @@ TEST(LocateOnLink, FindsThePointOnTheSurfaceThatIsPushed) {
   const LinkContactMap map = link_contact_map(*robot, k, link);
   const PlatformVector wrench = test::wrench_on_link(*robot, k, link, 0.6, {0.0, 50.0});
   const PlatformMatrix S = 1e-4 * noise(*robot);
-  const ContactLocation found = locate_on_link(map, link, wrench, S, S, {.leaning = 0.0});
+  const ContactLocation found =
+      locate_on_link(map, link, PlatformVector::Zero(3), wrench, S, S, {.leaning = 0.0});
   ASSERT_TRUE(found.located);
   EXPECT_NEAR(found.fraction, 0.6, 1e-9);
   const CartesianVector expected =
@@ -308,7 +309,7 @@ TEST(LocateOnLink, CoversForcesThatLean) {
           test::wrench_on_link(*robot, k, link, l, {50.0 * 0.2 * normal(generator), 50.0});
       wrench += PlatformVector{{0.5 * normal(generator), 0.5 * normal(generator), 0.05 * normal(generator)}};
       const PlatformMatrix S = PlatformVector{{0.25, 0.25, 0.0025}}.asDiagonal();
-      const ContactLocation found = locate_on_link(map, link, wrench, S, S, told);
+      const ContactLocation found = locate_on_link(map, link, PlatformVector::Zero(3), wrench, S, S, told);
       if (!found.located) continue;
       ++count;
       const Eigen::Vector2d error(found.fraction - l, found.force_in_base.dot(map.axes.col(1)) - 50.0);
@@ -318,6 +319,42 @@ TEST(LocateOnLink, CoversForcesThatLean) {
   }
   ASSERT_GT(count, 300);
   std::printf("  leaning pushes covered: %d of %d\n", covered, count);
+  EXPECT_GT(covered, 0.9 * count);
+}
+
+// A rough post that stands still while the link slides along it: how hard it rubs is unknown, to which side is not.
+TEST(LocateOnLink, KnowsToWhichSideFrictionLeansWhereTheLinkSlides) {
+  const auto robot = test::touched_bench();
+  std::mt19937 generator(4);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform(0.1, 0.9);
+  const ContactLocatorSettings told{.least_force = 1.0, .largest_deviation = 0.3, .leaning = 0.15};
+  double knowing = 0.0, not_knowing = 0.0;  // squared errors
+  int covered = 0, count = 0;
+  for (const Kinematics& k : test::random_kinematics(*robot, 500)) {
+    const BodyId link = BodyId::link2(0);
+    const LinkContactMap map = link_contact_map(*robot, k, link);
+    const double l = uniform(generator);
+    PlatformVector velocity =
+        PlatformVector::Zero(3);  // of translation along the link: all its points slide alike
+    velocity.head(2) = (normal(generator) < 0.0 ? -1.0 : 1.0) * map.axes.col(0);
+    const double sliding = (map.at_joint + l * map.along).col(0).dot(velocity);
+    if (std::abs(sliding) < 0.6) continue;
+    const double rubs = -std::copysign(0.15 * std::abs(normal(generator)), sliding);
+    const PlatformVector wrench = test::wrench_on_link(*robot, k, link, l, {50.0 * rubs, 50.0});
+    const PlatformMatrix S = PlatformVector{{0.01, 0.01, 0.0001}}.asDiagonal();
+    const ContactLocation at_rest = locate_on_link(map, link, PlatformVector::Zero(3), wrench, S, S, told);
+    const ContactLocation found = locate_on_link(map, link, velocity, wrench, S, S, told);
+    if (!at_rest.located || !found.located) continue;
+    ++count;
+    knowing += std::pow(found.fraction - l, 2);
+    not_knowing += std::pow(at_rest.fraction - l, 2);
+    covered += std::abs(found.fraction - l) < 1.96 * std::sqrt(found.covariance(0, 0));
+  }
+  ASSERT_GT(count, 100);
+  std::printf("  place off by %.3f of the link, %.3f without knowing the side\n", std::sqrt(knowing / count),
+              std::sqrt(not_knowing / count));
+  EXPECT_LT(knowing, std::pow(0.75, 2) * not_knowing) << "a known side and an unknown size leave 0.6";
   EXPECT_GT(covered, 0.9 * count);
 }
 

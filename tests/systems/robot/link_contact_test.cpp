@@ -45,6 +45,56 @@ TEST_P(LinkContactLaws, ThereIsNoMapOfThePlatformOrOfNoBody) {
   EXPECT_FALSE(link_contact_map(robot, Kinematics(), BodyId::link1(0)).valid);
 }
 
+/// The point of a link's surface that `force`, in its axes, pushes, in the frame of the body.
+CartesianVector surface_point(const Mechanism& robot, const Kinematics& k, BodyId link,
+                              const LinkContactMap& map, double fraction, const CartesianVector& force) {
+  const CartesianVector on_axis = robot.axis_point(link, fraction);
+  CartesianVector across = force;
+  across[0] = 0.0;
+  const CartesianVector in_base = -map.radius / across.norm() * map.axes * across;
+  CartesianVector point = on_axis;
+  for (int i = 0; i < on_axis.size(); ++i) {
+    const CartesianVector axis =
+        robot.point_on_body(k, link, CartesianVector(on_axis + CartesianVector::Unit(on_axis.size(), i))) -
+        robot.point_on_body(k, link, on_axis);
+    point[i] += axis.dot(in_base);
+  }
+  return point;
+}
+
+TEST_P(LinkContactLaws, FrictionLeansAgainstTheVelocityOfTheTouchedPointAlongTheLink) {
+  constexpr double leaning = 0.15, object_speed = 0.7;
+  Residual means("of the mean lean", 1e-9);
+  for (const MotionState& state : states) {
+    const Kinematics k = kinematics_at(state.pose, state.velocity);
+    for (int i = 1; i < robot.body_count(); ++i) {
+      const BodyId link = BodyId::from_index(i);
+      const LinkContactMap map = link_contact_map(robot, k, link);
+      const CartesianVector force = CartesianVector::LinSpaced(map.axes.cols(), 1.0, -20.0 + 5.0 * i);
+      const CartesianVector point = surface_point(robot, k, link, map, 0.3, force);
+      const CartesianVector velocity = robot.contact_jacobian(k, link, point).translation * state.velocity;
+      const double sliding = map.axes.col(0).dot(velocity);
+      const Lean lean = lean_by_friction(map, state.velocity, 0.3, force, leaning, object_speed);
+      const double expected =
+          -std::erf(sliding / (std::sqrt(2.0) * object_speed)) * leaning * std::sqrt(2.0 / std::numbers::pi);
+      compare(means, Eigen::VectorXd::Constant(1, lean.mean), Eigen::VectorXd::Constant(1, expected));
+      EXPECT_NEAR(lean.mean * lean.mean + lean.deviation * lean.deviation, leaning * leaning, 1e-12)
+          << "the mean square is that of all leans, whatever is known of the sign";
+    }
+  }
+}
+
+TEST_P(LinkContactLaws, OfALinkAtRestFrictionMayLeanEitherWay) {
+  const Kinematics k = kinematics_at(robot.home_pose(), PlatformVector::Zero(n));
+  const LinkContactMap map = link_contact_map(robot, k, BodyId::link1(0));
+  const CartesianVector force = CartesianVector::Ones(map.axes.cols());
+  const Lean lean = lean_by_friction(map, PlatformVector::Zero(n), 0.5, force, 0.15, 0.2);
+  EXPECT_EQ(lean.mean, 0.0);
+  EXPECT_EQ(lean.deviation, 0.15);
+  EXPECT_EQ(lean_by_friction(map, PlatformVector::Ones(n), 0.5, force, 0.0, 0.2).deviation, 0.0);
+  EXPECT_EQ(lean_by_friction(LinkContactMap(), PlatformVector::Ones(n), 0.5, force, 0.15, 0.2).mean, 0.0);
+}
+
 PlatformMatrix noise(double force, double moment) {
   return PlatformVector{{force * force, force * force, moment * moment}}.asDiagonal();
 }
@@ -167,6 +217,22 @@ TEST_P(LinkPushes, OfUnusableInputAreNotValid) {
   EXPECT_TRUE(nothing.valid);
   EXPECT_FALSE(nothing.identifiable);
   EXPECT_TRUE(nothing.covariance.allFinite());
+}
+
+TEST_P(LinkPushes, ThatLeanAsIsKnownAreFoundExactly) {
+  for (const PoseAndVelocity& motion : motions) {
+    for (int leg = 0; leg < 3; ++leg) {
+      const LinkContactMap map = map_of(motion, BodyId::link2(leg));
+      for (const double across : {-40.0, 40.0}) {
+        const double lean = 0.2;
+        const PlatformVector wrench = push(map, 0.7, {lean * std::abs(across), across});
+        const LinkPush found = link_push(map, wrench, noise(0.1, 0.01), 0.5, lean);
+        if (!found.identifiable) continue;
+        EXPECT_NEAR(found.fraction, 0.7, 1e-6);
+        EXPECT_NEAR(found.force, across, 1e-5);
+      }
+    }
+  }
 }
 
 }  // namespace
