@@ -35,8 +35,8 @@ ContactLocation locate_on_platform(const ParallelRobot& robot, const Kinematics&
 
 /// Where `link` is pushed, by `link_push`, with the lean that friction is expected to make while the platform
 /// moves with `velocity`. What it tells of place and force is as uncertain as the wrench and that lean are.
-/// `noise`: covariance of the wrench, by which its components are weighed; `errors`: the same with all that it
-/// may be off by.
+/// `noise`: covariance of the wrench, by which its components are weighed; `errors`: the same with all that
+/// it may be off by.
 ContactLocation locate_on_link(const LinkContactMap& map, BodyId link, const PlatformVector& velocity,
                                const PlatformVector& wrench, const PlatformMatrix& noise,
                                const PlatformMatrix& errors, const ContactLocatorSettings& settings) noexcept;

@@ -44,10 +44,10 @@ struct Lean {
 };
 
 /// The lean that friction makes, against the sliding: |f_x / f_y| is half-normal with the root mean square
-/// `leaning`, and of the sign that the velocity of the touched point along the link has, less that of what is
-/// touched, which is normally distributed with the deviation `object_speed` [m/s]. Of a link that hardly moves
-/// along itself the sign is not known, and the mean is 0. `velocity`: of the platform; `fraction` and `force`,
-/// in the link's axes: of the push. (Derived.)
+/// `leaning`. What slides is the touched point, with its velocity along the link, on an object whose own one
+/// is normally distributed with the deviation `object_speed` [m/s]. Of a link that hardly moves along itself
+/// the sign is not known, and the mean is 0. `velocity`: of the platform; `fraction` and `force`, in the
+/// link's axes: of the push. (Derived.)
 Lean lean_by_friction(const LinkContactMap& link, const PlatformVector& velocity, double fraction,
                       const CartesianVector& force, double leaning, double object_speed) noexcept;
 
@@ -63,8 +63,8 @@ LinkPush link_push(const LinkContactMap& link, const PlatformVector& wrench, con
 
 /// What a force that leans as `lean` says adds to the covariance of a `push` that `link_push` has identified
 /// with its mean: the mean square by which the pushes that explain `wrench` then differ from it, by
-/// Gauss-Hermite quadrature in five points. A place is on the link. A lean by which nothing explains the wrench counts as the whole link
-/// and all of the force. (Derived.)
+/// Gauss-Hermite quadrature in five points. A place is on the link. A lean by which nothing explains the
+/// wrench counts as the whole link and all of the force. (Derived.)
 Eigen::Matrix2d lean_covariance(const LinkContactMap& link, const PlatformVector& wrench,
                                 const PlatformMatrix& covariance, const LinkPush& push,
                                 const Lean& lean) noexcept;

@@ -1,5 +1,5 @@
-// Where second links are touched by rough posts, [SafePR] V-F, of robots that differ from their model: the place, the force
-// across the link, and how far their covariance covers them; while the link slides, and once it slides the other way.
+// Where second links are touched by rough posts, of robots that differ from their model: place, force across
+// the link, and how far the covariance covers them; while the link slides, and once it slides the other way.
 #include <gtest/gtest.h>
 
 #include <algorithm>

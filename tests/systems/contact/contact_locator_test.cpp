@@ -322,7 +322,7 @@ TEST(LocateOnLink, CoversForcesThatLean) {
   EXPECT_GT(covered, 0.9 * count);
 }
 
-// A rough post that stands still while the link slides along it: how hard it rubs is unknown, to which side is not.
+// A rough post stands still while the link slides along it: how hard it rubs is unknown, not to which side.
 TEST(LocateOnLink, KnowsToWhichSideFrictionLeansWhereTheLinkSlides) {
   const auto robot = test::touched_bench();
   std::mt19937 generator(4);
@@ -335,8 +335,7 @@ TEST(LocateOnLink, KnowsToWhichSideFrictionLeansWhereTheLinkSlides) {
     const BodyId link = BodyId::link2(0);
     const LinkContactMap map = link_contact_map(*robot, k, link);
     const double l = uniform(generator);
-    PlatformVector velocity =
-        PlatformVector::Zero(3);  // of translation along the link: all its points slide alike
+    PlatformVector velocity = PlatformVector::Zero(3);
     velocity.head(2) = (normal(generator) < 0.0 ? -1.0 : 1.0) * map.axes.col(0);
     const double sliding = (map.at_joint + l * map.along).col(0).dot(velocity);
     if (std::abs(sliding) < 0.6) continue;

@@ -195,8 +195,8 @@ struct Honesty {
   double covered = 0.0, squared_error = 0.0;
 };
 
-/// `slides`: while the robot moves, so that objects which move by 0.2 m/s rub against the sliding; otherwise it
-/// stands still, and pushes lean either way.
+/// `slides`: while the robot moves, so that objects which move by 0.2 m/s rub against the sliding. Otherwise
+/// it stands still, and pushes lean either way.
 Honesty honesty_of(double leaning, int ticks, bool slides = false) {
   constexpr int pushes = 1000;
   const WrenchUncertainty uncertainty{.force = 1.5, .moment = 0.12, .share_of_force = 0, .share_of_lever = 0};
