@@ -64,6 +64,7 @@ class LockstepServer::Implementation {
         status_(bus, status_topic, sender_),
         commands_(bus, torque_command_topic, admission(), &asks_for_nothing, &arrived_) {}
 
+  void record(Recorder& recorder) { simulator_.record(recorder); }
   void run(const std::function<bool()>& over) {
     start();
     while (!over()) {
@@ -219,6 +220,8 @@ LockstepServer::LockstepServer(const DdsBus& bus, const Diagram& diagram, const 
           std::make_unique<Implementation>(bus, diagram, station, settings, std::move(integrator))) {}
 
 LockstepServer::~LockstepServer() = default;
+
+void LockstepServer::record(Recorder& recorder) { implementation_->record(recorder); }
 
 void LockstepServer::run(const std::function<bool()>& over) { implementation_->run(over); }
 LockstepState LockstepServer::state() { return implementation_->state(); }

@@ -12,6 +12,8 @@
 
 namespace flinch {
 
+class Recorder;
+
 struct LockstepServerSettings {
   /// The robot_hash() of the robot description: that of the other end, or nothing passes.
   std::uint32_t robot = 0;
@@ -57,6 +59,8 @@ class LockstepServer {
                  const LockstepServerSettings& settings, std::unique_ptr<Integrator> integrator = nullptr);
   ~LockstepServer();
 
+  /// Lets `recorder` see every tick; its time begins anew with each run. Before run().
+  void record(Recorder& recorder);
   /// Until `over`, which is asked at least every 20 ms.
   void run(const std::function<bool()>& over);
 

@@ -19,18 +19,24 @@ std::string problem_with_port(const std::string& text) {
   return "is '" + text + "'; it must be a port from 1 to 65535, --live=8080, or nothing for one that is free";
 }
 
+void add_port(CLI::App& verb, LiveOptions& live, const std::string& what) {
+  verb.add_flag("--live", live.port, what)->check(problem_with_port)->group("Live");
+}
+
 }  // namespace
 
+void add_live_of_bench(CLI::App& serve_verb, LiveOptions& live) {
+  add_port(serve_verb, live,
+           "Show the robot in a browser while it is served, at the address that is printed; --live=PORT "
+           "chooses the port. Only this computer, and who knows the address, can see it");
+}
+
 void add_live(CLI::App& run_verb, LiveOptions& live) {
-  run_verb
-      .add_flag(
-          "--live", live.port,
-          "Show the run in a browser while it goes on, at the address that is printed; --live=PORT "
-          "chooses the port. Only this computer, and who knows the address, can see it. The simulation "
-          "then goes by the clock, and buttons pause it, take one tick, and change the speed. In the end "
-          "the page becomes the report")
-      ->check(problem_with_port)
-      ->group("Live");
+  add_port(run_verb, live,
+           "Show the run in a browser while it goes on, at the address that is printed; --live=PORT "
+           "chooses the port. Only this computer, and who knows the address, can see it. The simulation "
+           "then goes by the clock, and buttons pause it, take one tick, and change the speed. In the end "
+           "the page becomes the report");
   CLI::Option* const speed = run_verb
                                  .add_option("--live-speed", live.speed,
                                              "Speed of the simulation: 1 is real time, 0.1 a tenth of it [1]")

@@ -58,6 +58,7 @@ Recorder& LiveView::begin(const Diagram& diagram, const UnitTable& units,
                           const std::map<std::string, std::string>& attributes) {
   recorder_.emplace(diagram, recorded_paths(diagram), ring, units);
   latest_ = recorder_->description(attributes);
+  if (!settings_.shows_controller) latest_.attributes[bench_alone] = "";
   show_page(latest_);
   thread_ = std::thread([this] { run(); });
   return *recorder_;
@@ -101,6 +102,7 @@ void LiveView::show_samples() {
     recorder_->pop(block.samples());
   }
   if (latest_.samples() == 0) return;
+  if (begins_anew()) feed_.publish(R"({"anew": true})");
   const std::size_t together = (latest_.samples() + most_samples - 1) / most_samples;
   Report report;
   report.obstacles = std::vector<ReportObstacle>(scenario_.obstacles.size());
@@ -110,6 +112,26 @@ void LiveView::show_samples() {
                             std::chrono::duration_cast<std::chrono::milliseconds>(taken).count(),
                             is_operated ? R"("operated": true, )" : "",
                             fmt::join(times_of(latest_, together), ", "), samples_json(report)));
+}
+
+bool LiveView::begins_anew() {
+  std::size_t first = 0;
+  std::int64_t before = last_shown_;
+  bool anew = false;
+  for (std::size_t k = 0; k < latest_.samples(); before = latest_.time_ns[k++]) {
+    if (latest_.time_ns[k] >= before) continue;
+    anew = true;
+    first = k;
+  }
+  last_shown_ = before;
+  const auto forget = [first](auto& values, std::size_t width) {
+    values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(first * width));
+  };
+  if (first > 0) {
+    for (Signal& signal : latest_.signals) forget(signal.rows, signal.layout.numbers);
+    forget(latest_.time_ns, 1);
+  }
+  return anew;
 }
 
 void LiveView::show_pace() {
@@ -126,6 +148,13 @@ void LiveView::stop_thread() {
   stops_ = true;
   pace_.release();
   if (thread_.joinable()) thread_.join();
+}
+
+void LiveView::finish() {
+  stop_thread();
+  if (recorder_) show_samples();
+  feed_.publish(R"({"over": true})");
+  feed_.close();
 }
 
 void LiveView::finish(std::string report) {

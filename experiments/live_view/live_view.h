@@ -32,6 +32,7 @@ struct LiveViewSettings {
   /// How long a simulation waits for the first viewer, and how long the report stays for those who have not
   /// fetched it.
   std::chrono::milliseconds patience{60'000};
+  bool shows_controller = true;  ///< false: what runs is a bench alone, and says nothing of a controller
   std::function<bool()> interrupted = [] { return false; };  ///< Somebody wants no more waiting.
 };
 
@@ -61,10 +62,14 @@ class LiveView : public Spectator {
   /// Shows what is left of the run, makes its page that of the `report`, and returns when every viewer has
   /// it.
   void finish(std::string report);
+  /// The same without a report: the pages stay as they are.
+  void finish();
 
  private:
   void run();
   void show_samples();
+  /// Whether the time of the run has gone back; then what was before it is left out.
+  bool begins_anew();
   void show_pace();
   void show_page(const Recording& nothing);
   void stop_thread();
@@ -79,6 +84,7 @@ class LiveView : public Spectator {
   Recording latest_;  ///< of the thread: what it has just taken
   std::optional<PaceState> pace_shown_;
   std::int64_t dropped_shown_ = 0;
+  std::int64_t last_shown_ = 0;  ///< time of the last sample [ns]
   bool has_waited_ = false;
   std::atomic<bool> stops_ = false;
   std::thread thread_;  ///< the last: it sees all others

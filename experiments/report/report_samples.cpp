@@ -15,6 +15,7 @@
 #include "experiments/report/operator_lane.h"
 #include "experiments/report/page_samples.h"
 #include "experiments/report/reaction_lane.h"
+#include "experiments/report/station_lanes.h"
 #include "experiments/report/task_energy_columns.h"
 #include "experiments/report/vector_columns.h"
 #include "experiments/verdict/recorded_classification.h"
@@ -269,11 +270,13 @@ class ObstacleColumns {
 /// so that the lane ends when the verdict says that the contact was removed.
 class States {
  public:
-  States(bool contacts_are_known, PageSamples& page) : page_(page) {
+  States(bool contacts_are_known, bool is_controlled, PageSamples& page)
+      : page_(page), is_controlled_(is_controlled) {
     if (contacts_are_known) {
       force_ = page.column("contact_force");
       touching_ = page.lane("contact", {"free", "touching"});
     }
+    if (!is_controlled) return;
     detector_ = page.lane("detector", {"quiet", "contact", "hard contact"});
     mode_ = page.lane("mode", {"nominal", "stopped", "react", "hold", "zero-g", "recover"});
     gate_ = page.lane("torque gate", {"waiting", "open", "closed", "recovering"});
@@ -285,6 +288,7 @@ class States {
       page_.set(*force_, now.force());
       page_.set_state(*touching_, known ? (now.load() > 1.0 ? 1 : 0) : -1, now.load());
     }
+    if (!is_controlled_) return;
     const int level = static_cast<int>(now.detection.level);
     page_.set_state(detector_, level, level);
     const int mode = static_cast<int>(now.mode);
@@ -294,6 +298,7 @@ class States {
 
  private:
   PageSamples& page_;
+  bool is_controlled_;  ///< what the controller does is known
   std::optional<std::size_t> force_, touching_;
   std::size_t detector_ = 0, mode_ = 0, gate_ = 0;
 };
@@ -383,7 +388,10 @@ void add_samples(const ParallelRobot& robot, const Recording& recording, Report&
   report.period = run.period() * static_cast<double>(together);
   if (!recording.time_ns.empty()) report.start = 1e-9 * static_cast<double>(recording.time_ns.front());
   PageSamples page(together);
-  States states(run.witness() != Witness::none, page);
+  const bool is_controlled = !recording.attributes.contains(bench_alone);
+  States states(run.witness() != Witness::none, is_controlled, page);
+  std::optional<StationLanes> station;
+  if (!is_controlled) station.emplace(recording, page);
   Motion motion(robot, recording, simulated, page);
   Forces forces(robot, recording, simulated, page);
   EstimatesSideBySide estimates(robot.space(), recording, page, report);
@@ -406,6 +414,7 @@ void add_samples(const ParallelRobot& robot, const Recording& recording, Report&
     const double hardness = std::isnan(now.force()) ? 0.0 : now.force();
     page.begin();
     states.show(now, hardness);
+    if (station) station->show(k);
     motion.show(k, truth, hardness);
     forces.show(k, truth, hardness);
     estimates.show(k);

@@ -8,8 +8,8 @@
 #include "experiments/recorded/recorded_signals.h"
 #include "experiments/recorded/robot_as_drawn.h"
 #include "experiments/simulated/closed_loop.h"
+#include "experiments/simulated/exported_truth.h"
 #include "experiments/simulated/simulated_scenario.h"
-#include "experiments/simulated/true_measures.h"
 #include "experiments/verdict/recorded_run.h"
 #include "experiments/verdict/run_watch.h"
 #include "experiments/verdict/verdict.h"
@@ -44,15 +44,7 @@ Experiment build(const SimulatedScenario& scenario, const ContactControlSettings
   DiagramBuilder builder("experiment", scenario.control_period);
   const auto [station, control] = add_closed_loop(builder, scenario, settings);
   const OperatorPorts panel = add_operator(builder, control, scenario.operator_script);
-  builder.export_output("truth", station.plant_truth);
-  builder.export_output("contact", station.contact_truth);
-  auto& measures = builder.add<TrueMeasures>("true_measures", scenario.station.bench.robot);
-  builder.connect(station.platform_truth, measures.platform);
-  builder.export_output("true_measures", measures.measures);
-  const Obstacles& obstacles = scenario.station.bench.obstacles;
-  if (std::any_of(obstacles.begin(), obstacles.end(), [](const auto& each) { return each->moves(); })) {
-    builder.export_output("obstacles", station.obstacle_truth);
-  }
+  export_truth(builder, scenario, station);
   export_readings(builder, station);
   export_control(builder, control);
   return {builder.build(), panel.buttons, panel.target};

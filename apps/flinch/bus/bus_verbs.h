@@ -10,6 +10,7 @@ namespace flinch {
 
 struct ServeOptions {
   CommonOptions common;
+  LiveOptions live;
   std::filesystem::path scenario;
   std::optional<std::uint64_t> seed;
   BusOptions bus;

@@ -20,26 +20,19 @@ std::string text_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-LiveViewSettings settings_of(const RunOptions& options, ShownPace pace, OrderFromPage operator_order) {
+LiveViewSettings settings_of(const LiveOptions& options, ShownPace pace) {
   LiveViewSettings settings;
-  settings.operator_order = std::move(operator_order);
-  if (options.live.port != "true") settings.server.port = std::stoi(options.live.port);
-  settings.speed = pace == ShownPace::ordered ? std::optional(options.live.speed) : std::nullopt;
-  settings.patience = std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * options.live.wait));
+  if (options.port != "true") settings.server.port = std::stoi(options.port);
+  settings.speed = pace == ShownPace::ordered ? std::optional(options.speed) : std::nullopt;
+  settings.patience = std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * options.wait));
   settings.interrupted = [] { return interrupted != 0; };
   return settings;
 }
 
 class RunInBrowser : public ShownRun {
  public:
-  RunInBrowser(const RunOptions& options, const Scenario& scenario, ShownPace pace,
-               OrderFromPage operator_order)
-      : view_(scenario, settings_of(options, pace, std::move(operator_order))) {
+  RunInBrowser(const Scenario& scenario, LiveViewSettings settings) : view_(scenario, std::move(settings)) {
     print_message("live: {}\n", view_.address());
-    if (pace == ShownPace::ordered && options.live.wait > 0.0 && !options.common.quiet &&
-        !options.common.json)
-      print_message("the simulation begins when that is open in a browser, or after {:g} s\n",
-                    options.live.wait);
     flush_messages();
   }
 
@@ -50,6 +43,7 @@ class RunInBrowser : public ShownRun {
     view_.finish(text_of(report));
     std::signal(SIGINT, SIG_DFL);
   }
+  void finish() override { view_.finish(); }
 
  private:
   LiveView view_;
@@ -59,8 +53,24 @@ class RunInBrowser : public ShownRun {
 
 std::unique_ptr<ShownRun> show_live(const RunOptions& options, const Scenario& scenario, ShownPace pace,
                                     OrderFromPage operator_order) {
-  if (!options.live.asked()) return nullptr;
-  return std::make_unique<RunInBrowser>(options, scenario, pace, std::move(operator_order));
+  const LiveOptions& live = options.live;
+  if (!live.asked()) return nullptr;
+  LiveViewSettings settings = settings_of(live, pace);
+  settings.operator_order = std::move(operator_order);
+  auto shown = std::make_unique<RunInBrowser>(scenario, std::move(settings));
+  const bool silent = options.common.quiet || options.common.json;
+  if (pace == ShownPace::ordered && live.wait > 0.0 && !silent) {
+    print_message("the simulation begins when that is open in a browser, or after {:g} s\n", live.wait);
+    flush_messages();
+  }
+  return shown;
+}
+
+std::unique_ptr<ShownRun> show_bench_live(const LiveOptions& live, const Scenario& scenario) {
+  if (!live.asked()) return nullptr;
+  LiveViewSettings settings = settings_of(live, ShownPace::own);
+  settings.shows_controller = false;
+  return std::make_unique<RunInBrowser>(scenario, std::move(settings));
 }
 
 }  // namespace flinch

@@ -24,6 +24,8 @@ class ShownRun {
   virtual Spectator& spectator() = 0;
   /// Shows the report in the end; returns when every page has it, or Ctrl-C or the time given ends that.
   virtual void finish(const std::filesystem::path& report) = 0;
+  /// The same without one.
+  virtual void finish() = 0;
 };
 
 /// Who says how fast the run that is shown goes.
@@ -40,5 +42,7 @@ using OrderFromPage = std::function<bool(std::string_view order)>;
 /// Throws SetupError where the port cannot be had, and where this program was built without a server.
 std::unique_ptr<ShownRun> show_live(const RunOptions& options, const Scenario& scenario, ShownPace pace,
                                     OrderFromPage operator_order = {});
+/// The same of a robot that is served: what commands it is not known.
+std::unique_ptr<ShownRun> show_bench_live(const LiveOptions& live, const Scenario& scenario);
 
 }  // namespace flinch

@@ -4,12 +4,25 @@
 
 namespace flinch {
 
-std::unique_ptr<ShownRun> show_live(const RunOptions& options, const Scenario& /*scenario*/,
-                                    ShownPace /*pace*/, OrderFromPage /*operator_order*/) {
-  if (!options.live.asked()) return nullptr;
+namespace {
+
+/// What `live` asks for cannot be had.
+std::unique_ptr<ShownRun> without_server(const LiveOptions& live) {
+  if (!live.asked()) return nullptr;
   throw SetupError(
       "--live: this flinch was built without cpp-httplib; install it (Debian: libcpp-httplib-dev) and build "
       "again");
+}
+
+}  // namespace
+
+std::unique_ptr<ShownRun> show_live(const RunOptions& options, const Scenario& /*scenario*/,
+                                    ShownPace /*pace*/, OrderFromPage /*operator_order*/) {
+  return without_server(options.live);
+}
+
+std::unique_ptr<ShownRun> show_bench_live(const LiveOptions& live, const Scenario& /*scenario*/) {
+  return without_server(live);
 }
 
 }  // namespace flinch

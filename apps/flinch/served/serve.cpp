@@ -8,7 +8,9 @@
 #include "apps/flinch/bus/interrupts.h"
 #include "apps/flinch/bus/status_line.h"
 #include "apps/flinch/fault_options.h"
+#include "apps/flinch/live/shown_run.h"
 #include "apps/flinch/printing.h"
+#include "apps/flinch/served/bench_recorder.h"
 #include "apps/flinch/served/bus_warnings.h"
 #include "apps/flinch/served/serve_in_lockstep.h"
 #include "drivers/dds_server.h"
@@ -133,6 +135,8 @@ ExitStatus serve_in_real_time(const SimulatedScenario& scenario, const ServeOpti
   ExchangeList exchange({server, watch});
   ClockTicks ticks;
   RealtimeRunner runner(*bench.diagram, ticks, exchange, std::make_unique<SundialsIntegrator>());
+  const auto shown = show_bench_live(options.live, scenario);
+  if (shown) runner.record(bench_recorder(*shown, *bench.diagram, scenario));
   if (!silent) {
     print_message(
         "serving {} on {} as robot {} in real time (--lockstep: it waits for its controller); Ctrl-C ends "
@@ -154,6 +158,7 @@ ExitStatus serve_in_real_time(const SimulatedScenario& scenario, const ServeOpti
     runner.run(context, options.duration ? from_seconds(*options.duration) : Time::max(),
                [] { return Interrupts::count() > 0; });
   }
+  if (shown) shown->finish();
   tell_the_end(server.commander(), runner.statistics(), options.common);
   return ExitStatus::done;
 }

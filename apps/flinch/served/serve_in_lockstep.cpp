@@ -8,7 +8,9 @@
 #include "apps/flinch/bus/bus_start.h"
 #include "apps/flinch/bus/interrupts.h"
 #include "apps/flinch/bus/status_line.h"
+#include "apps/flinch/live/shown_run.h"
 #include "apps/flinch/printing.h"
+#include "apps/flinch/served/bench_recorder.h"
 #include "apps/flinch/served/bus_warnings.h"
 #include "drivers/lockstep_server.h"
 #include "drivers/robot_id.h"
@@ -94,6 +96,8 @@ ExitStatus serve_in_lockstep(const SimulatedScenario& scenario, const ServeOptio
         "not that of the clock (--real-time: it is); Ctrl-C ends it\n",
         scenario.name, name_of(where), text_of(SeenRobot{server.robot_id(), where.robot}));
   }
+  const auto shown = show_bench_live(options.live, scenario);
+  if (shown) server.record(bench_recorder(*shown, *bench.diagram, scenario));
   BusWarnings warnings(bus, server.robot_id(), Pace::lockstep, [&] {
     return BusWarnings::Commanders{server.unreadable_commanders(), server.state().in_real_time};
   });
@@ -102,6 +106,7 @@ ExitStatus serve_in_lockstep(const SimulatedScenario& scenario, const ServeOptio
     const StatusLine line(Teller(server, warnings, patience, silent), silent);
     server.run([end] { return Interrupts::count() > 0 || MonotonicClock::now() >= end; });
   }
+  if (shown) shown->finish();
   tell_the_end(server.state(), options.common);
   return ExitStatus::done;
 }

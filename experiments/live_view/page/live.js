@@ -73,6 +73,7 @@ const live = {
   },
 
   take(message) {
+    if (message.anew) samples.clear();
     if (message.times) {
       samples.append(message);
       this.taken = message.taken;
@@ -82,6 +83,7 @@ const live = {
     if (message.not_shown !== undefined) this.showLoss(message.not_shown);
     if (message.operated) byId("operator").hidden = false;
     if (message.ended) this.end();
+    if (message.over) this.stay();
   },
 
   showLoss(samplesLost) {
@@ -110,6 +112,13 @@ const live = {
     this.feed.close();
     this.say("finished");
     location.replace("report.html");
+  },
+
+  /** There is no report: the page stays as it is. */
+  stay() {
+    this.ended = true;
+    this.feed.close();
+    this.say("over");
   },
 
   setFollowing(follows) {

@@ -22,6 +22,16 @@ const samples = {
     report.contacts = contactsSeen();
   },
 
+  /** The run begins anew: nothing of the last one stays. */
+  clear() {
+    report.times = [];
+    for (const name of Object.keys(report.columns)) report.columns[name] = [];
+    report.lanes = [];
+    report.contacts = [];
+    lastSample = 0;
+    clock.sample = -1;
+  },
+
   /** States are matched by name: a message numbers them for itself. */
   appendLane(fresh, before) {
     let lane = report.lanes.find((each) => each.name === fresh.name);

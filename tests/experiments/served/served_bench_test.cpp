@@ -1,14 +1,23 @@
 #include "experiments/served/served_bench.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "experiments/recorded/recorded_signals.h"
+#include "experiments/report/report_samples.h"
 #include "experiments/simulated/simulated_scenario.h"
 #include "plant/sundials_integrator.h"
+#include "systems/framework/recorder.h"
 #include "systems/framework/simulator.h"
+#include "systems/robot/quantity_units.h"
 #include "tests/support/workplace.h"
 
 namespace flinch {
 namespace {
+
+using ::testing::ElementsAre;
 
 /// The bench of the square, told a wish and no torque.
 class ServedSquare {
@@ -44,6 +53,37 @@ TEST(ServedBench, StandsBehindClosedBrakesUntilItsDrivesAreSwitchedOn) {
   EXPECT_TRUE(enabled.enabled);
   EXPECT_FALSE(enabled.braked);
   EXPECT_FALSE(square.after(500ms, {}).enabled);
+}
+
+/// A bench at work, as who watches it sees it.
+Recording watched(const SimulatedScenario& scenario, const Diagram& diagram, const Station& station) {
+  Recorder recorder(diagram, recorded_paths(diagram), 50, quantity_units(*scenario.robot.robot));
+  Simulator simulator(diagram, std::make_unique<SundialsIntegrator>());
+  simulator.record(recorder);
+  Context context = diagram.make_context();
+  for (int tick = 0; tick < 50; ++tick) {
+    context.set(station.torque_command,
+                {.computed = context.time(), .valid = true, .torque = JointVector::Constant(3, 5.0)});
+    context.set(station.brake, {.engage = false});
+    simulator.step(context);
+  }
+  return recorder.recording({{bench_alone, ""}});
+}
+
+TEST(ServedBench, ShowsRobotContactDrivesAndBrakesAndNothingOfAController) {
+  const SimulatedScenario scenario =
+      read_simulated_scenario(test::shipped("scenarios/platform_collision.yaml"));
+  const WaitingBench bench = build_waiting_bench(scenario);
+  const Recording recording = watched(scenario, *bench.diagram, bench.station);
+  Report report;
+  add_samples(*scenario.robot.robot, recording, report, 1);
+  std::vector<std::string> lanes;
+  for (const ReportLane& lane : report.lanes) lanes.push_back(lane.name);
+  EXPECT_THAT(lanes, ElementsAre("contact", "drives", "brakes"));
+  const std::vector<double>& x = report.columns.at("pose_x");
+  EXPECT_NE(x.front(), x.back()) << "it moves";
+  EXPECT_EQ(report.columns.at("torque_commanded_1").back(), 5.0);
+  EXPECT_TRUE(std::isnan(report.columns.at("estimated_force_x").back()));
 }
 
 }  // namespace
