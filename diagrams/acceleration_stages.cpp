@@ -23,10 +23,16 @@ OutputPort<PlatformAcceleration> add_extended_imu_ekf(const StageSite& site, con
   return add(site, given, site.settings.extended_imu_ekf);
 }
 
+OutputPort<PlatformAcceleration> add_unscented_imu_filter(const StageSite& site, const MotionPorts& given) {
+  return add(site, given, site.settings.unscented_imu_filter);
+}
+
 }  // namespace
 
 std::vector<AccelerationSource> acceleration_stages() {
-  return {{"imu_ekf", add_imu_ekf}, {"extended_imu_ekf", add_extended_imu_ekf}};
+  return {{"imu_ekf", add_imu_ekf},
+          {"extended_imu_ekf", add_extended_imu_ekf},
+          {"unscented_imu_filter", add_unscented_imu_filter}};
 }
 
 }  // namespace flinch

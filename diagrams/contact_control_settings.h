@@ -59,6 +59,7 @@ struct ContactControlSettings {
   Time imu_stamp_spread{};
   ImuFilterSettings imu_ekf = published_imu_filter();
   ImuFilterSettings extended_imu_ekf = extended_imu_filter();
+  ImuFilterSettings unscented_imu_filter = flinch::unscented_imu_filter();
 
   // ---- contacts
   MomentumObserverSettings momentum_observer;  ///< 20 1/s, [SafePR] V-A

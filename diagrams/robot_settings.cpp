@@ -104,10 +104,10 @@ void know_period(Time period, ContactControlSettings& settings) {
   for (Sampling* const each :
        {&settings.velocity_filter.sampling, &settings.forward_kinematics.sampling,
         &settings.drive_torque.sampling, &settings.imu_ekf.sampling, &settings.extended_imu_ekf.sampling,
-        &settings.momentum_observer.sampling, &settings.momentum_kalman_filter.inputs.sampling,
-        &settings.sliding_mode_observer.inputs.sampling, &settings.disturbance_filter.sampling,
-        &settings.imu_residual.sampling, &settings.fused_detector.tracking.sampling,
-        &settings.limits_filter.sampling})
+        &settings.unscented_imu_filter.sampling, &settings.momentum_observer.sampling,
+        &settings.momentum_kalman_filter.inputs.sampling, &settings.sliding_mode_observer.inputs.sampling,
+        &settings.disturbance_filter.sampling, &settings.imu_residual.sampling,
+        &settings.fused_detector.tracking.sampling, &settings.limits_filter.sampling})
     *each = sampling;
   settings.sliding_mode_observer.substeps = periods_in(period, 100us);
   settings.imu_residual.rest_in_a_row = periods_in(50ms, period);

@@ -17,6 +17,7 @@ namespace {
 const std::map<std::string, std::vector<std::string>> other_sections = {
     {"imu_ekf", {"imu_mount", "imu_stamps", "plausibility"}},
     {"extended_imu_ekf", {"imu_mount", "imu_stamps", "plausibility"}},
+    {"unscented_imu_filter", {"imu_mount", "imu_stamps", "plausibility"}},
     {"direct_method", {"momentum_observer"}},
     {"direct_imu_ekf", {"imu_ekf", "imu_mount", "imu_stamps", "plausibility", "momentum_observer"}},
     {"direct_extended_imu_ekf",

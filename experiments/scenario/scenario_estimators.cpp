@@ -86,6 +86,7 @@ void read_estimators(ConfigReader& control, const ParallelRobot& robot, ContactC
       .duration("spread", settings.imu_stamp_spread, between(0.0, to_seconds(largest_stamp_spread)));
   read(control.section("imu_ekf"), settings.imu_ekf);
   read(control.section("extended_imu_ekf"), settings.extended_imu_ekf);
+  read(control.section("unscented_imu_filter"), settings.unscented_imu_filter);
   read(control.section("imu_residual"), settings.imu_residual);
 }
 

@@ -1,5 +1,6 @@
 #include "systems/estimators/imu_filter.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -69,6 +70,12 @@ ImuFilterSettings extended_imu_filter() {
           .largest_innovation = 10.0,
           .settling_time = 200ms,
           .sampling = {}};
+}
+
+ImuFilterSettings unscented_imu_filter() {
+  ImuFilterSettings settings = extended_imu_filter();
+  settings.unscented = true;
+  return settings;
 }
 
 ImuFilter::ImuFilter(std::shared_ptr<const ParallelRobot> robot, const ImuFilterSettings& settings)
@@ -202,11 +209,12 @@ TwoKinds ImuFilter::by_stamps(const ImuOutput& expected, const ImuReading& readi
 void ImuFilter::correct(const PoseSample& pose, const ImuReading& reading, double T,
                         ImuFilterMemory& next) const {
   const ImuOutput expected = output_at(next);
-  const Rows C = output_matrix(expected);
+  ImuPrediction imu{expected.value, output_matrix(expected), Eigen::Matrix<double, 6, 1>::Zero()};
+  if (settings_.unscented) spread_out(next, imu);
   Eigen::Matrix<double, 6, 1> imu_error;
   imu_error << reading.angular_velocity - next.bias.gyroscope,
       reading.specific_force - next.bias.accelerometer;
-  imu_error -= expected.value;
+  imu_error -= imu.value;
   const PlatformVector pose_error = robot_->difference(pose.pose, next.pose);
 
   const TwoKinds stamps = by_stamps(expected, reading, T, next);
@@ -215,22 +223,55 @@ void ImuFilter::correct(const PoseSample& pose, const ImuReading& reading, doubl
   const int outputs = n_ + 6;
   for (int i = 0; i < outputs; ++i) {
     const bool is_gyroscope = i < n_ + 3;
-    const double R = i < n_ ? of(settings_.noise.encoder_pose, i)
-                            : (is_gyroscope ? settings_.noise.gyroscope + stamps.rotation
-                                            : settings_.noise.accelerometer + stamps.translation);
+    double R = i < n_ ? of(settings_.noise.encoder_pose, i)
+                      : (is_gyroscope ? settings_.noise.gyroscope + stamps.rotation
+                                      : settings_.noise.accelerometer + stamps.translation);
+    if (i >= n_) R += imu.bending[i - n_];
     const double innovation = i < n_ ? pose_error[i] : imu_error[i - n_];
-    squares += next.errors.measure(C.row(i).transpose(), R, innovation);
+    squares += next.errors.measure(imu.C.row(i).transpose(), R, innovation);
   }
   next.errors.P = 0.5 * (next.errors.P + next.errors.P.transpose()).eval();
-  const auto& correction = next.errors.correction;
-  next.pose = robot_->space().plus(next.pose, correction.head(n_));
-  next.velocity += correction.segment(n_, n_);
-  next.acceleration += correction.segment(2 * n_, n_);
-  if (settings_.estimates_biases) {
-    next.bias.gyroscope += correction.segment<3>(3 * n_);
-    next.bias.accelerometer += correction.segment<3>(3 * n_ + 3);
-  }
+  add(next.errors.correction, next);
   next.innovation = innovation_mean(next.innovation, squares, outputs, T);
+}
+
+void ImuFilter::add(const Errors::Vector& change, ImuFilterMemory& states) const {
+  states.pose = robot_->space().plus(states.pose, change.head(n_));
+  states.velocity += change.segment(n_, n_);
+  states.acceleration += change.segment(2 * n_, n_);
+  if (!settings_.estimates_biases) return;
+  states.bias.gyroscope += change.segment<3>(3 * n_);
+  states.bias.accelerometer += change.segment<3>(3 * n_ + 3);
+}
+
+/// At the points X +- sqrt(N) l_i, P = L L^T: with y+-_i there, D = (y+_i - y-_i) / (2 sqrt(N)) is C L, and
+/// what the y spread beyond D D^T bends. Points of a spherical cubature: Arasaratnam and Haykin, IEEE
+/// Transactions on Automatic Control 54, 2009. Leaves what is there where P has no root.
+void ImuFilter::spread_out(const ImuFilterMemory& states, ImuPrediction& prediction) const {
+  const int sources = 3 * n_;  // biases add to the output as they are
+  Errors::Matrix root = states.errors.P.topLeftCorner(sources, sources);
+  if (Eigen::LLT<Eigen::Ref<Errors::Matrix>>(root).info() != Eigen::Success) return;
+  root.triangularView<Eigen::StrictlyUpper>().setZero();
+  const double away = std::sqrt(static_cast<double>(sources));
+  Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 2 * ImuFilterMemory::states> seen(6, 2 * sources);
+  ImuFilterMemory point;
+  Errors::Vector change = Errors::Vector::Zero(states_);
+  for (int i = 0; i < 2 * sources; ++i) {
+    change.head(sources) = (i < sources ? away : -away) * root.col(i % sources);
+    point.pose = states.pose;
+    point.velocity = states.velocity;
+    point.acceleration = states.acceleration;
+    add(change, point);
+    seen.col(i) = output_at(point).value;
+  }
+  prediction.value = seen.rowwise().mean();
+  Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, ImuFilterMemory::states> D =
+      (seen.leftCols(sources) - seen.rightCols(sources)) / (2.0 * away);
+  const Eigen::Matrix<double, 6, 1> spread =
+      (seen.colwise() - prediction.value).rowwise().squaredNorm() / (2.0 * sources);
+  prediction.bending = (spread - D.rowwise().squaredNorm()).cwiseMax(0.0);
+  root.topLeftCorner(sources, sources).triangularView<Eigen::Lower>().solveInPlace<Eigen::OnTheRight>(D);
+  prediction.C.block(n_, 0, 6, sources) = D;
 }
 
 /// How all that is measured changes with the states: pose, angular velocity, specific force. [RAL25] (7)

@@ -47,6 +47,8 @@ struct ImuFilterSettings {
   /// Whether a sample of the IMU is taken with the pose of the time at which it was acquired. Then the
   /// acceleration is that of then. If not, both are taken to be of now, as in the paper.
   bool aligned = false;
+  /// Whether what the IMU should measure is taken at points about the states, and not linear about them.
+  bool unscented = false;
   /// Above this mean innovation something is wrong with the IMU, and the acceleration is not valid.
   double largest_innovation = 10.0;
   Time settling_time = 100ms;
@@ -57,6 +59,8 @@ struct ImuFilterSettings {
 ImuFilterSettings published_imu_filter();
 /// With biases, the sensors' own noise and aligned.
 ImuFilterSettings extended_imu_filter();
+/// The same, unscented.
+ImuFilterSettings unscented_imu_filter();
 
 /// What a filter of IMU and encoders remembers.
 struct ImuFilterMemory {
@@ -84,7 +88,8 @@ struct PoseSample {
 };
 
 /// Extended Kalman filter of an IMU on the platform and of the pose that the encoders tell, for the
-/// platform's acceleration. [RAL25] (6)-(9), Alg. 1
+/// platform's acceleration. [RAL25] (6)-(9), Alg. 1. Or unscented: how the IMU's output changes with the
+/// states is then a mean over points about them, as far away as they are uncertain.
 ///
 /// States are pose, velocity and constant acceleration, perhaps biases of gyroscope and accelerometer; poses
 /// are added and subtracted on their manifold, so that it serves any mechanism. The output is the pose,
@@ -141,6 +146,14 @@ class ImuFilter final : public System {
   TwoKinds by_stamps(const ImuOutput& expected, const ImuReading& reading, double T,
                      const ImuFilterMemory& states) const;
   ImuOutput output_at(const ImuFilterMemory& states) const;
+  /// What the IMU should measure, without its biases, and how that changes with the states.
+  struct ImuPrediction {
+    Eigen::Matrix<double, 6, 1> value;
+    Rows C;
+    Eigen::Matrix<double, 6, 1> bending;  ///< variance that no linear change explains
+  };
+  void spread_out(const ImuFilterMemory& states, ImuPrediction& prediction) const;
+  void add(const Errors::Vector& change, ImuFilterMemory& states) const;
   Rows output_matrix(const ImuOutput& sensed) const;
   double of(const TwoKinds& kinds, int coordinate) const {
     return coordinate < robot_->space().translations() ? kinds.translation : kinds.rotation;

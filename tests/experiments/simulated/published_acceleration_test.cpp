@@ -35,7 +35,7 @@ SimulatedScenario square(const std::string& imu) {
               "robot: ../robots/planar_3rrr_nominal.yaml\nduration_s: 2.4\n"
               "motion:\n  kind: square\n  start_ms: 300\n  side_mm: 300\n"
               "  limits: {velocity_m_per_s: 1.41, acceleration_m_per_s2: 10.5, jerk_m_per_s3: 600}\n"
-              "control:\n  accelerations: [imu_ekf, extended_imu_ekf]\n"
+              "control:\n  accelerations: [imu_ekf, extended_imu_ekf, unscented_imu_filter]\n"
               "sensors:\n  imu: {" +
                   imu + "}\n");
   return read_simulated_scenario(place / "scenarios/square.yaml");
@@ -53,7 +53,7 @@ Recording run(const SimulatedScenario& scenario) {
   const auto ticks = static_cast<std::size_t>(scenario.duration / 1ms);
   Recorder recorder(*experiment.diagram,
                     {"truth", "imu", "motion", "acceleration", "acceleration_extended_imu_ekf",
-                     "control/extended_imu_ekf/bias"},
+                     "acceleration_unscented_imu_filter", "control/extended_imu_ekf/bias"},
                     ticks, quantity_units(*scenario.robot.robot));
   Simulator simulator(*experiment.diagram, std::make_unique<SundialsIntegrator>());
   simulator.record(recorder);
@@ -156,10 +156,13 @@ TEST(PublishedAcceleration, IsAsGoodAsPrintedFromTheFilterAsPrinted) {
 TEST(PublishedAcceleration, IsAsGoodFromTheExtendedFilterInSpiteOfBiasAndDelay) {
   const Recording recording = run(square_with_bias("delay_us: 3500"));
   print("extended EKF, noise, bias and delay", recording, "acceleration_extended_imu_ekf");
-  for (const int coordinate : {0, 1}) {
-    const Fidelity seen = fidelity(recording, "acceleration_extended_imu_ekf", coordinate);
-    EXPECT_LT(seen.nrmse, 0.012);
-    EXPECT_GE(seen.snr, 25.0);
+  print("unscented, noise, bias and delay", recording, "acceleration_unscented_imu_filter");
+  for (const char* const path : {"acceleration_extended_imu_ekf", "acceleration_unscented_imu_filter"}) {
+    for (const int coordinate : {0, 1}) {
+      const Fidelity seen = fidelity(recording, path, coordinate);
+      EXPECT_LT(seen.nrmse, 0.012) << path;
+      EXPECT_GE(seen.snr, 25.0) << path;
+    }
   }
 }
 

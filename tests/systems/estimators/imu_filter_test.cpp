@@ -133,6 +133,47 @@ TEST(ImuFilter, TellsTheAccelerationOfAnyMechanismInSpiteOfBiasAndDelay) {
   }
 }
 
+TEST(UnscentedImuFilter, TellsTheAccelerationOfAnyMechanismInSpiteOfBiasAndDelay) {
+  for (const auto& robot : {hexapod(), planar()}) {
+    FilterBench bench(robot, unscented_imu_filter());
+    const TwoKinds largest = bench.largest_error(4ms);
+    EXPECT_LT(largest.translation, 0.05);
+    EXPECT_LT(largest.rotation, 0.3);
+  }
+}
+
+/// Largest difference of both accelerations, by their standard deviation, of one that is told of an uncertain
+/// orientation.
+double difference_by_points(const std::shared_ptr<const ParallelRobot>& robot, double orientation_deviation) {
+  ImuFilterSettings extended = extended_imu_filter(), unscented = unscented_imu_filter();
+  for (ImuFilterSettings* const each : {&extended, &unscented}) {
+    each->initial_pose.rotation = orientation_deviation * orientation_deviation;
+    each->noise.encoder_pose.rotation = each->initial_pose.rotation;
+  }
+  FilterBench one(robot, extended), other(robot, unscented);
+  double largest = 0.0;
+  for (int k = 0; k < 300; ++k) {
+    const PlatformAcceleration a = one.see(), b = other.see();
+    if (k < 20) continue;  // nothing is known of the velocity
+    largest = std::max(
+        largest,
+        (b.acceleration - a.acceleration).cwiseQuotient(a.standard_deviation).lpNorm<Eigen::Infinity>());
+  }
+  return largest;
+}
+
+// Both are the same filter where the output hardly bends within the errors of the states.
+TEST(UnscentedImuFilter, IsTheExtendedOneWhereThatIsSureOfItsOrientation) {
+  for (const auto& robot : {hexapod(), planar()}) {
+    const double sure = difference_by_points(robot, 1e-4), unsure = difference_by_points(robot, 0.3);
+    std::printf(
+        "  %d coordinates: differ by %.4f deviations, by %.2f where the orientation is unsure by 0.3 rad\n",
+        robot->dof(), sure, unsure);
+    EXPECT_LT(sure, 0.02);
+    EXPECT_GT(unsure, 5.0 * sure);
+  }
+}
+
 TEST(ImuFilter, FollowsTheIndicationOfItsTimeBetweenTwoPoses) {
   FilterBench bench(planar(), extended_imu_filter());
   EXPECT_LT(bench.largest_error(3500us).translation, 0.05);
