@@ -27,6 +27,7 @@ ParticleLocator::ParticleLocator(std::shared_ptr<const ParallelRobot> robot,
   found.positive("across_variance", settings.across_variance, "N^2");
   found.positive("torque_variance", settings.torque_variance);
   found.not_negative("leaning", settings.leaning);
+  found.positive("object_speed", settings.object_speed, "m/s");
   found.positive("least_force", closed_form.least_force, "N");
   found.positive("largest_deviation", closed_form.largest_deviation);
   uncertainty.find_problems(found);

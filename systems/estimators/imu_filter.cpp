@@ -270,7 +270,7 @@ void ImuFilter::spread_out(const ImuFilterMemory& states, ImuPrediction& predict
   const Eigen::Matrix<double, 6, 1> spread =
       (seen.colwise() - prediction.value).rowwise().squaredNorm() / (2.0 * sources);
   prediction.bending = (spread - D.rowwise().squaredNorm()).cwiseMax(0.0);
-  root.topLeftCorner(sources, sources).triangularView<Eigen::Lower>().solveInPlace<Eigen::OnTheRight>(D);
+  root.triangularView<Eigen::Lower>().solveInPlace<Eigen::OnTheRight>(D);
   prediction.C.block(n_, 0, 6, sources) = D;
 }
 

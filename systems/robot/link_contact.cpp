@@ -141,8 +141,7 @@ LinkPush link_push(const LinkContactMap& link, const PlatformVector& wrench, con
     return unconfined_push(link.at_joint * direction, link.along * direction, wrench, S);
   };
   LinkPush push = leaning_to(1.0);
-  if (lean != 0.0 && push.force < 0.0) push = leaning_to(-1.0);
-  if (lean != 0.0 && !push.valid) push = leaning_to(-1.0);
+  if (lean != 0.0 && (!push.valid || push.force < 0.0)) push = leaning_to(-1.0);
   return is_identified(push, largest_deviation)
              ? push
              : in_the_middle(link.at_joint.col(1) + 0.5 * link.along.col(1), wrench, S);

@@ -12,6 +12,7 @@
 #include "systems/robot/hexapod_presets.h"
 #include "systems/robot/planar_rrr.h"
 #include "systems/robot/planar_rrr_presets.h"
+#include "tests/support/allocations.h"
 #include "tests/support/ticking.h"
 
 namespace flinch {
@@ -171,6 +172,16 @@ TEST(UnscentedImuFilter, IsTheExtendedOneWhereThatIsSureOfItsOrientation) {
         robot->dof(), sure, unsure);
     EXPECT_LT(sure, 0.02);
     EXPECT_GT(unsure, 5.0 * sure);
+  }
+}
+
+TEST(UnscentedImuFilter, DoesNotAllocate) {
+  for (const auto& robot : {hexapod(), planar()}) {
+    FilterBench bench(robot, unscented_imu_filter());
+    for (int k = 0; k < 20; ++k) bench.see();
+    const test::AllocationCounter allocations;
+    for (int k = 0; k < 20; ++k) bench.see();
+    EXPECT_EQ(allocations.count(), 0);
   }
 }
 
