@@ -14,12 +14,14 @@ from browser import Browser  # noqa: E402
 
 
 def until(browser, script, seconds=120.0):
+    """What the script returns once that is something; None where it is not so in time."""
     end = time.monotonic() + seconds
     while time.monotonic() < end:
-        if browser.run(script):
-            return True
+        found = browser.run(script)
+        if found:
+            return found
         time.sleep(0.02)
-    return False
+    return None
 
 
 def problems_of(browser, ready, pictures):
@@ -29,7 +31,7 @@ def problems_of(browser, ready, pictures):
     if not until(browser, "return report.times.length > 20 && report.times.at(-1) > 0.4"):
         yield "no samples came"
         return
-    elbow = browser.run("return document.querySelector('#scene .elbow')?.getAttribute('cx')")
+    elbow = until(browser, "return document.querySelector('#scene .elbow')?.getAttribute('cx')")
     if not until(browser, f"return document.querySelector('#scene .elbow').getAttribute('cx') != {elbow!r}"):
         yield "the robot stands still"
     if not until(browser, "return report.lanes.some((lane) => lane.name === 'contact' && lane.changes.length > 1)"):
