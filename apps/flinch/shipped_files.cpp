@@ -17,13 +17,14 @@ fs::path shipped_folder() {
 
 fs::path or_shipped(const fs::path& file, const char* kind) {
   std::error_code none;
-  if (file.empty() || file.has_parent_path() || fs::exists(file, none)) return file;
+  const bool is_there = fs::exists(file, none);
+  if (file.empty() || file.has_parent_path() || (is_there && !fs::is_directory(file, none))) return file;
   const fs::path folder = shipped_folder();
   if (folder.empty()) return file;
   for (const fs::path& name : {file, fs::path(file.string() + ".yaml")}) {
     if (fs::is_regular_file(folder / kind / name, none)) return folder / kind / name;
   }
-  return file.has_extension() ? file : folder / kind / file;
+  return is_there || file.has_extension() ? file : folder / kind / file;
 }
 
 }  // namespace flinch
