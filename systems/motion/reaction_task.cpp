@@ -159,8 +159,8 @@ void ReactionTask::classify(const Kinematics& at, const WrenchEstimate& contact,
     const bool placed = place.valid && place.body == body.index() && place.force_in_base.size() == directions;
     const double fraction = body.is_link1() ? 1.0 : (placed ? place.fraction : 0.5);
     plan.point_in_body = robot_->axis_point(BodyId::link2(plan.leg), fraction);
-    if (placed) force = place.force_in_base;
-    if (!placed || body.is_link1()) force = force_across(at, body, force);
+    // What friction adds along the link turns round with the sliding: no direction to retreat in.
+    force = force_across(at, body, placed ? place.force_in_base : force);
   }
   if (!(force.norm() >= settings_.force_to_go_by)) return;
   plan.kind = body.is_platform() ? ReactionKind::platform : ReactionKind::second_link;
