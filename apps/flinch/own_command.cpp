@@ -24,12 +24,11 @@ std::string text_of(const std::filesystem::path& file) {
 std::string last_line(const std::string& text) {
   const std::size_t end = text.find_last_not_of("\r\n ");
   if (end == std::string::npos) return "nothing";
-  const std::size_t begin = text.find_last_of("\r\n", end);
-  return text.substr(begin == std::string::npos ? 0 : begin + 1,
-                     end - (begin == std::string::npos ? 0 : begin + 1) + 1);
+  const std::size_t begin = text.find_last_of("\r\n", end) + 1;  // 0 where there is none
+  return text.substr(begin, end + 1 - begin);
 }
 
-/// The exit status of the program at `program`, whose stdout and stderr go to files of `folder`.
+/// The wait status of this program with these words; its stdout and stderr go to files of `folder`.
 int status_of(const std::vector<std::string>& words, const std::filesystem::path& folder) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);

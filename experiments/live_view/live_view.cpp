@@ -58,7 +58,6 @@ Recorder& LiveView::begin(const Diagram& diagram, const UnitTable& units,
                           const std::map<std::string, std::string>& attributes) {
   recorder_.emplace(diagram, recorded_paths(diagram), ring, units);
   latest_ = recorder_->description(attributes);
-  if (!settings_.shows_controller) latest_.attributes[bench_alone] = "";
   show_page(latest_);
   thread_ = std::thread([this] { run(); });
   return *recorder_;

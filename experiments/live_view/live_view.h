@@ -32,7 +32,6 @@ struct LiveViewSettings {
   /// How long a simulation waits for the first viewer, and how long the report stays for those who have not
   /// fetched it.
   std::chrono::milliseconds patience{60'000};
-  bool shows_controller = true;  ///< false: what runs is a bench alone, and says nothing of a controller
   std::function<bool()> interrupted = [] { return false; };  ///< Somebody wants no more waiting.
 };
 

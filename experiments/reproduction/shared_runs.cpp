@@ -5,7 +5,6 @@
 #include <charconv>
 #include <chrono>
 #include <future>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <thread>
@@ -277,17 +276,8 @@ PicturePoints SharedRuns::line(const PictureLine& line) const {
   const Run& run = of(line.run);
   CurveSamples curve = samples_of(line.curve, *run.recording, run.said);
   if (!line.over) return {std::move(curve.time), std::move(curve.value)};
-  const CurveSamples over = samples_of(*line.over, *run.recording, run.said);
-  std::map<double, double> at;
-  for (std::size_t k = 0; k < over.time.size(); ++k) at.emplace(over.time[k], over.value[k]);
-  PicturePoints points;
-  for (std::size_t k = 0; k < curve.time.size(); ++k) {
-    const auto place = at.find(curve.time[k]);
-    if (place == at.end()) continue;
-    points.x.push_back(place->second);
-    points.y.push_back(curve.value[k]);
-  }
-  return points;
+  auto [x, y] = pairs_of(samples_of(*line.over, *run.recording, run.said), curve);
+  return {std::move(x), std::move(y)};
 }
 
 PicturePoints SharedRuns::dots(const PictureDots& dots) const {

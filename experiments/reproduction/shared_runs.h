@@ -68,7 +68,7 @@ class SharedRuns {
   void do_campaign(Run& run, const ReproductionOptions& options);
   void do_commands(Run& run, const ReproductionOptions& options);
   void check_curves() const;
-  /// Shows how many are done, with `more` of the present ones. Throws SetupError where it is told to stop.
+  /// Shows how many are done, with `more` of the present ones. False: stop.
   bool show(const ReproductionOptions& options, double more = 0.0) const;
 
   const PaperFigures& wanted_;

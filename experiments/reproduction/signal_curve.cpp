@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "experiments/campaign/reaction_summary.h"
+
 namespace flinch {
 namespace {
 
@@ -58,36 +60,15 @@ double longest_stretch(const CurveSamples& curve, IsIn is_in) {
   return longest;
 }
 
-/// The samples of both that have the same time.
-std::pair<std::vector<double>, std::vector<double>> paired(const CurveSamples& one, const CurveSamples& two) {
-  std::pair<std::vector<double>, std::vector<double>> pairs;
-  std::size_t j = 0;
-  for (std::size_t i = 0; i < one.time.size(); ++i) {
-    while (j < two.time.size() && two.time[j] < one.time[i]) ++j;
-    if (j == two.time.size() || two.time[j] != one.time[i]) continue;
-    pairs.first.push_back(one.value[i]);
-    pairs.second.push_back(two.value[j]);
-  }
-  return pairs;
-}
-
-std::optional<double> slope_of(const std::vector<double>& y, const std::vector<double>& x) {
-  if (x.size() < 3) return std::nullopt;
-  const double mean_x = mean_of(x), mean_y = mean_of(y);
-  double xx = 0.0, xy = 0.0;
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    xx += (x[k] - mean_x) * (x[k] - mean_x);
-    xy += (x[k] - mean_x) * (y[k] - mean_y);
-  }
-  return xx > 0.0 ? std::optional(xy / xx) : std::nullopt;
-}
-
 /// Of a curve compared with another.
 std::optional<double> compared(CurveStatistic::Kind kind, const CurveSamples& curve,
                                const CurveSamples& other) {
-  const auto [values, others] = paired(curve, other);
+  const auto [values, others] = pairs_of(curve, other);
   if (values.empty()) return std::nullopt;
-  if (kind == CurveStatistic::Kind::slope) return slope_of(values, others);
+  if (kind == CurveStatistic::Kind::slope) {
+    const std::optional<ForceFit> line = fit_line(others, values);
+    return line ? std::optional(line->slope) : std::nullopt;
+  }
   if (kind == CurveStatistic::Kind::signal_to_noise)
     return 10.0 * std::log10(sum_of_squares(others) / sum_of_squares(values));
   const auto [least, most] = std::minmax_element(others.begin(), others.end());
@@ -144,6 +125,19 @@ std::optional<CurveSamples> sampled(const SignalCurve& curve, const Recording& r
     samples.value.push_back(curve.times * value);
   }
   return samples;
+}
+
+std::pair<std::vector<double>, std::vector<double>> pairs_of(const CurveSamples& one,
+                                                             const CurveSamples& two) {
+  std::pair<std::vector<double>, std::vector<double>> pairs;
+  std::size_t j = 0;
+  for (std::size_t i = 0; i < one.time.size(); ++i) {
+    while (j < two.time.size() && two.time[j] < one.time[i]) ++j;
+    if (j == two.time.size() || two.time[j] != one.time[i]) continue;
+    pairs.first.push_back(one.value[i]);
+    pairs.second.push_back(two.value[j]);
+  }
+  return pairs;
 }
 
 const char* word(CurveStatistic::Kind kind) {

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "systems/framework/recording.h"
@@ -50,6 +51,10 @@ struct CurveSamples {
 /// contact and there is none. Throws SetupError with the nearest name for a signal that is not recorded.
 std::optional<CurveSamples> sampled(const SignalCurve& curve, const Recording& recording,
                                     std::optional<double> contact);
+
+/// The values of both where they have samples of the same time.
+std::pair<std::vector<double>, std::vector<double>> pairs_of(const CurveSamples& one,
+                                                             const CurveSamples& other);
 
 /// What is taken of a curve.
 struct CurveStatistic {

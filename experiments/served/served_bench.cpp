@@ -36,24 +36,24 @@ void export_bench(DiagramBuilder& builder, const SimulatedScenario& scenario, co
 
 }  // namespace
 
-ServedBench build_served_bench(const SimulatedScenario& scenario, Time longest_silence) {
+ServedBench build_served_bench(const SimulatedScenario& scenario, Time longest_silence, bool is_watched) {
   DiagramBuilder builder("bench", scenario.control_period);
   SimulatedStationSettings settings = scenario.station;
   settings.drives.longest_silence = longest_silence;
   const SimulatedStation simulated = add_simulated_station(builder, settings);
   PoweredStation station = add_powered_station(builder, simulated);
-  export_bench(builder, scenario, simulated, station);
+  if (is_watched) export_bench(builder, scenario, simulated, station);
   station.torque_command = builder.export_input("torque_command", station.torque_command);
   station.brake = builder.export_input("brake", station.brake);
   station.wish = builder.export_input("wish", station.wish);
   return {builder.build(), station};
 }
 
-WaitingBench build_waiting_bench(const SimulatedScenario& scenario) {
+WaitingBench build_waiting_bench(const SimulatedScenario& scenario, bool is_watched) {
   DiagramBuilder builder("bench", scenario.control_period);
   const SimulatedStation simulated = add_simulated_station(builder, scenario.station);
   Station station = simulated;  // the bus knows no more of it. NOLINT(cppcoreguidelines-slicing)
-  export_bench(builder, scenario, simulated, station);
+  if (is_watched) export_bench(builder, scenario, simulated, station);
   station.torque_command = builder.export_input("torque_command", station.torque_command);
   station.brake = builder.export_input("brake", station.brake);
   return {builder.build(), station};

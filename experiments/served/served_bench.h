@@ -23,10 +23,11 @@ struct WaitingBench {
   Station station;
 };
 
-/// Throws SetupError.
-WaitingBench build_waiting_bench(const SimulatedScenario& scenario);
+/// `is_watched`: its outputs have what a page shows of it, as does the next. Throws SetupError.
+WaitingBench build_waiting_bench(const SimulatedScenario& scenario, bool is_watched = false);
 
 /// `longest_silence`: after which the drives brake without a command. Throws SetupError.
-ServedBench build_served_bench(const SimulatedScenario& scenario, Time longest_silence);
+ServedBench build_served_bench(const SimulatedScenario& scenario, Time longest_silence,
+                               bool is_watched = false);
 
 }  // namespace flinch

@@ -414,9 +414,8 @@ void ReactionTask::lead(Time now, const ReactionPlan& plan, const Kinematics& at
     return add_pose_goals(*robot_, held_, pose, at, list);
   }
   if (!task.valid || !wanted.valid || wanted.position.size() != task.rows()) return;
-  const TaskGoal goal{task,
-                      {error_of(plan, task, wanted.position), wanted.velocity, wanted.acceleration},
-                      gains_of(plan, task.rows())};
+  const PlatformVector error = error_of(plan, task, wanted.position);
+  const TaskGoal goal{task, {error, wanted.velocity, wanted.acceleration}, gains_of(plan, task.rows())};
   if (plan.kind == ReactionKind::opening && settings_.opening_by_priority) return list.add_rows(goal);
   list.add(goal);
 }

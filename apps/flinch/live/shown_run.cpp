@@ -68,9 +68,7 @@ std::unique_ptr<ShownRun> show_live(const RunOptions& options, const Scenario& s
 
 std::unique_ptr<ShownRun> show_bench_live(const LiveOptions& live, const Scenario& scenario) {
   if (!live.asked()) return nullptr;
-  LiveViewSettings settings = settings_of(live, ShownPace::own);
-  settings.shows_controller = false;
-  return std::make_unique<RunInBrowser>(scenario, std::move(settings));
+  return std::make_unique<RunInBrowser>(scenario, settings_of(live, ShownPace::own));
 }
 
 }  // namespace flinch

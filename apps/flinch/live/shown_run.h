@@ -42,7 +42,7 @@ using OrderFromPage = std::function<bool(std::string_view order)>;
 /// Throws SetupError where the port cannot be had, and where this program was built without a server.
 std::unique_ptr<ShownRun> show_live(const RunOptions& options, const Scenario& scenario, ShownPace pace,
                                     OrderFromPage operator_order = {});
-/// The same of a robot that is served: what commands it is not known.
+/// The same of a robot that is served.
 std::unique_ptr<ShownRun> show_bench_live(const LiveOptions& live, const Scenario& scenario);
 
 }  // namespace flinch

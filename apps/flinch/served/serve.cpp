@@ -122,8 +122,9 @@ ExitStatus serve_in_real_time(const SimulatedScenario& scenario, const ServeOpti
       .robot = robot_hash(scenario.robot_text),
       .longest_silence = DdsServerSettings::longest_silence_at(scenario.control_period),
       .robot_name = options.bus.robot};
-  const ServedBench bench =
-      out_of(scenario.file, [&] { return build_served_bench(scenario, settings.longest_silence); });
+  const ServedBench bench = out_of(scenario.file, [&] {
+    return build_served_bench(scenario, settings.longest_silence, options.live.asked());
+  });
   Context context = bench.diagram->make_context();
 
   const Interrupts interrupts;

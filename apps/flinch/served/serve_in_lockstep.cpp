@@ -79,7 +79,8 @@ void tell_the_end(const LockstepState& state, const CommonOptions& common) {
 
 ExitStatus serve_in_lockstep(const SimulatedScenario& scenario, const ServeOptions& options) {
   const bool silent = options.common.quiet || options.common.json;
-  const WaitingBench bench = out_of(scenario.file, [&] { return build_waiting_bench(scenario); });
+  const WaitingBench bench =
+      out_of(scenario.file, [&] { return build_waiting_bench(scenario, options.live.asked()); });
   const Interrupts interrupts;
   const double patience = options.patience.value_or(10.0);
   BusOptions where = options.bus;

@@ -25,13 +25,8 @@ namespace flinch {
 namespace {
 
 using test::Balance;
+using test::quantile;
 using test::Touched;
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return std::nan("");
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-}
 
 /// How often answers of the decision tree are right, by what they name.
 struct TreeAnswers {

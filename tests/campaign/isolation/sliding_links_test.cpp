@@ -18,11 +18,7 @@
 namespace flinch {
 namespace {
 
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return std::nan("");
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-}
+using test::quantile;
 
 /// What a link and what touches it do at a sample, in the axes of the link.
 struct Sliding {

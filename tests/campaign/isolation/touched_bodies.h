@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <memory>
@@ -40,6 +42,12 @@ inline std::string share(std::size_t events, std::size_t trials) {
   char text[100];
   std::snprintf(text, sizeof text, "%zu of %zu (%.1f to %.1f %%)", events, trials, 100.0 * low, 100.0 * high);
   return text;
+}
+
+inline double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return std::nan("");
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
 /// What was recorded of one contact, sample by sample.

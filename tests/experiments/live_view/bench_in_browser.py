@@ -1,27 +1,15 @@
 #!/usr/bin/env python3
-"""Watches a served bench in headless Chromium: bench_in_browser.py ADDRESS READY STOP [--pictures FOLDER]. Makes the file READY
+"""Watches a served bench in headless Chromium: bench_in_browser.py ADDRESS READY [--pictures FOLDER]. Makes the file READY
 once the page is open. The robot and its charts move while a controller runs it, nothing of a controller is shown, and a run
-that begins anew begins an empty page. Ends once the file STOP is there, or what it waits for was seen."""
+that begins anew begins an empty page."""
 
 import argparse
 import pathlib
 import shutil
 import sys
-import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "report"))
-from browser import Browser  # noqa: E402
-
-
-def until(browser, script, seconds=120.0):
-    """What the script returns once that is something; None where it is not so in time."""
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        found = browser.run(script)
-        if found:
-            return found
-        time.sleep(0.02)
-    return None
+from browser import Browser, until  # noqa: E402
 
 
 def problems_of(browser, ready, pictures):

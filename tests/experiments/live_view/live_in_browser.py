@@ -10,7 +10,7 @@ import sys
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "report"))
-from browser import Browser  # noqa: E402
+from browser import Browser, until  # noqa: E402
 
 SEEN = """return {time: report.times.at(-1), samples: report.times.length, state: byId("live-state").textContent,
                   elbow: document.querySelector("#scene .elbow")?.getAttribute("cx"), lag: live.lag,
@@ -19,16 +19,6 @@ SEEN = """return {time: report.times.at(-1), samples: report.times.length, state
                   drawn: Object.fromEntries(charts.all.map((chart) => [
                       chart.id, chart.plot.querySelector("canvas").toDataURL().length]))}"""
 FRAME = 33  # milliseconds that pass before samples are taken from the loop
-
-
-def until(browser, script, seconds=120.0):
-    """Whether the script returns something true before a machine that is far too slow would do it."""
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        if browser.run(script):
-            return True
-        time.sleep(0.05)
-    return False
 
 
 def problems_while_running(browser):

@@ -7,6 +7,7 @@ import re
 import shutil
 import subprocess
 import tempfile
+import time
 import urllib.error
 import urllib.request
 
@@ -122,6 +123,17 @@ class Browser:
                 return json.load(answer)["value"]
         except urllib.error.HTTPError as error:
             raise RuntimeError(json.load(error)["value"]["message"]) from None
+
+
+def until(browser, script, seconds=120.0):
+    """What the script returns once that is something, before a machine that is far too slow would do it; else None."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        found = browser.run(script)
+        if found:
+            return found
+        time.sleep(0.05)
+    return None
 
 
 def try_page(file, problems_of):

@@ -73,7 +73,7 @@ Recording watched(const SimulatedScenario& scenario, const Diagram& diagram, con
 TEST(ServedBench, ShowsRobotContactDrivesAndBrakesAndNothingOfAController) {
   const SimulatedScenario scenario =
       read_simulated_scenario(test::shipped("scenarios/platform_collision.yaml"));
-  const WaitingBench bench = build_waiting_bench(scenario);
+  const WaitingBench bench = build_waiting_bench(scenario, true);
   const Recording recording = watched(scenario, *bench.diagram, bench.station);
   Report report;
   add_samples(*scenario.robot.robot, recording, report, 1);
