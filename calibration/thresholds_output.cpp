@@ -286,7 +286,7 @@ void note_settings(const std::vector<Scenario>& scenarios, ThresholdFindings& fo
 }
 
 std::vector<std::string> warnings(const ThresholdFindings& found) {
-  std::vector<std::string> all;
+  std::vector<std::string> all = found.doubts;
   for (const CalibratedResidual& of : found.residuals) {
     double variation = 0.0, of_one = 0.0;
     for (const CalibratedDistance* part : {&of.level, &of.change, &of.smoothed}) {

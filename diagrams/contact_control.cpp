@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "diagrams/added_stages.h"
+#include "diagrams/base_force_isolation.h"
 #include "diagrams/control_rate.h"
 #include "diagrams/drive_checking.h"
 #include "diagrams/isolation_stages.h"
@@ -367,16 +368,12 @@ Told add_told_contact(const Path& path, ReactionPorts& reaction) {
   return given;
 }
 
-void throw_if_bad(const ContactControlSettings& settings) {
-  throw_if_any(problems(settings.stages));
-  throw_if_any(problems_of_rate(settings));
-}
-
 }  // namespace
 
 ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
                                    const ContactControlSettings& settings) {
-  throw_if_bad(settings);
+  throw_if_any(problems(settings.stages));
+  throw_if_any(problems_of_rate(settings));
   DiagramBuilder builder("control", settings.control_period);
   const Path path{builder, robot, settings};
   const SensedPorts sensed = add_inputs(builder);
@@ -400,6 +397,8 @@ ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
   connect(path, imu, reaction, safety);
   OtherStages others = show_others(path, velocities, accelerations, estimators, buttons.reset);
   show(path, detectors, isolation, laws, tried, others);
+  const auto base_forces =
+      add_base_forces(path.site("base_forces"), isolation.contact, torque_low_pass(settings), others);
   const ContactControl control{
       .joints = sensed.joints,
       .drives = sensed.drives,
@@ -409,6 +408,7 @@ ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
       .target = wanted.target,
       .told_classification = told.classification,
       .told_location = told.location,
+      .base_forces = base_forces,
       .tick_timing = builder.export_input("tick_timing", safety.monitor.timing),
       .torque_command = builder.export_output("torque_command", safety.gate.torque_command),
       .brake = builder.export_output("brake", safety.gate.brake),
@@ -442,6 +442,7 @@ void connect(DiagramBuilder& builder, const Station& station, const ContactContr
   builder.connect(station.drives, control.drives);
   builder.connect(station.imu, control.imu);
   builder.connect(station.status, control.status);
+  if (station.base_forces && control.base_forces) builder.connect(*station.base_forces, *control.base_forces);
   builder.connect(control.torque_command, station.torque_command);
   builder.connect(control.brake, station.brake);
 }

@@ -1,14 +1,18 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "diagrams/contact_control_settings.h"
 #include "diagrams/station.h"
 #include "systems/framework/diagram_builder.h"
 #include "systems/framework/tick_timing.h"
+#include "systems/signals/base_force_estimate.h"
+#include "systems/signals/base_force_reading.h"
 #include "systems/signals/braking_status.h"
 #include "systems/signals/limit_status.h"
+#include "systems/signals/located_contacts.h"
 #include "systems/signals/operator_command.h"
 #include "systems/signals/plausibility.h"
 #include "systems/signals/target_command.h"
@@ -40,6 +44,9 @@ struct OtherStages {
   std::vector<Named<OutputPort<DriveCheckStatus>>> drive_checks;
   /// What detectors take for the loads of the drives, "load_" + their name.
   std::vector<Named<OutputPort<DriveLoad>>> loads;
+  /// Where force sensors are below the base joints: "base_force" and "located_contacts".
+  std::vector<Named<OutputPort<BaseForceEstimate>>> base_forces;
+  std::vector<Named<OutputPort<LocatedContacts>>> located_contacts;
 };
 
 /// The ports of the contact-control pipeline.
@@ -53,6 +60,7 @@ struct ContactControl {
   /// What touches the robot and where, from someone who knows; may be left open: nobody does.
   InputPort<ContactClassification> told_classification;
   InputPort<ContactLocation> told_location;
+  std::optional<InputPort<BaseForceReading>> base_forces;  ///< may be left open: no data
   InputPort<TickTiming> tick_timing;  ///< for RealtimeRunner::feed_timing(); not valid in simulated time
 
   OutputPort<TorqueCommand> torque_command;  ///< from the torque gate, as is `brake`

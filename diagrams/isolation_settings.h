@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 
 #include "systems/contact/contact_locator.h"
 #include "systems/contact/decision_tree.h"
@@ -9,6 +10,7 @@
 #include "systems/contact/link_particles.h"
 #include "systems/contact/model_classifier.h"
 #include "systems/contact/touch_hypotheses.h"
+#include "systems/contact/touch_pairs_settings.h"
 #include "systems/contact/wrench_uncertainty.h"
 
 namespace flinch {
@@ -19,6 +21,13 @@ struct PapersNetworkFiles {
   std::filesystem::path chain;     ///< of the question 'chain'
   std::filesystem::path body;      ///< of the question 'body'
   double accept = 0.0;             ///< least probability to act upon; the papers act on the most likely class
+};
+
+/// Force sensors below the base joints, with which two contacts at once can be located.
+struct BaseForceSettings {
+  JointVector first_moment{};  ///< Of each leg's links, m1 s1 + m2 l1 [kg m].
+  TouchPairsSettings pairs{};
+  Time period = 5ms;  ///< After which contacts are located anew.
 };
 
 /// What can be set of how a contact is classified and located.
@@ -49,6 +58,7 @@ struct IsolationSettings {
   ContactLocatorSettings closed_form;
   LinkParticleSettings particle_filter;
   std::uint64_t particle_seed = 1;
+  std::optional<BaseForceSettings> base_forces{};  ///< none: there are no such sensors
 };
 
 }  // namespace flinch

@@ -55,8 +55,13 @@ Station add_recorded_station(DiagramBuilder& builder, const Recording& recording
                   .drives = playback.add<DriveReading>("drives"),
                   .imu = playback.add<ImuReading>("imu"),
                   .status = playback.add<StationStatus>("status"),
-                  .force_torque = std::nullopt};
+                  .force_torque = std::nullopt,
+                  .base_forces = std::nullopt};
   if (has_force_torque) station.force_torque = playback.add<ForceTorqueReading>("force_torque");
+  if (has_signal(recording, prefix + "base_forces")) {
+    auto& player = inside.add<Player<BaseForceReading>>("base_forces", recording, prefix + "base_forces");
+    station.base_forces = inside.export_output("base_forces", player.played);
+  }
   builder.add(inside.build());
   return station;
 }

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "systems/framework/port.h"
+#include "systems/signals/base_force_reading.h"
 #include "systems/signals/brake_command.h"
 #include "systems/signals/drive_reading.h"
 #include "systems/signals/force_torque_reading.h"
@@ -24,6 +25,7 @@ struct Station {
   OutputPort<ImuReading> imu;
   OutputPort<StationStatus> status;
   std::optional<OutputPort<ForceTorqueReading>> force_torque;  ///< where the instrument is mounted
+  std::optional<OutputPort<BaseForceReading>> base_forces{};   ///< where sensors are below the base joints
 };
 
 }  // namespace flinch

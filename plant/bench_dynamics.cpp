@@ -54,6 +54,12 @@ BenchDynamics::BenchDynamics(const BenchSettings& settings)
     timed = timed || obstacle.follows_time();
   }
   if (timed) time_at_ = size_++;
+  if (settings_.elastic.any()) {
+    elastic_ =
+        ElasticDrives(settings_.elastic, robot(), settings_.initial_pose.value_or(robot().home_pose()));
+    twist_at_ = size_;
+    size_ += 2 * robot().drives();
+  }
   for (int i = 0; i < robot().drives(); ++i) friction_.push_back(robot().dry_friction(i));
   brakes_ = closed_brakes();
 }
@@ -73,7 +79,8 @@ std::vector<BenchDynamics::ClosedBrake> BenchDynamics::closed_brakes() const {
                                    : ClosedBrake{brake.torque, brake.velocity, brake.give});
     if (!equations.valid) continue;
     const PlatformVector by_rate = home.J_qa_x.row(i).transpose();
-    const double mobility = by_rate.dot(equations.M_x.llt().solve(by_rate));  // 1 / what the drive moves
+    const double mobility = elastic_.any() ? 1.0 / elastic_.rotor_inertia(i)  // 1 / what the brake holds
+                                           : by_rate.dot(equations.M_x.llt().solve(by_rate));
     closed.velocity = std::max(closed.velocity, closed.effort * mobility / fastest);
     closed.give = std::max(closed.give, closed.effort * mobility / (fastest * fastest));
   }
@@ -90,6 +97,12 @@ BenchState BenchDynamics::initial_state() const {
     const ObstacleMotion start = settings_.obstacles[i]->motion(0.0);
     state.segment<3>(obstacle_at_[i]) = start.displacement;
     state.segment<3>(obstacle_at_[i] + 3) = start.velocity;
+  }
+  if (elastic_.any()) {
+    Kinematics start;
+    robot().kinematics(chart.pose, state.segment(dof_, dof_), start);
+    for (int i = 0; i < robot().drives(); ++i) state[twist_at_ + i] = elastic_.twist_at_start(i);
+    state.segment(motor_rate_at(), robot().drives()) = start.rates.active;
   }
   return state;
 }

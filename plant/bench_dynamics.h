@@ -14,8 +14,9 @@
 namespace flinch {
 
 /// The continuous state: the platform's coordinates xi in a chart and its velocity v; displacement and
-/// velocity of each obstacle that moves freely; the time [s], where an obstacle or a rope follows it.
-using BenchState = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * max_dof + 6 * max_obstacles + 1, 1>;
+/// velocity of each obstacle that moves freely; the time [s], where an obstacle or a rope follows it; the
+/// twist of each elastic drive, by which its motor is ahead of its leg, and the rate of its motor.
+using BenchState = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4 * max_dof + 6 * max_obstacles + 1, 1>;
 
 /// A chart of the configurations around that of a tick: the configuration is `pose` (+) (xi - `xi`). So xi
 /// runs on from tick to tick without a jump, and the chart is always that around the present pose.
@@ -36,7 +37,7 @@ struct BenchStep {
   BenchChart chart;
   ContactSearch search;
   std::array<HeldPoint, max_obstacles> held;
-  /// Positions of the drives at which their closed brakes bear nothing [rad or m]; empty: where they are.
+  /// Positions of the motors at which their closed brakes bear nothing [rad or m]; empty: where they are.
   JointVector braked_at;
   /// Where their friction that sticks bears nothing, likewise.
   JointVector stuck_at;
@@ -51,9 +52,12 @@ struct BenchSnapshot {
   Configuration pose;
   PlatformVector velocity;
   JointAngles joints;
+  JointVector motors;               ///< Their positions; those of the legs unless drives are elastic.
   double loop_closure_error = 0.0;  ///< As in PlantTruth [m].
   double kinetic_energy = 0.0;      ///< [J]
+  double elastic_energy = 0.0;      ///< Of twisted drives [J].
   JointVector drive_torque;         ///< That acts, without the brakes' [Nm or N].
+  JointVector torque_on_legs;       ///< With the brakes' and that of friction that sticks [Nm or N].
   JointVector braked_at;            ///< As in BenchStep, from now on.
   JointVector stuck_at;             ///< Likewise.
   bool at_rest = false;             ///< Likewise.
@@ -68,7 +72,6 @@ struct BenchSnapshot {
 };
 
 /// The bench as an ordinary differential equation in platform coordinates:
-///   M v' + C v + g + F_fr = A^T tau_a + F_contact + F_applied.  [SafePR] (4)
 /// It is regular at type-II singularities. Where a leg would have to stretch beyond its reach the bench
 /// stands still and its motion is not reachable. Robot and obstacles are one equation, since their contact
 /// forces depend on both. Immutable: one object serves many threads.
@@ -103,7 +106,11 @@ class BenchDynamics {
  protected:
   explicit BenchDynamics(const BenchSettings& settings);
 
+  const ElasticDrives& elastic() const noexcept { return elastic_; }
+
   // Places in the state.
+  int twist_at() const noexcept { return twist_at_; }
+  int motor_rate_at() const noexcept { return twist_at_ + robot().drives(); }
   int dof() const noexcept { return dof_; }
   ObstacleMotion motion(std::size_t obstacle, const BenchState& state) const noexcept;
   double time(const BenchState& state) const noexcept { return time_at_ < 0 ? 0.0 : state[time_at_]; }
@@ -116,6 +123,9 @@ class BenchDynamics {
   double brake_slides_to(int drive, double position, double braked_at) const noexcept;
   /// Whether the friction of drives sticks.
   bool sticks() const noexcept { return settings_.sticking.stiffness.size() > 0; }
+  const DryFriction& dry_friction(int drive) const noexcept {
+    return friction_[static_cast<std::size_t>(drive)];
+  }
   /// What friction that sticks, and bears nothing at `stuck_at`, does to its drive beyond that of the robot.
   double sticking_effort(int drive, double rate, double position, double stuck_at) const noexcept;
   /// Where it bears nothing from now on.
@@ -134,11 +144,13 @@ class BenchDynamics {
   std::vector<ClosedBrake> closed_brakes() const;
 
   BenchSettings settings_;
+  ElasticDrives elastic_;
   std::vector<ClosedBrake> brakes_;    ///< of each drive
   std::vector<DryFriction> friction_;  ///< of each drive
   int dof_;
   std::array<int, max_obstacles> obstacle_at_{};  ///< -1: it does not move freely
   int time_at_ = -1;
+  int twist_at_ = -1;
   int size_ = 0;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cstddef>
 #include <vector>
@@ -35,6 +36,15 @@ class BenchOf final : public BenchDynamics {
                  BenchStep& out) const noexcept override;
 
  private:
+  struct MotorMotion {
+    double position, rate;
+  };
+  struct Accelerations {
+    PlatformVector platform;
+    JointVector motors;   ///< Of elastic drives; empty: they move with their legs.
+    JointVector on_legs;  ///< Torques that drives, brakes and friction that sticks put on the legs.
+  };
+
   void touch(const Instant& now, int body, int obstacle, const PlacedObstacle& placed, const SurfaceGap& gap,
              ContactForces& out) const noexcept;
   void meet(const Instant& now, int body, int other, const SurfaceGap& gap,
@@ -46,12 +56,21 @@ class BenchOf final : public BenchDynamics {
   PlatformVector pulled(const Instant& now, const BenchState& state) const noexcept;
   bool rests(const BenchSnapshot& now, const DriveAction& drives, const BenchStep& step,
              double duration) const noexcept;
-  JointVector drive_torque(const Instant& now, const DriveAction& drives) const noexcept;
-  JointVector braked_at(const JointVector& active, const DriveAction& drives,
+  bool motors_rest(const BenchState& state, const Accelerations& now, double duration) const noexcept;
+  JointVector drive_torque(const Instant& now, const BenchState& state,
+                           const DriveAction& drives) const noexcept;
+  void describe_motors(const Instant& now, const BenchState& state, BenchSnapshot& out) const noexcept;
+  JointVector braked_at(const JointVector& motors, const DriveAction& drives,
                         const BenchStep& step) const noexcept;
-  JointVector stuck_at(const JointVector& active, const BenchStep& step) const noexcept;
-  PlatformVector acceleration(const Instant& now, JointVector torque, const DriveAction& drives,
-                              const BenchStep& step, const PlatformVector& wrench) const noexcept;
+  JointVector stuck_at(const JointVector& motors, const BenchStep& step) const noexcept;
+  MotorMotion motor(const Instant& now, const BenchState& state, int drive) const noexcept;
+  double friction_and_brake(int drive, const MotorMotion& motor, const DriveAction& drives,
+                            const BenchStep& step) const noexcept;
+  Accelerations accelerations(const Instant& now, const BenchState& state, JointVector torque,
+                              const DriveAction& drives, const BenchStep& step,
+                              const PlatformVector& wrench) const noexcept;
+  PlatformVector without_rotors(const Instant& now, const JointVector& torque,
+                                const PlatformVector& wrench) const noexcept;
 
   Robot robot_;
   std::vector<HuntCrossley> laws_;  ///< one an obstacle
@@ -164,37 +183,98 @@ PlatformVector BenchOf<Robot>::pulled(const Instant& now, const BenchState& stat
 }
 
 template <class Robot>
-JointVector BenchOf<Robot>::drive_torque(const Instant& now, const DriveAction& drives) const noexcept {
+auto BenchOf<Robot>::motor(const Instant& now, const BenchState& state, int drive) const noexcept
+    -> MotorMotion {
+  const double of_leg = robot_.drive_position(now, drive);
+  if (!elastic().any()) return {of_leg, robot_.drive_rate(now, drive)};
+  return {of_leg + state[twist_at() + drive], state[motor_rate_at() + drive]};
+}
+
+template <class Robot>
+JointVector BenchOf<Robot>::drive_torque(const Instant& now, const BenchState& state,
+                                         const DriveAction& drives) const noexcept {
   JointVector torque = drives.torque;
   if (torque.size() != robot().drives()) torque.setZero(robot().drives());
-  for (int i = 0; i < static_cast<int>(settings().torque_ripple.size()); ++i)
-    torque[i] = robot_.torque_ripple(now, i, torque[i]);
+  for (int i = 0; i < static_cast<int>(settings().torque_ripple.size()); ++i) {
+    torque[i] = elastic().any() ? settings().torque_ripple[static_cast<std::size_t>(i)].at(
+                                      motor(now, state, i).position, torque[i])
+                                : robot_.torque_ripple(now, i, torque[i]);
+  }
   return torque;
 }
 
+/// Where they are, and the energy that they have in the place of what the robot says of them.
 template <class Robot>
-PlatformVector BenchOf<Robot>::acceleration(const Instant& now, JointVector torque, const DriveAction& drives,
-                                            const BenchStep& step,
-                                            const PlatformVector& wrench) const noexcept {
+void BenchOf<Robot>::describe_motors(const Instant& now, const BenchState& state,
+                                     BenchSnapshot& out) const noexcept {
   for (int i = 0; i < robot().drives(); ++i) {
-    if (sticks()) {
-      const double position = robot_.drive_position(now, i);
-      const double stuck_at = step.stuck_at.size() > 0 ? step.stuck_at[i] : position;
-      torque[i] += sticking_effort(i, robot_.drive_rate(now, i), position, stuck_at);
-    }
-    const double share = internal::held_share(drives, i);
-    if (!(share > 0.0)) continue;
-    const double position = robot_.drive_position(now, i);
-    const double braked_at = step.braked_at.size() > 0 ? step.braked_at[i] : position;
-    torque[i] += share * brake_effort(i, robot_.drive_rate(now, i), position, braked_at);
+    const double leg_rate = robot_.drive_rate(now, i);
+    const MotorMotion of_motor = motor(now, state, i);
+    out.motors[i] = of_motor.position;
+    out.kinetic_energy +=
+        0.5 * elastic().rotor_inertia(i) * (of_motor.rate * of_motor.rate - leg_rate * leg_rate);
+    out.elastic_energy += elastic().energy(i, state[twist_at() + i]);
   }
-  return robot_.acceleration(now, torque, wrench);
+}
+
+/// What closed brakes and friction that sticks do to a motor, beyond the robot's own friction.
+template <class Robot>
+double BenchOf<Robot>::friction_and_brake(int drive, const MotorMotion& motor, const DriveAction& drives,
+                                          const BenchStep& step) const noexcept {
+  double torque = 0.0;
+  if (sticks()) {
+    const double stuck_at = step.stuck_at.size() > 0 ? step.stuck_at[drive] : motor.position;
+    torque += sticking_effort(drive, motor.rate, motor.position, stuck_at);
+  }
+  const double share = internal::held_share(drives, drive);
+  if (!(share > 0.0)) return torque;
+  const double braked_at = step.braked_at.size() > 0 ? step.braked_at[drive] : motor.position;
+  return torque + share * brake_effort(drive, motor.rate, motor.position, braked_at);
+}
+
+/// Where drives are elastic, their dry friction is that of the motor.
+template <class Robot>
+auto BenchOf<Robot>::accelerations(const Instant& now, const BenchState& state, JointVector torque,
+                                   const DriveAction& drives, const BenchStep& step,
+                                   const PlatformVector& wrench) const noexcept -> Accelerations {
+  JointVector motors;
+  if (elastic().any()) motors.resize(robot().drives());
+  for (int i = 0; i < robot().drives(); ++i) {
+    const MotorMotion now_of = motor(now, state, i);
+    torque[i] += friction_and_brake(i, now_of, drives, step);
+    if (!elastic().any()) continue;
+    const double leg_rate = robot_.drive_rate(now, i);
+    const double passed_on = elastic().effort(i, state[twist_at() + i], now_of.rate - leg_rate);
+    motors[i] = (torque[i] - dry_friction(i).at(now_of.rate) - passed_on) / elastic().rotor_inertia(i);
+    torque[i] = passed_on + dry_friction(i).at(leg_rate);
+  }
+  if (!elastic().any()) return {robot_.acceleration(now, torque, wrench), motors, torque};
+  return {without_rotors(now, torque, wrench), motors, torque};
+}
+
+/// The robot's acceleration, but for the rotors that its equations count with the legs: they would need the
+/// torques J q'' to move. With S = A M^-1 A^T and q0'' as if they were there: q'' = (1 - S J)^-1 q0''.
+template <class Robot>
+PlatformVector BenchOf<Robot>::without_rotors(const Instant& now, const JointVector& torque,
+                                              const PlatformVector& wrench) const noexcept {
+  const int n = robot().drives();
+  const PlatformVector with = robot_.acceleration(now, torque, wrench);
+  const JointVector q_with = robot_.drive_accelerations(now, with);
+  PlatformMatrix by_torque(dof(), n);
+  PlatformMatrix coupled = PlatformMatrix::Identity(n, n);
+  for (int k = 0; k < n; ++k) {
+    JointVector more = torque;
+    more[k] += elastic().rotor_inertia(k);
+    by_torque.col(k) = robot_.acceleration(now, more, wrench) - with;
+    coupled.col(k) -= robot_.drive_accelerations(now, with + by_torque.col(k)) - q_with;
+  }
+  return with + by_torque * coupled.partialPivLu().solve(q_with);
 }
 
 template <class Robot>
-JointVector BenchOf<Robot>::braked_at(const JointVector& active, const DriveAction& drives,
+JointVector BenchOf<Robot>::braked_at(const JointVector& motors, const DriveAction& drives,
                                       const BenchStep& step) const noexcept {
-  JointVector next = active;
+  JointVector next = motors;
   if (step.braked_at.size() == 0) return next;
   for (int i = 0; i < robot().drives(); ++i) {
     if (internal::held_share(drives, i) > 0.0) next[i] = brake_slides_to(i, next[i], step.braked_at[i]);
@@ -203,8 +283,8 @@ JointVector BenchOf<Robot>::braked_at(const JointVector& active, const DriveActi
 }
 
 template <class Robot>
-JointVector BenchOf<Robot>::stuck_at(const JointVector& active, const BenchStep& step) const noexcept {
-  JointVector next = active;
+JointVector BenchOf<Robot>::stuck_at(const JointVector& motors, const BenchStep& step) const noexcept {
+  JointVector next = motors;
   if (!sticks() || step.stuck_at.size() == 0) return next;
   for (int i = 0; i < robot().drives(); ++i) next[i] = friction_slides_to(i, next[i], step.stuck_at[i]);
   return next;
@@ -218,6 +298,14 @@ bool BenchOf<Robot>::rests(const BenchSnapshot& now, const DriveAction& drives, 
   if (internal::can_touch(now.search.candidates, step, obstacle_count())) return false;
   const PlatformVector soon = now.velocity.cwiseAbs() + duration * now.acceleration.cwiseAbs();
   return (soon.array() < internal::resting_velocity).all();
+}
+
+template <class Robot>
+bool BenchOf<Robot>::motors_rest(const BenchState& state, const Accelerations& now,
+                                 double duration) const noexcept {
+  if (!elastic().any()) return true;
+  const auto rates = state.segment(motor_rate_at(), robot().drives()).array();
+  return (rates.abs() + duration * now.motors.array().abs() < internal::resting_velocity).all();
 }
 
 // ---------------------------------------------------------------- motion
@@ -242,7 +330,13 @@ void BenchOf<Robot>::rates(const BenchState& state, const DriveAction& drives,
   }
   add_obstacle_rates(state, contacts, rates);
   robot_.coordinate_rates(state, step.chart, rates);
-  rates.segment(dof(), dof()) = acceleration(now, drive_torque(now, drives), drives, step, wrench);
+  const Accelerations moving =
+      accelerations(now, state, drive_torque(now, state, drives), drives, step, wrench);
+  rates.segment(dof(), dof()) = moving.platform;
+  for (int i = 0; i < moving.motors.size(); ++i) {
+    rates[twist_at() + i] = state[motor_rate_at() + i] - robot_.drive_rate(now, i);
+    rates[motor_rate_at() + i] = moving.motors[i];
+  }
 }
 
 template <class Robot>
@@ -258,19 +352,24 @@ void BenchOf<Robot>::snapshot(const BenchState& state, const DriveAction& drives
   out.contacts.clear(dof());
   out.near_pairs.count = 0;
   out.at_rest = false;
+  out.elastic_energy = 0.0;
   if (!out.reachable) return;
   out.applied_wrench += pulled(now, state);
   robot_.describe(now, out);
   place_obstacles(state, out.obstacles);
   out.search = robot_.find_candidates(now, out.obstacles, duration, step.search.clearance);
   find_forces(now, out.obstacles, step, out.search.candidates, out.contacts);
-  out.drive_torque = drive_torque(now, drives);
-  out.braked_at = braked_at(out.joints.active, drives, step);
-  out.stuck_at = stuck_at(out.joints.active, step);
-  out.acceleration =
-      acceleration(now, out.drive_torque, drives, step,
-                   out.applied_wrench + out.contacts.obstacle_wrench + out.contacts.self_wrench);
-  out.at_rest = rests(out, drives, step, duration);
+  out.drive_torque = drive_torque(now, state, drives);
+  out.motors = out.joints.active;
+  if (elastic().any()) describe_motors(now, state, out);
+  out.braked_at = braked_at(out.motors, drives, step);
+  out.stuck_at = stuck_at(out.motors, step);
+  const Accelerations moving =
+      accelerations(now, state, out.drive_torque, drives, step,
+                    out.applied_wrench + out.contacts.obstacle_wrench + out.contacts.self_wrench);
+  out.acceleration = moving.platform;
+  out.torque_on_legs = moving.on_legs;
+  out.at_rest = rests(out, drives, step, duration) && motors_rest(state, moving, duration);
   robot_.find_near_pairs(now, out.obstacles, out.near_pairs);
   for (std::size_t i = 0; i < settings().obstacles.size(); ++i) {
     out.force_on_mount[i] =

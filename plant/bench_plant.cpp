@@ -68,6 +68,7 @@ void BenchPlant::tell_truth(Time now, const BenchSnapshot& bench, const DriveAct
   out.wrench_in_base = bench.applied_wrench + bench.contacts.obstacle_wrench;
   out.kinetic_energy = bench.kinetic_energy;
   out.active = bench.joints.active;
+  if (dynamics_->settings().elastic.any()) out.motors = bench.motors;
   out.passive = bench.joints.passive;
   out.coupling = bench.joints.coupling;
   out.loop_closure_error = bench.loop_closure_error;

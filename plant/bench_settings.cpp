@@ -55,6 +55,10 @@ std::vector<std::string> problems(const BenchSettings& settings) {
   found.positive("sticking.velocity", sticking.velocity, "rad/s");
   found.positive("sticking.sliding_velocity", sticking.sliding_velocity, "m/s");
   check_start(settings, found);
+  if (found.none()) {
+    found.add_all(problems(settings.elastic, *settings.robot,
+                           settings.initial_pose.value_or(settings.robot->home_pose())));
+  }
   return found.take();
 }
 

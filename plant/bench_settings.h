@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "plant/elastic_drives.h"
 #include "plant/obstacle.h"
 #include "plant/rope_pull.h"
 #include "plant/torque_ripple.h"
@@ -50,6 +51,7 @@ struct BenchSettings {
   std::optional<ContactMaterial> link_material = ContactMaterial{.stiffness = 5e4};
   BrakeFriction brake;
   StickingFriction sticking;
+  ElasticDrivesSettings elastic;
   std::vector<TorqueRipple> torque_ripple;  ///< Of each drive; empty: all are even.
   std::vector<RopePull> pulls;              ///< By ropes, besides all contacts.
 };

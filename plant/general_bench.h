@@ -35,12 +35,15 @@ class GeneralBench {
   double drive_rate(const Instant& now, int drive) const noexcept {
     return now.kinematics.rates.active[drive];
   }
-  /// What the motor of `drive`, which is not even, makes of `torque`.
+  /// What the motor of `drive`, which is not even, makes of `torque` where it stands with its leg.
   double torque_ripple(const Instant& now, int drive, double torque) const noexcept {
     return torque_ripple_[static_cast<std::size_t>(drive)].at(drive_position(now, drive), torque);
   }
   PlatformVector acceleration(const Instant& now, const JointVector& torque,
                               const PlatformVector& wrench) const noexcept;
+  JointVector drive_accelerations(const Instant& now, const PlatformVector& acceleration) const noexcept {
+    return now.kinematics.J_qa_x * acceleration + now.kinematics.dJ_qa_x * now.kinematics.velocity;
+  }
   /// Fills joints, loop closure and energy.
   void describe(const Instant& now, BenchSnapshot& out) const noexcept;
 

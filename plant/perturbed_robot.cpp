@@ -66,6 +66,16 @@ RobotDeviation draw_mechanics(const Realism& realism, const ParallelRobot& robot
   return drawn;
 }
 
+ElasticDrivesSettings draw_elastic(const Realism& realism, int drives, const Draw& draw) {
+  if (!(realism.drive_stiffness > 0.0)) return {};
+  ElasticDrivesSettings drawn{
+      .stiffness = realism.drive_stiffness * draw.between("drive stiffness", 1.0, 2.0, drives),
+      .backlash = draw.up_to("backlash", realism.backlash, drives),
+      .damping_ratio = realism.drive_damping};
+  if (realism.rotor_inertia > 0.0) drawn.rotor_inertia.setConstant(drives, realism.rotor_inertia);
+  return drawn;
+}
+
 std::vector<TorqueRipple> draw_torque(const Realism& realism, double largest_torque, double rate, int drives,
                                       const Draw& draw) {
   const auto ripple =
@@ -89,8 +99,8 @@ using Values = std::vector<std::pair<std::string, std::vector<double>>>;
 /// Collects what is not empty.
 class Told {
  public:
-  void add(std::string key, std::vector<double> values) {
-    if (!values.empty()) values_.emplace_back(std::move(key), std::move(values));
+  void add(const std::string& key, const std::vector<double>& values) {
+    if (!values.empty()) values_.emplace_back(key, values);
   }
   void add(const std::string& key, const std::string& unit, const std::vector<PositionWave>& waves) {
     std::vector<double> amplitudes, phases;
@@ -101,8 +111,8 @@ class Told {
       any = any || wave.amplitude != 0.0;
     }
     if (!any) return;
-    add(key + unit, std::move(amplitudes));
-    add(key + "_phase_rad", std::move(phases));
+    add(key + unit, amplitudes);
+    add(key + "_phase_rad", phases);
   }
   Values take() { return std::move(values_); }
 
@@ -134,6 +144,7 @@ PerturbedRobot draw_perturbed_robot(const Realism& realism, const ParallelRobot&
   PerturbedRobot drawn;
   drawn.mechanics = draw_mechanics(realism, robot, draw);
   drawn.friction_stiffness = draw.within_twenty("friction stiffness", realism.friction_stiffness, drives);
+  drawn.elastic = draw_elastic(realism, drives, draw);
   drawn.torque_constant_scale = draw.scale("torque constant", realism.torque_constant, drives);
   drawn.current_lag = draw.up_to("current lag", realism.current_lag, drives);
   drawn.torque_ripple = draw_torque(realism, largest_torque, rate, drives, draw);
@@ -150,6 +161,7 @@ SimulatedStationSettings with_perturbed_robot(SimulatedStationSettings model,
   SimulatedDrivesSettings& drives = model.drives;
   model.bench.robot = true_robot(model.bench.robot, perturbed_robot.mechanics);
   model.bench.sticking.stiffness = perturbed_robot.friction_stiffness;
+  model.bench.elastic = perturbed_robot.elastic;
   const std::vector<TorqueRipple> known =
       std::exchange(model.bench.torque_ripple, perturbed_robot.torque_ripple);
   model.bench.torque_ripple.resize(std::max(known.size(), perturbed_robot.torque_ripple.size()));
@@ -175,6 +187,9 @@ Values perturbed_robot_values(const PerturbedRobot& perturbed_robot, const Mecha
   told.add("drive_friction_scale", list(mechanics.drive_friction_scale));
   told.add(turns ? "friction_stiffness_Nm_per_rad" : "friction_stiffness_N_per_m",
            list(perturbed_robot.friction_stiffness));
+  told.add(turns ? "drive_stiffness_Nm_per_rad" : "drive_stiffness_N_per_m",
+           list(perturbed_robot.elastic.stiffness));
+  told.add(turns ? "backlash_rad" : "backlash_m", list(perturbed_robot.elastic.backlash));
   told.add("passive_friction_scale", list(mechanics.passive_friction_scale));
   told.add("leg_inertia_scale", list(mechanics.leg_inertia_scale));
   if (mechanics.platform_inertia_scale != 1.0)

@@ -19,6 +19,7 @@ namespace flinch {
 struct PerturbedRobot {
   RobotDeviation mechanics;
   JointVector friction_stiffness;           ///< Of each drive, whose dry friction sticks [Nm/rad or N/m].
+  ElasticDrivesSettings elastic{};          ///< Between motors and legs.
   JointVector torque_constant_scale;        ///< Of each motor.
   JointVector current_lag;                  ///< Of each drive, time constant [s].
   std::vector<TorqueRipple> torque_ripple;  ///< Of each drive.

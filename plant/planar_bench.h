@@ -36,7 +36,7 @@ class PlanarBench {
     rates.head<3>() = state.segment<3>(3);
   }
   double drive_position(const Instant& now, int drive) const noexcept;
-  /// What the motor of `drive`, which is not even, makes of `torque`.
+  /// What the motor of `drive`, which is not even, makes of `torque` where it stands with its leg.
   double torque_ripple(const Instant& now, int drive, double torque) const noexcept;
   double drive_rate(const Instant& now, int drive) const noexcept {
     return now.legs[static_cast<std::size_t>(drive)].qa_rate;
@@ -44,6 +44,9 @@ class PlanarBench {
   Eigen::Vector3d acceleration(const Instant& now, const JointVector& torque,
                                const PlatformVector& wrench) const noexcept {
     return robot_->acceleration(now, torque.head<3>(), wrench.head<3>());
+  }
+  JointVector drive_accelerations(const Instant& now, const PlatformVector& acceleration) const noexcept {
+    return robot_->drive_accelerations(now, acceleration.head<3>());
   }
   /// Fills joints, loop closure and energy.
   void describe(const Instant& now, BenchSnapshot& out) const noexcept;

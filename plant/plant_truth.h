@@ -15,6 +15,7 @@ struct PlantTruth {
   JointVector active;           ///< q_a [rad]
   JointVector passive;          ///< q_p [rad]
   JointVector coupling;         ///< q_c [rad]
+  JointVector motors;           ///< Their positions, of elastic drives; empty: those of the legs, q_a [rad].
   JointVector drive_torque;     ///< tau_a that acts, without the brakes' [Nm]
   /// F_ext: all that acts from outside, contacts and applied wrench.
   PlatformVector wrench_in_base;
@@ -22,6 +23,9 @@ struct PlantTruth {
   /// [m].
   double loop_closure_error = 0.0;
   double kinetic_energy = 0.0;  ///< [J]
+
+  /// What encoders on the motors would tell.
+  const JointVector& motor_positions() const noexcept { return motors.size() > 0 ? motors : active; }
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
@@ -33,6 +37,7 @@ struct PlantTruth {
     visit("active", "<drive position>", self.active);
     visit("passive", "<passive position>", self.passive);
     visit("coupling", "<passive position>", self.coupling);
+    visit("motors", "<drive position>", self.motors);
     visit("drive_torque", "<drive force>", self.drive_torque);
     visit("wrench_in_base", "<wrench>", self.wrench_in_base, "base");
     visit("loop_closure_error", "m", self.loop_closure_error);

@@ -21,6 +21,11 @@ struct Realism {
   double payload = 0.0;           ///< Point mass at the platform's origin that nobody knows of [kg].
 
   // ---- drives
+  /// Of springs between motors and legs, once to twice this [Nm/rad or N/m]; 0: motors and legs are one.
+  double drive_stiffness = 0.0;
+  double drive_damping = 0.02;   ///< Its ratio.
+  double backlash = 0.0;         ///< Of each drive, up to this [rad or m].
+  double rotor_inertia = 0.0;    ///< Of each motor [kg m^2 or kg]; 0: a fifth of what it moves at home.
   double torque_constant = 0.0;  ///< Of each motor against the calibrated one, a share either way.
   double cogging = 0.0;          ///< Amplitude, a share of the largest torque of the drives.
   int cogging_periods = 24;      ///< Of a turn of the motor.

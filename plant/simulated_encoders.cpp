@@ -48,13 +48,14 @@ void SimulatedEncoders::measure(const PlantTruth& now, const Noise& noise, Joint
   reading.acquired = now.acquired;
   const auto active = active_error_.size();
   const auto passive = passive_error_.size();
-  if (!now.valid || now.active.size() != active || now.passive.size() != passive) return;
+  if (!now.valid || now.motor_positions().size() != active || now.passive.size() != passive) return;
   reading.valid = true;
   reading.passive_valid = settings_.passive_mounted && passive > 0;
-  reading.active = now.active;
+  reading.active = now.motor_positions();
   reading.passive = now.passive;
   if (settings_.ideal) return;
-  reading.active = measured(now.active, settings_.active, active_error_, noise.values().head(active));
+  reading.active =
+      measured(now.motor_positions(), settings_.active, active_error_, noise.values().head(active));
   reading.passive = measured(now.passive, settings_.passive, passive_error_, noise.values().tail(passive));
 }
 

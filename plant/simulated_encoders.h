@@ -42,7 +42,7 @@ struct SimulatedEncodersSettings {
   static constexpr double degree = std::numbers::pi / 180.0;
 };
 
-/// Measures the joint angles at every tick.
+/// Measures the joint angles at every tick; those of the drives on their motors.
 class SimulatedEncoders final : public System {
   using Noise = NormalNumbers<2 * max_dof>;  // of the active, then of the passive joints
 

@@ -94,6 +94,7 @@ SimulatedStationSettings with_ideal_sensors(SimulatedStationSettings settings) {
   settings.currents.ideal = true;
   settings.imu.ideal = true;
   settings.instrument.ideal = true;
+  if (settings.base_forces) settings.base_forces->ideal = true;
   if (settings.force_torque) settings.force_torque->ideal = true;
   return settings;
 }
@@ -119,6 +120,13 @@ SimulatedStation add_simulated_station(DiagramBuilder& builder, const SimulatedS
   station.status = inside.export_output("status", faults.add(inside, "status", parts.drives.status));
   if (const auto sensor = add_force_torque_sensor(inside, settings, parts)) {
     station.force_torque = inside.export_output("force_torque", faults.add(inside, "force_torque", *sensor));
+  }
+  if (settings.base_forces) {
+    auto& sensors =
+        inside.add<SimulatedBaseForces>("base_force_sensors", *settings.base_forces, settings.bench.robot,
+                                        derive_seed(settings.seed, "base_forces"));
+    inside.connect(parts.plant.snapshot, sensors.snapshot);
+    station.base_forces = inside.export_output("base_forces", sensors.forces);
   }
   station.plant_truth = inside.export_output("truth", parts.plant.truth);
   station.contact_truth = inside.export_output("contact_truth", parts.plant.contact);

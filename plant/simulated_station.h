@@ -11,6 +11,7 @@
 #include "plant/contact_truth.h"
 #include "plant/obstacle_truth.h"
 #include "plant/plant_truth.h"
+#include "plant/simulated_base_forces.h"
 #include "plant/simulated_current_sensors.h"
 #include "plant/simulated_drives.h"
 #include "plant/simulated_encoders.h"
@@ -33,6 +34,8 @@ struct SimulatedStationSettings {
   std::optional<SimulatedForceTorqueSettings> force_torque = SimulatedForceTorqueSettings{};
   /// In the place of the sensor below an obstacle, where it has mountings.
   SimulatedInstrumentSettings instrument;
+  /// Sensors below the base joints; none: there are none.
+  std::optional<SimulatedBaseForcesSettings> base_forces{};
   std::vector<WrenchRamp> applied_wrench;  ///< Pushes on the platform.
 
   std::vector<RequestedFault> faults;  ///< Of sensors, drives, brakes and of the link to the control path.

@@ -15,6 +15,7 @@
 #include "calibration/threshold_calibration.h"
 #include "calibration/thresholds_output.h"
 #include "calibration/written_parameters.h"
+#include "experiments/verdict/recorded_doubts.h"
 #include "systems/config/file_kind.h"
 #include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/setup_error.h"
@@ -103,6 +104,20 @@ std::vector<EstimatorPeaks> peaks_of(FreeMotions& motions, const std::vector<Log
   return pooled(peaks);
 }
 
+/// Recordings whose robot did without its IMU, so that they tell little of what needs it, one sentence each.
+std::vector<std::string> left_out_imus(const FreeMotions& motions) {
+  std::vector<std::string> told;
+  for (std::size_t i = 0; i < motions.files.size(); ++i) {
+    const ImuLeftOut imu = imu_left_out(motions.recordings[i]);
+    if (!(imu.share > 0.0)) continue;
+    told.push_back(fmt::format(
+        "{}: the IMU was left out of {:.3g} % of the recording: {}. What needs it was not estimated then; "
+        "'flinch report' shows when, and docs/faults.md what looks like that",
+        motions.files[i].string(), 100.0 * imu.share, name(imu.why)));
+  }
+  return told;
+}
+
 std::vector<ResidualRecording> residuals_of(const FreeMotions& motions) {
   std::vector<ResidualRecording> recordings;
   for (std::size_t i = 0; i < motions.recordings.size(); ++i)
@@ -137,7 +152,14 @@ ExitStatus calibrate_thresholds(const CalibrateThresholdsOptions& options) {
   }
   found.estimators = calibrate_thresholds(peaks_of(motions, free, found.goal, quiet), found.goal);
   const std::vector<ResidualRecording> residuals = residuals_of(motions);
-  found.residuals = calibrated(residuals, found.goal, quiet);
+  found.doubts = left_out_imus(motions);
+  try {
+    found.residuals = calibrated(residuals, found.goal, quiet);
+  } catch (const SetupError& error) {
+    std::vector<std::string> problems = error.problems();
+    problems.insert(problems.end(), found.doubts.begin(), found.doubts.end());
+    throw SetupError(problems);
+  }
   found.drive_deviations =
       drive_deviations(residuals, *motions.scenarios.front().robot.robot, IsolationSettings().uncertainty);
   found.tracking = motions.scenarios.front().control.fused_detector.tracking;

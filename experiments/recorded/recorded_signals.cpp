@@ -26,6 +26,7 @@ void export_readings(DiagramBuilder& builder, const Station& station) {
   builder.export_output("drives", station.drives);
   builder.export_output("imu", station.imu);
   builder.export_output("status", station.status);
+  if (station.base_forces) builder.export_output("base_forces", *station.base_forces);
   if (station.force_torque) builder.export_output("force_torque", *station.force_torque);
 }
 
@@ -66,6 +67,8 @@ void export_control(DiagramBuilder& builder, const ContactControl& control) {
   show(control.others.tasks);
   show(control.others.loads);
   show(control.others.drive_checks);
+  show(control.others.base_forces);
+  show(control.others.located_contacts);
 }
 
 std::vector<std::string> recorded_paths(const Diagram& diagram) {

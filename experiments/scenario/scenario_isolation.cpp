@@ -28,6 +28,21 @@ void read_wrench_errors(ConfigReader& isolation, const KnownDrives& drives, Isol
   errors = Eigen::Map<const Eigen::VectorXd>(deviations.data(), static_cast<Eigen::Index>(deviations.size()));
 }
 
+/// Their number is for the robot to judge.
+void read_base_forces(ConfigReader reader, std::optional<BaseForceSettings>& settings) {
+  BaseForceSettings read;
+  std::vector<double> moments;
+  reader.required().numbers("first_moment", unit::kg_m, moments, positive);
+  if (moments.size() <= static_cast<std::size_t>(max_dof)) {
+    read.first_moment =
+        Eigen::Map<const Eigen::VectorXd>(moments.data(), static_cast<Eigen::Index>(moments.size()));
+  }
+  reader.number("deviation", unit::N, read.pairs.base_force, positive);
+  reader.number("least_log_odds", unit::none, read.pairs.least_log_odds);
+  reader.duration("period", read.period, between(1e-3, 1.0));
+  settings = read;
+}
+
 void read_isolation(ConfigReader isolation, const KnownDrives& drives, IsolationSettings& settings) {
   read_wrench_errors(isolation, drives, settings);
   isolation.number("observer_gain", unit::per_s, settings.observer_gain, positive);
@@ -56,6 +71,7 @@ void read_isolation(ConfigReader isolation, const KnownDrives& drives, Isolation
   settings.particle_filter.leaning = settings.closed_form.leaning;
   settings.closed_form.object_speed = settings.particle_filter.object_speed =
       settings.hypotheses.object_speed;
+  if (isolation.has("base_forces")) read_base_forces(isolation.section("base_forces"), settings.base_forces);
   isolation.integer("particles", settings.particle_filter.particles, 1, max_particles);
 }
 

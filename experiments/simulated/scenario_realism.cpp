@@ -29,6 +29,18 @@ void read_drives(ConfigReader& reader, bool turn, Realism& realism) {
   if (!turn) reader.number("screw_lead", unit::m, realism.screw_lead, positive);
 }
 
+void read_elastic_drives(ConfigReader& reader, bool turn, Realism& realism) {
+  reader.number("drive_stiffness", turn ? unit::Nm_per_rad : unit::N_per_m, realism.drive_stiffness,
+                not_negative);
+  reader.number("drive_damping", unit::none, realism.drive_damping, between(0.0, 1.0));
+  reader.number("backlash", turn ? unit::rad : unit::m, realism.backlash, not_negative);
+  reader.number("rotor_inertia", turn ? unit::kg_m2 : unit::kg, realism.rotor_inertia, not_negative);
+  if (realism.drive_stiffness > 0.0) return;
+  const char* const needs = "needs a drive_stiffness above 0, without which motors and legs are one";
+  if (realism.backlash > 0.0) reader.problem("backlash", needs);
+  if (realism.rotor_inertia > 0.0) reader.problem("rotor_inertia", needs);
+}
+
 void read_encoders(ConfigReader& reader, bool turn, bool has_passive, Realism& realism) {
   reader.number("active_encoder_wave", turn ? unit::rad : unit::m, realism.active_encoder_wave, not_negative);
   if (!has_passive) return;
@@ -54,6 +66,7 @@ Realism read_realism(ConfigReader& plant, const ParallelRobot& robot) {
   reader.number("platform_inertia", unit::none, realism.platform_inertia, share);
   reader.number("payload", unit::kg, realism.payload, not_negative);
   read_drives(reader, turn, realism);
+  read_elastic_drives(reader, turn, realism);
   read_encoders(reader, turn, robot.passive_joints() > 0, realism);
   return realism;
 }

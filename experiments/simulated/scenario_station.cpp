@@ -205,6 +205,10 @@ void read_sensors(ConfigReader sensors, const ParallelRobot& robot, SimulatedSta
   read_imu(sensors.section("imu"), station.imu);
   read_force_torque(sensors.section("force_torque"), *station.force_torque);
   read_instrument(sensors.section("instrument"), station.instrument);
+  if (!station.base_forces) return;
+  ConfigReader bases = sensors.section("base_forces");
+  bases.flag("ideal", station.base_forces->ideal);
+  bases.number("noise", unit::N, station.base_forces->noise, not_negative);
 }
 
 WrenchRamp read_ramp(ConfigReader reader, const ConfigurationSpace& space) {
@@ -227,6 +231,22 @@ WrenchRamp read_ramp(ConfigReader reader, const ConfigurationSpace& space) {
   return ramp;
 }
 
+/// Sensors below the base joints of the robot that stands there.
+void add_bases(ConfigReader& file, const Scenario& scenario, const BaseForceSettings& settings,
+               SimulatedStationSettings& station) {
+  if (!station.bench.pulls.empty())
+    file.section("control")
+        .section("isolation")
+        .problem("base_forces", "cannot be together with pulls by ropes");
+  try {
+    station.base_forces->bases = leg_bases(station.bench.robot, settings.first_moment, *scenario.robot.robot);
+  } catch (const SetupError& error) {
+    file.section("control")
+        .section("isolation")
+        .problem("base_forces", "does not fit: " + std::string(error.what()));
+  }
+}
+
 }  // namespace
 
 void read_station(ConfigReader& file, const Scenario& scenario, SimulatedStationSettings& station,
@@ -245,11 +265,14 @@ void read_station(ConfigReader& file, const Scenario& scenario, SimulatedStation
                station.bench.pulls);
   }
   station.instrument.mountings = scenario.mountings;
+  const std::optional<BaseForceSettings>& base_forces = scenario.control.isolation.base_forces;
+  if (base_forces) station.base_forces.emplace();
   read_sensors(file.section("sensors"), *scenario.robot.robot, station);
   station.faults = read_faults(file, *scenario.robot.robot);
   perturbed_robot = draw_perturbed_robot(realism, *scenario.robot.robot, scenario.robot.drives.max_torque,
                                          realism.seed.value_or(scenario.seed));
   station = with_perturbed_robot(std::move(station), perturbed_robot);
+  if (base_forces) add_bases(file, scenario, *base_forces, station);
   if (file.good()) {
     for (const ContactAtStart& contact : contacts_at_start(station.bench))
       file.problem(scenario.obstacles[contact.obstacle].key, contact.complaint);

@@ -25,6 +25,7 @@ void ContactWatch::see(const RunSample& now, double period) {
     if (!contact.lasts(now.time)) continue;
     note_detections(now, contact);
     note_classification(now, contact);
+    note_located(now, contact);
     note_braking(now, contact.seen);
     note_task(now, contact.seen);
   }
@@ -83,6 +84,22 @@ void ContactWatch::note_classification(const RunSample& now, Watched& of) const 
   if (found.point_in_base.size() != load->touched_point.size() || load->touched_point.size() == 0) return;
   contact.location_error = (found.point_in_base - load->touched_point).norm();
   contact.force_error = (found.force_in_base - load->touched_force).norm();
+}
+
+void ContactWatch::note_located(const RunSample& now, Watched& of) const {
+  ContactVerdict& contact = of.seen;
+  if (contact.contacts_located || !now.located.valid || !contact.detected) return;
+  if (now.time < *contact.detected + LocatedContacts::settled) return;
+  const RunLoad* const load = load_of(of.obstacle, now);
+  if (!now.is_true || load == nullptr || load->pushes() || load->touched_point.size() == 0) return;
+  contact.contacts_located = now.located.count;
+  for (int i = 0; i < now.located.count; ++i) {
+    const CartesianVector& point = now.located.contacts[static_cast<std::size_t>(i)].point_in_base;
+    if (point.size() != load->touched_point.size()) continue;
+    const double error = (point - load->touched_point).norm();
+    if (!contact.base_location_error || error < *contact.base_location_error)
+      contact.base_location_error = error;
+  }
 }
 
 void ContactWatch::note_braking(const RunSample& now, ContactVerdict& contact) const {

@@ -42,6 +42,7 @@ class ContactWatch {
   Watched& begin(const RunLoad& load, const RunSample& now);
   void note_detections(const RunSample& now, Watched& contact) const;
   void note_classification(const RunSample& now, Watched& contact) const;
+  void note_located(const RunSample& now, Watched& contact) const;
   void note_braking(const RunSample& now, ContactVerdict& contact) const;
   void note_task(const RunSample& now, ContactVerdict& contact) const;
   double load_before(int obstacle) const;

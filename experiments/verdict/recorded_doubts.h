@@ -1,5 +1,6 @@
 #pragma once
 
+#include "systems/framework/recording.h"
 #include "systems/signals/imu_doubt.h"
 #include "systems/signals/plausibility.h"
 
@@ -26,5 +27,17 @@ struct RecordedAskable {
     visit("askable", "", self.askable);
   }
 };
+
+/// Whether a signal of the recording has this field: not that of every version has.
+bool records(const Recording& recording, const char* signal, const char* name);
+
+/// For how much of a recording its robot did without its IMU, and why at first.
+struct ImuLeftOut {
+  ImuDoubt why = ImuDoubt::none;
+  double share = 0.0;  ///< Of the samples.
+};
+
+/// Nothing was left out of recordings that do not tell.
+ImuLeftOut imu_left_out(const Recording& recording);
 
 }  // namespace flinch

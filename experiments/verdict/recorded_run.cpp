@@ -145,18 +145,12 @@ void compare_motion(const Configuration& pose, const PlatformVector& velocity, c
 }  // namespace
 
 bool is_judged(const std::string& path) {
-  static constexpr std::array judged = {"detection",      "reaction",       "wrench",       "reference",
-                                        "gate",           "truth",          "contact",      "location",
-                                        "classification", "true_measures",  "plausibility", "braking",
-                                        "reaction_task",  "torque_command", "operator",     "drive_check"};
+  static constexpr std::array judged = {
+      "detection",    "reaction",        "wrench",        "reference",      "gate",
+      "truth",        "contact",         "location",      "classification", "true_measures",
+      "plausibility", "braking",         "reaction_task", "torque_command", "operator",
+      "drive_check",  "located_contacts"};
   return path.starts_with(detection_of) || std::find(judged.begin(), judged.end(), path) != judged.end();
-}
-
-/// Whether a signal of the recording has this field: not that of every version has.
-bool records(const Recording& recording, const char* signal, const char* name) {
-  const Signal* const found = recording.find(signal);
-  return found != nullptr && std::any_of(found->layout.fields.begin(), found->layout.fields.end(),
-                                         [name](const Field& field) { return field.name == name; });
 }
 
 /// Those that the witness has.
@@ -187,6 +181,7 @@ struct RecordedRun::Signals {
     if (records(recording, "plausibility", "imu_doubt")) doubts.emplace(recording, "plausibility");
     if (records(recording, "plausibility", "askable")) askable.emplace(recording, "plausibility");
     if (recording.find("drive_check") != nullptr) drive_check.emplace(recording, "drive_check");
+    if (recording.find("located_contacts") != nullptr) located.emplace(recording, "located_contacts");
     if (recording.find("tick_timing") != nullptr) timing.emplace(recording, "tick_timing");
     if (recording.find("joints_link") != nullptr) joints_link.emplace(recording, "joints_link");
     if (witness == Witness::truth) {
@@ -207,6 +202,7 @@ struct RecordedRun::Signals {
   std::optional<RecordedValues<RecordedDoubts>> doubts;
   std::optional<RecordedValues<RecordedAskable>> askable;
   std::optional<RecordedValues<DriveCheckStatus>> drive_check;
+  std::optional<RecordedValues<LocatedContacts>> located;
   std::vector<std::string> class_names;  // of what can be touched
   std::optional<RecordedValues<RecordedClassification>> classification;
   std::optional<RecordedValues<RecordedResidual>> residual;
@@ -299,6 +295,7 @@ RunSample RecordedRun::operator[](std::size_t sample) const {
   now.gate = signals.gate[sample];
   const bool is_noticed = now.detection.level != ContactLevel::none;
   if (signals.braking && is_noticed) now.braking = (*signals.braking)[sample];
+  if (signals.located) now.located = (*signals.located)[sample];
   if (signals.doubts) now.doubts = (*signals.doubts)[sample];
   if (signals.askable) now.askable = (*signals.askable)[sample].askable;
   if (signals.drive_check) now.drive_check = (*signals.drive_check)[sample];

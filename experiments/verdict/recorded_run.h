@@ -16,6 +16,7 @@
 #include "systems/signals/contact_location.h"
 #include "systems/signals/followed_task.h"
 #include "systems/signals/gate_status.h"
+#include "systems/signals/located_contacts.h"
 #include "systems/signals/operator_command.h"
 #include "systems/signals/reaction_state.h"
 
@@ -73,6 +74,7 @@ struct RunSample {
   /// Whether it says that no single contact explains the wrench; none: it says nothing, or does not look.
   std::optional<bool> several_contacts;
   ContactLocation location;  ///< of the followed locator
+  LocatedContacts located;   ///< by wrench and base forces; not valid where there are no such sensors
   ContactDetection detection;
   /// Whether a detector detects something that follows the estimator of this name in
   /// `RecordedRun::estimators`.

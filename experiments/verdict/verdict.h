@@ -78,6 +78,10 @@ struct ContactVerdict {
   std::optional<bool> several_contacts;
   std::optional<double> location_error;  ///< of where it placed the contact then [m]; none: it did not know
   std::optional<double> force_error;     ///< of the force there [N], likewise
+  /// How many contacts wrench and base forces together were taken for, `LocatedContacts::settled` after the
+  /// detection; none: there are no such sensors, or it was over by then.
+  std::optional<int> contacts_located;
+  std::optional<double> base_location_error;  ///< of the nearest of these [m]
   /// Whether the robot could still stop within the limits that it keeps when it detected the contact; none:
   /// it was not in its nominal motion, or keeps none.
   std::optional<bool> could_stop;

@@ -57,6 +57,10 @@ Json contact_json(const ContactVerdict& contact) {
           {"several_contacts", contact.several_contacts ? Json(*contact.several_contacts) : Json(nullptr)},
           {"location_error_mm", contact.location_error ? Json(1e3 * *contact.location_error) : Json(nullptr)},
           {"force_error_N", contact.force_error ? Json(*contact.force_error) : Json(nullptr)},
+          {"contacts_located",
+           contact.contacts_located ? Json(std::int64_t{*contact.contacts_located}) : Json(nullptr)},
+          {"base_location_error_mm",
+           contact.base_location_error ? Json(1e3 * *contact.base_location_error) : Json(nullptr)},
           {"could_stop_within_limits", contact.could_stop ? Json(*contact.could_stop) : Json(nullptr)},
           {"stop_ms", milliseconds(0.0, contact.stop_duration)},
           {"reaction_tasks", reaction_tasks_json(contact)},
@@ -143,6 +147,16 @@ std::string classified_line(const ContactVerdict& contact) {
                         1e3 * *contact.location_error, contact.force_error.value_or(0.0));
   }
   return line + several + "\n";
+}
+
+/// What wrench and base forces tell together.
+std::string located_line(const ContactVerdict& contact) {
+  if (!contact.contacts_located) return "";
+  if (*contact.contacts_located == 0)
+    return "  by the base forces: neither one nor two contacts explain it\n";
+  return fmt::format("  by the base forces: {}, this one placed {:.0f} mm off\n",
+                     *contact.contacts_located == 1 ? "one contact" : "two contacts",
+                     1e3 * contact.base_location_error.value_or(0.0));
 }
 
 /// What the reaction did.
@@ -262,7 +276,8 @@ std::string verdict_table(const Verdict& verdict, const RunFacts& facts) {
                   "m/s", "detected ms", "removed ms", "peak N", "limit N", "kind", "above ms", "within");
   for (const ContactVerdict& contact : verdict.contacts) {
     text += contact_line(contact) + obstacle_line(contact, verdict) + by_estimator_lines(contact) +
-            classified_line(contact) + braking_line(contact) + reaction_lines(contact);
+            classified_line(contact) + located_line(contact) + braking_line(contact) +
+            reaction_lines(contact);
   }
   text += no_contact_line(verdict) + limit_lines(verdict) + return_lines(verdict.returned);
   text += fmt::format(

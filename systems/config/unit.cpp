@@ -36,6 +36,7 @@ constexpr std::array known_units = {
     KeyUnit{"kHz", unit::Hz, 1e3},
     KeyUnit{"kg", unit::kg},
     KeyUnit{"g", unit::kg, 1.0, 1e3},
+    KeyUnit{"kg_m", unit::kg_m},
     KeyUnit{"kg_m2", unit::kg_m2},
     KeyUnit{"kg_cm2", unit::kg_m2, 1.0, 1e4},
     KeyUnit{"N", unit::N},

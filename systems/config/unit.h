@@ -31,6 +31,7 @@ inline constexpr Unit per_s{"per_s", "1/s"};
 inline constexpr Unit per_s2{"per_s2", "1/s^2"};
 inline constexpr Unit Hz{"Hz", "Hz"};
 inline constexpr Unit kg{"kg", "kg"};
+inline constexpr Unit kg_m{"kg_m", "kg m"};
 inline constexpr Unit kg_m2{"kg_m2", "kg m^2"};
 inline constexpr Unit N{"N", "N"};
 inline constexpr Unit N_per_s{"N_per_s", "N/s"};

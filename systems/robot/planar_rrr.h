@@ -73,7 +73,11 @@ class PlanarRrr final : public ParallelRobot {
   Eigen::Vector3d acceleration(const PlanarMotion& motion, const Eigen::Vector3d& drive_torques,
                                const Eigen::Vector3d& external_wrench) const noexcept;
 
-  /// The same from pose and velocity; nothing if the pose is out of reach or not finite.
+  /// Accelerations of the drives [rad/s^2] in a reachable motion whose platform has this `acceleration`.
+  Eigen::Vector3d drive_accelerations(const PlanarMotion& motion,
+                                      const Eigen::Vector3d& acceleration) const noexcept;
+
+  /// `acceleration` from pose and velocity; nothing if the pose is out of reach or not finite.
   std::optional<Eigen::Vector3d> acceleration(const Eigen::Vector3d& pose, const Eigen::Vector3d& velocity,
                                               const Eigen::Vector3d& drive_torques,
                                               const Eigen::Vector3d& external_wrench) const noexcept;

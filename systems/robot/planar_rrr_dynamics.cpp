@@ -115,15 +115,22 @@ std::optional<JointVector> PlanarRrr::drive_acceleration(const Configuration& po
   PlanarMotion now;
   motion(pose.head<3>(), velocity.head<3>(), now);
   if (!now.reachable) return std::nullopt;
-  const Eigen::Vector3d dv = acceleration(now, drive_torques.head<3>(), Eigen::Vector3d::Zero());
+  const Eigen::Vector3d result =
+      drive_accelerations(now, acceleration(now, drive_torques.head<3>(), Eigen::Vector3d::Zero()));
+  if (!result.allFinite()) return std::nullopt;
+  return JointVector(result);
+}
+
+Eigen::Vector3d PlanarRrr::drive_accelerations(const PlanarMotion& motion,
+                                               const Eigen::Vector3d& acceleration) const noexcept {
   Eigen::Vector3d result;
   for (int i = 0; i < 3; ++i) {
     const auto leg = static_cast<std::size_t>(i);
-    const PlanarLegJacobianRate rate = leg_jacobian_rate(geometry_[leg], now.legs[leg], now.velocity.z());
-    result[i] = now.legs[leg].J_qa.dot(dv) + rate.dJ_qa.dot(now.velocity);
+    const PlanarLegJacobianRate rate =
+        leg_jacobian_rate(geometry_[leg], motion.legs[leg], motion.velocity.z());
+    result[i] = motion.legs[leg].J_qa.dot(acceleration) + rate.dJ_qa.dot(motion.velocity);
   }
-  if (!result.allFinite()) return std::nullopt;
-  return JointVector(result);
+  return result;
 }
 
 double PlanarRrr::kinetic_energy(const PlanarMotion& motion) const noexcept {

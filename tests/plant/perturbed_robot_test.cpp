@@ -167,6 +167,25 @@ TEST(PerturbedRobot, IsHeavierOrLighterAndRubsMoreOrLessInEveryMechanism) {
   }
 }
 
+TEST(PerturbedRobot, HasElasticDrivesWhereTheirStiffnessIsGiven) {
+  for (const auto& robot : robots()) {
+    Spread stiffness, backlash;
+    const Realism sizes{.drive_stiffness = 5e4, .backlash = 1e-3, .rotor_inertia = 0.02};
+    for (std::uint64_t seed = 0; seed < 400; ++seed) {
+      const PerturbedRobot one = draw_perturbed_robot(sizes, *robot, 100.0, seed);
+      stiffness.add(one.elastic.stiffness);
+      backlash.add(one.elastic.backlash);
+      EXPECT_EQ(one.elastic.rotor_inertia, JointVector::Constant(robot->drives(), 0.02));
+    }
+    expect_to_fill(stiffness, 5e4, 1e5);
+    expect_to_fill(backlash, 0.0, 1e-3);
+    SimulatedStationSettings model;
+    model.bench.robot = robot;
+    const PerturbedRobot one = draw_perturbed_robot(sizes, *robot, 100.0, 3);
+    EXPECT_EQ(with_perturbed_robot(model, one).bench.elastic.stiffness, one.elastic.stiffness);
+  }
+}
+
 TEST(PerturbedRobot, LeavesWhatTheDriverBelieves) {
   SimulatedStationSettings model;
   model.bench.robot = robots()[0];

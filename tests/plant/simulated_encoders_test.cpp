@@ -58,6 +58,15 @@ TEST(SimulatedEncoders, IdealOnesTellTheTruthWithItsTime) {
   EXPECT_EQ(reading.passive, truth.passive);
 }
 
+TEST(SimulatedEncoders, SitOnTheMotorsOfElasticDrives) {
+  PlantTruth truth = test::truth_at_rest();
+  EXPECT_EQ(truth.motor_positions(), truth.active);
+  truth.motors = truth.active + Eigen::Vector3d(1e-3, -2e-3, 3e-3);
+  Encoders encoders({.ideal = true});
+  encoders.read(truth);
+  EXPECT_EQ(encoders.read(truth).active, truth.motors);
+}
+
 TEST(SimulatedEncoders, AreOffByTheirOffsetAndByWhatRepeatsEveryTurn) {
   SimulatedEncodersSettings settings;
   settings.active = {.wave = {{1e-4, 1.0, 0.2}, {2e-4, 1.0, 1.0}, {0.0, 1.0, 0.0}}};

@@ -23,24 +23,25 @@
 #include "diagrams/isolation_settings.h"
 #include "experiments/campaign/campaign.h"
 #include "experiments/campaign/campaign_run.h"
-#include "experiments/campaign/drawn_contact.h"
-#include "plant/obstacle.h"
 #include "systems/contact/touch_hypotheses.h"
 #include "systems/framework/random.h"
+#include "tests/campaign/isolation/second_post.h"
 #include "tests/campaign/isolation/touched_bodies.h"
 #include "tests/support/wanted.h"
 
 namespace flinch {
 namespace {
 
+using test::add_post;
 using test::bounds;
 using test::share;
 using test::sort_of;
 using test::Touched;
+using test::Touching;
+using test::touching;
 
-constexpr std::size_t window = 10;       // after the detection, when the answer stands [samples, ms]
-constexpr double within_noise = 5.991;   // chi-square, 95 %, two degrees
-constexpr double counts_as_touch = 1.0;  // [N]
+constexpr std::size_t window = 10;      // after the detection, when the answer stands [samples, ms]
+constexpr double within_noise = 5.991;  // chi-square, 95 %, two degrees
 
 const std::array<std::pair<const char*, const char*>, 2> classifiers{
     {{"model", "classification_model_classifier"}, {"learned", "classification"}}};
@@ -66,23 +67,6 @@ class Contacts {
   Campaign campaign_;
   std::function<void(Scenario&)> follow_learned_;
 };
-
-/// One body that an obstacle touches.
-struct Touching {
-  int obstacle, body;
-  friend auto operator<=>(const Touching&, const Touching&) = default;
-};
-
-std::set<Touching> touching(const ContactTruth& truth) {
-  std::set<Touching> found;
-  const auto add = [&](const TouchTruth& touch) {
-    if (touch.strength() > counts_as_touch) found.insert({touch.obstacle, touch.body});
-  };
-  add(truth.strongest);
-  add(truth.second);
-  for (const TouchTruth& touch : truth.further) add(touch);
-  return found;
-}
 
 /// All that touches at any sample from the first contact to `last`.
 std::set<Touching> touched_until(const Touched& run, std::size_t last) {
@@ -213,25 +197,6 @@ TEST(SeveralContacts, AreSeldomSaidOfOne) {
     EXPECT_GT(all.said, 0.8 * static_cast<double>(contacts.count()));
     EXPECT_LT(bounds(all.several, all.said)[1], 0.08);
   }
-}
-
-/// A post that another body runs into at the same time as that of the scenario.
-std::optional<DrawnContact> add_post(SimulatedScenario& scenario, const std::string& touched,
-                                     RandomGenerator& random) {
-  const std::array<std::string, 3> kinds{"platform", "link1", "link2"};
-  for (int attempt = 0; attempt < 50; ++attempt) {
-    ObstacleForm post;
-    post.name = "second post";
-    post.shape = Sphere{.radius = random.uniform(0.015, 0.06)};
-    post.material.stiffness = std::exp(random.uniform(std::log(2e3), std::log(1e5)));
-    post.material.friction = random.uniform(0.0, 0.3);
-    const auto place = draw_contact(scenario, kinds[random() % kinds.size()], post.shape, random);
-    if (!place || place->body == touched) continue;
-    post.position_in_base = place->position_in_base;
-    scenario.station.bench.obstacles.push_back(std::make_shared<const FixedObstacle>(post));
-    return place;
-  }
-  return std::nullopt;
 }
 
 /// Whether both posts touch, at one sample of the window, and not the same body.

@@ -53,10 +53,19 @@ inline double quantile(std::vector<double> values, double share) {
 /// What was recorded of one contact, sample by sample.
 class Touched {
  public:
-  explicit Touched(const SimulatedScenario& scenario) : robot(scenario.robot.robot) {
-    recording_ = run_for_signals(
-        scenario, {"truth", "contact", "detection", "classification", "location", "location_particle_filter",
-                   "classification_decision_tree", "classification_model_classifier"});
+  /// `more`: signals besides those of classifiers and locators.
+  explicit Touched(const SimulatedScenario& scenario, const std::vector<std::string>& more = {})
+      : robot(scenario.robot.robot) {
+    std::vector<std::string> signals = {"truth",
+                                        "contact",
+                                        "detection",
+                                        "classification",
+                                        "location",
+                                        "location_particle_filter",
+                                        "classification_decision_tree",
+                                        "classification_model_classifier"};
+    signals.insert(signals.end(), more.begin(), more.end());
+    recording_ = run_for_signals(scenario, signals);
   }
 
   std::size_t samples() const { return recording_.samples(); }

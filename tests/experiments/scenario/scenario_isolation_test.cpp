@@ -76,6 +76,19 @@ TEST(ReadIsolation, TakesFilesOfNetworksFromTheScenarioOn) {
   EXPECT_EQ(settings.learned_network, "some/where/bodies.onnx");
 }
 
+TEST(ReadIsolation, TakesForceSensorsBelowTheBaseJointsWhereTheyAreNamed) {
+  EXPECT_FALSE(read("isolation: {}").base_forces);
+  const auto found =
+      read("isolation: {base_forces: {first_moment_kg_m: [1, 2, 3], deviation_N: 2, period_ms: 10}}")
+          .base_forces;
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->first_moment, Eigen::Vector3d(1.0, 2.0, 3.0));
+  EXPECT_EQ(found->pairs.base_force, 2.0);
+  EXPECT_EQ(found->period, 10ms);
+  EXPECT_THROW(read("isolation: {base_forces: {deviation_N: 2}}"), SetupError) << "first_moment is needed";
+  EXPECT_THROW(read("isolation: {base_forces: {first_moment_kg_m: [1, -2, 3]}}"), SetupError);
+}
+
 TEST(ReadIsolation, RefusesWhatCannotBe) {
   try {
     read(

@@ -148,6 +148,18 @@ TEST(ScenarioRealism, HasTheUnitsOfDrivesThatSlide) {
               ElementsAre(HasSubstr("plant.realism.passive_encoder_wave_deg: is not a known key")));
 }
 
+TEST(ScenarioRealism, PutsSpringsBetweenMotorsAndLegs) {
+  const test::Workplace place;
+  const SimulatedScenario scenario = scenario_with(
+      place, "realism: {drive_stiffness_Nm_per_rad: 60000, backlash_deg: 0.05, rotor_inertia_kg_m2: 0.1}");
+  EXPECT_THAT(keys_of(scenario), ElementsAre("drive_stiffness_Nm_per_rad", "backlash_rad"));
+  EXPECT_EQ(scenario.station.bench.elastic.rotor_inertia, JointVector::Constant(3, 0.1));
+  EXPECT_THAT(keys_of(scenario_with(place, "realism: {drive_stiffness_N_per_m: 1e7}", "hexapod_6ups")),
+              ElementsAre("drive_stiffness_N_per_m"));
+  EXPECT_THAT(problems_with("realism: {backlash_deg: 0.05}"),
+              ElementsAre(HasSubstr("backlash_deg: needs a drive_stiffness above 0")));
+}
+
 TEST(ScenarioRealism, TellsWhatIsWrongWithIt) {
   EXPECT_THAT(problems_with("realism: bensh"),
               ElementsAre(HasSubstr("own.yaml:3: plant.realism: is 'bensh'; did you mean 'bench'?")));

@@ -56,7 +56,7 @@ TEST(ShippedScenarios, AreTheseAndNoOthers) {
                   "platform_collision_realistic", "platform_reaction", "random_motion",
                   "reaction_near_itself", "reaction_near_singularity", "second_link_collision",
                   "second_link_reaction", "square", "square_realistic", "square_tasks", "square_unaligned",
-                  "stiffness", "tricept_collision", "tricept_collision_realistic"));
+                  "stiffness", "tricept_collision", "tricept_collision_realistic", "two_contacts"));
 }
 
 TEST(ShippedScenarios, AreAllGood) {

@@ -26,6 +26,17 @@ TEST(ImuDoubt, IsARemarkAndNoFailure) {
   EXPECT_TRUE(judged(SyntheticRun(100)).remarks.empty());
 }
 
+TEST(ImuDoubt, IsToldWithTheShareOfTheRecordingThatItTook) {
+  SyntheticRun run(100);
+  EXPECT_EQ(imu_left_out(run.recording()).why, ImuDoubt::none);
+  EXPECT_EQ(imu_left_out(run.recording()).share, 0.0);
+  for (int k = 40; k < 100; ++k) run.at(k).plausibility.imu_doubt = ImuDoubt::biased;
+  run.at(40).plausibility.imu_doubt = ImuDoubt::late;
+  const Recording recording = run.recording();
+  EXPECT_EQ(imu_left_out(recording).why, ImuDoubt::late);
+  EXPECT_NEAR(imu_left_out(recording).share, 0.6, 1e-12);
+}
+
 TEST(PassiveEncodersThatAreLost, AreARemarkAndNoFailure) {
   SyntheticRun run(100);
   for (int k = 60; k < 100; ++k) run.at(k).plausibility.passive_lost = true;

@@ -1,0 +1,29 @@
+#include "experiments/verdict/recorded_doubts.h"
+
+#include <algorithm>
+
+#include "systems/framework/recorded_values.h"
+
+namespace flinch {
+
+bool records(const Recording& recording, const char* signal, const char* name) {
+  const Signal* const found = recording.find(signal);
+  return found != nullptr && std::any_of(found->layout.fields.begin(), found->layout.fields.end(),
+                                         [name](const Field& field) { return field.name == name; });
+}
+
+ImuLeftOut imu_left_out(const Recording& recording) {
+  ImuLeftOut found;
+  if (!records(recording, "plausibility", "imu_doubt")) return found;
+  const RecordedValues<RecordedDoubts> doubts(recording, "plausibility");
+  std::size_t samples = 0;
+  for (std::size_t k = 0; k < doubts.size(); ++k) {
+    const ImuDoubt why = doubts[k].imu;
+    if (why == ImuDoubt::none) continue;
+    if (samples++ == 0) found.why = why;
+  }
+  if (samples > 0) found.share = static_cast<double>(samples) / static_cast<double>(doubts.size());
+  return found;
+}
+
+}  // namespace flinch

@@ -1,0 +1,37 @@
+#include "plant/simulated_base_forces.h"
+
+#include <array>
+#include <utility>
+
+#include "systems/robot/kinematics.h"
+
+namespace flinch {
+
+SimulatedBaseForces::SimulatedBaseForces(const SimulatedBaseForcesSettings& settings,
+                                         std::shared_ptr<const Mechanism> robot, std::uint64_t seed)
+    : settings_(settings),
+      robot_(std::move(robot)),
+      noise_(state<Noise>("noise", Noise(settings.bases->size(), derive_seed(seed, "noise")))) {}
+
+void SimulatedBaseForces::measure(Time now, const BenchSnapshot& bench, const Noise& noise,
+                                  BaseForceReading& reading) const {
+  reading = BaseForceReading();
+  reading.acquired = now;
+  Kinematics at;
+  if (bench.reachable) robot_->kinematics(bench.pose, bench.velocity, at);
+  if (!at.reachable) return;
+  std::array<ForceOnBody, max_touches> touches;
+  const int count = bench.contacts.touch_count;
+  for (int i = 0; i < count; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    const Touch& touch = bench.contacts.touches[index];
+    const int directions = settings_.bases->directions();
+    touches[index] = {touch.body, touch.point.head(directions), touch.force_on_robot.head(directions)};
+  }
+  settings_.bases->forces(at, bench.acceleration, bench.torque_on_legs,
+                          {touches.data(), static_cast<std::size_t>(count)}, reading.force_in_base);
+  reading.valid = true;
+  if (!settings_.ideal) reading.force_in_base += settings_.noise * noise.values();
+}
+
+}  // namespace flinch
