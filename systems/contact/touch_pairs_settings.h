@@ -10,7 +10,7 @@ struct TouchPairsSettings {
   double base_force = 0.8;
   double share_of_force = 0.03;  ///< of the size of what a leg's base feels, on each component of it
   /// ln of how many times likelier two contacts must be than one, to be told as two.
-  double least_log_odds = 4.0;
+  double least_log_odds = 8.0;
   /// Largest e^T S^-1 e that the best explanation may leave; beyond, nothing explains what is felt.
   double largest_residual = 40.0;
   int places_around = 24;  ///< tried first around the platform
