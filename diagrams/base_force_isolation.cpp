@@ -1,6 +1,7 @@
 #include "diagrams/base_force_isolation.h"
 
 #include "diagrams/contact_control_settings.h"
+#include "diagrams/low_latency_motion.h"
 #include "systems/contact/pair_locator.h"
 #include "systems/estimators/base_force_observer.h"
 #include "systems/robot/leg_bases.h"
@@ -9,7 +10,6 @@
 namespace flinch {
 
 std::optional<InputPort<BaseForceReading>> add_base_forces(const StageSite& site, const ContactPorts& given,
-                                                           const std::optional<LowPassSettings>& aligned_with,
                                                            OtherStages& shown) {
   const IsolationSettings& settings = site.settings.isolation;
   if (!settings.base_forces) return std::nullopt;
@@ -29,8 +29,8 @@ std::optional<InputPort<BaseForceReading>> add_base_forces(const StageSite& site
   builder.connect(given.isolation_wrench, locator.wrench);
   builder.connect(observer.estimate, locator.bases);
   const auto readings = builder.optional_input<BaseForceReading>("base_forces");
-  if (aligned_with) {
-    auto& filter = builder.add<BaseForceFilter>("base_force_filter", *aligned_with, sampling);
+  if (const auto low_pass = torque_low_pass(site.settings)) {
+    auto& filter = builder.add<BaseForceFilter>("base_force_filter", *low_pass, sampling);
     builder.connect(readings, filter.measured);
     builder.connect(given.status, filter.status);
     builder.connect(filter.filtered, observer.forces);

@@ -90,11 +90,6 @@ SensedPorts add_inputs(DiagramBuilder& builder) {
           builder.input<StationStatus>("status")};
 }
 
-/// That of the velocity, where the torque is to lag as it does.
-std::optional<LowPassSettings> torque_low_pass(const ContactControlSettings& settings) {
-  return settings.aligned_with_velocity ? std::optional(settings.velocity_filter.low_pass) : std::nullopt;
-}
-
 MotionPorts add_motion(const Path& path, const SensedPorts& sensed, OutputPort<JointMotion> joint_motion,
                        OutputPort<ImuReading> imu) {
   auto& pose =
@@ -368,12 +363,16 @@ Told add_told_contact(const Path& path, ReactionPorts& reaction) {
   return given;
 }
 
+void throw_if_bad(const ContactControlSettings& settings) {
+  throw_if_any(problems(settings.stages));
+  throw_if_any(problems_of_rate(settings));
+}
+
 }  // namespace
 
 ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
                                    const ContactControlSettings& settings) {
-  throw_if_any(problems(settings.stages));
-  throw_if_any(problems_of_rate(settings));
+  throw_if_bad(settings);
   DiagramBuilder builder("control", settings.control_period);
   const Path path{builder, robot, settings};
   const SensedPorts sensed = add_inputs(builder);
@@ -397,8 +396,6 @@ ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
   connect(path, imu, reaction, safety);
   OtherStages others = show_others(path, velocities, accelerations, estimators, buttons.reset);
   show(path, detectors, isolation, laws, tried, others);
-  const auto base_forces =
-      add_base_forces(path.site("base_forces"), isolation.contact, torque_low_pass(settings), others);
   const ContactControl control{
       .joints = sensed.joints,
       .drives = sensed.drives,
@@ -408,7 +405,7 @@ ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
       .target = wanted.target,
       .told_classification = told.classification,
       .told_location = told.location,
-      .base_forces = base_forces,
+      .base_forces = add_base_forces(path.site("base_forces"), isolation.contact, others),
       .tick_timing = builder.export_input("tick_timing", safety.monitor.timing),
       .torque_command = builder.export_output("torque_command", safety.gate.torque_command),
       .brake = builder.export_output("brake", safety.gate.brake),

@@ -45,6 +45,10 @@ MotionModel& add_model(const StageSite& site, OutputPort<PlatformMotion> motion)
 
 StageSite part(const StageSite& site, const std::string& what) { return named(site, site.name + "_" + what); }
 
+std::optional<LowPassSettings> torque_low_pass(const ContactControlSettings& settings) {
+  return settings.aligned_with_velocity ? std::optional(settings.velocity_filter.low_pass) : std::nullopt;
+}
+
 OutputPort<DriveTorque> add_drive_torque(const StageSite& site, const SensedPorts& given,
                                          const std::optional<LowPassSettings>& aligned_with) {
   std::vector<SharedParts::Torque>& known = site.shared.torques;

@@ -14,6 +14,9 @@ StageSite part(const StageSite& site, const std::string& what);
 
 // Shared by the stages of a control path: each is added once, in the name of who asks first.
 
+/// The low pass of the velocity, where the drive torque is to lag as it does.
+std::optional<LowPassSettings> torque_low_pass(const ContactControlSettings& settings);
+
 /// The drive torque of the present or, where a low pass of the velocity is given, aligned with that.
 OutputPort<DriveTorque> add_drive_torque(const StageSite& site, const SensedPorts& given,
                                          const std::optional<LowPassSettings>& aligned_with);

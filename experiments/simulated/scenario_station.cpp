@@ -20,6 +20,8 @@
 #include "plant/simulated_station.h"
 #include "systems/config/config_reader.h"
 #include "systems/foundation/nearest_name.h"
+#include "systems/foundation/setup_error.h"
+#include "systems/robot/leg_bases.h"
 #include "systems/robot/parallel_robot.h"
 #include "systems/robot/robot_deviation.h"
 #include "systems/signals/contact_classes.h"

@@ -1,5 +1,6 @@
 #include "systems/robot/planar_leg_bases.h"
 
+#include <Eigen/LU>
 #include <array>
 #include <cstddef>
 #include <utility>
