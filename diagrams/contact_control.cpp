@@ -363,17 +363,17 @@ Told add_told_contact(const Path& path, ReactionPorts& reaction) {
   return given;
 }
 
-void throw_if_bad(const ContactControlSettings& settings) {
+const ContactControlSettings& checked(const ContactControlSettings& settings) {
   throw_if_any(problems(settings.stages));
   throw_if_any(problems_of_rate(settings));
+  return settings;
 }
 
 }  // namespace
 
 ContactControl add_contact_control(DiagramBuilder& outer, const Robot& robot,
                                    const ContactControlSettings& settings) {
-  throw_if_bad(settings);
-  DiagramBuilder builder("control", settings.control_period);
+  DiagramBuilder builder("control", checked(settings).control_period);
   const Path path{builder, robot, settings};
   const SensedPorts sensed = add_inputs(builder);
   const auto velocities = path.add(settings.stages.velocities, sensed);

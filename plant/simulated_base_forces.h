@@ -19,7 +19,7 @@ struct SimulatedBaseForcesSettings {
 };
 
 /// Measures at every tick what the base does to each leg, under the torque that acted until then. What bodies
-/// of the robot do to one another is not in it.
+/// of the robot do to one another is not in it, nor what ropes pull.
 class SimulatedBaseForces final : public System {
   using Noise = NormalNumbers<3 * max_dof>;
 

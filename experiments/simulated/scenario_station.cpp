@@ -236,10 +236,6 @@ WrenchRamp read_ramp(ConfigReader reader, const ConfigurationSpace& space) {
 /// Sensors below the base joints of the robot that stands there.
 void add_bases(ConfigReader& file, const Scenario& scenario, const BaseForceSettings& settings,
                SimulatedStationSettings& station) {
-  if (!station.bench.pulls.empty())
-    file.section("control")
-        .section("isolation")
-        .problem("base_forces", "cannot be together with pulls by ropes");
   try {
     station.base_forces->bases = leg_bases(station.bench.robot, settings.first_moment, *scenario.robot.robot);
   } catch (const SetupError& error) {

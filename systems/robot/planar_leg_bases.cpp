@@ -49,7 +49,7 @@ struct MovingLeg {
     of.row(1) = -model.link2_length * rates[1] * u2.transpose();
     return of;
   }
-  Matrix2d M() const {
+  Matrix2d mass_matrix() const {
     const double mixed = model.inertia.p3 * c;
     Matrix2d M;
     M << model.inertia.p1 - model.inertia.p2 + model.rotor_inertia, mixed, mixed, model.inertia.p2;
@@ -107,7 +107,7 @@ void PlanarLegBases::momentum(const Kinematics& at, const JointVector& torque, B
     const auto index = static_cast<std::size_t>(i);
     const MovingLeg leg(robot.legs[index], first_moments_[index], at, i);
     const auto J_T = leg.torques_of_force().partialPivLu();
-    const Vector2d at_coupling = J_T.solve(leg.M() * leg.rates);
+    const Vector2d at_coupling = J_T.solve(leg.mass_matrix() * leg.rates);
     const Vector2d torques = leg.joint_torques(torque[i], robot.friction_velocity) + leg.centrifugal();
     p.segment<2>(2 * i) = leg.linear_momentum() - at_coupling;
     s.segment<2>(2 * i) = J_T.solve(leg.torques_of_force_rate() * at_coupling - torques);
@@ -145,8 +145,9 @@ void PlanarLegBases::forces(const Kinematics& at, const PlatformVector& accelera
     }
     const Vector2d accelerations = joint_accelerations(at, acceleration, i);
     const double of_turning = leg.model.inertia.p3 * leg.s;  // M dq' + (-p3 s q2'^2, p3 s q1'^2)
-    const Vector2d inertial = leg.M() * accelerations + of_turning * Vector2d(-leg.rates[1] * leg.rates[1],
-                                                                              leg.rates[0] * leg.rates[0]);
+    const Vector2d inertial =
+        leg.mass_matrix() * accelerations +
+        of_turning * Vector2d(-leg.rates[1] * leg.rates[1], leg.rates[0] * leg.rates[0]);
     const Vector2d on_platform = leg.torques_of_force().partialPivLu().solve(torques - inertial);
     out.segment<2>(2 * i) = leg.linear_momentum_rate(accelerations) + on_platform - touched;
   }
