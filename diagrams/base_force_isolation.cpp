@@ -19,8 +19,9 @@ std::optional<InputPort<BaseForceReading>> add_base_forces(const StageSite& site
   auto& observer = builder.add<BaseForceObserver>(
       "base_force_observer", bases,
       BaseForceObserverSettings{.gain = settings.observer_gain, .sampling = sampling});
-  auto& locator = builder.add<PairLocator>("pair_locator", site.robot, bases, settings.base_forces->pairs,
-                                           settings.uncertainty, settings.base_forces->period);
+  auto& locator = builder.add<PairLocator>(
+      "pair_locator", site.robot, bases, settings.base_forces->pairs, settings.uncertainty,
+      whole_periods(settings.base_forces->period, site.settings.control_period));
   builder.connect(given.platform, observer.platform);
   builder.connect(given.kinematics, observer.kinematics);
   builder.connect(given.drive_torque, observer.torque);

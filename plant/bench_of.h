@@ -64,7 +64,7 @@ class BenchOf final : public BenchDynamics {
                         const BenchStep& step) const noexcept;
   JointVector stuck_at(const JointVector& motors, const BenchStep& step) const noexcept;
   MotorMotion motor(const Instant& now, const BenchState& state, int drive) const noexcept;
-  double friction_and_brake(int drive, const MotorMotion& motor, const DriveAction& drives,
+  double friction_and_brake(const Instant& now, const BenchState& state, int drive, const DriveAction& drives,
                             const BenchStep& step) const noexcept;
   Accelerations accelerations(const Instant& now, const BenchState& state, JointVector torque,
                               const DriveAction& drives, const BenchStep& step,
@@ -219,14 +219,16 @@ void BenchOf<Robot>::describe_motors(const Instant& now, const BenchState& state
 
 /// What closed brakes and friction that sticks do to a motor, beyond the robot's own friction.
 template <class Robot>
-double BenchOf<Robot>::friction_and_brake(int drive, const MotorMotion& motor, const DriveAction& drives,
-                                          const BenchStep& step) const noexcept {
+double BenchOf<Robot>::friction_and_brake(const Instant& now, const BenchState& state, int drive,
+                                          const DriveAction& drives, const BenchStep& step) const noexcept {
+  const double share = internal::held_share(drives, drive);
+  if (!sticks() && !(share > 0.0)) return 0.0;  // the position of a drive is dear
+  const MotorMotion motor = this->motor(now, state, drive);
   double torque = 0.0;
   if (sticks()) {
     const double stuck_at = step.stuck_at.size() > 0 ? step.stuck_at[drive] : motor.position;
     torque += sticking_effort(drive, motor.rate, motor.position, stuck_at);
   }
-  const double share = internal::held_share(drives, drive);
   if (!(share > 0.0)) return torque;
   const double braked_at = step.braked_at.size() > 0 ? step.braked_at[drive] : motor.position;
   return torque + share * brake_effort(drive, motor.rate, motor.position, braked_at);
@@ -240,12 +242,11 @@ auto BenchOf<Robot>::accelerations(const Instant& now, const BenchState& state, 
   JointVector motors;
   if (elastic().any()) motors.resize(robot().drives());
   for (int i = 0; i < robot().drives(); ++i) {
-    const MotorMotion now_of = motor(now, state, i);
-    torque[i] += friction_and_brake(i, now_of, drives, step);
+    torque[i] += friction_and_brake(now, state, i, drives, step);
     if (!elastic().any()) continue;
-    const double leg_rate = robot_.drive_rate(now, i);
-    const double passed_on = elastic().effort(i, state[twist_at() + i], now_of.rate - leg_rate);
-    motors[i] = (torque[i] - dry_friction(i).at(now_of.rate) - passed_on) / elastic().rotor_inertia(i);
+    const double leg_rate = robot_.drive_rate(now, i), motor_rate = state[motor_rate_at() + i];
+    const double passed_on = elastic().effort(i, state[twist_at() + i], motor_rate - leg_rate);
+    motors[i] = (torque[i] - dry_friction(i).at(motor_rate) - passed_on) / elastic().rotor_inertia(i);
     torque[i] = passed_on + dry_friction(i).at(leg_rate);
   }
   if (!elastic().any()) return {robot_.acceleration(now, torque, wrench), motors, torque};

@@ -3,15 +3,24 @@
 #include <array>
 #include <utility>
 
+#include "systems/foundation/setup_error.h"
 #include "systems/robot/kinematics.h"
 
 namespace flinch {
+namespace {
+
+const LegBases& required(const SimulatedBaseForcesSettings& settings) {
+  if (!settings.bases) throw SetupError("base forces: nothing is known of the base joints");
+  return *settings.bases;
+}
+
+}  // namespace
 
 SimulatedBaseForces::SimulatedBaseForces(const SimulatedBaseForcesSettings& settings,
                                          std::shared_ptr<const Mechanism> robot, std::uint64_t seed)
     : settings_(settings),
       robot_(std::move(robot)),
-      noise_(state<Noise>("noise", Noise(settings.bases->size(), derive_seed(seed, "noise")))) {}
+      noise_(state<Noise>("noise", Noise(required(settings).size(), derive_seed(seed, "noise")))) {}
 
 void SimulatedBaseForces::measure(Time now, const BenchSnapshot& bench, const Noise& noise,
                                   BaseForceReading& reading) const {

@@ -1,22 +1,29 @@
 #include "systems/estimators/base_force_observer.h"
 
-#include <cmath>
+#include <string>
 #include <utility>
 
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
+namespace {
+
+/// Of each component. Throws SetupError.
+PlatformVector gain_of(const LegBases* bases, double gain) {
+  if (bases == nullptr) throw SetupError("base forces: this robot has no model of its base joints");
+  if (bases->size() > max_dof) {
+    throw SetupError("base forces: " + std::to_string(bases->size()) + " components are more than the " +
+                     std::to_string(max_dof) + " that can be followed");
+  }
+  if (!(gain > 0.0)) throw SetupError("base forces: the gain must be positive [1/s]");
+  return PlatformVector::Constant(bases->size(), gain);
+}
+
+}  // namespace
 
 BaseForceObserver::BaseForceObserver(std::shared_ptr<const LegBases> bases,
                                      const BaseForceObserverSettings& settings)
-    : bases_(std::move(bases)), settings_(settings) {
-  if (!bases_) throw SetupError("base forces: this robot has no model of its base joints");
-  if (bases_->size() > max_dof) {
-    throw SetupError("base forces: " + std::to_string(bases_->size()) + " components are more than the " +
-                     std::to_string(max_dof) + " that can be followed");
-  }
-  if (!(settings_.gain > 0.0)) throw SetupError("base forces: the gain must be positive [1/s]");
-}
+    : bases_(std::move(bases)), settings_(settings), method_(gain_of(bases_.get(), settings.gain)) {}
 
 bool BaseForceObserver::is_usable(const PlatformMotion& motion, const Kinematics& at,
                                   const DriveTorque& drives, const BaseForceReading& reading) const {
@@ -36,34 +43,31 @@ void BaseForceObserver::advance(const PlatformMotion& motion, const Kinematics& 
   }
   const bool continued = memory.started &&
                          !settings_.sampling.interrupted(memory.acquired, motion.acquired) &&
-                         memory.force.allFinite();
+                         memory.method.wrench.allFinite();
   next.started = true;
   next.acquired = motion.acquired;
   next.arrived = now;
   next.begun = continued ? memory.begun : now;
-  bases_->momentum(at, drives.torque, next.p, next.known);
-  next.known += reading.force_in_base;
+  BaseForces p, known;
+  bases_->momentum(at, drives.torque, p, known);
+  next.p = p;
+  next.known = known + reading.force_in_base;
   if (!continued) {
-    next.force.setZero(bases_->size());
+    next.method = method_.begin(next.p);
     return;
   }
-  const double T = to_seconds(motion.acquired - memory.acquired);
-  const BaseForces known = 0.5 * (memory.known + next.known);
-  const BaseForces unexplained = (next.p - memory.p) / T - known;
-  const double a = std::exp(-settings_.gain * T);
-  next.force = unexplained + a * (memory.force - unexplained);
+  const PlatformVector mean = 0.5 * (memory.known + next.known);
+  method_.advance(memory.method, {to_seconds(motion.acquired - memory.acquired), memory.p, next.p, mean},
+                  next.method);
 }
 
 void BaseForceObserver::read(const Memory& next, Time now, BaseForceEstimate& result) const {
-  constexpr double settling_time_constants = 5.0;
-  const Time settling =
-      settings_.input_settling_time + from_seconds(settling_time_constants / settings_.gain);
   result = BaseForceEstimate();
   result.acquired = next.acquired;
   result.force_in_base.setZero(bases_->size());
-  if (!next.started || !next.force.allFinite()) return;
-  result.valid = now - next.begun >= settling;
-  result.force_in_base = next.force;
+  if (!next.started || !next.method.wrench.allFinite()) return;
+  result.valid = now - next.begun >= settings_.input_settling_time + method_.settling_time();
+  result.force_in_base = next.method.wrench;
 }
 
 }  // namespace flinch

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "systems/estimators/momentum_observer.h"
 #include "systems/framework/system.h"
 #include "systems/robot/leg_bases.h"
 #include "systems/signals/base_force_estimate.h"
@@ -20,7 +21,7 @@ struct BaseForceObserverSettings {
 };
 
 /// Momentum observer of what contacts leave at the base joints, by `LegBases`:
-/// solved between samples as that of the wrench, see FirstOrderMomentumMethod, with forces that lag as the
+/// solved by FirstOrderMomentumMethod as that of the wrench, with forces that lag as the
 /// drive torques do, between samples the mean of both. Begins anew where samples are missing for longer than
 /// the longest hold, and as long as brakes are closed, which add torques that nobody measures.
 class BaseForceObserver final : public System {
@@ -33,11 +34,13 @@ class BaseForceObserver final : public System {
   struct Memory {
     bool started = false;
     Time acquired{}, arrived{}, begun{};  ///< the latter two are ticks
-    BaseForces p, known, force;
+    PlatformVector p, known;              ///< of the base joints
+    FirstOrderMomentumMethod::Memory method;
   };
 
   std::shared_ptr<const LegBases> bases_;
   BaseForceObserverSettings settings_;
+  FirstOrderMomentumMethod method_;
   State<Memory> memory_ = state<Memory>("memory");
 
  public:

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "systems/foundation/setup_error.h"
 #include "systems/robot/leg_bases.h"
 #include "tests/plant/bench_scene.h"
 #include "tests/plant/moving_bench.h"
@@ -54,6 +55,10 @@ TEST(SimulatedBaseForces, SumUpToWhatAPostDoesToARobotThatRests) {
   const BaseForces& borne = reading.force_in_base;
   const Eigen::Vector2d sum = borne.segment<2>(0) + borne.segment<2>(2) + borne.segment<2>(4);
   EXPECT_LT((sum + force.head<2>()).norm(), 1e-3 * force.norm());
+}
+
+TEST(SimulatedBaseForces, AskForTheBaseJointsOfTheirRobot) {
+  EXPECT_THROW(SimulatedBaseForces({}, test::individual_bench(), 1U), SetupError);
 }
 
 TEST(SimulatedBaseForces, HaveNoiseAndNoDataWhereTheRobotHasComeApart) {
