@@ -9,6 +9,10 @@ namespace {
 
 constexpr int iterations = 400;
 constexpr double least_share = 1e-6;  // of the mean square that is noise at least
+// Of a torque: its constant is known better. Errors as large as torques would hide every contact, for a contact
+// is such a torque.
+constexpr double most_of_torque = 0.2;
+constexpr std::size_t torque_feature = 3;
 
 /// The variances, as shares of which begins each part with as much as the others.
 ErrorFeatures first_guess(std::span<const ErrorSample> samples) {
@@ -50,6 +54,7 @@ ResidualErrors fit_error_sizes(std::span<const ErrorSample> samples) {
     for (std::size_t j = 0; j < sizes.size(); ++j)
       sizes[j] = expected[j] > 0.0 ? sizes[j] * std::sqrt(seen[j] / expected[j]) : 0.0;
     sizes[0] = std::max(sizes[0], least);
+    sizes[torque_feature] = std::min(sizes[torque_feature], most_of_torque * most_of_torque);
   }
   return {.noise = std::sqrt(sizes[0]),
           .speed = std::sqrt(sizes[1]),

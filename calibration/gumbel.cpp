@@ -47,7 +47,9 @@ Gumbel fit_gumbel_to_quartiles(std::span<const double> maxima) {
 double upper_quantile_above(const Gumbel& fit, std::size_t maxima, double probability, double confidence) {
   const double y = reduced(probability);
   const double variance = (1.1128 + 2.0 * 0.2287 * y + 0.8046 * y * y) / static_cast<double>(maxima);
-  return fit.location + fit.scale * (y + normal_quantile(confidence) * std::sqrt(variance));
+  const double margin = normal_quantile(confidence) * std::sqrt(variance);
+  // Far out it is the error of the scale, a factor, that counts.
+  return fit.location + fit.scale * (y > 1.0 ? y * std::exp(margin / y) : y + margin);
 }
 
 }  // namespace flinch

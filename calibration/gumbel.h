@@ -23,7 +23,8 @@ Gumbel fit_gumbel(std::span<const double> maxima);
 Gumbel fit_gumbel_to_quartiles(std::span<const double> maxima);
 
 /// Upper confidence bound of `fit.quantile_above(probability)`, where `fit` was made from so many maxima: by
-/// the large-sample covariance of location and scale so fitted (Phien 1987).
+/// the large-sample covariance of location and scale so fitted (Phien 1987), taken as that of a logarithm, so
+/// that it also holds for few: of 14 maxima a bound of 95 % holds in 93 %.
 double upper_quantile_above(const Gumbel& fit, std::size_t maxima, double probability, double confidence);
 
 }  // namespace flinch

@@ -215,7 +215,7 @@ std::vector<Distances> distances(const std::vector<Motion>& motions, const std::
       for (Distances& of : all) of.add(nominal, memory);
     });
   }
-  for (const Distances& of : all) require_enough(estimator, of.largest().size(), goal);
+  for (const Distances& of : all) require_enough(estimator, of.largest().size(), fewest_stretches, goal);
   return all;
 }
 

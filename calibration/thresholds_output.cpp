@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -82,6 +83,11 @@ std::vector<double> values_of(const JointVector& of) { return {of.begin(), of.en
 std::string text_of(const std::vector<double>& values) {
   if (values.size() == 1) return fmt::format("{:.4g}", values.front());
   return fmt::format("[{:.4g}]", fmt::join(values, ", "));
+}
+
+/// What recordings without an alarm prove by themselves, at most [1/h]: Garwood (1936) for none.
+double proven_rate(double seconds, const ThresholdGoal& goal) {
+  return -std::log1p(-goal.confidence) / (seconds / 3600.0);
 }
 
 double seconds(std::size_t stretches, const ThresholdGoal& goal) {
@@ -287,6 +293,14 @@ void note_settings(const std::vector<Scenario>& scenarios, ThresholdFindings& fo
 
 std::vector<std::string> warnings(const ThresholdFindings& found) {
   std::vector<std::string> all = found.doubts;
+  for (const EstimatorThresholds& of : found.estimators) {
+    if (of.stretches >= few_stretches) continue;
+    all.push_back(
+        fmt::format("{}: {:.1f} s of motion are few, so its threshold is {:.2g} times what is likely; record "
+                    "{:.0f} s or more",
+                    of.estimator, seconds(of.stretches, found.goal), of.force.value / of.force.best_guess,
+                    seconds(few_stretches, found.goal)));
+  }
   for (const CalibratedResidual& of : found.residuals) {
     double variation = 0.0, of_one = 0.0;
     for (const CalibratedDistance* part : {&of.level, &of.change, &of.smoothed}) {
@@ -333,8 +347,11 @@ std::string thresholds_table(const ThresholdFindings& found) {
                         text_of(values_of(found.drive_deviations)), found.drives_turn ? "Nm" : "N");
   }
   if (!found.estimators.empty()) {
-    text += fmt::format("\nfrom {:.1f} s of motion without contact, in stretches of {} s\n",
-                        seconds(found.estimators.front().stretches, goal), to_seconds(goal.stretch));
+    const double recorded = seconds(found.estimators.front().stretches, goal);
+    text += fmt::format(
+        "\nfrom {:.1f} s of motion without contact, in stretches of {} s; without an alarm they prove by "
+        "themselves\nat most {:.3g} an hour, the rest is the course of the tail\n",
+        recorded, to_seconds(goal.stretch), proven_rate(recorded, goal));
   }
   return text;
 }
@@ -345,6 +362,7 @@ std::string thresholds_json(const ThresholdFindings& found) {
   for (const EstimatorThresholds& of : found.estimators) {
     list.push_back({{"estimator", of.estimator},
                     {"contact_free_s", seconds(of.stretches, goal)},
+                    {"proven_false_alarms_at_most_per_h", proven_rate(seconds(of.stretches, goal), goal)},
                     {"force_N", json_of(of.force)},
                     {"moment_Nm", of.moment.value > 0.0 ? json_of(of.moment) : Json(nullptr)}});
     if (of.components.empty()) continue;

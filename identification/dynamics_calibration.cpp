@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <string>
@@ -30,6 +31,7 @@ namespace {
 
 constexpr double least_excitation = 0.01;  // of the largest torque: range of a drive's torque
 constexpr double poor = 0.2;               // of the torque's deviation: what is left of it after the fit
+constexpr double usual_loss = 0.1;         // of the largest torque of a drive: friction
 constexpr double worth_telling = 0.1;      // of what is left of a drive's torque: what a wave of it explains
 
 /// Throws SetupError where something touched the robot.
@@ -166,12 +168,12 @@ void make_physical(const DynamicParameters& parameters, Solution& solution) {
   Eigen::VectorXd& values = solution.fit.values;
   if (is_physical(parameters, values)) return;
   const LinearFit& linear = solution.fit.linear;
-  const Eigen::Index p = values.size(), drives = solution.fit.offset.size();
+  const Eigen::Index p = values.size(), offsets = solution.fit.offset.size();
   Eigen::MatrixXd H = linear.jacobian.transpose() * linear.weight.asDiagonal() * linear.jacobian;
   H += linear.prior_information.asDiagonal();
   const Eigen::MatrixXd offsets_follow =
-      -H.bottomRightCorner(drives, drives).ldlt().solve(H.bottomLeftCorner(drives, p));
-  const Eigen::MatrixXd information = H.topLeftCorner(p, p) + H.topRightCorner(p, drives) * offsets_follow;
+      -H.bottomRightCorner(offsets, offsets).ldlt().solve(H.bottomLeftCorner(offsets, p));
+  const Eigen::MatrixXd information = H.topLeftCorner(p, p) + H.topRightCorner(p, offsets) * offsets_follow;
   const Eigen::VectorXd change = nearest_physical(parameters, values, information) - values;
   values += change;
   solution.fit.offset += offsets_follow * change;
@@ -181,14 +183,28 @@ void make_physical(const DynamicParameters& parameters, Solution& solution) {
   }
 }
 
+/// Friction is believed to take a tenth of what a drive has, whatever a mechanism's own kind usually has.
+std::vector<DynamicParameter> as_drives_allow(std::vector<DynamicParameter> list,
+                                              const DriveParameters& drives) {
+  for (DynamicParameter& parameter : list) {
+    double most = std::numeric_limits<double>::infinity();
+    if (parameter.loss == DriveLoss::coulomb) most = usual_loss * drives.max_torque;
+    if (parameter.loss == DriveLoss::viscous) most = usual_loss * drives.max_torque / drives.max_speed;
+    parameter.deviation = std::min(parameter.deviation, most);
+  }
+  return list;
+}
+
 /// What the data do not tell is held as believed, and the rest found again.
-Solution solve(const DynamicsRows& rows, const DynamicParameters& parameters, int drives,
+Solution solve(const DynamicsRows& rows, const DynamicParameters& parameters, const DriveParameters& drives,
                double usual_error) {
   Solution solution;
-  const auto p = parameters.list().size();
+  const std::vector<DynamicParameter> list = as_drives_allow(parameters.list(), drives);
+  const auto p = list.size();
   solution.held.assign(p, false);
   const auto again = [&] {
-    solution.fit = fit_dynamics(rows, parameters.list(), drives, usual_error, solution.held);
+    solution.fit =
+        fit_dynamics(rows, list, static_cast<int>(drives.torque_constant.size()), usual_error, solution.held);
     solution.sure = fit_uncertainty(solution.fit.linear);
   };
   again();
@@ -202,8 +218,7 @@ Solution solve(const DynamicsRows& rows, const DynamicParameters& parameters, in
 Eigen::VectorXd left_of(const DynamicsRows& rows, const DynamicParameters& parameters,
                         const DynamicsFit& fit) {
   Eigen::VectorXd left = rows.surplus - rows.regressor * (fit.values - parameters.believed());
-  for (Eigen::Index row = 0; row < left.size(); ++row)
-    left[row] -= fit.offset[rows.drive[static_cast<std::size_t>(row)]];
+  for (Eigen::Index row = 0; row < left.size(); ++row) left[row] -= fit.offset_of(rows, row);
   return left;
 }
 
@@ -275,6 +290,43 @@ void add_residuals(const DynamicsRows& rows, const Eigen::VectorXd& before, cons
   result.residual_after = root_mean_square(kept);
 }
 
+/// Without the mean of each drive in each recording: where gravity, a payload or the zero of a current is
+/// another, it is no error of the model.
+Eigen::VectorXd without_constants(const DynamicsRows& rows, Eigen::VectorXd error) {
+  std::map<std::pair<int, int>, std::pair<double, double>> sums;  // of errors, and how many there are
+  const auto sum_of = [&](Eigen::Index row) -> std::pair<double, double>& {
+    const auto at = static_cast<std::size_t>(row);
+    return sums[{rows.recording[at], rows.drive[at]}];
+  };
+  for (Eigen::Index row = 0; row < error.size(); ++row) {
+    auto& [sum, count] = sum_of(row);
+    sum += error[row];
+    count += 1.0;
+  }
+  for (Eigen::Index row = 0; row < error.size(); ++row) {
+    const auto& [sum, count] = sum_of(row);
+    error[row] -= sum / count;
+  }
+  return error;
+}
+
+/// What a motion without contact needs of each drive that no parameter explains, where it is much.
+void tell_constants(const std::vector<MotionRecording>& recordings, const DynamicsFit& fit,
+                    CalibrationResult& result) {
+  const Eigen::Index drives = fit.deviation.size();
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    const Eigen::VectorXd own = fit.offset.segment(static_cast<Eigen::Index>(r) * drives, drives);
+    if ((own.cwiseAbs().array() < fit.deviation.array()).all()) continue;
+    std::string list;
+    for (const double torque : own) list += fmt::format("{}{:.3g}", list.empty() ? "" : ", ", torque);
+    result.notes.push_back(
+        fmt::format("{}: a constant torque of {} {} of the drives is left out: gravity that the robot file "
+                    "does not have, a "
+                    "payload, or the zero of a current",
+                    recordings[r].source.file, list, result.residual_unit));
+  }
+}
+
 /// Errors of the torque that the model predicts, before and after.
 void validate(const DynamicsBelief& belief, const DynamicParameters& robot, const MotorParameters& parameters,
               const Eigen::VectorXd& values, const std::vector<MotionRecording>& unseen,
@@ -291,6 +343,16 @@ void validate(const DynamicsBelief& belief, const DynamicParameters& robot, cons
                   "noise of the current; with the believed parameters by {:.3g} {}",
                   left, result.residual_unit, 100.0 * beyond / torque,
                   root_mean_square(without_cogging(rows, belief.drives.cogging)), result.residual_unit));
+  const Eigen::VectorXd varying = without_constants(rows, error);
+  std::string by_drive;
+  for (int i = 0; i < belief.robot->drives(); ++i)
+    by_drive += fmt::format("{}{:.3g}", i > 0 ? ", " : "", root_mean_square(of_drive(rows, varying, i)));
+  result.notes.push_back(
+      fmt::format("apart from what is constant in a recording it errs by {} {} at the drives, with the "
+                  "believed parameters "
+                  "by {:.3g}",
+                  by_drive, result.residual_unit,
+                  root_mean_square(without_constants(rows, without_cogging(rows, belief.drives.cogging)))));
   result.validation_unit = result.residual_unit;
   for (int i = 0; i < belief.robot->drives(); ++i) {
     const Eigen::VectorXd own = of_drive(rows, error, i);
@@ -374,12 +436,12 @@ CalibrationResult calibrate_dynamics(const DynamicsBelief& belief,
 
   const int drives = belief.robot->drives();
   const double usual_error = 0.01 * belief.drives.max_torque;
-  Solution solution = solve(rows, *of_robot, drives, usual_error);
+  Solution solution = solve(rows, *of_robot, belief.drives, usual_error);
   const MotorParameters parameters(*of_robot,
                                    find_cogging(rows, left_of(rows, *of_robot, solution.fit), drives),
                                    belief.robot->drive_kind(0), belief.drives);
   rows = parameters.rows(std::move(rows));
-  solution = solve(rows, parameters, drives, usual_error);
+  solution = solve(rows, parameters, belief.drives, usual_error);
   refuse_late_torques(parameters.torque_delay(solution.fit.values));
   result.rank = solution.sure.rank;
   result.condition = solution.sure.condition;
@@ -387,6 +449,7 @@ CalibrationResult calibrate_dynamics(const DynamicsBelief& belief,
   const Eigen::VectorXd after = left_of(rows, parameters, solution.fit);
   add_residuals(rows, without_cogging(rows, belief.drives.cogging), after, solution.fit.linear, drives,
                 result);
+  tell_constants(recordings, solution.fit, result);
   doubt(rows, solution, after, result);
   doubt_left_torque(rows, after, recordings, result);
   if (result.doubts.empty())

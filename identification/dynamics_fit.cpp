@@ -2,6 +2,7 @@
 
 #include <ceres/ceres.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "identification/ceres_fit.h"
@@ -12,7 +13,7 @@ namespace {
 
 constexpr double on_the_way = 1e-7, in_the_end = 1e-14;  // relative changes that count as none
 
-/// One row: scaled parameters x = (p - p_believed) / sigma_believed, then the offset of the row's drive.
+/// One row: scaled parameters x = (p - p_believed) / sigma_believed, then the offset of the row.
 class RowResidual final : public ceres::CostFunction {
  public:
   RowResidual(Eigen::RowVectorXd slopes, double surplus, double sigma)
@@ -44,7 +45,8 @@ class Fit {
       : rows_(rows), parameters_(parameters), held_(held), usual_error_(usual_error) {
     const auto p = static_cast<Eigen::Index>(parameters.size());
     x_.setZero(p);
-    offset_.setZero(drives);
+    const int recordings = 1 + *std::max_element(rows.recording.begin(), rows.recording.end());
+    offset_.setZero(static_cast<Eigen::Index>(recordings) * drives);
     sigma_.setConstant(drives, usual_error);
     scale_.resize(p);
     for (Eigen::Index j = 0; j < p; ++j) scale_[j] = of(j).deviation;
@@ -57,7 +59,7 @@ class Fit {
       const int drive = rows_.drive[static_cast<std::size_t>(row)];
       const Eigen::RowVectorXd slopes = rows_.regressor.row(row).cwiseProduct(scale_.transpose());
       blocks_.push_back(problem_->AddResidualBlock(new RowResidual(slopes, rows_.surplus[row], sigma_[drive]),
-                                                   loss_function(loss), x_.data(), &offset_[drive]));
+                                                   loss_function(loss), x_.data(), &offset_[offset_at(row)]));
     }
     for (Eigen::Index j = 0; j < x_.size(); ++j) {
       problem_->SetParameterLowerBound(x_.data(), static_cast<int>(j),
@@ -75,8 +77,8 @@ class Fit {
     const Eigen::VectorXd step = x_.cwiseProduct(scale_);
     for (Eigen::Index row = 0; row < rows_.surplus.size(); ++row) {
       const int drive = rows_.drive[static_cast<std::size_t>(row)];
-      left[static_cast<std::size_t>(drive)].push_back(rows_.regressor.row(row).dot(step) + offset_[drive] -
-                                                      rows_.surplus[row]);
+      left[static_cast<std::size_t>(drive)].push_back(rows_.regressor.row(row).dot(step) +
+                                                      offset_[offset_at(row)] - rows_.surplus[row]);
     }
     for (Eigen::Index i = 0; i < sigma_.size(); ++i)
       sigma_[i] = robust_deviation(left[static_cast<std::size_t>(i)]) + 1e-9 * usual_error_;
@@ -105,6 +107,9 @@ class Fit {
  private:
   static constexpr double hold = 1e-3;  // of the belief
 
+  Eigen::Index offset_at(Eigen::Index row) const {
+    return DynamicsFit::place_of_offset(rows_, row, static_cast<int>(sigma_.size()));
+  }
   const DynamicParameter& of(Eigen::Index j) const { return parameters_[static_cast<std::size_t>(j)]; }
   Eigen::VectorXd belief() const {
     Eigen::VectorXd deviation = Eigen::VectorXd::Ones(x_.size());

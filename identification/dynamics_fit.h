@@ -9,13 +9,23 @@
 
 namespace flinch {
 
-/// Dynamic parameters and an offset of each drive that explain a motion best.
+/// Dynamic parameters that explain motions best, with a constant torque of each drive in each recording: the
+/// direction of gravity, a payload or the zero of a current may be others there.
 struct DynamicsFit {
   Eigen::VectorXd values;     ///< of the parameters, in the order of their list
-  Eigen::VectorXd offset;     ///< of each drive [Nm or N]
+  Eigen::VectorXd offset;     ///< of all drives of the first recording, then of the next [Nm or N]
   Eigen::VectorXd deviation;  ///< of what is left, of each drive, outliers apart [Nm or N]
   /// Columns: the parameters, then the offsets.
   LinearFit linear;
+
+  /// Of a row.
+  double offset_of(const DynamicsRows& rows, Eigen::Index row) const {
+    return offset[place_of_offset(rows, row, static_cast<int>(deviation.size()))];
+  }
+  static Eigen::Index place_of_offset(const DynamicsRows& rows, Eigen::Index row, int drives) {
+    const auto at = static_cast<std::size_t>(row);
+    return static_cast<Eigen::Index>(rows.recording[at]) * drives + rows.drive[at];
+  }
 };
 
 /// Minimises the squares of (Y (p - p_believed) + o - surplus) / sigma over all rows, and of

@@ -63,6 +63,7 @@ ImportSummary summary_of(const MappedLog& log) {
                         .seconds = to_seconds(log.period()) * static_cast<double>(log.samples()),
                         .signals = {},
                         .unused = log.unused(),
+                        .computed = log.computed(),
                         .warnings = log.warnings()};
   for (const LogSignal& signal : log_signals(*log.mapping().scenario.robot.robot)) {
     if (log.has(signal.name)) summary.signals.push_back(signal_summary(log, signal.name));

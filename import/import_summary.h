@@ -32,6 +32,7 @@ struct ImportSummary {
   double seconds = 0.0;
   std::vector<SignalSummary> signals;
   std::vector<std::string> unused;
+  std::vector<ComputedColumn> computed;
   std::vector<std::string> warnings;
 };
 

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <set>
 
+#include "import/log_candidate.h"
 #include "systems/foundation/quantity_text.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/parallel_robot.h"
@@ -47,6 +49,7 @@ MappedLog::MappedLog(const LogMapping& mapping) : mapping_(mapping) {
   read(*file);
   place_samples();
   tell(*file);
+  find_computed(*file);
 }
 
 /// A clock by itself, or that of the same name in the group of the columns that it is asked for.
@@ -225,6 +228,44 @@ void MappedLog::tell(const LogFile& file) {
                           "' has another time than the joints: its rows begin " +
                           rounded(1e-9 * static_cast<double>(first)) +
                           " s after theirs, and none of them is valid; are the clocks the same?");
+  }
+}
+
+/// Of the rows by which columns are guessed. A mapped column that follows from others is a warning.
+void MappedLog::find_computed(LogFile& file) {
+  const auto is_joint = [](const MappedColumn& column) { return column.signal == "joints.active"; };
+  const auto joint = std::find_if(mapping_.columns.begin(), mapping_.columns.end(), is_joint);
+  const std::string table = file.columns()[file.find(joint->column)].table;
+  std::vector<std::size_t> wanted;
+  for (std::size_t i = 0; i < file.columns().size(); ++i) {
+    const LogColumn& column = file.columns()[i];
+    if (column.table == table && !column.is_alias && !column.is_clock) wanted.push_back(i);
+  }
+  std::vector<std::vector<double>> numbers = file.read(wanted, looked_at_rows);
+  std::vector<ColumnNumbers> drives, others, candidates;
+  std::set<std::string> mapped;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    ColumnNumbers column{file.columns()[wanted[i]].name, std::move(numbers[i])};
+    const auto is_this = [&](const MappedColumn& each) { return file.find(each.column) == wanted[i]; };
+    const auto found = std::find_if(mapping_.columns.begin(), mapping_.columns.end(), is_this);
+    const bool is_clock = file.find(mapping_.clock.column) == wanted[i];
+    if (found != mapping_.columns.end()) {
+      (is_joint(*found) ? drives : others).push_back(column);
+      mapped.insert(column.name);
+    }
+    if (!is_clock && (found == mapping_.columns.end() || !is_joint(*found)))
+      candidates.push_back(std::move(column));
+  }
+  std::vector<double> seconds;
+  for (const std::int64_t instant :
+       file.read_instants(file.find(mapping_.clock.column), mapping_.clock.unit, looked_at_rows))
+    seconds.push_back(instant == no_instant ? NAN : 1e-9 * static_cast<double>(instant));
+  computed_ = computed_columns(drives, others, candidates, seconds);
+  for (const ComputedColumn& column : computed_) {
+    if (!mapped.contains(column.name)) continue;
+    warnings_.push_back("column '" + column.name + "' is " + column.words() +
+                        ": it was computed and is no sensor, so it tells nothing more; a calibration that "
+                        "trusts it fools itself, leave it out of the mapping");
   }
 }
 

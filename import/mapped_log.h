@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "import/clock_rows.h"
+#include "import/computed_columns.h"
 #include "import/log_mapping.h"
 #include "import/log_track.h"
 
@@ -25,6 +26,8 @@ class MappedLog {
   std::size_t repeated() const { return repeated_; }  ///< left out
   const ClockRate& rate() const { return rate_; }     ///< of the joints' clock
   const std::vector<std::string>& unused() const { return unused_; }
+  /// Columns beside the joints' that follow from those which are mapped.
+  const std::vector<ComputedColumn>& computed() const { return computed_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
   void warn(const std::string& warning) { warnings_.push_back(warning); }
 
@@ -55,6 +58,7 @@ class MappedLog {
   std::vector<std::int64_t> instants_of(LogFile& file, const LogClock& clock, const std::string& table);
   void place_samples();
   void tell(const LogFile& file);
+  void find_computed(LogFile& file);
 
   LogMapping mapping_;
   std::vector<LogTrack> tracks_;  ///< of each column of the mapping
@@ -65,6 +69,7 @@ class MappedLog {
   std::size_t repeated_ = 0;
   ClockRate rate_;
   std::vector<std::string> unused_;
+  std::vector<ComputedColumn> computed_;
   std::vector<std::string> warnings_;
 };
 

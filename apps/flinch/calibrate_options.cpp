@@ -170,6 +170,8 @@ void add_import_verb(CLI::App& app, Verbs& verbs) {
       "Propose a mapping from names, units and ranges of the columns, and from how the robot can stand");
   verb.add_option("--robot", options.robot, "The robot of which the log is")->type_name("ROBOT.yaml");
   verb.add_option("-o,--out", options.out, "The recording that is written")->type_name("RUN.h5");
+  verb.add_option("--page", options.page, "Page with all that was read, on one time cursor [none]")
+      ->type_name("PAGE.html");
 }
 
 void add_judge_verb(CLI::App& app, Verbs& verbs) {

@@ -108,12 +108,8 @@ std::vector<EstimatorPeaks> peaks_of(FreeMotions& motions, const std::vector<Log
 std::vector<std::string> left_out_imus(const FreeMotions& motions) {
   std::vector<std::string> told;
   for (std::size_t i = 0; i < motions.files.size(); ++i) {
-    const ImuLeftOut imu = imu_left_out(motions.recordings[i]);
-    if (!(imu.share > 0.0)) continue;
-    told.push_back(fmt::format(
-        "{}: the IMU was left out of {:.3g} % of the recording: {}. What needs it was not estimated then; "
-        "'flinch report' shows when, and docs/faults.md what looks like that",
-        motions.files[i].string(), 100.0 * imu.share, name(imu.why)));
+    const std::string of_one = told_left_out(imu_left_out(motions.recordings[i]));
+    if (!of_one.empty()) told.push_back(motions.files[i].string() + ": " + of_one);
   }
   return told;
 }
@@ -150,15 +146,15 @@ ExitStatus calibrate_thresholds(const CalibrateThresholdsOptions& options) {
     require_different(found.recordings);
     note_settings(motions.scenarios, found);
   }
-  found.estimators = calibrate_thresholds(peaks_of(motions, free, found.goal, quiet), found.goal);
+  found.estimators =
+      calibrate_thresholds(peaks_of(motions, free, found.goal, quiet), found.goal, found.doubts);
   const std::vector<ResidualRecording> residuals = residuals_of(motions);
-  found.doubts = left_out_imus(motions);
+  for (std::string& doubt : left_out_imus(motions)) found.doubts.push_back(std::move(doubt));
   try {
     found.residuals = calibrated(residuals, found.goal, quiet);
   } catch (const SetupError& error) {
-    std::vector<std::string> problems = error.problems();
-    problems.insert(problems.end(), found.doubts.begin(), found.doubts.end());
-    throw SetupError(problems);
+    for (const std::string& problem : error.problems())
+      found.doubts.push_back("the fused detector has no thresholds: " + problem);
   }
   found.drive_deviations =
       drive_deviations(residuals, *motions.scenarios.front().robot.robot, IsolationSettings().uncertainty);

@@ -159,6 +159,7 @@ struct ImportOptions {
   CommonOptions common;
   std::filesystem::path mapping;  ///< or, to guess one, the log
   std::filesystem::path out;      ///< empty: nothing is written
+  std::filesystem::path page;     ///< empty: none
   bool guess = false;
   std::filesystem::path robot;  ///< to guess by
 };

@@ -14,6 +14,7 @@
 #include "apps/flinch/simulated/simulated_parts.h"
 #include "experiments/comparison/comparison.h"
 #include "experiments/comparison/comparison_page.h"
+#include "experiments/recorded/judged_log.h"
 #include "experiments/report/scenario_verdict.h"
 #include "experiments/scenario/scenario.h"
 #include "experiments/verdict/verdict.h"

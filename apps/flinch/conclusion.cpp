@@ -2,6 +2,7 @@
 
 #include "apps/flinch/printing.h"
 #include "apps/flinch/progress.h"
+#include "experiments/recorded/judged_log.h"
 #include "experiments/recorded/robot_as_drawn.h"
 #include "experiments/report/run_folder.h"
 #include "experiments/scenario/scenario.h"
@@ -27,10 +28,6 @@ void tell_if_partial(const Recording& recording, const CommonOptions& common) {
   const auto partial = recording.attributes.find("recording.partial");
   if (partial == recording.attributes.end() || common.quiet) return;
   print_message("partial:   {}\n", partial->second);
-}
-
-bool holds_readings_alone(const Recording& recording) {
-  return recording.find("detection") == nullptr && recording.find("gate") == nullptr;
 }
 
 bool is_short(const Recording& recording) { return recording.samples() < 60'000; }

@@ -25,9 +25,7 @@ void tell_if_partial(const Recording& recording, const CommonOptions& common);
 /// Whether it is read in less than two seconds.
 bool is_short(const Recording& recording);
 
-/// Whether it holds nothing of a control path, as what flinch import makes.
-bool holds_readings_alone(const Recording& recording);
-/// Throws SetupError naming `file`, where the recording comes from, if it does.
+/// Throws SetupError naming `file`, where the recording comes from, if it holds readings alone.
 void require_run(const Recording& recording, const std::filesystem::path& file);
 
 }  // namespace flinch

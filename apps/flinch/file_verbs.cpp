@@ -10,6 +10,7 @@
 #include "apps/flinch/progress.h"
 #include "apps/flinch/shell_word.h"
 #include "apps/flinch/simulated/simulated_parts.h"
+#include "experiments/recorded/judged_log.h"
 #include "experiments/report/experiment_report.h"
 #include "experiments/report/report_page.h"
 #include "experiments/robot_check/robot_doubts.h"

@@ -97,6 +97,7 @@ std::string comparison_page(const std::vector<ComparedRecording>& compared, cons
                              {"contacts", ComparedJson::array()},
                              {"lanes", ComparedJson::array()},
                              {"call", facts.call},
+                             {"notes", facts.notes},
                              {"version", "flinch " FLINCH_VERSION}};
   return std::string(comparison_page_template_before_data) + inside_script(json_text(data)) +
          std::string(comparison_page_template_after_data);

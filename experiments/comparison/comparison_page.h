@@ -25,11 +25,13 @@ struct ComparisonFacts {
   std::string first_difference;  ///< in a sentence
   std::vector<SettingDifference> settings;
   std::string call;  ///< the command that compared them
+  std::vector<std::string> notes{};  ///< what a reader should know before, a sentence each
 };
 
 /// One HTML page that needs nothing else: each signal that a reader looks at, of all recordings in one chart,
 /// all charts with one time cursor; verdicts side by side; the settings that differ. A chart shows at
-/// most 4000 samples; where there are more, the lowest and the highest of each stretch.
+/// most 4000 samples; where there are more, the lowest and the highest of each stretch. Of a single recording
+/// it has the notes and the signals.
 std::string comparison_page(const std::vector<ComparedRecording>& compared, const ComparisonFacts& facts);
 
 }  // namespace flinch

@@ -1,6 +1,7 @@
 #include "experiments/dataset/contact_samples.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "experiments/dataset/data_spec.h"
 #include "experiments/verdict/recorded_estimate.h"
@@ -51,7 +52,7 @@ const std::string truth = "contact";
 /// What is touched, tick by tick.
 class Label {
  public:
-  Label(const Recording& recording, const ParallelRobot& robot, std::optional<int> given)
+  Label(const Recording& recording, const ParallelRobot& robot, const std::optional<GivenContact>& given)
       : classes_(classes_of(robot)), given_(given) {
     if (!given) contacts_.emplace(recording, truth);
   }
@@ -75,24 +76,50 @@ class Label {
   }
 
   bool begun() const { return given_ || begun_; }
-  int touched() const { return given_.value_or(touched_); }  ///< -1: no one class
-  double onset(double early) const { return given_ ? early : onset_; }
+  int touched() const { return given_ ? given_->touched : touched_; }  ///< -1: no one class
+  double onset(double early) const { return given_ ? given_->begin.value_or(early) : onset_; }
   double force() const { return force_; }
 
  private:
   ContactClasses classes_;
-  std::optional<int> given_;
+  std::optional<GivenContact> given_;
   std::optional<RecordedValues<TrueContact>> contacts_;
   bool begun_ = false;
   int touched_ = -1, clamped_leg_ = -1;
   double onset_ = 0.0, force_ = 0.0, clamped_at_ = 0.0;
 };
 
-/// First tick at which a detector has detected something; none where it never does.
-std::optional<std::size_t> first_detection(const Recording& recording, const std::string& path) {
+/// The ticks of one contact.
+struct Stretch {
+  std::size_t begin = 0;
+  std::size_t end = 0;  ///< the first that is none of it
+
+  Stretch(const Recording& recording, const std::optional<GivenContact>& given) : end(recording.samples()) {
+    const auto tick_at = [&](double time) {
+      const auto found = std::lower_bound(recording.time_ns.begin(), recording.time_ns.end(),
+                                          static_cast<std::int64_t>(std::llround(1e9 * time)));
+      return static_cast<std::size_t>(found - recording.time_ns.begin());
+    };
+    if (given && given->begin) begin = tick_at(*given->begin);
+    if (given && given->next) end = tick_at(*given->next);
+  }
+};
+
+/// First tick at which a detector detects something; none where it never does. What lasts from a contact
+/// before is none.
+std::optional<std::size_t> first_detection(const Recording& recording, const std::string& path,
+                                           const Stretch& within) {
   const auto detections = read<ContactDetection>(recording, path);
-  for (std::size_t tick = 0; tick < detections.size(); ++tick)
-    if (detections[tick].level != ContactLevel::none) return tick;
+  const auto detects = [&](std::size_t tick) {
+    return within.begin == 0 ? detections[tick].level != ContactLevel::none
+                             : detections[tick].present_level != ContactLevel::none;
+  };
+  std::size_t tick = within.begin;
+  if (tick > 0 && tick < within.end && detects(tick - 1)) {
+    while (tick < within.end && detects(tick)) ++tick;
+  }
+  for (; tick < within.end; ++tick)
+    if (detects(tick)) return tick;
   return std::nullopt;
 }
 
@@ -108,9 +135,9 @@ std::string detection_of(const std::string& estimator) {
 
 /// Ticks of the moments, as far as they come about.
 struct Moments {
-  Moments(const Recording& recording, const SampleChoice& choice)
-      : early(first_detection(recording, detection_of(choice.early_by))),
-        detected(first_detection(recording, detection_of(""))) {
+  Moments(const Recording& recording, const SampleChoice& choice, const Stretch& within)
+      : early(first_detection(recording, detection_of(choice.early_by), within)),
+        detected(first_detection(recording, detection_of(""), within)) {
     if (!early || (detected && *detected < *early)) early = detected;
     if (!early) return;
     const auto ticks = [&](double time) {
@@ -179,16 +206,18 @@ std::vector<std::string> sampled_signals(const SampleChoice& choice) {
 }
 
 ContactSamples contact_samples(const Recording& recording, const ParallelRobot& robot,
-                               const SampleChoice& choice, std::optional<int> touched) {
-  const Moments moments(recording, choice);
-  Label label(recording, robot, touched);
+                               const SampleChoice& choice, const std::optional<GivenContact>& given) {
+  const Stretch within(recording, given);
+  const Moments moments(recording, choice, within);
+  Label label(recording, robot, given);
   const auto motions = read<PlatformMotion>(recording, "motion");
   const auto estimates = read<RecordedEstimate>(recording, wrench_of(choice, recording));
   const double period = to_seconds(recording.period);
   ContactSamples result;
   Progress progress{.noticed = moments.early.has_value()};
-  for (std::size_t tick = 0; tick < recording.samples(); ++tick) {
-    const double time = static_cast<double>(tick) * period;
+  const double start = recording.time_ns.empty() ? 0.0 : 1e-9 * static_cast<double>(recording.time_ns[0]);
+  for (std::size_t tick = 0; tick < within.end; ++tick) {
+    const double time = start + static_cast<double>(tick) * period;
     label.see(tick, time);
     if (moments.early && tick == *moments.early && !label.begun())
       return {{}, "detected before anything touched"};
@@ -208,7 +237,7 @@ ContactSamples contact_samples(const Recording& recording, const ParallelRobot& 
     progress.chosen = true;
     const auto course = course_at(tick, recording.period, estimates, motions);
     if (!course) continue;
-    const double early = static_cast<double>(*moments.early) * period;
+    const double early = start + static_cast<double>(*moments.early) * period;
     result.samples.push_back({0, 0, moment, label.touched(), time - label.onset(early), time - early,
                               label.force(), motions[tick].pose, *course});
   }

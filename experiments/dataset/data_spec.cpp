@@ -40,10 +40,25 @@ DataPart read_part(ConfigReader& reader, std::vector<CalibrationDoubt>& doubts) 
   return part;
 }
 
+void read_contacts(ConfigReader& reader, DataRecording& recording) {
+  for (ConfigReader& entry : reader.sections("contacts")) {
+    MarkedContact contact;
+    entry.required().number("at", unit::s, contact.at, not_negative);
+    contact.touched = recording.touched;
+    (recording.touched.empty() ? entry.required() : entry).text("touched", contact.touched);
+    if (!recording.contacts.empty() && contact.at <= recording.contacts.back().at)
+      entry.problem("at_s", "is not after that of the contact before it; name them in their order");
+    recording.contacts.push_back(std::move(contact));
+  }
+}
+
 DataRecording read_recording_entry(ConfigReader& reader) {
   DataRecording recording;
   reader.required().file("file", recording.file);
+  reader.file("scenario", recording.scenario);
   reader.text("touched", recording.touched);
+  read_contacts(reader, recording);
+  if (!recording.scenario.empty()) recording.scenario_text = read_config_file(recording.scenario);
   reader.integer("configuration", recording.configuration, 0, 1'000'000);
   recording.sha256 = sha256_of(recording.file);
   return recording;
@@ -68,7 +83,9 @@ std::string DataSpec::identity() const {
   }
   for (const DataRecording& recording : recordings) {
     text += "recording " + recording.sha256 + " " + recording.touched + " " +
-            std::to_string(recording.configuration) + "\n";
+            std::to_string(recording.configuration) + "\n" + recording.scenario_text;
+    for (const MarkedContact& contact : recording.contacts)
+      text += "contact " + exact_text(contact.at) + " " + contact.touched + "\n";
   }
   return text;
 }

@@ -29,11 +29,21 @@ struct DataPart {
   std::string configuration;  ///< axis of the grid whose values are configurations; "": each run is one
 };
 
+/// A contact that somebody has marked in a recording.
+struct MarkedContact {
+  double at = 0.0;      ///< begins [s]
+  std::string touched;  ///< name of the class
+};
+
 /// Contacts from a recording of a robot, real or simulated.
 struct DataRecording {
   std::filesystem::path file;
-  std::string sha256;   ///< of the file
-  std::string touched;  ///< name of the class; "": the truth that the recording holds
+  std::string sha256;  ///< of the file
+  /// Of a log: whose control path runs over it; empty: that of the log.
+  std::filesystem::path scenario{};
+  std::string scenario_text{};
+  std::string touched;  ///< name of the class of all contacts; "": each has one, or the recording's truth has
+  std::vector<MarkedContact> contacts{};  ///< in their order; empty: the first, or what a force sensor tells
   int configuration = 0;
 };
 

@@ -2,10 +2,12 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <numeric>
 #include <thread>
@@ -14,6 +16,8 @@
 #include "experiments/dataset/contact_samples.h"
 #include "experiments/dataset/data_journal.h"
 #include "experiments/dataset/data_spec.h"
+#include "experiments/recorded/judged_log.h"
+#include "experiments/recorded/measured_contacts.h"
 #include "experiments/simulated/experiment.h"
 #include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/setup_error.h"
@@ -110,6 +114,12 @@ class Workers {
   std::exception_ptr problem_;
 };
 
+/// Whose robot and control path a recording is judged by.
+Scenario scenario_of(const DataRecording& recorded, const Recording& recording) {
+  return recorded.scenario.empty() ? recorded_scenario(recording, recorded.file)
+                                   : read_scenario(recorded.scenario);
+}
+
 /// The robot of all parts and recordings, without samples.
 DataSet without_samples(const DataSpec& spec) {
   DataSet data;
@@ -128,7 +138,7 @@ DataSet without_samples(const DataSpec& spec) {
       take(read_scenario(scenario), part.campaign.file.string());
   }
   for (const DataRecording& recording : spec.recordings)
-    take(recorded_scenario(open_recording(recording.file), recording.file), recording.file.string());
+    take(scenario_of(recording, open_recording(recording.file)), recording.file.string());
   return data;
 }
 
@@ -144,24 +154,78 @@ int class_named(const std::string& name, const ParallelRobot& robot) {
   throw SetupError("'" + name + "' is nothing that can be touched; there are " + known);
 }
 
-void add_recordings(const DataSpec& spec, DataSet& data) {
-  int run = static_cast<int>(spec.parts.empty() ? 0 : spec.runs);
-  for (const DataRecording& recorded : spec.recordings) {
-    out_of(recorded.file.string(), [&] {
-      const Recording recording = open_recording(recorded.file);
-      std::optional<int> touched;
-      if (!recorded.touched.empty()) touched = class_named(recorded.touched, *data.robot);
-      ContactSamples samples = contact_samples(recording, *data.robot, spec.samples, touched);
-      if (samples.samples.empty()) throw SetupError("has no contact to learn from: " + samples.left_out);
-      for (DataSample& sample : samples.samples) {
-        sample.run = run;
-        sample.configuration = recorded.configuration;
-        data.samples.push_back(sample);
-      }
-      return 0;
-    });
+/// What is known of the contacts of a recording; none: its own truth tells.
+std::vector<GivenContact> given_contacts(const DataRecording& recorded, const Recording& recording,
+                                         const ParallelRobot& robot) {
+  std::vector<GivenContact> given;
+  for (const MarkedContact& contact : recorded.contacts)
+    given.push_back({class_named(contact.touched, robot), contact.at, {}});
+  if (given.empty() && !recorded.touched.empty()) {
+    const int touched = class_named(recorded.touched, robot);
+    if (!holds_readings_alone(recording)) return {{touched, {}, {}}};
+    for (const double at : measured_contacts(recording, std::nullopt, {}).contacts)
+      given.push_back({touched, at, {}});
+  }
+  for (std::size_t i = 0; i + 1 < given.size(); ++i) given[i].next = given[i + 1].begin;
+  return given;
+}
+
+/// A run as it was recorded, or what the control path of a scenario makes of a log.
+std::shared_ptr<const Recording> signals_in(const DataSpec& spec, const DataRecording& recorded,
+                                            const std::shared_ptr<const Recording>& recording) {
+  if (!holds_readings_alone(*recording)) {
+    if (!recorded.scenario.empty())
+      throw SetupError("holds a run with its scenario; 'scenario' is for logs, leave it out");
+    return recording;
+  }
+  if (recorded.touched.empty() && recorded.contacts.empty())
+    throw SetupError(
+        "is a log, which does not say what was touched; give 'contacts' with 'at_s' and 'touched' of each, "
+        "or 'touched' alone where its force sensor tells when");
+  const Scenario scenario = scenario_of(recorded, *recording);
+  const std::vector<std::string> wanted = sampled_signals(spec.samples);
+  const auto is_wanted = [&wanted](const std::string& path) {
+    return std::find(wanted.begin(), wanted.end(), path) != wanted.end();
+  };
+  return std::make_shared<const Recording>(signals_of_log(scenario, recording, is_wanted));
+}
+
+/// Of each contact that somebody knows, or of the first. Runs are counted from `run` on.
+std::vector<DataSample> samples_of(const DataSpec& spec, const DataRecording& recorded,
+                                   const ParallelRobot& robot, int& run,
+                                   std::map<std::string, std::size_t>& left_out) {
+  const auto opened = std::make_shared<const Recording>(open_recording(recorded.file));
+  const std::vector<GivenContact> known = given_contacts(recorded, *opened, robot);
+  const std::shared_ptr<const Recording> recording = signals_in(spec, recorded, opened);
+  std::vector<std::optional<GivenContact>> contacts(known.begin(), known.end());
+  if (contacts.empty()) contacts.emplace_back();  // the first
+  std::vector<DataSample> all;
+  std::map<std::string, std::size_t> without;
+  for (const std::optional<GivenContact>& given : contacts) {
+    const ContactSamples made = contact_samples(*recording, robot, spec.samples, given);
+    if (made.samples.empty()) ++without[made.left_out];
+    for (DataSample sample : made.samples) {
+      sample.run = run;
+      sample.configuration = recorded.configuration;
+      all.push_back(sample);
+    }
     ++run;
   }
+  if (all.empty()) throw SetupError("has no contact to learn from: " + without.begin()->first);
+  for (const auto& [reason, count] : without) left_out[reason] += count;
+  return all;
+}
+
+std::vector<DataSample> recorded_samples(const DataSpec& spec, const ParallelRobot& robot,
+                                         std::map<std::string, std::size_t>& left_out) {
+  std::vector<DataSample> all;
+  int run = static_cast<int>(spec.parts.empty() ? 0 : spec.runs);
+  for (const DataRecording& recorded : spec.recordings) {
+    const std::vector<DataSample> samples =
+        out_of(recorded.file.string(), [&] { return samples_of(spec, recorded, robot, run, left_out); });
+    all.insert(all.end(), samples.begin(), samples.end());
+  }
+  return all;
 }
 
 /// The files that decide about the data, as they were read before the first run.
@@ -184,6 +248,8 @@ void add_sources(const DataSpec& spec, DataSet& data) {
     const std::string name = fmt::format("recording.{}", i + 1);
     data.card[name + ".file"] = spec.recordings[i].file.filename().string();
     data.card[name + ".sha256"] = spec.recordings[i].sha256;
+    if (!spec.recordings[i].scenario.empty())
+      add(name + ".scenario", spec.recordings[i].scenario, spec.recordings[i].scenario_text);
   }
 }
 
@@ -230,18 +296,20 @@ ContactSamples simulate_contact(const DataSpec& spec, std::size_t number) {
 DataSet make_data_set(const DataSpec& spec, const std::filesystem::path& file, std::size_t threads,
                       const DataProgress& progress) {
   DataSet data = without_samples(spec);
+  std::map<std::string, std::size_t> left_out;
+  // What is wrong with recordings is told before an hour is simulated.
+  const std::vector<DataSample> recorded = recorded_samples(spec, *data.robot, left_out);
   DataJournal journal(file.string() + ".part", spec, *data.robot);
   if (const auto done = journal.first_with_samples())
     journal.require_same(*done, simulate_contact(spec, *done));
   if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
   if (!spec.parts.empty()) Workers(spec, journal).run(threads, progress);
-  std::map<std::string, std::size_t> left_out;
   for (const auto& [number, run] : journal.runs()) {
     if (number >= spec.runs) break;
     if (!run.left_out.empty()) ++left_out[run.left_out];
     data.samples.insert(data.samples.end(), run.samples.begin(), run.samples.end());
   }
-  add_recordings(spec, data);
+  data.samples.insert(data.samples.end(), recorded.begin(), recorded.end());
   add_card(spec, left_out, data);
   write_data_set(data, file);
   journal.remove();

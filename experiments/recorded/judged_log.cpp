@@ -253,6 +253,10 @@ class PartOfLog {
 
 }  // namespace
 
+bool holds_readings_alone(const Recording& recording) {
+  return recording.find("detection") == nullptr && recording.find("gate") == nullptr;
+}
+
 std::size_t JudgedLog::count_by(const std::string& name) const {
   return static_cast<std::size_t>(std::count_if(detections.begin(), detections.end(),
                                                 [&](const Detection& each) { return each.by == name; }));
@@ -294,14 +298,12 @@ JudgedLog judge_log(const Scenario& scenario, const std::shared_ptr<const Record
   return judged;
 }
 
-Recording estimates_of_log(const Scenario& scenario, const std::shared_ptr<const Recording>& readings,
-                           const std::function<void(double share)>& progress) {
+Recording signals_of_log(const Scenario& scenario, const std::shared_ptr<const Recording>& readings,
+                         const std::function<bool(const std::string& path)>& wants,
+                         const std::function<void(double share)>& progress) {
   Recording kept;
   kept.period = scenario.control_period;
   kept.attributes["control.estimator"] = followed_name(scenario.control.stages.estimators);
-  const auto wants = [](const std::string& path) {
-    return path == "motion" || path.starts_with("wrench") || path.starts_with("load_");
-  };
   const auto keep = [&](const Recording& latest) {
     if (kept.signals.empty()) {
       for (const Signal& signal : latest.signals) {
@@ -316,6 +318,14 @@ Recording estimates_of_log(const Scenario& scenario, const std::shared_ptr<const
   };
   judge_log(scenario, readings, {}, {wants, keep}, progress);
   return kept;
+}
+
+Recording estimates_of_log(const Scenario& scenario, const std::shared_ptr<const Recording>& readings,
+                           const std::function<void(double share)>& progress) {
+  const auto is_estimate = [](const std::string& path) {
+    return path == "motion" || path.starts_with("wrench") || path.starts_with("load_");
+  };
+  return signals_of_log(scenario, readings, is_estimate, progress);
 }
 
 }  // namespace flinch

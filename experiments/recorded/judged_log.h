@@ -13,6 +13,9 @@ namespace flinch {
 
 struct Scenario;
 
+/// Whether a recording is a log: readings of another controller, and no run.
+bool holds_readings_alone(const Recording& recording);
+
 /// What somebody knows of a log.
 struct LogTruth {
   struct Stretch {
@@ -73,6 +76,12 @@ struct SignalWatch {
 JudgedLog judge_log(const Scenario& scenario, const std::shared_ptr<const Recording>& readings,
                     const LogTruth& truth, const SignalWatch& watch = {},
                     const std::function<void(double share)>& progress = {});
+
+/// Those signals of a run over a log that are wanted, a sample for each tick of the control path. Throws
+/// SetupError as judge_log().
+Recording signals_of_log(const Scenario& scenario, const std::shared_ptr<const Recording>& readings,
+                         const std::function<bool(const std::string& path)>& wants,
+                         const std::function<void(double share)>& progress = {});
 
 /// What every estimator of the scenario says over a log: "wrench" of that which is followed, "wrench_NAME" of
 /// the others, "motion", and "load_NAME" of a detector that judges the drives' residuals, a sample for each

@@ -1,5 +1,7 @@
 #include "experiments/verdict/recorded_doubts.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "systems/framework/recorded_values.h"
@@ -24,6 +26,14 @@ ImuLeftOut imu_left_out(const Recording& recording) {
   }
   if (samples > 0) found.share = static_cast<double>(samples) / static_cast<double>(doubts.size());
   return found;
+}
+
+std::string told_left_out(const ImuLeftOut& imu) {
+  if (!(imu.share > 0.0)) return "";
+  return fmt::format(
+      "the IMU was left out of {:.3g} % of the recording: {}. What needs it was not estimated then; 'flinch "
+      "report' shows when, and docs/faults.md what looks like that",
+      100.0 * imu.share, name(imu.why));
 }
 
 }  // namespace flinch

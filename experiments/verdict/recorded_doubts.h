@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "systems/framework/recording.h"
 #include "systems/signals/imu_doubt.h"
 #include "systems/signals/plausibility.h"
@@ -39,5 +41,8 @@ struct ImuLeftOut {
 
 /// Nothing was left out of recordings that do not tell.
 ImuLeftOut imu_left_out(const Recording& recording);
+
+/// The same in words for who calibrates by that recording; "": nothing was left out.
+std::string told_left_out(const ImuLeftOut& imu);
 
 }  // namespace flinch

@@ -9,6 +9,9 @@
 
 namespace flinch {
 
+/// How a parameter takes of a drive's torque, in the drive's own unit: at any speed, or in proportion to it.
+enum class DriveLoss { none, coulomb, viscous };
+
 /// A number on which the equations of motion depend linearly, or as good as that near what is believed.
 struct DynamicParameter {
   std::string name{};      ///< the path of its key in a robot file; empty: it has none
@@ -16,6 +19,7 @@ struct DynamicParameter {
   double believed = 0.0;   ///< what the robot says
   double deviation = 0.0;  ///< of that belief
   double least = 0.0;      ///< below it nothing can be: masses and friction are not negative
+  DriveLoss loss = DriveLoss::none;
 };
 
 /// A number of a robot file.

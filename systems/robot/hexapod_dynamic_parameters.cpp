@@ -21,9 +21,10 @@ class HexapodDynamicParameters final : public DynamicParameters {
     for (std::size_t i = 0; i < robot.legs.size(); ++i) {
       const HexapodLeg& leg = robot.legs[i];
       const std::string at = "legs[" + std::to_string(i) + "].";
-      list_.push_back(
-          {at + "drive_friction.viscous_Ns_per_m", "N s/m", leg.drive_friction.viscous, viscous_belief});
-      list_.push_back({at + "drive_friction.coulomb_N", "N", leg.drive_friction.coulomb, coulomb_belief});
+      list_.push_back({at + "drive_friction.viscous_Ns_per_m", "N s/m", leg.drive_friction.viscous,
+                       viscous_belief, 0.0, DriveLoss::viscous});
+      list_.push_back({at + "drive_friction.coulomb_N", "N", leg.drive_friction.coulomb, coulomb_belief, 0.0,
+                       DriveLoss::coulomb});
       list_.push_back({at + "universal_friction.viscous_Nms_per_rad", "Nm s/rad",
                        leg.universal_friction.viscous, universal_viscous_belief});
       list_.push_back({at + "universal_friction.coulomb_Nm", "Nm", leg.universal_friction.coulomb,

@@ -61,16 +61,28 @@ TEST(ErrorSizes, OfWhatExplainsNothingAreAlmostZero) {
   EXPECT_LT(std::pow(6.0 * found.turning, 2), tenth);
 }
 
-TEST(ErrorSizes, HaveNoiseEvenWhereAllIsExplained) {
+/// Errors that are this share of a torque of 0 to 9 Nm, and nothing else.
+std::vector<ErrorSample> shares_of_torque(double share) {
   std::vector<ErrorSample> samples(1000);
   for (std::size_t k = 0; k < samples.size(); ++k) {
     const double torque = static_cast<double>(k % 10);
-    samples[k] = {.squared = torque * torque,
+    samples[k] = {.squared = std::pow(share * torque, 2),
                   .features = {1.0, 0.0, 0.0, torque * torque, 0.0, 0.0, 0.0, 0.0}};
   }
-  const ResidualErrors found = fit_error_sizes(samples);
+  return samples;
+}
+
+TEST(ErrorSizes, HaveNoiseEvenWhereAllIsExplained) {
+  const ResidualErrors found = fit_error_sizes(shares_of_torque(0.1));
   EXPECT_GT(found.noise, 0.0);
-  EXPECT_NEAR(found.torque, std::sqrt(900.0 / 1000.0 * 1.0), 0.3);
+  EXPECT_NEAR(found.torque, 0.1 * std::sqrt(900.0 / 1000.0), 0.03);
+}
+
+// What hides a contact as large as the torque itself would be no detector.
+TEST(ErrorSizes, AreNoLargerShareOfTheTorqueThanATorqueConstantMayErr) {
+  const ResidualErrors found = fit_error_sizes(shares_of_torque(1.0));
+  EXPECT_EQ(found.torque, 0.2);
+  EXPECT_GT(found.noise, 1.0) << "the rest is noise";
 }
 
 }  // namespace

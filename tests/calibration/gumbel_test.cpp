@@ -62,5 +62,20 @@ TEST(TheUpperBound, LiesAboveTheTrueQuantileAsOftenAsItSays) {
   }
 }
 
+TEST(TheUpperBound, HoldsForFewMaximaToo) {
+  std::mt19937_64 random(3);
+  const double truth = Gumbel{3.0, 0.7}.quantile_above(3.5e-5);
+  for (const std::size_t maxima : {14U, 30U, 60U}) {
+    int above = 0;
+    constexpr int trials = 3000;
+    for (int i = 0; i < trials; ++i) {
+      const Gumbel fit = fit_gumbel(drawn(random, maxima, 3.0, 0.7));
+      above += upper_quantile_above(fit, maxima, 3.5e-5, 0.95) >= truth ? 1 : 0;
+    }
+    EXPECT_GE(static_cast<double>(above) / trials, 0.92) << maxima;  // 93.1, 93.7 and 94.5 % of 6000
+    EXPECT_LE(static_cast<double>(above) / trials, 0.97) << maxima;
+  }
+}
+
 }  // namespace
 }  // namespace flinch

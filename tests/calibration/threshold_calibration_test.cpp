@@ -144,10 +144,27 @@ TEST(Thresholds, ByComponentShareTheAlarmsAndKeepTheRate) {
 }
 
 TEST(ARecordingThatIsTooShort, IsRefusedWithWhatIsNeeded) {
-  EXPECT_THAT(complaint(59, {}),
-              HasSubstr("observer: 29.5 s of motion with valid estimates are recorded; 30.0 s"));
-  EXPECT_EQ(complaint(60, {}), "");
+  EXPECT_THAT(complaint(13, {.false_alarms_per_hour = 10.0}),
+              HasSubstr("observer: 6.5 s of motion with valid estimates are recorded; 7.0 s"));
+  EXPECT_THAT(complaint(14, {}), HasSubstr("7.2 s are needed for 0.5"));
+  EXPECT_EQ(complaint(15, {}), "");
   EXPECT_THAT(complaint(200, {.false_alarms_per_hour = 0.01}), HasSubstr("360.0 s are needed for 0.01"));
+}
+
+TEST(AnEstimatorThatWasSeenTooShort, IsLeftOutAndTheOthersAreNot) {
+  std::mt19937_64 random(5);
+  const auto peaks = [&random](const char* name, std::size_t stretches) {
+    EstimatorPeaks of{name, peaks_of_noise(random, stretches, 1.0), {}, {}};
+    of.components = {of.force};
+    return of;
+  };
+  std::vector<std::string> left_out;
+  const auto found = calibrate_thresholds({peaks("seen", 100), peaks("unseen", 5)}, {}, left_out);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found.front().estimator, "seen");
+  EXPECT_THAT(left_out, ::testing::ElementsAre(HasSubstr("unseen: 2.5 s of motion")));
+  EXPECT_THAT(test::problems_of([&] { calibrate_thresholds({peaks("unseen", 5)}, {}, left_out); }),
+              ::testing::ElementsAre(HasSubstr("unseen: 2.5 s of motion")));
 }
 
 TEST(PeaksOfSeveralRecordings, ArePooledByEstimator) {

@@ -2,6 +2,7 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "apps/flinch/conclusion.h"
@@ -20,6 +21,16 @@ namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 
+/// Simulated runs, and contacts of recordings that gave samples.
+std::size_t runs_of(const DataSpec& spec, const DataSet& data) {
+  const std::size_t simulated = spec.parts.empty() ? 0 : spec.runs;
+  std::set<int> recorded;
+  for (const DataSample& sample : data.samples) {
+    if (sample.run >= static_cast<int>(simulated)) recorded.insert(sample.run);
+  }
+  return simulated + recorded.size();
+}
+
 }  // namespace
 
 std::vector<CalibrationDoubt> check_data_spec(const std::filesystem::path& spec) {
@@ -34,7 +45,10 @@ ExitStatus dataset(const DatasetOptions& options) {
                           : options.out;
   const RunFolder folder = make_run_folder(file.has_parent_path() ? file.parent_path() : ".");
   std::vector<std::filesystem::path> inputs = {options.spec};
-  for (const DataRecording& recording : spec.recordings) inputs.push_back(recording.file);
+  for (const DataRecording& recording : spec.recordings) {
+    inputs.push_back(recording.file);
+    if (!recording.scenario.empty()) inputs.push_back(recording.scenario);
+  }
   require_output(file, inputs, OutputKind::data_set);
   if (options.fresh) std::filesystem::remove(file.string() + ".part");
   const StopWatch watch;
@@ -51,7 +65,7 @@ ExitStatus dataset(const DatasetOptions& options) {
     });
   }
   std::signal(SIGINT, SIG_DFL);
-  const std::size_t runs = (spec.parts.empty() ? 0 : spec.runs) + spec.recordings.size();
+  const std::size_t runs = runs_of(spec, data);
   if (options.common.json) {
     const nlohmann::ordered_json summary = {{"data", file.string()},
                                             {"runs", runs},

@@ -23,6 +23,7 @@
 #include "experiments/recorded/replay.h"
 #include "experiments/report/run_folder.h"
 #include "experiments/scenario/scenario_calibrations.h"
+#include "experiments/verdict/recorded_doubts.h"
 #include "identification/dynamics_calibration.h"
 #include "identification/imu_pose_calibration.h"
 #include "identification/torque_constant_calibration.h"
@@ -143,10 +144,17 @@ ThresholdFindings thresholds_with(const std::vector<OpenedRecording>& motion,
       peaks.push_back(contact_free_peaks(replays[i], space, goal.stretch));
       recordings.emplace_back(replays[i], nominal_samples(replays[i], space), played[i].control);
     });
+    if (const std::string told = told_left_out(imu_left_out(replays[i])); !told.empty())
+      found.doubts.push_back(file + ": " + told);
     keep_estimates(replays[i]);
   }
-  found.estimators = calibrate_thresholds(pooled(peaks), found.goal);
-  found.residuals = calibrate_residuals(recordings, found.goal);
+  found.estimators = calibrate_thresholds(pooled(peaks), found.goal, found.doubts);
+  try {
+    found.residuals = calibrate_residuals(recordings, found.goal);
+  } catch (const SetupError& error) {
+    for (const std::string& problem : error.problems())
+      found.doubts.push_back("the fused detector has no thresholds: " + problem);
+  }
   found.drive_deviations =
       drive_deviations(recordings, *played.front().robot.robot, IsolationSettings().uncertainty);
   found.tracking = played.front().control.fused_detector.tracking;
@@ -213,7 +221,7 @@ class All {
     if (!after_.estimators.empty()) text += "== thresholds\n";
     for (std::size_t i = 0; i < after_.estimators.size(); ++i) {
       text += fmt::format("{:<28} {}", after_.estimators[i].estimator, text_of(after_, i));
-      if (i < before_.estimators.size()) text += "; before " + text_of(before_, i);
+      if (before_.estimators.size() == after_.estimators.size()) text += "; before " + text_of(before_, i);
       text += "\n";
     }
     return text;
@@ -223,6 +231,7 @@ class All {
     std::vector<std::string> all = warnings_;
     for (const CalibrationResult& result : results_)
       all.insert(all.end(), result.warnings.begin(), result.warnings.end());
+    for (std::string& warning : flinch::warnings(after_)) all.push_back("thresholds: " + std::move(warning));
     return all;
   }
 

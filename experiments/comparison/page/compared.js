@@ -31,12 +31,18 @@ function showComparison() {
   document.title = `${names} · flinch`;
   byId("title").textContent = names;
   byId("difference").textContent = report.first_difference;
+  byId("noted").hidden = report.notes.length === 0;
+  byId("notes").replaceChildren(...report.notes.map((note) => element("li", {}, note)));
+  if (report.runs.length === 1) {
+    byId("overline").textContent = "flinch · a log";
+    byId("judged").hidden = byId("set").hidden = true;
+  }
   byId("verdicts").replaceChildren(...sideBySide(verdictRows()));
   byId("no-settings").hidden = report.settings.length > 0;
   if (report.settings.length > 0) {
     byId("settings").replaceChildren(...sideBySide(report.settings.map(({ key, unit, values }) => [unit ? `${key} [${unit}]` : key, values])));
   }
-  byId("alignment").textContent = alignment();
+  byId("alignment").textContent = report.runs.length === 1 ? "" : alignment();
   byId("provenance").replaceChildren(...[["Version", report.version], ["Call", report.call]].map(([name, value]) =>
     element("div", {}, element("dt", {}, name), element("dd", {}, value))));
 }

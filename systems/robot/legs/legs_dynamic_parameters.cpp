@@ -116,14 +116,17 @@ void add_joints(const LegsModel& model, std::vector<Candidate>& candidates) {
       const JointFriction& belief = joint.slides                ? sliding_belief
                                     : is_of_drive(model, place) ? turning_belief
                                                                 : turning_belief_of_passive;
+      const bool takes = is_of_drive(model, place);
       const std::string at = path_of(model, place);
       const std::string friction = at + ".friction.";
       candidates.push_back({{friction + (joint.slides ? "viscous_Ns_per_m" : "viscous_Nms_per_rad"),
-                             joint.slides ? "N s/m" : "Nm s/rad", joint.friction.viscous, belief.viscous},
+                             joint.slides ? "N s/m" : "Nm s/rad", joint.friction.viscous, belief.viscous, 0.0,
+                             takes ? DriveLoss::viscous : DriveLoss::none},
                             {.of = Meaning::Of::viscous, .joint = place}});
-      candidates.push_back({{friction + (joint.slides ? "coulomb_N" : "coulomb_Nm"),
-                             joint.slides ? "N" : "Nm", joint.friction.coulomb, belief.coulomb},
-                            {.of = Meaning::Of::coulomb, .joint = place}});
+      candidates.push_back(
+          {{friction + (joint.slides ? "coulomb_N" : "coulomb_Nm"), joint.slides ? "N" : "Nm",
+            joint.friction.coulomb, belief.coulomb, 0.0, takes ? DriveLoss::coulomb : DriveLoss::none},
+           {.of = Meaning::Of::coulomb, .joint = place}});
       if (!(joint.armature > 0.0)) continue;
       candidates.push_back({{at + ".drive." + (joint.slides ? "armature_kg" : "armature_kg_m2"),
                              joint.slides ? "kg" : "kg m^2", joint.armature, armature_share * joint.armature},

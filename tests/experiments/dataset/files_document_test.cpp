@@ -26,12 +26,15 @@ TEST(DocumentedDataSpecification, IsReadWithEveryKey) {
   std::filesystem::copy(FLINCH_SOURCE_DIR "/apps/models", place / "models",
                         std::filesystem::copy_options::recursive);
   place.write("data/run.h5", "");
+  place.write("data/log.h5", "another one");
   place.write("data/documented.yaml", documented_spec());
   const DataSpec spec = read_data_spec(place / "data/documented.yaml");
   EXPECT_EQ(spec.parts.size(), 2U);
   EXPECT_EQ(spec.parts[1].configuration, "motion.pose");
   EXPECT_EQ(spec.samples.from_force, 10.0);
-  EXPECT_EQ(spec.recordings.front().touched, "leg1_link2");
+  EXPECT_EQ(spec.recordings[0].touched, "leg1_link2");
+  EXPECT_FALSE(spec.recordings[1].scenario_text.empty());
+  EXPECT_EQ(spec.recordings[1].contacts.front().at, 1.337);
 }
 
 TEST(ShippedDataSpecifications, CanBeDrawn) {

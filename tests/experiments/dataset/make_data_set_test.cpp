@@ -183,6 +183,64 @@ TEST_F(MakeDataSet, TakesLabelledRecordings) {
           testing::HasSubstr("'leg2_link3' is nothing that can be touched; there are platform")));
 }
 
+/// What another controller would have logged of a run: readings alone.
+Recording log_of(const Recording& run) {
+  Recording log;
+  log.period = run.period;
+  log.time_ns = run.time_ns;
+  for (const char* const name : {"joints", "drives", "status"}) log.signals.push_back(run.signal(name));
+  log.attributes = run.attributes;
+  return log;
+}
+
+TEST_F(MakeDataSet, TakesContactsThatAreMarkedInLogs) {
+  const std::string scenario = test::shipped("scenarios/platform_collision.yaml");
+  record_experiment(read_simulated_scenario(scenario), place / "run.h5");
+  write_recording(log_of(read_recording(place / "run.h5")), place / "log.h5");
+  const auto made = [&](const std::string& recordings) {
+    place.write("spec.yaml", "samples: {wrench: momentum_observer}\nrecordings: [" + recordings + "]\n");
+    return make_data_set(read_data_spec(place / "spec.yaml"), place / "data.h5", 1);
+  };
+  const DataSet of_run = made("{file: run.h5, touched: platform}");
+  const std::string log = "{file: log.h5, scenario: " + scenario + ", configuration: 2, contacts: [";
+  const DataSet of_log = made(log + "{at_s: 0.2, touched: platform}]}");
+  ASSERT_FALSE(of_run.samples.empty());
+  ASSERT_EQ(of_log.samples.size(), of_run.samples.size());
+  for (std::size_t i = 0; i < of_run.samples.size(); ++i) {
+    const DataSample &here = of_log.samples[i], &there = of_run.samples[i];
+    EXPECT_EQ(here.wrench_in_base(), there.wrench_in_base());
+    EXPECT_EQ(here.moment, there.moment);
+    EXPECT_EQ(here.configuration, 2);
+    EXPECT_GT(here.since_onset, here.since_early) << "the contact was said to begin earlier";
+  }
+  EXPECT_EQ(of_log.card.at("recording.1.scenario.text"), test::bytes_of(scenario));
+  // Of two marked contacts the second one is another run, and what is not detected is told.
+  const DataSet of_two = made(log + "{at_s: 0.01, touched: leg1_link1}, {at_s: 0.2, touched: platform}]}");
+  ASSERT_EQ(of_two.samples.size(), of_run.samples.size());
+  EXPECT_EQ(of_two.samples.front().run, 1);
+  EXPECT_EQ(of_two.card.at("left_out"), "not detected: 1\n");
+}
+
+TEST_F(MakeDataSet, AsksWhatWasTouchedInALog) {
+  const std::string scenario = test::shipped("scenarios/platform_collision.yaml");
+  record_experiment(read_simulated_scenario(scenario), place / "run.h5");
+  write_recording(log_of(read_recording(place / "run.h5")), place / "log.h5");
+  const auto problems = [&](const std::string& recordings) {
+    place.write("spec.yaml", "recordings: [" + recordings + "]\n");
+    return test::problems_of(
+        [&] { make_data_set(read_data_spec(place / "spec.yaml"), place / "data.h5", 1); });
+  };
+  EXPECT_THAT(problems("{file: log.h5}"),
+              testing::ElementsAre(testing::HasSubstr("is a log, which does not say what was touched")));
+  EXPECT_THAT(problems("{file: log.h5, touched: platform}"),
+              testing::ElementsAre(testing::HasSubstr("force_torque")));
+  EXPECT_THAT(problems("{file: run.h5, scenario: " + scenario + ", touched: platform}"),
+              testing::ElementsAre(testing::HasSubstr("'scenario' is for logs")));
+  EXPECT_THAT(problems("{file: log.h5, contacts: [{at_s: 0.5, touched: platform}, {at_s: 0.4}]}"),
+              testing::ElementsAre(testing::HasSubstr("is not after that of the contact before it"),
+                                   testing::HasSubstr("touched")));
+}
+
 TEST_F(MakeDataSet, RefusesPartsOfAnotherRobot) {
   record_experiment(read_simulated_scenario(test::shipped("scenarios/platform_collision.yaml")),
                     place / "a.h5");

@@ -35,6 +35,9 @@ TEST(ImuDoubt, IsToldWithTheShareOfTheRecordingThatItTook) {
   const Recording recording = run.recording();
   EXPECT_EQ(imu_left_out(recording).why, ImuDoubt::late);
   EXPECT_NEAR(imu_left_out(recording).share, 0.6, 1e-12);
+  EXPECT_THAT(told_left_out(imu_left_out(recording)),
+              ::testing::StartsWith("the IMU was left out of 60 % of the recording: "));
+  EXPECT_EQ(told_left_out({}), "");
 }
 
 TEST(PassiveEncodersThatAreLost, AreARemarkAndNoFailure) {
