@@ -76,7 +76,7 @@ def type_link(kind, known):
 def page():
     known = values()
     text = ["# Blocks", "", "Each block is a class with typed ports; values are in SI units. The way from here to a diagram: "
-            "[tutorial](../docs/tutorial.md), [architecture](../docs/architecture.md).", ""]
+            "[a block of your own](../docs/your_block.md), [architecture](../docs/architecture.md).", ""]
     used = set()
     for folder, found in blocks().items():
         text += [f"## {ROOMS[folder]}", ""]
