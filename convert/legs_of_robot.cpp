@@ -6,6 +6,8 @@
 #include <numbers>
 #include <string>
 
+#include "systems/config/config_reader.h"
+#include "systems/config/legs_file.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/five_bar.h"
 #include "systems/robot/hexapod.h"
@@ -158,6 +160,14 @@ LegsParameters as_legs(const ParallelRobot& robot) {
   if (const auto* hexapod = dynamic_cast<const Hexapod*>(&robot)) return of(hexapod->parameters());
   throw SetupError("'" + robot.name() +
                    "' is of a kind of its own; describe it as one of kind legs, of which models are made");
+}
+
+LegsParameters as_legs(const ParallelRobot& robot, const std::string& text,
+                       const std::filesystem::path& file) {
+  ConfigReader reader = ConfigReader::parse(text, file.string());
+  std::string kind;
+  reader.text("kind", kind);
+  return kind == "legs" ? read_legs_parameters(reader) : as_legs(robot);
 }
 
 }  // namespace flinch

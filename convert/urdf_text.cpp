@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "convert/platform_at_home.h"
+#include "convert/urdf_joints.h"
 #include "convert/urdf_model.h"
 #include "convert/xml_tag.h"
 #include "systems/foundation/setup_error.h"
@@ -14,13 +15,6 @@
 
 namespace flinch {
 namespace {
-
-/// Turns about fixed x, y and z, which is about z, y and x of the frame that turns [rad].
-Eigen::Vector3d roll_pitch_yaw(const Eigen::Matrix3d& R) {
-  const double pitch = std::atan2(-R(2, 0), std::hypot(R(0, 0), R(1, 0)));
-  if (std::hypot(R(0, 0), R(1, 0)) < 1e-9) return {0.0, pitch, std::atan2(-R(0, 1), R(1, 1))};
-  return {std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))};
-}
 
 std::string origin(const Eigen::Isometry3d& pose) {
   return XmlTag("origin")
@@ -86,11 +80,20 @@ class UrdfWriter {
             "# Written by flinch export: frames that coincide, joints that are driven, where joints are at "
             "home.\n"
             "closed_loop: [" +
-                pairs_ + "]\ntype: [" + types_ + "]\nname_mot: [" + driven_ + "]\nzeros: {" + zeros_ + "}\n"};
+                pairs_ + "]\ntype: [" + types_ + "]\nname_mot: [" + driven_ + "]\nzeros: {" + zeros() +
+                "}\n"};
   }
 
  private:
   void line(std::size_t depth, const std::string& text) { text_ += indented(depth, text); }
+
+  std::string zeros() const {
+    const UrdfJoints joints(robot_);
+    std::string text;
+    for (std::size_t i = 0; i < joints.names().size(); ++i)
+      add(text, joints.names()[i] + ": " + yaml_number(joints.at_home()[i]));
+    return text;
+  }
 
   static void add(std::string& list, const std::string& entry) { list += (list.empty() ? "" : ", ") + entry; }
 
@@ -177,29 +180,17 @@ class UrdfWriter {
     line(1, "</joint>");
   }
 
-  void add_zero(const std::string& joint, double position) {
-    add(zeros_, joint + ": " + yaml_number(position));
-  }
-
   /// The joints of the platform. What never moves stands in the frame of the first, or turned in the last.
   std::vector<TreeJoint> platform_joints() {
     const Eigen::Isometry3d home = platform_at_home(model_);
-    const Eigen::Vector3d angles = roll_pitch_yaw(home.linear());
-    const auto moves = [&](std::size_t i) { return robot_.moves.roles[i] != ChartRole::fixed; };
-    const bool turns_in_space = moves(3) || moves(4);
-    Eigen::Vector3d stays(0.0, 0.0, 0.0);
+    Eigen::Vector3d stays = home.translation();
     std::vector<TreeJoint> joints;
-    for (const std::size_t i : {0U, 1U, 2U, 5U, 4U, 3U}) {  // turns about z, y, x
-      const bool slides = i < 3;
-      const auto row = static_cast<Eigen::Index>(i % 3);
-      if (!moves(i) && (slides || !turns_in_space)) {
-        if (slides) stays[row] = home.translation()[row];
-        continue;
-      }
-      joints.push_back({.name = "platform_" + std::string(chart_names[i]),
-                        .slides = slides,
-                        .axis = Eigen::Vector3d::Unit(row)});
-      add_zero(joints.back().name, slides ? home.translation()[row] : angles[row]);
+    for (const std::size_t entry : platform_joint_entries(robot_.moves)) {
+      const auto row = static_cast<Eigen::Index>(entry % 3);
+      const bool slides = entry < 3;
+      if (slides) stays[row] = 0.0;
+      joints.push_back(
+          {.name = platform_joint_name(entry), .slides = slides, .axis = Eigen::Vector3d::Unit(row)});
     }
     joints.front().at.translation() = stays;
     if (joints.back().slides) {
@@ -236,13 +227,12 @@ class UrdfWriter {
         throw SetupError("joint '" + joint.name + "' is a screw, which URDF has not");
       const int count = axis_count(joint.kind);
       for (int k = 1; k <= count; ++k) {
-        const std::string suffix = count > 1 ? "_" + std::to_string(k) : "";
         const bool is_last = k == count;
-        links.push_back(link_name(index, joint) + (is_last ? "" : suffix));
+        links.push_back(link_name(index, joint) + (is_last ? "" : "_" + std::to_string(k)));
         const LegLink* const link = is_last && joint.link ? &*joint.link : nullptr;
         add_link(links.back(), link == nullptr ? nullptr : &link->inertia,
                  link == nullptr ? std::vector<Shape>() : link->shapes);
-        add_leg_joint(index, joint, name_in_model(index, joint.name) + suffix, links);
+        add_leg_joint(index, joint, leg_joint_name(index, joint, k), links);
       }
       if (joint.drive) add_drive(name_in_model(index, joint.name), *joint.drive);
     }
@@ -263,7 +253,6 @@ class UrdfWriter {
                          .at = carrier * pose_at(one.at, one.turn),
                          .slides = one.slides,
                          .axis = one.turn.transpose() * one.axis};
-    add_zero(name, one.position(model_.legs[index].home));
     add_joint(tree, &one, &joint);
   }
 
@@ -303,7 +292,7 @@ class UrdfWriter {
   const LegsParameters& robot_;
   double max_torque_ = 0.0;
   LegsModel model_;
-  std::string text_, transmissions_, pairs_, types_, driven_, zeros_;
+  std::string text_, transmissions_, pairs_, types_, driven_;
 };
 
 }  // namespace

@@ -6,10 +6,17 @@ namespace flinch {
 namespace {
 
 /// Numbers that a message points to.
-dds_sequence_double sequence_of(const JointVector& vector) {
+template <class Vector>
+dds_sequence_double sequence_of(const Vector& vector) {
   const auto size = static_cast<std::uint32_t>(vector.size());
   return {
       ._maximum = size, ._length = size, ._buffer = const_cast<double*>(vector.data()), ._release = false};
+}
+
+void set_names(const std::vector<char*>& names, sensor_msgs_msg_dds__JointState_& message) {
+  const auto count = static_cast<std::uint32_t>(names.size());
+  message.name_ = {
+      ._maximum = count, ._length = count, ._buffer = const_cast<char**>(names.data()), ._release = false};
 }
 
 geometry_msgs_msg_dds__Vector3_ vector3(double x, double y, double z) { return {.x_ = x, .y_ = y, .z_ = z}; }
@@ -27,14 +34,19 @@ void to_ros2(Time stamp, const std::string& frame, std_msgs_msg_dds__Header_& he
 
 void to_ros2(const JointMotion& motion, const DriveTorque& torque, const std::vector<char*>& names,
              sensor_msgs_msg_dds__JointState_& message) noexcept {
-  const auto count = static_cast<std::uint32_t>(names.size());
-  message.name_ = {
-      ._maximum = count, ._length = count, ._buffer = const_cast<char**>(names.data()), ._release = false};
+  set_names(names, message);
   message.position_ = sequence_of(motion.position);
   message.velocity_ = sequence_of(motion.velocity);
   message.effort_ = {};
   if (torque.valid && torque.torque.size() == motion.position.size())
     message.effort_ = sequence_of(torque.torque);
+}
+
+void to_ros2(const std::vector<double>& positions, const std::vector<char*>& names,
+             sensor_msgs_msg_dds__JointState_& message) noexcept {
+  set_names(names, message);
+  message.position_ = sequence_of(positions);
+  message.velocity_ = message.effort_ = {};
 }
 
 void to_ros2(const ImuReading& imu, sensor_msgs_msg_dds__Imu_& message) noexcept {

@@ -27,6 +27,10 @@ void to_ros2(Time stamp, const std::string& frame, std_msgs_msg_dds__Header_& he
 void to_ros2(const JointMotion& motion, const DriveTorque& torque, const std::vector<char*>& names,
              sensor_msgs_msg_dds__JointState_& message) noexcept;
 
+/// Positions alone, of as many joints as there are names.
+void to_ros2(const std::vector<double>& positions, const std::vector<char*>& names,
+             sensor_msgs_msg_dds__JointState_& message) noexcept;
+
 /// Without orientation or covariances.
 void to_ros2(const ImuReading& imu, sensor_msgs_msg_dds__Imu_& message) noexcept;
 

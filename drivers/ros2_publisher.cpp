@@ -20,6 +20,7 @@ namespace {
 struct Snapshot {
   Time taken{};  ///< monotonic
   JointMotion joints;
+  PlatformMotion motion;
   DriveTorque torque;
   ImuReading imu;
   WrenchEstimate wrench;
@@ -47,13 +48,16 @@ class Ros2Publisher::Implementation {
       : settings_(settings),
         clock_(diagram.tick()),
         joints_(diagram, sources.joint_motion),
+        motion_(diagram, sources.motion),
         torque_(diagram, sources.drive_torque),
         imu_(diagram, sources.imu),
         wrench_(diagram, sources.wrench),
         gate_(diagram, sources.gate) {
     if (settings.ticks_between_messages < 1) throw SetupError("ticks_between_messages must be at least 1");
     for (std::string& name : settings_.joint_names) names_.push_back(name.data());
-    if (joints_.exists()) joint_writer_.emplace(bus, ros2_joint_states_topic);
+    for (std::string& name : settings_.model.names) model_names_.push_back(name.data());
+    if (joints_.exists() || (motion_.exists() && !model_names_.empty()))
+      joint_writer_.emplace(bus, ros2_joint_states_topic);
     if (imu_.exists()) imu_writer_.emplace(bus, ros2_imu_topic);
     if (wrench_.exists()) wrench_writer_.emplace(bus, ros2_contact_wrench_topic);
     if (gate_.exists()) diagnostics_writer_.emplace(bus, ros2_diagnostics_topic);
@@ -66,6 +70,7 @@ class Ros2Publisher::Implementation {
     if (++tick_ % settings_.ticks_between_messages != 0) return;
     next_.taken = clock_.to_monotonic(context.time());
     joints_.copy(context, next_.joints);
+    motion_.copy(context, next_.motion);
     torque_.copy(context, next_.torque);
     imu_.copy(context, next_.imu);
     wrench_.copy(context, next_.wrench);
@@ -79,6 +84,7 @@ class Ros2Publisher::Implementation {
   void publish() {
     if (!left_.take(now_)) return;
     if (joint_writer_ && now_.joints.valid) publish_joints();
+    if (joint_writer_ && now_.motion.valid() && !model_names_.empty()) publish_model();
     if (imu_writer_ && now_.imu.valid) publish_imu();
     if (wrench_writer_ && now_.wrench.valid) publish_wrench();
     if (diagnostics_writer_ && now_.taken - last_diagnostics_ >= 100ms) publish_diagnostics();
@@ -88,6 +94,14 @@ class Ros2Publisher::Implementation {
     sensor_msgs_msg_dds__JointState_ message{};
     to_ros2(wall_clock(now_.taken), settings_.base_frame, message.header_);
     to_ros2(now_.joints, now_.torque, names_, message);
+    joint_writer_->write(&message);
+  }
+
+  void publish_model() {
+    if (!settings_.model.find(now_.motion.pose, model_positions_)) return;
+    sensor_msgs_msg_dds__JointState_ message{};
+    to_ros2(wall_clock(now_.taken), settings_.base_frame, message.header_);
+    to_ros2(model_positions_, model_names_, message);
     joint_writer_->write(&message);
   }
 
@@ -124,9 +138,11 @@ class Ros2Publisher::Implementation {
   }
 
   Ros2Settings settings_;
-  std::vector<char*> names_;  // of the joints, into settings_
+  std::vector<char*> names_, model_names_;  // of the joints, into settings_
+  std::vector<double> model_positions_;
   TickClock clock_;
   OptionalSlot<JointMotion> joints_;
+  OptionalSlot<PlatformMotion> motion_;
   OptionalSlot<DriveTorque> torque_;
   OptionalSlot<ImuReading> imu_;
   OptionalSlot<WrenchEstimate> wrench_;

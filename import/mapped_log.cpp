@@ -42,6 +42,25 @@ std::string spread_of(const std::vector<double>& values) {
   return least > most ? "" : rounded(least) + " ... " + rounded(most);
 }
 
+/// Why a column may have no times, as the end of a sentence; "": nothing tells.
+std::string told_of_clock(LogFile& file, std::size_t column, ClockUnit unit) {
+  const std::vector<double> numbers = file.read(std::span(&column, 1)).front();
+  const auto is_any = [&](const auto& is) { return std::any_of(numbers.begin(), numbers.end(), is); };
+  if (!is_any([](double value) { return std::isfinite(value); })) return "; it holds no numbers";
+  if (!is_any([unit](double value) { return instant_of(value, unit) != no_instant; }))
+    return "; its numbers are too large for its unit: check 'unit' of 'time'";
+  const bool is_single = !is_any([](double value) {
+    return std::isfinite(value) && value != static_cast<double>(static_cast<float>(value));
+  });
+  const bool is_large = is_any([](double value) { return std::abs(value) > 1e6; });
+  if (is_single && is_large)
+    return "; its numbers have single precision, which tells times so large apart by " +
+           std::to_string(std::lround(std::nextafter(static_cast<float>(numbers.front()), INFINITY) -
+                                      static_cast<float>(numbers.front()))) +
+           " only: log it with 64 bits, or map another column";
+  return "";
+}
+
 }  // namespace
 
 MappedLog::MappedLog(const LogMapping& mapping) : mapping_(mapping) {
@@ -88,7 +107,8 @@ void MappedLog::read_clock(LogFile& file, const LogClock& clock, const std::vect
   }
   if (rows.instants.size() < 2)
     throw SetupError(mapping_.log.string() + ": column '" + clock.column + "' does not grow: there are " +
-                     std::to_string(rows.instants.size()) + " rows with a time of their own");
+                     std::to_string(rows.instants.size()) + " rows with a time of their own" +
+                     told_of_clock(file, file.find(clock.column), clock.unit));
   for (std::string& told : told_rows(rows, clock.column)) warnings_.push_back(std::move(told));
   const auto instants = std::make_shared<const std::vector<std::int64_t>>(std::move(rows.instants));
   std::vector<std::vector<double>> numbers = file.read(wanted);

@@ -15,9 +15,8 @@
 #include "export/mat_file.h"
 #include "export/mcap_file.h"
 #include "export/npz_file.h"
-#include "systems/config/config_reader.h"
+#include "systems/config/config_file.h"
 #include "systems/config/file_kind.h"
-#include "systems/config/legs_file.h"
 #include "systems/config/robot_file.h"
 #include "systems/foundation/json_text.h"
 #include "systems/foundation/problems_of_place.h"
@@ -66,14 +65,6 @@ std::vector<std::string> each_once(const std::vector<std::string>& names) {
   return once;
 }
 
-/// What a robot file says as of kind `legs`.
-LegsParameters legs_in(const std::filesystem::path& file, const RobotFile& robot) {
-  ConfigReader reader = ConfigReader::open(file);
-  std::string kind;
-  reader.text("kind", kind);
-  return kind == "legs" ? read_legs_parameters(reader) : as_legs(*robot.robot);
-}
-
 /// ROBOT.urdf, and beside it what closes its loops.
 std::filesystem::path closures_beside(const std::filesystem::path& model) {
   return model.parent_path() / (model.stem().string() + "_closures.yaml");
@@ -92,7 +83,7 @@ ExitStatus export_robot(const ExportOptions& options) {
   if (is_urdf) require_output(closures, {options.recording}, OutputKind::closures);
   const RobotFile file = read_robot_file(options.recording);  // which names the file in its errors
   const UrdfTexts texts = out_of(options.recording, [&]() -> UrdfTexts {
-    const LegsParameters robot = legs_in(options.recording, file);
+    const LegsParameters robot = as_legs(*file.robot, read_config_file(options.recording), options.recording);
     if (is_urdf) return urdf_texts(robot, file.drives.max_torque);
     return {mjcf_text(robot), ""};
   });

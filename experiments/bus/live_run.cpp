@@ -2,8 +2,11 @@
 
 #include <fmt/core.h>
 
+#include <memory>
 #include <utility>
 
+#include "convert/legs_of_robot.h"
+#include "convert/urdf_joints.h"
 #include "drivers/wire_header.h"
 #include "experiments/bus/await_robot.h"
 #include "experiments/bus/names.h"
@@ -54,8 +57,22 @@ std::vector<std::string> names_of_drives(int legs) {
   return names;
 }
 
+/// Those of the URDF that 'flinch export' makes of the robot; none of a robot that it cannot make one of.
+ModelJoints model_joints(const Scenario& scenario) {
+  try {
+    const auto joints = std::make_shared<const UrdfJoints>(
+        as_legs(*scenario.robot.robot, scenario.robot_text, scenario.robot_file));
+    return {joints->names(), [joints](const Configuration& pose, std::vector<double>& positions) {
+              return joints->find(pose, positions);
+            }};
+  } catch (const SetupError&) {
+    return {};
+  }
+}
+
 Ros2Sources shown_to_ros2(const LiveExperiment& experiment) {
   return {.joint_motion = experiment.control.joint_motion,
+          .motion = experiment.control.platform_motion,
           .drive_torque = experiment.control.drive_torque,
           .imu = experiment.station.imu,
           .wrench = experiment.control.wrench_estimate,
@@ -85,6 +102,7 @@ LiveRun::LiveRun(const Scenario& scenario, const DdsBus& bus, LiveRunSettings se
       panel_(experiment_, scenario.control, station_, settings_.interrupts),
       ros2_(bus, *experiment_.diagram, shown_to_ros2(experiment_),
             {.joint_names = names_of_drives(scenario.robot.robot->drives()),
+             .model = model_joints(scenario),
              .space = scenario.robot.robot->space(),
              .ticks_between_messages = periods_in(10ms, scenario.control_period)}),
       events_(bus, *experiment_.diagram, told_of(experiment_),

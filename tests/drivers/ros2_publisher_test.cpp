@@ -124,6 +124,38 @@ TEST(Ros2Publisher, PublishesWhatItsMessagesMean) {
   EXPECT_STREQ(diagnostics.message.status_._buffer[0].message_, "torque gate waiting");
 }
 
+TEST(Ros2Publisher, ShowsAllJointsOfAModelBesideTheDrives) {
+  const DdsBus bus({.domain = test::free_domain()});
+  DiagramBuilder builder;
+  PlatformMotion motion;
+  motion.status = PlatformMotion::Status::valid;
+  motion.pose = Eigen::Vector3d(0.1, 0.2, 0.3);
+  Ros2Sources sources;
+  sources.motion = builder.add<Constant<PlatformMotion>>("motion", motion).value;
+  const auto diagram = builder.build();
+  Context context = diagram->make_context();
+  Ros2Reader<sensor_msgs_msg_dds__JointState_> joint_states(bus, ros2_joint_states_topic);
+  const auto find = [](const Configuration& pose, std::vector<double>& positions) {
+    positions = {pose[0], 2.0 * pose[1]};
+    return true;
+  };
+  Ros2Publisher publisher(bus, *diagram, sources,
+                          {.joint_names = {},
+                           .model = {{"platform_x", "leg1_elbow"}, find},
+                           .space = ConfigurationSpace::Kind::planar_pose});
+  ASSERT_TRUE(wait_for(joint_states, [&] {
+    publisher.set_inputs(context);
+    diagram->evaluate(context);
+    publisher.take_outputs(context);
+    context.set_time(context.time() + 1ms);
+  }));
+  const auto& state = joint_states.message;
+  ASSERT_EQ(state.name_._length, 2u);
+  EXPECT_STREQ(state.name_._buffer[1], "leg1_elbow");
+  EXPECT_EQ(state.position_._buffer[1], 0.4);
+  EXPECT_EQ(state.velocity_._length, 0u);
+}
+
 TEST(Ros2Messages, SayForceAndMomentOfEverySpace) {
   using Kind = ConfigurationSpace::Kind;
   const auto message_of = [](Kind space, const PlatformVector& in_base) {

@@ -33,7 +33,7 @@ MAY_INCLUDE = {
     "experiments/comparison": ["experiments/comparison", "export", *EXPERIMENTS],
     "learning": ["learning", *EXPERIMENTS],
     "experiments/simulated": ["experiments/simulated", "plant", *EXPERIMENTS],
-    "experiments/bus": ["experiments/bus", "drivers", *EXPERIMENTS],
+    "experiments/bus": ["experiments/bus", "drivers", "convert", *EXPERIMENTS],
     "experiments/campaign": ["experiments/campaign", "experiments/simulated", "plant", *EXPERIMENTS],
     "experiments/speed_limit": ["experiments/speed_limit", "experiments/campaign", "experiments/simulated", "plant",
                                 *EXPERIMENTS],

@@ -237,6 +237,11 @@ TEST_F(ImportedLog, MustHaveATimeThatGrows) {
               "time: {column: t_ms, unit: ms}\ncolumns:\n"
               "  - {column: q1, signal: joints.active, entry: 0, unit: deg}\n");
   EXPECT_THAT(problems(), Contains(HasSubstr("log.csv: column 't_ms' does not grow")));
+  place.write("log.csv", "t_ms,q1\n1732012416,1\n1732012416,2\n1732012416,3\n");
+  EXPECT_THAT(problems(),
+              Contains(HasSubstr("single precision, which tells times so large apart by 128 only")));
+  place.write("log.csv", "t_ms,q1\n1e30,1\n2e30,2\n3e30,3\n");
+  EXPECT_THAT(problems(), Contains(HasSubstr("too large for its unit: check 'unit' of 'time'")));
 }
 
 TEST_F(ImportedLog, MayNotPassThroughMoreTimeThanItsRowsTellOf) {

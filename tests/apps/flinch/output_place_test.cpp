@@ -30,6 +30,7 @@ class OutputPlace : public ::testing::Test {
     flinch({"run", scenario, "--set", "duration_s=0.3", "--out", place.at("run"), "--quiet"});
     flinch({"graph", scenario, "--out", place.at("made.dot")});
     flinch({"graph", scenario, "--out", place.at("made.svg")});
+    flinch({"check", place.at("robots/planar_3rrr.yaml"), "--picture", place.at("workspace.svg")});
     flinch({"excite", place.at("robots/planar_3rrr.yaml"), "--out", place.at("excite.yaml"), "--duration",
             "1", "--trials", "1", "--quiet"});
     std::filesystem::copy_file(place / "run/report.html", place / "made.html");
@@ -48,7 +49,7 @@ class OutputPlace : public ::testing::Test {
       {OutputKind::page, "made.html"},       {OutputKind::picture, "made.svg"},
       {OutputKind::graph, "made.dot"},       {OutputKind::parameters, "found.yaml"},
       {OutputKind::scenario, "excite.yaml"}, {OutputKind::recording, "made.h5"},
-      {OutputKind::classifier, "made.onnx"}};
+      {OutputKind::classifier, "made.onnx"}, {OutputKind::picture, "workspace.svg"}};
   test::Workplace place;
 };
 
