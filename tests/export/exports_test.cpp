@@ -139,6 +139,18 @@ TEST_F(AnExport, SaysTheSameInEveryFormat) {
   EXPECT_EQ(std::system(command.c_str()), 0);
 }
 
+TEST_F(AnExport, IsReadByH5pyAndNumpy) {
+  write_recording(recording, folder / "run.h5");
+  write_csv_folder(recording, signals, folder / "csv");
+  write_npz(recording, signals, folder / "run.npz");
+  const std::string command =  // by Debian's Python, which has them
+      "PATH=/usr/bin:$PATH python3 '" FLINCH_SOURCE_DIR "/tests/export/read_by_tools.py' '" +
+      (folder / "").string() + "'";
+  const int status = WEXITSTATUS(std::system(command.c_str()));
+  if (status == 77) GTEST_SKIP() << "h5py and NumPy are not installed";
+  EXPECT_EQ(status, 0);
+}
+
 TEST_F(AnExport, IsTheSameEachTime) {
   for (const char* name : {"one", "two"}) {
     write_npz(recording, signals, folder / (std::string(name) + ".npz"));
