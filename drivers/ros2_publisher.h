@@ -22,7 +22,7 @@ namespace flinch {
 /// What to show to ROS 2; what is not there is not published.
 struct Ros2Sources {
   std::optional<OutputPort<JointMotion>> joint_motion;  ///< rt/joint_states, one joint a drive
-  std::optional<OutputPort<PlatformMotion>> motion;     ///< rt/joint_states, all joints of a model
+  std::optional<OutputPort<PlatformMotion>> motion{};   ///< rt/joint_states, all joints of a model
   std::optional<OutputPort<DriveTorque>> drive_torque;  ///< the effort there
   std::optional<OutputPort<ImuReading>> imu;            ///< rt/imu/data
   std::optional<OutputPort<WrenchEstimate>> wrench;     ///< rt/contact/wrench, about the platform origin

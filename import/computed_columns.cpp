@@ -1,6 +1,7 @@
 #include "import/computed_columns.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -9,9 +10,10 @@
 namespace flinch {
 namespace {
 
-constexpr std::size_t least_returns = 20;  // of the drives to positions at which they were before
-constexpr std::size_t least_numbers = 10;  // that a column has there
-constexpr double rounding = 1e-5;          // of the range of a column, in a text of six digits
+constexpr std::size_t least_returns = 20;   // of the drives to positions at which they were before
+constexpr std::size_t least_numbers = 10;   // that a column has there
+constexpr double rounding = 1e-5;           // of the range of a column, in a text of six digits
+constexpr std::size_t most_on_line = 2000;  // rows that a line is laid through, evenly from all
 
 bool is_same(double one, double other) { return one == other || (std::isnan(one) && std::isnan(other)); }
 
@@ -63,9 +65,9 @@ bool is_on_line(const std::vector<double>& x, const std::vector<double>& y) {
   double count = 0.0, mean_x = 0.0, mean_y = 0.0, xx = 0.0, xy = 0.0;
   double least = std::numeric_limits<double>::infinity(), most = -least;
   std::set<double> numbers;
-  const std::size_t rows = std::min(x.size(), y.size());
+  const std::size_t rows = std::min(x.size(), y.size()), stride = 1 + rows / most_on_line;
   const auto is_there = [&](std::size_t k) { return std::isfinite(x[k]) && std::isfinite(y[k]); };
-  for (std::size_t k = 0; k < rows; ++k) {
+  for (std::size_t k = 0; k < rows; k += stride) {
     if (!is_there(k)) continue;
     count += 1.0;
     const double dx = x[k] - mean_x, dy = y[k] - mean_y;
@@ -81,7 +83,7 @@ bool is_on_line(const std::vector<double>& x, const std::vector<double>& y) {
     return false;
   const double slope = xy / xx;
   if (slope == 0.0) return false;
-  for (std::size_t k = 0; k < rows; ++k) {
+  for (std::size_t k = 0; k < rows; k += stride) {
     if (is_there(k) && std::abs(y[k] - mean_y - slope * (x[k] - mean_x)) > rounding * (most - least))
       return false;
   }
@@ -99,17 +101,25 @@ std::vector<double> rate_of(const std::vector<double>& values, std::span<const d
   return rates;
 }
 
-/// How `candidate` follows from one column; none: it does not.
-std::optional<ComputedColumn::How> how_from(const ColumnNumbers& source, const ColumnNumbers& candidate,
-                                            std::span<const double> seconds) {
-  if (is_on_line(source.values, candidate.values)) return ComputedColumn::How::multiple;
-  for (const auto& [before, after] : {std::pair{1, 0}, {0, 1}, {1, 1}}) {
-    const auto rates =
-        rate_of(source.values, seconds, static_cast<std::size_t>(before), static_cast<std::size_t>(after));
-    if (is_on_line(rates, candidate.values)) return ComputedColumn::How::rate;
+/// A column, and its rate as programs compute it.
+struct Source {
+  const ColumnNumbers* column;
+  std::array<std::vector<double>, 3> rates;
+
+  Source(const ColumnNumbers& of, std::span<const double> seconds)
+      : column(&of),
+        rates{rate_of(of.values, seconds, 1, 0), rate_of(of.values, seconds, 0, 1),
+              rate_of(of.values, seconds, 1, 1)} {}
+
+  /// How `candidate` follows from it; none: it does not.
+  std::optional<ComputedColumn::How> how(const ColumnNumbers& candidate) const {
+    if (is_on_line(column->values, candidate.values)) return ComputedColumn::How::multiple;
+    for (const std::vector<double>& rate : rates) {
+      if (is_on_line(rate, candidate.values)) return ComputedColumn::How::rate;
+    }
+    return std::nullopt;
   }
-  return std::nullopt;
-}
+};
 
 }  // namespace
 
@@ -127,16 +137,17 @@ std::vector<ComputedColumn> computed_columns(std::span<const ColumnNumbers> driv
                                              std::span<const ColumnNumbers> candidates,
                                              std::span<const double> seconds) {
   const std::vector<std::vector<std::size_t>> returns = returns_of(drives);
+  std::vector<Source> sources;
+  for (const ColumnNumbers& drive : drives) sources.emplace_back(drive, seconds);
+  for (const ColumnNumbers& other : others) sources.emplace_back(other, seconds);
   std::vector<ComputedColumn> computed;
   for (const ColumnNumbers& candidate : candidates) {
     std::optional<ComputedColumn> found;
-    const auto look_at = [&](const ColumnNumbers& source) {
-      if (found || source.name == candidate.name) return;
-      if (const auto how = how_from(source, candidate, seconds))
-        found = ComputedColumn{candidate.name, {source.name}, *how};
-    };
-    for (const ColumnNumbers& drive : drives) look_at(drive);
-    for (const ColumnNumbers& other : others) look_at(other);
+    for (const Source& source : sources) {
+      if (found || source.column->name == candidate.name) continue;
+      if (const auto how = source.how(candidate))
+        found = ComputedColumn{candidate.name, {source.column->name}, *how};
+    }
     if (!found && is_function(candidate, returns)) {
       found = ComputedColumn{candidate.name, {}, ComputedColumn::How::function};
       for (const ColumnNumbers& drive : drives) found->from.push_back(drive.name);

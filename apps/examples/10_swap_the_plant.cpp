@@ -1,11 +1,7 @@
 // One control path before two robots, the simulated one and one on the bus: only the station is another.
-//
 //   example_10_swap_the_plant          simulated in this program
-//   example_10_swap_the_plant DOMAIN   on the bus; start the robot before:
-//                                      flinch serve platform_collision --lockstep --domain DOMAIN
-//
-// In lockstep the robot waits for each tick, so both say the same. Before a real robot take ClockTicks, leave
-// `lockstep` out, and let the runner follow_clock(). Start it in the root of the tree.
+//   example_10_swap_the_plant DOMAIN   on the bus, after 'flinch serve platform_collision --lockstep --domain DOMAIN'
+// Start it in the root of the tree. In lockstep both say the same; a real robot needs ClockTicks and follow_clock().
 #include <flinch/drivers.h>
 #include <flinch/framework.h>
 #include <flinch/live_experiments.h>
@@ -22,15 +18,14 @@ static void run_on_bus(const Diagram& diagram, const ExternalStation& station, c
   if (!await_robot(link, 10s, no_interrupts)) throw_if_undecided(link);
   LockstepTicks ticks(link, 10s, [] { return false; });
   if (!ticks.begin()) throw SetupError("the robot obeys another program");
-  RealtimeRunner runner(diagram, ticks, link);
-  runner.run(context, scenario.duration);
+  RealtimeRunner(diagram, ticks, link).run(context, scenario.duration);
   ticks.let_go();
 }
 
 static std::uint32_t domain_of(const std::string& text) {
-  if (text.empty() || text.size() > 3 || text.find_first_not_of("0123456789") != std::string::npos)
-    throw SetupError("DOMAIN: is '" + text + "'; it must be a whole number from 0 on");
-  return static_cast<std::uint32_t>(std::stoul(text));
+  if (!text.empty() && text.size() < 4 && text.find_first_not_of("0123456789") == text.npos)
+    return static_cast<std::uint32_t>(std::stoul(text));
+  throw SetupError("DOMAIN: is '" + text + "'; it must be a whole number from 0 on");
 }
 
 int main(int argc, char** argv) try {
@@ -55,9 +50,9 @@ int main(int argc, char** argv) try {
     while (context.time() < scenario.duration) simulator.step(context);
   }
   const ContactDetection& contact = context.get(control.detection);
-  const PlatformMotion& platform = context.get(control.platform_motion);
+  const Eigen::Vector2d rests = 1e3 * context.get(control.platform_motion).pose.head<2>();
   std::printf("contact detected at %.3f s, the platform rests at %.3f, %.3f mm\n",
-              to_seconds(contact.detected), 1e3 * platform.pose[0], 1e3 * platform.pose[1]);
+              to_seconds(contact.detected), rests.x(), rests.y());
   return contact.level != ContactLevel::none && context.get(control.faults).none() ? 0 : 1;
 } catch (const std::exception& error) {  // a SetupError says all that is wrong
   std::fprintf(stderr, "error: %s\n", error.what());

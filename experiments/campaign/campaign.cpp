@@ -15,6 +15,7 @@
 #include "systems/config/parsed.h"
 #include "systems/config/yaml_text.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/foundation/sha256.h"
 
 namespace flinch {
 namespace {
@@ -197,6 +198,30 @@ void read_named(const std::shared_ptr<const ConfigNode>& scenario, const std::fi
   check_thresholds(all, robot->robot);
 }
 
+/// Those of a scenario, but for what comes with flinch.
+void hash_networks(const Scenario& scenario, std::set<std::string>& hashes) {
+  const IsolationSettings& isolation = scenario.control.isolation;
+  const PapersNetworkFiles& papers = isolation.papers_networks;
+  for (const auto& file : {isolation.learned_network, papers.clamping, papers.chain, papers.body}) {
+    if (!file.empty() && std::filesystem::exists(file)) hashes.insert(sha256_of(file));
+  }
+}
+
+/// Those of the scenarios with each of these values of a key.
+void hash_varied_networks(const std::string& key, const auto& values, Campaign& campaign) {
+  const bool names_networks = key.starts_with("control.isolation.learned_classifier") ||
+                              key.starts_with("control.isolation.papers_networks");
+  if (!names_networks) return;
+  for (const auto& value : values) {
+    for (std::size_t i = 0; i < campaign.scenarios.size(); ++i) {
+      const auto scenario = varied(*campaign.scenario_nodes[i], key, value);
+      if (!scenario) continue;
+      hash_networks(parse_scenario(scenario, campaign.scenarios[i], *campaign.robots),
+                    campaign.network_hashes);
+    }
+  }
+}
+
 /// The same of every value of the keys by which the campaign varies them.
 void read_varied_files(const Campaign& campaign) {
   std::vector<std::string> problems;
@@ -263,6 +288,7 @@ std::string Campaign::identity() const {
   if (of_single_runs) text += "single runs\n";
   for (const std::string& scenario : scenario_texts) text += scenario;
   for (const std::string& robot : robot_texts) text += robot;
+  for (const std::string& network : network_hashes) text += "network " + network + "\n";
   return text;
 }
 
@@ -313,9 +339,11 @@ Campaign read_campaign(const std::filesystem::path& file, const CampaignOverride
   for (const std::filesystem::path& file_of_scenario : campaign.scenarios) {
     campaign.scenario_texts.push_back(read_config_file(file_of_scenario));
     campaign.scenario_nodes.push_back(parse_yaml(campaign.scenario_texts.back(), file_of_scenario.string()));
-    parse_scenario(campaign.scenario_nodes.back(), file_of_scenario, *campaign.robots);
+    hash_networks(parse_scenario(campaign.scenario_nodes.back(), file_of_scenario, *campaign.robots),
+                  campaign.network_hashes);
   }
   read_varied_files(campaign);
+  for (const CampaignAxis& axis : campaign.grid) hash_varied_networks(axis.key, axis.values, campaign);
   campaign.robot_texts = campaign.robots->texts();
   return campaign;
 }

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -88,6 +89,7 @@ struct Campaign {
   std::vector<std::string> scenario_texts;
   std::vector<std::shared_ptr<const ConfigNode>> scenario_nodes;  ///< of these texts
   std::vector<std::string> robot_texts;  ///< and those of all calibrations, also those that are varied
+  std::set<std::string> network_hashes;  ///< SHA-256 of the networks that scenarios name, also of varied ones
   std::vector<CampaignAxis> grid;
   std::vector<CampaignDraw> drawn;
   std::optional<CampaignContact> contact;

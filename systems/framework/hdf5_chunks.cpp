@@ -43,15 +43,28 @@ std::size_t inflated_size(const std::vector<unsigned char>& packed, std::size_t 
   return whole ? size : most + 1;
 }
 
-/// A chunk as it lies in the file.
-struct StoredChunk {
+/// Where a chunk lies in the file.
+struct ChunkPlace {
   hsize_t place[2];  ///< of its first number
   hsize_t bytes = 0;
   unsigned skipped = 0;  ///< a bit for each filter that was not applied
+  bool is_there = false;
 };
 
+/// Throws where it claims to take more than `most` bytes.
+ChunkPlace chunk_at(Hdf5Object::Id table, hsize_t row, hsize_t column, std::size_t most) {
+  ChunkPlace chunk{{row, column}};
+  haddr_t address = HADDR_UNDEF;
+  check(H5Dget_chunk_info_by_coord(table, chunk.place, &chunk.skipped, &address, &chunk.bytes),
+        "finding a chunk");
+  if (chunk.bytes > most)
+    throw SetupError("a chunk claims to take " + std::to_string(chunk.bytes) + " bytes, more than the file");
+  chunk.is_there = address != HADDR_UNDEF;
+  return chunk;
+}
+
 /// Throws unless the chunk unpacks to `size` bytes.
-void check_unpacked(Hdf5Object::Id table, const StoredChunk& chunk, const std::vector<H5Z_filter_t>& filters,
+void check_unpacked(Hdf5Object::Id table, const ChunkPlace& chunk, const std::vector<H5Z_filter_t>& filters,
                     std::size_t size) {
   constexpr std::size_t sum = 4;  // that a filter of checksums appends
   std::size_t within = size, around = 0;
@@ -106,6 +119,35 @@ void check_storage(Hdf5Object::Id table, const std::string& name, std::size_t ro
   }
 }
 
+std::vector<StoredChunk> taken_chunks(Hdf5Object::Id table, Hdf5Object::Id type, std::size_t first,
+                                      std::size_t rows, std::size_t columns) {
+  const Hdf5Object creation(H5Dget_create_plist(table), H5Pclose, "reading how a data set was made");
+  hsize_t size[2] = {0, 0};
+  if (H5Pget_layout(creation) != H5D_CHUNKED || H5Pget_chunk(creation, 2, size) != 2 || size[1] != columns)
+    return {};
+  const Hdf5Object stored(H5Dget_type(table), H5Tclose, "reading the type of a data set");
+  if (H5Tequal(stored, type) <= 0) return {};
+  if (filters_of(creation) != std::vector<H5Z_filter_t>{H5Z_FILTER_SHUFFLE, H5Z_FILTER_DEFLATE}) return {};
+  const std::size_t most = file_size(table), length = size[0];
+  std::vector<StoredChunk> chunks;
+  for (std::size_t row = first; row < first + rows;) {
+    const std::size_t begin = row / length * length, end = std::min(begin + length, first + rows);
+    const ChunkPlace place = chunk_at(table, begin, 0, most);
+    if (!place.is_there || place.skipped != 0) return {};
+    StoredChunk& chunk = chunks.emplace_back();
+    chunk.packed.resize(place.bytes);
+    std::uint32_t mask = 0;
+    check(H5Dread_chunk(table, H5P_DEFAULT, place.place, &mask, chunk.packed.data()), "reading a chunk");
+    chunk.rows = length;
+    chunk.columns = columns;
+    chunk.bytes_of_number = H5Tget_size(stored);
+    chunk.first = row - begin;
+    chunk.count = end - row;
+    row = end;
+  }
+  return chunks;
+}
+
 void CheckedChunks::require(Hdf5Object::Id table, std::size_t first, std::size_t rows, std::size_t columns) {
   const Hdf5Object creation(H5Dget_create_plist(table), H5Pclose, "reading how a data set was made");
   hsize_t chunk[2] = {1, 1};
@@ -118,14 +160,8 @@ void CheckedChunks::require(Hdf5Object::Id table, std::size_t first, std::size_t
     if (number >= good_.size()) good_.resize(number + 1);
     if (good_[number]) continue;
     for (hsize_t column = 0; column < columns; column += chunk[1]) {
-      StoredChunk stored{{row, column}};
-      haddr_t address = HADDR_UNDEF;
-      check(H5Dget_chunk_info_by_coord(table, stored.place, &stored.skipped, &address, &stored.bytes),
-            "finding a chunk");
-      if (stored.bytes > most)
-        throw SetupError("a chunk claims to take " + std::to_string(stored.bytes) +
-                         " bytes, more than the file");
-      if (address != HADDR_UNDEF) check_unpacked(table, stored, filters, size);
+      const ChunkPlace stored = chunk_at(table, row, column, most);
+      if (stored.is_there) check_unpacked(table, stored, filters, size);
     }
     good_[number] = true;
   }

@@ -2,6 +2,8 @@
 
 #include <hdf5.h>
 
+#include <algorithm>
+
 #include "systems/foundation/setup_error.h"
 
 namespace flinch::internal {
@@ -88,6 +90,24 @@ void read_rows(Table& table, Field::Kind kind, std::size_t first, std::size_t ro
   const Selection selection = select(table.set, first, rows, columns);
   check(H5Dread(table.set, memory_type(kind), selection.in_memory, selection.in_file, H5P_DEFAULT, numbers),
         "reading a data set");
+}
+
+void TakenRows::unpack(Number* to) const {
+  if (chunks.empty()) std::copy(numbers.begin(), numbers.end(), to);
+  for (const StoredChunk& chunk : chunks) {
+    chunk.unpack(to);
+    to += chunk.count * chunk.columns;
+  }
+}
+
+TakenRows take_rows(Table& table, Field::Kind kind, std::size_t first, std::size_t rows,
+                    std::size_t columns) {
+  silence_hdf5();
+  TakenRows taken{taken_chunks(table.set, file_type(kind), first, rows, columns)};
+  if (!taken.chunks.empty()) return taken;
+  taken.numbers.resize(rows * columns);
+  read_rows(table, kind, first, rows, columns, taken.numbers.data());
+  return taken;
 }
 
 }  // namespace flinch::internal

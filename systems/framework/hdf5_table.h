@@ -27,4 +27,14 @@ void append_rows(Hdf5Object::Id table, Field::Kind kind, std::size_t at, std::si
 void read_rows(Table& table, Field::Kind kind, std::size_t first, std::size_t rows, std::size_t columns,
                Number* numbers);
 
+/// Rows that were taken out of a table, to be unpacked while others may use HDF5.
+struct TakenRows {
+  std::vector<StoredChunk> chunks{};  ///< one after the other; none: the numbers are there
+  std::vector<Number> numbers{};
+
+  /// Writes all their numbers. Throws SetupError where a chunk is no good.
+  void unpack(Number* to) const;
+};
+TakenRows take_rows(Table& table, Field::Kind kind, std::size_t first, std::size_t rows, std::size_t columns);
+
 }  // namespace flinch::internal

@@ -151,13 +151,13 @@ class RecordingFile final : public RowSource {
   RecordingFile& operator=(const RecordingFile&) = delete;
 
   void read(const std::string& path, std::size_t first, std::size_t count, Number* rows) const override {
-    const std::lock_guard lock(internal::hdf5_mutex());
     Table& table = open_->tables.at(path);
+    const std::vector<internal::TakenRows> taken = taken_from(table, first, count);
     std::vector<Number> numbers;
     for (std::size_t i = 0; i < table.columns.size(); ++i) {
       const Column& column = table.columns[i];
       numbers.resize(count * column.columns);
-      internal::read_rows(table.sets[i], column.kind, first, count, column.columns, numbers.data());
+      taken[i].unpack(numbers.data());
       for (std::size_t k = 0; k < count; ++k) {
         std::copy_n(numbers.data() + k * column.columns, column.columns,
                     rows + k * table.numbers + column.first);
@@ -171,6 +171,17 @@ class RecordingFile final : public RowSource {
     Hdf5Object root;
     std::map<std::string, Table> tables;
   };
+
+  /// Of each column.
+  static std::vector<internal::TakenRows> taken_from(Table& table, std::size_t first, std::size_t count) {
+    const std::lock_guard lock(internal::hdf5_mutex());
+    std::vector<internal::TakenRows> taken;
+    for (std::size_t i = 0; i < table.columns.size(); ++i) {
+      const Column& column = table.columns[i];
+      taken.push_back(internal::take_rows(table.sets[i], column.kind, first, count, column.columns));
+    }
+    return taken;
+  }
 
   static std::vector<std::int64_t> read_times(Hdf5Object::Id root) {
     internal::Table table = internal::open_table(root, time_table, Field::Kind::integer, 1);

@@ -189,7 +189,7 @@ std::map<std::string, Endings> fail(const Failure& failure, const std::vector<st
   overrides.draws = test::wanted<std::size_t>("FLINCH_RUNS", 2);
   overrides.set = set;
   const Campaign campaign = read_campaign(
-      std::filesystem::path(FLINCH_SOURCE_DIR) / "apps/campaigns/reaction_1000.yaml", overrides);
+      std::filesystem::path(FLINCH_SOURCE_DIR) / "apps/campaigns/reaction_1000_oracle.yaml", overrides);
   std::map<std::string, Endings> endings;
   for (std::size_t number = 0; number < campaign.runs(); ++number) {
     CampaignRun run = draw_run(campaign, number);

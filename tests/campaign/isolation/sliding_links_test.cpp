@@ -76,7 +76,7 @@ std::size_t twenty_newton(const test::Touched& run) {
 }
 
 TEST(SlidingLinks, AreLocated) {
-  const Campaign campaign = read_campaign("apps/campaigns/sliding_links.yaml",
+  const Campaign campaign = read_campaign("apps/campaigns/sliding_links_oracle.yaml",
                                           {.draws = test::wanted<std::size_t>("FLINCH_CONTACTS", 400),
                                            .seed = test::wanted<std::uint64_t>("FLINCH_SEED", 41)});
   Errors form[2], particles[2];

@@ -224,7 +224,7 @@ TEST(TorquesInASwitch, NeverStepByMoreThanTheirRateOrTheBlendPermits) {
   overrides.draws = test::wanted<std::size_t>("FLINCH_RUNS", 10);
   overrides.set = {"control.sequence.zero_g_when_struck=true"};
   const Campaign campaign = read_campaign(
-      std::filesystem::path(FLINCH_SOURCE_DIR) / "apps/campaigns/reaction_1000.yaml", overrides);
+      std::filesystem::path(FLINCH_SOURCE_DIR) / "apps/campaigns/reaction_1000_oracle.yaml", overrides);
   std::map<std::string, Steps> groups;
   const auto steps_by_law = [&](std::size_t number) {
     const CampaignRun run = draw_run(campaign, number);

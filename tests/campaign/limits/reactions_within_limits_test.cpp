@@ -119,7 +119,7 @@ void expect_removed_within(double time, const std::string& name, const Group& gr
 
 TEST(TheStrictReaction, KeepsTheLimits) {
   std::map<std::string, Group> groups;
-  add_to(groups, "reaction_1000.yaml", "");
+  add_to(groups, "reaction_1000_oracle.yaml", "");
   for (const auto& [name, group] : groups) {
     group.print(name);
     // Constraints of the other levels lead back who came beyond them, at up to 0.42 m/s, docs/theory.md; who
@@ -148,7 +148,7 @@ TEST(TheStrictReaction, KeepsTheLimits) {
 // What the strict level is compared with: limits that are tasks are soft.
 TEST(TheLevelsOfThePapers, ComeBeyondTheLimits) {
   std::map<std::string, Group> groups;
-  add_to(groups, "reaction_1000_papers.yaml", ", as in the papers");
+  add_to(groups, "reaction_1000_papers_oracle.yaml", ", as in the papers");
   for (const auto& [name, group] : groups) group.print(name);
   for (const std::string level : {"velocity", "acceleration", "torque"}) {
     const Group& soft = groups[level + "_reaction, as in the papers"];
@@ -162,7 +162,7 @@ TEST(TheLevelsOfThePapers, ComeBeyondTheLimits) {
 TEST(TheStrictReaction, GivesWayAndKeepsTheLimitsWhereItIsNotToldWhatIsTouched) {
   std::map<std::string, Group> groups;
   for (const ReactionOutcome& run :
-       test::run_reactions(campaign_file("reaction_1000.yaml"), runs_of_each_body(), 2,
+       test::run_reactions(campaign_file("reaction_1000_oracle.yaml"), runs_of_each_body(), 2,
                            {"control.reaction_laws=[strict_reaction]", "plant.classification=controller"})) {
     if (!run.starts_inside) continue;
     groups["not told"].add(run);
@@ -182,7 +182,7 @@ TEST(TheStrictReaction, GivesWayAndKeepsTheLimitsWhereItIsNotToldWhatIsTouched) 
 TEST(TheStrictReaction, KeepsTheLimitsFromTheDetectionOnWhereItCouldStopWithinThem) {
   Group strict;
   for (const ReactionOutcome& run : test::run_reactions(
-           campaign_file("reaction_1000.yaml"), runs_of_each_body(), 2,
+           campaign_file("reaction_1000_oracle.yaml"), runs_of_each_body(), 2,
            {"control.reaction_laws=[strict_reaction]", "control.limits.keep=after_contact"})) {
     if (run.starts_inside) strict.add(run);
   }
@@ -241,7 +241,7 @@ TEST(TheForceOfAContact, IsNeverBelowWhatNoReactionCouldHaveAvoided) {
   double nearest = std::numeric_limits<double>::infinity();
   std::size_t bounded = 0;
   for (const ReactionOutcome& run :
-       test::run_reactions(campaign_file("reaction_1000_fused.yaml"), runs_of_each_body(), 2,
+       test::run_reactions(campaign_file("reaction_1000_fused_oracle.yaml"), runs_of_each_body(), 2,
                            {"control.reaction_laws=[strict_reaction]"})) {
     if (!run.touched) continue;
     EXPECT_GE(run.peak_force, run.unavoidable) << run.body << " number " << run.number;

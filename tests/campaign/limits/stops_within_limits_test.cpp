@@ -95,7 +95,7 @@ std::vector<Stop> stop_in_reactions(std::size_t draws, unsigned threads) {
   CampaignOverrides overrides;
   overrides.draws = draws;
   const Campaign campaign = read_campaign(
-      std::filesystem::path(FLINCH_SOURCE_DIR) / "apps/campaigns/reaction_1000.yaml", overrides);
+      std::filesystem::path(FLINCH_SOURCE_DIR) / "apps/campaigns/reaction_1000_oracle.yaml", overrides);
   const auto stop_of = [&](std::size_t number) -> std::optional<Stop> {
     const CampaignRun run = draw_run(campaign, number);
     if (followed_name(run.scenario.control.stages.reaction_laws) != "strict_reaction") return std::nullopt;

@@ -1,7 +1,7 @@
 // From wherever a reaction or a fault leaves the robot, an operator brings it back to its nominal motion by
 // the one sequence of docs/faults.md, as apps/scenarios/brought_back.yaml has it. Random contacts on robots
 // that differ from their model; what was touched stays where it is, and may be in the way. FLINCH_RUNS in
-// the environment says how many of each body; 250 are all of apps/campaigns/reaction_1000.yaml.
+// the environment says how many of each body; 250 are all of apps/campaigns/reaction_1000_oracle.yaml.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -232,14 +232,14 @@ void expect_all_back(const std::vector<Way>& ways) {
   EXPECT_GT(back, 0);
 }
 
-TEST(BroughtBack, FromWhereReactionsOfAllLevelsEnd) { expect_all_back(follow_all("reaction_1000.yaml")); }
+TEST(BroughtBack, FromWhereReactionsOfAllLevelsEnd) { expect_all_back(follow_all("reaction_1000_oracle.yaml")); }
 
 TEST(BroughtBack, FromWhereReactionsEndThatKeepNoLimits) {
-  expect_all_back(follow_all("reaction_1000_papers.yaml"));
+  expect_all_back(follow_all("reaction_1000_papers_oracle.yaml"));
 }
 
 TEST(BroughtBack, FromZeroGravityAfterHardContacts) {
-  expect_all_back(follow_all("reaction_1000.yaml", {"control.sequence.zero_g_when_struck=true"}));
+  expect_all_back(follow_all("reaction_1000_oracle.yaml", {"control.sequence.zero_g_when_struck=true"}));
 }
 
 }  // namespace

@@ -301,5 +301,24 @@ TEST(Campaign, HasAnotherIdentityWhereAFileThatItVariesHasChanged) {
   EXPECT_TRUE(identity() != before);
 }
 
+TEST(Campaign, HasAnotherIdentityWhereANetworkThatAScenarioNamesHasChanged) {
+  const test::Workplace place;
+  test::small_campaign(place);
+  place.write("own.onnx", "a network");
+  place.write("other.onnx", "another");
+  const auto identity = [&](const std::string& networks) {
+    return read_campaign(place / "campaigns/small.yaml",
+                         {.set = {"control.isolation.learned_classifier.network=" + networks}})
+        .identity();
+  };
+  const std::string one = identity("../own.onnx"), two = identity("../own.onnx,../other.onnx");
+  EXPECT_EQ(identity("../own.onnx"), one);
+  place.write("other.onnx", "trained longer");
+  EXPECT_EQ(identity("../own.onnx"), one);
+  EXPECT_NE(identity("../own.onnx,../other.onnx"), two);
+  place.write("own.onnx", "trained longer");
+  EXPECT_NE(identity("../own.onnx"), one);
+}
+
 }  // namespace
 }  // namespace flinch
