@@ -9,8 +9,8 @@ namespace {
 
 constexpr int iterations = 400;
 constexpr double least_share = 1e-6;  // of the mean square that is noise at least
-// Of a torque: its constant is known better. Errors as large as torques would hide every contact, for a contact
-// is such a torque.
+// Of a torque: its constant is known better. Errors as large as torques would hide every contact, for a
+// contact is such a torque.
 constexpr double most_of_torque = 0.2;
 constexpr std::size_t torque_feature = 3;
 

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "experiments/verdict/recorded_run.h"
+#include "identification/constant_torques.h"
 #include "identification/dynamics_fit.h"
 #include "identification/dynamics_rows.h"
 #include "identification/encoder_doubts.h"
@@ -290,43 +291,6 @@ void add_residuals(const DynamicsRows& rows, const Eigen::VectorXd& before, cons
   result.residual_after = root_mean_square(kept);
 }
 
-/// Without the mean of each drive in each recording: where gravity, a payload or the zero of a current is
-/// another, it is no error of the model.
-Eigen::VectorXd without_constants(const DynamicsRows& rows, Eigen::VectorXd error) {
-  std::map<std::pair<int, int>, std::pair<double, double>> sums;  // of errors, and how many there are
-  const auto sum_of = [&](Eigen::Index row) -> std::pair<double, double>& {
-    const auto at = static_cast<std::size_t>(row);
-    return sums[{rows.recording[at], rows.drive[at]}];
-  };
-  for (Eigen::Index row = 0; row < error.size(); ++row) {
-    auto& [sum, count] = sum_of(row);
-    sum += error[row];
-    count += 1.0;
-  }
-  for (Eigen::Index row = 0; row < error.size(); ++row) {
-    const auto& [sum, count] = sum_of(row);
-    error[row] -= sum / count;
-  }
-  return error;
-}
-
-/// What a motion without contact needs of each drive that no parameter explains, where it is much.
-void tell_constants(const std::vector<MotionRecording>& recordings, const DynamicsFit& fit,
-                    CalibrationResult& result) {
-  const Eigen::Index drives = fit.deviation.size();
-  for (std::size_t r = 0; r < recordings.size(); ++r) {
-    const Eigen::VectorXd own = fit.offset.segment(static_cast<Eigen::Index>(r) * drives, drives);
-    if ((own.cwiseAbs().array() < fit.deviation.array()).all()) continue;
-    std::string list;
-    for (const double torque : own) list += fmt::format("{}{:.3g}", list.empty() ? "" : ", ", torque);
-    result.notes.push_back(
-        fmt::format("{}: a constant torque of {} {} of the drives is left out: gravity that the robot file "
-                    "does not have, a "
-                    "payload, or the zero of a current",
-                    recordings[r].source.file, list, result.residual_unit));
-  }
-}
-
 /// Errors of the torque that the model predicts, before and after.
 void validate(const DynamicsBelief& belief, const DynamicParameters& robot, const MotorParameters& parameters,
               const Eigen::VectorXd& values, const std::vector<MotionRecording>& unseen,
@@ -403,10 +367,15 @@ void doubt(const DynamicsRows& rows, const Solution& solution, const Eigen::Vect
   }
 }
 
-void doubt_left_torque(const DynamicsRows& rows, const Eigen::VectorXd& left,
-                       const std::vector<MotionRecording>& recordings, CalibrationResult& result) {
+std::vector<std::string> files_of(const std::vector<MotionRecording>& recordings) {
   std::vector<std::string> files;
   for (const MotionRecording& recording : recordings) files.push_back(recording.source.file);
+  return files;
+}
+
+void doubt_left_torque(const DynamicsRows& rows, const Eigen::VectorXd& left,
+                       const std::vector<MotionRecording>& recordings, CalibrationResult& result) {
+  const std::vector<std::string> files = files_of(recordings);
   for (const std::string& doubt : doubts_about_contacts(rows, left, files, result.residual_unit))
     result.doubts.push_back(doubt);
   for (const std::string& warning : warnings_about_drift(rows, left, files, result.residual_unit))
@@ -449,7 +418,9 @@ CalibrationResult calibrate_dynamics(const DynamicsBelief& belief,
   const Eigen::VectorXd after = left_of(rows, parameters, solution.fit);
   add_residuals(rows, without_cogging(rows, belief.drives.cogging), after, solution.fit.linear, drives,
                 result);
-  tell_constants(recordings, solution.fit, result);
+  for (const std::string& note :
+       notes_about_constants(files_of(recordings), solution.fit, result.residual_unit))
+    result.notes.push_back(note);
   doubt(rows, solution, after, result);
   doubt_left_torque(rows, after, recordings, result);
   if (result.doubts.empty())

@@ -23,9 +23,9 @@ struct ComputedColumn {
 };
 
 /// Which candidates were computed by who wrote the log. One is a function of the drives' positions where it
-/// has the same number, to the last bit, whenever they come back to theirs: a sensor of its own would not. One
-/// is a multiple of a column, or its rate, where a straight line through both leaves nothing but the rounding
-/// of a text. `seconds`: of the rows. A column that hardly changes is left out, for nothing can be said of it.
+/// has the same number, to the last bit, whenever they come back to theirs: a sensor of its own would not.
+/// One is a multiple of a column, or its rate, where a straight line through both leaves nothing but the
+/// rounding of a text. `seconds`: of the rows. Of a column that hardly changes nothing is said.
 std::vector<ComputedColumn> computed_columns(std::span<const ColumnNumbers> drives,
                                              std::span<const ColumnNumbers> others,
                                              std::span<const ColumnNumbers> candidates,

@@ -1,7 +1,7 @@
 // One control path before two robots, the simulated one and one on the bus: only the station is another.
 //   example_10_swap_the_plant          simulated in this program
-//   example_10_swap_the_plant DOMAIN   on the bus, after 'flinch serve platform_collision --lockstep --domain DOMAIN'
-// Start it in the root of the tree. In lockstep both say the same; a real robot needs ClockTicks and follow_clock().
+//   example_10_swap_the_plant DOMAIN   on the bus: flinch serve platform_collision --lockstep --domain DOMAIN
+// In lockstep both say the same; a real robot needs ClockTicks and follow_clock(). Start it in the root.
 #include <flinch/drivers.h>
 #include <flinch/framework.h>
 #include <flinch/live_experiments.h>

@@ -24,7 +24,7 @@ struct ComparisonFacts {
   std::string aligned_by;        ///< "time", "contact", "correlation"
   std::string first_difference;  ///< in a sentence
   std::vector<SettingDifference> settings;
-  std::string call;  ///< the command that compared them
+  std::string call;                  ///< the command that compared them
   std::vector<std::string> notes{};  ///< what a reader should know before, a sentence each
 };
 

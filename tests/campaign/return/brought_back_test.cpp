@@ -232,7 +232,9 @@ void expect_all_back(const std::vector<Way>& ways) {
   EXPECT_GT(back, 0);
 }
 
-TEST(BroughtBack, FromWhereReactionsOfAllLevelsEnd) { expect_all_back(follow_all("reaction_1000_oracle.yaml")); }
+TEST(BroughtBack, FromWhereReactionsOfAllLevelsEnd) {
+  expect_all_back(follow_all("reaction_1000_oracle.yaml"));
+}
 
 TEST(BroughtBack, FromWhereReactionsEndThatKeepNoLimits) {
   expect_all_back(follow_all("reaction_1000_papers_oracle.yaml"));
