@@ -8,7 +8,7 @@
 namespace flinch::internal {
 
 /// Rows of a data set as they lie in a file: shuffled and deflated, a piece for each chunk. They are taken
-/// out of the file while nobody else uses HDF5, and unpacked without it. What the file claims is not believed.
+/// out of the file while nobody else uses HDF5, and unpacked without it. What a file claims is not believed.
 struct StoredChunk {
   std::vector<unsigned char> packed;
   std::size_t rows = 0;  ///< of the whole chunk
