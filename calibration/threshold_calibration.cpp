@@ -98,7 +98,7 @@ std::vector<EstimatorThresholds> calibrate_thresholds(const std::vector<Estimato
       for (const std::string& problem : error.problems()) problems.push_back(problem);
     }
   }
-  if (all.empty()) throw_if_any(std::move(problems));
+  if (all.empty() && !problems.empty()) throw SetupError(problems);
   for (const std::string& problem : problems) left_out.push_back(problem + "; it has no threshold");
   return all;
 }
