@@ -165,6 +165,7 @@ std::vector<GivenContact> given_contacts(const DataRecording& recorded, const Re
     if (!holds_readings_alone(recording)) return {{touched, {}, {}}};
     for (const double at : measured_contacts(recording, std::nullopt, {}).contacts)
       given.push_back({touched, at, {}});
+    if (given.empty()) throw SetupError("its force sensor shows no contact; give 'contacts'");
   }
   for (std::size_t i = 0; i + 1 < given.size(); ++i) given[i].next = given[i + 1].begin;
   return given;
