@@ -10,7 +10,6 @@
 #include <map>
 #include <numbers>
 #include <string>
-#include <utility>
 
 #include "experiments/verdict/recorded_run.h"
 #include "identification/constant_torques.h"
@@ -58,8 +57,9 @@ DynamicsRows rows_of(const DynamicsBelief& belief, const DynamicParameters& para
     const std::string& file = recordings[r].source.file;
     try {
       refuse_contact(*recordings[r].recording, *belief.robot);
-      rows.append(dynamics_rows(*recordings[r].recording, *belief.robot, parameters,
-                                {belief.constant, belief.drives.torque_delay}, static_cast<int>(r), own));
+      const TorqueBelief torques{belief.constant, belief.drives.torque_delay, belief.control_period};
+      rows.append(dynamics_rows(*recordings[r].recording, *belief.robot, parameters, torques,
+                                static_cast<int>(r), own));
     } catch (const SetupError& error) {
       for (const std::string& problem : error.problems()) problems.push_back(file + ": " + problem);
     }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "calibration/calibration_result.h"
+#include "systems/framework/time.h"
 #include "systems/robot/drive_parameters.h"
 #include "systems/robot/parallel_robot.h"
 
@@ -20,7 +21,8 @@ struct MotionRecording {
 struct DynamicsBelief {
   const ParallelRobot* robot = nullptr;
   DriveParameters drives;
-  JointVector constant;  ///< torque constants, calibrated [Nm/A or N/A]
+  JointVector constant;   ///< torque constants, calibrated [Nm/A or N/A]
+  Time control_period{};  ///< after which the drives get another current; zero: that of each recording
 };
 
 /// Inertial parameters, friction, cogging and how far torques are behind currents, from motion without

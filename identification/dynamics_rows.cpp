@@ -27,12 +27,17 @@ constexpr double cluster_length = 0.5;                   // [s]
 constexpr Time shortest = 1s;
 
 /// Currents at the instants of the encoders. A reading is what acted until its tick, so that what acts at the
-/// tick lies between it and the next one.
-Eigen::MatrixXd between_ticks(const Eigen::MatrixXd& current) {
+/// tick lies half of the time for which it is held behind it; `share`: of the way to the next reading.
+Eigen::MatrixXd between_ticks(const Eigen::MatrixXd& current, double share) {
   Eigen::MatrixXd mean = current;
   const Eigen::Index n = current.rows();
-  mean.topRows(n - 1) = 0.5 * (current.topRows(n - 1) + current.bottomRows(n - 1));
+  mean.topRows(n - 1) = (1.0 - share) * current.topRows(n - 1) + share * current.bottomRows(n - 1);
   return mean;
+}
+
+double share_held(const TorqueBelief& belief, Time period) {
+  if (belief.held == Time{} || belief.held >= period) return 0.5;
+  return 0.5 * to_seconds(belief.held) / to_seconds(period);
 }
 
 /// Of currents, at the same instants [A/s].
@@ -141,7 +146,8 @@ DynamicsRows rows_of(const Recording& recording, const ParallelRobot& robot,
   out.noise = torque_noise(currents.current, belief, period);
   const auto reach = static_cast<std::ptrdiff_t>(2.0 / (cutoff_frequency * period));  // of the filter
   for (std::vector<char>& usable : currents.usable) widen_unusable(usable, reach);
-  Eigen::MatrixXd torque = between_ticks(currents.current) * belief.constant.asDiagonal();
+  Eigen::MatrixXd torque =
+      between_ticks(currents.current, share_held(belief, recording.period)) * belief.constant.asDiagonal();
   Eigen::MatrixXd slope = slopes(currents.current, period) * belief.constant.asDiagonal();
   if (belief.delay.size() > 0) torque -= slope * belief.delay.asDiagonal();
   Eigen::MatrixXd surplus(n, drives), Y(n, drives * p);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "systems/framework/time.h"
 #include "systems/robot/dynamic_parameters.h"
 
 namespace flinch {
@@ -46,6 +47,8 @@ struct DynamicsRows {
 struct TorqueBelief {
   JointVector constant;  ///< [Nm/A or N/A]
   JointVector delay{};   ///< by which torques are behind their currents [s]; empty: not at all
+  /// For how long each current acts; zero: until the next reading. A log may have fewer readings than that.
+  Time held{};
 };
 
 /// The rows of one recording. `warnings`: what is wrong with parts of it. Throws SetupError where nothing can

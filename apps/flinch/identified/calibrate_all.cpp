@@ -270,9 +270,11 @@ class All {
     if (files_.dynamics.empty()) return;
     const Scenario& scenario = files_.dynamics.front().scenario;
     if (constant_.size() == 0) constant_ = scenario.control.drive_torque.torque_constant;
-    CalibrationResult result = calibrate_dynamics(
-        {.robot = scenario.robot.robot.get(), .drives = scenario.robot.drives, .constant = constant_},
-        as<MotionRecording>(files_.dynamics), {});
+    CalibrationResult result = calibrate_dynamics({.robot = scenario.robot.robot.get(),
+                                                   .drives = scenario.robot.drives,
+                                                   .constant = constant_,
+                                                   .control_period = scenario.control_period},
+                                                  as<MotionRecording>(files_.dynamics), {});
     for (const ParameterFile& file : calibrations_) result.with.push_back(source_of(file.file));
     keep(std::move(result), scenario);
   }

@@ -19,7 +19,8 @@ ExitStatus calibrate_dynamics(const CalibrateOptions& options) {
   const Scenario& scenario = used.front().scenario;
   const DynamicsBelief belief{.robot = scenario.robot.robot.get(),
                               .drives = scenario.robot.drives,
-                              .constant = calibrated_constants(scenario, options.with)};
+                              .constant = calibrated_constants(scenario, options.with),
+                              .control_period = scenario.control_period};
   CalibrationResult result = calibrate_dynamics(belief, motions_of(used), motions_of(unseen));
   return conclude_calibration(result, scenario, options);
 }
