@@ -215,7 +215,7 @@ std::vector<Distances> distances(const std::vector<Motion>& motions, const std::
       for (Distances& of : all) of.add(nominal, memory);
     });
   }
-  for (const Distances& of : all) require_enough(estimator, of.largest().size(), fewest_stretches, goal);
+  for (const Distances& of : all) require_enough(estimator, of.largest().size(), goal);
   return all;
 }
 
@@ -303,6 +303,19 @@ std::vector<CalibratedResidual> calibrate_residuals(const std::vector<ResidualRe
     }
   }
   return all;
+}
+
+std::vector<CalibratedResidual> calibrate_residuals(const std::vector<ResidualRecording>& recordings,
+                                                    const ThresholdGoal& goal,
+                                                    std::vector<std::string>& left_out,
+                                                    const std::function<void(double)>& progress) {
+  try {
+    return calibrate_residuals(recordings, goal, progress);
+  } catch (const SetupError& error) {
+    for (const std::string& problem : error.problems())
+      left_out.push_back("the fused detector has no thresholds: " + problem);
+    return {};
+  }
 }
 
 }  // namespace flinch

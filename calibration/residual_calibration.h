@@ -57,4 +57,10 @@ std::vector<CalibratedResidual> calibrate_residuals(const std::vector<ResidualRe
                                                     const ThresholdGoal& goal,
                                                     const std::function<void(double)>& progress = {});
 
+/// The same; where there can be none, why is added to `left_out`.
+std::vector<CalibratedResidual> calibrate_residuals(const std::vector<ResidualRecording>& recordings,
+                                                    const ThresholdGoal& goal,
+                                                    std::vector<std::string>& left_out,
+                                                    const std::function<void(double)>& progress = {});
+
 }  // namespace flinch

@@ -11,6 +11,7 @@
 namespace flinch {
 namespace {
 
+constexpr std::size_t fewest_stretches = 14;
 constexpr double furthest_extrapolation = 1000.0;
 constexpr double least_threshold = 1e-9;  // [N or Nm]
 
@@ -41,10 +42,9 @@ CalibratedThreshold calibrated_threshold(const std::vector<double>& peaks, doubl
   return result;
 }
 
-void require_enough(const std::string& estimator, std::size_t stretches, std::size_t fewest,
-                    const ThresholdGoal& goal) {
+void require_enough(const std::string& estimator, std::size_t stretches, const ThresholdGoal& goal) {
   const double recorded = static_cast<double>(stretches) * to_seconds(goal.stretch);  // [s]
-  const double needed = std::max(static_cast<double>(fewest) * to_seconds(goal.stretch),
+  const double needed = std::max(static_cast<double>(fewest_stretches) * to_seconds(goal.stretch),
                                  3600.0 / goal.false_alarms_per_hour / furthest_extrapolation);
   if (recorded >= needed) return;
   throw SetupError(
@@ -66,7 +66,7 @@ std::vector<EstimatorThresholds> calibrate_thresholds(const std::vector<Estimato
                                                       const ThresholdGoal& goal) {
   std::vector<EstimatorThresholds> all;
   for (const EstimatorPeaks& of : peaks) {
-    require_enough(of.estimator, of.force.size(), fewest_stretches, goal);
+    require_enough(of.estimator, of.force.size(), goal);
     const double alarms_a_stretch = goal.false_alarms_per_hour / 3600.0 * to_seconds(goal.stretch);
     const double share = of.moment.empty() ? 1.0 : 0.5;  // force and moment have half of the alarms each
     all.push_back({.estimator = of.estimator,

@@ -48,16 +48,15 @@ std::vector<EstimatorThresholds> calibrate_thresholds(const std::vector<Estimato
                                                       const ThresholdGoal& goal,
                                                       std::vector<std::string>& left_out);
 
-/// Stretches that a threshold needs, and those below which the margin for few is a good part of it.
-inline constexpr std::size_t fewest_stretches = 14, few_stretches = 60;
+/// Stretches below which the margin for few is a good part of a threshold.
+inline constexpr std::size_t few_stretches = 60;
 
 /// What the largest of a stretch exceeds with this probability, from such peaks; all zero without any. It is
 /// the `power` of the peaks that follows a Gumbel distribution.
 CalibratedThreshold calibrated_threshold(const std::vector<double>& peaks, double probability,
                                          const ThresholdGoal& goal, double power = 1.0);
-/// Throws SetupError where there are fewer than `fewest`, or as `calibrate_thresholds` for the rate.
-void require_enough(const std::string& estimator, std::size_t stretches, std::size_t fewest,
-                    const ThresholdGoal& goal);
+/// Throws SetupError where so many stretches are too few, as `calibrate_thresholds`.
+void require_enough(const std::string& estimator, std::size_t stretches, const ThresholdGoal& goal);
 
 /// Throws SetupError where a threshold of `of` is below `least`: recordings without errors tell nothing.
 void require_errors(const std::string& of, const CalibratedThreshold& found, double least);

@@ -36,8 +36,7 @@ std::vector<std::string> notes_about_constants(const std::vector<std::string>& f
     for (const double torque : own) list += fmt::format("{}{:.3g}", list.empty() ? "" : ", ", torque);
     notes.push_back(
         fmt::format("{}: a constant torque of {} {} of the drives is left out: gravity that the robot file "
-                    "does not have, a "
-                    "payload, or the zero of a current",
+                    "does not have, a payload, or the zero of a current",
                     files[r], list, unit));
   }
   return notes;

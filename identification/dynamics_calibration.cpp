@@ -313,8 +313,7 @@ void validate(const DynamicsBelief& belief, const DynamicParameters& robot, cons
     by_drive += fmt::format("{}{:.3g}", i > 0 ? ", " : "", root_mean_square(of_drive(rows, varying, i)));
   result.notes.push_back(
       fmt::format("apart from what is constant in a recording it errs by {} {} at the drives, with the "
-                  "believed parameters "
-                  "by {:.3g}",
+                  "believed parameters by {:.3g}",
                   by_drive, result.residual_unit,
                   root_mean_square(without_constants(rows, without_cogging(rows, belief.drives.cogging)))));
   result.validation_unit = result.residual_unit;

@@ -122,10 +122,11 @@ std::vector<ResidualRecording> residuals_of(const FreeMotions& motions) {
 }
 
 /// Of the estimators whose residuals a fused detector judges by, as far as they are recorded.
-std::vector<CalibratedResidual> calibrated(const std::vector<ResidualRecording>& recordings,
-                                           const ThresholdGoal& goal, bool quiet) {
+void calibrate_fused_detector(const std::vector<ResidualRecording>& recordings, bool quiet,
+                              ThresholdFindings& found) {
   Progress progress("calibrating the fused detector", quiet);
-  return calibrate_residuals(recordings, goal, [&](double share) { progress.show(share); });
+  found.residuals =
+      calibrate_residuals(recordings, found.goal, found.doubts, [&](double share) { progress.show(share); });
 }
 
 }  // namespace
@@ -150,12 +151,7 @@ ExitStatus calibrate_thresholds(const CalibrateThresholdsOptions& options) {
       calibrate_thresholds(peaks_of(motions, free, found.goal, quiet), found.goal, found.doubts);
   const std::vector<ResidualRecording> residuals = residuals_of(motions);
   for (std::string& doubt : left_out_imus(motions)) found.doubts.push_back(std::move(doubt));
-  try {
-    found.residuals = calibrated(residuals, found.goal, quiet);
-  } catch (const SetupError& error) {
-    for (const std::string& problem : error.problems())
-      found.doubts.push_back("the fused detector has no thresholds: " + problem);
-  }
+  calibrate_fused_detector(residuals, quiet, found);
   found.drive_deviations =
       drive_deviations(residuals, *motions.scenarios.front().robot.robot, IsolationSettings().uncertainty);
   found.tracking = motions.scenarios.front().control.fused_detector.tracking;

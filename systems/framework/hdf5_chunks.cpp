@@ -1,10 +1,9 @@
 #include "systems/framework/hdf5_chunks.h"
 
 #include <hdf5.h>
-#include <zlib.h>
 
 #include <algorithm>
-#include <array>
+#include <span>
 #include <vector>
 
 #include "systems/foundation/setup_error.h"
@@ -22,25 +21,6 @@ std::vector<H5Z_filter_t> filters_of(hid_t creation) {
         H5Pget_filter2(creation, static_cast<unsigned>(i), &flags, &values, nullptr, 0, nullptr, nullptr));
   }
   return filters;
-}
-
-/// How many bytes there are in a zlib stream; as many as `most` and one where there are more.
-std::size_t inflated_size(const std::vector<unsigned char>& packed, std::size_t bytes, std::size_t most) {
-  z_stream stream{};
-  if (inflateInit(&stream) != Z_OK) throw SetupError("a chunk cannot be unpacked");
-  stream.next_in = const_cast<unsigned char*>(packed.data());  // zlib only reads it
-  stream.avail_in = static_cast<unsigned>(bytes);
-  std::array<unsigned char, 1 << 14> sink;
-  int status = Z_OK;
-  while (status == Z_OK && stream.total_out <= most) {
-    stream.next_out = sink.data();
-    stream.avail_out = sink.size();
-    status = inflate(&stream, Z_NO_FLUSH);
-  }
-  const bool whole = status == Z_STREAM_END;
-  const std::size_t size = std::min<std::size_t>(stream.total_out, most + 1);
-  inflateEnd(&stream);
-  return whole ? size : most + 1;
 }
 
 /// Where a chunk lies in the file.
@@ -63,6 +43,13 @@ ChunkPlace chunk_at(Hdf5Object::Id table, hsize_t row, hsize_t column, std::size
   return chunk;
 }
 
+std::vector<unsigned char> packed_bytes(Hdf5Object::Id table, const ChunkPlace& chunk) {
+  std::vector<unsigned char> packed(chunk.bytes);
+  std::uint32_t mask = 0;
+  check(H5Dread_chunk(table, H5P_DEFAULT, chunk.place, &mask, packed.data()), "reading a chunk");
+  return packed;
+}
+
 /// Throws unless the chunk unpacks to `size` bytes.
 void check_unpacked(Hdf5Object::Id table, const ChunkPlace& chunk, const std::vector<H5Z_filter_t>& filters,
                     std::size_t size) {
@@ -74,16 +61,13 @@ void check_unpacked(Hdf5Object::Id table, const ChunkPlace& chunk, const std::ve
     if (filters[i] == H5Z_FILTER_DEFLATE) is_deflated = true;
     if (filters[i] == H5Z_FILTER_FLETCHER32) (is_deflated ? around : within) += sum;
   }
-  std::size_t unpacked = chunk.bytes;
   if (is_deflated && chunk.bytes > around) {
-    std::vector<unsigned char> packed(chunk.bytes);
-    std::uint32_t mask = 0;
-    check(H5Dread_chunk(table, H5P_DEFAULT, chunk.place, &mask, packed.data()), "reading a chunk");
-    unpacked = inflated_size(packed, packed.size() - around, within);
-  }
-  if (unpacked != within)
+    const std::vector<unsigned char> packed = packed_bytes(table, chunk);
+    inflated(std::span(packed).first(packed.size() - around), within);
+  } else if (chunk.bytes != within) {
     throw SetupError("a chunk does not unpack to the " + std::to_string(within) +
                      " bytes that it should have");
+  }
 }
 
 }  // namespace
@@ -135,9 +119,7 @@ std::vector<StoredChunk> taken_chunks(Hdf5Object::Id table, Hdf5Object::Id type,
     const ChunkPlace place = chunk_at(table, begin, 0, most);
     if (!place.is_there || place.skipped != 0) return {};
     StoredChunk& chunk = chunks.emplace_back();
-    chunk.packed.resize(place.bytes);
-    std::uint32_t mask = 0;
-    check(H5Dread_chunk(table, H5P_DEFAULT, place.place, &mask, chunk.packed.data()), "reading a chunk");
+    chunk.packed = packed_bytes(table, place);
     chunk.rows = length;
     chunk.columns = columns;
     chunk.bytes_of_number = H5Tget_size(stored);

@@ -15,8 +15,9 @@ constexpr std::size_t most_deflated = 1032;  // bytes that deflate packs into on
 
 static_assert(std::endian::native == std::endian::little, "chunks hold numbers that begin with the low byte");
 
-/// Bytes of what was deflated, exactly so many.
-std::vector<unsigned char> inflated(const std::vector<unsigned char>& packed, std::size_t bytes) {
+}  // namespace
+
+std::vector<unsigned char> inflated(std::span<const unsigned char> packed, std::size_t bytes) {
   const auto refuse = [bytes] {
     throw SetupError("a chunk does not unpack to the " + std::to_string(bytes) +
                      " bytes that it should have");
@@ -34,8 +35,6 @@ std::vector<unsigned char> inflated(const std::vector<unsigned char>& packed, st
   if (!is_whole) refuse();
   return unpacked;
 }
-
-}  // namespace
 
 void StoredChunk::unpack(Number* numbers) const {
   const std::size_t in_all = rows * columns, wanted = count * columns;

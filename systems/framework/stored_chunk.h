@@ -1,11 +1,16 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "systems/framework/fields.h"
 
 namespace flinch::internal {
+
+/// What was deflated, exactly so many bytes and one more. Throws SetupError where there are fewer or more;
+/// memory is taken only for what `packed` can hold.
+std::vector<unsigned char> inflated(std::span<const unsigned char> packed, std::size_t bytes);
 
 /// Rows of a data set as they lie in a file: shuffled and deflated, a piece for each chunk. They are taken
 /// out of the file while nobody else uses HDF5, and unpacked without it. What a file claims is not believed.

@@ -149,12 +149,7 @@ ThresholdFindings thresholds_with(const std::vector<OpenedRecording>& motion,
     keep_estimates(replays[i]);
   }
   found.estimators = calibrate_thresholds(pooled(peaks), found.goal, found.doubts);
-  try {
-    found.residuals = calibrate_residuals(recordings, found.goal);
-  } catch (const SetupError& error) {
-    for (const std::string& problem : error.problems())
-      found.doubts.push_back("the fused detector has no thresholds: " + problem);
-  }
+  found.residuals = calibrate_residuals(recordings, found.goal, found.doubts);
   found.drive_deviations =
       drive_deviations(recordings, *played.front().robot.robot, IsolationSettings().uncertainty);
   found.tracking = played.front().control.fused_detector.tracking;

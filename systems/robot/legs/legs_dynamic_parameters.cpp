@@ -113,10 +113,10 @@ void add_joints(const LegsModel& model, std::vector<Candidate>& candidates) {
       const bool is_further_axis = j > 0 && chain.joints[j - 1].described == joint.described;
       if (!leads(chain, j) || is_further_axis) continue;
       const JointOfLeg place{i, j};
-      const JointFriction& belief = joint.slides                ? sliding_belief
-                                    : is_of_drive(model, place) ? turning_belief
-                                                                : turning_belief_of_passive;
       const bool takes = is_of_drive(model, place);
+      const JointFriction& belief = joint.slides ? sliding_belief
+                                    : takes      ? turning_belief
+                                                 : turning_belief_of_passive;
       const std::string at = path_of(model, place);
       const std::string friction = at + ".friction.";
       candidates.push_back({{friction + (joint.slides ? "viscous_Ns_per_m" : "viscous_Nms_per_rad"),
